@@ -18,14 +18,29 @@ inline const CLI::Validator kNamed(
     },
     "");
 
+}  // namespace ttf::cli
+
+// Where each lies.
+namespace ttf::cli::drive {
 void add_run(CLI::App& app, Action& action);
+}  // namespace ttf::cli::drive
+namespace ttf::cli::logs {
 void add_diagram(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
-void add_schedule(CLI::App& app, Action& action);
-void add_experiment(CLI::App& app, Action& action);
-void add_launch(CLI::App& app, Action& action);
-void add_node(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
+}  // namespace ttf::cli::logs
+namespace ttf::cli::schedule {
+void add_schedule(CLI::App& app, Action& action);
+}  // namespace ttf::cli::schedule
+namespace ttf::cli::experiment {
+void add_experiment(CLI::App& app, Action& action);
+}  // namespace ttf::cli::experiment
+namespace ttf::cli::launch {
+void add_launch(CLI::App& app, Action& action);
+}  // namespace ttf::cli::launch
+namespace ttf::cli::node {
+void add_node(CLI::App& app, Action& action);
+}  // namespace ttf::cli::node
+namespace ttf::cli::track {
 void add_track(CLI::App& app, Action& action);
-
-}  // namespace ttf::cli
+}  // namespace ttf::cli::track

@@ -19,8 +19,8 @@ std::int64_t decimal_option(const char* option, const std::string& text, std::in
 }
 
 std::int64_t time_scale_option(const std::string& text) {
-  return decimal_option("--time-scale", text, schedules::kTimeScaleOne,
-                        {schedules::kSmallestTimeScale, schedules::kLargestTimeScale}, "");
+  return decimal_option("--time-scale", text, schedules::check::kTimeScaleOne,
+                        {schedules::check::kSmallestTimeScale, schedules::check::kLargestTimeScale}, "");
 }
 
 }  // namespace ttf::cli

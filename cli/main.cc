@@ -49,15 +49,15 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", TTF_VERSION);
   ttf::cli::Action action;
-  ttf::cli::add_run(app, action);
-  ttf::cli::add_diagram(app, action);
-  ttf::cli::add_export(app, action);
-  ttf::cli::add_schedule(app, action);
-  ttf::cli::add_experiment(app, action);
-  ttf::cli::add_launch(app, action);
-  ttf::cli::add_node(app, action);
-  ttf::cli::add_report(app, action);
-  ttf::cli::add_track(app, action);
+  ttf::cli::drive::add_run(app, action);
+  ttf::cli::logs::add_diagram(app, action);
+  ttf::cli::logs::add_export(app, action);
+  ttf::cli::schedule::add_schedule(app, action);
+  ttf::cli::experiment::add_experiment(app, action);
+  ttf::cli::launch::add_launch(app, action);
+  ttf::cli::node::add_node(app, action);
+  ttf::cli::logs::add_report(app, action);
+  ttf::cli::track::add_track(app, action);
   if (const std::string words = unknown_command(app, argc, argv); !words.empty()) return refuse(words);
   try {
     app.parse(argc, argv);

@@ -5,27 +5,27 @@
 #include <string>
 
 #include "core/strict_yaml.h"
-#include "faults/believed_schedule.h"
 #include "drives/step_catalog.h"
+#include "drives/surroundings.h"
+#include "faults/believed_schedule.h"
 #include "nodes/fusion/fusion_host.h"
 #include "recording/records/tee.h"
 #include "sim/processes/share.h"
-#include "drives/surroundings.h"
 
-namespace ttf::sim {
+namespace ttf::drives {
 namespace {
 
 // Who sleeps has its supply from the start on.
-void start_cold(SimulationConfig& config, const std::vector<nodes::NodeStart>& starts) {
+void start_cold(sim::crank::SimulationConfig& config, const std::vector<nodes::host::NodeStart>& starts) {
   config.power_on = [starts](NodeId node) -> std::optional<TrueTime> {
-    const nodes::NodeStart& cold = starts[index_of(node)];
-    return cold.how == nodes::ColdStart::kSleeps ? kFirstCycle : kFirstCycle + cold.after;
+    const nodes::host::NodeStart& cold = starts[index_of(node)];
+    return cold.how == nodes::host::ColdStart::kSleeps ? sim::crank::kFirstCycle : sim::crank::kFirstCycle + cold.after;
   };
   config.cold = [starts](NodeId node) { return starts[index_of(node)]; };
 }
 
-DriveOutcome outcome_of(const ClusterSimulation& simulation, const schedules::Cluster& cluster, Duration elapsed,
-                        const Injector* injector) {
+DriveOutcome outcome_of(const sim::crank::ClusterSimulation& simulation, const schedules::model::Cluster& cluster,
+                        Duration elapsed, const sim::faults::Injector* injector) {
   DriveOutcome outcome;
   outcome.precision = simulation.precision();
   outcome.counts = simulation.counts();
@@ -39,20 +39,21 @@ DriveOutcome outcome_of(const ClusterSimulation& simulation, const schedules::Cl
 
 }  // namespace
 
-TrueTime drive_start(const schedules::Cluster& cluster) {
-  if (!nodes::is_recorded(cluster)) return kFirstCycle;
+TrueTime drive_start(const schedules::model::Cluster& cluster) {
+  if (!is_recorded(cluster)) return sim::crank::kFirstCycle;
   // Row 0 of the recording is the first measurement of the first sensor.
-  const schedules::Sensor& sensor = cluster.sensors.front();
-  const GlobalTime first = sensor.scheduled ? schedules::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
-                                            : GlobalTime{} + sensor.phase.value_or(Duration{});
-  return kFirstCycle + (first - GlobalTime{});
+  const schedules::model::Sensor& sensor = cluster.sensors.front();
+  const GlobalTime first = sensor.scheduled
+                               ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
+                               : GlobalTime{} + sensor.phase.value_or(Duration{});
+  return sim::crank::kFirstCycle + (first - GlobalTime{});
 }
 
-TrueTime evaluation_start(const nodes::Scenario& scenario) { return kFirstCycle + scenario.evaluate_from; }
-TrueTime drive_end(const nodes::Scenario& scenario) { return kFirstCycle + scenario.duration; }
+TrueTime evaluation_start(const Scenario& scenario) { return sim::crank::kFirstCycle + scenario.evaluate_from; }
+TrueTime drive_end(const Scenario& scenario) { return sim::crank::kFirstCycle + scenario.duration; }
 
-void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& cluster, bool given) {
-  const bool needed = nodes::is_recorded(cluster);
+void check_recording(const Scenario& scenario, const schedules::model::Cluster& cluster, bool given) {
+  const bool needed = is_recorded(cluster);
   if (needed && !given)
     throw InputError({scenario.file, 0, "clusters", cluster.file, "needs a recording: give one with --input"});
   if (!needed && given)
@@ -61,82 +62,84 @@ void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& 
   if (needed && scenario.startup.cold)
     throw InputError({scenario.file, 0, "startup", "cold",
                       "must be integrated: a recording begins with cycle 0, and nobody knows when that will be"});
-  for (const schedules::Sensor& sensor : cluster.sensors)
+  for (const schedules::model::Sensor& sensor : cluster.sensors)
     if (needed && sensor.follows())
       throw InputError({cluster.file, sensor.line, "sensors." + sensor.name + ".measurement", "completion",
                         "must be another where observations are recorded: their instants are"});
 }
 
-void check_late(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy) {
+void check_late(const Scenario& scenario, const schedules::model::Cluster& cluster,
+                fusion::strategies::StrategyKind strategy) {
   const fusion::oosm::Kind late = scenario.tracker.late;
   if (late == fusion::oosm::Kind::kRewind) return;  // always possible; sensors' timing takes a while
-  const bool only_positions =
-      std::none_of(cluster.sensors.begin(), cluster.sensors.end(),
-                   [](const schedules::Sensor& sensor) { return sensor.kind == schedules::SensorKind::kRadar; });
-  const std::string refusal = fusion::late_refusal(strategy, late, nodes::sensor_timings(cluster), only_positions);
+  const bool only_positions = std::none_of(
+      cluster.sensors.begin(), cluster.sensors.end(),
+      [](const schedules::model::Sensor& sensor) { return sensor.kind == schedules::model::SensorKind::kRadar; });
+  const std::string refusal =
+      fusion::strategies::late_refusal(strategy, late, nodes::fusion::sensor_timings(cluster), only_positions);
   if (refusal.empty()) return;
   Findings none;
   const int line = StrictYaml::parse(scenario.text, scenario.file).root(none).map("tracker").line("late");
   throw InputError({scenario.file, line, "tracker.late", std::string(name_of(late)), refusal});
 }
 
-void check_fusion(const schedules::Cluster& cluster, fusion::StrategyKind strategy) {
-  if (strategy != fusion::StrategyKind::kTt) return;
-  for (const schedules::Node& node : cluster.nodes)
-    for (const schedules::Task& task : node.tasks)
-      if (task.step == "fusion" && task.activation.kind != schedules::ActivationKind::kTime)
+void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::StrategyKind strategy) {
+  if (strategy != fusion::strategies::StrategyKind::kTt) return;
+  for (const schedules::model::Node& node : cluster.nodes)
+    for (const schedules::model::Task& task : node.tasks)
+      if (task.step == "fusion" && task.activation.kind != schedules::model::ActivationKind::kTime)
         throw InputError(
             {cluster.file, task.line, "nodes." + node.name + ".tasks." + task.name + ".activation", "",
              "must be of kind time with strategy tt, which relies on fusion instants that the schedule knows"});
 }
 
-void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy,
-                bool recording_given) {
+void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,
+                fusion::strategies::StrategyKind strategy, bool recording_given) {
   check_recording(scenario, cluster, recording_given);
   check_late(scenario, cluster, strategy);
   check_fusion(cluster, strategy);
-  const nodes::FaultPlan faults = nodes::resolve(scenario.faults, cluster);
-  const nodes::BelievedSchedules believed(faults, cluster);
-  if (scenario.startup.cold) (void)nodes::node_starts(scenario.startup, cluster, scenario.seed, 0);
-  (void)nodes::tracker_in(cluster, scenario.tracker, scenario.file);
+  const faults::FaultPlan faults = faults::resolve(scenario.faults, cluster);
+  const faults::BelievedSchedules believed(faults, cluster);
+  if (scenario.startup.cold) (void)nodes::host::node_starts(scenario.startup, cluster, scenario.seed, 0);
+  (void)nodes::fusion::tracker_in(cluster, scenario.tracker, scenario.file);
 }
 
-DriveOutcome run_drive(const DriveConfig& config, records::Sink& out) {
-  const schedules::Cluster& cluster = *config.cluster;
-  const nodes::Scenario& scenario = *config.scenario;
+DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out) {
+  const schedules::model::Cluster& cluster = *config.cluster;
+  const Scenario& scenario = *config.scenario;
   check_recording(scenario, cluster, config.recorded != nullptr);
   check_late(scenario, cluster, config.strategy);
   check_fusion(cluster, config.strategy);
-  std::optional<Share> share;
+  std::optional<sim::processes::Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
-  records::Sink& sink = share ? static_cast<records::Sink&>(*share) : out;
+  recording::records::Sink& sink = share ? static_cast<recording::records::Sink&>(*share) : out;
   const Surroundings around = surroundings_of(scenario, cluster, config.seed, config.replication, config.recorded);
   Observer observer(*around.scene, cluster.nodes.size(), sink);
   around.show(observer, scenario, cluster);
-  records::Tee tee({&sink, &observer});
+  recording::records::Tee tee({&sink, &observer});
 
-  const nodes::NodeSetConfig nodes{&scenario,          &cluster,     config.strategy, config.seed,
-                                   config.replication, around.scene, config.recorded};
-  SimulationConfig simulation_config;
+  const NodeSetConfig nodes{&scenario,          &cluster,     config.strategy, config.seed,
+                            config.replication, around.scene, config.recorded};
+  sim::crank::SimulationConfig simulation_config;
   simulation_config.cluster = &cluster;
   simulation_config.seed = config.seed;
   simulation_config.replication = config.replication;
-  simulation_config.make_steps = [&](NodeId node) { return nodes::make_steps(nodes, node); };
+  simulation_config.make_steps = [&](NodeId node) { return make_steps(nodes, node); };
   if (scenario.startup.cold)
-    start_cold(simulation_config, nodes::node_starts(scenario.startup, cluster, config.seed, config.replication));
-  const nodes::FaultPlan faults = nodes::resolve(scenario.faults, cluster);
-  const nodes::BelievedSchedules believed(faults, cluster);
+    start_cold(simulation_config, nodes::host::node_starts(scenario.startup, cluster, config.seed, config.replication));
+  const faults::FaultPlan faults = faults::resolve(scenario.faults, cluster);
+  const faults::BelievedSchedules believed(faults, cluster);
   simulation_config.view = [&](NodeId node) { return believed.of(node); };
   simulation_config.others = config.others;
   simulation_config.compares_clocks = config.compares_clocks;
-  ClusterSimulation simulation(simulation_config, tee);
-  std::optional<Injector> injector;
+  sim::crank::ClusterSimulation simulation(simulation_config, tee);
+  std::optional<sim::faults::Injector> injector;
   if (!faults.empty()) {
-    injector.emplace(faults, cluster, simulation, config.seed, config.replication, tee, kFirstCycle);
+    injector.emplace(faults, cluster, simulation, config.seed, config.replication, tee, sim::crank::kFirstCycle);
     simulation.set_disturbance(&*injector);
   }
   simulation.run_until(drive_end(scenario));
   return outcome_of(simulation, cluster, scenario.duration, injector ? &*injector : nullptr);
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::drives

@@ -2,27 +2,28 @@
 
 #include "sim/crank/cluster_simulation.h"
 
-namespace ttf::sim {
+namespace ttf::drives {
 
-Observer::Observer(const nodes::Scene& scene, std::size_t nodes, records::Sink& out)
+Observer::Observer(const nodes::sensing::Scene& scene, std::size_t nodes, recording::records::Sink& out)
     : scene_(scene), out_(out), last_truth_(nodes) {
   states_.reserve(scene.objects());
 }
 
-void Observer::follow(const world::Reference& reference, const world::World& world, TrueTime start, bool integrated) {
+void Observer::follow(const sim::world::Reference& reference, const sim::world::World& world, TrueTime start,
+                      bool integrated) {
   reference_ = &reference;
   world_ = &world;
   start_ = start;
   integrated_ = integrated;
 }
 
-void Observer::on(const records::FusionStep& step) {
+void Observer::on(const recording::records::FusionStep& step) {
   if (reference_ == nullptr) return;
   while (true) {
-    const world::Fix fix = reference_->fix(next_fix_, *world_);
+    const sim::world::Fix fix = reference_->fix(next_fix_, *world_);
     const Duration since_start = start_ - TrueTime{};
     if (fix.available + since_start > step.stamp.true_time) return;
-    records::ReferenceFix record;
+    recording::records::ReferenceFix record;
     record.measured_true = fix.measured + since_start;
     record.measured_local = LocalTime{record.measured_true.ns};
     record.measured = global_of(record.measured_true, step.stamp);
@@ -42,19 +43,20 @@ void Observer::on(const records::FusionStep& step) {
 // GPS time is the reference's own. It is on the cluster's scale by its offset to cycle 0, known after the drive; where
 // nobody knows beforehand when that is, and at which rate the cluster will count, by the reading of the fusion node's
 // clock when it took the fix in.
-GlobalTime Observer::global_of(TrueTime at, const records::Stamp& fused) const {
-  return integrated_ ? GlobalTime{} + (at - kFirstCycle) : fused.global + (at - fused.true_time);
+GlobalTime Observer::global_of(TrueTime at, const recording::records::Stamp& fused) const {
+  return integrated_ ? GlobalTime{} + (at - sim::crank::kFirstCycle) : fused.global + (at - fused.true_time);
 }
 
-void Observer::truth(const records::Stamp& stamp) {
+void Observer::truth(const recording::records::Stamp& stamp) {
   const TrueTime at = stamp.true_time;
   std::optional<TrueTime>& last = last_truth_[index_of(stamp.node)];
   if (last == at) return;
   last = at;
   scene_.states_at(at, states_);
-  for (const world::ObjectState& state : states_)
-    out_.on(records::TruthState{at, state.id, state.x, state.y, state.heading, state.speed, state.acceleration,
-                                state.yaw_rate, state.length, state.width, stamp.local, stamp.global, stamp.node});
+  for (const sim::world::ObjectState& state : states_)
+    out_.on(recording::records::TruthState{at, state.id, state.x, state.y, state.heading, state.speed,
+                                           state.acceleration, state.yaw_rate, state.length, state.width, stamp.local,
+                                           stamp.global, stamp.node});
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::drives

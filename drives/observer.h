@@ -16,35 +16,35 @@
 #include "sim/world/reference.h"
 #include "sim/world/world.h"
 
-namespace ttf::sim {
+namespace ttf::drives {
 
-class Observer final : public records::Sink {
+class Observer final : public recording::records::Sink {
  public:
   // Listens to the records of a run; `out` gets what it adds, between them. Both must outlive it.
-  Observer(const nodes::Scene& scene, std::size_t nodes, records::Sink& out);
+  Observer(const nodes::sensing::Scene& scene, std::size_t nodes, recording::records::Sink& out);
 
   // `start`: of the world, which the reference is in. `integrated`: cycle 0 starts at kFirstCycle.
-  void follow(const world::Reference& reference, const world::World& world, TrueTime start, bool integrated);
+  void follow(const sim::world::Reference& reference, const sim::world::World& world, TrueTime start, bool integrated);
 
   bool wants_frames() const override { return false; }
-  using records::Sink::on;
-  void on(const records::Measured& measured) override { truth(measured.stamp); }
-  void on(const records::FeatureUsed& used) override { truth(used.stamp); }
-  void on(const records::FusionStep& step) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::Measured& measured) override { truth(measured.stamp); }
+  void on(const recording::records::FeatureUsed& used) override { truth(used.stamp); }
+  void on(const recording::records::FusionStep& step) override;
 
  private:
-  GlobalTime global_of(TrueTime at, const records::Stamp& fused) const;
-  void truth(const records::Stamp& stamp);
+  GlobalTime global_of(TrueTime at, const recording::records::Stamp& fused) const;
+  void truth(const recording::records::Stamp& stamp);
 
-  const nodes::Scene& scene_;
-  records::Sink& out_;
-  const world::Reference* reference_ = nullptr;
-  const world::World* world_ = nullptr;
+  const nodes::sensing::Scene& scene_;
+  recording::records::Sink& out_;
+  const sim::world::Reference* reference_ = nullptr;
+  const sim::world::World* world_ = nullptr;
   TrueTime start_{};
   bool integrated_ = true;
   std::uint32_t next_fix_ = 0;
-  std::vector<world::ObjectState> states_;
+  std::vector<sim::world::ObjectState> states_;
   std::vector<std::optional<TrueTime>> last_truth_;  // by NodeId
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::drives

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <utility>
 
-namespace ttf::nodes {
+namespace ttf::drives {
 
-std::string_view name_of(fusion::StrategyKind strategy) {
+std::string_view name_of(fusion::strategies::StrategyKind strategy) {
   switch (strategy) {
-    case fusion::StrategyKind::kBuff: return "buff";
-    case fusion::StrategyKind::kAdva: return "adva";
-    case fusion::StrategyKind::kTt: return "tt";
+    case fusion::strategies::StrategyKind::kBuff: return "buff";
+    case fusion::strategies::StrategyKind::kAdva: return "adva";
+    case fusion::strategies::StrategyKind::kTt: return "tt";
   }
   return "";
 }
@@ -33,10 +33,11 @@ Scenario read_scenario(const StrictYaml& yaml) {
   const Duration latest = findings.size() == mistakes ? scenario.duration : kLongest;
   scenario.evaluate_from = root.duration_or("evaluate_from", Duration{}, {Duration{}, latest});
 
-  scenario.startup = load_startup(root, latest);
+  scenario.startup = nodes::host::load_startup(root, latest);
 
   YamlMap clusters = root.map("clusters");
-  for (const auto strategy : {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva, fusion::StrategyKind::kTt}) {
+  for (const auto strategy : {fusion::strategies::StrategyKind::kBuff, fusion::strategies::StrategyKind::kAdva,
+                              fusion::strategies::StrategyKind::kTt}) {
     const std::string file = clusters.text(name_of(strategy));
     scenario.cluster_files[static_cast<std::size_t>(strategy)] =
         (std::filesystem::path(path).parent_path() / file).lexically_normal().string();
@@ -44,48 +45,48 @@ Scenario read_scenario(const StrictYaml& yaml) {
   clusters.finish();
 
   YamlMap world = root.map("world");
-  scenario.world = world::load_world(world);
+  scenario.world = sim::world::load_world(world);
   scenario.world.duration = scenario.duration;
   world.finish();
   if (auto sensors = root.map_if("sensors")) {
     if (auto laser = sensors->map_if("laser")) {
-      scenario.laser = world::load_laser(*laser);
+      scenario.laser = sim::world::load_laser(*laser);
       laser->finish();
     }
     if (auto camera = sensors->map_if("camera")) {
-      scenario.camera = world::load_camera(*camera);
+      scenario.camera = sim::world::load_camera(*camera);
       camera->finish();
     }
     sensors->finish();
   }
   if (auto reference = root.map_if("reference")) {
-    scenario.reference = world::load_reference(*reference);
+    scenario.reference = sim::world::load_reference(*reference);
     reference->finish();
   }
   if (auto preprocessing = root.map_if("preprocessing")) {
     if (auto laser = preprocessing->map_if("laser")) {
-      scenario.laser_preprocessing = load_laser_preprocessing(*laser);
+      scenario.laser_preprocessing = nodes::laser::load_laser_preprocessing(*laser);
       laser->finish();
     }
     if (auto camera = preprocessing->map_if("camera")) {
-      scenario.camera_calibration = load_camera_calibration(*camera);
+      scenario.camera_calibration = nodes::camera::load_camera_calibration(*camera);
       camera->finish();
     }
     preprocessing->finish();
   }
   if (auto tracker = root.map_if("tracker")) {
-    scenario.tracker = fusion::load_tracker(*tracker);
+    scenario.tracker = fusion::config::load_tracker(*tracker);
     tracker->finish();
   }
   if (auto recorded = root.map_if("recorded")) {
-    scenario.recorded_noise = load_recorded_noise(*recorded);
+    scenario.recorded_noise = nodes::sensing::load_recorded_noise(*recorded);
     recorded->finish();
   }
   if (auto feature = root.map_if("feature_service")) {
-    scenario.feature = load_feature(*feature);
+    scenario.feature = nodes::service::load_feature(*feature);
     feature->finish();
   }
-  scenario.faults = load_fault_plan(root, latest);
+  scenario.faults = faults::load_fault_plan(root, latest);
   root.finish();
   findings.throw_if_any();
   return scenario;
@@ -99,4 +100,4 @@ Scenario parse_scenario(std::string text, std::string name) {
   return read_scenario(StrictYaml::parse(std::move(text), std::move(name)));
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::drives

@@ -8,21 +8,21 @@
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
-#include "fusion/strategies/strategy.h"
-#include "fusion/config/tracker_config.h"
-#include "nodes/camera/triangulation.h"
 #include "faults/plan.h"
-#include "nodes/service/feature_service.h"
+#include "fusion/config/tracker_config.h"
+#include "fusion/strategies/strategy.h"
+#include "nodes/camera/triangulation.h"
+#include "nodes/host/cold_start.h"
 #include "nodes/laser/laser_preprocessor.h"
 #include "nodes/sensing/recorded.h"
-#include "nodes/host/cold_start.h"
+#include "nodes/service/feature_service.h"
 #include "schedules/model/cluster.h"
 #include "sim/world/camera.h"
 #include "sim/world/laser.h"
 #include "sim/world/reference.h"
 #include "sim/world/world.h"
 
-namespace ttf::nodes {
+namespace ttf::drives {
 
 struct Scenario {
   std::string name;
@@ -32,18 +32,18 @@ struct Scenario {
   std::uint64_t seed = 1;
   Duration duration{};       // of the drive, from its start (drives/drive.h)
   Duration evaluate_from{};  // likewise; measures and pictures start here, before it the tracker warms up
-  Startup startup;
+  nodes::host::Startup startup;
   std::string cluster_files[3];  // by StrategyKind, as paths that can be opened
-  world::WorldConfig world;
-  world::LaserConfig laser;
-  world::CameraConfig camera;
-  world::ReferenceConfig reference;
-  LaserPreprocessingConfig laser_preprocessing;
-  CameraCalibration camera_calibration;
-  fusion::TrackerConfig tracker;
-  RecordedNoise recorded_noise;
-  FeatureConfig feature;
-  FaultPlan faults;  // names as written: resolve() looks them up in the cluster of the drive
+  sim::world::WorldConfig world;
+  sim::world::LaserConfig laser;
+  sim::world::CameraConfig camera;
+  sim::world::ReferenceConfig reference;
+  nodes::laser::LaserPreprocessingConfig laser_preprocessing;
+  nodes::camera::CameraCalibration camera_calibration;
+  fusion::config::TrackerConfig tracker;
+  nodes::sensing::RecordedNoise recorded_noise;
+  nodes::service::FeatureConfig feature;
+  faults::FaultPlan faults;  // names as written: resolve() looks them up in the cluster of the drive
 };
 
 // Throws InputError with every finding in the file. The clusters it names are not opened here.
@@ -52,6 +52,6 @@ Scenario load_scenario(const std::string& path);
 Scenario parse_scenario(std::string text, std::string name);
 
 // "buff", "adva", "tt".
-std::string_view name_of(fusion::StrategyKind strategy);
+std::string_view name_of(fusion::strategies::StrategyKind strategy);
 
-}  // namespace ttf::nodes
+}  // namespace ttf::drives

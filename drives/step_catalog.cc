@@ -3,16 +3,16 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "nodes/sensing/emulators.h"
-#include "nodes/service/feature_service.h"
 #include "nodes/fusion/fusion_host.h"
+#include "nodes/sensing/emulators.h"
 #include "nodes/sensing/preprocessing.h"
 #include "nodes/sensing/recorded.h"
+#include "nodes/service/feature_service.h"
 
-namespace ttf::nodes {
+namespace ttf::drives {
 
-std::span<const schedules::StepPorts> step_ports() {
-  static const std::vector<schedules::StepPorts> kPorts{
+std::span<const schedules::model::StepPorts> step_ports() {
+  static const std::vector<schedules::model::StepPorts> kPorts{
       {"laser_emulator", {}, {"raw"}, false},
       {"camera_emulator", {}, {"raw"}, false},
       {"recorded_source", {}, {"raw"}, false},
@@ -27,51 +27,54 @@ std::span<const schedules::StepPorts> step_ports() {
   return kPorts;
 }
 
-bool is_recorded(const schedules::Cluster& cluster) {
-  for (const schedules::Node& node : cluster.nodes)
-    for (const schedules::Task& task : node.tasks)
+bool is_recorded(const schedules::model::Cluster& cluster) {
+  for (const schedules::model::Node& node : cluster.nodes)
+    for (const schedules::model::Task& task : node.tasks)
       if (task.step == "recorded_source") return true;
   return false;
 }
 
-std::vector<std::shared_ptr<Step>> make_steps(const NodeSetConfig& config, NodeId id) {
-  const schedules::Cluster& cluster = *config.cluster;
+std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& config, NodeId id) {
+  const schedules::model::Cluster& cluster = *config.cluster;
   const Scenario& scenario = *config.scenario;
-  const schedules::Node& node = cluster.node(id);
-  std::shared_ptr<FusionHost> host;
+  const schedules::model::Node& node = cluster.node(id);
+  std::shared_ptr<nodes::fusion::FusionHost> host;
   const auto fusion_host = [&] {
     if (!host)
-      host =
-          std::make_shared<FusionHost>(cluster, config.strategy, tracker_in(cluster, scenario.tracker, scenario.file));
+      host = std::make_shared<nodes::fusion::FusionHost>(
+          cluster, config.strategy, nodes::fusion::tracker_in(cluster, scenario.tracker, scenario.file));
     return host;
   };
-  std::vector<std::shared_ptr<Step>> steps;
-  for (const schedules::Task& task : node.tasks) {
-    const EmulatorConfig emulator{&cluster,     &task,       task.activation.sensor,
-                                  config.scene, config.seed, config.replication};
+  std::vector<std::shared_ptr<nodes::host::Step>> steps;
+  for (const schedules::model::Task& task : node.tasks) {
+    const nodes::sensing::EmulatorConfig emulator{&cluster,     &task,       task.activation.sensor,
+                                                  config.scene, config.seed, config.replication};
     if (task.step == "laser_emulator") {
-      steps.push_back(std::make_shared<LaserEmulator>(emulator, scenario.laser));
+      steps.push_back(std::make_shared<nodes::sensing::LaserEmulator>(emulator, scenario.laser));
     } else if (task.step == "camera_emulator") {
-      steps.push_back(std::make_shared<CameraEmulator>(emulator, scenario.camera));
+      steps.push_back(std::make_shared<nodes::sensing::CameraEmulator>(emulator, scenario.camera));
     } else if (task.step == "recorded_source") {
       if (!config.recorded)
         throw InputError({cluster.file, task.line, "nodes." + node.name + "." + task.name, task.step,
                           "needs a recording: give one with --input"});
-      steps.push_back(std::make_shared<RecordedSource>(cluster, task, task.activation.sensor, config.recorded));
+      steps.push_back(
+          std::make_shared<nodes::sensing::RecordedSource>(cluster, task, task.activation.sensor, config.recorded));
     } else if (task.step == "laser_preprocessing") {
-      steps.push_back(std::make_shared<LaserPreprocessing>(cluster, task, scenario.laser_preprocessing));
+      steps.push_back(
+          std::make_shared<nodes::sensing::LaserPreprocessing>(cluster, task, scenario.laser_preprocessing));
     } else if (task.step == "camera_preprocessing") {
-      steps.push_back(std::make_shared<CameraPreprocessing>(cluster, task, scenario.camera_calibration));
+      steps.push_back(
+          std::make_shared<nodes::sensing::CameraPreprocessing>(cluster, task, scenario.camera_calibration));
     } else if (task.step == "recorded_preprocessing") {
-      steps.push_back(std::make_shared<RecordedPreprocessing>(cluster, task, scenario.recorded_noise));
+      steps.push_back(std::make_shared<nodes::sensing::RecordedPreprocessing>(cluster, task, scenario.recorded_noise));
     } else if (task.step == "gateway") {
-      steps.push_back(std::make_shared<Gateway>());
+      steps.push_back(std::make_shared<nodes::sensing::Gateway>());
     } else if (task.step == "fusion") {
-      steps.push_back(std::make_shared<FusionStep>(cluster, task, fusion_host()));
+      steps.push_back(std::make_shared<nodes::fusion::FusionStep>(cluster, task, fusion_host()));
     } else if (task.step == "image_output") {
-      steps.push_back(std::make_shared<ImageOutput>(cluster, task, fusion_host()));
+      steps.push_back(std::make_shared<nodes::fusion::ImageOutput>(cluster, task, fusion_host()));
     } else if (task.step == "feature_service") {
-      steps.push_back(std::make_shared<FeatureService>(cluster, task, scenario.feature));
+      steps.push_back(std::make_shared<nodes::service::FeatureService>(cluster, task, scenario.feature));
     } else {
       TTF_CHECK(false, "step {} of {} is not in the catalog; names are checked before", task.step, node.name);
     }
@@ -79,4 +82,4 @@ std::vector<std::shared_ptr<Step>> make_steps(const NodeSetConfig& config, NodeI
   return steps;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::drives

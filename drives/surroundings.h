@@ -6,27 +6,27 @@
 #include <memory>
 #include <optional>
 
+#include "drives/observer.h"
 #include "drives/scenario.h"
 #include "nodes/sensing/scene.h"
 #include "recording/rows/laser_radar_file.h"
 #include "schedules/model/cluster.h"
-#include "drives/observer.h"
 #include "sim/world/reference.h"
 
-namespace ttf::sim {
+namespace ttf::drives {
 
 struct Surroundings {
-  std::shared_ptr<const nodes::Scene> scene;
-  std::shared_ptr<const nodes::WorldScene> world;  // the same, unless it is recorded
-  std::optional<world::Reference> reference;       // in a world, of the first object that has one
+  std::shared_ptr<const nodes::sensing::Scene> scene;
+  std::shared_ptr<const nodes::sensing::WorldScene> world;  // the same, unless it is recorded
+  std::optional<sim::world::Reference> reference;           // in a world, of the first object that has one
 
   // Has the observer look at the reference, too. This must outlive it.
-  void show(Observer& observer, const nodes::Scenario& scenario, const schedules::Cluster& cluster) const;
+  void show(Observer& observer, const Scenario& scenario, const schedules::model::Cluster& cluster) const;
 };
 
 // `recorded`: null where the cluster takes none.
-Surroundings surroundings_of(const nodes::Scenario& scenario, const schedules::Cluster& cluster, std::uint64_t seed,
+Surroundings surroundings_of(const Scenario& scenario, const schedules::model::Cluster& cluster, std::uint64_t seed,
                              std::uint32_t replication,
-                             const std::shared_ptr<const recording::RecordedInput>& recorded);
+                             const std::shared_ptr<const recording::rows::RecordedInput>& recorded);
 
-}  // namespace ttf::sim
+}  // namespace ttf::drives

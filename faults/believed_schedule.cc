@@ -7,13 +7,13 @@
 
 #include "core/check.h"
 
-namespace ttf::nodes {
+namespace ttf::faults {
 namespace {
 
-using schedules::Cluster;
-using schedules::FrameSlot;
-using schedules::GlobalParameters;
-using schedules::NodeParameters;
+using schedules::model::Cluster;
+using schedules::model::FrameSlot;
+using schedules::model::GlobalParameters;
+using schedules::model::NodeParameters;
 
 constexpr int kMaxPayloadWords = 127;
 constexpr int kMinNit = 2;  // [MT]
@@ -121,4 +121,4 @@ BelievedSchedules::BelievedSchedules(const FaultPlan& plan, const Cluster& clust
   }
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::faults

@@ -6,10 +6,10 @@
 #include "core/check.h"
 #include "faults/plan.h"
 
-namespace ttf::nodes {
+namespace ttf::faults {
 namespace {
 
-using schedules::Channels;
+using schedules::model::Channels;
 
 constexpr Range<Duration> kDurations{Duration::nanoseconds(1), Duration::milliseconds(3'600'000)};
 // Not earlier than the shortest frame is long (frame_bits() of no payload), so that nothing arrives before it leaves.
@@ -181,4 +181,4 @@ FaultPlan load_fault_plan(YamlMap& yaml, Duration latest) {
   return plan;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::faults

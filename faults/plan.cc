@@ -8,10 +8,10 @@
 #include "core/check.h"
 #include "faults/believed_schedule.h"
 
-namespace ttf::nodes {
+namespace ttf::faults {
 namespace {
 
-using schedules::Cluster;
+using schedules::model::Cluster;
 
 // What is wrong with a plan in this cluster.
 class Resolver {
@@ -51,7 +51,7 @@ class Resolver {
     const int slots = cluster_.flexray.gNumberOfStaticSlots;
     const bool shifts = fault_->kind == FaultKind::kWrongSchedule && fault_->wrong == WrongSchedule::kShiftedSlots;
     if (fault_->slot > slots) fail_number("slot", fault_->slot, fmt::format("must be 1..{}", slots));
-    for (const schedules::FrameSlot& frame : cluster_.frames)
+    for (const schedules::model::FrameSlot& frame : cluster_.frames)
       if (fault_->kind == FaultKind::kMasquerading && frame.slot == fault_->slot && frame.sender == fault_->node)
         return fail_number("slot", fault_->slot, "must be another's slot");
     if (shifts && fault_->by >= slots) fail_number("by", fault_->by, fmt::format("must be 1..{}", slots - 1));
@@ -71,7 +71,7 @@ class Resolver {
   void check_wires() {
     if (fault_->kind != FaultKind::kChannelSwap || fault_->node == kNoNode) return;
     const auto& parameters = cluster_.node(fault_->node).flexray;
-    if (parameters && parameters->pChannels != schedules::Channels::kAB)
+    if (parameters && parameters->pChannels != schedules::model::Channels::kAB)
       fail("node", cluster_.node(fault_->node).name, "must be on both channels");
   }
   void check_belief() {
@@ -84,7 +84,7 @@ class Resolver {
   }
   std::string names_on_flexray() const {
     std::string names;
-    for (const schedules::Node& node : cluster_.nodes)
+    for (const schedules::model::Node& node : cluster_.nodes)
       if (node.flexray) names += (names.empty() ? "" : ", ") + node.name;
     return names;
   }
@@ -139,4 +139,4 @@ FaultPlan resolve(FaultPlan plan, const Cluster& cluster) {
   return plan;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::faults

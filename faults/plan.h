@@ -21,7 +21,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::nodes {
+namespace ttf::faults {
 
 // Values are part of recordings and campaigns' streams: append only.
 enum class FaultKind : std::uint8_t {
@@ -111,7 +111,7 @@ struct Fault {
 
   FaultKind kind{};
   NodeId node = kNoNode;  // the faulty one; kNoNode for the medium's, and before resolve()
-  schedules::Channels channels = schedules::Channels::kAB;
+  schedules::model::Channels channels = schedules::model::Channels::kAB;
   Duration from{};
   Duration duration = kToTheEnd;
 
@@ -166,12 +166,13 @@ Fault load_fault(YamlMap& yaml, Duration latest);
 // A fault's keys beside `kind` and `node`: those that its kind and mode have, with their values as in YAML, so that
 // they are read again as they are. Left out: `duration` of what lasts to the end, `receivers` that are all, `slot`
 // that is the next coldstart node's. The fault is resolved for the cluster.
-std::vector<std::pair<std::string_view, std::string>> keys_of(const Fault& fault, const schedules::Cluster& cluster);
+std::vector<std::pair<std::string_view, std::string>> keys_of(const Fault& fault,
+                                                              const schedules::model::Cluster& cluster);
 // The whole entry in one line: "{kind: crash, node: fusion, from: 0 ns}".
-std::string entry_of(const Fault& fault, const schedules::Cluster& cluster);
+std::string entry_of(const Fault& fault, const schedules::model::Cluster& cluster);
 
 // The same plan with its names looked up, and slots and bits within what the cluster has. Throws InputError with every
 // finding: names nobody has, nodes that are off FlexRay, slots and bits beyond the end.
-FaultPlan resolve(FaultPlan plan, const schedules::Cluster& cluster);
+FaultPlan resolve(FaultPlan plan, const schedules::model::Cluster& cluster);
 
-}  // namespace ttf::nodes
+}  // namespace ttf::faults

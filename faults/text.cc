@@ -7,7 +7,7 @@
 #include "core/check.h"
 #include "faults/plan.h"
 
-namespace ttf::nodes {
+namespace ttf::faults {
 namespace {
 
 template <class Value, std::size_t N> std::string_view name_in(const std::array<Named<Value>, N>& names, Value value) {
@@ -20,7 +20,7 @@ std::string duration_text(Duration duration) { return fmt::format("{} ns", durat
 
 class KeyWriter {
  public:
-  KeyWriter(const Fault& fault, const schedules::Cluster& cluster) : fault_(fault), cluster_(cluster) {}
+  KeyWriter(const Fault& fault, const schedules::model::Cluster& cluster) : fault_(fault), cluster_(cluster) {}
 
   std::vector<std::pair<std::string_view, std::string>> keys() {
     parameters();
@@ -35,7 +35,7 @@ class KeyWriter {
     add("from", duration_text(fault_.from));
     if (fault_.duration != Fault::kToTheEnd) add("duration", duration_text(fault_.duration));
   }
-  void channels() { add("channels", schedules::channels_text(fault_.channels)); }
+  void channels() { add("channels", schedules::model::channels_text(fault_.channels)); }
   void occasions() {
     add("probability", fault_.probability);  // as many digits as make it this very number
     add("every", fault_.every);
@@ -118,21 +118,22 @@ class KeyWriter {
   }
 
   const Fault& fault_;
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   std::vector<std::pair<std::string_view, std::string>> keys_;
 };
 
 }  // namespace
 
-std::vector<std::pair<std::string_view, std::string>> keys_of(const Fault& fault, const schedules::Cluster& cluster) {
+std::vector<std::pair<std::string_view, std::string>> keys_of(const Fault& fault,
+                                                              const schedules::model::Cluster& cluster) {
   return KeyWriter(fault, cluster).keys();
 }
 
-std::string entry_of(const Fault& fault, const schedules::Cluster& cluster) {
+std::string entry_of(const Fault& fault, const schedules::model::Cluster& cluster) {
   std::string text = fmt::format("{{kind: {}", name_of(fault.kind));
   if (fault.node != kNoNode) text += fmt::format(", node: {}", cluster.node(fault.node).name);
   for (const auto& [key, value] : keys_of(fault, cluster)) text += fmt::format(", {}: {}", key, value);
   return text + '}';
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::faults

@@ -8,7 +8,7 @@
 #include "core/errors.h"
 #include "core/file_bytes.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 namespace {
 
 struct SigmaName {
@@ -33,7 +33,7 @@ SensorSetup load_sensor(YamlMap& yaml, SensorSetup setup) {
   constexpr Duration kAges = Duration{4'000'000'000'000'000'000};
   if (yaml.has("first")) setup.first = GlobalTime{} + yaml.duration("first", {-kAges, kAges});
   if (setup.first && !setup.period) yaml.fail("first", "must not be given without period");
-  setup.known = fusion::load_known_sensor(yaml);
+  setup.known = fusion::sensors::load_known_sensor(yaml);
   yaml.finish();
   return setup;
 }
@@ -58,12 +58,12 @@ ReplayConfig parse_replay_config(const std::string& text, const std::string& nam
   YamlMap root = yaml.root(findings);
   ReplayConfig config;
   config.file = name;
-  config.strategy = root.choice_or<fusion::StrategyKind>("strategy", config.strategy,
-                                                         {{"buff", fusion::StrategyKind::kBuff},
-                                                          {"adva", fusion::StrategyKind::kAdva},
-                                                          {"tt", fusion::StrategyKind::kTt}});
+  config.strategy = root.choice_or<fusion::strategies::StrategyKind>("strategy", config.strategy,
+                                                                     {{"buff", fusion::strategies::StrategyKind::kBuff},
+                                                                      {"adva", fusion::strategies::StrategyKind::kAdva},
+                                                                      {"tt", fusion::strategies::StrategyKind::kTt}});
   if (std::optional<YamlMap> tracker = root.map_if("tracker")) {
-    config.tracker = fusion::load_tracker(*tracker);
+    config.tracker = fusion::config::load_tracker(*tracker);
     if (!config.tracker.sensors.empty())
       tracker->fail("sensors", "must not be given here: mounting and biases stand with the recording's sensors");
     config.tracker.sensors.clear();
@@ -75,7 +75,7 @@ ReplayConfig parse_replay_config(const std::string& text, const std::string& nam
     if (config.sensors.empty() || config.sensors.size() > kMostSensors)
       root.fail("sensors", fmt::format("must name 1..{} sensors", kMostSensors));
     for (const auto& sensor : config.sensors) config.tracker.sensors.push_back(sensor.second.known);
-    fusion::check_biases(config.tracker.sensors, root, "sensors");
+    fusion::sensors::check_biases(config.tracker.sensors, root, "sensors");
   }
   root.finish();
   findings.throw_if_any();
@@ -86,4 +86,4 @@ ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any)
   return parse_replay_config(read_file(path), path, any);
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

@@ -19,11 +19,11 @@
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
+#include "fusion/config/tracker_config.h"
 #include "fusion/sensors/known_sensor.h"
 #include "fusion/strategies/strategy.h"
-#include "fusion/config/tracker_config.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 
 // Standard deviations of what a row gives without a covariance or a sigma of its own.
 struct SensorNoise {
@@ -39,14 +39,14 @@ struct SensorSetup {
   SensorNoise noise;
   // Without them: what the recording shows (replay/sensor_timing.h).
   std::optional<Duration> worst_delay, period;
-  std::optional<GlobalTime> first;  // an instant of the schedule; only with a period
-  fusion::KnownSensor known;        // its place on the vehicle, and its biases
+  std::optional<GlobalTime> first;     // an instant of the schedule; only with a period
+  fusion::sensors::KnownSensor known;  // its place on the vehicle, and its biases
 };
 
 struct ReplayConfig {
   std::string file;  // empty: there is none
-  fusion::StrategyKind strategy = fusion::StrategyKind::kAdva;
-  fusion::TrackerConfig tracker;                             // with what is known of the sensors
+  fusion::strategies::StrategyKind strategy = fusion::strategies::StrategyKind::kAdva;
+  fusion::config::TrackerConfig tracker;                     // with what is known of the sensors
   int late_line = 0;                                         // of tracker.late; 0: it is not there
   std::vector<std::pair<std::string, SensorSetup>> sensors;  // by SensorId; none: whichever a recording has
 };
@@ -71,4 +71,4 @@ std::string sigma_names();
 ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any);
 ReplayConfig parse_replay_config(const std::string& text, const std::string& name, const SensorSetup& any);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

@@ -11,20 +11,20 @@
 
 #include "core/counted.h"
 #include "core/random.h"
-#include "fusion/sensors/converted_position.h"
 #include "fusion/filters/ldl.h"
+#include "fusion/sensors/converted_position.h"
 #include "fusion/strategies/strategy.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 namespace {
 
-using recording::ObservationRow;
+using recording::rows::ObservationRow;
 
 static_assert(kMostSensors < index_of(kNoSensor));
 
 double squared(double value) { return value * value; }
 
-void take_shape(fusion::Observation& out, const ObservationRow& row, const SensorNoise& noise) {
+void take_shape(fusion::sensors::Observation& out, const ObservationRow& row, const SensorNoise& noise) {
   out.has_heading = row.heading.has_value();
   out.heading = row.heading.value_or(0.0);
   out.sigma_heading = row.heading ? row.sigma_heading.value_or(noise.heading) : 0.0;
@@ -36,15 +36,16 @@ void take_shape(fusion::Observation& out, const ObservationRow& row, const Senso
   out.sigma_width = row.width ? row.sigma_width.value_or(noise.width) : 0.0;
 }
 
-fusion::Observation observation_of(const ObservationRow& row, const SensorNoise& noise) {
-  fusion::Observation out;
+fusion::sensors::Observation observation_of(const ObservationRow& row, const SensorNoise& noise) {
+  fusion::sensors::Observation out;
   const bool own = row.covariance.has_value();
   if (row.kind == ObservationRow::Kind::kRangeBearing) {
-    out = fusion::converted_position(row.z[0], row.z[1], own ? std::sqrt((*row.covariance)[0]) : noise.range,
-                                     own ? std::sqrt((*row.covariance)[2]) : noise.bearing);
+    out = fusion::sensors::converted_position(row.z[0], row.z[1], own ? std::sqrt((*row.covariance)[0]) : noise.range,
+                                              own ? std::sqrt((*row.covariance)[2]) : noise.bearing);
   } else {
     const bool radar = row.kind == ObservationRow::Kind::kRangeBearingRate;
-    out.kind = radar ? fusion::ObservationKind::kRangeBearingRate : fusion::ObservationKind::kPosition;
+    out.kind =
+        radar ? fusion::sensors::ObservationKind::kRangeBearingRate : fusion::sensors::ObservationKind::kPosition;
     out.z = {row.z[0], row.z[1], row.z[2]};
     if (own) {
       const std::array<double, 6>& c = *row.covariance;
@@ -64,25 +65,26 @@ std::vector<std::string> classes_of(const std::vector<ObservationRow>& rows, con
   std::set<std::string> seen;
   for (const ObservationRow& row : rows) {
     if (!row.class_name.empty()) seen.insert(row.class_name);
-    if (seen.size() > fusion::kMostClasses)
+    if (seen.size() > fusion::sensors::kMostClasses)
       throw InputError({name, row.line, "class", row.class_name,
-                        fmt::format("must be one of at most {} classes", fusion::kMostClasses)});
+                        fmt::format("must be one of at most {} classes", fusion::sensors::kMostClasses)});
   }
   return {seen.begin(), seen.end()};
 }
 
-void take_unfiltered(fusion::Observation& out, const ObservationRow& row, const std::vector<std::string>& classes) {
+void take_unfiltered(fusion::sensors::Observation& out, const ObservationRow& row,
+                     const std::vector<std::string>& classes) {
   out.third = {row.elevation.value_or(0.0), row.height.value_or(0.0), row.elevation.has_value(),
                row.height.has_value()};
   if (row.class_name.empty()) return;
   const auto place = std::lower_bound(classes.begin(), classes.end(), row.class_name);
-  out.class_id = static_cast<fusion::ClassId>(place - classes.begin());
+  out.class_id = static_cast<fusion::sensors::ClassId>(place - classes.begin());
   out.score = row.score;
 }
 
-bool has_covariance(const fusion::Observation& observation) {
-  if (fusion::dimension_of(observation.kind) == 3) return fusion::positive_definite<3>(observation.r);
-  return fusion::positive_definite<2>(fusion::Matrix<2>(observation.r.topLeftCorner<2, 2>()));
+bool has_covariance(const fusion::sensors::Observation& observation) {
+  if (fusion::sensors::dimension_of(observation.kind) == 3) return fusion::filters::positive_definite<3>(observation.r);
+  return fusion::filters::positive_definite<2>(fusion::linear::Matrix<2>(observation.r.topLeftCorner<2, 2>()));
 }
 
 bool arrives_before(const ListArrival& a, const ListArrival& b) {
@@ -139,18 +141,18 @@ Arrivals arrivals_of(const std::vector<ObservationRow>& rows, const ReplayConfig
       continue;
     }
     const auto s = static_cast<std::size_t>(known - arrivals.sensors.begin());
-    fusion::Observation observation = observation_of(row, config.sensors[s].second.noise);
+    fusion::sensors::Observation observation = observation_of(row, config.sensors[s].second.noise);
     if (!has_covariance(observation)) {
       findings.add({name, row.line, "covariance", "", "must be positive definite, and more than rounding"});
       continue;
     }
     take_unfiltered(observation, row, arrivals.classes);
-    fusion::place(observation, static_cast<SensorId>(s), config.sensors[s].second.known);
+    fusion::sensors::place(observation, static_cast<SensorId>(s), config.sensors[s].second.known);
     const auto [place, is_new] = list_at.emplace(Place{s, row.time_ns, row.arrival_ns}, arrivals.lists.size());
     if (is_new)
       arrivals.lists.push_back(
           {{static_cast<SensorId>(s), 0}, GlobalTime{row.time_ns}, GlobalTime{row.arrival_ns}, 0, {}});
-    std::vector<fusion::Observation>& list = arrivals.lists[place->second].observations;
+    std::vector<fusion::sensors::Observation>& list = arrivals.lists[place->second].observations;
     if (list.size() == config.tracker.max_observations) {
       findings.add({name, row.line, "sensor", row.sensor,
                     fmt::format("must have at most {} observations at one time (max_observations of the tracker)",
@@ -190,4 +192,4 @@ void simulate(Arrivals& arrivals, const SimulatedArrivals& simulated) {
   }
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

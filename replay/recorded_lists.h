@@ -16,19 +16,19 @@
 #include "core/errors.h"
 #include "core/ids.h"
 #include "core/time.h"
-#include "replay/config.h"
 #include "fusion/sensors/observation.h"
 #include "recording/rows/observation_rows.h"
+#include "replay/config.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 
 struct ListArrival {
   MeasurementId id;
   GlobalTime measured{}, arrival{};
   std::uint32_t copy = 0;  // how often it was heard before
-  std::vector<fusion::Observation> observations;
+  std::vector<fusion::sensors::Observation> observations;
 
-  fusion::Scan scan() const { return {id, measured, observations}; }
+  fusion::sensors::Scan scan() const { return {id, measured, observations}; }
 };
 
 struct Arrivals {
@@ -39,13 +39,13 @@ struct Arrivals {
 
 // Where the configuration lists no sensor: lists those of the rows, by name, each as `any`. Throws InputError, naming
 // the file, where they are more than kMostSensors.
-void list_sensors(ReplayConfig& config, const std::vector<recording::ObservationRow>& rows, const SensorSetup& any,
-                  const std::string& name);
+void list_sensors(ReplayConfig& config, const std::vector<recording::rows::ObservationRow>& rows,
+                  const SensorSetup& any, const std::string& name);
 
 // One finding, and the row left out, for each row of a sensor that the configuration does not list, with a covariance
 // that is none, or beyond the most observations that a list may have (max_observations of the tracker). `name`: the
 // file's. Throws InputError where there are more classes than fusion::kMostClasses.
-Arrivals arrivals_of(const std::vector<recording::ObservationRow>& rows, const ReplayConfig& config,
+Arrivals arrivals_of(const std::vector<recording::rows::ObservationRow>& rows, const ReplayConfig& config,
                      const std::string& name, Findings& findings);
 
 // Delays that are drawn in place of the recorded ones, and arrivals in disorder. Draws depend on the seed, the sensor's
@@ -62,4 +62,4 @@ struct SimulatedArrivals {
 };
 void simulate(Arrivals& arrivals, const SimulatedArrivals& simulated);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

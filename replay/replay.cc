@@ -8,14 +8,14 @@
 
 #include "core/check.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 namespace {
 
 class Replay {
  public:
   Replay(const Arrivals& arrivals, const ReplaySetup& setup, const TrackSink& sink)
       : arrivals_(arrivals), setup_(setup), sink_(sink),
-        strategy_(fusion::make_strategy(setup.strategy, setup.tracker, setup.timings)) {
+        strategy_(fusion::strategies::make_strategy(setup.strategy, setup.tracker, setup.timings)) {
     account_.sensors.resize(arrivals.sensors.size());
   }
 
@@ -55,8 +55,8 @@ class Replay {
     now_ = now;
     strategy_->fuse(now);
     bool taken_in = false;
-    for (const fusion::FusedScan& scan : strategy_->last_fused()) {
-      if (scan.disposition == fusion::Disposition::kHeld)
+    for (const fusion::strategies::FusedScan& scan : strategy_->last_fused()) {
+      if (scan.disposition == fusion::strategies::Disposition::kHeld)
         hold(scan);
       else
         taken_in = settle(scan) || taken_in;
@@ -64,7 +64,7 @@ class Replay {
     if (taken_in) show();
   }
 
-  void hold(const fusion::FusedScan& scan) {
+  void hold(const fusion::strategies::FusedScan& scan) {
     Waiting& waiting = *find(scan);
     if (waiting.held) return;
     waiting.held = true;
@@ -72,24 +72,24 @@ class Replay {
   }
 
   // Whether it is in the tracks now.
-  bool settle(const fusion::FusedScan& scan) {
+  bool settle(const fusion::strategies::FusedScan& scan) {
     SensorAccount& account = account_.sensors[index_of(scan.id.sensor)];
     auto waiting = find(scan);
     // Of a list that is heard again while it waits, the later one is the duplicate.
-    if (scan.disposition == fusion::Disposition::kDuplicate) waiting = std::prev(waiting_.end());
+    if (scan.disposition == fusion::strategies::Disposition::kDuplicate) waiting = std::prev(waiting_.end());
     account.longest_hold = std::max(account.longest_hold, now_ - waiting->arrival);
     waiting_.erase(waiting);
     switch (scan.disposition) {
-      case fusion::Disposition::kFused: ++account.in_order; return true;
-      case fusion::Disposition::kFusedLate: ++account.late; return true;
-      case fusion::Disposition::kDroppedTooOld: ++account.too_old; return false;
-      case fusion::Disposition::kDuplicate: ++account.duplicates; return false;
-      case fusion::Disposition::kHeld: break;
+      case fusion::strategies::Disposition::kFused: ++account.in_order; return true;
+      case fusion::strategies::Disposition::kFusedLate: ++account.late; return true;
+      case fusion::strategies::Disposition::kDroppedTooOld: ++account.too_old; return false;
+      case fusion::strategies::Disposition::kDuplicate: ++account.duplicates; return false;
+      case fusion::strategies::Disposition::kHeld: break;
     }
     TTF_CHECK(false, "disposition {}", static_cast<int>(scan.disposition));
   }
 
-  std::vector<Waiting>::iterator find(const fusion::FusedScan& scan) {
+  std::vector<Waiting>::iterator find(const fusion::strategies::FusedScan& scan) {
     const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& one) {
       return one.id == scan.id && one.measured == scan.measured;
     });
@@ -98,12 +98,12 @@ class Replay {
   }
 
   void show() {
-    std::span<const fusion::TrackView> tracks = strategy_->tracks();
+    std::span<const fusion::tracks::TrackView> tracks = strategy_->tracks();
     if (setup_.predict) {
       strategy_->image(now_, image_);
       tracks = image_;
     }
-    for (const fusion::TrackView& track : tracks) tracks_.insert(track.id);
+    for (const fusion::tracks::TrackView& track : tracks) tracks_.insert(track.id);
     account_.rows += tracks.size();
     sink_(now_, tracks);
   }
@@ -111,10 +111,10 @@ class Replay {
   const Arrivals& arrivals_;
   const ReplaySetup& setup_;
   const TrackSink& sink_;
-  std::unique_ptr<fusion::Strategy> strategy_;
+  std::unique_ptr<fusion::strategies::Strategy> strategy_;
   GlobalTime now_{};
   std::vector<Waiting> waiting_;  // accepted, and of no fate yet
-  std::vector<fusion::TrackView> image_;
+  std::vector<fusion::tracks::TrackView> image_;
   std::set<TrackId> tracks_;
   ReplayAccount account_;
 };
@@ -125,9 +125,9 @@ ReplayAccount replay(const Arrivals& arrivals, const ReplaySetup& setup, const T
   return Replay(arrivals, setup, sink).run();
 }
 
-recording::TrackRow track_row_of(const fusion::TrackView& view, GlobalTime known,
-                                 const std::vector<std::string>& classes) {
-  recording::TrackRow row;
+recording::rows::TrackRow track_row_of(const fusion::tracks::TrackView& view, GlobalTime known,
+                                       const std::vector<std::string>& classes) {
+  recording::rows::TrackRow row;
   row.time_ns = view.valid_at.ns;
   row.known_ns = known.ns;
   row.track = static_cast<int>(index_of(view.id));
@@ -142,14 +142,14 @@ recording::TrackRow track_row_of(const fusion::TrackView& view, GlobalTime known
   row.sigma_heading = view.sigma_heading;
   if (view.has_length) row.length = view.length;
   if (view.has_width) row.width = view.width;
-  const fusion::ThirdAxis& third = view.unfiltered.third;
+  const fusion::sensors::ThirdAxis& third = view.unfiltered.third;
   if (third.has_z) row.z = third.z;
   if (third.has_height) row.height = third.height;
-  const fusion::ClassId best = view.unfiltered.classes.best();
-  if (best != fusion::kNoClass) row.class_name = classes.at(static_cast<std::size_t>(best));
+  const fusion::sensors::ClassId best = view.unfiltered.classes.best();
+  if (best != fusion::sensors::kNoClass) row.class_name = classes.at(static_cast<std::size_t>(best));
   row.class_share = view.unfiltered.classes.share();
   row.coasting = view.coasting;
   return row;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "core/time.h"
-#include "replay/recorded_lists.h"
-#include "fusion/strategies/strategy.h"
 #include "fusion/config/tracker_config.h"
+#include "fusion/strategies/strategy.h"
 #include "recording/rows/track_rows.h"
+#include "replay/recorded_lists.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 
 // What became of the lists of one sensor.
 struct SensorAccount {
@@ -33,19 +33,19 @@ struct ReplayAccount {
 };
 
 // The tracks after a fusion that took something in: confirmed ones, not given up.
-using TrackSink = std::function<void(GlobalTime known, std::span<const fusion::TrackView> tracks)>;
+using TrackSink = std::function<void(ttf::GlobalTime known, std::span<const ttf::fusion::tracks::TrackView> tracks)>;
 
 struct ReplaySetup {
-  fusion::StrategyKind strategy = fusion::StrategyKind::kAdva;
-  fusion::TrackerConfig tracker;
-  std::vector<fusion::SensorTiming> timings;  // by SensorId
+  fusion::strategies::StrategyKind strategy = fusion::strategies::StrategyKind::kAdva;
+  fusion::config::TrackerConfig tracker;
+  std::vector<fusion::strategies::SensorTiming> timings;  // by SensorId
   bool predict = false;  // tracks predicted to the instant of the fusion, not as of the newest measurement
 };
 
 ReplayAccount replay(const Arrivals& arrivals, const ReplaySetup& setup, const TrackSink& sink);
 
 // `classes`: those of the arrivals.
-recording::TrackRow track_row_of(const fusion::TrackView& view, GlobalTime known,
-                                 const std::vector<std::string>& classes);
+recording::rows::TrackRow track_row_of(const fusion::tracks::TrackView& view, GlobalTime known,
+                                       const std::vector<std::string>& classes);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

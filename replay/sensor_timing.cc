@@ -5,7 +5,7 @@
 
 #include "core/errors.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 namespace {
 
 // Of each sensor, ascending and each once.
@@ -54,24 +54,28 @@ std::optional<Duration> regular_period(const std::vector<GlobalTime>& times) {
 
 bool only_positions(const Arrivals& arrivals) {
   return std::all_of(arrivals.lists.begin(), arrivals.lists.end(), [](const ListArrival& list) {
-    return std::all_of(list.observations.begin(), list.observations.end(), [](const fusion::Observation& observation) {
-      return observation.kind == fusion::ObservationKind::kPosition;
-    });
+    return std::all_of(list.observations.begin(), list.observations.end(),
+                       [](const fusion::sensors::Observation& observation) {
+                         return observation.kind == fusion::sensors::ObservationKind::kPosition;
+                       });
   });
 }
 
-std::vector<fusion::SensorTiming> sensor_timings(const Arrivals& arrivals, const ReplayConfig& config,
-                                                 fusion::StrategyKind strategy) {
+std::vector<fusion::strategies::SensorTiming> sensor_timings(const Arrivals& arrivals, const ReplayConfig& config,
+                                                             fusion::strategies::StrategyKind strategy) {
   const std::vector<Duration> longest = longest_delays(arrivals);
   const std::vector<std::vector<GlobalTime>> times = times_measured(arrivals);
-  std::vector<fusion::SensorTiming> timings;
+  std::vector<fusion::strategies::SensorTiming> timings;
   const fusion::oosm::Kind late = config.tracker.late;
-  const bool on_schedule = strategy == fusion::StrategyKind::kTt || late == fusion::oosm::Kind::kClone;
+  const bool on_schedule = strategy == fusion::strategies::StrategyKind::kTt || late == fusion::oosm::Kind::kClone;
   bool any_scheduled = false;
   for (std::size_t s = 0; s < arrivals.sensors.size(); ++s) {
     const SensorSetup& setup = config.sensors[s].second;
-    fusion::SensorTiming timing{
-        static_cast<SensorId>(s), fusion::Settling::after(setup.worst_delay.value_or(longest[s])), false, {}, {}};
+    fusion::strategies::SensorTiming timing{static_cast<SensorId>(s),
+                                            fusion::strategies::Settling::after(setup.worst_delay.value_or(longest[s])),
+                                            false,
+                                            {},
+                                            {}};
     const std::optional<Duration> period = setup.period ? setup.period : regular_period(times[s]);
     if (on_schedule && period && (setup.first || !times[s].empty())) {
       timing.scheduled = any_scheduled = true;
@@ -80,13 +84,13 @@ std::vector<fusion::SensorTiming> sensor_timings(const Arrivals& arrivals, const
     }
     timings.push_back(timing);
   }
-  if (strategy == fusion::StrategyKind::kTt && !any_scheduled)
+  if (strategy == fusion::strategies::StrategyKind::kTt && !any_scheduled)
     throw InputError({config.file.empty() ? "command line" : config.file, 0, "strategy", "tt",
                       "needs the period of at least one sensor: none is given, and none measures at regular instants"});
-  const std::string refusal = fusion::late_refusal(strategy, late, timings, only_positions(arrivals));
+  const std::string refusal = fusion::strategies::late_refusal(strategy, late, timings, only_positions(arrivals));
   if (!refusal.empty())
     throw InputError({config.file, config.late_line, "tracker.late", std::string(name_of(late)), refusal});
   return timings;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

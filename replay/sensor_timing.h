@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/time.h"
-#include "replay/recorded_lists.h"
-#include "replay/config.h"
 #include "fusion/strategies/strategy.h"
+#include "replay/config.h"
+#include "replay/recorded_lists.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 
 // By sensor: the longest that a list was under way. Zero for a sensor without lists.
 std::vector<Duration> longest_delays(const Arrivals& arrivals);
@@ -25,7 +25,7 @@ bool only_positions(const Arrivals& arrivals);
 // for clones, where the configuration has a period, or else the recording is regular. Throws InputError where TT is
 // asked for and no sensor's instants are known, for it would wait for none, and where the strategy cannot take late
 // lists in as the configuration says (fusion::late_refusal()).
-std::vector<fusion::SensorTiming> sensor_timings(const Arrivals& arrivals, const ReplayConfig& config,
-                                                 fusion::StrategyKind strategy);
+std::vector<fusion::strategies::SensorTiming> sensor_timings(const Arrivals& arrivals, const ReplayConfig& config,
+                                                             fusion::strategies::StrategyKind strategy);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

@@ -6,32 +6,34 @@
 #include "core/check.h"
 #include "schedules/analysis/can_load.h"
 
-namespace ttf::bus {
+namespace ttf::bus::cni {
 
-CanController::CanController(const schedules::Cluster& cluster, NodeId node, std::size_t can_bus, CanPort& port)
+CanController::CanController(const schedules::model::Cluster& cluster, NodeId node, std::size_t can_bus,
+                             ports::CanPort& port)
     : cluster_(cluster), bus_(cluster.can_buses[can_bus]), node_(node), port_(port), newest_sent_(bus_.messages.size()),
       padded_(64) {
-  for (const schedules::CanMessage& message : bus_.messages)
+  for (const schedules::model::CanMessage& message : bus_.messages)
     incoming_.push_back(message.sender == node ? nullptr : std::make_unique<IncomingList>(cluster.pdu(message.pdu)));
 }
 
 std::size_t CanController::message_of(PduId pdu) const {
-  const auto message = std::find_if(bus_.messages.begin(), bus_.messages.end(),
-                                    [&](const schedules::CanMessage& m) { return m.pdu == pdu && m.sender == node_; });
+  const auto message =
+      std::find_if(bus_.messages.begin(), bus_.messages.end(),
+                   [&](const schedules::model::CanMessage& m) { return m.pdu == pdu && m.sender == node_; });
   TTF_CHECK(message != bus_.messages.end(), "{} does not send this PDU on {}", cluster_.node(node_).name, bus_.name);
   return static_cast<std::size_t>(message - bus_.messages.begin());
 }
 
-std::size_t CanController::frame_length(const schedules::CanMessage& message) const {
+std::size_t CanController::frame_length(const schedules::model::CanMessage& message) const {
   const int bytes = cluster_.pdu(message.pdu).fragment_bytes;
-  const auto length = schedules::can_data_length(bus_.flexible_data_rate, bytes);
+  const auto length = schedules::analysis::can_data_length(bus_.flexible_data_rate, bytes);
   TTF_CHECK(length.has_value(), "{} bytes on {}", bytes, bus_.name);
   return static_cast<std::size_t>(*length);
 }
 
 void CanController::send(PduId pdu, const ListView& list) {
   const std::size_t m = message_of(pdu);
-  const schedules::CanMessage& message = bus_.messages[m];
+  const schedules::model::CanMessage& message = bus_.messages[m];
   const auto fragment = static_cast<std::size_t>(cluster_.pdu(pdu).fragment_bytes);
   const std::size_t length = frame_length(message);
   TTF_CHECK(list.fragments > 0 && list.bytes.size() == static_cast<std::size_t>(list.fragments) * fragment,
@@ -46,16 +48,16 @@ void CanController::send(PduId pdu, const ListView& list) {
 }
 
 std::uint32_t CanController::sent_sequence(PduId pdu, std::uint32_t raw) const {
-  const schedules::PduLayout& layout = cluster_.pdu(pdu);
+  const schedules::model::PduLayout& layout = cluster_.pdu(pdu);
   const std::uint32_t newest = newest_sent_[message_of(pdu)];
   const std::uint64_t circle = std::uint64_t{1} << layout.header[wire::header_signal(layout, "sequence")].bits;
   return newest - static_cast<std::uint32_t>((newest - raw) & (circle - 1));
 }
 
-std::optional<CanController::Arrival> CanController::receive(const CanFrame& frame) {
-  const auto known = std::find_if(bus_.messages.begin(), bus_.messages.end(), [&](const schedules::CanMessage& m) {
-    return m.identifier == frame.identifier && m.sender != node_;
-  });
+std::optional<CanController::Arrival> CanController::receive(const ports::CanFrame& frame) {
+  const auto known = std::find_if(
+      bus_.messages.begin(), bus_.messages.end(),
+      [&](const schedules::model::CanMessage& m) { return m.identifier == frame.identifier && m.sender != node_; });
   if (known == bus_.messages.end()) {
     ++refused_.foreign;
   } else if (frame.flexible_data_rate != bus_.flexible_data_rate) {
@@ -77,4 +79,4 @@ IncomingList& CanController::incoming(PduId pdu) {
   TTF_CHECK(false, "{} does not receive this PDU on {}", cluster_.node(node_).name, bus_.name);
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::cni

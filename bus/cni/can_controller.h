@@ -9,12 +9,12 @@
 #include <optional>
 #include <vector>
 
-#include "bus/ports/can_port.h"
 #include "bus/cni/list_buffer.h"
+#include "bus/ports/can_port.h"
 #include "core/ids.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::cni {
 
 // Frames a controller took no notice of, and why.
 struct CanRefusals {
@@ -25,7 +25,7 @@ struct CanRefusals {
 
 class CanController {
  public:
-  CanController(const schedules::Cluster& cluster, NodeId node, std::size_t can_bus, CanPort& port);
+  CanController(const schedules::model::Cluster& cluster, NodeId node, std::size_t can_bus, ports::CanPort& port);
 
   // `pdu` must be a message of this bus that the node sends, and the list whole.
   void send(PduId pdu, const ListView& list);
@@ -40,23 +40,23 @@ class CanController {
     std::optional<std::uint32_t> torn;  // the list it displaced before that was complete
   };
   // Nothing for a refused frame.
-  std::optional<Arrival> receive(const CanFrame& frame);
+  std::optional<Arrival> receive(const ports::CanFrame& frame);
   // `pdu` must be a message of this bus that another node sends.
   IncomingList& incoming(PduId pdu);
   const CanRefusals& refused() const { return refused_; }
 
  private:
   std::size_t message_of(PduId pdu) const;  // that this node sends
-  std::size_t frame_length(const schedules::CanMessage& message) const;
+  std::size_t frame_length(const schedules::model::CanMessage& message) const;
 
-  const schedules::Cluster& cluster_;
-  const schedules::CanBus& bus_;
+  const schedules::model::Cluster& cluster_;
+  const schedules::model::CanBus& bus_;
   NodeId node_;
-  CanPort& port_;
+  ports::CanPort& port_;
   std::vector<std::unique_ptr<IncomingList>> incoming_;  // by message of the bus
   std::vector<std::uint32_t> newest_sent_;               // by message of the bus
   std::vector<std::byte> padded_;
   CanRefusals refused_;
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::cni

@@ -2,16 +2,16 @@
 
 #include "core/check.h"
 
-namespace ttf::bus {
+namespace ttf::bus::cni {
 
-using schedules::Channel;
-using schedules::FrameSlot;
+using schedules::model::Channel;
+using schedules::model::FrameSlot;
 
-Cni::Sent::Sent(const schedules::PduLayout& layout) : current(layout), latched(layout) {
+Cni::Sent::Sent(const schedules::model::PduLayout& layout) : current(layout), latched(layout) {
   for (auto& channel : carried) channel.resize(static_cast<std::size_t>(layout.max_fragments()));
 }
 
-Cni::Cni(const schedules::Cluster& cluster, NodeId node)
+Cni::Cni(const schedules::model::Cluster& cluster, NodeId node)
     : cluster_(cluster), node_(node), sent_(cluster.pdus.size()), received_(cluster.pdus.size()) {
   for (const FrameSlot& slot : cluster.frames) {
     if (slot.pdu == kNoPdu) continue;
@@ -65,4 +65,4 @@ void Cni::carried(const FrameSlot& slot, Channel channel) {
   list.carried[index_of(channel)][static_cast<std::size_t>(slot.fragment)] = list.latched.sequence();
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::cni

@@ -15,11 +15,11 @@
 #include "core/ids.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::cni {
 
 class Cni {
  public:
-  Cni(const schedules::Cluster& cluster, NodeId node);
+  Cni(const schedules::model::Cluster& cluster, NodeId node);
 
   OutgoingList& outgoing(PduId pdu);  // must be a PDU this node sends
   IncomingList& incoming(PduId pdu);  // any other PDU on FlexRay
@@ -30,11 +30,11 @@ class Cni {
     std::uint32_t sequence = 0;
     bool last = false;  // completes a list that had not left completely before
   };
-  Fragment fetch(const schedules::FrameSlot& slot, std::int64_t cycle);
+  Fragment fetch(const schedules::model::FrameSlot& slot, std::int64_t cycle);
   // In the dynamic segment a frame is sent once per list: whether this channel has not carried what the slot has now,
   // and that it has carried it.
-  bool pending(const schedules::FrameSlot& slot, schedules::Channel channel, std::int64_t cycle);
-  void carried(const schedules::FrameSlot& slot, schedules::Channel channel);
+  bool pending(const schedules::model::FrameSlot& slot, schedules::model::Channel channel, std::int64_t cycle);
+  void carried(const schedules::model::FrameSlot& slot, schedules::model::Channel channel);
 
  private:
   struct Sent {
@@ -42,14 +42,14 @@ class Cni {
     std::int64_t latched_cycle = -1;
     std::optional<std::uint32_t> completed;                            // newest sequence that left completely
     std::array<std::vector<std::optional<std::uint32_t>>, 2> carried;  // by channel and fragment: newest that left
-    explicit Sent(const schedules::PduLayout& layout);
+    explicit Sent(const schedules::model::PduLayout& layout);
   };
-  Sent& latch(const schedules::FrameSlot& slot, std::int64_t cycle);
+  Sent& latch(const schedules::model::FrameSlot& slot, std::int64_t cycle);
 
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   NodeId node_;
   std::vector<std::unique_ptr<Sent>> sent_;              // by PduId
   std::vector<std::unique_ptr<IncomingList>> received_;  // by PduId
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::cni

@@ -6,16 +6,16 @@
 #include "bus/wire/pdu_codec.h"
 #include "core/check.h"
 
-namespace ttf::bus {
+namespace ttf::bus::cni {
 namespace {
 
-std::size_t capacity(const schedules::PduLayout& layout) {
+std::size_t capacity(const schedules::model::PduLayout& layout) {
   return static_cast<std::size_t>(layout.fragment_bytes) * static_cast<std::size_t>(layout.max_fragments());
 }
 
 }  // namespace
 
-OutgoingList::OutgoingList(const schedules::PduLayout& layout)
+OutgoingList::OutgoingList(const schedules::model::PduLayout& layout)
     : bytes_(capacity(layout)), fragment_bytes_(static_cast<std::size_t>(layout.fragment_bytes)) {}
 
 void OutgoingList::write(const ListView& list) {
@@ -32,13 +32,13 @@ std::span<const std::byte> OutgoingList::fragment(int index) const {
   return {bytes_.data() + static_cast<std::size_t>(index) * fragment_bytes_, fragment_bytes_};
 }
 
-IncomingList::IncomingList(const schedules::PduLayout& layout)
+IncomingList::IncomingList(const schedules::model::PduLayout& layout)
     : layout_(&layout), sequence_signal_(wire::header_signal(layout, "sequence")),
       fragment_signal_(wire::header_signal(layout, "fragment")), count_signal_(wire::header_signal(layout, "count")),
       collecting_bytes_(capacity(layout)), complete_bytes_(capacity(layout)),
       present_(static_cast<std::size_t>(layout.max_fragments())) {
   for (std::size_t s = 0; s < layout.element.size(); ++s) {
-    const schedules::Signal& signal = layout.element[s];
+    const schedules::model::Signal& signal = layout.element[s];
     const std::uint32_t highest = wire::highest_code(signal);
     if (highest < (std::uint64_t{1} << signal.bits) - 1) bounded_.push_back({s, highest});
   }
@@ -153,4 +153,4 @@ bool IncomingList::mark_read() {
   return first;
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::cni

@@ -24,7 +24,7 @@
 #include "core/ids.h"
 #include "schedules/model/pdu.h"
 
-namespace ttf::bus {
+namespace ttf::bus::cni {
 
 // A complete list: the payloads of its fragments one after the other, each layout.fragment_bytes long.
 struct ListView {
@@ -36,7 +36,7 @@ struct ListView {
 // The sending side: what the controller transmits until the next write.
 class OutgoingList {
  public:
-  explicit OutgoingList(const schedules::PduLayout& layout);
+  explicit OutgoingList(const schedules::model::PduLayout& layout);
   void write(const ListView& list);  // visible to the controller at once
   bool empty() const { return fragments_ == 0; }
   std::uint32_t sequence() const { return sequence_; }
@@ -65,7 +65,7 @@ class IncomingList {
  public:
   static constexpr int kRestartLists = 3;
 
-  explicit IncomingList(const schedules::PduLayout& layout);
+  explicit IncomingList(const schedules::model::PduLayout& layout);
   // `fragment`: the one the slot is for, where that is laid down (FlexRay); a CAN frame may carry any.
   ArrivalEffect arrive(std::span<const std::byte> payload, std::optional<int> fragment = std::nullopt);
   // Whether that fragment arriving once more would be kDuplicate and change nothing.
@@ -94,7 +94,7 @@ class IncomingList {
   void begin(std::uint32_t sequence, int count);
   ArrivalEffect store(std::span<const std::byte> payload, int fragment);
 
-  const schedules::PduLayout* layout_;
+  const schedules::model::PduLayout* layout_;
   std::size_t sequence_signal_, fragment_signal_, count_signal_;
   std::vector<Bounded> bounded_;
   std::vector<std::byte> collecting_bytes_, complete_bytes_;
@@ -107,4 +107,4 @@ class IncomingList {
   int stale_lists_ = 0;
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::cni

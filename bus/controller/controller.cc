@@ -5,16 +5,16 @@
 #include "bus/controller/state.h"
 #include "core/check.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
-const schedules::NodeParameters& parameters(const schedules::Cluster& cluster, NodeId node) {
+const schedules::model::NodeParameters& parameters(const schedules::model::Cluster& cluster, NodeId node) {
   TTF_CHECK(cluster.node(node).flexray.has_value(), "{} is not on FlexRay", cluster.node(node).name);
   return *cluster.node(node).flexray;
 }
 
 // A static slot's microticks. Parameters that come from nowhere but a test's hand have been through no checker.
-timebase::Divisor nominal_slot(const schedules::GlobalParameters& g, const schedules::NodeParameters& p) {
+timebase::Divisor nominal_slot(const schedules::model::GlobalParameters& g, const schedules::model::NodeParameters& p) {
   TTF_CHECK(g.gMacroPerCycle >= 1 && g.gdStaticSlot >= 1 && p.pMicroPerCycle >= g.gMacroPerCycle,
             "static slots of {} macroticks, {} macroticks and {} microticks per cycle", g.gdStaticSlot,
             g.gMacroPerCycle, p.pMicroPerCycle);
@@ -23,12 +23,13 @@ timebase::Divisor nominal_slot(const schedules::GlobalParameters& g, const sched
 
 }  // namespace
 
-FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPort& medium, ControllerEvents& host)
+FlexRayController::State::State(const schedules::model::Cluster& c, NodeId n, ports::FlexRayPort& medium,
+                                ControllerEvents& host)
     : cluster(c), g(c.flexray), p(parameters(c, n)), node(n), port(medium), events(host),
-      poc_parameters(bus::poc_parameters(c.flexray, parameters(c, n))), slots(c, n),
+      poc_parameters(poc::poc_parameters(c.flexray, parameters(c, n))), slots(c, n),
       minislots(c.flexray), geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
-      told_of_receptions(host.wants_receptions()), nominal_slot(bus::nominal_slot(g, p)),
-      static_frame(bits(schedules::frame_bits(g, g.gPayloadLengthStatic))), poc(poc_power_on(poc_parameters)),
+      told_of_receptions(host.wants_receptions()), nominal_slot(controller::nominal_slot(g, p)),
+      static_frame(bits(schedules::model::frame_bits(g, g.gPayloadLengthStatic))), poc(poc_power_on(poc_parameters)),
       cni(c, n), network_management(c.flexray.gNetworkManagementVectorLength), sync(c.flexray.gSyncNodeMax),
       initialisation(c.flexray, parameters(c, n)), board(g.gNumberOfStaticSlots),
       grid(static_cast<std::size_t>(g.gNumberOfStaticSlots + 1)), dynamic{Dynamic{DynamicSlotCounter(c.flexray)},
@@ -40,25 +41,26 @@ Microticks FlexRayController::State::bits(int count) const {
 
 // ---- protocol operation control
 
-void FlexRayController::State::tell(const PocEvent& event, Microticks at) {
-  const PocKind from = poc.kind;
-  const PocStep step = poc_step(poc_parameters, poc, event);
+void FlexRayController::State::tell(const poc::PocEvent& event, Microticks at) {
+  const poc::PocKind from = poc.kind;
+  const poc::PocStep step = poc_step(poc_parameters, poc, event);
   poc = step.next;
   act(step.actions, at);
-  if (poc.kind != PocKind::kWakeupSend) wakeup_sent = kNever;
+  if (poc.kind != poc::PocKind::kWakeupSend) wakeup_sent = kNever;
   if (poc.kind != from) events.state_changed(from, step, at);
 }
 
-void FlexRayController::State::act(const PocActions& actions, Microticks at) {
+void FlexRayController::State::act(const poc::PocActions& actions, Microticks at) {
   if (actions.empty()) return;
-  if (actions.has(PocAction::kStopTimers)) listen_timer = noise_timer = kNever;
-  if (actions.has(PocAction::kDropSchedule)) drop_schedule();
-  if (actions.has(PocAction::kRestartListenTimer)) listen_timer = at + poc_parameters.listen_timeout();
-  if (actions.has(PocAction::kStopListenTimer)) listen_timer = kNever;
-  if (actions.has(PocAction::kRestartNoiseTimer)) noise_timer = at + poc_parameters.noise_timeout();
-  if (actions.has(PocAction::kSendWakeupPattern)) send_wakeup_pattern(at);
-  if (actions.has(PocAction::kSendCas)) send_cas(at);
-  if (actions.has(PocAction::kDeriveSchedule)) initialisation.reset();  // hear() gives it the frame that set this off
+  if (actions.has(poc::PocAction::kStopTimers)) listen_timer = noise_timer = kNever;
+  if (actions.has(poc::PocAction::kDropSchedule)) drop_schedule();
+  if (actions.has(poc::PocAction::kRestartListenTimer)) listen_timer = at + poc_parameters.listen_timeout();
+  if (actions.has(poc::PocAction::kStopListenTimer)) listen_timer = kNever;
+  if (actions.has(poc::PocAction::kRestartNoiseTimer)) noise_timer = at + poc_parameters.noise_timeout();
+  if (actions.has(poc::PocAction::kSendWakeupPattern)) send_wakeup_pattern(at);
+  if (actions.has(poc::PocAction::kSendCas)) send_cas(at);
+  if (actions.has(poc::PocAction::kDeriveSchedule))
+    initialisation.reset();  // hear() gives it the frame that set this off
 }
 
 void FlexRayController::State::drop_schedule() {
@@ -115,25 +117,27 @@ Microticks FlexRayController::State::next_event() const {
 
 // One thing that is due at `at`; what else is due then comes with the next call.
 void FlexRayController::State::handle(Microticks at) {
-  const auto busy = [this] { return port.carrier(schedules::Channel::kA) || port.carrier(schedules::Channel::kB); };
+  const auto busy = [this] {
+    return port.carrier(schedules::model::Channel::kA) || port.carrier(schedules::model::Channel::kB);
+  };
   if (noise_timer == at) {
     noise_timer = kNever;
-    return tell({PocEventKind::kNoiseTimeout}, at);
+    return tell({poc::PocEventKind::kNoiseTimeout}, at);
   }
   if (listen_timer == at) {
     listen_timer = kNever;
     // What is arriving may have stopped the timer, which then starts anew when the channels are idle again.
     const bool stopped = listen_timer_follows_channels(poc.kind) && busy();
-    return tell({stopped ? PocEventKind::kChannelActive : PocEventKind::kListenTimeout}, at);
+    return tell({stopped ? poc::PocEventKind::kChannelActive : poc::PocEventKind::kListenTimeout}, at);
   }
   if (wakeup_sent == at) {
     wakeup_sent = kNever;
-    return tell({PocEventKind::kWakeupSent}, at);
+    return tell({poc::PocEventKind::kWakeupSent}, at);
   }
   if (partner_overdue == at) {
     initialisation.reset();
     partner_overdue = kNever;
-    return tell({PocEventKind::kScheduleNotDerived}, at);
+    return tell({poc::PocEventKind::kScheduleNotDerived}, at);
   }
   switch (segment) {
     case Segment::kBefore: return enter_cycle({}, at);
@@ -141,13 +145,13 @@ void FlexRayController::State::handle(Microticks at) {
       if (next_static < slots.own_static().size()) return send_static(at);
       return close_static_segment(at);
     case Segment::kDynamic:
-      for (const schedules::Channel channel : schedules::kBothChannels)
+      for (const schedules::model::Channel channel : schedules::model::kBothChannels)
         if (dynamic[index_of(channel)].due == at) return send_dynamic(channel, at);
       if (symbol_point == at) return send_media_test_symbol(at);
       if (g.gdSymbolWindow > 0) return close_symbol_window();
       [[fallthrough]];
     case Segment::kRest: {
-      const StartupFramesSeen ended = sync.startup_frames(poc.reference);
+      const poc::StartupFramesSeen ended = sync.startup_frames(poc.reference);
       network_management.end_cycle(!in_startup(poc.kind));
       clock->next_cycle(next_rate);
       lay_cycle();
@@ -166,8 +170,8 @@ void FlexRayController::State::start_cycle() {
 }
 
 // `ended`: what was received in the cycle before.
-void FlexRayController::State::enter_cycle(const StartupFramesSeen& ended, Microticks at) {
-  tell(PocEvent::cycle_started(counter, ended), at);
+void FlexRayController::State::enter_cycle(const poc::StartupFramesSeen& ended, Microticks at) {
+  tell(poc::PocEvent::cycle_started(counter, ended), at);
   if (!clock || clock->cycle_start() != at) return;  // dropped, or begun anew by a CAS
   start_cycle();
   events.cycle_started(clock->cycle(), at);
@@ -175,7 +179,7 @@ void FlexRayController::State::enter_cycle(const StartupFramesSeen& ended, Micro
 
 // What has not ended has not been judged: its beginning is not known but to have been behind all that was heard.
 void FlexRayController::State::note_what_goes_on() {
-  for (const schedules::Channel channel : schedules::kBothChannels) {
+  for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
     bool& goes_on = going_on[index_of(channel)];
     const bool whole_cycle = goes_on;
     goes_on = port.carrier(channel);
@@ -196,7 +200,7 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
     const bool both_valid = status.valid[0] && status.valid[1];
     if ((status.errors[0] | status.errors[1]) == 0 && (both_valid || !slots.others_send_in(slot))) continue;
     const auto expected = slots.expected(slot, now);
-    for (const schedules::Channel channel : schedules::kBothChannels) {
+    for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
       const auto c = index_of(channel);
       std::uint8_t errors = status.errors[c];
       if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) && expected[c] != nullptr)
@@ -213,13 +217,13 @@ void FlexRayController::State::close_static_segment(Microticks at) {
   note_what_goes_on();
   if (!in_startup(poc.kind)) tell_slot_problems(at);
   board.end_segment();
-  const int valid_a = sync.valid(schedules::Channel::kA), valid_b = sync.valid(schedules::Channel::kB);
+  const int valid_a = sync.valid(schedules::model::Channel::kA), valid_b = sync.valid(schedules::model::Channel::kB);
   (cycle % 2 == 0 ? sync_status.VSAE : sync_status.VSAO) = valid_a;
   (cycle % 2 == 0 ? sync_status.VSBE : sync_status.VSBO) = valid_b;
   events.static_segment_ended(cycle, at);
   segment = minislots.count() > 0 || g.gdSymbolWindow > 0 ? Segment::kDynamic : Segment::kRest;
   if (g.gdSymbolWindow > 0) plan_symbol_window();
-  for (const schedules::Channel channel : schedules::kBothChannels) {
+  for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
     dynamic[index_of(channel)].counter.start();
     dynamic[index_of(channel)].next = 0;
     plan_dynamic(channel, at);
@@ -239,12 +243,12 @@ void FlexRayController::State::close_static_segment(Microticks at) {
   sync_status.OCLR = offset.limit_reached;
   sync_status.RCLR = rate.limit_reached;
   events.clock_corrected(cycle, offset, rate, at);
-  tell(PocEvent::clock_corrected(offset.missing || rate.missing, offset.limit_reached || rate.limit_reached), at);
+  tell(poc::PocEvent::clock_corrected(offset.missing || rate.missing, offset.limit_reached || rate.limit_reached), at);
 }
 
 // ---- the public face
 
-FlexRayController::FlexRayController(const schedules::Cluster& cluster, NodeId node, FlexRayPort& port,
+FlexRayController::FlexRayController(const schedules::model::Cluster& cluster, NodeId node, ports::FlexRayPort& port,
                                      ControllerEvents& events)
     : state_(std::make_unique<State>(cluster, node, port, events)), poc_(state_->poc), clock_(state_->clock) {}
 
@@ -253,7 +257,7 @@ FlexRayController::~FlexRayController() = default;
 void FlexRayController::start_integrated(const InitialClock& clock) {
   State& s = *state_;
   s.poc = poc_power_on(s.poc_parameters);
-  s.poc.kind = PocKind::kNormalActive;
+  s.poc.kind = poc::PocKind::kNormalActive;
   s.begin_schedule(clock.cycle_start, clock.rate, 0);
   s.start_cycle();
   s.due = s.next_event();
@@ -261,16 +265,17 @@ void FlexRayController::start_integrated(const InitialClock& clock) {
 
 void FlexRayController::start_cold(Microticks now) {
   State& s = *state_;
-  s.tell({PocEventKind::kPowerOn}, now);
-  s.tell({PocEventKind::kConfig}, now);
-  s.tell({PocEventKind::kConfigComplete}, now);
-  if (s.p.pKeySlotUsedForStartup) s.tell({PocEventKind::kAllowColdstart}, now);
-  s.tell({PocEventKind::kRun}, now);
+  s.tell({poc::PocEventKind::kPowerOn}, now);
+  s.tell({poc::PocEventKind::kConfig}, now);
+  s.tell({poc::PocEventKind::kConfigComplete}, now);
+  if (s.p.pKeySlotUsedForStartup) s.tell({poc::PocEventKind::kAllowColdstart}, now);
+  s.tell({poc::PocEventKind::kRun}, now);
   s.due = s.next_event();
 }
 
-void FlexRayController::command(PocEventKind command, Microticks now) {
-  TTF_CHECK(command >= PocEventKind::kConfig && command <= PocEventKind::kFreeze, "{} is no command", to_text(command));
+void FlexRayController::command(poc::PocEventKind command, Microticks now) {
+  TTF_CHECK(command >= poc::PocEventKind::kConfig && command <= poc::PocEventKind::kFreeze, "{} is no command",
+            to_text(command));
   state_->tell({command}, now);
   state_->due = state_->next_event();
 }
@@ -282,20 +287,22 @@ bool FlexRayController::answers_at_once() const {
   const State& s = *state_;
   if (!synchronised()) return true;
   return s.segment == State::Segment::kDynamic &&
-         std::any_of(schedules::kBothChannels.begin(), schedules::kBothChannels.end(),
-                     [&s](schedules::Channel channel) { return !s.slots.own_dynamic(channel).empty(); });
+         std::any_of(schedules::model::kBothChannels.begin(), schedules::model::kBothChannels.end(),
+                     [&s](schedules::model::Channel channel) { return !s.slots.own_dynamic(channel).empty(); });
 }
 
 void FlexRayController::advance(Microticks now) {
   for (State& s = *state_; s.due <= now; s.due = s.next_event()) s.handle(s.due);
 }
 
-void FlexRayController::receive(const Reception& reception) { state_->receive(reception); }
-bool FlexRayController::receive_on_both(const Reception& reception) { return state_->receive_on_both(reception); }
-bool FlexRayController::knows(const Reception& reception) { return state_->knows(reception); }
-void FlexRayController::hear_known(const Reception& reception) { state_->hear_known(reception); }
+void FlexRayController::receive(const ports::Reception& reception) { state_->receive(reception); }
+bool FlexRayController::receive_on_both(const ports::Reception& reception) {
+  return state_->receive_on_both(reception);
+}
+bool FlexRayController::knows(const ports::Reception& reception) { return state_->knows(reception); }
+void FlexRayController::hear_known(const ports::Reception& reception) { state_->hear_known(reception); }
 
-SlotSeen FlexRayController::slot_status(int slot, schedules::Channel channel) const {
+SlotSeen FlexRayController::slot_status(int slot, schedules::model::Channel channel) const {
   const State& s = *state_;
   TTF_CHECK(slot >= 1 && slot <= s.g.gNumberOfStaticSlots, "static slot {} of {}", slot, s.g.gNumberOfStaticSlots);
   const SlotBoard::Seen& seen = s.board.kept(slot);
@@ -310,11 +317,11 @@ SyncStatus FlexRayController::sync_status() const {
   return status;
 }
 
-bool FlexRayController::send_media_test_symbol(schedules::Channels channels) {
+bool FlexRayController::send_media_test_symbol(schedules::model::Channels channels) {
   return state_->request_media_test_symbol(channels);
 }
 
-SymbolWindowSeen FlexRayController::symbol_window_status(schedules::Channel channel) const {
+SymbolWindowSeen FlexRayController::symbol_window_status(schedules::model::Channel channel) const {
   return state_->window_last[index_of(channel)];
 }
 
@@ -327,12 +334,12 @@ std::span<const std::byte> FlexRayController::network_management_vector() const 
 }
 
 void FlexRayController::set_external_correction(int offset, int rate) {
-  const schedules::NodeParameters& p = state_->p;
+  const schedules::model::NodeParameters& p = state_->p;
   state_->extern_offset = std::clamp(offset, -p.pExternOffsetCorrection, p.pExternOffsetCorrection);
   state_->extern_rate = std::clamp(rate, -p.pExternRateCorrection, p.pExternRateCorrection);
 }
 
-OutgoingList& FlexRayController::outgoing(PduId pdu) { return state_->cni.outgoing(pdu); }
-IncomingList& FlexRayController::incoming(PduId pdu) { return state_->cni.incoming(pdu); }
+cni::OutgoingList& FlexRayController::outgoing(PduId pdu) { return state_->cni.outgoing(pdu); }
+cni::IncomingList& FlexRayController::incoming(PduId pdu) { return state_->cni.incoming(pdu); }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

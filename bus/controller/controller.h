@@ -2,9 +2,9 @@
 // sends what is in the CNI in its own slots of both segments, judges and stores what it receives, and corrects its
 // clock.
 //
-// Why it is in its state is protocol operation control's business (bus/poc/poc.h); this class gives that its events, and
-// does what it says. Driven from outside in its own microticks, so that the same controller runs in virtual and in real
-// time:
+// Why it is in its state is protocol operation control's business (bus/poc/poc.h); this class gives that its events,
+// and does what it says. Driven from outside in its own microticks, so that the same controller runs in virtual and in
+// real time:
 //
 //   while (running) { wait until controller.next_event() or a reception; advance() / receive(); }
 //
@@ -18,10 +18,10 @@
 // Readings taken where the sources leave room: a startup frame sent before normal operation is a null frame. A second
 // communication element in a static slot is a syntax error of that slot, also where the first was a valid frame. What
 // began outside every slot is reported under slot 0. What crosses slots' boundaries violates those of every slot it
-// touches (bus/controller/slot_board.h); of what goes on when the static segment ends, that is said then of the segment's last
-// slot, and of the empty slots in front of it behind all that was heard on the channel, instead of "no frame". A node
-// alone with its own sync frame misses no term of clock correction. Cycle 0 of a leading coldstart node starts one
-// macrotick after the end of its CAS.
+// touches (bus/controller/slot_board.h); of what goes on when the static segment ends, that is said then of the
+// segment's last slot, and of the empty slots in front of it behind all that was heard on the channel, instead of "no
+// frame". A node alone with its own sync frame misses no term of clock correction. Cycle 0 of a leading coldstart node
+// starts one macrotick after the end of its CAS.
 #pragma once
 
 #include <cstdint>
@@ -30,15 +30,15 @@
 #include <span>
 
 #include "bus/cni/cni.h"
-#include "bus/ports/flexray_port.h"
 #include "bus/poc/poc.h"
+#include "bus/ports/flexray_port.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 #include "timebase/clock_sync.h"
 #include "timebase/cycle_clock.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
 // Per slot and channel, what was seen (FlexRay 2.1A vSS). Values are the bits of records::SlotProblem.
 enum SlotStatus : std::uint8_t {
@@ -92,7 +92,7 @@ class ControllerEvents {
   virtual ~ControllerEvents() = default;
   virtual void cycle_started(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
   // slot 0: outside every slot.
-  virtual void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status,
+  virtual void slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel, SlotStatus status,
                             Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)status, (void)at;
   }
@@ -102,20 +102,20 @@ class ControllerEvents {
   // Whether it has to be told of every frame received, and of every fragment that is known already.
   virtual bool wants_receptions() const { return true; }
   // A valid frame in the slot it says it is of; not during start-up. `frame` only during the call.
-  virtual void frame_received(std::int64_t cycle, int slot, schedules::Channel channel, const wire::DecodedFrame& frame,
-                              Microticks at) {
+  virtual void frame_received(std::int64_t cycle, int slot, schedules::model::Channel channel,
+                              const wire::DecodedFrame& frame, Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)frame, (void)at;
   }
   // Whether frame_sent() looks at the bytes of transmissions.
   virtual bool wants_bytes() const { return true; }
   // A frame of an outgoing list left; `last` with the last fragment of that list.
-  virtual void frame_sent(const Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
+  virtual void frame_sent(const ports::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                           std::uint32_t sequence, int fragment, bool last) {
     (void)transmission, (void)cycle, (void)null_frame, (void)pdu, (void)sequence, (void)fragment, (void)last;
   }
   // A fragment of list `sequence`; `torn`: the list it displaced before that was complete.
-  virtual void list_arrived(PduId pdu, ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
-                            Microticks at) {
+  virtual void list_arrived(PduId pdu, cni::ArrivalEffect effect, std::uint32_t sequence,
+                            std::optional<std::uint32_t> torn, Microticks at) {
     (void)pdu, (void)effect, (void)sequence, (void)torn, (void)at;
   }
   // The corrections as computed from a double cycle: at the end of its odd cycle's static segment, before either is in
@@ -125,11 +125,13 @@ class ControllerEvents {
     (void)cycle, (void)offset, (void)rate, (void)at;
   }
   // A symbol left, on one channel; within normal operation Signal::kCas is a media access test symbol.
-  virtual void symbol_sent(Signal signal, schedules::Channel channel, Microticks start, Microticks end) {
+  virtual void symbol_sent(ports::Signal signal, schedules::model::Channel channel, Microticks start, Microticks end) {
     (void)signal, (void)channel, (void)start, (void)end;
   }
   // Protocol operation control went from one state to another.
-  virtual void state_changed(PocKind from, const PocStep& step, Microticks at) { (void)from, (void)step, (void)at; }
+  virtual void state_changed(poc::PocKind from, const poc::PocStep& step, Microticks at) {
+    (void)from, (void)step, (void)at;
+  }
 };
 
 struct InitialClock {
@@ -140,7 +142,8 @@ struct InitialClock {
 class FlexRayController {
  public:
   // In default config; nothing happens until one of the two below.
-  FlexRayController(const schedules::Cluster& cluster, NodeId node, FlexRayPort& port, ControllerEvents& events);
+  FlexRayController(const schedules::model::Cluster& cluster, NodeId node, ports::FlexRayPort& port,
+                    ControllerEvents& events);
   ~FlexRayController();
 
   // As if start-up were over: normal active from cycle 0 on.
@@ -150,41 +153,41 @@ class FlexRayController {
   // lists, its network management vector, its external correction).
   void start_cold(Microticks now);
   // A command of the host: kConfig to kFreeze of PocEventKind.
-  void command(PocEventKind command, Microticks now);
+  void command(poc::PocEventKind command, Microticks now);
 
   // Far in the future where nothing is due without a reception.
   Microticks next_event() const;
   // Whether a reception may make it send something before next_event(), as that is now.
   bool answers_at_once() const;
   void advance(Microticks now);
-  void receive(const Reception& reception);
+  void receive(const ports::Reception& reception);
   // The same on both channels at the same instants, as most of what nodes send arrives: receive() of channel A, which
   // `reception` says, and of channel B. Whether that has changed next_event() or the state's kind.
-  bool receive_on_both(const Reception& reception);
+  bool receive_on_both(const ports::Reception& reception);
   // What is on its way to this node on both channels, and nothing else until it is there: whether it changes nothing
   // but what was seen of its slot and the sync deviations. So do null frames and fragments of lists that are there, and
   // most frames are either. Then, right after this, hear_known() may take it in before it is there.
-  bool knows(const Reception& reception);
-  void hear_known(const Reception& reception);
+  bool knows(const ports::Reception& reception);
+  void hear_known(const ports::Reception& reception);
 
   // Nothing before a schedule has been derived or begun, and after it has been dropped.
   const std::optional<timebase::CycleClock>& clock() const { return clock_; }
   // The same where the host may rely on it, else null.
   const timebase::CycleClock* synchronised_clock() const { return synchronised() ? &*clock_ : nullptr; }
-  const PocState& state() const { return poc_; }
+  const poc::PocState& state() const { return poc_; }
   // Whether the clock is the cluster's, which the host may rely on.
   bool synchronised() const { return in_operation(poc_.kind); }
   // What was seen in a static slot (1..gNumberOfStaticSlots) of the cycle whose static segment ended last, until the
   // next one ends. What outlasts the segment has violated boundaries; the rest is added when it is over.
-  SlotSeen slot_status(int slot, schedules::Channel channel) const;
+  SlotSeen slot_status(int slot, schedules::model::Channel channel) const;
   SyncStatus sync_status() const;
   // Of the last symbol window that is over; nothing during start-up. Nothing is heard of the own symbol.
-  SymbolWindowSeen symbol_window_status(schedules::Channel channel) const;
+  SymbolWindowSeen symbol_window_status(schedules::model::Channel channel) const;
 
   // A media access test symbol in the next symbol window whose action point is ahead, on those of the channels that
   // this node is attached to. False, and nothing is sent: not in normal active with all slots (E-Ray SEND_MTS), one is
   // pending, or the cycle has no symbol window.
-  bool send_media_test_symbol(schedules::Channels channels = schedules::Channels::kAB);
+  bool send_media_test_symbol(schedules::model::Channels channels = schedules::model::Channels::kAB);
 
   // bus/controller/network_management.h. Exactly gNetworkManagementVectorLength bytes.
   void set_network_management_vector(std::span<const std::byte> vector);
@@ -198,15 +201,15 @@ class FlexRayController {
   // double cycle. Reading taken: the rate in force, which the next correction goes on from, is the one with the
   // external term in it, so that a term given once stays and one given again adds up, less damping.
   void set_external_correction(int offset, int rate);
-  OutgoingList& outgoing(PduId pdu);  // must be a PDU this node sends
-  IncomingList& incoming(PduId pdu);  // any other PDU on FlexRay
+  cni::OutgoingList& outgoing(PduId pdu);  // must be a PDU this node sends
+  cni::IncomingList& incoming(PduId pdu);  // any other PDU on FlexRay
 
  private:
   struct State;
   std::unique_ptr<State> state_;
   // In it; simulations ask for little else, and often.
-  const PocState& poc_;
+  const poc::PocState& poc_;
   const std::optional<timebase::CycleClock>& clock_;
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

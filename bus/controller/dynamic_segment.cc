@@ -4,14 +4,14 @@
 
 #include "core/check.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
 constexpr int kSlotIdMax = 2047;  // cSlotIDMax
 
 }  // namespace
 
-DynamicSlotCounter::DynamicSlotCounter(const schedules::GlobalParameters& flexray)
+DynamicSlotCounter::DynamicSlotCounter(const schedules::model::GlobalParameters& flexray)
     : first_slot_(flexray.gNumberOfStaticSlots + 1), idle_phase_(flexray.gdDynamicSlotIdlePhase) {
   start();
 }
@@ -35,7 +35,7 @@ void DynamicSlotCounter::occupied(int first, int last) {
   minislot_ = std::max(minislot_, last + 1 + idle_phase_);
 }
 
-MinislotGrid::MinislotGrid(const schedules::GlobalParameters& flexray)
+MinislotGrid::MinislotGrid(const schedules::model::GlobalParameters& flexray)
     : count_(flexray.gNumberOfMinislots), length_(flexray.gdMinislot),
       action_point_(flexray.gdMinislotActionPointOffset) {
   // adActionPointDifference: the segment's first action point lies no earlier in it than a static slot's
@@ -70,4 +70,4 @@ int MinislotGrid::dts_end(const timebase::CycleClock& clock, Microticks frame_en
   return minislot;
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -15,19 +15,19 @@
 //   slot      41  42  42  42  42  42  43  44     point of 5), minislot 6 is idle (gdDynamicSlotIdlePhase 1)
 // clang-format on
 //
-// pLatestTx must be such that the longest frame ends within the segment: schedules/check/checker.h sees to it in cluster
-// files, a designer of frames by hand keeps schedules/analysis/minislots.h.
+// pLatestTx must be such that the longest frame ends within the segment: schedules/check/checker.h sees to it in
+// cluster files, a designer of frames by hand keeps schedules/analysis/minislots.h.
 #pragma once
 
 #include "core/time.h"
 #include "schedules/model/flexray_parameters.h"
 #include "timebase/cycle_clock.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
 class DynamicSlotCounter {
  public:
-  explicit DynamicSlotCounter(const schedules::GlobalParameters& flexray);
+  explicit DynamicSlotCounter(const schedules::model::GlobalParameters& flexray);
 
   void start();  // of a cycle's segment
   // The slot counter in minislot `minislot`, no further transmissions before it; 0 where it has passed
@@ -48,7 +48,7 @@ class DynamicSlotCounter {
 // Where the segment's minislots are on a node's clock.
 class MinislotGrid {
  public:
-  explicit MinislotGrid(const schedules::GlobalParameters& flexray);
+  explicit MinislotGrid(const schedules::model::GlobalParameters& flexray);
 
   int count() const { return count_; }
   Macroticks start_of(int minislot) const;      // 1..count() + 1
@@ -63,4 +63,4 @@ class MinislotGrid {
   int count_, first_macrotick_, length_, action_point_;
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

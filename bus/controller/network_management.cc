@@ -4,7 +4,7 @@
 
 #include "core/check.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
 NetworkManagement::NetworkManagement(int length) : length_(static_cast<std::size_t>(length)) {
   TTF_CHECK(length >= 0 && length_ <= kMaxNetworkManagementBytes, "a network management vector of {} bytes", length);
@@ -27,4 +27,4 @@ void NetworkManagement::end_cycle(bool in_normal_operation) {
   running_ = {};
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -16,7 +16,7 @@
 #include <cstddef>
 #include <span>
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
 inline constexpr std::size_t kMaxNetworkManagementBytes = 12;
 
@@ -41,4 +41,4 @@ class NetworkManagement {
   Vector own_{}, running_{}, shown_{};
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

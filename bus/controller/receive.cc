@@ -6,51 +6,52 @@
 #include "bus/controller/state.h"
 #include "core/check.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
-using schedules::Channel;
-using schedules::FrameSlot;
+using schedules::model::Channel;
+using schedules::model::FrameSlot;
 
 constexpr int kIdleDelimiterBits = 11;  // cChannelIdleDelimiter
 
-bool receiver_on(PocKind kind) {
+bool receiver_on(poc::PocKind kind) {
   switch (kind) {
-    case PocKind::kDefaultConfig:
-    case PocKind::kConfig:
-    case PocKind::kReady:
-    case PocKind::kHalt: return false;
-    case PocKind::kNormalActive:
-    case PocKind::kNormalPassive:
-    case PocKind::kWakeupListen:
-    case PocKind::kWakeupSend:
-    case PocKind::kWakeupDetect:
-    case PocKind::kColdstartListen:
-    case PocKind::kColdstartCollisionResolution:
-    case PocKind::kColdstartConsistencyCheck:
-    case PocKind::kColdstartGap:
-    case PocKind::kColdstartJoin:
-    case PocKind::kIntegrationColdstartCheck:
-    case PocKind::kIntegrationListen:
-    case PocKind::kIntegrationConsistencyCheck:
-    case PocKind::kInitialiseSchedule: return true;
+    case poc::PocKind::kDefaultConfig:
+    case poc::PocKind::kConfig:
+    case poc::PocKind::kReady:
+    case poc::PocKind::kHalt: return false;
+    case poc::PocKind::kNormalActive:
+    case poc::PocKind::kNormalPassive:
+    case poc::PocKind::kWakeupListen:
+    case poc::PocKind::kWakeupSend:
+    case poc::PocKind::kWakeupDetect:
+    case poc::PocKind::kColdstartListen:
+    case poc::PocKind::kColdstartCollisionResolution:
+    case poc::PocKind::kColdstartConsistencyCheck:
+    case poc::PocKind::kColdstartGap:
+    case poc::PocKind::kColdstartJoin:
+    case poc::PocKind::kIntegrationColdstartCheck:
+    case poc::PocKind::kIntegrationListen:
+    case poc::PocKind::kIntegrationConsistencyCheck:
+    case poc::PocKind::kInitialiseSchedule: return true;
   }
   TTF_CHECK(false, "state {}", static_cast<int>(kind));
 }
 
 }  // namespace
 
-inline void FlexRayController::State::judge(const Reception& reception, bool conflict) {
+inline void FlexRayController::State::judge(const ports::Reception& reception, bool conflict) {
   if (g.gdSymbolWindow > 0 && (segment == Segment::kDynamic || segment == Segment::kRest))
     judge_symbol_window(reception, conflict);
   std::uint8_t errors = conflict ? kTransmissionConflict | kSyntaxError : 0;
-  if (reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone) errors |= kSyntaxError;
+  if (reception.signal != ports::Signal::kFrame || reception.frame.error != wire::FrameError::kNone)
+    errors |= kSyntaxError;
   const int slot = static_slot_at(reception.start);
   if (slot >= 1 && slot <= g.gNumberOfStaticSlots) return judge_static(reception, slot, errors);
   judge_elsewhere(reception, slot, errors, conflict);
 }
 
-void FlexRayController::State::receive(const Reception& reception) {
+void FlexRayController::State::receive(const ports::Reception& reception) {
   if (!receiver_on(poc.kind)) return;
   const auto c = index_of(reception.channel);
   // A controller that sends cannot make out what others send.
@@ -60,9 +61,9 @@ void FlexRayController::State::receive(const Reception& reception) {
   due = next_event();
 }
 
-bool FlexRayController::State::receive_on_both(const Reception& reception) {
+bool FlexRayController::State::receive_on_both(const ports::Reception& reception) {
   const Microticks due_before = due;
-  const PocKind kind_before = poc.kind;
+  const poc::PocKind kind_before = poc.kind;
   if (!judge_on_both(reception)) {
     receive(reception);
     receive(on_b(reception));
@@ -72,12 +73,13 @@ bool FlexRayController::State::receive_on_both(const Reception& reception) {
 
 // The schedule's frame that it is, if it is a valid one in its slot on both channels and nothing was heard of that slot
 // before; null where anything else may be the case.
-const FrameSlot* FlexRayController::State::first_of_slot_on_both(const Reception& reception) const {
+const FrameSlot* FlexRayController::State::first_of_slot_on_both(const ports::Reception& reception) const {
   const wire::FrameHeader& header = reception.frame.header;
   const int slot = header.frame_id;
   if (slot < 1 || slot > g.gNumberOfStaticSlots || header.cycle != counter ||
       header.payload_words != g.gPayloadLengthStatic || (header.startup && !header.sync) ||
-      reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone || !board.nothing(slot))
+      reception.signal != ports::Signal::kFrame || reception.frame.error != wire::FrameError::kNone ||
+      !board.nothing(slot))
     return nullptr;
   const Microticks cycle_start = clock->cycle_start();
   if (reception.start < cycle_start + line(slot).from || reception.end > cycle_start + line(slot + 1).from)
@@ -86,7 +88,7 @@ const FrameSlot* FlexRayController::State::first_of_slot_on_both(const Reception
 }
 
 // Judged once. False, and nothing is changed, where it has to be judged channel by channel.
-bool FlexRayController::State::judge_on_both(const Reception& reception) {
+bool FlexRayController::State::judge_on_both(const ports::Reception& reception) {
   if (!in_operation() || talks_over(reception, 0) || talks_over(reception, 1) ||
       (g.gdSymbolWindow > 0 && segment != Segment::kStatic))
     return false;
@@ -106,7 +108,7 @@ bool FlexRayController::State::judge_on_both(const Reception& reception) {
   return true;
 }
 
-bool FlexRayController::State::knows(const Reception& reception) {
+bool FlexRayController::State::knows(const ports::Reception& reception) {
   // Until then it neither sends nor looks at what was seen, and what it sent itself is over.
   if (due <= reception.end || segment != Segment::kStatic || told_of_receptions || !in_operation() ||
       reception.start < std::max(sending_to[0], sending_to[1]) || reception.frame.header.payload_preamble)
@@ -118,23 +120,23 @@ bool FlexRayController::State::knows(const Reception& reception) {
   return cni.incoming(expected->pdu).knows(reception.frame.payload.first(bytes), expected->fragment);
 }
 
-void FlexRayController::State::hear_known(const Reception& reception) {
+void FlexRayController::State::hear_known(const ports::Reception& reception) {
   const wire::FrameHeader& header = reception.frame.header;
   board.hear_a(header.frame_id);
   board.hear_b(header.frame_id);
-  if (header.sync) hear_sync(reception, header.frame_id, schedules::Channels::kAB);
+  if (header.sync) hear_sync(reception, header.frame_id, schedules::model::Channels::kAB);
 }
 
-void FlexRayController::State::hear_in_startup(const Reception& reception, bool conflict) {
-  tell({PocEventKind::kChannelActive}, reception.end);
+void FlexRayController::State::hear_in_startup(const ports::Reception& reception, bool conflict) {
+  tell({poc::PocEventKind::kChannelActive}, reception.end);
   if (conflict && wakeup_sent != kNever) {
-    tell({PocEventKind::kWakeupCollision}, reception.end);
+    tell({poc::PocEventKind::kWakeupCollision}, reception.end);
   } else if (!conflict) {
-    if (reception.signal == Signal::kCas) tell({PocEventKind::kCasReceived}, reception.end);
-    if (reception.signal == Signal::kWakeup && reception.channel == p.pWakeupChannel)
-      tell({PocEventKind::kWakeupPatternReceived}, reception.end);
-    if (reception.signal == Signal::kFrame && wire::has_header(reception.frame))
-      tell({PocEventKind::kHeaderReceived}, reception.end);
+    if (reception.signal == ports::Signal::kCas) tell({poc::PocEventKind::kCasReceived}, reception.end);
+    if (reception.signal == ports::Signal::kWakeup && reception.channel == p.pWakeupChannel)
+      tell({poc::PocEventKind::kWakeupPatternReceived}, reception.end);
+    if (reception.signal == ports::Signal::kFrame && wire::has_header(reception.frame))
+      tell({poc::PocEventKind::kHeaderReceived}, reception.end);
   }
   if (clock)
     judge(reception, conflict);
@@ -142,28 +144,29 @@ void FlexRayController::State::hear_in_startup(const Reception& reception, bool 
     hear(reception);
   if (clock) return;
   const bool idle = !port.carrier(Channel::kA) && !port.carrier(Channel::kB);
-  if (idle) tell({PocEventKind::kChannelsIdle}, reception.end + bits(kIdleDelimiterBits));
+  if (idle) tell({poc::PocEventKind::kChannelsIdle}, reception.end + bits(kIdleDelimiterBits));
 }
 
 // Without a schedule only startup frames matter: two of them make one.
-void FlexRayController::State::hear(const Reception& reception) {
+void FlexRayController::State::hear(const ports::Reception& reception) {
   const wire::FrameHeader& header = reception.frame.header;
-  if (reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone || !header.startup ||
-      !header.sync || header.frame_id > g.gNumberOfStaticSlots || header.payload_words != g.gPayloadLengthStatic)
+  if (reception.signal != ports::Signal::kFrame || reception.frame.error != wire::FrameError::kNone ||
+      !header.startup || !header.sync || header.frame_id > g.gNumberOfStaticSlots ||
+      header.payload_words != g.gPayloadLengthStatic)
     return;
   const StartupFrame heard{reception.channel, header.frame_id, header.cycle, reception.start};
-  const PocEvent event = PocEvent::startup_frame(header.frame_id, header.cycle);
-  if (poc.kind == PocKind::kColdstartListen || poc.kind == PocKind::kIntegrationListen) {
+  const poc::PocEvent event = poc::PocEvent::startup_frame(header.frame_id, header.cycle);
+  if (poc.kind == poc::PocKind::kColdstartListen || poc.kind == poc::PocKind::kIntegrationListen) {
     tell(event, reception.end);
-    if (poc.kind != PocKind::kInitialiseSchedule) return;
+    if (poc.kind != poc::PocKind::kInitialiseSchedule) return;
     initialisation.hear(heard);
     partner_overdue =
         reception.end + Microticks{p.pMicroPerCycle + p.pRateCorrectionOut + 1} + port.handed_over_within();
-  } else if (poc.kind == PocKind::kInitialiseSchedule && heard.frame_id == poc.reference) {
+  } else if (poc.kind == poc::PocKind::kInitialiseSchedule && heard.frame_id == poc.reference) {
     const auto schedule = initialisation.hear(heard);
     if (!schedule && heard.cycle % 2 == 0) return;  // the other channel's even frame
     partner_overdue = kNever;
-    if (!schedule) return tell({PocEventKind::kScheduleNotDerived}, reception.end);
+    if (!schedule) return tell({poc::PocEventKind::kScheduleNotDerived}, reception.end);
     tell(event, reception.end);
     begin_schedule(schedule->cycle_start, schedule->rate, schedule->cycle);
     start_cycle();
@@ -193,7 +196,7 @@ int FlexRayController::State::look_up_static_slot(Microticks at) {
 }
 
 // What began in `slot`, 0 being before the cycle, went on to slot `last` of it or beyond the segment.
-void FlexRayController::State::cross_slots(const Reception& reception, int slot, int last) {
+void FlexRayController::State::cross_slots(const ports::Reception& reception, int slot, int last) {
   board.crossed(reception.channel, slot + 1, std::min(last, board.slots()));
   if (last <= board.slots()) return;
   going_on[index_of(reception.channel)] = false;
@@ -201,7 +204,7 @@ void FlexRayController::State::cross_slots(const Reception& reception, int slot,
 }
 
 // Before or behind the static segment, as `slot` says.
-void FlexRayController::State::judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors,
+void FlexRayController::State::judge_elsewhere(const ports::Reception& reception, int slot, std::uint8_t errors,
                                                bool conflict) {
   const int minislot = slot == 0 ? 0 : minislots.minislot_at(*clock, reception.start);
   if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, minislot, errors);
@@ -216,13 +219,13 @@ void FlexRayController::State::judge_elsewhere(const Reception& reception, int s
   const Macroticks window = window_start();
   const bool in_window = g.gdSymbolWindow > 0 && slot != 0 && reception.start >= clock->start_of(window) &&
                          reception.end <= clock->start_of(window + Macroticks{g.gdSymbolWindow});
-  if (in_startup(poc.kind) || (in_window && reception.signal == Signal::kCas && !conflict)) return;
+  if (in_startup(poc.kind) || (in_window && reception.signal == ports::Signal::kCas && !conflict)) return;
   if (!in_window) errors |= kBoundaryViolation;
   events.slot_problem(clock->cycle(), 0, reception.channel, static_cast<SlotStatus>(errors | kSyntaxError),
                       reception.end);
 }
 
-void FlexRayController::State::judge_static(const Reception& reception, int slot, std::uint8_t errors) {
+void FlexRayController::State::judge_static(const ports::Reception& reception, int slot, std::uint8_t errors) {
   const auto c = index_of(reception.channel);
   const FrameSlot* expected = slot_at.expected[c];  // `slot` has just been looked up
   SlotBoard::Seen& status = board.at(slot);
@@ -245,12 +248,13 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
 }
 
 // A valid frame in its slot, as this node's schedule expects it.
-void FlexRayController::State::accept(const Reception& reception, Channel channel, int slot,
+void FlexRayController::State::accept(const ports::Reception& reception, Channel channel, int slot,
                                       const FrameSlot& expected) {
   const wire::FrameHeader& header = reception.frame.header;
   if (!in_startup(poc.kind)) events.frame_received(clock->cycle(), slot, channel, reception.frame, reception.end);
   if (header.sync)
-    hear_sync(reception, slot, channel == Channel::kA ? schedules::Channels::kA : schedules::Channels::kB);
+    hear_sync(reception, slot,
+              channel == Channel::kA ? schedules::model::Channels::kA : schedules::model::Channels::kB);
   if (header.payload_preamble) network_management.combine(reception.frame.payload);
   if (expected.pdu != kNoPdu && !store(expected, reception))
     board.at(slot).errors[index_of(channel)] |= kContentError;  // a frame, but not of this slot's list
@@ -258,7 +262,8 @@ void FlexRayController::State::accept(const Reception& reception, Channel channe
 
 // The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off
 // (pDecodingCorrection); the bus' mean propagation delay is the schedule's to compensate.
-void FlexRayController::State::hear_sync(const Reception& reception, int slot, schedules::Channels channels) {
+void FlexRayController::State::hear_sync(const ports::Reception& reception, int slot,
+                                         schedules::model::Channels channels) {
   const Microticks late = reception.start - clock->cycle_start() - line(slot).action_point;
   const auto deviation = [&](int compensation) { return static_cast<int>(late.value) - compensation; };
   const std::array<int, 2> deviations{deviation(p.pDelayCompensationA), deviation(p.pDelayCompensationB)};
@@ -271,7 +276,7 @@ void FlexRayController::State::hear_sync(const Reception& reception, int slot, s
 
 // The minislots that a reception took, from the first one on if it began before that: the slot counter goes on behind
 // them. The last of them; 0 if it ended before the segment.
-int FlexRayController::State::count_minislots(const Reception& reception) {
+int FlexRayController::State::count_minislots(const ports::Reception& reception) {
   const int compensation = reception.channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
   const int first = minislots.minislot_at(*clock, reception.start);
   const int last = std::max(first, minislots.minislot_at(*clock, reception.end - Microticks{compensation}));
@@ -282,7 +287,7 @@ int FlexRayController::State::count_minislots(const Reception& reception) {
   return last;
 }
 
-void FlexRayController::State::judge_dynamic(const Reception& reception, int minislot, std::uint8_t errors) {
+void FlexRayController::State::judge_dynamic(const ports::Reception& reception, int minislot, std::uint8_t errors) {
   const wire::FrameHeader& header = reception.frame.header;
   const int slot = dynamic[index_of(reception.channel)].counter.slot_in(minislot);
   if (count_minislots(reception) > minislots.count()) errors |= kBoundaryViolation;
@@ -302,13 +307,14 @@ void FlexRayController::State::judge_dynamic(const Reception& reception, int min
 }
 
 // False: what the frame carries is no fragment of this slot's list.
-bool FlexRayController::State::store(const FrameSlot& slot, const Reception& reception) {
+bool FlexRayController::State::store(const FrameSlot& slot, const ports::Reception& reception) {
   if (slot.pdu == kNoPdu || reception.frame.header.null_frame || in_startup(poc.kind)) return true;
-  IncomingList& list = cni.incoming(slot.pdu);
+  cni::IncomingList& list = cni.incoming(slot.pdu);
   const auto bytes = static_cast<std::size_t>(cluster.pdu(slot.pdu).fragment_bytes);
-  const ArrivalEffect effect = list.arrive(reception.frame.payload.subspan(preamble_bytes(slot), bytes), slot.fragment);
+  const cni::ArrivalEffect effect =
+      list.arrive(reception.frame.payload.subspan(preamble_bytes(slot), bytes), slot.fragment);
   events.list_arrived(slot.pdu, effect, list.arrived(), list.torn(), reception.end);
-  return effect != ArrivalEffect::kMalformed;
+  return effect != cni::ArrivalEffect::kMalformed;
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -2,10 +2,10 @@
 
 #include <cstdlib>
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
-ScheduleInitialisation::ScheduleInitialisation(const schedules::GlobalParameters& flexray,
-                                               const schedules::NodeParameters& node)
+ScheduleInitialisation::ScheduleInitialisation(const schedules::model::GlobalParameters& flexray,
+                                               const schedules::model::NodeParameters& node)
     : flexray_(flexray), node_(node) {}
 
 void ScheduleInitialisation::reset() { even_ = {}; }
@@ -35,8 +35,8 @@ std::optional<InitialSchedule> ScheduleInitialisation::hear(const StartupFrame& 
   const std::int64_t length = node_.pMicroPerCycle + rate;
   const std::int64_t into_cycle = (macroticks * length + flexray_.gMacroPerCycle - 1) / flexray_.gMacroPerCycle;
   const int compensation =
-      frame.channel == schedules::Channel::kA ? node_.pDelayCompensationA : node_.pDelayCompensationB;
+      frame.channel == schedules::model::Channel::kA ? node_.pDelayCompensationA : node_.pDelayCompensationB;
   return InitialSchedule{frame.frame_id, frame.cycle, frame.start - Microticks{into_cycle + compensation}, rate};
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

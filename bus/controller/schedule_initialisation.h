@@ -19,11 +19,11 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
 // A valid startup frame, as a node hears it that has no schedule yet.
 struct StartupFrame {
-  schedules::Channel channel{};
+  schedules::model::Channel channel{};
   int frame_id = 0;
   int cycle = 0;       // 0..63, from the frame
   Microticks start{};  // first bit of its TSS
@@ -39,15 +39,16 @@ struct InitialSchedule {
 
 class ScheduleInitialisation {
  public:
-  ScheduleInitialisation(const schedules::GlobalParameters& flexray, const schedules::NodeParameters& node);
+  ScheduleInitialisation(const schedules::model::GlobalParameters& flexray,
+                         const schedules::model::NodeParameters& node);
 
   void reset();
   std::optional<InitialSchedule> hear(const StartupFrame& frame);
 
  private:
-  const schedules::GlobalParameters& flexray_;
-  const schedules::NodeParameters& node_;
+  const schedules::model::GlobalParameters& flexray_;
+  const schedules::model::NodeParameters& node_;
   std::array<std::optional<StartupFrame>, 2> even_;  // by channel
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -5,10 +5,10 @@
 #include "bus/controller/state.h"
 #include "core/check.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
-using schedules::Channel;
-using schedules::FrameSlot;
+using schedules::model::Channel;
+using schedules::model::FrameSlot;
 
 namespace {
 
@@ -26,31 +26,32 @@ void FlexRayController::State::send_static(Microticks at) {
   const FrameSlot& slot = *slots.own_static()[next_static];
   ++next_static;
   skip_to_own_static();
-  const MacMode mode = mac_mode(poc);
-  if (mode == MacMode::kNothing || (mode != MacMode::kAll && slot.slot != p.pKeySlotId)) return;
-  const bool starting = mode == MacMode::kStartupFrame;
-  const Cni::Fragment content = starting ? Cni::Fragment{} : cni.fetch(slot, clock->cycle());
+  const poc::MacMode mode = mac_mode(poc);
+  if (mode == poc::MacMode::kNothing || (mode != poc::MacMode::kAll && slot.slot != p.pKeySlotId)) return;
+  const bool starting = mode == poc::MacMode::kStartupFrame;
+  const cni::Cni::Fragment content = starting ? cni::Cni::Fragment{} : cni.fetch(slot, clock->cycle());
   const bool null_frame = starting || (slot.pdu != kNoPdu && content.payload.empty());
   const Microticks end = at + static_frame;
   if (slot.network_management && !null_frame) network_management.combine(network_management.own());
   const bool sync_frame = p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId;
   const auto quiet = [this](Channel channel) { return !port.wants_bytes(channel); };
-  if (slot.channels == schedules::Channels::kAB && !events.wants_bytes() && quiet(Channel::kA) && quiet(Channel::kB)) {
+  if (slot.channels == schedules::model::Channels::kAB && !events.wants_bytes() && quiet(Channel::kA) &&
+      quiet(Channel::kB)) {
     send_on_both(slot, at, end, content, null_frame);
     if (sync_frame) sync.own(slot.slot, slot.channels);
     return;
   }
   const Channel last_channel = includes(slot.channels, Channel::kB) ? Channel::kB : Channel::kA;
   unsigned left = 0;  // bits of Channels
-  for (const Channel channel : schedules::kBothChannels)
+  for (const Channel channel : schedules::model::kBothChannels)
     if (includes(slot.channels, channel) &&
         send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel))
       left |= 1u << index_of(channel);
   // What nobody hears tells this node no more of the cluster's time than it tells the others.
-  if (left != 0 && sync_frame) sync.own(slot.slot, static_cast<schedules::Channels>(left));
+  if (left != 0 && sync_frame) sync.own(slot.slot, static_cast<schedules::model::Channels>(left));
 }
 
-wire::DecodedFrame FlexRayController::State::frame_of(const FrameSlot& slot, const Cni::Fragment& content,
+wire::DecodedFrame FlexRayController::State::frame_of(const FrameSlot& slot, const cni::Cni::Fragment& content,
                                                       bool null_frame) {
   const bool is_static = slot.slot <= g.gNumberOfStaticSlots;
   wire::FrameHeader header;
@@ -78,13 +79,13 @@ wire::DecodedFrame FlexRayController::State::frame_of(const FrameSlot& slot, con
 }
 
 bool FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel, Microticks at, Microticks end,
-                                          const Cni::Fragment& content, bool null_frame, bool last) {
+                                          const cni::Cni::Fragment& content, bool null_frame, bool last) {
   if (!port.may_leave(channel, slot.slot, at)) return false;
   const wire::DecodedFrame said = frame_of(slot, content, null_frame);
   const bool in_bytes = port.wants_bytes(channel) || events.wants_bytes();
   const std::size_t size = in_bytes ? wire::encode_frame(said.header, channel, said.payload, frame) : 0;
-  const Transmission transmission{
-      channel, Signal::kFrame, at, end, slot.slot, std::span<const std::byte>(frame).first(size), said};
+  const ports::Transmission transmission{
+      channel, ports::Signal::kFrame, at, end, slot.slot, std::span<const std::byte>(frame).first(size), said};
   sending_from[index_of(channel)] = at;
   sending_to[index_of(channel)] = end;
   port.transmit(transmission);
@@ -94,12 +95,13 @@ bool FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel
 
 // A static frame of which nobody looks at the bytes.
 void FlexRayController::State::send_on_both(const FrameSlot& slot, Microticks at, Microticks end,
-                                            const Cni::Fragment& content, bool null_frame) {
-  Transmission transmission{Channel::kA, Signal::kFrame, at, end, slot.slot, {}, frame_of(slot, content, null_frame)};
+                                            const cni::Cni::Fragment& content, bool null_frame) {
+  ports::Transmission transmission{
+      Channel::kA, ports::Signal::kFrame, at, end, slot.slot, {}, frame_of(slot, content, null_frame)};
   sending_from = {at, at};
   sending_to = {end, end};
   port.transmit_on_both(transmission);
-  for (const Channel channel : schedules::kBothChannels) {
+  for (const Channel channel : schedules::model::kBothChannels) {
     transmission.channel = channel;
     events.frame_sent(transmission, clock->cycle(), null_frame, slot.pdu, content.sequence, slot.fragment,
                       content.last && channel == Channel::kB);
@@ -133,11 +135,11 @@ void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
   }
   const FrameSlot& slot = *slots.own_dynamic(channel)[d.next];
   ++d.next;
-  if (mac_mode(poc) == MacMode::kAll && cni.pending(slot, channel, clock->cycle())) {
-    const Cni::Fragment content = cni.fetch(slot, clock->cycle());
+  if (mac_mode(poc) == poc::MacMode::kAll && cni.pending(slot, channel, clock->cycle())) {
+    const cni::Cni::Fragment content = cni.fetch(slot, clock->cycle());
     cni.carried(slot, channel);
     const int words = static_cast<int>((preamble_bytes(slot) + content.payload.size() + 1) / 2);
-    const int last = minislots.dts_end(*clock, at + bits(schedules::frame_bits(g, words)), bits(1));
+    const int last = minislots.dts_end(*clock, at + bits(schedules::model::frame_bits(g, words)), bits(1));
     TTF_CHECK(last <= minislots.count(), "slot {} ends in minislot {}: pLatestTx {} is too late for its frame",
               slot.slot, last, p.pLatestTx);
     const Microticks end = clock->start_of(minislots.action_point(last));
@@ -147,7 +149,7 @@ void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
   plan_dynamic(channel, at);
 }
 
-void FlexRayController::State::send_symbol(Signal signal, Channel channel, Microticks at, Microticks end) {
+void FlexRayController::State::send_symbol(ports::Signal signal, Channel channel, Microticks at, Microticks end) {
   if (!port.may_leave(channel, 0, at)) return;
   sending_from[index_of(channel)] = at;
   sending_to[index_of(channel)] = end;
@@ -155,12 +157,14 @@ void FlexRayController::State::send_symbol(Signal signal, Channel channel, Micro
   events.symbol_sent(signal, channel, at, end);
 }
 
-Microticks FlexRayController::State::cas_length() const { return bits(g.gdTSSTransmitter + schedules::kCasBits); }
+Microticks FlexRayController::State::cas_length() const {
+  return bits(g.gdTSSTransmitter + schedules::model::kCasBits);
+}
 
 void FlexRayController::State::send_cas(Microticks at) {
   const Microticks end = at + cas_length();
-  for (const Channel channel : schedules::kBothChannels)
-    if (includes(p.pChannels, channel)) send_symbol(Signal::kCas, channel, at, end);
+  for (const Channel channel : schedules::model::kBothChannels)
+    if (includes(p.pChannels, channel)) send_symbol(ports::Signal::kCas, channel, at, end);
   const Microticks macrotick{(p.pMicroPerCycle + g.gMacroPerCycle - 1) / g.gMacroPerCycle};
   begin_schedule(end + macrotick, 0, 0);
   segment = Segment::kBefore;
@@ -168,7 +172,7 @@ void FlexRayController::State::send_cas(Microticks at) {
 
 void FlexRayController::State::send_wakeup_pattern(Microticks at) {
   wakeup_sent = at + bits(p.pWakeupPattern * (g.gdWakeupSymbolTxLow + g.gdWakeupSymbolTxIdle));
-  send_symbol(Signal::kWakeup, p.pWakeupChannel, at, wakeup_sent);
+  send_symbol(ports::Signal::kWakeup, p.pWakeupChannel, at, wakeup_sent);
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

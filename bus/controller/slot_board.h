@@ -16,7 +16,7 @@
 
 #include "bus/controller/controller.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
 class SlotBoard {
  public:
@@ -76,11 +76,11 @@ class SlotBoard {
   const Seen& kept(int slot) const { return kept_[static_cast<std::size_t>(slot - 1)]; }
 
   // Something was going on from slot `first` to slot `last`, or beyond them, across boundaries.
-  void crossed(schedules::Channel channel, int first, int last) {
+  void crossed(schedules::model::Channel channel, int first, int last) {
     for (int slot = first; slot <= last; ++slot) at(slot).errors[index_of(channel)] |= kBoundaryViolation;
   }
   // The last slot in which something has begun or gone on; 0: in none.
-  int last_heard(schedules::Channel channel) {
+  int last_heard(schedules::model::Channel channel) {
     int slot = slots();
     while (slot > 0 && at(slot).nothing(index_of(channel))) --slot;
     return slot;
@@ -104,4 +104,4 @@ class SlotBoard {
   bool only_pairs_ = true;  // nobody else has touched any
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
-using schedules::Channel;
-using schedules::FrameSlot;
+using schedules::model::Channel;
+using schedules::model::FrameSlot;
 
-SlotTable::SlotTable(const schedules::Cluster& cluster, NodeId node) {
+SlotTable::SlotTable(const schedules::model::Cluster& cluster, NodeId node) {
   for (const FrameSlot& frame : cluster.frames) {
     if (frame.sender != node) {
       others_.push_back(&frame);
     } else if (frame.slot <= cluster.flexray.gNumberOfStaticSlots) {
       own_static_.push_back(&frame);
     } else {
-      for (const Channel channel : schedules::kBothChannels)
+      for (const Channel channel : schedules::model::kBothChannels)
         if (includes(frame.channels, channel)) own_dynamic_[index_of(channel)].push_back(&frame);
     }
   }
@@ -43,7 +43,7 @@ std::array<const FrameSlot*, 2> SlotTable::expected_by_cycle(int slot, int count
   std::array<const FrameSlot*, 2> found{};
   for (const FrameSlot* frame : others_in(slot)) {
     if (!in_cycle(*frame, counter)) continue;
-    for (const Channel channel : schedules::kBothChannels)
+    for (const Channel channel : schedules::model::kBothChannels)
       if (found[index_of(channel)] == nullptr && includes(frame->channels, channel)) found[index_of(channel)] = frame;
   }
   return found;
@@ -57,4 +57,4 @@ const FrameSlot* SlotTable::expected(int slot, int counter, Channel channel,
   return nullptr;
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

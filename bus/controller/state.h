@@ -15,21 +15,21 @@
 #include "bus/controller/slot_table.h"
 #include "bus/controller/sync_collector.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
 inline constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
 
 struct FlexRayController::State {
-  State(const schedules::Cluster& cluster, NodeId node, FlexRayPort& port, ControllerEvents& events);
+  State(const schedules::model::Cluster& cluster, NodeId node, ports::FlexRayPort& port, ControllerEvents& events);
 
   // --- what never changes
-  const schedules::Cluster& cluster;
-  const schedules::GlobalParameters& g;
-  const schedules::NodeParameters& p;
+  const schedules::model::Cluster& cluster;
+  const schedules::model::GlobalParameters& g;
+  const schedules::model::NodeParameters& p;
   NodeId node;
-  FlexRayPort& port;
+  ports::FlexRayPort& port;
   ControllerEvents& events;
-  const PocParameters poc_parameters;
+  const poc::PocParameters poc_parameters;
   const SlotTable slots;
   const MinislotGrid minislots;
   const timebase::CycleGeometry geometry;
@@ -38,8 +38,8 @@ struct FlexRayController::State {
   const Microticks static_frame;         // a static frame's length
 
   // --- where it stands
-  PocState poc;
-  Cni cni;
+  poc::PocState poc;
+  cni::Cni cni;
   NetworkManagement network_management;
   std::optional<timebase::CycleClock> clock;
   int next_rate = 0;
@@ -58,9 +58,9 @@ struct FlexRayController::State {
   // slot behind it. Slot 0 is behind nothing.
   struct SlotAt {
     int slot = 0;
-    Microticks from{}, to{};                                // [from, to): none
-    int counter = 0;                                        // of the cycle
-    std::array<const schedules::FrameSlot*, 2> expected{};  // by channel, as SlotTable has it
+    Microticks from{}, to{};                                       // [from, to): none
+    int counter = 0;                                               // of the cycle
+    std::array<const schedules::model::FrameSlot*, 2> expected{};  // by channel, as SlotTable has it
   };
   SlotAt slot_at;
   // The static slots by the clock: at which microtick of the cycle they begin, and have their action points.
@@ -87,7 +87,7 @@ struct FlexRayController::State {
 
   // The symbol window, planned when the static segment ends; kNever where there is none.
   Microticks window_from = kNever, window_to = kNever, symbol_point = kNever;
-  std::optional<schedules::Channels> symbol_request;         // a media access test symbol is to be sent there
+  std::optional<schedules::model::Channels> symbol_request;  // a media access test symbol is to be sent there
   std::array<SymbolWindowSeen, 2> window_seen, window_last;  // by channel: under way, and the last that is over
   std::array<bool, 2> window_element{};                      // something has begun in it
 
@@ -95,8 +95,8 @@ struct FlexRayController::State {
   std::array<std::byte, wire::kMaxFrameBytes> frame{};
 
   // --- protocol operation control (controller.cc)
-  void tell(const PocEvent& event, Microticks at);
-  void act(const PocActions& actions, Microticks at);
+  void tell(const poc::PocEvent& event, Microticks at);
+  void act(const poc::PocActions& actions, Microticks at);
   void begin_schedule(Microticks start, int rate, std::int64_t cycle);
   void lay_cycle();  // `counter` and `grid`, by the clock
   void drop_schedule();
@@ -105,7 +105,7 @@ struct FlexRayController::State {
   Microticks next_event() const;
   void handle(Microticks at);
   void start_cycle();
-  void enter_cycle(const StartupFramesSeen& ended, Microticks at);
+  void enter_cycle(const poc::StartupFramesSeen& ended, Microticks at);
   void close_static_segment(Microticks at);
   void note_what_goes_on();
   void tell_slot_problems(Microticks at);
@@ -118,70 +118,72 @@ struct FlexRayController::State {
   Microticks bits(int count) const;  // gdBit, rounded up to whole microticks
 
   // --- the symbol window (controller_window.cc)
-  bool request_media_test_symbol(schedules::Channels channels);
+  bool request_media_test_symbol(schedules::model::Channels channels);
   Macroticks window_start() const;
   void plan_symbol_window();
   void send_media_test_symbol(Microticks at);
-  void judge_symbol_window(const Reception& reception, bool conflict);
+  void judge_symbol_window(const ports::Reception& reception, bool conflict);
   void close_symbol_window();
 
   // --- sending (controller_send.cc)
   void skip_to_own_static();
   void send_static(Microticks at);
-  void plan_dynamic(schedules::Channel channel, Microticks now);
-  void send_dynamic(schedules::Channel channel, Microticks at);
-  std::size_t preamble_bytes(const schedules::FrameSlot& slot) const {
-    return static_cast<std::size_t>(schedules::preamble_bytes(g, slot));
+  void plan_dynamic(schedules::model::Channel channel, Microticks now);
+  void send_dynamic(schedules::model::Channel channel, Microticks at);
+  std::size_t preamble_bytes(const schedules::model::FrameSlot& slot) const {
+    return static_cast<std::size_t>(schedules::model::preamble_bytes(g, slot));
   }
   // What a slot says, in `payload`.
-  wire::DecodedFrame frame_of(const schedules::FrameSlot& slot, const Cni::Fragment& content, bool null_frame);
+  wire::DecodedFrame frame_of(const schedules::model::FrameSlot& slot, const cni::Cni::Fragment& content,
+                              bool null_frame);
   // False: it was too late for it.
-  bool send_frame(const schedules::FrameSlot& slot, schedules::Channel channel, Microticks at, Microticks end,
-                  const Cni::Fragment& content, bool null_frame, bool last);
-  void send_on_both(const schedules::FrameSlot& slot, Microticks at, Microticks end, const Cni::Fragment& content,
-                    bool null_frame);
-  void send_symbol(Signal signal, schedules::Channel channel, Microticks at, Microticks end);
+  bool send_frame(const schedules::model::FrameSlot& slot, schedules::model::Channel channel, Microticks at,
+                  Microticks end, const cni::Cni::Fragment& content, bool null_frame, bool last);
+  void send_on_both(const schedules::model::FrameSlot& slot, Microticks at, Microticks end,
+                    const cni::Cni::Fragment& content, bool null_frame);
+  void send_symbol(ports::Signal signal, schedules::model::Channel channel, Microticks at, Microticks end);
   Microticks cas_length() const;
   void send_cas(Microticks at);
   void send_wakeup_pattern(Microticks at);
 
   // --- receiving (controller_receive.cc)
-  void receive(const Reception& reception);
-  bool receive_on_both(const Reception& reception);
-  bool judge_on_both(const Reception& reception);
-  bool in_operation() const { return bus::in_operation(poc.kind); }
-  const schedules::FrameSlot* first_of_slot_on_both(const Reception& reception) const;
-  bool knows(const Reception& reception);
-  void hear_known(const Reception& reception);
-  void hear_sync(const Reception& reception, int slot, schedules::Channels channels);
-  bool talks_over(const Reception& reception, std::size_t channel) const {
+  void receive(const ports::Reception& reception);
+  bool receive_on_both(const ports::Reception& reception);
+  bool judge_on_both(const ports::Reception& reception);
+  bool in_operation() const { return poc::in_operation(poc.kind); }
+  const schedules::model::FrameSlot* first_of_slot_on_both(const ports::Reception& reception) const;
+  bool knows(const ports::Reception& reception);
+  void hear_known(const ports::Reception& reception);
+  void hear_sync(const ports::Reception& reception, int slot, schedules::model::Channels channels);
+  bool talks_over(const ports::Reception& reception, std::size_t channel) const {
     return sending_from[channel] != kNever && reception.start < sending_to[channel] &&
            reception.end > sending_from[channel];
   }
-  void hear_in_startup(const Reception& reception, bool conflict);  // or without a schedule
-  void hear(const Reception& reception);                            // without a schedule
-  void judge(const Reception& reception, bool conflict);            // within the schedule
-  void judge_static(const Reception& reception, int slot, std::uint8_t errors);
-  bool is_of_slot(const wire::FrameHeader& header, int slot, const schedules::FrameSlot* expected) const {
+  void hear_in_startup(const ports::Reception& reception, bool conflict);  // or without a schedule
+  void hear(const ports::Reception& reception);                            // without a schedule
+  void judge(const ports::Reception& reception, bool conflict);            // within the schedule
+  void judge_static(const ports::Reception& reception, int slot, std::uint8_t errors);
+  bool is_of_slot(const wire::FrameHeader& header, int slot, const schedules::model::FrameSlot* expected) const {
     return header.frame_id == slot && header.cycle == slot_at.counter &&
            header.payload_words == g.gPayloadLengthStatic && expected != nullptr && (header.sync || !header.startup);
   }
-  void accept(const Reception& reception, schedules::Channel channel, int slot, const schedules::FrameSlot& expected);
-  void judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors, bool conflict);
-  void cross_slots(const Reception& reception, int slot, int last);
-  void judge_dynamic(const Reception& reception, int minislot, std::uint8_t errors);
-  int count_minislots(const Reception& reception);
-  bool store(const schedules::FrameSlot& slot, const Reception& reception);
+  void accept(const ports::Reception& reception, schedules::model::Channel channel, int slot,
+              const schedules::model::FrameSlot& expected);
+  void judge_elsewhere(const ports::Reception& reception, int slot, std::uint8_t errors, bool conflict);
+  void cross_slots(const ports::Reception& reception, int slot, int last);
+  void judge_dynamic(const ports::Reception& reception, int minislot, std::uint8_t errors);
+  int count_minislots(const ports::Reception& reception);
+  bool store(const schedules::model::FrameSlot& slot, const ports::Reception& reception);
   // 0 before, gNumberOfStaticSlots + 1 after the segment; else it is in slot_at then.
   int static_slot_at(Microticks at) {
     return at >= slot_at.from && at < slot_at.to ? slot_at.slot : look_up_static_slot(at);
   }
   // What ends in the microtick it began in lies in one slot.
-  int last_static_slot_of(const Reception& reception) {
+  int last_static_slot_of(const ports::Reception& reception) {
     const Microticks last = reception.end - Microticks{1};
     return static_slot_at(last > reception.start ? last : reception.start);
   }
   int look_up_static_slot(Microticks at);
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -2,13 +2,13 @@
 // and 6).
 #include "bus/controller/state.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
-using schedules::Channel;
-using schedules::Channels;
+using schedules::model::Channel;
+using schedules::model::Channels;
 
 bool FlexRayController::State::request_media_test_symbol(Channels channels) {
-  if (mac_mode(poc) != MacMode::kAll || symbol_request || g.gdSymbolWindow == 0) return false;
+  if (mac_mode(poc) != poc::MacMode::kAll || symbol_request || g.gdSymbolWindow == 0) return false;
   symbol_request = channels;
   return true;
 }
@@ -32,14 +32,14 @@ void FlexRayController::State::send_media_test_symbol(Microticks at) {
   const Channels channels = *symbol_request;
   symbol_request.reset();
   // What was allowed when the host asked for it need not be any more.
-  if (mac_mode(poc) != MacMode::kAll) return;
-  for (const Channel channel : schedules::kBothChannels)
+  if (mac_mode(poc) != poc::MacMode::kAll) return;
+  for (const Channel channel : schedules::model::kBothChannels)
     if (includes(channels, channel) && includes(p.pChannels, channel))
-      send_symbol(Signal::kCas, channel, at, at + cas_length());
+      send_symbol(ports::Signal::kCas, channel, at, at + cas_length());
 }
 
 // A symbol that lies in the window is a media access test symbol: it has a collision avoidance symbol's bits.
-void FlexRayController::State::judge_symbol_window(const Reception& reception, bool conflict) {
+void FlexRayController::State::judge_symbol_window(const ports::Reception& reception, bool conflict) {
   if (reception.end <= window_from || reception.start >= window_to) return;
   const auto c = index_of(reception.channel);
   // One that outlasts the window is judged when that has been closed without it.
@@ -48,7 +48,7 @@ void FlexRayController::State::judge_symbol_window(const Reception& reception, b
   if (!begins || !ends) status.boundary_violation = true;
   if (conflict) status.transmission_conflict = true;
   if (!begins) return;
-  if (reception.signal != Signal::kCas || conflict || window_element[c])  // nothing, or a second one
+  if (reception.signal != ports::Signal::kCas || conflict || window_element[c])  // nothing, or a second one
     status.syntax_error = true;
   else if (ends)
     status.valid_mts = true;
@@ -60,4 +60,4 @@ void FlexRayController::State::close_symbol_window() {
   segment = Segment::kRest;
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

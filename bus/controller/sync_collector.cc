@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 
 void SyncCollector::reset() {
   measurements_.even_count = measurements_.odd_count = 0;
@@ -18,8 +18,8 @@ void SyncCollector::start_cycle(int counter) {
   valid_ = {};
 }
 
-void SyncCollector::measure(int frame_id, schedules::Channels channels, const std::array<int, 2>& deviation) {
-  for (const schedules::Channel channel : schedules::kBothChannels) {
+void SyncCollector::measure(int frame_id, schedules::model::Channels channels, const std::array<int, 2>& deviation) {
+  for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
     int& valid = valid_[index_of(channel)];
     valid = std::min(valid + (includes(channels, channel) ? 1 : 0), timebase::kMaxSyncNodes);
   }
@@ -34,13 +34,13 @@ void SyncCollector::measure(int frame_id, schedules::Channels channels, const st
     list[static_cast<std::size_t>(index)] = {frame_id, std::nullopt, std::nullopt};
   }
   timebase::SyncDeviation& entry = list[static_cast<std::size_t>(index)];
-  if (includes(channels, schedules::Channel::kA)) entry.a = deviation[0];
-  if (includes(channels, schedules::Channel::kB)) entry.b = deviation[1];
+  if (includes(channels, schedules::model::Channel::kA)) entry.a = deviation[0];
+  if (includes(channels, schedules::model::Channel::kB)) entry.b = deviation[1];
 }
 
-void SyncCollector::own(int frame_id, schedules::Channels channels) { measure(frame_id, channels, {}); }
+void SyncCollector::own(int frame_id, schedules::model::Channels channels) { measure(frame_id, channels, {}); }
 
-void SyncCollector::heard(int frame_id, schedules::Channels channels, const std::array<int, 2>& deviation,
+void SyncCollector::heard(int frame_id, schedules::model::Channels channels, const std::array<int, 2>& deviation,
                           bool startup) {
   measure(frame_id, channels, deviation);
   Ids& ids = startup_[even_ ? 0 : 1];
@@ -56,9 +56,9 @@ bool SyncCollector::Ids::contains(int frame_id) const {
   return std::find(id.begin(), id.begin() + count, frame_id) != id.begin() + count;
 }
 
-StartupFramesSeen SyncCollector::startup_frames(int reference) const {
+poc::StartupFramesSeen SyncCollector::startup_frames(int reference) const {
   const Ids& now = startup_[even_ ? 0 : 1];
-  StartupFramesSeen seen;
+  poc::StartupFramesSeen seen;
   seen.frames = now.count;
   seen.reference_frame = now.contains(reference);
   if (even_) return seen;
@@ -68,4 +68,4 @@ StartupFramesSeen SyncCollector::startup_frames(int reference) const {
   return seen;
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -5,10 +5,10 @@
 
 #include "core/check.h"
 
-namespace ttf::bus {
+namespace ttf::bus::guardian {
 
-using schedules::Channel;
-using schedules::FrameSlot;
+using schedules::model::Channel;
+using schedules::model::FrameSlot;
 
 std::string_view to_text(GuardianReason reason) {
   switch (reason) {
@@ -30,7 +30,7 @@ std::string_view to_text(GuardianReason reason) {
   TTF_CHECK(false, "reason {}", static_cast<int>(reason));
 }
 
-SignalLengths::SignalLengths(const schedules::GlobalParameters& flexray, std::int64_t microtick_ps)
+SignalLengths::SignalLengths(const schedules::model::GlobalParameters& flexray, std::int64_t microtick_ps)
     : flexray_(flexray), microtick_ps_(microtick_ps) {}
 
 Microticks SignalLengths::bits(std::int64_t count) const {
@@ -38,18 +38,18 @@ Microticks SignalLengths::bits(std::int64_t count) const {
   return time(ps + ps * kDriftOfAPair_ppm / 1'000'000);
 }
 
-schedules::Cluster guardian_cluster(const schedules::Cluster& cluster, Channel channel) {
-  schedules::Cluster with = cluster;
-  const auto model = std::find_if(cluster.nodes.begin(), cluster.nodes.end(), [&](const schedules::Node& node) {
+schedules::model::Cluster guardian_cluster(const schedules::model::Cluster& cluster, Channel channel) {
+  schedules::model::Cluster with = cluster;
+  const auto model = std::find_if(cluster.nodes.begin(), cluster.nodes.end(), [&](const schedules::model::Node& node) {
     return node.flexray && includes(node.flexray->pChannels, channel);
   });
   TTF_CHECK(model != cluster.nodes.end(), "nobody is on channel {}", channel == Channel::kA ? "A" : "B");
-  schedules::Node guardian;
+  schedules::model::Node guardian;
   guardian.name = channel == Channel::kA ? "guardian A" : "guardian B";
   guardian.flexray = *model->flexray;
-  schedules::NodeParameters& p = *guardian.flexray;
+  schedules::model::NodeParameters& p = *guardian.flexray;
   guardian.microtick_ps = p.pdMicrotick_ps;
-  p.pChannels = channel == Channel::kA ? schedules::Channels::kA : schedules::Channels::kB;
+  p.pChannels = channel == Channel::kA ? schedules::model::Channels::kA : schedules::model::Channels::kB;
   p.pKeySlotId = 0;
   p.pKeySlotUsedForStartup = p.pKeySlotUsedForSync = p.pKeySlotOnlyEnabled = false;
   // What is compensated between two nodes is two branches, here it is one.
@@ -60,7 +60,8 @@ schedules::Cluster guardian_cluster(const schedules::Cluster& cluster, Channel c
   return with;
 }
 
-Guardian::Guardian(const schedules::Cluster& cluster, Channel channel, const schedules::NodeParameters& clock)
+Guardian::Guardian(const schedules::model::Cluster& cluster, Channel channel,
+                   const schedules::model::NodeParameters& clock)
     : cluster_(cluster), g_(cluster.flexray), channel_(channel), slots_(cluster, kNoNode), minislots_(cluster.flexray),
       lengths_(cluster.flexray, clock.pdMicrotick_ps), compensation_{channel == Channel::kA
                                                                          ? clock.pDelayCompensationA
@@ -73,16 +74,17 @@ int Guardian::cycle_count(const timebase::CycleClock& clock) const {
   return static_cast<int>(clock.cycle() % (g_.gCycleCountMax + 1));
 }
 
-GuardianAnswer Guardian::judge(const timebase::CycleClock& clock, const DynamicSlotCounter& counter,
+GuardianAnswer Guardian::judge(const timebase::CycleClock& clock, const controller::DynamicSlotCounter& counter,
                                const GuardianSignal& signal) const {
   const Microticks at = signal.start - compensation_;
   const std::int64_t static_end = static_cast<std::int64_t>(g_.gNumberOfStaticSlots) * g_.gdStaticSlot;
-  if (signal.signal == Signal::kUndecodable || (signal.signal == Signal::kFrame && !wire::has_header(*signal.frame)))
+  if (signal.signal == ports::Signal::kUndecodable ||
+      (signal.signal == ports::Signal::kFrame && !wire::has_header(*signal.frame)))
     return GuardianAnswer::no(GuardianReason::kUndecodable);
-  if (signal.signal != Signal::kFrame) {
+  if (signal.signal != ports::Signal::kFrame) {
     const Macroticks window =
         minislots_.count() > 0 ? minislots_.start_of(minislots_.count() + 1) : Macroticks{static_end};
-    const bool due = signal.signal == Signal::kCas && g_.gdSymbolWindow > 0 && at >= clock.start_of(window);
+    const bool due = signal.signal == ports::Signal::kCas && g_.gdSymbolWindow > 0 && at >= clock.start_of(window);
     const Microticks window_end = due ? clock.start_of(window + Macroticks{g_.gdSymbolWindow}) : Microticks{};
     if (!due || at >= window_end) return GuardianAnswer::no(GuardianReason::kNoSymbolNow);
     return {GuardianReason::kForwarded, std::min(signal.start + lengths_.symbol(), window_end + compensation_)};
@@ -118,8 +120,9 @@ GuardianAnswer Guardian::in_static_slot(const timebase::CycleClock& clock, Micro
   return {GuardianReason::kForwarded, signal.start + lengths_.frame(g_.gPayloadLengthStatic)};
 }
 
-GuardianAnswer Guardian::in_dynamic_segment(const timebase::CycleClock& clock, const DynamicSlotCounter& counter,
-                                            Microticks at, const GuardianSignal& signal) const {
+GuardianAnswer Guardian::in_dynamic_segment(const timebase::CycleClock& clock,
+                                            const controller::DynamicSlotCounter& counter, Microticks at,
+                                            const GuardianSignal& signal) const {
   const int minislot = minislots_.minislot_at(clock, at);
   const FrameSlot* frame = slots_.expected(counter.slot_in(minislot), cycle_count(clock), channel_);
   if (frame == nullptr || frame->sender != signal.branch) return GuardianAnswer::no(GuardianReason::kNotItsSlot);
@@ -157,13 +160,13 @@ bool Guardian::header_fits(const FrameSlot& frame, int counter, const wire::Fram
     // A message id may stand before the fragment.
     return header.payload_words <= (cluster_.pdu(frame.pdu).fragment_bytes + 1) / 2 + 1;
   }
-  const schedules::NodeParameters& p = *cluster_.node(frame.sender).flexray;
+  const schedules::model::NodeParameters& p = *cluster_.node(frame.sender).flexray;
   const bool key_slot = frame.slot == p.pKeySlotId;
   return header.payload_words == g_.gPayloadLengthStatic && header.sync == (key_slot && p.pKeySlotUsedForSync) &&
          header.startup == (key_slot && p.pKeySlotUsedForStartup);
 }
 
-void Guardian::count(const timebase::CycleClock& clock, DynamicSlotCounter& counter, Microticks start,
+void Guardian::count(const timebase::CycleClock& clock, controller::DynamicSlotCounter& counter, Microticks start,
                      Microticks end) const {
   const int first = minislots_.minislot_at(clock, start);
   const int last = std::max(first, minislots_.minislot_at(clock, end - compensation_));
@@ -171,4 +174,4 @@ void Guardian::count(const timebase::CycleClock& clock, DynamicSlotCounter& coun
   counter.occupied(std::max(first, 1), last);
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::guardian

@@ -1,10 +1,10 @@
 // The central guardian: what the star coupler of one channel lets through. A pure judgement of a signal that begins at
-// the coupler on the branch of a node, on the guardian's own clock; its memory is bus/guardian/startup_turns.h's, its place
-// sim/medium/star_coupler.h.
+// the coupler on the branch of a node, on the guardian's own clock; its memory is bus/guardian/startup_turns.h's, its
+// place sim/medium/star_coupler.h.
 //
 // A coupler receives everything and sends it on afresh. So it may look at what it forwards: a frame's header is known
-// before the first bit leaves (what that delay means: sim/medium/coupler.h). Frame CRCs come too late for it: a wrong one is
-// wrong for all.
+// before the first bit leaves (what that delay means: sim/medium/coupler.h). Frame CRCs come too late for it: a wrong
+// one is wrong for all.
 //
 // On a schedule (its controller's clock runs, integrated like any node's; bus/controller/controller.h):
 //   G1  in a static slot only the frame passes that the cluster's schedule has there in this cycle on this channel: its
@@ -40,14 +40,14 @@
 #include <vector>
 
 #include "bus/controller/dynamic_segment.h"
-#include "bus/ports/flexray_port.h"
 #include "bus/controller/slot_table.h"
+#include "bus/ports/flexray_port.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 #include "timebase/cycle_clock.h"
 
-namespace ttf::bus {
+namespace ttf::bus::guardian {
 
 enum class GuardianReason : std::uint8_t {
   kForwarded,
@@ -76,7 +76,7 @@ std::string_view to_text(GuardianReason reason);
 // What begins at the coupler; instants in microticks of the guardian.
 struct GuardianSignal {
   NodeId branch{};
-  Signal signal{};
+  ports::Signal signal{};
   Microticks start{};
   const wire::DecodedFrame* frame = nullptr;  // of a frame
 };
@@ -94,8 +94,8 @@ inline constexpr std::int64_t kDriftOfAPair_ppm = 3000;
 // How long a signal of each kind may last in the guardian's microticks, a node's clock being off by what it may.
 class SignalLengths {
  public:
-  SignalLengths(const schedules::GlobalParameters& flexray, std::int64_t microtick_ps);
-  Microticks frame(int payload_words) const { return bits(schedules::frame_bits(flexray_, payload_words)); }
+  SignalLengths(const schedules::model::GlobalParameters& flexray, std::int64_t microtick_ps);
+  Microticks frame(int payload_words) const { return bits(schedules::model::frame_bits(flexray_, payload_words)); }
   Microticks symbol() const { return bits(flexray_.gdCASRxLowMax); }
   Microticks wakeup_pattern(int repetitions) const {
     return bits(repetitions * (flexray_.gdWakeupSymbolTxLow + flexray_.gdWakeupSymbolTxIdle));
@@ -104,7 +104,7 @@ class SignalLengths {
 
  private:
   Microticks bits(std::int64_t count) const;
-  const schedules::GlobalParameters& flexray_;
+  const schedules::model::GlobalParameters& flexray_;
   std::int64_t microtick_ps_;
 };
 
@@ -112,36 +112,38 @@ class SignalLengths {
 class Guardian {
  public:
   // `clock`: the parameters of the guardian's own controller (guardian_cluster() below).
-  Guardian(const schedules::Cluster& cluster, schedules::Channel channel, const schedules::NodeParameters& clock);
+  Guardian(const schedules::model::Cluster& cluster, schedules::model::Channel channel,
+           const schedules::model::NodeParameters& clock);
 
   // `counter`: how far the dynamic slots of this cycle are on this channel.
-  GuardianAnswer judge(const timebase::CycleClock& clock, const DynamicSlotCounter& counter,
+  GuardianAnswer judge(const timebase::CycleClock& clock, const controller::DynamicSlotCounter& counter,
                        const GuardianSignal& signal) const;
   // When a signal ends at the coupler that has been forwarded since `start`, was to last until `until` at the most (of
   // its answer) and is ended by its sender at `end`: `end` where nothing is done about it. G7, and in the dynamic
   // segment G9; all three instants are the coupler's.
   Microticks end_of(const timebase::CycleClock& clock, Microticks start, Microticks end, Microticks until) const;
   // Counts what was received in the dynamic segment, in whole or in part (bus/controller/dynamic_segment.h).
-  void count(const timebase::CycleClock& clock, DynamicSlotCounter& counter, Microticks start, Microticks end) const;
+  void count(const timebase::CycleClock& clock, controller::DynamicSlotCounter& counter, Microticks start,
+             Microticks end) const;
 
  private:
   GuardianAnswer in_static_slot(const timebase::CycleClock& clock, Microticks at, const GuardianSignal& signal) const;
-  GuardianAnswer in_dynamic_segment(const timebase::CycleClock& clock, const DynamicSlotCounter& counter, Microticks at,
-                                    const GuardianSignal& signal) const;
-  bool header_fits(const schedules::FrameSlot& frame, int counter, const wire::FrameHeader& header) const;
+  GuardianAnswer in_dynamic_segment(const timebase::CycleClock& clock, const controller::DynamicSlotCounter& counter,
+                                    Microticks at, const GuardianSignal& signal) const;
+  bool header_fits(const schedules::model::FrameSlot& frame, int counter, const wire::FrameHeader& header) const;
   int cycle_count(const timebase::CycleClock& clock) const;
 
-  const schedules::Cluster& cluster_;
-  const schedules::GlobalParameters& g_;
-  schedules::Channel channel_;
-  SlotTable slots_;
-  MinislotGrid minislots_;
+  const schedules::model::Cluster& cluster_;
+  const schedules::model::GlobalParameters& g_;
+  schedules::model::Channel channel_;
+  controller::SlotTable slots_;
+  controller::MinislotGrid minislots_;
   SignalLengths lengths_;
   Microticks compensation_, tolerance_, minislot_tolerance_;
 };
 
 // The cluster as the guardian's controller sees it: with one node more, the last, which is the guardian on that
 // channel. It sends nothing; its parameters are those of the first node on the channel, its branch has no length.
-schedules::Cluster guardian_cluster(const schedules::Cluster& cluster, schedules::Channel channel);
+schedules::model::Cluster guardian_cluster(const schedules::model::Cluster& cluster, schedules::model::Channel channel);
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::guardian

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-namespace ttf::bus {
+namespace ttf::bus::guardian {
 
-StartupTurns::StartupTurns(const schedules::Cluster& cluster, schedules::Channel channel,
-                           const schedules::NodeParameters& clock)
+StartupTurns::StartupTurns(const schedules::model::Cluster& cluster, schedules::model::Channel channel,
+                           const schedules::model::NodeParameters& clock)
     : cluster_(cluster), channel_(channel),
       lengths_(cluster.flexray, clock.pdMicrotick_ps), cycle_{clock.pMicroPerCycle},
       slack_(Microticks{2 * clock.pMicroPerCycle * kDriftOfAPair_ppm / 1'000'000} +
@@ -25,21 +25,21 @@ Microticks StartupTurns::waits_until(NodeId node, Microticks at) const {
 }
 
 GuardianAnswer StartupTurns::judge(const GuardianSignal& signal) const {
-  const schedules::NodeParameters& p = *cluster_.node(signal.branch).flexray;
+  const schedules::model::NodeParameters& p = *cluster_.node(signal.branch).flexray;
   const Microticks at = signal.start;
   const bool leading = leads(at) && signal.branch == leader_;
   switch (signal.signal) {
-    case Signal::kUndecodable: return GuardianAnswer::no(GuardianReason::kUndecodable);
-    case Signal::kWakeup:
+    case ports::Signal::kUndecodable: return GuardianAnswer::no(GuardianReason::kUndecodable);
+    case ports::Signal::kWakeup:
       if (p.pWakeupChannel != channel_ || at < may_wake_[index_of(signal.branch)])
         return GuardianAnswer::no(GuardianReason::kNoWakeup);
       if (leads(at)) return GuardianAnswer::no(GuardianReason::kOtherLeads);
       return {GuardianReason::kForwarded, at + lengths_.wakeup_pattern(p.pWakeupPattern)};
-    case Signal::kCas:
+    case ports::Signal::kCas:
       if (!p.pKeySlotUsedForStartup) return GuardianAnswer::no(GuardianReason::kNoColdstartNode);
       if (leading) return GuardianAnswer::no(GuardianReason::kTooSoon);
       break;
-    case Signal::kFrame: {
+    case ports::Signal::kFrame: {
       if (!wire::has_header(*signal.frame)) return GuardianAnswer::no(GuardianReason::kUndecodable);
       if (!p.pKeySlotUsedForStartup) return GuardianAnswer::no(GuardianReason::kNoColdstartNode);
       const wire::FrameHeader& header = signal.frame->header;
@@ -52,13 +52,13 @@ GuardianAnswer StartupTurns::judge(const GuardianSignal& signal) const {
   }
   if (!leading && leads(at)) return GuardianAnswer::no(GuardianReason::kOtherLeads);
   if (!leading && at < waits_until(signal.branch, at)) return GuardianAnswer::no(GuardianReason::kLeadFailed);
-  return {
-      GuardianReason::kForwarded,
-      at + (signal.signal == Signal::kCas ? lengths_.symbol() : lengths_.frame(cluster_.flexray.gPayloadLengthStatic))};
+  return {GuardianReason::kForwarded,
+          at + (signal.signal == ports::Signal::kCas ? lengths_.symbol()
+                                                     : lengths_.frame(cluster_.flexray.gPayloadLengthStatic))};
 }
 
 bool StartupTurns::forwarded(const GuardianSignal& signal, bool has_schedule) {
-  if (signal.signal == Signal::kWakeup) {
+  if (signal.signal == ports::Signal::kWakeup) {
     may_wake_[index_of(signal.branch)] = signal.start + cycles(kWaitCycles);
     return false;
   }
@@ -67,13 +67,14 @@ bool StartupTurns::forwarded(const GuardianSignal& signal, bool has_schedule) {
     if (leader_ != kNoNode) may_lead_[index_of(leader_)] = lead_end_ + cycles(kWaitCycles);
     leader_ = signal.branch;
     lead_begin_ = signal.start;
-    frames_ = signal.signal == Signal::kCas ? 0 : kOutOfOrder;
+    frames_ = signal.signal == ports::Signal::kCas ? 0 : kOutOfOrder;
   }
-  if (signal.signal == Signal::kFrame && signal.branch == leader_) count_frame(signal.frame->header);
+  if (signal.signal == ports::Signal::kFrame && signal.branch == leader_) count_frame(signal.frame->header);
   if (has_schedule) return false;
-  next_frame_ = signal.signal == Signal::kFrame ? signal.start + cycle_ - slack_ : signal.start;
+  next_frame_ = signal.signal == ports::Signal::kFrame ? signal.start + cycle_ - slack_ : signal.start;
   // After the symbol, the frame of cycle 0 comes within the static segment.
-  const Microticks silence = cycle_ + slack_ + (signal.signal == Signal::kCas ? lengths_.symbol() : Microticks{});
+  const Microticks silence =
+      cycle_ + slack_ + (signal.signal == ports::Signal::kCas ? lengths_.symbol() : Microticks{});
   lead_end_ = std::min(signal.start + silence, lead_begin_ + cycles(kLeadCycles));
   return begins;
 }
@@ -92,4 +93,4 @@ void StartupTurns::schedule_dropped(Microticks at) {
 
 void StartupTurns::synchronised() { leader_ = kNoNode; }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::guardian

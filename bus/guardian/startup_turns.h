@@ -28,13 +28,14 @@
 
 #include "bus/guardian/guardian.h"
 
-namespace ttf::bus {
+namespace ttf::bus::guardian {
 
 class StartupTurns {
  public:
   static constexpr int kLeadCycles = 4, kWaitCycles = 12;
 
-  StartupTurns(const schedules::Cluster& cluster, schedules::Channel channel, const schedules::NodeParameters& clock);
+  StartupTurns(const schedules::model::Cluster& cluster, schedules::model::Channel channel,
+               const schedules::model::NodeParameters& clock);
 
   // Of a signal at a time when the guardian has no schedule. Nothing changes.
   GuardianAnswer judge(const GuardianSignal& signal) const;
@@ -59,8 +60,8 @@ class StartupTurns {
   Microticks waits_until(NodeId node, Microticks at) const;
   Microticks cycles(int count) const { return cycle_ * count; }
 
-  const schedules::Cluster& cluster_;
-  schedules::Channel channel_;
+  const schedules::model::Cluster& cluster_;
+  schedules::model::Channel channel_;
   SignalLengths lengths_;
   Microticks cycle_, slack_;  // what a clock may be off in a cycle, twice, and an action point offset
   NodeId leader_ = kNoNode;
@@ -70,4 +71,4 @@ class StartupTurns {
   std::vector<Microticks> may_lead_, may_wake_;  // by NodeId: from then on
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::guardian

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 
 enum class PocEventKind : std::uint8_t {
   // The host (E-Ray CHI commands) and the supply.
@@ -108,4 +108,4 @@ struct PocEvent {
 
 std::string_view to_text(PocEventKind kind);
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

@@ -2,14 +2,15 @@
 
 #include "bus/poc/states.h"
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 namespace {
 
 bool runs_timers(PocKind kind) { return listen_timer_follows_channels(kind) || kind == PocKind::kWakeupDetect; }
 
 }  // namespace
 
-PocParameters poc_parameters(const schedules::GlobalParameters& global, const schedules::NodeParameters& node) {
+PocParameters poc_parameters(const schedules::model::GlobalParameters& global,
+                             const schedules::model::NodeParameters& node) {
   return {.pKeySlotUsedForStartup = node.pKeySlotUsedForStartup,
           .pKeySlotOnlyEnabled = node.pKeySlotOnlyEnabled,
           .gColdStartAttempts = global.gColdStartAttempts,
@@ -74,4 +75,4 @@ bool corrects_clock(PocKind kind) {
          kind != PocKind::kColdstartGap;
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

@@ -46,7 +46,7 @@
 #include "core/time.h"
 #include "schedules/model/flexray_parameters.h"
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 
 // Values: E-Ray CCSV.POCS. Wake-up standby, startup prepare, abort startup and startup success are passed through
 // within one step: the reason names them.
@@ -128,7 +128,8 @@ struct PocParameters {
   Microticks noise_timeout() const { return listen_timeout() * gListenNoise; }
 };
 
-PocParameters poc_parameters(const schedules::GlobalParameters& global, const schedules::NodeParameters& node);
+PocParameters poc_parameters(const schedules::model::GlobalParameters& global,
+                             const schedules::model::NodeParameters& node);
 
 struct PocState {
   PocKind kind = PocKind::kDefaultConfig;
@@ -212,4 +213,4 @@ bool corrects_clock(PocKind kind);
 
 std::string_view to_text(PocKind kind);
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

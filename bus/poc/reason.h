@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 
 enum class PocReason : std::uint8_t {
   kNone,
@@ -120,4 +120,4 @@ std::string_view to_text(PocReason reason);
 // Whether the reason says that nothing happened: same state, same data, no action.
 constexpr bool is_ignored(PocReason reason) { return reason >= PocReason::kCommandNotAccepted; }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

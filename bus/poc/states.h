@@ -11,7 +11,7 @@ struct Now {
   const PocState& state;
   const PocEvent& event;
 };
-using Answer = PocStep (*)(const Now&);
+using Answer = PocStep (*)(const ttf::bus::poc::Now&);
 
 // The one answer to an event in a state.
 Answer answer(PocKind state, PocEventKind event);

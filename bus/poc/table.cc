@@ -66,7 +66,10 @@ template <PocKind kind, PocReason why, PocAction... actions> PocStep enters(cons
   return enter(now, kind, why, (PocActions() | ... | PocActions(actions)));
 }
 
-template <PocStep (*step)(const Now&, PocReason), PocReason why> PocStep does(const Now& now) { return step(now, why); }
+template <PocStep (*step)(const ttf::bus::poc::Now&, ttf::bus::poc::PocReason), PocReason why>
+PocStep does(const Now& now) {
+  return step(now, why);
+}
 
 template <WakeupStatus status, PocReason why> PocStep ends_wakeup(const Now& now) {
   return end_wakeup(now, status, why);

@@ -1,6 +1,6 @@
 #include "bus/poc/poc.h"
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 
 std::string_view to_text(PocKind kind) {
   switch (kind) {
@@ -175,4 +175,4 @@ std::string_view to_text(PocReason reason) {
   return "";
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

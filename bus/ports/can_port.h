@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-namespace ttf::bus {
+namespace ttf::bus::ports {
 
 struct CanFrame {
   std::uint32_t identifier = 0;  // 11 bits
@@ -24,4 +24,4 @@ class CanPort {
   virtual void send(const CanFrame& frame) = 0;
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::ports

@@ -1,5 +1,6 @@
 // What separate processes of one node set say to each other in virtual time: whole messages, each from one node to all
-// others. What is in a message is not this port's business (sim/processes/turn.h); who carries it is a leaf's (bus/dds/).
+// others. What is in a message is not this port's business (sim/processes/turn.h); who carries it is a leaf's
+// (bus/dds/).
 //
 //   L1  every message of a member reaches every other member exactly once, unchanged
 //   L2  messages of one member arrive in the order in which they were sent
@@ -13,7 +14,7 @@
 
 #include "core/ids.h"
 
-namespace ttf::bus {
+namespace ttf::bus::ports {
 
 class Exchange {
  public:
@@ -31,4 +32,4 @@ class Exchange {
   virtual Heard receive() = 0;
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::ports

@@ -22,7 +22,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::ports {
 
 enum class Signal : std::uint8_t {
   kFrame,
@@ -32,7 +32,7 @@ enum class Signal : std::uint8_t {
 };
 
 struct Transmission {
-  schedules::Channel channel{};
+  schedules::model::Channel channel{};
   Signal signal = Signal::kFrame;
   Microticks start{};                // the action point: first bit leaves
   Microticks end{};                  // last bit has left, a dynamic frame's trailing sequence included
@@ -42,7 +42,7 @@ struct Transmission {
 };
 
 struct Reception {
-  schedules::Channel channel{};
+  schedules::model::Channel channel{};
   Signal signal = Signal::kFrame;
   Microticks start{};        // when the first bit arrived, receiver's clock
   Microticks end{};          // when the last bit arrived, receiver's clock
@@ -51,11 +51,11 @@ struct Reception {
 
 // The same on channel B, of a frame that is on both channels at once and says channel A.
 inline Transmission on_b(Transmission transmission) {
-  transmission.channel = schedules::Channel::kB;
+  transmission.channel = schedules::model::Channel::kB;
   return transmission;
 }
 inline Reception on_b(Reception reception) {
-  reception.channel = schedules::Channel::kB;
+  reception.channel = schedules::model::Channel::kB;
   return reception;
 }
 
@@ -70,17 +70,17 @@ class FlexRayPort {
   }
   // Whether a frame or, in slot 0, a symbol that should leave at `start` still may: else it is not sent at all. Only
   // real time knows of too late.
-  virtual bool may_leave(schedules::Channel channel, int slot, Microticks start) {
+  virtual bool may_leave(schedules::model::Channel channel, int slot, Microticks start) {
     return (void)channel, (void)slot, (void)start, true;
   }
   // How long after its end a reception may still be handed over: in real time what comes late, or waits for word of how
   // late it left. A medium in virtual time hands it over at its end (L4).
   virtual Microticks handed_over_within() const { return {}; }
   // Whether something is arriving just now.
-  virtual bool carrier(schedules::Channel channel) const = 0;
+  virtual bool carrier(schedules::model::Channel channel) const = 0;
   // Whether the next transmission's bytes are looked at; a medium that carries contents can do without, in virtual
   // time, where all may leave.
-  virtual bool wants_bytes(schedules::Channel channel) const { return (void)channel, true; }
+  virtual bool wants_bytes(schedules::model::Channel channel) const { return (void)channel, true; }
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::ports

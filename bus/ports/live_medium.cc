@@ -2,7 +2,7 @@
 
 #include <time.h>
 
-namespace ttf::bus {
+namespace ttf::bus::ports {
 
 HostTime host_now() {
   timespec now{};
@@ -10,4 +10,4 @@ HostTime host_now() {
   return {static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec};
 }
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::ports

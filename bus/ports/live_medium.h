@@ -34,14 +34,14 @@
 #include "bus/ports/flexray_port.h"
 #include "core/time.h"
 
-namespace ttf::bus {
+namespace ttf::bus::ports {
 
 // What this host's clock shows that nobody sets: CLOCK_MONOTONIC, the same for all processes of a host.
 using HostTime = Instant<struct HostScale>;
 
 // 0 and 1: FlexRay channels A and B; 2 + b: Cluster::can_buses[b].
 using Line = std::size_t;
-constexpr Line line_of(schedules::Channel channel) { return static_cast<Line>(channel); }
+constexpr Line line_of(schedules::model::Channel channel) { return static_cast<Line>(channel); }
 constexpr Line line_of_can(std::size_t can_bus) { return 2 + can_bus; }
 
 enum class LiveStatus : std::uint8_t {
@@ -52,7 +52,7 @@ enum class LiveStatus : std::uint8_t {
 
 // A frame or symbol for one channel.
 struct LiveSignal {
-  schedules::Channel channel{};
+  schedules::model::Channel channel{};
   Signal signal = Signal::kFrame;    // kUndecodable: noise
   int slot = 0;                      // of a frame, 1..2047
   Duration duration{};               // of anything else, as long as it is on the wire
@@ -110,4 +110,4 @@ class LiveMedium {
 // CLOCK_MONOTONIC, now.
 HostTime host_now();
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::ports

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 
-void Departures::expect(const canfd_frame& last, int slot, std::uint8_t cycle_counter, bus::HostTime due) {
+void Departures::expect(const canfd_frame& last, int slot, std::uint8_t cycle_counter, ports::HostTime due) {
   Departure& departure = ring_[next_];
   if (!departure.expected) ++expected_;
   departure = {.expected = true, .last = last, .slot = slot, .cycle_counter = cycle_counter, .due = due};
   next_ = (next_ + 1) % kRoom;
 }
 
-std::optional<FollowUp> Departures::left(const canfd_frame& can, bus::HostTime at) {
+std::optional<FollowUp> Departures::left(const canfd_frame& can, ports::HostTime at) {
   // The oldest first. Flags are none of the data's: the driver may have changed them.
   for (std::size_t i = 0; i < kRoom && expected_ > 0; ++i) {
     Departure& departure = ring_[(next_ + i) % kRoom];
@@ -27,4 +27,4 @@ std::optional<FollowUp> Departures::left(const canfd_frame& can, bus::HostTime a
   return {};
 }
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

@@ -7,7 +7,7 @@
 #include "core/check.h"
 #include "schedules/analysis/can_load.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
 // What has identifier 0: what it says, then the CRC; a follow-up's is followed by one zero.
@@ -90,7 +90,7 @@ void put_big_endian(canfd_frame& can, std::size_t at, std::uint32_t value, std::
 }
 
 // Behind the bytes that it is over.
-void put_crc(canfd_frame& can, schedules::Channel channel, std::size_t says) {
+void put_crc(canfd_frame& can, schedules::model::Channel channel, std::size_t says) {
   put_big_endian(can, says, wire::frame_crc(channel, data_of(can).first(says)), wire::kTrailerBytes);
 }
 
@@ -100,7 +100,7 @@ std::uint32_t big_endian(std::span<const std::byte> bytes) {
   return value;
 }
 
-bool crc_holds(schedules::Channel channel, std::span<const std::byte> data, std::size_t says) {
+bool crc_holds(schedules::model::Channel channel, std::span<const std::byte> data, std::size_t says) {
   return wire::frame_crc(channel, data.first(says)) == big_endian(data.subspan(says, wire::kTrailerBytes));
 }
 
@@ -108,7 +108,7 @@ bool crc_holds(schedules::Channel channel, std::span<const std::byte> data, std:
 
 std::size_t can_fd_length(std::size_t bytes) {
   TTF_CHECK(bytes <= CANFD_MAX_DLEN, "{} bytes", bytes);
-  return static_cast<std::size_t>(*schedules::can_data_length(true, static_cast<int>(bytes)));
+  return static_cast<std::size_t>(*schedules::analysis::can_data_length(true, static_cast<int>(bytes)));
 }
 
 CanFrames frame_to_can(int slot, std::span<const std::byte> frame) {
@@ -134,11 +134,11 @@ CanFrames frame_to_can(int slot, std::span<const std::byte> frame) {
   return can;
 }
 
-canfd_frame symbol_to_can(schedules::Channel channel, bus::Signal symbol, Duration duration) {
-  TTF_CHECK(symbol != bus::Signal::kFrame, "a frame is no symbol");
+canfd_frame symbol_to_can(schedules::model::Channel channel, ports::Signal symbol, Duration duration) {
+  TTF_CHECK(symbol != ports::Signal::kFrame, "a frame is no symbol");
   TTF_CHECK(duration.ns >= 0 && duration.ns <= std::numeric_limits<std::uint32_t>::max(), "{} ns", duration.ns);
   canfd_frame can = empty_frame(kSymbolIdentifier, kSymbolBytes);
-  can.data[0] = symbol == bus::Signal::kCas ? 1 : symbol == bus::Signal::kWakeup ? 2 : 3;
+  can.data[0] = symbol == ports::Signal::kCas ? 1 : symbol == ports::Signal::kWakeup ? 2 : 3;
   put_big_endian(can, 1, static_cast<std::uint32_t>(duration.ns), 4);
   put_crc(can, channel, kSymbolSays);
   return can;
@@ -149,7 +149,7 @@ bool can_be_told(Duration late) {
   return late.ns >= Told::min() && late.ns <= Told::max();
 }
 
-canfd_frame follow_up_to_can(schedules::Channel channel, const FollowUp& follow_up) {
+canfd_frame follow_up_to_can(schedules::model::Channel channel, const FollowUp& follow_up) {
   TTF_CHECK(follow_up.slot >= 1 && follow_up.slot <= kLastSlot, "slot {}", follow_up.slot);
   TTF_CHECK(follow_up.cycle_counter <= kLastCycle, "cycle {}", follow_up.cycle_counter);
   TTF_CHECK(can_be_told(follow_up.late), "{} ns", follow_up.late.ns);
@@ -194,7 +194,7 @@ Arrival Reassembly::symbol(std::span<const std::byte> data) const {
   if (kind < 1 || kind > 3) return arrival;
   if (!crc_holds(channel_, data, kSymbolSays)) return arrival;
   arrival.outcome = Outcome::kComplete;
-  arrival.signal = kind == 1 ? bus::Signal::kCas : kind == 2 ? bus::Signal::kWakeup : bus::Signal::kUndecodable;
+  arrival.signal = kind == 1 ? ports::Signal::kCas : kind == 2 ? ports::Signal::kWakeup : ports::Signal::kUndecodable;
   arrival.duration = Duration::nanoseconds(big_endian(data.subspan(1, 4)));
   return arrival;
 }
@@ -220,7 +220,7 @@ Arrival Reassembly::whole(int slot, std::span<const std::byte> data) const {
   if (!all_zero(data.subspan(*length))) return arrival;
   arrival.outcome = Outcome::kComplete;
   arrival.slot = slot;
-  arrival.signal = bus::Signal::kFrame;
+  arrival.signal = ports::Signal::kFrame;
   arrival.frame = data.first(*length);
   return arrival;
 }
@@ -253,9 +253,9 @@ Arrival Reassembly::fragment(int slot, std::span<const std::byte> data) {
   if (part.index + 1 < fragments_of(length_)) return arrival;
   next_ = 0;
   arrival.outcome = Outcome::kComplete;
-  arrival.signal = bus::Signal::kFrame;
+  arrival.signal = ports::Signal::kFrame;
   arrival.frame = std::span(bytes_).first(length_);
   return arrival;
 }
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

@@ -36,7 +36,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 
 inline constexpr int kSymbolIdentifier = 0;
 inline constexpr int kLastSlot = 2047;
@@ -56,7 +56,7 @@ struct CanFrames {
 // A frame of 8..262 bytes, correct or not, sent in slot 1..2047. The flag CANFD_BRS is set: data at the faster rate.
 CanFrames frame_to_can(int slot, std::span<const std::byte> frame);
 // Any signal but a frame; at most 4.29 s long.
-canfd_frame symbol_to_can(schedules::Channel channel, bus::Signal symbol, Duration duration);
+canfd_frame symbol_to_can(schedules::model::Channel channel, ports::Signal symbol, Duration duration);
 
 // What a sender says of a sync frame that it has sent before: how much later than it should have it left.
 struct FollowUp {
@@ -66,7 +66,7 @@ struct FollowUp {
 };
 // Whether it has room in a follow-up: up to 2.14 s either way.
 bool can_be_told(Duration late);
-canfd_frame follow_up_to_can(schedules::Channel channel, const FollowUp& follow_up);
+canfd_frame follow_up_to_can(schedules::model::Channel channel, const FollowUp& follow_up);
 
 enum class Outcome : std::uint8_t {
   kComplete,   // a FlexRay frame, a symbol or a follow-up is there
@@ -81,7 +81,7 @@ struct Arrival {
   Outcome outcome{};
   bool abandoned = false;               // a frame whose first fragments were here will not be complete any more
   int slot = 0;                         // of a complete frame or a fragment, displaced or not
-  bus::Signal signal{};                 // of what is complete and no follow-up
+  ports::Signal signal{};               // of what is complete and no follow-up
   Duration duration{};                  // of a symbol
   std::span<const std::byte> frame{};   // of a complete frame: valid as long as what arrived is, until the next arrival
   std::optional<FollowUp> follow_up{};  // if it is one
@@ -90,7 +90,7 @@ struct Arrival {
 // One channel's receiver: one per interface.
 class Reassembly {
  public:
-  explicit Reassembly(schedules::Channel channel) : channel_(channel) {}
+  explicit Reassembly(schedules::model::Channel channel) : channel_(channel) {}
 
   // `can.flags` must have CANFD_FDF if and only if it arrived as a CAN FD frame.
   Arrival arrive(const canfd_frame& can);
@@ -104,7 +104,7 @@ class Reassembly {
   Arrival whole(int slot, std::span<const std::byte> data) const;
   Arrival fragment(int slot, std::span<const std::byte> data);
 
-  schedules::Channel channel_;
+  schedules::model::Channel channel_;
   // What is begun: fragments 0..next_ - 1 of a frame of length_ bytes in slot_; nothing is while next_ is 0.
   std::size_t next_ = 0;
   int slot_ = 0;
@@ -114,4 +114,4 @@ class Reassembly {
   std::uint64_t abandoned_ = 0;
 };
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

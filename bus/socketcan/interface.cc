@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
 class Descriptor {
@@ -111,4 +111,4 @@ std::string interface_problem(const std::string& name, const InterfaceState& sta
   return link_problem(name, state, flexible_data_rate).text();
 }
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

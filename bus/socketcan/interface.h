@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 
 // What the kernel says; of the interface also where it has no CAN sockets.
 struct InterfaceState {
@@ -40,4 +40,4 @@ std::vector<std::string> virtual_interface(const std::string& name, bool flexibl
 // empty where there is nothing.
 std::string interface_problem(const std::string& name, const InterfaceState& state, bool flexible_data_rate);
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

@@ -8,7 +8,7 @@
 #include "core/check.h"
 #include "core/errors.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
 constexpr std::size_t kChannels = 2, kLongestFailure = 512;
@@ -36,54 +36,54 @@ LiveMedium::LiveMedium(const LiveOptions& options) {
                    .filters = {}});
     lines_.emplace_back(OnLine{.socket = std::move(socket), .flexray = std::move(flexray)});
   };
-  for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB})
-    join(options.channels[bus::line_of(channel)], true, FlexRay{channel, Reassembly(channel), {}});
+  for (const auto channel : {schedules::model::Channel::kA, schedules::model::Channel::kB})
+    join(options.channels[ports::line_of(channel)], true, FlexRay{channel, Reassembly(channel), {}});
   for (const LiveOptions::Can& can : options.cans) join(can.interface, can.flexible_data_rate, {});
   failure_.reserve(kLongestFailure);
 }
 
-LiveMedium::OnLine& LiveMedium::on(bus::Line line) {
+LiveMedium::OnLine& LiveMedium::on(ports::Line line) {
   TTF_CHECK(line < lines_.size() && lines_[line], "line {}: this node is not on it", line);
   return *lines_[line];
 }
 
-bus::LiveStatus LiveMedium::done(Status status, const OnLine& line) {
+ports::LiveStatus LiveMedium::done(Status status, const OnLine& line) {
   switch (status) {
     case Status::kDone:
-    case Status::kNothing: return bus::LiveStatus::kDone;
-    case Status::kNoRoom: ++not_sent_; return bus::LiveStatus::kNoRoom;
+    case Status::kNothing: return ports::LiveStatus::kDone;
+    case Status::kNoRoom: ++not_sent_; return ports::LiveStatus::kNoRoom;
     case Status::kDown:
     case Status::kGone:
     case Status::kFailed: break;
   }
   if (failure_.empty()) line.socket.tell_failure(failure_);
-  return bus::LiveStatus::kFailed;
+  return ports::LiveStatus::kFailed;
 }
 
-bus::LiveStatus LiveMedium::send_all(OnLine& line, std::span<const canfd_frame> frames) {
+ports::LiveStatus LiveMedium::send_all(OnLine& line, std::span<const canfd_frame> frames) {
   for (const canfd_frame& can : frames)
     if (const Status status = line.socket.send(can); status != Status::kDone) return done(status, line);
   ++sent_;
-  return bus::LiveStatus::kDone;
+  return ports::LiveStatus::kDone;
 }
 
-bus::LiveStatus LiveMedium::send(const bus::LiveSignal& signal, bus::HostTime due) {
-  OnLine& line = on(bus::line_of(signal.channel));
-  if (signal.signal != bus::Signal::kFrame) {
+ports::LiveStatus LiveMedium::send(const ports::LiveSignal& signal, ports::HostTime due) {
+  OnLine& line = on(ports::line_of(signal.channel));
+  if (signal.signal != ports::Signal::kFrame) {
     const canfd_frame can = symbol_to_can(signal.channel, signal.signal, signal.duration);
-    const bus::LiveStatus status = send_all(line, {&can, 1});
+    const ports::LiveStatus status = send_all(line, {&can, 1});
     confirm(line);
     return status;
   }
   const CanFrames can = frame_to_can(signal.slot, signal.bytes);
-  const bus::LiveStatus status = send_all(line, can.all());
-  if (status == bus::LiveStatus::kDone && signal.tells_late)
+  const ports::LiveStatus status = send_all(line, can.all());
+  if (status == ports::LiveStatus::kDone && signal.tells_late)
     line.flexray->departures.expect(can.all().back(), signal.slot, wire::header_of(signal.bytes)->cycle, due);
   confirm(line);
   return status;
 }
 
-bus::LiveStatus LiveMedium::send_can(std::size_t can_bus, const bus::CanFrame& frame) {
+ports::LiveStatus LiveMedium::send_can(std::size_t can_bus, const ports::CanFrame& frame) {
   TTF_CHECK(frame.identifier <= CAN_SFF_MASK, "identifier {}", frame.identifier);
   TTF_CHECK(frame.flexible_data_rate ? can_fd_length(frame.data.size()) == frame.data.size()
                                      : frame.data.size() <= CAN_MAX_DLEN,
@@ -93,7 +93,7 @@ bus::LiveStatus LiveMedium::send_can(std::size_t can_bus, const bus::CanFrame& f
   can.len = static_cast<std::uint8_t>(frame.data.size());
   can.flags = frame.flexible_data_rate ? CANFD_BRS | CANFD_FDF : 0;
   std::copy(frame.data.begin(), frame.data.end(), std::as_writable_bytes(std::span(can.data)).begin());
-  return send_all(on(bus::line_of_can(can_bus)), {&can, 1});
+  return send_all(on(ports::line_of_can(can_bus)), {&can, 1});
 }
 
 // What of this node's own frames is first in line; nobody waits for what has not left yet. A kernel that left the echo
@@ -114,10 +114,10 @@ void LiveMedium::confirmed(OnLine& line, const Received& own) {
     done(line.socket.send(follow_up_to_can(flexray.channel, *told)), line);
 }
 
-std::optional<bus::LiveArrival> LiveMedium::receive() {
+std::optional<ports::LiveArrival> LiveMedium::receive() {
   std::size_t idle = 0;
   for (int looked_at = 0; idle < lines_.size() && looked_at < kMostAtOnce;) {
-    const bus::Line line = turn_;
+    const ports::Line line = turn_;
     const Status status = lines_[line] ? lines_[line]->socket.receive(received_) : Status::kNothing;
     if (status != Status::kDone || ++in_turn_ == kTurn) {
       turn_ = (turn_ + 1) % lines_.size();
@@ -131,7 +131,7 @@ std::optional<bus::LiveArrival> LiveMedium::receive() {
     idle = 0;
     ++looked_at;
     if (auto arrival = take(line)) {
-      if (arrival->kind != bus::LiveArrival::Kind::kFollowUp) ++received_count_;
+      if (arrival->kind != ports::LiveArrival::Kind::kFollowUp) ++received_count_;
       return arrival;
     }
   }
@@ -139,13 +139,13 @@ std::optional<bus::LiveArrival> LiveMedium::receive() {
 }
 
 // What has just been received on this line, if it is to be handed over.
-std::optional<bus::LiveArrival> LiveMedium::take(bus::Line number) {
+std::optional<ports::LiveArrival> LiveMedium::take(ports::Line number) {
   OnLine& line = *lines_[number];
   if (received_.own) {
     confirmed(line, received_);
     return {};
   }
-  bus::LiveArrival arrival;
+  ports::LiveArrival arrival;
   if (line.flexray ? !take_signal(*line.flexray, arrival) : !take_can(line, arrival)) return {};
   if (!line.flexray) arrival.can_bus = number - kChannels;
   const ClockPair pair = clock_pair();
@@ -154,12 +154,12 @@ std::optional<bus::LiveArrival> LiveMedium::take(bus::Line number) {
   return arrival;
 }
 
-bool LiveMedium::take_signal(FlexRay& flexray, bus::LiveArrival& arrival) const {
+bool LiveMedium::take_signal(FlexRay& flexray, ports::LiveArrival& arrival) const {
   const Arrival arrived = flexray.reassembly.arrive(received_.can);
   if (arrived.outcome != Outcome::kComplete) return false;
   arrival.signal.channel = flexray.channel;
   if (arrived.follow_up) {
-    arrival.kind = bus::LiveArrival::Kind::kFollowUp;
+    arrival.kind = ports::LiveArrival::Kind::kFollowUp;
     arrival.signal.slot = arrived.follow_up->slot;
     arrival.cycle_counter = arrived.follow_up->cycle_counter;
     arrival.late = arrived.follow_up->late;
@@ -172,23 +172,23 @@ bool LiveMedium::take_signal(FlexRay& flexray, bus::LiveArrival& arrival) const 
   return true;
 }
 
-bool LiveMedium::take_can(OnLine& line, bus::LiveArrival& arrival) const {
+bool LiveMedium::take_can(OnLine& line, ports::LiveArrival& arrival) const {
   const canfd_frame& can = received_.can;
   if (can.can_id > CAN_SFF_MASK) return ++line.foreign, false;  // any of the flags, or 29 bits
   const std::size_t most = is_can_fd(can) ? CANFD_MAX_DLEN : CAN_MAX_DLEN;
   if (can.len > most || can_fd_length(can.len) != can.len) return ++line.malformed, false;
-  arrival.kind = bus::LiveArrival::Kind::kCan;
+  arrival.kind = ports::LiveArrival::Kind::kCan;
   arrival.can = {can.can_id, is_can_fd(can), std::as_bytes(std::span(can.data)).first(can.len)};
   return true;
 }
 
-int LiveMedium::descriptor(bus::Line line) const {
+int LiveMedium::descriptor(ports::Line line) const {
   TTF_CHECK(line < lines_.size(), "line {} of {}", line, lines_.size());
   return lines_[line] ? lines_[line]->socket.descriptor() : -1;
 }
 
-bus::LiveCounts LiveMedium::counts() const {
-  bus::LiveCounts counts{.sent = sent_, .received = received_count_, .not_sent = not_sent_};
+ports::LiveCounts LiveMedium::counts() const {
+  ports::LiveCounts counts{.sent = sent_, .received = received_count_, .not_sent = not_sent_};
   for (const std::optional<OnLine>& line : lines_) {
     if (!line) continue;
     counts.lost += line->socket.lost();
@@ -210,4 +210,4 @@ std::vector<std::string> LiveMedium::shortages() const {
   return sentences;
 }
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

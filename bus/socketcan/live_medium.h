@@ -28,7 +28,7 @@
 #include "bus/socketcan/flexray_on_can.h"
 #include "bus/socketcan/socket.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 
 struct LiveOptions {
   struct Can {
@@ -40,17 +40,17 @@ struct LiveOptions {
   int receive_buffer_frames = 16'384;   // of each interface
 };
 
-class LiveMedium final : public bus::LiveMedium {
+class LiveMedium final : public ports::LiveMedium {
  public:
   // Throws InputError where kernel or interfaces are not as they must be, or two lines are to share one.
   explicit LiveMedium(const LiveOptions& options);
 
-  bus::LiveStatus send(const bus::LiveSignal& signal, bus::HostTime due) override;
-  bus::LiveStatus send_can(std::size_t can_bus, const bus::CanFrame& frame) override;
-  std::optional<bus::LiveArrival> receive() override;
-  int descriptor(bus::Line line) const override;
-  void watch(bus::Line, bool) override {}  // a socket is always readable
-  bus::LiveCounts counts() const override;
+  ports::LiveStatus send(const ports::LiveSignal& signal, ports::HostTime due) override;
+  ports::LiveStatus send_can(std::size_t can_bus, const ports::CanFrame& frame) override;
+  std::optional<ports::LiveArrival> receive() override;
+  int descriptor(ports::Line line) const override;
+  void watch(ports::Line, bool) override {}  // a socket is always readable
+  ports::LiveCounts counts() const override;
   const std::string& failure() const override { return failure_; }
 
   // A sentence, with the command that helps, for each interface whose receive buffer is smaller than it should be.
@@ -58,7 +58,7 @@ class LiveMedium final : public bus::LiveMedium {
 
  private:
   struct FlexRay {
-    schedules::Channel channel{};
+    schedules::model::Channel channel{};
     Reassembly reassembly;
     Departures departures;
   };
@@ -68,17 +68,17 @@ class LiveMedium final : public bus::LiveMedium {
     std::uint64_t foreign = 0, malformed = 0;  // of a private CAN
   };
 
-  OnLine& on(bus::Line line);
-  bus::LiveStatus send_all(OnLine& line, std::span<const canfd_frame> frames);
-  bus::LiveStatus done(Status status, const OnLine& line);
+  OnLine& on(ports::Line line);
+  ports::LiveStatus send_all(OnLine& line, std::span<const canfd_frame> frames);
+  ports::LiveStatus done(Status status, const OnLine& line);
   void confirm(OnLine& line);
   void confirmed(OnLine& line, const Received& own);
-  std::optional<bus::LiveArrival> take(bus::Line line);
-  bool take_signal(FlexRay& flexray, bus::LiveArrival& arrival) const;
-  bool take_can(OnLine& line, bus::LiveArrival& arrival) const;
+  std::optional<ports::LiveArrival> take(ports::Line line);
+  bool take_signal(FlexRay& flexray, ports::LiveArrival& arrival) const;
+  bool take_can(OnLine& line, ports::LiveArrival& arrival) const;
 
   std::vector<std::optional<OnLine>> lines_;  // by Line; what this node is not on is empty
-  bus::Line turn_ = 0;                        // which is received from, and for how many frames already
+  ports::Line turn_ = 0;                      // which is received from, and for how many frames already
   int in_turn_ = 0;
   Received received_;  // what the last arrival's bytes are of
   Received own_;
@@ -86,4 +86,4 @@ class LiveMedium final : public bus::LiveMedium {
   std::string failure_;
 };
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

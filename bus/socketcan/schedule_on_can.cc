@@ -12,7 +12,7 @@
 #include "schedules/analysis/minislots.h"
 #include "schedules/check/real_time_rules.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
 // A valid frame of that slot and length: what it says does not matter, as stuff bits are those of the worst
@@ -22,33 +22,37 @@ CanFrames mapped(int slot, int words) {
   header.frame_id = static_cast<std::uint16_t>(slot);
   std::array<std::byte, wire::kMaxFrameBytes> bytes{};
   const std::array<std::byte, wire::kMaxPayloadBytes> payload{};
-  const std::size_t length = wire::encode_frame(header, schedules::Channel::kA,
+  const std::size_t length = wire::encode_frame(header, schedules::model::Channel::kA,
                                                 std::span(payload).first(2 * static_cast<std::size_t>(words)), bytes);
   return frame_to_can(slot, std::span(bytes).first(length));
 }
 
-bool is_sync_frame(const schedules::Cluster& cluster, const schedules::FrameSlot& frame) {
+bool is_sync_frame(const schedules::model::Cluster& cluster, const schedules::model::FrameSlot& frame) {
   const auto& sender = cluster.node(frame.sender).flexray;
   return sender && sender->pKeySlotId == frame.slot && sender->pKeySlotUsedForSync;
 }
 
 }  // namespace
 
-bool SlotOnCan::holds(std::int64_t time_scale_ppm) const { return needs <= schedules::stretched(has, time_scale_ppm); }
+bool SlotOnCan::holds(std::int64_t time_scale_ppm) const {
+  return needs <= schedules::check::stretched(has, time_scale_ppm);
+}
 
-std::vector<SlotOnCan> slots_on_can(const schedules::Cluster& cluster, BitRates rates) {
-  const schedules::GlobalParameters& g = cluster.flexray;
-  schedules::CanBus bus;
+std::vector<SlotOnCan> slots_on_can(const schedules::model::Cluster& cluster, BitRates rates) {
+  const schedules::model::GlobalParameters& g = cluster.flexray;
+  schedules::model::CanBus bus;
   bus.name = "medium";
   bus.flexible_data_rate = true;
   bus.nominal_bit_rate = rates.nominal;
   bus.data_bit_rate = rates.data;
-  const Duration follow_up = schedules::can_worst_case(bus, follow_up_to_can(schedules::Channel::kA, {1, 0, {}}).len);
+  const Duration follow_up =
+      schedules::analysis::can_worst_case(bus, follow_up_to_can(schedules::model::Channel::kA, {1, 0, {}}).len);
   std::map<std::pair<int, Duration>, SlotOnCan> slots;
-  for (const schedules::FrameSlot& frame : cluster.frames) {
-    const bool dynamic = schedules::is_dynamic(g, frame);
-    const int words = dynamic ? schedules::dynamic_words(cluster, frame) : g.gPayloadLengthStatic;
-    const std::int64_t macroticks = dynamic ? schedules::minislots_of(g, words) * g.gdMinislot : g.gdStaticSlot;
+  for (const schedules::model::FrameSlot& frame : cluster.frames) {
+    const bool dynamic = schedules::model::is_dynamic(g, frame);
+    const int words = dynamic ? schedules::analysis::dynamic_words(cluster, frame) : g.gPayloadLengthStatic;
+    const std::int64_t macroticks =
+        dynamic ? schedules::analysis::minislots_of(g, words) * g.gdMinislot : g.gdStaticSlot;
     const CanFrames cans = mapped(frame.slot, words);
     SlotOnCan one{frame.slot,
                   frame.channels,
@@ -57,7 +61,7 @@ std::vector<SlotOnCan> slots_on_can(const schedules::Cluster& cluster, BitRates 
                   {},
                   {},
                   {macroticks * g.gdMacrotick_ps / 1'000}};
-    for (const canfd_frame& can : cans.all()) one.frame += schedules::can_worst_case(bus, can.len);
+    for (const canfd_frame& can : cans.all()) one.frame += schedules::analysis::can_worst_case(bus, can.len);
     one.needs = one.frame;
     if (is_sync_frame(cluster, frame)) {
       one.needs += follow_up;
@@ -66,8 +70,8 @@ std::vector<SlotOnCan> slots_on_can(const schedules::Cluster& cluster, BitRates 
     const auto [at, fresh] = slots.emplace(std::pair{one.slot, one.has}, one);
     if (fresh) continue;
     SlotOnCan& other = at->second;
-    other.channels =
-        static_cast<schedules::Channels>(static_cast<unsigned>(other.channels) | static_cast<unsigned>(one.channels));
+    other.channels = static_cast<schedules::model::Channels>(static_cast<unsigned>(other.channels) |
+                                                             static_cast<unsigned>(one.channels));
     other.can_frames = std::max(other.can_frames, one.can_frames);
     other.frame = std::max(other.frame, one.frame);
     other.needs = std::max(other.needs, one.needs);
@@ -78,11 +82,12 @@ std::vector<SlotOnCan> slots_on_can(const schedules::Cluster& cluster, BitRates 
 }
 
 std::int64_t smallest_time_scale(const std::vector<SlotOnCan>& slots) {
-  Int128 smallest = schedules::kSmallestTimeScale;
+  Int128 smallest = schedules::check::kSmallestTimeScale;
   for (const SlotOnCan& slot : slots)
-    smallest = std::max(
-        smallest, (static_cast<Int128>(slot.needs.ns) * schedules::kTimeScaleOne + slot.has.ns - 1) / slot.has.ns);
+    smallest =
+        std::max(smallest, (static_cast<Int128>(slot.needs.ns) * schedules::check::kTimeScaleOne + slot.has.ns - 1) /
+                               slot.has.ns);
   return static_cast<std::int64_t>(smallest);
 }
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

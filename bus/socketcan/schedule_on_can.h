@@ -1,6 +1,6 @@
 // Whether a schedule holds where its frames travel on real CAN FD hardware, which is slower than FlexRay: as
-// flexray_on_can.h maps them, one CAN for each channel, at worst (schedules/analysis/can_load.h: as many stuff bits as there can
-// be). Only bits are counted; what controllers and drivers take comes on top.
+// flexray_on_can.h maps them, one CAN for each channel, at worst (schedules/analysis/can_load.h: as many stuff bits as
+// there can be). Only bits are counted; what controllers and drivers take comes on top.
 //
 //   static slots    the sync frame of a key slot and its follow-up, or a frame of gPayloadLengthStatic, must take no
 //                   longer than a static slot: from action point to action point
@@ -16,7 +16,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 
 struct BitRates {
   std::int64_t nominal = 0, data = 0;  // bit/s; data at least nominal
@@ -25,7 +25,7 @@ struct BitRates {
 // The frames of one slot that have the same room.
 struct SlotOnCan {
   int slot = 0;
-  schedules::Channels channels{};  // all that such a frame is sent on
+  schedules::model::Channels channels{};  // all that such a frame is sent on
   bool dynamic = false;
   int can_frames = 0;  // of the longest, its follow-up included
   Duration frame{};    // the longest without its follow-up, rounded up
@@ -36,9 +36,9 @@ struct SlotOnCan {
 };
 
 // Ordered by slot, then room. The cluster must have passed check().
-std::vector<SlotOnCan> slots_on_can(const schedules::Cluster& cluster, BitRates rates);
+std::vector<SlotOnCan> slots_on_can(const schedules::model::Cluster& cluster, BitRates rates);
 
 // At which all of them hold, in parts per million; it may be beyond schedules::kLargestTimeScale.
 std::int64_t smallest_time_scale(const std::vector<SlotOnCan>& slots);
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

@@ -19,7 +19,7 @@
 #include "core/check.h"
 #include "core/errors.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
 // What a queued CAN FD frame takes of the receive buffer, its bookkeeping included: 212,992 bytes hold 278.
@@ -205,4 +205,4 @@ void Socket::tell_failure(std::string& text) const {
   }
 }
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

@@ -16,7 +16,7 @@
 
 #include "core/time.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 
 struct SocketOptions {
   std::string interface;
@@ -86,4 +86,4 @@ class Socket {
   int error_ = 0;
 };
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

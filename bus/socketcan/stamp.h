@@ -6,19 +6,19 @@
 
 #include "bus/ports/live_medium.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 
 // Both clocks at one instant, to half of what reading them takes (some 20 ns each); a reading that was interrupted is
 // made again, twice at most.
 struct ClockPair {
-  bus::HostTime host;
+  ports::HostTime host;
   std::int64_t realtime_ns = 0;
-  bus::HostTime now;  // when the reading was over
+  ports::HostTime now;  // when the reading was over
 };
 ClockPair clock_pair();
 
 // When what bears this stamp (ns of CLOCK_REALTIME; 0: none) was stamped. Not later than pair.now: a stranger's frame
 // may bear whatever transmission time it was queued with, and the clock may have been set.
-bus::HostTime on_host(std::int64_t stamp_ns, const ClockPair& pair);
+ports::HostTime on_host(std::int64_t stamp_ns, const ClockPair& pair);
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

@@ -6,7 +6,7 @@
 #include "core/check.h"
 #include "schedules/analysis/can_load.h"
 
-namespace ttf::wire {
+namespace ttf::bus::wire {
 namespace {
 
 // What the bits so far leave behind: how many equal ones stand last, 1 to 4, and which. A fifth one does not stay last,
@@ -101,12 +101,14 @@ constexpr std::array<int, 16> kLengths{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24
 
 }  // namespace
 
-Duration can_frame_duration(const schedules::CanBus& bus, std::uint32_t identifier, std::span<const std::byte> data) {
+Duration can_frame_duration(const schedules::model::CanBus& bus, std::uint32_t identifier,
+                            std::span<const std::byte> data) {
   const int bytes = static_cast<int>(data.size());
   const auto code =
       static_cast<std::uint32_t>(std::lower_bound(kLengths.begin(), kLengths.end(), bytes) - kLengths.begin());
-  TTF_CHECK(schedules::can_data_length(bus.flexible_data_rate, bytes) == bytes, "{} bytes is no CAN length", bytes);
-  schedules::CanBits bits = schedules::can_unstuffed_bits(bus, bytes);
+  TTF_CHECK(schedules::analysis::can_data_length(bus.flexible_data_rate, bytes) == bytes, "{} bytes is no CAN length",
+            bytes);
+  schedules::analysis::CanBits bits = schedules::analysis::can_unstuffed_bits(bus, bytes);
   if (bus.flexible_data_rate) {
     Stuffing nominal;
     nominal.bytes(kFill7 << 17 | (identifier & 0x7FFu) << 5 | 0b00101, 3);  // SOF 0, id, RRS IDE FDF res BRS
@@ -125,7 +127,7 @@ Duration can_frame_duration(const schedules::CanBus& bus, std::uint32_t identifi
     stuffing.bytes(crc << 1 | (~crc & 1u), 2);
     bits.nominal += stuffing.count();
   }
-  return schedules::can_duration(bus, bits);
+  return schedules::analysis::can_duration(bus, bits);
 }
 
-}  // namespace ttf::wire
+}  // namespace ttf::bus::wire

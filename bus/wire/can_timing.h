@@ -9,10 +9,11 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::wire {
+namespace ttf::bus::wire {
 
 // From start of frame to the end of the intermission (bus idle again), rounded up to whole nanoseconds. Base frames:
 // the identifier's low 11 bits count. The data must be as long as a frame can be.
-Duration can_frame_duration(const schedules::CanBus& bus, std::uint32_t identifier, std::span<const std::byte> data);
+Duration can_frame_duration(const schedules::model::CanBus& bus, std::uint32_t identifier,
+                            std::span<const std::byte> data);
 
-}  // namespace ttf::wire
+}  // namespace ttf::bus::wire

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace ttf::wire {
+namespace ttf::bus::wire {
 namespace {
 
 constexpr std::uint32_t kHeaderPolynomial = 0x385, kHeaderInit = 0x01A;
@@ -51,8 +51,8 @@ std::uint16_t header_crc(bool sync, bool startup, std::uint16_t frame_id, std::u
   return static_cast<std::uint16_t>(crc);
 }
 
-std::uint32_t frame_crc(schedules::Channel channel, std::span<const std::byte> header_and_payload) {
-  std::uint32_t crc = channel == schedules::Channel::kA ? kFrameInitA : kFrameInitB;
+std::uint32_t frame_crc(schedules::model::Channel channel, std::span<const std::byte> header_and_payload) {
+  std::uint32_t crc = channel == schedules::model::Channel::kA ? kFrameInitA : kFrameInitB;
   const std::byte* at = header_and_payload.data();
   std::size_t left = header_and_payload.size();
   const auto byte = [&at](std::size_t i) { return static_cast<std::uint32_t>(at[i]); };
@@ -66,4 +66,4 @@ std::uint32_t frame_crc(schedules::Channel channel, std::span<const std::byte> h
   return crc >> 8;
 }
 
-}  // namespace ttf::wire
+}  // namespace ttf::bus::wire

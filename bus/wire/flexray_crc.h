@@ -15,12 +15,12 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::wire {
+namespace ttf::bus::wire {
 
 std::uint16_t header_crc(bool sync, bool startup, std::uint16_t frame_id, std::uint8_t payload_words);
 
 // Eight bytes at a step (slicing by 8: Kounavis and Berry, "Novel table lookup-based algorithms for
 // high-performance CRC generation", IEEE Transactions on Computers 57 (2008)).
-std::uint32_t frame_crc(schedules::Channel channel, std::span<const std::byte> header_and_payload);
+std::uint32_t frame_crc(schedules::model::Channel channel, std::span<const std::byte> header_and_payload);
 
-}  // namespace ttf::wire
+}  // namespace ttf::bus::wire

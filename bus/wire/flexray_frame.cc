@@ -5,7 +5,7 @@
 #include "bus/wire/flexray_crc.h"
 #include "core/check.h"
 
-namespace ttf::wire {
+namespace ttf::bus::wire {
 namespace {
 
 // Where the fields of the header's 40 bits begin, from the last bit on (flexray_frame.h draws them).
@@ -20,8 +20,8 @@ std::uint32_t trailer_of(std::span<const std::byte> frame) {
 
 }  // namespace
 
-std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, std::span<const std::byte> payload,
-                         std::span<std::byte> frame) {
+std::size_t encode_frame(const FrameHeader& header, schedules::model::Channel channel,
+                         std::span<const std::byte> payload, std::span<std::byte> frame) {
   const std::size_t size = kHeaderBytes + payload.size() + kTrailerBytes;
   TTF_CHECK(payload.size() % 2 == 0 && payload.size() <= kMaxPayloadBytes && frame.size() >= size,
             "payload {} bytes, room {}", payload.size(), frame.size());
@@ -68,7 +68,7 @@ bool header_crc_holds(const FrameHeader& header) {
   return header_crc(header.sync, header.startup, header.frame_id, header.payload_words) == header.header_crc;
 }
 
-DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame) {
+DecodedFrame decode_frame(schedules::model::Channel channel, std::span<const std::byte> frame) {
   DecodedFrame decoded;
   if (frame.size() < kHeaderBytes + kTrailerBytes) {
     decoded.error = FrameError::kTooShort;
@@ -91,7 +91,7 @@ DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte>
   return decoded;
 }
 
-FrameCrcs check_crcs(schedules::Channel channel, std::span<const std::byte> frame) {
+FrameCrcs check_crcs(schedules::model::Channel channel, std::span<const std::byte> frame) {
   const std::optional<FrameHeader> header = header_of(frame);
   if (!header) return {};
   FrameCrcs crcs;
@@ -107,17 +107,17 @@ bool has_header(const DecodedFrame& frame) {
 }
 
 std::optional<std::uint16_t> message_id(const DecodedFrame& frame) {
-  if (!frame.header.payload_preamble || frame.payload.size() < schedules::kMessageIdBytes) return std::nullopt;
+  if (!frame.header.payload_preamble || frame.payload.size() < schedules::model::kMessageIdBytes) return std::nullopt;
   return static_cast<std::uint16_t>(static_cast<unsigned>(frame.payload[0]) << 8 |
                                     static_cast<unsigned>(frame.payload[1]));
 }
 
-std::int64_t frame_duration_ps(const schedules::GlobalParameters& flexray, int payload_words) {
-  return schedules::frame_bits(flexray, payload_words) * flexray.gdBit_ps;
+std::int64_t frame_duration_ps(const schedules::model::GlobalParameters& flexray, int payload_words) {
+  return schedules::model::frame_bits(flexray, payload_words) * flexray.gdBit_ps;
 }
 
-Duration frame_duration(const schedules::GlobalParameters& flexray, int payload_words) {
+Duration frame_duration(const schedules::model::GlobalParameters& flexray, int payload_words) {
   return {(frame_duration_ps(flexray, payload_words) + 999) / 1000};
 }
 
-}  // namespace ttf::wire
+}  // namespace ttf::bus::wire

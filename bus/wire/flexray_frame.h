@@ -17,7 +17,7 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::wire {
+namespace ttf::bus::wire {
 
 inline constexpr std::size_t kHeaderBytes = 5;
 inline constexpr std::size_t kTrailerBytes = 3;
@@ -40,8 +40,8 @@ struct FrameHeader {
 // Writes the whole frame and returns its length in bytes. payload_words and header_crc of `header` are not read: the
 // first follows from `payload` (an even number of bytes, at most 254), the CRCs are computed. Checks the ranges above,
 // that a startup frame is a sync frame, that a null frame has no preamble, and that `frame` has room.
-std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, std::span<const std::byte> payload,
-                         std::span<std::byte> frame);
+std::size_t encode_frame(const FrameHeader& header, schedules::model::Channel channel,
+                         std::span<const std::byte> payload, std::span<std::byte> frame);
 
 enum class FrameError : std::uint8_t {
   kNone,
@@ -60,7 +60,7 @@ struct DecodedFrame {
 };
 // `frame`: one whole frame as received on `channel`, without the bits of the physical layer. Sync and startup
 // indicators and the cycle are the receiver's to judge: they depend on the slot.
-DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame);
+DecodedFrame decode_frame(schedules::model::Channel channel, std::span<const std::byte> frame);
 
 // A header taken apart, held against its own CRC or not; the one place that knows where its fields are.
 FrameHeader parse_header(std::span<const std::byte, kHeaderBytes> header);
@@ -75,7 +75,7 @@ struct FrameCrcs {
   bool header_holds = false;
   bool frame_holds = false;
 };
-FrameCrcs check_crcs(schedules::Channel channel, std::span<const std::byte> frame);
+FrameCrcs check_crcs(schedules::model::Channel channel, std::span<const std::byte> frame);
 
 // Whether the header could be made out.
 bool has_header(const DecodedFrame& frame);
@@ -86,11 +86,11 @@ std::optional<std::uint16_t> message_id(const DecodedFrame& frame);
 
 // Of a static frame on the wire (schedules::frame_bits), in picoseconds; and in whole nanoseconds, rounded up: a frame
 // is there when its last bit is.
-std::int64_t frame_duration_ps(const schedules::GlobalParameters& flexray, int payload_words);
-Duration frame_duration(const schedules::GlobalParameters& flexray, int payload_words);
+std::int64_t frame_duration_ps(const schedules::model::GlobalParameters& flexray, int payload_words);
+Duration frame_duration(const schedules::model::GlobalParameters& flexray, int payload_words);
 // Words of payload in a frame of that many bytes, header and trailer included.
 constexpr int words_in_frame(std::size_t frame_bytes) {
   return static_cast<int>((frame_bytes - kHeaderBytes - kTrailerBytes) / 2);
 }
 
-}  // namespace ttf::wire
+}  // namespace ttf::bus::wire

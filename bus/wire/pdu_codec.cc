@@ -7,7 +7,7 @@
 
 #include "core/check.h"
 
-namespace ttf::wire {
+namespace ttf::bus::wire {
 namespace {
 
 // Eight bytes of a payload that hold all bits of a signal, as one number, most significant byte first.
@@ -58,30 +58,30 @@ void write_bits(std::span<std::byte> payload, int first, int count, std::uint32_
   }
 }
 
-const schedules::Signal& signal_at(const std::vector<schedules::Signal>& signals, std::size_t index) {
+const schedules::model::Signal& signal_at(const std::vector<schedules::model::Signal>& signals, std::size_t index) {
   TTF_CHECK(index < signals.size(), "signal {} of {}", index, signals.size());
   return signals[index];
 }
 
-void check_payload(const schedules::PduLayout& layout, std::size_t size) {
+void check_payload(const schedules::model::PduLayout& layout, std::size_t size) {
   TTF_CHECK(size == static_cast<std::size_t>(layout.fragment_bytes), "{} bytes for {} of {}", size, layout.name,
             layout.fragment_bytes);
 }
 
-int element_start(const schedules::PduLayout& layout, int index) {
+int element_start(const schedules::model::PduLayout& layout, int index) {
   TTF_CHECK(index >= 0 && index < layout.elements_per_fragment, "element {} in {}", index, layout.name);
   return layout.header_bits + index * layout.element_bits;
 }
 
 }  // namespace
 
-std::size_t header_signal(const schedules::PduLayout& layout, std::string_view name) {
-  const auto signal = schedules::find_signal(layout.header, name);
+std::size_t header_signal(const schedules::model::PduLayout& layout, std::string_view name) {
+  const auto signal = schedules::model::find_signal(layout.header, name);
   TTF_CHECK(signal.has_value(), "{} has no header signal {}", layout.name, name);
   return *signal;
 }
 
-std::uint32_t to_raw(const schedules::Signal& signal, double physical, int* saturated) {
+std::uint32_t to_raw(const schedules::model::Signal& signal, double physical, int* saturated) {
   TTF_CHECK(!std::isnan(physical), "{} is not a number", signal.name);
   const double bounded = physical < signal.low ? signal.low : physical > signal.high ? signal.high : physical;
   if (bounded != physical && saturated != nullptr) ++*saturated;
@@ -93,40 +93,40 @@ std::uint32_t to_raw(const schedules::Signal& signal, double physical, int* satu
   return static_cast<std::uint32_t>(std::min(raw, (std::int64_t{1} << signal.bits) - 1));
 }
 
-double to_physical(const schedules::Signal& signal, std::uint32_t raw, int* out_of_range) {
+double to_physical(const schedules::model::Signal& signal, std::uint32_t raw, int* out_of_range) {
   if (raw <= highest_code(signal)) return signal.low + static_cast<double>(raw) * signal.resolution;
   if (out_of_range != nullptr) ++*out_of_range;
   return signal.high;
 }
 
-std::uint32_t highest_code(const schedules::Signal& signal) { return to_raw(signal, signal.high); }
+std::uint32_t highest_code(const schedules::model::Signal& signal) { return to_raw(signal, signal.high); }
 
-std::uint32_t read_header_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload,
+std::uint32_t read_header_raw(const schedules::model::PduLayout& layout, std::span<const std::byte> payload,
                               std::size_t signal) {
   check_payload(layout, payload.size());
-  const schedules::Signal& s = signal_at(layout.header, signal);
+  const schedules::model::Signal& s = signal_at(layout.header, signal);
   return read_bits(payload, s.bit_offset, s.bits);
 }
 
-void write_header_raw(const schedules::PduLayout& layout, std::span<std::byte> payload, std::size_t signal,
+void write_header_raw(const schedules::model::PduLayout& layout, std::span<std::byte> payload, std::size_t signal,
                       std::uint32_t raw) {
   check_payload(layout, payload.size());
-  const schedules::Signal& s = signal_at(layout.header, signal);
+  const schedules::model::Signal& s = signal_at(layout.header, signal);
   write_bits(payload, s.bit_offset, s.bits, raw);
 }
 
-std::uint32_t read_element_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload, int index,
+std::uint32_t read_element_raw(const schedules::model::PduLayout& layout, std::span<const std::byte> payload, int index,
                                std::size_t signal) {
   check_payload(layout, payload.size());
-  const schedules::Signal& s = signal_at(layout.element, signal);
+  const schedules::model::Signal& s = signal_at(layout.element, signal);
   return read_bits(payload, element_start(layout, index) + s.bit_offset, s.bits);
 }
 
-void write_element_raw(const schedules::PduLayout& layout, std::span<std::byte> payload, int index, std::size_t signal,
-                       std::uint32_t raw) {
+void write_element_raw(const schedules::model::PduLayout& layout, std::span<std::byte> payload, int index,
+                       std::size_t signal, std::uint32_t raw) {
   check_payload(layout, payload.size());
-  const schedules::Signal& s = signal_at(layout.element, signal);
+  const schedules::model::Signal& s = signal_at(layout.element, signal);
   write_bits(payload, element_start(layout, index) + s.bit_offset, s.bits, raw);
 }
 
-}  // namespace ttf::wire
+}  // namespace ttf::bus::wire

@@ -14,22 +14,22 @@
 #include "schedules/check/checker.h"
 #include "schedules/file/loader.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 
-schedules::Cluster checked_cluster(const std::string& file) {
-  schedules::Cluster cluster = schedules::load_cluster(file);
-  if (auto findings = schedules::check(cluster); !findings.empty()) throw InputError(std::move(findings));
-  schedules::bind_ports(cluster, nodes::step_ports());
+schedules::model::Cluster checked_cluster(const std::string& file) {
+  schedules::model::Cluster cluster = schedules::file::load_cluster(file);
+  if (auto findings = schedules::check::check(cluster); !findings.empty()) throw InputError(std::move(findings));
+  schedules::model::bind_ports(cluster, drives::step_ports());
   return cluster;
 }
 
-schedules::Cluster checked_cluster(const nodes::Scenario& scenario, fusion::StrategyKind strategy) {
+schedules::model::Cluster checked_cluster(const drives::Scenario& scenario, fusion::strategies::StrategyKind strategy) {
   const std::string& file = scenario.cluster_files[static_cast<std::size_t>(strategy)];
   try {
     (void)read_file(file);
   } catch (const InputError& error) {
     Findings none;
-    const std::string name(nodes::name_of(strategy));
+    const std::string name(drives::name_of(strategy));
     YamlMap clusters = StrictYaml::parse(scenario.text, scenario.file).root(none).map("clusters");
     throw InputError({scenario.file, clusters.line(name), "clusters." + name, file,
                       "must be a cluster file, but it " + error.findings().front().expected});
@@ -40,18 +40,19 @@ schedules::Cluster checked_cluster(const nodes::Scenario& scenario, fusion::Stra
 Recording read_recording(const std::string& path) {
   if (path.empty()) return {};
   const std::string text = read_file(path);
-  return {std::make_shared<recording::RecordedInput>(recording::parse_laser_radar(text, path)),
+  return {std::make_shared<recording::rows::RecordedInput>(recording::rows::parse_laser_radar(text, path)),
           std::filesystem::path(path).filename().string(), hex_hash(text)};
 }
 
-recording::LogManifest manifest_of(const nodes::Scenario& scenario, const schedules::Cluster& cluster,
-                                   fusion::StrategyKind strategy, std::uint64_t seed, const Recording& recording) {
-  recording::LogManifest manifest;
+recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
+                                        fusion::strategies::StrategyKind strategy, std::uint64_t seed,
+                                        const Recording& recording) {
+  recording::log::LogManifest manifest;
   manifest.version = TTF_VERSION;
   manifest.seed = seed;
   manifest.scenario_name = scenario.name;
   manifest.cluster_name = cluster.name;
-  manifest.strategy = nodes::name_of(strategy);
+  manifest.strategy = drives::name_of(strategy);
   manifest.cycle_ns = cluster.cycle().ns;
   manifest.bit_ps = cluster.flexray.gdBit_ps;
   manifest.hashes = {{"scenario", hex_hash(scenario.text)}, {"cluster", hex_hash(cluster.text)}};
@@ -59,30 +60,33 @@ recording::LogManifest manifest_of(const nodes::Scenario& scenario, const schedu
     manifest.recording_name = recording.name;
     manifest.hashes.emplace_back("recording", recording.hash);
   }
-  for (const schedules::Node& node : cluster.nodes) {
+  for (const schedules::model::Node& node : cluster.nodes) {
     manifest.node_names.push_back(node.name);
     manifest.task_names.emplace_back();
-    for (const schedules::Task& task : node.tasks) manifest.task_names.back().push_back(task.name);
+    for (const schedules::model::Task& task : node.tasks) manifest.task_names.back().push_back(task.name);
   }
-  for (const schedules::PduLayout& pdu : cluster.pdus) {
+  for (const schedules::model::PduLayout& pdu : cluster.pdus) {
     manifest.pdu_names.push_back(pdu.name);
     manifest.pdu_sensors.push_back(pdu.sensor);
   }
-  for (const schedules::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
-  for (const schedules::CanBus& bus : cluster.can_buses) manifest.can_bus_names.push_back(bus.name);
+  for (const schedules::model::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
+  for (const schedules::model::CanBus& bus : cluster.can_buses) manifest.can_bus_names.push_back(bus.name);
   return manifest;
 }
 
-std::vector<fusion::StrategyKind> chosen(const std::string& name) {
-  std::vector<fusion::StrategyKind> strategies;
-  for (const auto kind : {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva, fusion::StrategyKind::kTt})
-    if (name.empty() || nodes::name_of(kind) == name) strategies.push_back(kind);
+std::vector<fusion::strategies::StrategyKind> chosen(const std::string& name) {
+  std::vector<fusion::strategies::StrategyKind> strategies;
+  for (const auto kind : {fusion::strategies::StrategyKind::kBuff, fusion::strategies::StrategyKind::kAdva,
+                          fusion::strategies::StrategyKind::kTt})
+    if (name.empty() || drives::name_of(kind) == name) strategies.push_back(kind);
   return strategies;
 }
 
-std::unique_ptr<recording::LogWriter> begin_log(const std::string& path, const recording::LogManifest& manifest,
-                                                const nodes::Scenario& scenario, const schedules::Cluster& cluster) {
-  auto log = std::make_unique<recording::LogWriter>(path, manifest);
+std::unique_ptr<recording::log::LogWriter> begin_log(const std::string& path,
+                                                     const recording::log::LogManifest& manifest,
+                                                     const drives::Scenario& scenario,
+                                                     const schedules::model::Cluster& cluster) {
+  auto log = std::make_unique<recording::log::LogWriter>(path, manifest);
   log->attach(std::filesystem::path(scenario.file).filename().string(), "application/yaml", scenario.text);
   log->attach(std::filesystem::path(cluster.file).filename().string(), "application/yaml", cluster.text);
   return log;
@@ -97,19 +101,19 @@ std::uint64_t seed_of(const std::string& text) {
   return seed;
 }
 
-std::string folder_of(const nodes::Scenario& scenario) {
+std::string folder_of(const drives::Scenario& scenario) {
   if (scenario.name.empty() || scenario.name.find('/') != std::string::npos || scenario.name.front() == '.')
     throw InputError({scenario.file, 0, "name", scenario.name, "must name a folder under out/, or --out be given"});
   return "out/" + scenario.name;
 }
 
-DriveJudge::DriveJudge(const nodes::Scenario& scenario, const schedules::Cluster& cluster)
-    : scenario_(scenario), cluster_(cluster), plan_(nodes::resolve(scenario.faults, cluster)),
-      measures_(sim::evaluation_start(scenario)), startup_(cluster.cycle()),
+DriveJudge::DriveJudge(const drives::Scenario& scenario, const schedules::model::Cluster& cluster)
+    : scenario_(scenario), cluster_(cluster), plan_(faults::resolve(scenario.faults, cluster)),
+      measures_(drives::evaluation_start(scenario)), startup_(cluster.cycle()),
       faults_(cluster, plan_, !scenario.startup.cold) {}
 
-std::vector<records::Sink*> DriveJudge::sinks() {
-  std::vector<records::Sink*> sinks{&measures_, &startup_};
+std::vector<recording::records::Sink*> DriveJudge::sinks() {
+  std::vector<recording::records::Sink*> sinks{&measures_, &startup_};
   if (!scenario_.faults.empty()) sinks.push_back(&faults_);
   return sinks;
 }
@@ -117,9 +121,9 @@ std::vector<records::Sink*> DriveJudge::sinks() {
 void DriveJudge::finish(StrategyResult& result) {
   result.summary = measures_.finish();
   result.startup = startup_.nodes();
-  faults_.finish(sim::kFirstCycle + scenario_.duration);
+  faults_.finish(sim::crank::kFirstCycle + scenario_.duration);
   result.faults = faults_.findings();
   result.fault_free = fault_free_nodes(result.faults, plan_, cluster_);
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

@@ -7,60 +7,63 @@
 #include <vector>
 
 #include "cli/drive/run_outputs.h"
-#include "evaluation/faults/fault_account.h"
+#include "drives/scenario.h"
 #include "evaluation/accuracy/drive_measures.h"
 #include "evaluation/cluster/startup_account.h"
-#include "drives/scenario.h"
+#include "evaluation/faults/fault_account.h"
 #include "recording/log/manifest.h"
 #include "recording/log/writer.h"
-#include "recording/rows/laser_radar_file.h"
 #include "recording/records/records.h"
+#include "recording/rows/laser_radar_file.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 
 // A cluster that has passed its check, ready to run. Throws InputError.
-schedules::Cluster checked_cluster(const std::string& file);
+schedules::model::Cluster checked_cluster(const std::string& file);
 // That of the scenario's strategy. One that cannot be read at all is told as the scenario's mistake, with its line.
-schedules::Cluster checked_cluster(const nodes::Scenario& scenario, fusion::StrategyKind strategy);
+schedules::model::Cluster checked_cluster(const drives::Scenario& scenario, fusion::strategies::StrategyKind strategy);
 
 // What --input gives: the observations, and what the manifest says of the file they came from. Its name goes without
 // the folder, so that a log does not depend on where the file lay.
 struct Recording {
-  std::shared_ptr<const recording::RecordedInput> rows;
+  std::shared_ptr<const recording::rows::RecordedInput> rows;
   std::string name, hash;
 };
 Recording read_recording(const std::string& path);
 
-recording::LogManifest manifest_of(const nodes::Scenario& scenario, const schedules::Cluster& cluster,
-                                   fusion::StrategyKind strategy, std::uint64_t seed, const Recording& recording);
+recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
+                                        fusion::strategies::StrategyKind strategy, std::uint64_t seed,
+                                        const Recording& recording);
 // A log that has its scenario and cluster attached.
-std::unique_ptr<recording::LogWriter> begin_log(const std::string& path, const recording::LogManifest& manifest,
-                                                const nodes::Scenario& scenario, const schedules::Cluster& cluster);
+std::unique_ptr<recording::log::LogWriter> begin_log(const std::string& path,
+                                                     const recording::log::LogManifest& manifest,
+                                                     const drives::Scenario& scenario,
+                                                     const schedules::model::Cluster& cluster);
 
 // All strategies where none is named.
-std::vector<fusion::StrategyKind> chosen(const std::string& name);
+std::vector<fusion::strategies::StrategyKind> chosen(const std::string& name);
 // --seed: the same rule as for a scenario's seed, and decimal digits only.
 std::uint64_t seed_of(const std::string& text);
 
 // Where results go without --out; a name that leads elsewhere is no name. Throws InputError.
-std::string folder_of(const nodes::Scenario& scenario);
+std::string folder_of(const drives::Scenario& scenario);
 
 // Makes of a drive's records what tables and JSON tell of it.
 class DriveJudge {
  public:
-  DriveJudge(const nodes::Scenario& scenario, const schedules::Cluster& cluster);
-  std::vector<records::Sink*> sinks();
+  DriveJudge(const drives::Scenario& scenario, const schedules::model::Cluster& cluster);
+  std::vector<recording::records::Sink*> sinks();
   // At the end of the drive, once. Fills in summary, startup and faults.
   void finish(StrategyResult& result);
 
  private:
-  const nodes::Scenario& scenario_;
-  const schedules::Cluster& cluster_;
-  const nodes::FaultPlan plan_;
-  experiments::DriveMeasures measures_;
-  experiments::StartupAccount startup_;
-  experiments::FaultReport faults_;
+  const drives::Scenario& scenario_;
+  const schedules::model::Cluster& cluster_;
+  const faults::FaultPlan plan_;
+  evaluation::accuracy::DriveMeasures measures_;
+  evaluation::cluster::StartupAccount startup_;
+  evaluation::faults::FaultReport faults_;
 };
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

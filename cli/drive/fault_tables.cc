@@ -8,27 +8,27 @@
 #include "evaluation/faults/judge.h"
 #include "report/drawing/tables.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 namespace {
 
-using experiments::CheckSeen;
-using experiments::FaultEffects;
-using experiments::FaultFindings;
-using experiments::FaultSeen;
-using experiments::GuardianSeen;
-using experiments::Harm;
-using experiments::HarmSeen;
-using experiments::StateSeen;
+using evaluation::faults::CheckSeen;
+using evaluation::faults::FaultEffects;
+using evaluation::faults::FaultFindings;
+using evaluation::faults::FaultSeen;
+using evaluation::faults::GuardianSeen;
+using evaluation::faults::Harm;
+using evaluation::faults::HarmSeen;
+using evaluation::faults::StateSeen;
 
 double seconds(TrueTime at) { return (at - TrueTime{}).seconds(); }
-std::string cell(TrueTime at) { return report::cell(seconds(at), 6); }
+std::string cell(TrueTime at) { return report::drawing::cell(seconds(at), 6); }
 std::string cell(const std::optional<TrueTime>& at) { return at ? cell(*at) : "-"; }
 
-std::string node_name(NodeId node, const schedules::Cluster& cluster) {
+std::string node_name(NodeId node, const schedules::model::Cluster& cluster) {
   return index_of(node) < cluster.nodes.size() ? cluster.node(node).name : "-";
 }
 
-std::string node_names(const std::vector<NodeId>& nodes, const schedules::Cluster& cluster) {
+std::string node_names(const std::vector<NodeId>& nodes, const schedules::model::Cluster& cluster) {
   std::string names;
   for (const NodeId node : nodes) names += (names.empty() ? "" : ", ") + node_name(node, cluster);
   return names;
@@ -43,31 +43,32 @@ template <class Each> void for_each(const FaultFindings& findings, Each each) {
   each(std::string(kUnattributed), findings.unattributed, std::optional<TrueTime>());
 }
 
-std::string injected_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
-  report::Table table({"#", "fault", "node", "begins [s]", "first act [s]", "acts", "ends [s]", "what it did first"});
+std::string injected_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
+  report::drawing::Table table(
+      {"#", "fault", "node", "begins [s]", "first act [s]", "acts", "ends [s]", "what it did first"});
   for (const FaultSeen& fault : findings.faults)
     table.add({fmt::format("{}", fault.fault), fault.kind, node_name(fault.node, cluster), cell(fault.begins),
                cell(fault.first_act), fmt::format("{}", fault.acts), cell(fault.ends), fault.text});
   return table.text();
 }
 
-std::string seers(const CheckSeen& seen, const schedules::Cluster& cluster) {
+std::string seers(const CheckSeen& seen, const schedules::model::Cluster& cluster) {
   std::string names = node_names(seen.nodes, cluster);
-  for (const auto channel : schedules::kBothChannels)
+  for (const auto channel : schedules::model::kBothChannels)
     if (seen.guardians[index_of(channel)])
       names += fmt::format("{}guardian {}", names.empty() ? "" : ", ", letter(channel));
   return names;
 }
 
-std::string checks_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
-  report::Table table({"#", "check", "cycles", "after [ms]", "seen by"});
+std::string checks_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
+  report::drawing::Table table({"#", "check", "cycles", "after [ms]", "seen by"});
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime> begins) {
-    for (const auto check : experiments::kAllChecks)
+    for (const auto check : evaluation::faults::kAllChecks)
       for (const bool faulty : {false, true}) {
         const CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[static_cast<std::size_t>(check)];
         if (seen.cycles == 0) continue;
         table.add({name, std::string(name_of(check)), fmt::format("{}", seen.cycles),
-                   begins ? report::cell(in_ms(seen.first - *begins), 3) : "-",
+                   begins ? report::drawing::cell(in_ms(seen.first - *begins), 3) : "-",
                    seers(seen, cluster) + (faulty ? " (faulty)" : "")});
       }
   });
@@ -76,7 +77,7 @@ std::string checks_text(const FaultFindings& findings, const schedules::Cluster&
 
 // Empty without guardians, or where they had nothing to do.
 std::string guardians_text(const FaultFindings& findings) {
-  report::Table table({"#", "guardians", "signals", "first cycle", "first [s]", "why"});
+  report::drawing::Table table({"#", "guardians", "signals", "first cycle", "first [s]", "why"});
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
     for (const GuardianSeen& kept : effects.guardians)
       table.add({name, kept.cut ? "cut" : "blocked", fmt::format("{}", kept.signals),
@@ -85,8 +86,8 @@ std::string guardians_text(const FaultFindings& findings) {
   return table.rows() == 0 ? "" : table.text() + "\n";
 }
 
-std::string states_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
-  report::Table table({"#", "node", "first [s]", "times", "from", "to", "why"});
+std::string states_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
+  report::drawing::Table table({"#", "node", "first [s]", "times", "from", "to", "why"});
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
     for (const StateSeen& state : effects.states)
       table.add({name, node_name(state.node, cluster), cell(state.first), fmt::format("{}", state.times), state.from,
@@ -96,7 +97,7 @@ std::string states_text(const FaultFindings& findings, const schedules::Cluster&
 }
 
 // What befell a node: how often, and where first.
-std::string harm_words(Harm harm, const HarmSeen& harmed, const schedules::Cluster& cluster) {
+std::string harm_words(Harm harm, const HarmSeen& harmed, const schedules::model::Cluster& cluster) {
   const std::string node = harmed.node == kNoNode ? "" : node_name(harmed.node, cluster);
   const std::string where =
       harmed.sender == kNoNode ? "" : fmt::format("slot {} of {}", harmed.slot, node_name(harmed.sender, cluster));
@@ -119,10 +120,10 @@ std::string harm_words(Harm harm, const HarmSeen& harmed, const schedules::Clust
 }
 
 std::string harms_text(const FaultFindings& findings, const std::vector<NodeId>& sound,
-                       const schedules::Cluster& cluster) {
+                       const schedules::model::Cluster& cluster) {
   std::string text;
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
-    for (const Harm harm : experiments::kAllHarms)
+    for (const Harm harm : evaluation::faults::kAllHarms)
       for (const HarmSeen& harmed : effects.harms[static_cast<std::size_t>(harm)])
         text += fmt::format("HARMED{}{}, {:.6f} s: {}\n", name == kUnattributed ? ", " : " by fault ", name,
                             seconds(harmed.first), harm_words(harm, harmed, cluster));
@@ -136,13 +137,13 @@ std::string harms_text(const FaultFindings& findings, const std::vector<NodeId>&
 nlohmann::ordered_json seconds_or_null(const std::optional<TrueTime>& at) {
   return at ? nlohmann::ordered_json(seconds(*at)) : nlohmann::ordered_json(nullptr);
 }
-nlohmann::ordered_json name_or_null(NodeId node, const schedules::Cluster& cluster) {
+nlohmann::ordered_json name_or_null(NodeId node, const schedules::model::Cluster& cluster) {
   return node == kNoNode ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(node_name(node, cluster));
 }
 
-nlohmann::ordered_json checks_json(const FaultEffects& effects, const schedules::Cluster& cluster) {
+nlohmann::ordered_json checks_json(const FaultEffects& effects, const schedules::model::Cluster& cluster) {
   auto checks = nlohmann::ordered_json::array();
-  for (const auto check : experiments::kAllChecks)
+  for (const auto check : evaluation::faults::kAllChecks)
     for (const bool faulty : {false, true}) {
       const CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[static_cast<std::size_t>(check)];
       if (seen.cycles == 0) continue;
@@ -151,9 +152,9 @@ nlohmann::ordered_json checks_json(const FaultEffects& effects, const schedules:
                                     {"cycles", seen.cycles},
                                     {"first_s", seconds(seen.first)},
                                     {"nodes", names_json(seen.nodes, cluster)}};
-      if (check == experiments::Check::kGuardian) {
+      if (check == evaluation::faults::Check::kGuardian) {
         one["guardians"] = nlohmann::ordered_json::array();
-        for (const auto channel : schedules::kBothChannels)
+        for (const auto channel : schedules::model::kBothChannels)
           if (seen.guardians[index_of(channel)]) one["guardians"].push_back(std::string(1, letter(channel)));
       }
       checks.push_back(std::move(one));
@@ -162,7 +163,7 @@ nlohmann::ordered_json checks_json(const FaultEffects& effects, const schedules:
 }
 
 // What came of a fault, or of none, is added to `one`.
-void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const schedules::Cluster& cluster) {
+void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const schedules::model::Cluster& cluster) {
   one["checks"] = checks_json(effects, cluster);
   one["guardians"] = nlohmann::ordered_json::array();
   for (const GuardianSeen& kept : effects.guardians)
@@ -181,7 +182,7 @@ void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const
                              {"times", state.times}});
   one["harmed"] = effects.harmed();
   one["harms"] = nlohmann::ordered_json::array();
-  for (const Harm harm : experiments::kAllHarms)
+  for (const Harm harm : evaluation::faults::kAllHarms)
     for (const HarmSeen& harmed : effects.harms[static_cast<std::size_t>(harm)])
       one["harms"].push_back({{"harm", name_of(harm)},
                               {"first_s", seconds(harmed.first)},
@@ -193,17 +194,17 @@ void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const
 
 }  // namespace
 
-nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::Cluster& cluster) {
+nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::model::Cluster& cluster) {
   auto names = nlohmann::ordered_json::array();
   for (const NodeId node : nodes) names.push_back(node_name(node, cluster));
   return names;
 }
 
-std::vector<NodeId> fault_free_nodes(const FaultFindings& findings, const nodes::FaultPlan& plan,
-                                     const schedules::Cluster& cluster) {
+std::vector<NodeId> fault_free_nodes(const FaultFindings& findings, const faults::FaultPlan& plan,
+                                     const schedules::model::Cluster& cluster) {
   std::vector<bool> faulty(cluster.nodes.size(), false);
   for (const FaultSeen& fault : findings.faults) {
-    const std::vector<bool> named = experiments::named_by(plan.faults.at(fault.fault), cluster);
+    const std::vector<bool> named = evaluation::faults::named_by(plan.faults.at(fault.fault), cluster);
     for (std::size_t n = 0; n < named.size(); ++n) faulty[n] = faulty[n] || named[n];
   }
   std::vector<NodeId> sound;
@@ -213,14 +214,14 @@ std::vector<NodeId> fault_free_nodes(const FaultFindings& findings, const nodes:
 }
 
 std::string faults_text(std::string_view run, const FaultFindings& findings, const std::vector<NodeId>& fault_free,
-                        const schedules::Cluster& cluster) {
+                        const schedules::model::Cluster& cluster) {
   std::string text = fmt::format("Faults, {}\n", run);
   if (findings.faults.empty()) return text + "None of the plan's faults began.\n";
   return text + injected_text(findings, cluster) + "\n" + checks_text(findings, cluster) + "\n" +
          guardians_text(findings) + states_text(findings, cluster) + "\n" + harms_text(findings, fault_free, cluster);
 }
 
-nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const schedules::Cluster& cluster) {
+nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const schedules::model::Cluster& cluster) {
   auto json = nlohmann::ordered_json::array();
   for (const FaultSeen& fault : faults) {
     nlohmann::ordered_json one;
@@ -238,10 +239,10 @@ nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const s
   return json;
 }
 
-nlohmann::ordered_json unattributed_json(const FaultEffects& effects, const schedules::Cluster& cluster) {
+nlohmann::ordered_json unattributed_json(const FaultEffects& effects, const schedules::model::Cluster& cluster) {
   nlohmann::ordered_json one;
   add_effects(one, effects, cluster);
   return one;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

@@ -11,20 +11,21 @@
 #include "faults/plan.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 
 // The nodes on FlexRay that no fault that began names. `plan`: the run's, resolved.
-std::vector<NodeId> fault_free_nodes(const experiments::FaultFindings& findings, const nodes::FaultPlan& plan,
-                                     const schedules::Cluster& cluster);
+std::vector<NodeId> fault_free_nodes(const evaluation::faults::FaultFindings& findings, const faults::FaultPlan& plan,
+                                     const schedules::model::Cluster& cluster);
 
 // `run`: what the tables are of, in their first line. What fits none of the faults has lines of its own,
 // "unattributed".
-std::string faults_text(std::string_view run, const experiments::FaultFindings& findings,
-                        const std::vector<NodeId>& fault_free, const schedules::Cluster& cluster);
+std::string faults_text(std::string_view run, const evaluation::faults::FaultFindings& findings,
+                        const std::vector<NodeId>& fault_free, const schedules::model::Cluster& cluster);
 // The same, times in seconds from the start of the run; null where there is none.
-nlohmann::ordered_json faults_json(const std::vector<experiments::FaultSeen>& faults,
-                                   const schedules::Cluster& cluster);
-nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::Cluster& cluster);
-nlohmann::ordered_json unattributed_json(const experiments::FaultEffects& effects, const schedules::Cluster& cluster);
+nlohmann::ordered_json faults_json(const std::vector<evaluation::faults::FaultSeen>& faults,
+                                   const schedules::model::Cluster& cluster);
+nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::model::Cluster& cluster);
+nlohmann::ordered_json unattributed_json(const evaluation::faults::FaultEffects& effects,
+                                         const schedules::model::Cluster& cluster);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

@@ -8,13 +8,13 @@
 #include "evaluation/lateness/lateness_account.h"
 #include "report/drawing/tables.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 namespace {
 
-using experiments::NodeTiming;
-using experiments::RealTimeFindings;
-using recording::NodeLateness;
-using records::BinnedDurations;
+using evaluation::lateness::NodeTiming;
+using evaluation::lateness::RealTimeFindings;
+using recording::exports::NodeLateness;
+using recording::records::BinnedDurations;
 
 // What is told of a distribution: its median, what one in a hundred and one in a thousand is beyond, and its end.
 constexpr int kQuantiles[] = {500, 990, 999};
@@ -22,8 +22,8 @@ constexpr int kQuantiles[] = {500, 990, 999};
 void add_cells(std::vector<std::string>& cells, const BinnedDurations& late) {
   cells.push_back(fmt::format("{}", late.count()));
   for (const int thousandths : kQuantiles)
-    cells.push_back(late.empty() ? "-" : report::cell(in_us(late.quantile(thousandths)), 0));
-  cells.push_back(late.empty() ? "-" : report::cell(in_us(late.longest()), 0));
+    cells.push_back(late.empty() ? "-" : report::drawing::cell(in_us(late.quantile(thousandths)), 0));
+  cells.push_back(late.empty() ? "-" : report::drawing::cell(in_us(late.longest()), 0));
 }
 
 struct Distribution {
@@ -35,7 +35,7 @@ struct Distribution {
 std::string distributions(const StrategyResult& result, const std::vector<Distribution>& all) {
   std::vector<std::string> head{"node"};
   for (const Distribution& one : all) head.insert(head.end(), {one.name, "p50", "p99", "p99.9", "longest"});
-  report::Table table(head);
+  report::drawing::Table table(head);
   for (const auto& [node, late] : result.real_time->lateness) {
     if (std::all_of(all.begin(), all.end(), [&l = late](const Distribution& one) { return (l.*one.of).empty(); }))
       continue;
@@ -47,14 +47,15 @@ std::string distributions(const StrategyResult& result, const std::vector<Distri
 }
 
 std::string problems(const StrategyResult& result) {
-  report::Table table({"node", "late wake-ups", "slots missed", "frames late", "early", "withheld by the sender",
-                       "sender away", "lost on the way", "largest correction [us]"});
+  report::drawing::Table table({"node", "late wake-ups", "slots missed", "frames late", "early",
+                                "withheld by the sender", "sender away", "lost on the way", "largest correction [us]"});
   for (const auto& [node, timing] : result.real_time->timing)
-    table.add({result.cluster.node(node).name, fmt::format("{}", timing.late_wake_ups),
-               fmt::format("{}", timing.slots_missed), fmt::format("{}", timing.late_frames),
-               fmt::format("{}", timing.early_frames), fmt::format("{}", timing.missing.withheld),
-               fmt::format("{}", timing.missing.away), fmt::format("{}", timing.lost_on_the_way()),
-               timing.largest_offset_correction ? report::cell(in_us(*timing.largest_offset_correction), 1) : "-"});
+    table.add(
+        {result.cluster.node(node).name, fmt::format("{}", timing.late_wake_ups),
+         fmt::format("{}", timing.slots_missed), fmt::format("{}", timing.late_frames),
+         fmt::format("{}", timing.early_frames), fmt::format("{}", timing.missing.withheld),
+         fmt::format("{}", timing.missing.away), fmt::format("{}", timing.lost_on_the_way()),
+         timing.largest_offset_correction ? report::drawing::cell(in_us(*timing.largest_offset_correction), 1) : "-"});
   return table.text() +
          "Slots missed: withheld by this node; frames: of others, not heard by it. Slot problems, in the table above: "
          "every slot of every\nnode and channel whose frame was not there when the static segment ended "
@@ -63,7 +64,8 @@ std::string problems(const StrategyResult& result) {
 
 // Empty where no node told of its medium.
 std::string media(const StrategyResult& result) {
-  report::Table table({"medium of", "sent", "received", "no room to send", "lost", "dropped", "foreign", "malformed"});
+  report::drawing::Table table(
+      {"medium of", "sent", "received", "no room to send", "lost", "dropped", "foreign", "malformed"});
   for (const auto& [node, counts] : result.real_time->medium) {
     std::vector<std::string> cells{result.cluster.node(node).name};
     for (const std::uint64_t count :
@@ -76,20 +78,20 @@ std::string media(const StrategyResult& result) {
 
 // Of the drive's time, as it was in real time.
 double scaled_us(const StrategyResult& result, Duration d) {
-  return in_us(experiments::in_real_time(d, result.real_time->time_scale_ppm));
+  return in_us(evaluation::lateness::in_real_time(d, result.real_time->time_scale_ppm));
 }
 
 std::string sums(const StrategyResult& result) {
-  report::Table table({"in real time", "samples", "p50", "p99", "longest"});
+  report::drawing::Table table({"in real time", "samples", "p50", "p99", "longest"});
   const auto add = [&](const std::string& name, const BinnedDurations& all, double unit_us, int decimals) {
     const auto cell = [&](Duration d) {
-      return all.empty() ? "-" : report::cell(scaled_us(result, d) / unit_us, decimals);
+      return all.empty() ? "-" : report::drawing::cell(scaled_us(result, d) / unit_us, decimals);
     };
     table.add(
         {name, fmt::format("{}", all.count()), cell(all.quantile(500)), cell(all.quantile(990)), cell(all.longest())});
   };
   const bool one_host = result.real_time->precision.size() == 1;
-  for (const experiments::HostPrecision& host : result.real_time->precision)
+  for (const evaluation::lateness::HostPrecision& host : result.real_time->precision)
     add(one_host ? "clocks apart [us]" : fmt::format("clocks on {} apart [us]", host.host), host.apart, 1.0, 1);
   add("sensor to feature, newest measurement [ms]", result.summary.age_used_newest, 1e3, 1);
   add("sensor to feature, oldest measurement [ms]", result.summary.age_used_oldest, 1e3, 1);
@@ -105,7 +107,7 @@ nlohmann::ordered_json late_json(const BinnedDurations& late) {
           {"longest", in_us(late.longest())}};
 }
 
-nlohmann::ordered_json medium_json(const records::MediumCounts& counts) {
+nlohmann::ordered_json medium_json(const recording::records::MediumCounts& counts) {
   return {{"sent", counts.sent},      {"received", counts.received}, {"not_sent", counts.not_sent},
           {"lost", counts.lost},      {"foreign", counts.foreign},   {"malformed", counts.malformed},
           {"dropped", counts.dropped}};
@@ -164,7 +166,7 @@ nlohmann::ordered_json real_time_json(const StrategyResult& result) {
     json["nodes"].push_back(std::move(one));
   }
   json["precision_us"] = nlohmann::ordered_json::array();
-  for (const experiments::HostPrecision& host : found.precision) {
+  for (const evaluation::lateness::HostPrecision& host : found.precision) {
     nlohmann::ordered_json one{{"host", host.host}};
     one.update(scaled_json(result, host.apart, 1.0));
     json["precision_us"].push_back(std::move(one));
@@ -174,4 +176,4 @@ nlohmann::ordered_json real_time_json(const StrategyResult& result) {
   return json;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

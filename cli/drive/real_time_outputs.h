@@ -6,7 +6,7 @@
 
 #include "cli/drive/run_outputs.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 
 // Tables in words: of each node how late its process was woken up, next to the machine's own floor; how late frames
 // left and came; what was not in its time, or never came; what its medium counted; and how well the clocks agreed and
@@ -15,4 +15,4 @@ std::string real_time_text(const StrategyResult& result);
 // The same, for `"real_time"` in summary.json; null in virtual time.
 nlohmann::ordered_json real_time_json(const StrategyResult& result);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

@@ -8,15 +8,15 @@
 #include "cli/commands.h"
 #include "cli/drive/drive_setup.h"
 #include "cli/drive/fault_tables.h"
-#include "cli/output.h"
 #include "cli/drive/run_outputs.h"
 #include "cli/drive/startup_outputs.h"
+#include "cli/output.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
 #include "recording/log/writer.h"
 #include "recording/records/tee.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 namespace {
 
 struct RunOptions {
@@ -30,24 +30,25 @@ struct RunOptions {
   bool no_pictures = false;
 };
 
-StrategyResult run_strategy(const RunOptions& options, const nodes::Scenario& scenario, fusion::StrategyKind strategy,
-                            std::uint64_t seed, const Recording& recording, const std::string& folder) {
+StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& scenario,
+                            fusion::strategies::StrategyKind strategy, std::uint64_t seed, const Recording& recording,
+                            const std::string& folder) {
   StrategyResult result;
   result.strategy = strategy;
   result.cluster = checked_cluster(scenario, strategy);
   DriveJudge judge(scenario, result.cluster);
-  std::vector<records::Sink*> sinks = judge.sinks();
-  std::unique_ptr<recording::LogWriter> log;
+  std::vector<recording::records::Sink*> sinks = judge.sinks();
+  std::unique_ptr<recording::log::LogWriter> log;
   if (!options.no_log) {
-    result.log_path = fmt::format("{}/{}.mcap", folder, nodes::name_of(strategy));
+    result.log_path = fmt::format("{}/{}.mcap", folder, drives::name_of(strategy));
     if (!options.input.empty()) refuse_overwriting(options.input, result.log_path, "--out");
     log = begin_log(result.log_path, manifest_of(scenario, result.cluster, strategy, seed, recording), scenario,
                     result.cluster);
     sinks.push_back(log.get());
   }
-  records::Tee tee(sinks);
-  const sim::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
-  result.outcome = sim::run_drive(config, tee);
+  recording::records::Tee tee(sinks);
+  const drives::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
+  result.outcome = drives::run_drive(config, tee);
   judge.finish(result);
   if (log) {
     log->close();
@@ -57,19 +58,19 @@ StrategyResult run_strategy(const RunOptions& options, const nodes::Scenario& sc
 }
 
 int run_scenario(const RunOptions& options) {
-  const nodes::Scenario scenario = nodes::load_scenario(options.scenario);
+  const drives::Scenario scenario = drives::load_scenario(options.scenario);
   const std::uint64_t seed = options.seed ? seed_of(*options.seed) : scenario.seed;
   const Recording recording = read_recording(options.input);
   const std::string folder = options.out.empty() ? folder_of(scenario) : options.out;
   // Before anything is simulated or an earlier run's log is written over.
-  for (const fusion::StrategyKind strategy : chosen(options.strategy))
-    sim::check_fits(scenario, checked_cluster(scenario, strategy), strategy, recording.rows != nullptr);
+  for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy))
+    drives::check_fits(scenario, checked_cluster(scenario, strategy), strategy, recording.rows != nullptr);
   create_folder(folder);
 
   std::vector<StrategyResult> results;
-  for (const fusion::StrategyKind strategy : chosen(options.strategy)) {
+  for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
     fmt::print(stderr, "{}: {:g} s with {} ...\n", scenario.name, scenario.duration.seconds(),
-               nodes::name_of(strategy));
+               drives::name_of(strategy));
     results.push_back(run_strategy(options, scenario, strategy, seed, recording, folder));
   }
   if (!options.no_pictures && !options.no_log) write_pictures(scenario, results, folder);
@@ -83,7 +84,7 @@ int run_scenario(const RunOptions& options) {
     if (!scenario.faults.empty())
       for (const StrategyResult& result : results)
         fmt::print("\n{}",
-                   faults_text(nodes::name_of(result.strategy), result.faults, result.fault_free, result.cluster));
+                   faults_text(drives::name_of(result.strategy), result.faults, result.fault_free, result.cluster));
   }
   std::fflush(stdout);  // both may go to one file
   fmt::print(stderr, "written to {}\n", folder);
@@ -108,4 +109,4 @@ void add_run(CLI::App& app, Action& action) {
   command->callback([options, &action] { action = [options] { return run_scenario(*options); }; });
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

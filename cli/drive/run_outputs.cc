@@ -11,21 +11,21 @@
 #include "cli/drive/startup_outputs.h"
 #include "recording/log/reader.h"
 #include "recording/records/tee.h"
+#include "report/drawing/render.h"
+#include "report/drawing/tables.h"
 #include "report/page/index_page.h"
 #include "report/plots/lateness_picture.h"
 #include "report/plots/position_plot.h"
-#include "report/drawing/render.h"
 #include "report/plots/schedule_picture.h"
 #include "report/startup/diagram.h"
-#include "report/drawing/tables.h"
 #include "report/timing/diagram.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 namespace {
 
 double us(Duration d) { return static_cast<double>(d.ns) * 1e-3; }
 
-using Value = std::string (*)(const StrategyResult&);
+using Value = std::string (*)(const ttf::cli::drive::StrategyResult&);
 struct Row {
   const char* name;
   Value value;
@@ -34,11 +34,11 @@ struct Row {
 
 std::string number(std::uint64_t n) { return fmt::format("{}", n); }
 // Of nothing there is no age, rather than one of zero.
-std::string mean_cell(const experiments::AgeStatistics& ages) {
-  return ages.count == 0 ? "-" : report::cell(in_ms(ages.mean()), 1);
+std::string mean_cell(const evaluation::accuracy::AgeStatistics& ages) {
+  return ages.count == 0 ? "-" : report::drawing::cell(in_ms(ages.mean()), 1);
 }
-std::string worst_cell(const experiments::AgeStatistics& ages) {
-  return ages.count == 0 ? "-" : report::cell(in_ms(ages.worst), 1);
+std::string worst_cell(const evaluation::accuracy::AgeStatistics& ages) {
+  return ages.count == 0 ? "-" : report::drawing::cell(in_ms(ages.worst), 1);
 }
 
 // Times the feature service had an image and took it.
@@ -51,26 +51,26 @@ std::optional<double> precision_us(const StrategyResult& result) {
 
 // Lists that were made and never fused: too late for the strategy, or lost between a task's end and its reader's start.
 std::uint64_t lost_lists(const StrategyResult& result) {
-  const nodes::ExecutiveCounts& counts = result.outcome.counts;
+  const nodes::host::ExecutiveCounts& counts = result.outcome.counts;
   return result.summary.dropped + counts.torn_lists + counts.overwritten_lists + counts.discarded_lists;
 }
 
 const Row kRows[] = {
     {"position RMSE against truth [m]",
-     [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_truth, 3); }},
+     [](const StrategyResult& r) { return report::drawing::cell(r.summary.position_rmse_truth, 3); }},
     {"velocity RMSE against truth [m/s]",
-     [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_truth, 3); }},
+     [](const StrategyResult& r) { return report::drawing::cell(r.summary.velocity_rmse_truth, 3); }},
     {"  x, y, vx, vy",
      [](const StrategyResult& r) {
        const auto& rmse = r.summary.rmse_truth;
-       return fmt::format("{} {} {} {}", report::cell(rmse[0], 2), report::cell(rmse[1], 2), report::cell(rmse[2], 2),
-                          report::cell(rmse[3], 2));
+       return fmt::format("{} {} {} {}", report::drawing::cell(rmse[0], 2), report::drawing::cell(rmse[1], 2),
+                          report::drawing::cell(rmse[2], 2), report::drawing::cell(rmse[3], 2));
      }},
     {"position RMSE against DGPS [m]",
-     [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_reference, 3); }},
+     [](const StrategyResult& r) { return report::drawing::cell(r.summary.position_rmse_reference, 3); }},
     {"velocity RMSE against DGPS [m/s]",
-     [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_reference, 3); }},
-    {"NEES (4 degrees of freedom)", [](const StrategyResult& r) { return report::cell(r.summary.nees, 2); }},
+     [](const StrategyResult& r) { return report::drawing::cell(r.summary.velocity_rmse_reference, 3); }},
+    {"NEES (4 degrees of freedom)", [](const StrategyResult& r) { return report::drawing::cell(r.summary.nees, 2); }},
     {"  95 % band",
      [](const StrategyResult& r) {
        return r.summary.nees_samples == 0 ? std::string("-")
@@ -86,7 +86,7 @@ const Row kRows[] = {
     {"  times held back", [](const StrategyResult& r) { return number(r.summary.held); }},
     {"  held back for, mean / worst [ms]",
      [](const StrategyResult& r) {
-       const experiments::AgeStatistics& held = r.summary.held_for;
+       const evaluation::accuracy::AgeStatistics& held = r.summary.held_for;
        return held.count == 0 ? std::string("-") : mean_cell(held) + " / " + worst_cell(held);
      }},
     {"  dropped", [](const StrategyResult& r) { return number(lost_lists(r)); }},
@@ -108,12 +108,12 @@ const Row kRows[] = {
     {"precision of the time base [us]",
      [](const StrategyResult& r) {
        const auto precision = precision_us(r);
-       return precision ? report::cell(*precision, 3) : std::string("-");
+       return precision ? report::drawing::cell(*precision, 3) : std::string("-");
      }},
     {"slot problems", [](const StrategyResult& r) { return number(r.outcome.counts.slot_problems); }},
     {"deadlines missed", [](const StrategyResult& r) { return number(r.outcome.counts.deadlines_missed); }},
     {"FlexRay load per channel [%]",
-     [](const StrategyResult& r) { return report::cell(100 * r.outcome.flexray_load, 1); }},
+     [](const StrategyResult& r) { return report::drawing::cell(100 * r.outcome.flexray_load, 1); }},
     {"content hash of the log",
      [](const StrategyResult& r) { return r.content_hash.empty() ? std::string("-") : r.content_hash; }},
     {"CAN frames refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_can_frames); }, true},
@@ -121,7 +121,7 @@ const Row kRows[] = {
      [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); }, true},
 };
 
-nlohmann::ordered_json ages(const experiments::AgeStatistics& statistics) {
+nlohmann::ordered_json ages(const evaluation::accuracy::AgeStatistics& statistics) {
   if (statistics.count == 0) return {{"count", 0}, {"mean_ms", nullptr}, {"worst_ms", nullptr}};
   return {{"count", statistics.count}, {"mean_ms", in_ms(statistics.mean())}, {"worst_ms", in_ms(statistics.worst)}};
 }
@@ -132,11 +132,11 @@ constexpr const char* kSchedule = "schedule";
 // Of each strategy: STRATEGY_timing and so on.
 constexpr const char* kOfStrategy[] = {"startup", "lateness", "timing", "over_time", "plane"};
 
-report::PositionOptions position_options(const nodes::Scenario& scenario, const StrategyResult& result) {
-  report::PositionOptions options;
-  options.title = fmt::format("{}, {}", scenario.name, nodes::name_of(result.strategy));
-  options.from = sim::evaluation_start(scenario);
-  options.to = sim::drive_end(scenario);
+report::plots::PositionOptions position_options(const drives::Scenario& scenario, const StrategyResult& result) {
+  report::plots::PositionOptions options;
+  options.title = fmt::format("{}, {}", scenario.name, drives::name_of(result.strategy));
+  options.from = drives::evaluation_start(scenario);
+  options.to = drives::drive_end(scenario);
   for (std::size_t o = 0; o < scenario.world.objects.size(); ++o)
     if (scenario.world.objects[o].reference) options.object = static_cast<ObjectId>(o);
   return options;
@@ -146,8 +146,8 @@ report::PositionOptions position_options(const nodes::Scenario& scenario, const 
 
 std::string comparison_table(const std::vector<StrategyResult>& results) {
   std::vector<std::string> header{"measure"};
-  for (const StrategyResult& result : results) header.emplace_back(nodes::name_of(result.strategy));
-  report::Table table(header);
+  for (const StrategyResult& result : results) header.emplace_back(drives::name_of(result.strategy));
+  report::drawing::Table table(header);
   const auto add = [&](const Row& row) {
     std::vector<std::string> cells{row.name};
     bool any = false;
@@ -161,23 +161,24 @@ std::string comparison_table(const std::vector<StrategyResult>& results) {
   for (std::size_t b = 0; !results.empty() && b < results.front().cluster.can_buses.size(); ++b) {
     std::vector<std::string> cells{fmt::format("{} load [%]", results.front().cluster.can_buses[b].name)};
     for (const StrategyResult& result : results)
-      cells.push_back(b < result.outcome.can_load.size() ? report::cell(100 * result.outcome.can_load[b], 1) : "-");
+      cells.push_back(b < result.outcome.can_load.size() ? report::drawing::cell(100 * result.outcome.can_load[b], 1)
+                                                         : "-");
     table.add(std::move(cells));
   }
   return table.text();
 }
 
 // What is not a number becomes null.
-nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t seed,
+nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t seed,
                                const std::vector<StrategyResult>& results) {
   nlohmann::ordered_json json;
   json["scenario"] = scenario.name;
   json["seed"] = seed;
   json["duration_s"] = scenario.duration.seconds();
   for (const StrategyResult& result : results) {
-    const experiments::DriveSummary& s = result.summary;
+    const evaluation::accuracy::DriveSummary& s = result.summary;
     nlohmann::ordered_json one;
-    one["strategy"] = nodes::name_of(result.strategy);
+    one["strategy"] = drives::name_of(result.strategy);
     one["cluster"] = result.cluster.name;
     one["rmse_truth"] = {{"position_m", s.position_rmse_truth},
                          {"velocity_mps", s.velocity_rmse_truth},
@@ -248,41 +249,41 @@ std::vector<std::string> picture_files(std::string_view strategy) {
   return files;
 }
 
-void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyResult>& results,
+void write_pictures(const drives::Scenario& scenario, const std::vector<StrategyResult>& results,
                     const std::string& folder) {
-  std::vector<report::IndexEntry> entries;
+  std::vector<report::page::IndexEntry> entries;
   entries.push_back({scenario.description, "", "", comparison_table(results), {"summary.json"}});
   const auto picture = [&](const std::string& name, const std::string& heading, const std::string& caption,
                            const std::string& svg) {
-    report::write_picture(svg, folder + "/" + name + ".svg");
-    report::write_picture(svg, folder + "/" + name + ".png");
-    report::write_picture(svg, folder + "/" + name + ".pdf");
+    report::drawing::write_picture(svg, folder + "/" + name + ".svg");
+    report::drawing::write_picture(svg, folder + "/" + name + ".png");
+    report::drawing::write_picture(svg, folder + "/" + name + ".pdf");
     entries.push_back({heading, name + ".svg", caption, "", {name + ".png", name + ".pdf"}});
   };
 
-  std::vector<std::unique_ptr<report::PositionPlots>> plots;
-  std::vector<const report::PositionPlots*> panels;
+  std::vector<std::unique_ptr<report::plots::PositionPlots>> plots;
+  std::vector<const report::plots::PositionPlots*> panels;
   std::vector<std::string> titles;
   for (const StrategyResult& result : results) {
-    report::Names names = report::names_of(result.cluster);
-    names.run = fmt::format("{}, {}", scenario.name, nodes::name_of(result.strategy));
-    const std::string strategy(nodes::name_of(result.strategy));
+    report::drawing::Names names = report::drawing::names_of(result.cluster);
+    names.run = fmt::format("{}, {}", scenario.name, drives::name_of(result.strategy));
+    const std::string strategy(drives::name_of(result.strategy));
     // The timing diagram shows 160 ms, four images, from where the drive is judged.
-    const TrueTime from = sim::evaluation_start(scenario);
-    report::TimingDiagram timing(names, result.cluster.cycle(), from, from + Duration::milliseconds(160));
-    plots.push_back(std::make_unique<report::PositionPlots>(names, position_options(scenario, result)));
-    report::StartupExtent extent;
-    records::Tee tee({&timing, plots.back().get(), &extent});
-    recording::read_log(result.log_path, tee);
+    const TrueTime from = drives::evaluation_start(scenario);
+    report::timing::TimingDiagram timing(names, result.cluster.cycle(), from, from + Duration::milliseconds(160));
+    plots.push_back(std::make_unique<report::plots::PositionPlots>(names, position_options(scenario, result)));
+    report::startup::StartupExtent extent;
+    recording::records::Tee tee({&timing, plots.back().get(), &extent});
+    recording::log::read_log(result.log_path, tee);
     if (const auto window = extent.window(result.cluster.cycle())) {
-      report::StartupDiagram startup(names, result.cluster.cycle(), window->first, window->second);
-      recording::read_log(result.log_path, startup);
+      report::startup::StartupDiagram startup(names, result.cluster.cycle(), window->first, window->second);
+      recording::log::read_log(result.log_path, startup);
       picture(strategy + "_startup", strategy + ": start-up", "Every node's states, and what it sent.", startup.svg());
     }
     if (result.real_time) {
       picture(strategy + "_lateness", strategy + ": lateness",
               "How late the nodes' processes were woken up, in real time.",
-              report::lateness_svg(result.real_time->lateness, names));
+              report::plots::lateness_svg(result.real_time->lateness, names));
       entries.push_back({"", "", "", real_time_text(result), {}});
     }
     picture(strategy + "_timing", strategy + ": timing", "Slots, tasks and every measurement's way.", timing.svg());
@@ -293,10 +294,10 @@ void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyR
   }
   if (panels.size() > 1)
     picture("comparison", "The strategies side by side", "y over x, the same axes.",
-            report::comparison_svg(panels, titles));
+            report::plots::comparison_svg(panels, titles));
   picture("schedule", "Schedule of " + results.back().cluster.name, "One communication cycle and the multiplexing.",
-          report::schedule_svg(results.back().cluster));
-  report::write_index(folder, scenario.name, entries);
+          report::plots::schedule_svg(results.back().cluster));
+  report::page::write_index(folder, scenario.name, entries);
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

@@ -7,38 +7,38 @@
 #include <string_view>
 #include <vector>
 
-#include "evaluation/faults/fault_account.h"
-#include "evaluation/lateness/lateness_account.h"
+#include "drives/drive.h"
+#include "drives/scenario.h"
 #include "evaluation/accuracy/drive_measures.h"
 #include "evaluation/cluster/startup_account.h"
+#include "evaluation/faults/fault_account.h"
+#include "evaluation/lateness/lateness_account.h"
 #include "fusion/strategies/strategy.h"
-#include "drives/scenario.h"
 #include "schedules/model/cluster.h"
-#include "drives/drive.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 
 struct StrategyResult {
-  fusion::StrategyKind strategy{};
-  schedules::Cluster cluster;
-  sim::DriveOutcome outcome;
-  experiments::DriveSummary summary;
-  std::vector<experiments::NodeStartup> startup;  // nodes that started up or changed their state
-  experiments::FaultFindings faults;
-  std::vector<NodeId> fault_free;                          // to the end, of those on FlexRay
-  std::optional<experiments::RealTimeFindings> real_time;  // of a run by the wall clock
+  fusion::strategies::StrategyKind strategy{};
+  schedules::model::Cluster cluster;
+  drives::DriveOutcome outcome;
+  evaluation::accuracy::DriveSummary summary;
+  std::vector<evaluation::cluster::NodeStartup> startup;  // nodes that started up or changed their state
+  evaluation::faults::FaultFindings faults;
+  std::vector<NodeId> fault_free;                                   // to the end, of those on FlexRay
+  std::optional<evaluation::lateness::RealTimeFindings> real_time;  // of a run by the wall clock
   std::string log_path;
   std::string content_hash;
 };
 
 // The comparison table, a column a strategy.
 std::string comparison_table(const std::vector<StrategyResult>& results);
-nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t seed,
+nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t seed,
                                const std::vector<StrategyResult>& results);
 // All files that write_pictures() may make of this one strategy.
 std::vector<std::string> picture_files(std::string_view strategy);
 // Timing diagrams, position plots and index.html in `folder`, from the logs alone.
-void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyResult>& results,
+void write_pictures(const drives::Scenario& scenario, const std::vector<StrategyResult>& results,
                     const std::string& folder);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

@@ -8,23 +8,24 @@
 
 #include "report/drawing/tables.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 
 std::string startup_text(const std::vector<StrategyResult>& results, bool cold) {
   std::vector<std::pair<std::string, std::string>> tables;  // with the strategies they are of
   for (const StrategyResult& result : results) {
     if (result.startup.empty()) continue;
-    report::Table table({"node", cold ? "powered on [ms]" : "powered on again [ms]",
-                         cold ? "first active in cycle" : "first active again in cycle", "at [ms]",
-                         "in state at the end, and why"});
-    for (const experiments::NodeStartup& node : result.startup) {
+    report::drawing::Table table({"node", cold ? "powered on [ms]" : "powered on again [ms]",
+                                  cold ? "first active in cycle" : "first active again in cycle", "at [ms]",
+                                  "in state at the end, and why"});
+    for (const evaluation::cluster::NodeStartup& node : result.startup) {
       const bool on_flexray = !node.state.empty();
-      table.add({result.cluster.node(node.node).name, node.powered ? report::cell(in_ms(*node.powered), 1) : "-",
+      table.add({result.cluster.node(node.node).name,
+                 node.powered ? report::drawing::cell(in_ms(*node.powered), 1) : "-",
                  node.active ? fmt::format("{}", node.active->cycle) : "-",
-                 node.active ? report::cell(in_ms(node.active->at), 1) : "-",
+                 node.active ? report::drawing::cell(in_ms(node.active->at), 1) : "-",
                  on_flexray ? fmt::format("{}: {}", node.state, node.why) : "not on FlexRay"});
     }
-    const std::string name(nodes::name_of(result.strategy)), body = table.text();
+    const std::string name(drives::name_of(result.strategy)), body = table.text();
     const auto same =
         std::find_if(tables.begin(), tables.end(), [&](const auto& other) { return other.second == body; });
     if (same != tables.end())
@@ -40,7 +41,7 @@ std::string startup_text(const std::vector<StrategyResult>& results, bool cold) 
 
 nlohmann::ordered_json startup_json(const StrategyResult& result) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const experiments::NodeStartup& node : result.startup) {
+  for (const evaluation::cluster::NodeStartup& node : result.startup) {
     nlohmann::ordered_json one;
     one["node"] = result.cluster.node(node.node).name;
     one["powered_on_ms"] = nullptr;
@@ -58,4 +59,4 @@ nlohmann::ordered_json startup_json(const StrategyResult& result) {
   return list;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

@@ -5,22 +5,22 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/experiment/options.h"
+#include "cli/experiment/replay_story.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "cli/experiment/replay_story.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "core/file_bytes.h"
-#include "experiments/campaign/csv.h"
 #include "experiments/campaign/coverage.h"
+#include "experiments/campaign/csv.h"
 
-namespace ttf::cli {
+namespace ttf::cli::experiment {
 namespace {
 
-using experiments::CampaignClusters;
-using experiments::CampaignFile;
-using experiments::Coverage;
-using experiments::FaultResult;
+using experiments::campaign::CampaignClusters;
+using experiments::campaign::CampaignFile;
+using experiments::campaign::Coverage;
+using experiments::campaign::FaultResult;
 
 constexpr std::size_t kShownHarms = 40;  // the others are in the results' table
 
@@ -34,22 +34,23 @@ std::uint32_t fault_of(const std::string& text, const CampaignFile& campaign) {
 
 int replay(const ExperimentOptions& options, const CampaignFile& campaign, const CampaignClusters& clusters) {
   const std::uint32_t fault = fault_of(*options.replay, campaign);
-  const experiments::DrawnFault drawn = experiments::draw_fault(campaign, clusters.base, fault);
-  fmt::print("fault {}: {}\n", fault, experiments::fault_text(drawn, clusters.base));
-  if (!experiments::in_hypothesis(drawn.fault)) fmt::print("It is outside of the fault hypothesis.\n");
+  const experiments::campaign::DrawnFault drawn = experiments::campaign::draw_fault(campaign, clusters.base, fault);
+  fmt::print("fault {}: {}\n", fault, experiments::campaign::fault_text(drawn, clusters.base));
+  if (!experiments::campaign::in_hypothesis(drawn.fault)) fmt::print("It is outside of the fault hypothesis.\n");
   for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
     fmt::print("\nvariant {}\n", campaign.variants[v].name);
     ReplayStory story(clusters.variants[v]);
-    const experiments::FaultOutcome outcome =
-        experiments::run_trial(campaign, clusters.variants[v], drawn, fault, &story);
+    const experiments::campaign::FaultOutcome outcome =
+        experiments::campaign::run_trial(campaign, clusters.variants[v], drawn, fault, &story);
     story.finish();
-    fmt::print("  {}\n", outcome.harms == 0 ? "no fault-free node is harmed"
-                                            : "harm: " + experiments::harm_text(outcome, clusters.variants[v]));
+    fmt::print("  {}\n", outcome.harms == 0
+                             ? "no fault-free node is harmed"
+                             : "harm: " + experiments::campaign::harm_text(outcome, clusters.variants[v]));
   }
   return 0;
 }
 
-nlohmann::ordered_json to_json(const experiments::Spread& spread, Duration cycle) {
+nlohmann::ordered_json to_json(const experiments::campaign::Spread& spread, Duration cycle) {
   if (spread.count == 0) return nullptr;
   const auto cycles = [&](std::int64_t ns) { return static_cast<double>(ns) / static_cast<double>(cycle.ns); };
   return {
@@ -60,17 +61,17 @@ nlohmann::ordered_json to_json(const Coverage& coverage, Duration cycle) {
   nlohmann::ordered_json json{{"variant", coverage.variant},
                               {"guardian_and_two_channels", coverage.guarded},
                               {"harmed_in_hypothesis", coverage.harmed_in_hypothesis}};
-  for (const experiments::ClassCoverage& row : coverage.classes) {
-    nlohmann::ordered_json one{{"class", nodes::name_of(row.kind)},
+  for (const experiments::campaign::ClassCoverage& row : coverage.classes) {
+    nlohmann::ordered_json one{{"class", faults::name_of(row.kind)},
                                {"in_hypothesis", row.in_hypothesis},
                                {"injected", row.injected},
                                {"activated", row.activated},
                                {"detected", row.detected}};
-    for (const experiments::Check check : experiments::kAllChecks)
+    for (const evaluation::faults::Check check : evaluation::faults::kAllChecks)
       one["detected_by"][std::string(name_of(check))] = row.by_check[static_cast<std::size_t>(check)];
     one["noticed_by_itself"] = row.by_itself;
     one["harmed"] = row.harmed;
-    for (const experiments::Harm harm : experiments::kAllHarms)
+    for (const evaluation::faults::Harm harm : evaluation::faults::kAllHarms)
       one["harmed_by"][std::string(name_of(harm))] = row.by_harm[static_cast<std::size_t>(harm)];
     one["fails_without_fault"] = row.without;
     one["to_detect"] = to_json(row.detect, cycle);
@@ -90,11 +91,13 @@ std::string harms_text(const ExperimentOptions& options, const CampaignFile& cam
   for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
     if (!campaign.variants[v].guarded()) continue;
     for (const FaultResult& result : results) {
-      if (result.outcomes[v].harms == 0 || !experiments::in_hypothesis(result.drawn.fault) || ++count > kShownHarms)
+      if (result.outcomes[v].harms == 0 || !experiments::campaign::in_hypothesis(result.drawn.fault) ||
+          ++count > kShownHarms)
         continue;
       out += fmt::format("fault {}: {}\n  {}\n  ttfusion experiment {} --replay {}\n", result.index,
-                         experiments::fault_text(result.drawn, clusters.base),
-                         experiments::harm_text(result.outcomes[v], clusters.variants[v]), options.file, result.index);
+                         experiments::campaign::fault_text(result.drawn, clusters.base),
+                         experiments::campaign::harm_text(result.outcomes[v], clusters.variants[v]), options.file,
+                         result.index);
     }
   }
   if (count > kShownHarms) out += fmt::format("and {} more, in results.csv\n", count - kShownHarms);
@@ -107,18 +110,18 @@ std::vector<FaultResult> results_of(const ExperimentOptions& options, const Camp
     std::vector<std::vector<FaultResult>> shards;
     for (const std::string& folder : options.merge) {
       const std::string path = folder + "/results.csv";
-      shards.push_back(experiments::read_campaign_csv(campaign, clusters, read_file(path), path));
+      shards.push_back(experiments::campaign::read_campaign_csv(campaign, clusters, read_file(path), path));
     }
-    return experiments::merged(campaign, std::move(shards));
+    return experiments::campaign::merged(campaign, std::move(shards));
   }
-  const experiments::Shard shard = shard_of(options.shard);
-  const unsigned jobs = options.jobs > 0 ? options.jobs : experiments::workers_here();
+  const experiments::results::Shard shard = shard_of(options.shard);
+  const unsigned jobs = options.jobs > 0 ? options.jobs : experiments::results::workers_here();
   const auto all = (static_cast<std::uint64_t>(campaign.faults) + shard.count - 1 - shard.part) / shard.count;
   fmt::print(stderr, "{}: {} in {}, {} ...\n", campaign.name, counted(all, "fault"),
              counted(campaign.variants.size(), "variant"), counted(jobs, "worker"));
   const Progress progress("faults");
-  return experiments::run_campaign(campaign, clusters, shard, jobs,
-                                   [&](std::uint64_t done) { progress(done, all, done); });
+  return experiments::campaign::run_campaign(campaign, clusters, shard, jobs,
+                                             [&](std::uint64_t done) { progress(done, all, done); });
 }
 
 }  // namespace
@@ -126,7 +129,7 @@ std::vector<FaultResult> results_of(const ExperimentOptions& options, const Camp
 int run_fault_campaign(const ExperimentOptions& options) {
   if (options.resume)
     throw InputError({"command line", 0, "--resume", "", "is for sweeps: a campaign's faults are not kept one by one"});
-  const CampaignFile campaign = experiments::load_campaign(options.file);
+  const CampaignFile campaign = experiments::campaign::load_campaign(options.file);
   const CampaignClusters clusters(campaign);
   if (options.replay) return replay(options, campaign, clusters);
   if (!options.out.empty()) create_folder(options.out);
@@ -137,8 +140,8 @@ int run_fault_campaign(const ExperimentOptions& options) {
   std::string text;
   std::uint64_t harmed = 0;
   for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
-    const Coverage coverage = experiments::coverage_of(campaign, results, v);
-    text += experiments::coverage_text(coverage, cycle) + '\n';
+    const Coverage coverage = experiments::campaign::coverage_of(campaign, results, v);
+    text += experiments::campaign::coverage_text(coverage, cycle) + '\n';
     json["variants"].push_back(to_json(coverage, cycle));
     if (coverage.guarded) harmed += coverage.harmed_in_hypothesis;
   }
@@ -152,7 +155,7 @@ int run_fault_campaign(const ExperimentOptions& options) {
   }
   text += harms_text(options, campaign, clusters, results);
   if (!options.out.empty()) {
-    write_file(options.out + "/results.csv", experiments::campaign_csv(campaign, clusters, results));
+    write_file(options.out + "/results.csv", experiments::campaign::campaign_csv(campaign, clusters, results));
     write_file(options.out + "/coverage.txt", text);
     write_file(options.out + "/coverage.json", json.dump(2) + '\n');
     fmt::print(stderr, "written to {}\n", options.out);
@@ -164,4 +167,4 @@ int run_fault_campaign(const ExperimentOptions& options) {
   return holds ? 0 : 1;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::experiment

@@ -18,12 +18,12 @@
 #include "core/errors.h"
 #include "experiments/sweep/file.h"
 
-namespace ttf::cli {
+namespace ttf::cli::experiment {
 namespace {
 
 namespace fs = std::filesystem;
-using experiments::SweepDrives;
-using experiments::SweepFile;
+using experiments::sweep::SweepDrives;
+using experiments::sweep::SweepFile;
 
 // Why there is nothing to show, in words for the page.
 class NoDrives : public std::runtime_error {
@@ -52,86 +52,90 @@ class ScratchFolder {
 };
 
 // By paradigm, of one replication; empty where not all of them have one.
-std::vector<results::Run> first_done_by_all(const results::Store& store, std::uint32_t point, std::size_t paradigms) {
-  std::vector<results::Run> runs;
-  for (results::Run& run : store.of_point(point)) {
+std::vector<experiments::results::Run> first_done_by_all(const experiments::results::Store& store, std::uint32_t point,
+                                                         std::size_t paradigms) {
+  std::vector<experiments::results::Run> runs;
+  for (experiments::results::Run& run : store.of_point(point)) {
     if (!runs.empty() && runs.front().key.replication != run.key.replication) runs.clear();
-    if (run.status != results::kDone || run.key.paradigm != runs.size()) continue;
+    if (run.status != experiments::results::kDone || run.key.paradigm != runs.size()) continue;
     runs.push_back(std::move(run));
     if (runs.size() == paradigms) return runs;
   }
   return {};
 }
 
-bool same(const results::Run& a, const results::Run& b) {
+bool same(const experiments::results::Run& a, const experiments::results::Run& b) {
   return a.status == b.status &&
          std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
 // Of the folder's experiment, or NoDrives.
-void check_same_experiment(const SweepDrives& drives, const report::ExperimentFolder& folder) {
+void check_same_experiment(const SweepDrives& drives, const report::experiment::ExperimentFolder& folder) {
   const SweepFile& sweep = drives.sweep();
-  const results::StoreHead& head = folder.store->head();
+  const experiments::results::StoreHead& head = folder.store->head();
   if (head.version != TTF_VERSION)
     throw NoDrives(fmt::format("the runs are of version {} of the program, and this is {}", head.version, TTF_VERSION));
   std::vector<std::string> names;
-  for (const experiments::Paradigm& paradigm : sweep.paradigms) names.push_back(paradigm.name);
+  for (const experiments::sweep::Paradigm& paradigm : sweep.paradigms) names.push_back(paradigm.name);
   const std::size_t points = sweep.points();
-  const bool all_there =
-      std::ranges::all_of(folder.points, [&](const report::ExperimentPoint& point) { return point.point < points; });
+  const bool all_there = std::ranges::all_of(
+      folder.points, [&](const report::experiment::ExperimentPoint& point) { return point.point < points; });
   if (!all_there || head.identity != drives.identity() || head.measures != drives.columns() ||
       names != folder.paradigms)
     throw NoDrives(
         fmt::format("{}, or a file that it names, is not as it was when the experiment was driven", sweep.file));
 }
 
-report::Drive driven(const SweepDrives& drives, const results::Run& known) {
+report::run::Drive driven(const SweepDrives& drives, const experiments::results::Run& known) {
   const std::string& paradigm = drives.sweep().paradigms[known.key.paradigm].name;
   const ScratchFolder scratch;
   if (!same(drive_again(drives, known.key, scratch.path()), known))
     throw NoDrives(fmt::format("{}, driven again, came to other figures than in results.sqlite", paradigm));
-  report::RunFolder folder = report::read_run_folder(scratch.path());  // whose logs are in memory now
-  report::Drive drive = std::move(folder.drives.front());
+  report::run::RunFolder folder = report::run::read_run_folder(scratch.path());  // whose logs are in memory now
+  report::run::Drive drive = std::move(folder.drives.front());
   drive.folder.clear();
   drive.label = paradigm;
   return drive;
 }
 
-std::vector<report::Drive> all_driven(const report::ExperimentFolder& folder, const std::string& file,
-                                      std::uint32_t point, std::uint32_t& replication) {
-  const SweepFile sweep = experiments::load_sweep(file);
+std::vector<report::run::Drive> all_driven(const report::experiment::ExperimentFolder& folder, const std::string& file,
+                                           std::uint32_t point, std::uint32_t& replication) {
+  const SweepFile sweep = experiments::sweep::load_sweep(file);
   const SweepDrives drives(sweep);
   check_same_experiment(drives, folder);
-  const std::vector<results::Run> runs = first_done_by_all(*folder.store, point, folder.paradigms.size());
+  const std::vector<experiments::results::Run> runs = first_done_by_all(*folder.store, point, folder.paradigms.size());
   if (runs.empty())
     throw NoDrives(fmt::format("at point {} there is no replication that every paradigm has done", point));
   replication = runs.front().key.replication;
   fmt::print(stderr, "{}: {} of point {}, replication {}, again ...\n", sweep.name, counted(runs.size(), "run"), point,
              replication);
-  std::vector<report::Drive> all;
-  for (const results::Run& run : runs) all.push_back(driven(drives, run));
+  std::vector<report::run::Drive> all;
+  for (const experiments::results::Run& run : runs) all.push_back(driven(drives, run));
   return all;
 }
 
 }  // namespace
 
-results::Run drive_again(const SweepDrives& drives, const results::RunKey& key, const std::string& folder) {
+experiments::results::Run drive_again(const SweepDrives& drives, const experiments::results::RunKey& key,
+                                      const std::string& folder) {
   const SweepFile& sweep = drives.sweep();
-  const experiments::PreparedDrive drive = drives.prepare(key);
-  const std::unique_ptr<recording::LogWriter> log = begin_log(
+  const experiments::sweep::PreparedDrive drive = drives.prepare(key);
+  const std::unique_ptr<recording::log::LogWriter> log = drive::begin_log(
       fmt::format("{}/{}.mcap", folder, sweep.paradigms[key.paradigm].name),
-      manifest_of(drive.scenario, drive.cluster, drive.strategy, sweep.seed, {}), drive.scenario, drive.cluster);
-  results::Run run = drives.run(key, drive, log.get());
+      drive::manifest_of(drive.scenario, drive.cluster, drive.strategy, sweep.seed, {}), drive.scenario, drive.cluster);
+  experiments::results::Run run = drives.run(key, drive, log.get());
   log->close();
   return run;
 }
 
-report::ExperimentDrives drives_of(const report::ExperimentFolder& folder, const std::optional<std::string>& file,
-                                   std::optional<std::uint32_t> point) {
-  report::ExperimentDrives result;
+report::experiment::ExperimentDrives drives_of(const report::experiment::ExperimentFolder& folder,
+                                               const std::optional<std::string>& file,
+                                               std::optional<std::uint32_t> point) {
+  report::experiment::ExperimentDrives result;
   result.point = point.value_or(folder.points.front().point);
-  if (std::ranges::find(folder.points, result.point, &report::ExperimentPoint::point) == folder.points.end())
+  if (std::ranges::find(folder.points, result.point, &report::experiment::ExperimentPoint::point) ==
+      folder.points.end())
     throw InputError({"command line", 0, "--point", std::to_string(result.point),
                       fmt::format("must be a point of {}, {} to {}", folder.path, folder.points.front().point,
                                   folder.points.back().point)});
@@ -152,4 +156,4 @@ report::ExperimentDrives drives_of(const report::ExperimentFolder& folder, const
   return result;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::experiment

@@ -11,10 +11,10 @@
 #include "core/strict_yaml.h"
 #include "experiments/sweep/file.h"
 
-namespace ttf::cli {
+namespace ttf::cli::experiment {
 
-experiments::Shard shard_of(const std::string& text) {
-  experiments::Shard shard;
+experiments::results::Shard shard_of(const std::string& text) {
+  experiments::results::Shard shard;
   if (text.empty()) return shard;
   const char* const end = text.data() + text.size();
   const auto first = std::from_chars(text.data(), end, shard.part);
@@ -49,7 +49,7 @@ void keep_freed_memory() {
 
 int run_experiment(const ExperimentOptions& options) {
   keep_freed_memory();
-  experiments::Ranks ranks;
+  experiments::mpi::Ranks ranks;
   if (ranks.size() > 1) return run_on_ranks(options, ranks);
   if (kind_of(options) == ExperimentKind::kFaultCampaign) {
     if (options.replications > 0)
@@ -79,7 +79,7 @@ void add_experiment(CLI::App& app, Action& action) {
   command->add_option("file", options->file, "Experiment file")->required();
   command->add_option("--jobs", options->jobs, "Workers (default: one per processor)")->check(CLI::Range(1u, 1024u));
   command->add_option("--replications", options->replications, "As many of every point, whatever the file says")
-      ->check(CLI::Range(1u, experiments::kMostReplications));
+      ->check(CLI::Range(1u, experiments::sweep::kMostReplications));
   auto* shard =
       command->add_option("--shard", options->shard, "i/n: every n-th fault or replication only, from the i-th on");
   auto* merge = command->add_option("--merge", options->merge, "Folders of all shards, whose results are put together");
@@ -93,4 +93,4 @@ void add_experiment(CLI::App& app, Action& action) {
   command->callback([options, &action] { action = [options] { return run_experiment(*options); }; });
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::experiment

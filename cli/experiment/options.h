@@ -10,7 +10,7 @@
 #include "experiments/results/shard.h"
 #include "experiments/sweep/run.h"
 
-namespace ttf::cli {
+namespace ttf::cli::experiment {
 
 struct ExperimentOptions {
   std::string file;
@@ -25,7 +25,7 @@ struct ExperimentOptions {
 };
 
 // All of it where nothing is asked for. Throws InputError.
-experiments::Shard shard_of(const std::string& text);
+experiments::results::Shard shard_of(const std::string& text);
 
 enum class ExperimentKind : std::uint8_t { kSweep, kFaultCampaign };
 // Throws InputError.
@@ -34,14 +34,14 @@ ExperimentKind kind_of(const ExperimentOptions& options);
 // How many replications are asked for: as many as the option says; without it as many as the folders have been made for
 // that are gone on with or put together, or else as many as the file says. Then `options` says so only where the file
 // does not. Throws InputError.
-void settle_replications(ExperimentOptions& options, experiments::SweepFile& sweep);
+void settle_replications(ExperimentOptions& options, experiments::sweep::SweepFile& sweep);
 
 int run_fault_campaign(const ExperimentOptions& options);
-int run_sweep_experiment(const ExperimentOptions& given, experiments::Ranks& alone);
+int run_sweep_experiment(const ExperimentOptions& given, experiments::mpi::Ranks& alone);
 // A sweep, on more ranks than one: every rank reads it, and what is wrong is told once.
-int run_on_ranks(const ExperimentOptions& given, experiments::Ranks& ranks);
+int run_on_ranks(const ExperimentOptions& given, experiments::mpi::Ranks& ranks);
 // Drives what the store does not have yet, and writes and prints the answer. Of more ranks than one: on rank 0.
-int drive_and_answer(const ExperimentOptions& options, const experiments::SweepDrives& drives,
-                     experiments::Ranks& ranks);
+int drive_and_answer(const ExperimentOptions& options, const experiments::sweep::SweepDrives& drives,
+                     experiments::mpi::Ranks& ranks);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::experiment

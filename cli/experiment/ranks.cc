@@ -6,15 +6,15 @@
 
 #include "cli/experiment/options.h"
 #include "core/errors.h"
-#include "experiments/sweep/run.h"
 #include "experiments/sweep/file.h"
+#include "experiments/sweep/run.h"
 
-namespace ttf::cli {
+namespace ttf::cli::experiment {
 
-int run_on_ranks(const ExperimentOptions& given, experiments::Ranks& ranks) {
+int run_on_ranks(const ExperimentOptions& given, experiments::mpi::Ranks& ranks) {
   ExperimentOptions options = given;
-  std::optional<experiments::SweepFile> sweep;
-  std::optional<experiments::SweepDrives> drives;
+  std::optional<experiments::sweep::SweepFile> sweep;
+  std::optional<experiments::sweep::SweepDrives> drives;
   std::exception_ptr mine;
   std::string words;
   try {
@@ -27,7 +27,7 @@ int run_on_ranks(const ExperimentOptions& given, experiments::Ranks& ranks) {
     if (kind_of(options) != ExperimentKind::kSweep)
       throw InputError(
           {options.file, 0, "kind", "fault_campaign", "must be sweep under mpirun: a campaign has --shard"});
-    sweep.emplace(experiments::load_sweep(options.file));
+    sweep.emplace(experiments::sweep::load_sweep(options.file));
     if (ranks.rank() == 0) settle_replications(options, *sweep);  // the others are told which runs
     drives.emplace(*sweep);
   } catch (const InputError& error) {
@@ -57,4 +57,4 @@ int run_on_ranks(const ExperimentOptions& given, experiments::Ranks& ranks) {
   return drive_and_answer(options, *drives, ranks);
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::experiment

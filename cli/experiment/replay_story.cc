@@ -7,45 +7,45 @@
 #include "bus/poc/reason.h"
 #include "core/counted.h"
 
-namespace ttf::cli {
+namespace ttf::cli::experiment {
 namespace {
 
-std::string_view text(bus::Signal signal) {
+std::string_view text(bus::ports::Signal signal) {
   switch (signal) {
-    case bus::Signal::kFrame: return "a frame";
-    case bus::Signal::kCas: return "a collision avoidance symbol";
-    case bus::Signal::kWakeup: return "a wake-up pattern";
-    case bus::Signal::kUndecodable: return "something undecodable";
+    case bus::ports::Signal::kFrame: return "a frame";
+    case bus::ports::Signal::kCas: return "a collision avoidance symbol";
+    case bus::ports::Signal::kWakeup: return "a wake-up pattern";
+    case bus::ports::Signal::kUndecodable: return "something undecodable";
   }
   return "";
 }
 
 }  // namespace
 
-void ReplayStory::state_changed(NodeId node, bus::PocKind from, const bus::PocStep& step, TrueTime at) {
-  const std::string_view consequence = bus::to_text(step.consequence);
-  say(at,
-      fmt::format("{}: {} -> {}: {}{}{}", cluster_.node(node).name, bus::to_text(from), bus::to_text(step.next.kind),
-                  bus::to_text(step.reason), consequence.empty() ? "" : "; ", consequence));
+void ReplayStory::state_changed(NodeId node, bus::poc::PocKind from, const bus::poc::PocStep& step, TrueTime at) {
+  const std::string_view consequence = bus::poc::to_text(step.consequence);
+  say(at, fmt::format("{}: {} -> {}: {}{}{}", cluster_.node(node).name, bus::poc::to_text(from),
+                      bus::poc::to_text(step.next.kind), bus::poc::to_text(step.reason),
+                      consequence.empty() ? "" : "; ", consequence));
 }
 
-void ReplayStory::fault_acts(const records::FaultActivity& activity) {
+void ReplayStory::fault_acts(const recording::records::FaultActivity& activity) {
   say(activity.at, fmt::format("fault {}: {}", activity.kind, activity.text),
-      activity.what == records::kFaultActs ? Of::kFault : Of::kOthers);
+      activity.what == recording::records::kFaultActs ? Of::kFault : Of::kOthers);
 }
 
-void ReplayStory::guardian_intervened(const sim::StarCoupler::Intervention& intervention) {
-  const bool cut = intervention.reason == bus::GuardianReason::kForwarded;
+void ReplayStory::guardian_intervened(const sim::medium::StarCoupler::Intervention& intervention) {
+  const bool cut = intervention.reason == bus::guardian::GuardianReason::kForwarded;
   say(intervention.at,
       fmt::format("guardian of {} {} {} of {}{}{}", letter(intervention.channel), cut ? "cuts off" : "blocks",
                   text(intervention.signal),
                   intervention.branch == kNoNode ? "nobody" : cluster_.node(intervention.branch).name, cut ? "" : ": ",
-                  cut ? "" : bus::to_text(intervention.reason)),
+                  cut ? "" : bus::guardian::to_text(intervention.reason)),
       Of::kGuardians);
 }
 
-void ReplayStory::judged(const experiments::Judgement& judgement) {
-  for (const experiments::Check check : experiments::kAllChecks) {
+void ReplayStory::judged(const evaluation::faults::Judgement& judgement) {
+  for (const evaluation::faults::Check check : evaluation::faults::kAllChecks) {
     const auto c = static_cast<std::size_t>(check);
     if (judgement.seen_by_others[c])
       say(*judgement.seen_by_others[c], fmt::format("noticed by others: {}", name_of(check)));
@@ -67,4 +67,4 @@ void ReplayStory::finish() {
     fmt::print("  the guardians intervene {} more\n", counted(interventions - kShown, "time"));
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::experiment

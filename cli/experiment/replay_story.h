@@ -9,16 +9,16 @@
 
 #include "experiments/campaign/trial.h"
 
-namespace ttf::cli {
+namespace ttf::cli::experiment {
 
-class ReplayStory final : public experiments::TrialStory {
+class ReplayStory final : public experiments::campaign::TrialStory {
  public:
-  explicit ReplayStory(const schedules::Cluster& cluster) : cluster_(cluster) {}
+  explicit ReplayStory(const schedules::model::Cluster& cluster) : cluster_(cluster) {}
 
-  void state_changed(NodeId node, bus::PocKind from, const bus::PocStep& step, TrueTime at) override;
-  void fault_acts(const records::FaultActivity& activity) override;
-  void guardian_intervened(const sim::StarCoupler::Intervention& intervention) override;
-  void judged(const experiments::Judgement& judgement) override;
+  void state_changed(NodeId node, bus::poc::PocKind from, const bus::poc::PocStep& step, TrueTime at) override;
+  void fault_acts(const recording::records::FaultActivity& activity) override;
+  void guardian_intervened(const sim::medium::StarCoupler::Intervention& intervention) override;
+  void judged(const evaluation::faults::Judgement& judgement) override;
   // Prints it: what happened at one instant in the order in which it was told.
   void finish();
 
@@ -32,8 +32,8 @@ class ReplayStory final : public experiments::TrialStory {
   };
   void say(TrueTime at, std::string text, Of of = Of::kOthers) { lines_.push_back({at, of, std::move(text)}); }
 
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   std::vector<Line> lines_;  // in the order they were told: a guardian's doing, and who noticed what, long afterwards
 };
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::experiment

@@ -19,12 +19,12 @@
 #include "experiments/sweep/measures.h"
 #include "experiments/sweep/text.h"
 
-namespace ttf::cli {
+namespace ttf::cli::experiment {
 namespace {
 
-using experiments::SweepDrives;
-using experiments::SweepFile;
-using results::Store;
+using experiments::results::Store;
+using experiments::sweep::SweepDrives;
+using experiments::sweep::SweepFile;
 
 constexpr std::size_t kShownFailures = 10;  // the others are in runs.csv
 
@@ -33,19 +33,19 @@ std::string folder_of(const ExperimentOptions& options, const SweepFile& sweep) 
 }
 std::string store_in(const std::string& folder) { return folder + "/results.sqlite"; }
 
-std::string key_text(const SweepFile& sweep, const results::RunKey& key) {
+std::string key_text(const SweepFile& sweep, const experiments::results::RunKey& key) {
   return fmt::format("{}/{}/{}", key.point, sweep.paradigms[key.paradigm].name, key.replication);
 }
 
 std::string names_of(const SweepFile& sweep) {
   std::vector<std::string> names;
-  for (const experiments::Paradigm& paradigm : sweep.paradigms) names.push_back(paradigm.name);
+  for (const experiments::sweep::Paradigm& paradigm : sweep.paradigms) names.push_back(paradigm.name);
   return joined(names);
 }
 
-results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
+experiments::results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
   const std::size_t first = text.find('/'), second = text.rfind('/');
-  results::RunKey key;
+  experiments::results::RunKey key;
   const auto number = [](std::string_view part, std::size_t below, std::uint32_t& value) {
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
     return error == std::errc{} && end == part.data() + part.size() && value < below;
@@ -67,9 +67,9 @@ results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
 
 int replay(const ExperimentOptions& options, const SweepDrives& drives) {
   const SweepFile& sweep = drives.sweep();
-  const results::RunKey key = key_of(*options.replay, sweep);
+  const experiments::results::RunKey key = key_of(*options.replay, sweep);
   if (!options.out.empty()) create_folder(options.out);
-  const results::Run run =
+  const experiments::results::Run run =
       options.out.empty() ? drives.run(key, drives.prepare(key)) : drive_again(drives, key, options.out);
   if (!options.out.empty()) fmt::print(stderr, "written to {}\n", options.out);
   fmt::print("{}, {}, replication {}: {}\n", sweep.label_of(key.point), sweep.paradigms[key.paradigm].name,
@@ -77,7 +77,7 @@ int replay(const ExperimentOptions& options, const SweepDrives& drives) {
   const std::vector<std::string> columns = drives.columns();
   for (std::size_t c = 0; c < columns.size(); ++c)
     fmt::print("  {} {}\n", columns[c], std::isnan(run.values[c]) ? "-" : fmt::format("{}", run.values[c]));
-  return run.status == results::kDone ? 0 : 1;
+  return run.status == experiments::results::kDone ? 0 : 1;
 }
 
 // Of this experiment, every run of it. Throws InputError.
@@ -88,7 +88,7 @@ Store opened(const SweepDrives& drives, const std::string& path) {
     throw InputError({path, 0, "", "",
                       "must be of this experiment: the file, a file that it names or the program was another then"});
   const SweepFile& sweep = drives.sweep();
-  for (const results::RunKey& key : store.keys())
+  for (const experiments::results::RunKey& key : store.keys())
     if (key.point >= sweep.points() || key.replication >= sweep.replications || key.paradigm >= sweep.paradigms.size())
       throw InputError({path, 0, "runs", fmt::format("{}/{}/{}", key.point, key.paradigm, key.replication),
                         "must be a run of this experiment: point/paradigm/replication"});
@@ -110,8 +110,8 @@ Store store_of(const ExperimentOptions& options, const SweepDrives& drives, cons
 // Whether all of it is there.
 bool merge(const std::vector<Store>& shards, const SweepFile& sweep, Store& store) {
   for (const Store& shard : shards) {
-    std::vector<results::Run> some;
-    shard.for_each([&](const results::Run& run) {
+    std::vector<experiments::results::Run> some;
+    shard.for_each([&](const experiments::results::Run& run) {
       some.push_back(run);
       if (some.size() == 10'000) store.add(std::exchange(some, {}));
     });
@@ -124,29 +124,29 @@ bool merge(const std::vector<Store>& shards, const SweepFile& sweep, Store& stor
 }
 
 // `ranks`: of more than one, every rank is a worker.
-void drive(const ExperimentOptions& options, const SweepDrives& drives, experiments::Shard shard, Store& store,
-           experiments::Ranks& ranks) {
+void drive(const ExperimentOptions& options, const SweepDrives& drives, experiments::results::Shard shard, Store& store,
+           experiments::mpi::Ranks& ranks) {
   const SweepFile& sweep = drives.sweep();
   const bool alone = ranks.size() == 1;
-  const unsigned jobs = !alone ? 1 : options.jobs > 0 ? options.jobs : experiments::workers_here();
+  const unsigned jobs = !alone ? 1 : options.jobs > 0 ? options.jobs : experiments::results::workers_here();
   fmt::print(stderr, "{}: {}, {}, {}, {} ...\n", sweep.name, counted(sweep.points(), "point"),
              counted(sweep.paradigms.size(), "paradigm"), counted(sweep.replications, "replication"),
              alone ? counted(jobs, "worker") : counted(static_cast<std::size_t>(ranks.size()), "rank"));
   const Progress progress("runs");
-  experiments::run_sweep(
+  experiments::sweep::run_sweep(
       drives, store, shard, jobs,
-      [&](const experiments::SweepProgress& now) { progress(now.done, now.all, now.driven); },
+      [&](const experiments::sweep::SweepProgress& now) { progress(now.done, now.all, now.driven); },
       alone ? nullptr : &ranks);
 }
 
 nlohmann::ordered_json to_json(double value) {
   return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
 }
-nlohmann::ordered_json to_json(const results::Interval& interval) {
+nlohmann::ordered_json to_json(const experiments::results::Interval& interval) {
   return {{"count", interval.count}, {"mean", to_json(interval.mean)}, {"half_width", to_json(interval.half_width)}};
 }
 
-nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::SweepAnswer& answer) {
+nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::sweep::SweepAnswer& answer) {
   nlohmann::ordered_json json{{"experiment", sweep.name},
                               {"file", sweep.file},
                               {"question", sweep.question},
@@ -155,13 +155,13 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::SweepA
                               {"runs", answer.runs},
                               {"failed", answer.failed},
                               {"baseline", sweep.paradigms[sweep.baseline].name},
-                              {"answer", experiments::answer_sentences(sweep, answer)}};
+                              {"answer", experiments::sweep::answer_sentences(sweep, answer)}};
   for (const std::string& name : sweep.measures) {
-    const experiments::Measure& measure = *experiments::find_measure(name);
+    const experiments::sweep::Measure& measure = *experiments::sweep::find_measure(name);
     json["measures"][name] = {{"unit", measure.unit}, {"meaning", measure.meaning}};
   }
   const auto axes = sweep.grid();
-  for (const experiments::PointAnswer& point : answer.points) {
+  for (const experiments::sweep::PointAnswer& point : answer.points) {
     nlohmann::ordered_json one{{"point", point.point}};
     const auto settings = sweep.settings_of(point.point);
     for (std::size_t a = 0; a < axes.size(); ++a) one["axes"][axes[a]->name] = settings[a]->label;
@@ -173,13 +173,13 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::SweepA
       }
     json["points"].push_back(std::move(one));
   }
-  for (const experiments::Crossing& crossing : answer.crossings)
+  for (const experiments::sweep::Crossing& crossing : answer.crossings)
     json["crossings"].push_back({{"paradigm", sweep.paradigms[crossing.paradigm].name},
                                  {"axis", crossing.axis},
                                  {"at", crossing.at},
                                  {"others", crossing.others},
                                  {"certain", crossing.certain}});
-  for (const experiments::ExpectationAnswer& expectation : answer.expectations)
+  for (const experiments::sweep::ExpectationAnswer& expectation : answer.expectations)
     json["expectations"].push_back(
         {{"expected", expectation.text}, {"holds", expectation.holds}, {"where_not", expectation.where_not}});
   return json;
@@ -189,8 +189,8 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::SweepA
 std::string failures_text(const ExperimentOptions& options, const SweepFile& sweep, const Store& store) {
   std::string text;
   std::size_t shown = 0;
-  store.for_each([&](const results::Run& run) {
-    if (run.status == results::kDone || ++shown > kShownFailures) return;
+  store.for_each([&](const experiments::results::Run& run) {
+    if (run.status == experiments::results::kDone || ++shown > kShownFailures) return;
     const std::string more = options.replications > 0 ? fmt::format(" --replications {}", options.replications) : "";
     text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}{} --out one\n", sweep.label_of(run.key.point),
                         run.status, options.file, key_text(sweep, run.key), more);
@@ -201,10 +201,10 @@ std::string failures_text(const ExperimentOptions& options, const SweepFile& swe
 
 }  // namespace
 
-int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives, experiments::Ranks& ranks) {
+int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives, experiments::mpi::Ranks& ranks) {
   const SweepFile& sweep = drives.sweep();
   // All that can be wrong with what is asked for, before anything is written.
-  const experiments::Shard shard = shard_of(options.shard);
+  const experiments::results::Shard shard = shard_of(options.shard);
   if (!options.shard.empty() && sweep.stop)
     throw InputError(
         {"command line", 0, "--shard", options.shard, "needs an experiment without `stop`: no shard sees enough"});
@@ -219,13 +219,13 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
   else if (!merge(shards, sweep, store))
     return 1;
 
-  const experiments::SweepAnswer answer = experiments::answer_of(sweep, store);
-  const std::string text = experiments::answer_text(sweep, answer) + failures_text(options, sweep, store);
+  const experiments::sweep::SweepAnswer answer = experiments::sweep::answer_of(sweep, store);
+  const std::string text = experiments::sweep::answer_text(sweep, answer) + failures_text(options, sweep, store);
   const nlohmann::ordered_json json = to_json(sweep, answer);
   write_file(folder + "/answer.txt", text);
   write_file(folder + "/answer.json", json.dump(2) + '\n');
-  write_file(folder + "/summary.csv", experiments::summary_csv(sweep, answer));
-  write_file(folder + "/runs.csv", experiments::runs_csv(sweep, store));
+  write_file(folder + "/summary.csv", experiments::sweep::summary_csv(sweep, answer));
+  write_file(folder + "/runs.csv", experiments::sweep::runs_csv(sweep, store));
   if (options.json)
     fmt::print("{}\n", json.dump(2));
   else
@@ -251,18 +251,19 @@ void settle_replications(ExperimentOptions& options, SweepFile& sweep) {
   const std::uint32_t files = sweep.replications;
   sweep.replications = options.replications > 0 ? options.replications : there > 0 ? there : files;
   options.replications = sweep.replications == files ? 0 : sweep.replications;
-  if (sweep.runs() > experiments::kMostRuns)
-    throw InputError({"command line", 0, "--replications", std::to_string(sweep.replications),
-                      fmt::format("must make {} runs at most, and make {}", experiments::kMostRuns, sweep.runs())});
+  if (sweep.runs() > experiments::sweep::kMostRuns)
+    throw InputError(
+        {"command line", 0, "--replications", std::to_string(sweep.replications),
+         fmt::format("must make {} runs at most, and make {}", experiments::sweep::kMostRuns, sweep.runs())});
 }
 
-int run_sweep_experiment(const ExperimentOptions& given, experiments::Ranks& alone) {
+int run_sweep_experiment(const ExperimentOptions& given, experiments::mpi::Ranks& alone) {
   ExperimentOptions options = given;
-  SweepFile sweep = experiments::load_sweep(options.file);
+  SweepFile sweep = experiments::sweep::load_sweep(options.file);
   settle_replications(options, sweep);
   const SweepDrives drives(sweep);
   if (options.replay) return replay(options, drives);
   return drive_and_answer(options, drives, alone);
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::experiment

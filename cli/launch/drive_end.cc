@@ -8,14 +8,14 @@
 #include "bus/poc/poc.h"
 #include "core/counted.h"
 
-namespace ttf::cli {
+namespace ttf::cli::launch {
 namespace {
 
 // Of those that were not in operation: nothing where it was.
 std::optional<std::string> why_absent(const NodeAtEnd& node) {
   if (!node.ending) return "never started";
   if (!node.ending->success()) return node.ending->text();
-  if (!node.on_flexray || node.state == bus::to_text(bus::PocKind::kNormalActive)) return std::nullopt;
+  if (!node.on_flexray || node.state == bus::poc::to_text(bus::poc::PocKind::kNormalActive)) return std::nullopt;
   return node.state.empty() ? "in a state that it never told" : node.state;
 }
 
@@ -58,17 +58,19 @@ nlohmann::ordered_json DriveEnd::json() const {
   return list;
 }
 
-std::vector<std::string> states_at_end(const schedules::Cluster& cluster, bool cold,
-                                       const std::vector<experiments::NodeStartup>& changes) {
+std::vector<std::string> states_at_end(const schedules::model::Cluster& cluster, bool cold,
+                                       const std::vector<evaluation::cluster::NodeStartup>& changes) {
   std::vector<std::string> states;
-  for (const schedules::Node& node : cluster.nodes)
-    states.emplace_back(!node.flexray ? "" : cold ? "not powered on" : bus::to_text(bus::PocKind::kNormalActive));
-  for (const experiments::NodeStartup& node : changes)
+  for (const schedules::model::Node& node : cluster.nodes)
+    states.emplace_back(!node.flexray ? ""
+                        : cold        ? "not powered on"
+                                      : bus::poc::to_text(bus::poc::PocKind::kNormalActive));
+  for (const evaluation::cluster::NodeStartup& node : changes)
     if (cluster.node(node.node).flexray && !node.state.empty()) states[index_of(node.node)] = node.state;
   return states;
 }
 
-std::vector<NodeAtEnd> EndWatch::nodes(const schedules::Cluster& cluster,
+std::vector<NodeAtEnd> EndWatch::nodes(const schedules::model::Cluster& cluster,
                                        const std::vector<std::string>& states) const {
   std::vector<NodeAtEnd> nodes;
   for (std::size_t n = 0; n < endings_.size(); ++n)
@@ -76,17 +78,17 @@ std::vector<NodeAtEnd> EndWatch::nodes(const schedules::Cluster& cluster,
   return nodes;
 }
 
-launch::Hooks EndWatch::around(launch::Hooks hooks) {
-  launch::Hooks all = hooks;
+supervision::Hooks EndWatch::around(supervision::Hooks hooks) {
+  supervision::Hooks all = hooks;
   all.on_all_ready = [this, told = hooks.on_all_ready] {
     begun_ = true;
     return told ? told() : nlohmann::json::object();
   };
-  all.on_gone = [this, told = hooks.on_gone](std::size_t node, const launch::Ending& ending, bool comes_back) {
+  all.on_gone = [this, told = hooks.on_gone](std::size_t node, const supervision::Ending& ending, bool comes_back) {
     endings_[node] = ending;
     if (told) told(node, ending, comes_back);
   };
   return all;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::launch

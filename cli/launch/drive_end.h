@@ -11,13 +11,13 @@
 #include "evaluation/cluster/startup_account.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::cli {
+namespace ttf::cli::launch {
 
 struct NodeAtEnd {
   std::string name;
   bool on_flexray = false;
-  std::optional<launch::Ending> ending;  // of its last process; nothing: it had none
-  std::string state;                     // of its controller, the last that is known; off FlexRay nobody asks
+  std::optional<supervision::Ending> ending;  // of its last process; nothing: it had none
+  std::string state;                          // of its controller, the last that is known; off FlexRay nobody asks
 };
 
 struct DriveEnd {
@@ -35,22 +35,22 @@ struct DriveEnd {
 DriveEnd drive_end(const std::vector<NodeAtEnd>& nodes);
 
 // What a virtual drive's records say, by node: who never changed its state is as it began. Empty off FlexRay.
-std::vector<std::string> states_at_end(const schedules::Cluster& cluster, bool cold,
-                                       const std::vector<experiments::NodeStartup>& changes);
+std::vector<std::string> states_at_end(const schedules::model::Cluster& cluster, bool cold,
+                                       const std::vector<evaluation::cluster::NodeStartup>& changes);
 
 // Listens to what becomes of the processes.
 class EndWatch {
  public:
   explicit EndWatch(std::size_t nodes) : endings_(nodes) {}
 
-  launch::Hooks around(launch::Hooks hooks);  // which are called as ever; outlives them
-  bool begun() const { return begun_; }       // all were ready, or all that had to be
+  supervision::Hooks around(supervision::Hooks hooks);  // which are called as ever; outlives them
+  bool begun() const { return begun_; }                 // all were ready, or all that had to be
   // With the states of their controllers.
-  std::vector<NodeAtEnd> nodes(const schedules::Cluster& cluster, const std::vector<std::string>& states) const;
+  std::vector<NodeAtEnd> nodes(const schedules::model::Cluster& cluster, const std::vector<std::string>& states) const;
 
  private:
-  std::vector<std::optional<launch::Ending>> endings_;
+  std::vector<std::optional<supervision::Ending>> endings_;
   bool begun_ = false;
 };
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::launch

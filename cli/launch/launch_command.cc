@@ -9,24 +9,24 @@
 #include <optional>
 
 #include "cli/commands.h"
-#include "cli/launch/drive_end.h"
 #include "cli/drive/drive_setup.h"
 #include "cli/drive/fault_tables.h"
-#include "cli/supervision/folder_lock.h"
-#include "cli/supervision/launch_folder.h"
-#include "cli/supervision/signal_watch.h"
-#include "cli/supervision/supervisor.h"
+#include "cli/drive/real_time_outputs.h"
+#include "cli/drive/run_outputs.h"
+#include "cli/drive/startup_outputs.h"
+#include "cli/launch/drive_end.h"
 #include "cli/launch/launch_live.h"
 #include "cli/launch/launch_plan.h"
 #include "cli/launch/launch_result.h"
 #include "cli/launch/launch_virtual.h"
 #include "cli/output.h"
-#include "cli/drive/real_time_outputs.h"
-#include "cli/drive/run_outputs.h"
-#include "cli/drive/startup_outputs.h"
+#include "cli/supervision/folder_lock.h"
+#include "cli/supervision/launch_folder.h"
+#include "cli/supervision/signal_watch.h"
+#include "cli/supervision/supervisor.h"
 #include "core/decimal.h"
 
-namespace ttf::cli {
+namespace ttf::cli::launch {
 namespace {
 
 constexpr const char* kSummary = "summary.json";
@@ -41,9 +41,9 @@ std::vector<std::string> command_line() {
 }
 
 // What came of the drive, from the logs of those who got to its end.
-void tell_result(const NodeSet& set, const StrategyResult& result, const std::optional<DriveEnd>& end,
+void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& result, const std::optional<DriveEnd>& end,
                  const LaunchArguments& arguments) {
-  const std::vector<StrategyResult> results{result};
+  const std::vector<drive::StrategyResult> results{result};
   if (!arguments.no_pictures) write_pictures(set.scenario, results, set.folder);
   nlohmann::ordered_json json = to_json(set.scenario, set.seed, results);
   if (end) json[kNotInOperation] = end->json();
@@ -55,13 +55,14 @@ void tell_result(const NodeSet& set, const StrategyResult& result, const std::op
   fmt::print("{}\n{}{}{}", set.scenario.description, startup_text(results, set.scenario.startup.cold),
              comparison_table(results), real_time_text(result));
   if (!set.scenario.faults.empty())
-    fmt::print("\n{}", faults_text(nodes::name_of(set.strategy), result.faults, result.fault_free, set.cluster));
+    fmt::print("\n{}",
+               drive::faults_text(drives::name_of(set.strategy), result.faults, result.fault_free, set.cluster));
 }
 
 // Who was not in operation at the end, and what there is nothing of to compare, in a sentence each. The exit code: a
 // drive at whose end nobody is left in the cluster has failed, however well its processes ended.
-int tell_end(const NodeSet& set, const DriveEnd& end, const StrategyResult* result, int exit_code,
-             launch::RunFolder& folder) {
+int tell_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::StrategyResult* result, int exit_code,
+             supervision::RunFolder& folder) {
   const std::string absent = end.sentence();
   const bool failed = end.nobody && exit_code == 0;
   if (!absent.empty()) fmt::print(stderr, "{}: {}\n", failed ? "error" : "warning", absent);
@@ -77,43 +78,43 @@ int tell_end(const NodeSet& set, const DriveEnd& end, const StrategyResult* resu
 }
 
 // What an earlier launch left, so that nobody takes it for this one's; and nothing else that is in the folder.
-void remove_earlier(const std::optional<launch::EarlierLaunch>& earlier, const LaunchPlan& plan,
-                    const launch::RunFolder& folder) {
-  for (const launch::NodeSpec& node : plan.nodes) folder.remove_logs(node.name);
+void remove_earlier(const std::optional<supervision::EarlierLaunch>& earlier, const LaunchPlan& plan,
+                    const supervision::RunFolder& folder) {
+  for (const supervision::NodeSpec& node : plan.nodes) folder.remove_logs(node.name);
   if (!earlier) return;
   for (const std::string& node : earlier->nodes) {
     folder.remove_logs(node);
-    folder.remove(launch::file_stem(node) + ".txt");
+    folder.remove(supervision::file_stem(node) + ".txt");
   }
   for (const char* const name : {kTruthLog, kSummary}) folder.remove(name);
   if (earlier->strategy.empty()) return;
   folder.remove(merged_log(earlier->strategy));
-  for (const std::string& name : picture_files(earlier->strategy)) folder.remove(name);
+  for (const std::string& name : drive::picture_files(earlier->strategy)) folder.remove(name);
 }
 
 // `Launch`: LiveLaunch or VirtualLaunch.
 template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
   nlohmann::ordered_json facts{{"command", command_line()}};
   facts.update(facts_of(plan.set));
-  const auto earlier = launch::earlier_launch(plan.set.folder);
-  launch::RunFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
+  const auto earlier = supervision::earlier_launch(plan.set.folder);
+  supervision::RunFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
   remove_earlier(earlier, plan, folder);
   // Before the exchange begins a thread, which would take signals else.
-  std::optional<launch::SignalWatch> held_back(std::in_place);
+  std::optional<supervision::SignalWatch> held_back(std::in_place);
   Launch drive(plan.set);
   EndWatch watch(plan.nodes.size());
-  launch::SupervisorConfig config;
+  supervision::SupervisorConfig config;
   config.nodes = std::move(plan.nodes);
   config.screen = STDERR_FILENO;
   config.folder = &folder;
-  std::optional<launch::Supervisor> supervisor(std::in_place, std::move(config), watch.around(drive.hooks()));
+  std::optional<supervision::Supervisor> supervisor(std::in_place, std::move(config), watch.around(drive.hooks()));
   const int exit_code = supervisor->run().exit_code;
-  const launch::HealthTable health = supervisor->health();
+  const supervision::HealthTable health = supervisor->health();
   supervisor.reset();
   held_back.reset();  // what comes now may be interrupted as ever
   print_warnings(drive.warnings());
-  const std::optional<StrategyResult> result = drive.result(folder.logs());
-  const StrategyResult* const told = result ? &*result : nullptr;
+  const std::optional<drive::StrategyResult> result = drive.result(folder.logs());
+  const drive::StrategyResult* const told = result ? &*result : nullptr;
   std::optional<DriveEnd> end;
   if (watch.begun()) end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, told)));
   if (result) tell_result(plan.set, *result, end, arguments);
@@ -126,14 +127,14 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
 // The exit code of a dry run is what the launch's would be if all went well with it.
 int run_launch(const LaunchArguments& arguments) {
   LaunchPlan plan = plan_of(arguments);
-  const bool ready = launch::all_good(plan.preflight);
+  const bool ready = supervision::all_good(plan.preflight);
   if (arguments.dry_run)
     show_plan(plan, arguments.json);
   else if (!ready)
     show_preflight(plan);
   if (!ready) return 1;
   if (arguments.dry_run) {
-    launch::FolderLock::refuse_if_held(plan.set.folder);
+    supervision::FolderLock::refuse_if_held(plan.set.folder);
     try_folder(plan.set.folder);
     return 0;
   }
@@ -167,4 +168,4 @@ void add_launch(CLI::App& app, Action& action) {
   });
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::launch

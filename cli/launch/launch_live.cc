@@ -8,13 +8,13 @@
 #include "cli/drive/drive_setup.h"
 #include "cli/launch/launch_result.h"
 #include "cli/node_set/node_drive.h"
+#include "drives/observer.h"
+#include "drives/surroundings.h"
 #include "evaluation/cluster/bus_use.h"
 #include "recording/log/writer.h"
 #include "recording/merge/merge.h"
-#include "drives/observer.h"
-#include "drives/surroundings.h"
 
-namespace ttf::cli {
+namespace ttf::cli::launch {
 namespace {
 
 // From when all are ready to the begin: until every process has heard of it, and has had its memory locked.
@@ -24,10 +24,10 @@ constexpr Duration kUntilStart = Duration::milliseconds(500);
 constexpr std::int64_t kRound_ns = 100'000'000;
 
 // Nobody in the cluster knows the truth: it is looked up at the instants that the nodes' records are of.
-void write_truth(const NodeSet& set, const recording::MergedLogs& nodes, const std::string& path) {
-  const sim::Surroundings around = sim::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
-  recording::LogWriter log(path, nodes.manifest());
-  sim::Observer observer(*around.scene, set.cluster.nodes.size(), log);
+void write_truth(const node_set::NodeSet& set, const recording::merge::MergedLogs& nodes, const std::string& path) {
+  const drives::Surroundings around = drives::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
+  recording::log::LogWriter log(path, nodes.manifest());
+  drives::Observer observer(*around.scene, set.cluster.nodes.size(), log);
   around.show(observer, set.scenario, set.cluster);
   nodes.read(observer);
   log.close();
@@ -35,15 +35,15 @@ void write_truth(const NodeSet& set, const recording::MergedLogs& nodes, const s
 
 }  // namespace
 
-launch::Hooks LiveLaunch::hooks() {
-  launch::Hooks hooks;
+supervision::Hooks LiveLaunch::hooks() {
+  supervision::Hooks hooks;
   hooks.on_all_ready = [this] {
-    const bus::HostTime soonest = bus::host_now() + kUntilStart;
-    origin_ = bus::HostTime{(soonest.ns + kRound_ns - 1) / kRound_ns * kRound_ns};
+    const bus::ports::HostTime soonest = bus::ports::host_now() + kUntilStart;
+    origin_ = bus::ports::HostTime{(soonest.ns + kRound_ns - 1) / kRound_ns * kRound_ns};
     return nlohmann::json{{"origin_ns", origin_->ns}, {"rejoin", false}};
   };
   hooks.on_late_ready = [this](std::size_t) {
-    return nlohmann::json{{"origin_ns", origin_.value_or(bus::host_now()).ns}, {"rejoin", true}};
+    return nlohmann::json{{"origin_ns", origin_.value_or(bus::ports::host_now()).ns}, {"rejoin", true}};
   };
   hooks.on_health = [this](std::size_t node, const nlohmann::json& facts) {
     if (!facts.is_object() || !facts.contains("not_granted")) return;
@@ -53,12 +53,13 @@ launch::Hooks LiveLaunch::hooks() {
   hooks.on_done = [this](std::size_t, const nlohmann::json& facts) {
     if (!facts.is_object() || !facts.contains("counts"))
       throw std::runtime_error("a node's outcome that is none: it has no counts");
-    add_counts(outcome_.counts, facts["counts"]);
+    node_set::add_counts(outcome_.counts, facts["counts"]);
   };
   return hooks;
 }
 
-std::vector<std::string> LiveLaunch::states_at_end(const launch::HealthTable& health, const StrategyResult*) const {
+std::vector<std::string> LiveLaunch::states_at_end(const supervision::HealthTable& health,
+                                                   const drive::StrategyResult*) const {
   std::vector<std::string> states;
   for (std::size_t node = 0; node < set_.cluster.nodes.size(); ++node) states.push_back(health.of(node).state);
   return states;
@@ -71,14 +72,14 @@ std::vector<std::string> LiveLaunch::warnings() const {
   return warnings;
 }
 
-std::optional<StrategyResult> LiveLaunch::result(const std::vector<std::string>& logs) const {
+std::optional<drive::StrategyResult> LiveLaunch::result(const std::vector<std::string>& logs) const {
   std::vector<std::string> all = readable_logs(logs);
   if (all.empty()) return std::nullopt;
   const std::string truth = fmt::format("{}/{}", set_.folder, kTruthLog);
-  write_truth(set_, recording::MergedLogs(all), truth);
+  write_truth(set_, recording::merge::MergedLogs(all), truth);
   all.push_back(truth);
-  experiments::BusUse use(set_.cluster);
-  StrategyResult result = merged_result(set_, all, {&use});
+  evaluation::cluster::BusUse use(set_.cluster);
+  drive::StrategyResult result = merged_result(set_, all, {&use});
   result.outcome = outcome_;
   result.outcome.frames_sent = use.frames_sent();
   result.outcome.flexray_load = use.flexray_load(set_.scenario.duration);
@@ -86,4 +87,4 @@ std::optional<StrategyResult> LiveLaunch::result(const std::vector<std::string>&
   return result;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::launch

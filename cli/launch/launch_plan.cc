@@ -9,16 +9,16 @@
 #include <optional>
 #include <stdexcept>
 
+#include "cli/drive/drive_setup.h"
 #include "cli/node_set/can_interfaces.h"
 #include "cli/node_set/dds_preflight.h"
-#include "cli/drive/drive_setup.h"
-#include "cli/supervision/shell_text.h"
 #include "cli/node_set/live_topics.h"
+#include "cli/supervision/shell_text.h"
 #include "core/errors.h"
 #include "core/hash.h"
 #include "drives/step_catalog.h"
 
-namespace ttf::cli {
+namespace ttf::cli::launch {
 namespace {
 
 std::string this_program() {
@@ -29,18 +29,18 @@ std::string this_program() {
 }
 
 // --policy NODE=POLICY
-void set_policies(const std::vector<std::string>& texts, const schedules::Cluster& cluster,
-                  std::vector<launch::NodeSpec>& nodes) {
+void set_policies(const std::vector<std::string>& texts, const schedules::model::Cluster& cluster,
+                  std::vector<supervision::NodeSpec>& nodes) {
   std::map<std::string, std::string> given;
   for (const std::string& text : texts) {
     const std::size_t sign = text.rfind('=');
-    const auto policy = sign == std::string::npos ? std::nullopt : launch::policy_of(text.substr(sign + 1));
+    const auto policy = sign == std::string::npos ? std::nullopt : supervision::policy_of(text.substr(sign + 1));
     if (!policy)
       throw InputError({"command line", 0, "--policy", text, "must be NODE=required, NODE=restart or NODE=optional"});
     const std::string name = text.substr(0, sign);
     if (!given.emplace(name, text).second)
       throw InputError({"command line", 0, "--policy", text, "must be given once for each node"});
-    nodes[index_of(node_of(cluster, name))].policy = *policy;
+    nodes[index_of(node_set::node_of(cluster, name))].policy = *policy;
   }
 }
 
@@ -51,8 +51,8 @@ std::string new_session() {
 }
 
 void refuse_restart_in_virtual_time(const LaunchPlan& plan) {
-  for (const launch::NodeSpec& node : plan.nodes)
-    if (plan.set.virtual_time && node.policy == launch::Policy::kRestart)
+  for (const supervision::NodeSpec& node : plan.nodes)
+    if (plan.set.virtual_time && node.policy == supervision::Policy::kRestart)
       throw InputError({"command line", 0, "--policy", node.name + "=restart",
                         "must not be given with --virtual-time: nobody would wait for the node to catch up"});
 }
@@ -65,8 +65,8 @@ LaunchPlan plan_of(const LaunchArguments& arguments) {
   if (plan.set.topics) check_topics(plan.set);
   if (!arguments.session_given) plan.set.session = new_session();
   const std::string program = this_program();
-  for (const schedules::Node& node : plan.set.cluster.nodes) {
-    launch::NodeSpec spec;
+  for (const schedules::model::Node& node : plan.set.cluster.nodes) {
+    supervision::NodeSpec spec;
     spec.name = node.name;
     spec.command.arguments = {program, "node", node.name};
     const std::vector<std::string> options = plan.set.options();
@@ -75,17 +75,18 @@ LaunchPlan plan_of(const LaunchArguments& arguments) {
   }
   set_policies(arguments.policies, plan.set.cluster, plan.nodes);
   refuse_restart_in_virtual_time(plan);
-  if (plan.set.bus.kind == launch::BusKind::kDds || plan.set.topics) check_dds_configuration();
-  plan.preflight = launch::look_at(plan.set.bus, private_cans(plan.set.cluster, plan.set.can_interfaces));
+  if (plan.set.bus.kind == supervision::BusKind::kDds || plan.set.topics) node_set::check_dds_configuration();
+  plan.preflight =
+      supervision::look_at(plan.set.bus, node_set::private_cans(plan.set.cluster, plan.set.can_interfaces));
   plan.preflight.insert(plan.preflight.begin(), {plan.set.cluster.file, true, "is consistent", {}});
   return plan;
 }
 
-nlohmann::ordered_json facts_of(const NodeSet& set) {
+nlohmann::ordered_json facts_of(const node_set::NodeSet& set) {
   return {{"version", TTF_VERSION},
           {"scenario", {{"name", set.scenario.name}, {"file", set.file}, {"hash", hex_hash(set.scenario.text)}}},
           {"cluster", {{"name", set.cluster.name}, {"file", set.cluster.file}, {"hash", hex_hash(set.cluster.text)}}},
-          {"strategy", nodes::name_of(set.strategy)},
+          {"strategy", drives::name_of(set.strategy)},
           {"seed", set.seed},
           {"bus", set.bus.text()},
           {"virtual_time", set.virtual_time},
@@ -95,8 +96,8 @@ nlohmann::ordered_json facts_of(const NodeSet& set) {
 }
 
 void show_preflight(const LaunchPlan& plan) {
-  fmt::print(stderr, "{}", launch::text_of(plan.preflight));
-  if (plan.set.bus.kind == launch::BusKind::kSocketCan && !launch::all_good(plan.preflight))
+  fmt::print(stderr, "{}", supervision::text_of(plan.preflight));
+  if (plan.set.bus.kind == supervision::BusKind::kSocketCan && !supervision::all_good(plan.preflight))
     fmt::print(stderr,
                "without any CAN: --bus dds (the default); CANs on a kernel of one's own, without root: "
                "tools/test_bed.sh (docs/socketcan.md)\n");
@@ -105,15 +106,16 @@ void show_preflight(const LaunchPlan& plan) {
 void show_plan(const LaunchPlan& plan, bool as_json) {
   if (!as_json) {
     show_preflight(plan);
-    for (const launch::NodeSpec& node : plan.nodes) fmt::print("{}\n", launch::shell_text(node.command.arguments));
+    for (const supervision::NodeSpec& node : plan.nodes)
+      fmt::print("{}\n", supervision::shell_text(node.command.arguments));
     return;
   }
   nlohmann::ordered_json json = facts_of(plan.set);
-  json["preflight"] = launch::json_of(plan.preflight);
-  for (const launch::NodeSpec& node : plan.nodes)
+  json["preflight"] = supervision::json_of(plan.preflight);
+  for (const supervision::NodeSpec& node : plan.nodes)
     json["nodes"].push_back(
         {{"name", node.name}, {"policy", name_of(node.policy)}, {"command", node.command.arguments}});
   fmt::print("{}\n", json.dump(2));
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::launch

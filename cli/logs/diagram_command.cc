@@ -15,14 +15,14 @@
 #include "recording/exports/lateness_sums.h"
 #include "recording/merge/merge.h"
 #include "recording/rows/laser_radar_file.h"
+#include "report/drawing/render.h"
 #include "report/plots/boxes_picture.h"
 #include "report/plots/lateness_picture.h"
 #include "report/plots/position_plot.h"
-#include "report/drawing/render.h"
 #include "report/startup/diagram.h"
 #include "report/timing/diagram.h"
 
-namespace ttf::cli {
+namespace ttf::cli::logs {
 namespace {
 
 struct DiagramOptions {
@@ -34,23 +34,23 @@ struct DiagramOptions {
 };
 
 // When the last task ended.
-struct Extent final : records::Sink {
+struct Extent final : recording::records::Sink {
   TrueTime last{};
-  using records::Sink::on;
-  void on(const records::TaskRun& run) override { last = std::max(last, run.end.true_time); }
+  using recording::records::Sink::on;
+  void on(const recording::records::TaskRun& run) override { last = std::max(last, run.end.true_time); }
 };
 
 // The logs of each run as one.
-std::vector<recording::MergedLogs> runs_in(const std::vector<std::string>& paths) {
-  std::vector<recording::StoredLog> logs;
+std::vector<recording::merge::MergedLogs> runs_in(const std::vector<std::string>& paths) {
+  std::vector<recording::merge::StoredLog> logs;
   for (const std::string& path : paths) logs.emplace_back(path);
-  std::vector<recording::MergedLogs> runs = recording::merge_by_run(std::move(logs));
-  for (const recording::MergedLogs& run : runs) print_warnings(run.warnings());
+  std::vector<recording::merge::MergedLogs> runs = recording::merge::merge_by_run(std::move(logs));
+  for (const recording::merge::MergedLogs& run : runs) print_warnings(run.warnings());
   return runs;
 }
 
-recording::MergedLogs one_run(const std::vector<std::string>& paths) {
-  recording::MergedLogs run(paths);
+recording::merge::MergedLogs one_run(const std::vector<std::string>& paths) {
+  recording::merge::MergedLogs run(paths);
   print_warnings(run.warnings());
   return run;
 }
@@ -58,39 +58,40 @@ recording::MergedLogs one_run(const std::vector<std::string>& paths) {
 // A recorded laser scan and the vehicles that preprocessing sees in it.
 std::string boxes(const DiagramOptions& options) {
   if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "boxes", "takes one recording"});
-  const auto scans = recording::read_lidar_scans(options.logs[0]);
+  const auto scans = recording::rows::read_lidar_scans(options.logs[0]);
   const int frame = options.frame.value_or(0);
   if (frame >= static_cast<int>(scans.size()))
     throw InputError(
         {"command line", 0, "--frame", fmt::format("{}", frame),
          fmt::format("must be 0..{}: the recording has {}", scans.size() - 1, counted(scans.size(), "scan"))});
-  const recording::RecordedScan& scan = scans[static_cast<std::size_t>(frame)];
-  std::vector<nodes::ScanPoint> points;
-  std::vector<report::Point> drawn;
-  for (const recording::RecordedReturn& hit : scan.returns) {
+  const recording::rows::RecordedScan& scan = scans[static_cast<std::size_t>(frame)];
+  std::vector<nodes::laser::ScanPoint> points;
+  std::vector<report::drawing::Point> drawn;
+  for (const recording::rows::RecordedReturn& hit : scan.returns) {
     points.push_back({0, hit.azimuth_rad, hit.range_m});
     drawn.push_back({hit.range_m * std::cos(hit.azimuth_rad), hit.range_m * std::sin(hit.azimuth_rad)});
   }
-  std::vector<nodes::LaserObject> objects;
-  nodes::LaserPreprocessor(nodes::LaserPreprocessingConfig{}, points.size()).process(points, objects);
-  std::vector<report::Box> rectangles;
-  for (const nodes::LaserObject& object : objects)
+  std::vector<nodes::laser::LaserObject> objects;
+  nodes::laser::LaserPreprocessor(nodes::laser::LaserPreprocessingConfig{}, points.size()).process(points, objects);
+  std::vector<report::plots::Box> rectangles;
+  for (const nodes::laser::LaserObject& object : objects)
     rectangles.push_back({object.x, object.y, object.heading, object.length, object.width, ""});
-  return report::boxes_svg(drawn, rectangles,
-                           fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"),
-                                       objects.size(), objects.size() == 1 ? "" : "es"));
+  return report::plots::boxes_svg(drawn, rectangles,
+                                  fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"),
+                                              objects.size(), objects.size() == 1 ? "" : "es"));
 }
 
 // The whole start-up and two cycles after it, unless told.
 std::string startup(const DiagramOptions& options) {
   const TimeWindow window = time_window(options.from_s, options.to_s);
-  const recording::MergedLogs run = one_run(options.logs);
-  report::StartupExtent extent;
+  const recording::merge::MergedLogs run = one_run(options.logs);
+  report::startup::StartupExtent extent;
   run.read(extent);
   const Duration cycle{run.manifest().cycle_ns};
   const auto whole = extent.window(cycle).value_or(std::pair(TrueTime{}, TrueTime{}));
-  report::StartupDiagram diagram(report::names_of(run.manifest()), cycle,
-                                 options.from_s >= 0.0 ? window.from : whole.first, window.to.value_or(whole.second));
+  report::startup::StartupDiagram diagram(report::drawing::names_of(run.manifest()), cycle,
+                                          options.from_s >= 0.0 ? window.from : whole.first,
+                                          window.to.value_or(whole.second));
   run.read(diagram);
   return diagram.svg();
 }
@@ -101,66 +102,67 @@ std::string lateness(const DiagramOptions& options) {
     if (seconds >= 0.0)
       throw InputError({"command line", 0, name, fmt::format("{:g} s", seconds),
                         "does not go with --kind lateness, which is of the whole run"});
-  const recording::MergedLogs run = one_run(options.logs);
-  recording::LatenessSums sums;
+  const recording::merge::MergedLogs run = one_run(options.logs);
+  recording::exports::LatenessSums sums;
   run.read(sums);
   if (sums.nodes().empty())
     throw InputError({options.logs[0], 0, "", "", "tells of no lateness: the run was not in real time"});
-  return report::lateness_svg(sums.nodes(), report::names_of(run.manifest()));
+  return report::plots::lateness_svg(sums.nodes(), report::drawing::names_of(run.manifest()));
 }
 
-std::string timing(const recording::MergedLogs& run, TrueTime from, TrueTime to) {
-  report::TimingDiagram diagram(report::names_of(run.manifest()), {run.manifest().cycle_ns}, from, to);
+std::string timing(const recording::merge::MergedLogs& run, TrueTime from, TrueTime to) {
+  report::timing::TimingDiagram diagram(report::drawing::names_of(run.manifest()), {run.manifest().cycle_ns}, from, to);
   run.read(diagram);
   return diagram.svg();
 }
 
 // Several runs side by side.
-std::string positions(const std::vector<recording::MergedLogs>& runs, TrueTime from, TrueTime to, bool plane) {
-  std::vector<std::unique_ptr<report::PositionPlots>> plots;
-  std::vector<const report::PositionPlots*> panels;
+std::string positions(const std::vector<recording::merge::MergedLogs>& runs, TrueTime from, TrueTime to, bool plane) {
+  std::vector<std::unique_ptr<report::plots::PositionPlots>> plots;
+  std::vector<const report::plots::PositionPlots*> panels;
   std::vector<std::string> titles;
-  for (const recording::MergedLogs& run : runs) {
-    report::PositionOptions position;
+  for (const recording::merge::MergedLogs& run : runs) {
+    report::plots::PositionOptions position;
     position.title = fmt::format("{}, {}", run.manifest().scenario_name, run.manifest().strategy);
     position.from = from;
     position.to = to;
-    plots.push_back(std::make_unique<report::PositionPlots>(report::names_of(run.manifest()), position));
+    plots.push_back(
+        std::make_unique<report::plots::PositionPlots>(report::drawing::names_of(run.manifest()), position));
     run.read(*plots.back());
     panels.push_back(plots.back().get());
     titles.push_back(run.manifest().strategy);
   }
   if (plots.size() > 1)
-    return report::comparison_svg(panels, titles,
-                                  plane ? report::PositionView::kPlane : report::PositionView::kXOverTime);
+    return report::plots::comparison_svg(
+        panels, titles, plane ? report::plots::PositionView::kPlane : report::plots::PositionView::kXOverTime);
   return plane ? plots[0]->plane_svg() : plots[0]->over_time_svg();
 }
 
 int run_diagram(const DiagramOptions& options) {
-  report::check_picture_path(options.out);
+  report::drawing::check_picture_path(options.out);
   if (options.kind == "boxes") {
-    report::write_picture(boxes(options), options.out);
+    report::drawing::write_picture(boxes(options), options.out);
     return 0;
   }
   if (options.frame)
     throw InputError({"command line", 0, "--frame", fmt::format("{}", *options.frame), "goes with --kind boxes only"});
   if (options.kind == "startup") {
-    report::write_picture(startup(options), options.out);
+    report::drawing::write_picture(startup(options), options.out);
     return 0;
   }
   if (options.kind == "lateness") {
-    report::write_picture(lateness(options), options.out);
+    report::drawing::write_picture(lateness(options), options.out);
     return 0;
   }
   const TimeWindow window = time_window(options.from_s, options.to_s);
   const bool as_timing = options.kind == "timing";
-  std::vector<recording::MergedLogs> runs;
+  std::vector<recording::merge::MergedLogs> runs;
   if (as_timing)
     runs.push_back(one_run(options.logs));
   else
     runs = runs_in(options.logs);
   Extent extent;
-  for (const recording::MergedLogs& run : runs) run.read(extent);
+  for (const recording::merge::MergedLogs& run : runs) run.read(extent);
   const TrueTime from = window.from;
   if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "holds no task's run: nothing to draw"});
   if (from > extent.last)
@@ -169,7 +171,7 @@ int run_diagram(const DiagramOptions& options) {
   // A timing diagram of a whole drive is unreadable: 160 ms unless told.
   const TrueTime to = window.to ? *window.to : as_timing ? from + Duration::milliseconds(160) : extent.last;
   const std::string svg = as_timing ? timing(runs[0], from, to) : positions(runs, from, to, options.kind == "plane");
-  report::write_picture(svg, options.out);
+  report::drawing::write_picture(svg, options.out);
   return 0;
 }
 
@@ -209,4 +211,4 @@ void add_diagram(CLI::App& app, Action& action) {
   command->callback([options, &action] { action = [options] { return run_diagram(*options); }; });
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::logs

@@ -11,10 +11,10 @@
 #include "cli/output.h"
 #include "core/counted.h"
 #include "recording/exports/captures.h"
-#include "recording/merge/merge.h"
 #include "recording/exports/perfetto.h"
+#include "recording/merge/merge.h"
 
-namespace ttf::cli {
+namespace ttf::cli::logs {
 namespace {
 
 struct ExportOptions {
@@ -24,19 +24,20 @@ struct ExportOptions {
   bool json = false;
 };
 
-std::string converted(const std::string& format, const recording::FrameCollector& collector,
-                      const std::vector<recording::LoggedFrame>& frames, const recording::LogNames& names) {
-  if (format == "pcapng") return recording::export_pcapng(collector, frames, names);
-  if (format == "candump") return recording::export_candump(collector, frames, names);
-  return recording::export_csv(collector, frames, names);
+std::string converted(const std::string& format, const recording::exports::FrameCollector& collector,
+                      const std::vector<recording::exports::LoggedFrame>& frames,
+                      const recording::exports::LogNames& names) {
+  if (format == "pcapng") return recording::exports::export_pcapng(collector, frames, names);
+  if (format == "candump") return recording::exports::export_candump(collector, frames, names);
+  return recording::exports::export_csv(collector, frames, names);
 }
 
-int export_perfetto(const ExportOptions& options, const recording::MergedLogs& run) {
+int export_perfetto(const ExportOptions& options, const recording::merge::MergedLogs& run) {
   OutputFile file(options.out);
-  recording::PerfettoExport trace(recording::LogNames(run.manifest()),
-                                  [&](std::string_view bytes) { file.write(bytes); });
+  recording::exports::PerfettoExport trace(recording::exports::LogNames(run.manifest()),
+                                           [&](std::string_view bytes) { file.write(bytes); });
   run.read(trace);
-  const recording::TraceCounts counts = trace.finish();
+  const recording::exports::TraceCounts counts = trace.finish();
   file.finish();
   if (options.json)
     fmt::print(
@@ -63,16 +64,17 @@ int export_for_papers(const ExportOptions& options) {
 int run_export(const ExportOptions& options) {
   if (options.format == "gnuplot") return export_for_papers(options);
   for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
-  const recording::MergedLogs run(options.logs);
+  const recording::merge::MergedLogs run(options.logs);
   print_warnings(run.warnings());
   if (options.format == "perfetto") return export_perfetto(options, run);
-  recording::FrameCollector collector;
+  recording::exports::FrameCollector collector;
   run.read(collector);
-  const recording::LogNames names(run.manifest());
-  const std::vector<recording::LoggedFrame> frames = collector.in_order();
+  const recording::exports::LogNames names(run.manifest());
+  const std::vector<recording::exports::LoggedFrame> frames = collector.in_order();
   write_file(options.out, converted(options.format, collector, frames, names));
   std::size_t flexray = 0, can = 0, symbols = 0;
-  for (const recording::LoggedFrame& frame : frames) ++(frame.symbol != 0 ? symbols : frame.flexray ? flexray : can);
+  for (const recording::exports::LoggedFrame& frame : frames)
+    ++(frame.symbol != 0 ? symbols : frame.flexray ? flexray : can);
   const bool can_only = options.format == "candump";
   if (options.json)
     fmt::print("{{\n  \"format\": \"{}\",\n  \"flexray_frames\": {},\n  \"symbols\": {},\n  \"can_frames\": {}\n}}\n",
@@ -113,4 +115,4 @@ void add_export(CLI::App& app, Action& action) {
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::logs

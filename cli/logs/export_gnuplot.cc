@@ -16,20 +16,20 @@
 #include "evaluation/accuracy/drive_rows.h"
 #include "experiments/sweep/measures.h"
 #include "recording/exports/frames.h"
-#include "recording/rows/csv.h"
 #include "recording/merge/merge.h"
-#include "recording/records/tee.h"
 #include "recording/merge/stored_log.h"
+#include "recording/records/tee.h"
+#include "recording/rows/csv.h"
 #include "report/paper/experiment.h"
 #include "report/paper/run.h"
 #include "report/plots/position_plot.h"
 
-namespace ttf::cli {
+namespace ttf::cli::logs {
 namespace {
 
 namespace fs = std::filesystem;
-using report::PaperFile;
-using report::table_number;
+using report::paper::PaperFile;
+using report::paper::table_number;
 
 double in_seconds(TrueTime at) { return static_cast<double>(at.ns) * 1e-9; }
 
@@ -43,16 +43,16 @@ std::string as_file_name(const std::string& text) {
 // The tables of one run; what they have is noted in `has`.
 class RunTables {
  public:
-  RunTables(const recording::MergedLogs& run, report::PaperRun& has) : names_(run.manifest()), has_(has) {
-    report::Names names;
+  RunTables(const recording::merge::MergedLogs& run, report::paper::PaperRun& has) : names_(run.manifest()), has_(has) {
+    report::drawing::Names names;
     names.sensors = run.manifest().sensor_names;
     run.read(rows_);
     rows_.finish();
     const ObjectId object = rows_.referenced().value_or(ObjectId{0});
     has_.object = static_cast<int>(index_of(object));
-    report::PositionOptions options;
+    report::plots::PositionOptions options;
     options.object = object;
-    report::PositionPlots plots(names, options);
+    report::plots::PositionPlots plots(names, options);
     run.read(plots);
     selection_ = plots.select();
   }
@@ -66,25 +66,25 @@ class RunTables {
 
  private:
   std::string positions() {
-    std::string text = report::kPositionsHead;
-    const auto add = [&](const std::string& kind, const std::vector<report::PositionPlots::Sample>& samples) {
+    std::string text = report::paper::kPositionsHead;
+    const auto add = [&](const std::string& kind, const std::vector<report::plots::PositionPlots::Sample>& samples) {
       if (samples.empty()) return;
       has_.kinds.push_back(kind);
       for (const auto& sample : samples)
-        text += fmt::format("{},{},{},{}\n", recording::csv_field(kind), table_number(sample.t), table_number(sample.x),
-                            table_number(sample.y));
+        text += fmt::format("{},{},{},{}\n", recording::rows::csv_field(kind), table_number(sample.t),
+                            table_number(sample.x), table_number(sample.y));
     };
     add("truth", selection_.truth);
     add("reference", selection_.reference);
     for (std::size_t s = 0; s < selection_.observations.size(); ++s)
-      add(report::sensor_kind(names_.sensor(static_cast<SensorId>(s))), selection_.observations[s]);
+      add(report::paper::sensor_kind(names_.sensor(static_cast<SensorId>(s))), selection_.observations[s]);
     add("image", selection_.fusion);
     return text;
   }
 
   std::string errors() {
-    std::string text = report::kErrorsHead;
-    for (const experiments::ErrorRow& row : rows_.errors()) {
+    std::string text = report::paper::kErrorsHead;
+    for (const evaluation::accuracy::ErrorRow& row : rows_.errors()) {
       text += fmt::format("{},{}", table_number(in_seconds(row.at)), index_of(row.object));
       for (const auto* values : {&row.error, &row.sigma})
         for (const double value : *values) text += ',' + table_number(value);
@@ -99,8 +99,8 @@ class RunTables {
   }
 
   std::string nees() {
-    std::string text = report::kNeesHead;
-    for (const experiments::NeesRow& row : experiments::nees_rows(rows_.errors())) {
+    std::string text = report::paper::kNeesHead;
+    for (const evaluation::accuracy::NeesRow& row : evaluation::accuracy::nees_rows(rows_.errors())) {
       text += fmt::format("{},{},{},{},{},{}\n", table_number(row.from_s), table_number(row.to_s), row.samples,
                           table_number(row.mean), table_number(row.low), table_number(row.high));
       has_.nees = true;
@@ -109,37 +109,37 @@ class RunTables {
   }
 
   std::string ages() {
-    std::string text = report::kAgesHead;
+    std::string text = report::paper::kAgesHead;
     for (const auto& [what, histogram] : rows_.ages()) {
-      const std::string of = what.first == experiments::AgeOf::kFused ? "fused" : "used",
+      const std::string of = what.first == evaluation::accuracy::AgeOf::kFused ? "fused" : "used",
                         sensor = names_.sensor(what.second);
       has_.ages.emplace_back(of, sensor);
-      const double bin_ms = static_cast<double>(experiments::kAgeBin.ns) * 1e-6;
+      const double bin_ms = static_cast<double>(evaluation::accuracy::kAgeBin.ns) * 1e-6;
       has_.least_age_ms = std::min(has_.least_age_ms, bin_ms * static_cast<double>(histogram.begin()->first));
       has_.most_age_ms = std::max(has_.most_age_ms, bin_ms * static_cast<double>(histogram.rbegin()->first + 1));
       for (const auto& [bin, count] : histogram)
-        text += fmt::format("{},{},{},{},{}\n", of, recording::csv_field(sensor), static_cast<double>(bin) * bin_ms,
-                            static_cast<double>(bin + 1) * bin_ms, count);
+        text += fmt::format("{},{},{},{},{}\n", of, recording::rows::csv_field(sensor),
+                            static_cast<double>(bin) * bin_ms, static_cast<double>(bin + 1) * bin_ms, count);
     }
     return text;
   }
 
-  recording::LogNames names_;
-  report::PaperRun& has_;
-  experiments::DriveRows rows_;
-  report::PositionPlots::Selection selection_;
+  recording::exports::LogNames names_;
+  report::paper::PaperRun& has_;
+  evaluation::accuracy::DriveRows rows_;
+  report::plots::PositionPlots::Selection selection_;
 };
 
 std::vector<PaperFile> of_logs(const std::vector<std::string>& paths) {
-  std::vector<recording::StoredLog> logs;
+  std::vector<recording::merge::StoredLog> logs;
   for (const std::string& path : paths) logs.emplace_back(path);
   std::vector<PaperFile> files;
-  std::vector<report::PaperRun> runs;
+  std::vector<report::paper::PaperRun> runs;
   std::set<std::string> labels;
-  for (const recording::MergedLogs& run : recording::merge_by_run(std::move(logs))) {
+  for (const recording::merge::MergedLogs& run : recording::merge::merge_by_run(std::move(logs))) {
     print_warnings(run.warnings());
-    const recording::LogManifest& manifest = run.manifest();
-    report::PaperRun has;
+    const recording::log::LogManifest& manifest = run.manifest();
+    report::paper::PaperRun has;
     const std::string label = as_file_name(manifest.strategy);
     has.label = label;
     for (int n = 2; !labels.insert(has.label).second; ++n) has.label = fmt::format("{}_{}", label, n);
@@ -147,17 +147,17 @@ std::vector<PaperFile> of_logs(const std::vector<std::string>& paths) {
     for (PaperFile& file : RunTables(run, has).files()) files.push_back(std::move(file));
     runs.push_back(std::move(has));
   }
-  std::vector<PaperFile> scripts = report::scripts_of_runs(runs);
+  std::vector<PaperFile> scripts = report::paper::scripts_of_runs(runs);
   if (scripts.empty())
     throw InputError({joined(paths), 0, "", "", "tells of no position, no use of an image and no measurement fused"});
   for (PaperFile& script : scripts) files.push_back(std::move(script));
   return files;
 }
 
-report::MeasureWords words_of(std::string_view measure) {
-  const experiments::Measure* known = experiments::find_measure(measure);
-  return known == nullptr ? report::MeasureWords{}
-                          : report::MeasureWords{std::string(known->unit), std::string(known->meaning)};
+report::paper::MeasureWords words_of(std::string_view measure) {
+  const experiments::sweep::Measure* known = experiments::sweep::find_measure(measure);
+  return known == nullptr ? report::paper::MeasureWords{}
+                          : report::paper::MeasureWords{std::string(known->unit), std::string(known->meaning)};
 }
 
 std::vector<PaperFile> of_experiment(const fs::path& summary) {
@@ -165,7 +165,7 @@ std::vector<PaperFile> of_experiment(const fs::path& summary) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw InputError({summary.string(), 0, "", "", "cannot be read"});
   const std::string folder = fs::absolute(summary).lexically_normal().parent_path().filename().string();
-  return report::paper_of_experiment(text, summary.string(), folder, words_of);
+  return report::paper::paper_of_experiment(text, summary.string(), folder, words_of);
 }
 
 }  // namespace
@@ -185,7 +185,7 @@ std::vector<std::string> export_gnuplot(const std::vector<std::string>& inputs, 
       files = of_experiment(summary);
       continue;
     }
-    const std::vector<std::string> found = recording::logs_in(input);
+    const std::vector<std::string> found = recording::merge::logs_in(input);
     if (found.empty())
       throw InputError({input, 0, "", "", "holds neither logs (.mcap) nor an experiment's summary.csv"});
     logs.insert(logs.end(), found.begin(), found.end());
@@ -202,4 +202,4 @@ std::vector<std::string> export_gnuplot(const std::vector<std::string>& inputs, 
   return names;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::logs

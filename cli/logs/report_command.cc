@@ -20,7 +20,7 @@
 #include "report/experiment/report.h"
 #include "report/run/report.h"
 
-namespace ttf::cli {
+namespace ttf::cli::logs {
 namespace {
 
 struct ReportOptions {
@@ -35,37 +35,37 @@ struct ReportOptions {
 constexpr std::size_t kMostDrives = 10;                   // timing diagrams of an experiment's page
 constexpr Duration kDrawn = Duration::milliseconds(960);  // in all of them together, 160 ms each at most
 
-std::string experiment_html(const ReportOptions& options, report::DiagramWindow window) {
-  const report::ExperimentFolder folder = report::read_experiment_folder(options.folders[0]);
-  report::ExperimentDrives drives;
-  if (!options.no_drives) drives = drives_of(folder, options.file, options.point);
+std::string experiment_html(const ReportOptions& options, report::run::DiagramWindow window) {
+  const report::experiment::ExperimentFolder folder = report::experiment::read_experiment_folder(options.folders[0]);
+  report::experiment::ExperimentDrives drives;
+  if (!options.no_drives) drives = experiment::drives_of(folder, options.file, options.point);
   if (!drives.why_none.empty()) print_warnings(drives.why_none);
   window.most = kMostDrives;
   const auto shown = static_cast<std::int64_t>(std::clamp(drives.drives.size(), std::size_t{1}, kMostDrives));
   window.length = std::min(window.length, Duration{kDrawn.ns / shown});
-  return report::experiment_report_html(folder, drives, window);
+  return report::experiment::experiment_report_html(folder, drives, window);
 }
 
 std::string html(const ReportOptions& options) {
   const TimeWindow asked = time_window(options.from_s, options.to_s);
-  report::DiagramWindow window;
+  report::run::DiagramWindow window;
   if (options.from_s >= 0.0) window.from = asked.from;
   window.to = asked.to;
   std::size_t experiments = 0;
   for (const std::string& folder : options.folders)
-    experiments += report::kind_of_folder(folder) == report::FolderKind::kExperiment;
+    experiments += report::run::kind_of_folder(folder) == report::run::FolderKind::kExperiment;
   if (experiments == 0) {
     for (const auto& [name, given] :
          {std::pair("--file", options.file.has_value()), std::pair("--point", options.point.has_value()),
           std::pair("--no-drives", options.no_drives)})
       if (given) throw InputError({"command line", 0, name, "", "goes with an experiment, not with runs"});
-    std::vector<report::RunFolder> folders;
+    std::vector<report::run::RunFolder> folders;
     for (const std::string& path : options.folders) {
-      folders.push_back(report::read_run_folder(path));
-      for (const report::Drive& drive : folders.back().drives)
+      folders.push_back(report::run::read_run_folder(path));
+      for (const report::run::Drive& drive : folders.back().drives)
         if (drive.log) print_warnings(drive.log->warnings());
     }
-    return report::run_report_html(std::move(folders), window);
+    return report::run::run_report_html(std::move(folders), window);
   }
   if (options.folders.size() > 1)
     throw InputError({"command line", 0, "folders", options.folders[0],
@@ -122,4 +122,4 @@ void add_report(CLI::App& app, Action& action) {
   command->callback([options, &action] { action = [options] { return run_report(*options); }; });
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::logs

@@ -6,20 +6,20 @@
 #include "cli/supervision/launch_folder.h"
 #include "core/errors.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node {
 namespace {
 
 struct NodeArguments {
   std::string name;
-  NodeSetArguments set;
+  node_set::NodeSetArguments set;
   bool json = false;
 };
 
 int run_node(const NodeArguments& arguments) {
   NodeOptions options;
   options.set = read_node_set(arguments.set);
-  options.node = node_of(options.set.cluster, arguments.name);
-  options.log = options.set.folder + "/" + launch::file_stem(arguments.name) + ".mcap";
+  options.node = node_set::node_of(options.set.cluster, arguments.name);
+  options.log = options.set.folder + "/" + supervision::file_stem(arguments.name) + ".mcap";
   options.json = arguments.json;
   return options.set.virtual_time ? run_node_virtual(options) : run_node_live(options);
 }
@@ -50,4 +50,4 @@ void add_node(CLI::App& app, Action& action) {
   command->callback([arguments, &action] { action = [arguments] { return run_node(*arguments); }; });
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node

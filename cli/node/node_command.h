@@ -6,10 +6,10 @@
 #include "cli/node_set/node_set.h"
 #include "core/ids.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node {
 
 struct NodeOptions {
-  NodeSet set;
+  node_set::NodeSet set;
   NodeId node{};
   std::string log;    // the node's own
   bool json = false;  // what came of it as JSON on standard output
@@ -22,4 +22,4 @@ int run_node_virtual(const NodeOptions& options);
 // The same in real time. A signal, or a supervisor that has gone, ends it in order: the log is complete up to there.
 int run_node_live(const NodeOptions& options);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node

@@ -4,9 +4,9 @@
 
 #include <stdexcept>
 
-namespace ttf::cli {
+namespace ttf::cli::node {
 
-void tell_ending(const NodeEnding& ending, std::optional<launch::ControlLine>& supervisor, bool as_json) {
+void tell_ending(const NodeEnding& ending, std::optional<supervision::ControlLine>& supervisor, bool as_json) {
   const nlohmann::ordered_json json{{"counts", ending.counts}, {"real_time", ending.health}};
   if (supervisor) supervisor->health(ending.health);
   if (supervisor && ending.failure.empty()) supervisor->done(json);
@@ -14,4 +14,4 @@ void tell_ending(const NodeEnding& ending, std::optional<launch::ControlLine>& s
   if (!ending.failure.empty()) throw std::runtime_error(ending.failure);
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node

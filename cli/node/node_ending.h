@@ -7,7 +7,7 @@
 
 #include "cli/supervision/control.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node {
 
 struct NodeEnding {
   nlohmann::ordered_json counts;  // counts_json()
@@ -17,6 +17,6 @@ struct NodeEnding {
 
 // A supervisor is told the last health; that the node is done, only if it is. With `as_json` what came of it, failed
 // or not, is printed on standard output. Throws std::runtime_error with the failure.
-void tell_ending(const NodeEnding& ending, std::optional<launch::ControlLine>& supervisor, bool as_json);
+void tell_ending(const NodeEnding& ending, std::optional<supervision::ControlLine>& supervisor, bool as_json);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node

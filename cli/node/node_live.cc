@@ -8,31 +8,31 @@
 #include <stdexcept>
 #include <string>
 
-#include "cli/node_set/dds_preflight.h"
 #include "cli/drive/drive_setup.h"
+#include "cli/node/live_bus.h"
+#include "cli/node/node_command.h"
+#include "cli/node/node_ending.h"
+#include "cli/node_set/dds_preflight.h"
+#include "cli/node_set/live_topics.h"
+#include "cli/node_set/node_drive.h"
+#include "cli/node_set/session.h"
+#include "cli/output.h"
 #include "cli/supervision/control.h"
 #include "cli/supervision/folder_lock.h"
 #include "cli/supervision/signal_watch.h"
-#include "cli/node_set/session.h"
-#include "cli/node/live_bus.h"
-#include "cli/node_set/live_topics.h"
-#include "cli/node/node_command.h"
-#include "cli/node_set/node_drive.h"
-#include "cli/node/node_ending.h"
-#include "cli/output.h"
 #include "core/decimal.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
-#include "nodes/runner/health_teller.h"
-#include "nodes/runner/thread_privileges.h"
-#include "nodes/runner/runner.h"
-#include "recording/records/tee.h"
 #include "drives/surroundings.h"
+#include "nodes/runner/health_teller.h"
+#include "nodes/runner/runner.h"
+#include "nodes/runner/thread_privileges.h"
+#include "recording/records/tee.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node {
 namespace {
 
-using runner::Health;
+using nodes::runner::Health;
 
 // Less than a supervisor waits for who is to say that it is ready.
 constexpr std::chrono::milliseconds kLivePatience{10'000};
@@ -58,19 +58,19 @@ nlohmann::ordered_json health_json(const Health& health) {
   return json;
 }
 
-bus::HostTime from_utc(std::int64_t utc_ns) {
+bus::ports::HostTime from_utc(std::int64_t utc_ns) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return bus::host_now() + Duration{utc_ns - std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()};
+  return bus::ports::host_now() + Duration{utc_ns - std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()};
 }
 
 // When the drive's time 0 is, and whether the others are under way already.
 struct Start {
-  bus::HostTime origin;
+  bus::ports::HostTime origin;
   bool rejoins = false;
 };
 
 // Without a supervisor a node is told the instant from which all count: else its drive would have a time of its own.
-void check_told_start(const NodeSet& set) {
+void check_told_start(const node_set::NodeSet& set) {
   if (!set.start_at_ns)
     throw InputError(
         {"command line", 0, "--start-at", "",
@@ -78,9 +78,9 @@ void check_told_start(const NodeSet& set) {
          "at which the drive begins or, with --rejoin, began for all its nodes"});
 }
 
-Start told_start(const NodeSet& set) {
-  const bus::HostTime origin = from_utc(*set.start_at_ns);
-  if (!set.rejoin && origin < bus::host_now())
+Start told_start(const node_set::NodeSet& set) {
+  const bus::ports::HostTime origin = from_utc(*set.start_at_ns);
+  if (!set.rejoin && origin < bus::ports::host_now())
     throw InputError({"command line", 0, "--start-at", scaled_text(*set.start_at_ns, 1'000'000'000),
                       "must be ahead: who comes into a drive that is under way is given --rejoin, too"});
   return {origin, set.rejoin};
@@ -88,14 +88,14 @@ Start told_start(const NodeSet& set) {
 
 // Who waits says for what.
 void tell_wait(const Start& start) {
-  const Duration ahead = start.origin - bus::host_now();
+  const Duration ahead = start.origin - bus::ports::host_now();
   if (ahead.ns > 0)
     fmt::print(stderr, "the drive begins in {:.1f} s (--start-at){}\n", ahead.seconds(),
                start.rejoins ? ": until then there is no cluster to rejoin" : "");
 }
 
 // Waits for it.
-Start start_of(launch::ControlLine& supervisor) {
+Start start_of(supervision::ControlLine& supervisor) {
   supervisor.ready();
   const auto facts = supervisor.wait_for_start();
   if (!facts) throw std::runtime_error("the supervisor has gone before the start");
@@ -117,29 +117,29 @@ std::string free_log(const NodeOptions& options) {
   return free;
 }
 
-runner::RunnerConfig config_of(const NodeOptions& options, const Start& start, int stop_descriptor) {
-  const NodeSet& set = options.set;
-  runner::RunnerConfig config;
+nodes::runner::RunnerConfig config_of(const NodeOptions& options, const Start& start, int stop_descriptor) {
+  const node_set::NodeSet& set = options.set;
+  nodes::runner::RunnerConfig config;
   config.cluster = &set.cluster;
   config.node = options.node;
-  config.clock = runner::DriveClock(start.origin, set.time_scale_ppm);
+  config.clock = nodes::runner::DriveClock(start.origin, set.time_scale_ppm);
   config.seed = set.seed;
-  config.first_cycle = sim::kFirstCycle;
-  config.end = sim::drive_end(set.scenario);
+  config.first_cycle = sim::crank::kFirstCycle;
+  config.end = drives::drive_end(set.scenario);
   config.stop_descriptor = stop_descriptor;
   if (start.rejoins) {
     config.power_on = TrueTime{};
   } else if (set.scenario.startup.cold) {
-    config.cold = nodes::node_starts(set.scenario.startup, set.cluster, set.seed, 0)[index_of(options.node)];
-    config.power_on =
-        config.cold.how == nodes::ColdStart::kSleeps ? sim::kFirstCycle : sim::kFirstCycle + config.cold.after;
+    config.cold = nodes::host::node_starts(set.scenario.startup, set.cluster, set.seed, 0)[index_of(options.node)];
+    config.power_on = config.cold.how == nodes::host::ColdStart::kSleeps ? sim::crank::kFirstCycle
+                                                                         : sim::crank::kFirstCycle + config.cold.after;
   }
   return config;
 }
 
-recording::LogManifest wall_manifest(const NodeSet& set) {
-  recording::LogManifest manifest = manifest_of(set.scenario, set.cluster, set.strategy, set.seed, {});
-  manifest.clock = recording::kWallClock;
+recording::log::LogManifest wall_manifest(const node_set::NodeSet& set) {
+  recording::log::LogManifest manifest = drive::manifest_of(set.scenario, set.cluster, set.strategy, set.seed, {});
+  manifest.clock = recording::log::kWallClock;
   manifest.host = set.host;
   manifest.time_scale_ppm = set.time_scale_ppm;
   return manifest;
@@ -148,54 +148,55 @@ recording::LogManifest wall_manifest(const NodeSet& set) {
 }  // namespace
 
 int run_node_live(const NodeOptions& options) {
-  const NodeSet& set = options.set;
-  launch::SignalWatch signals;  // before there are threads
-  auto supervisor = launch::ControlLine::from_environment();
+  const node_set::NodeSet& set = options.set;
+  supervision::SignalWatch signals;  // before there are threads
+  auto supervisor = supervision::ControlLine::from_environment();
   if (!supervisor) {
     check_told_start(set);
-    launch::FolderLock::refuse_if_held(set.folder);
-    if (set.bus.kind == launch::BusKind::kDds || set.topics) check_dds_configuration();
+    supervision::FolderLock::refuse_if_held(set.folder);
+    if (set.bus.kind == supervision::BusKind::kDds || set.topics) node_set::check_dds_configuration();
   }
   if (set.topics) check_topics(set);
   create_folder(set.folder);
-  const sim::Surroundings around = sim::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
-  const nodes::NodeSetConfig code{&set.scenario, &set.cluster, set.strategy, set.seed, 0, around.scene, nullptr};
-  auto steps = nodes::make_steps(code, options.node);
+  const drives::Surroundings around = drives::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
+  const drives::NodeSetConfig code{&set.scenario, &set.cluster, set.strategy, set.seed, 0, around.scene, nullptr};
+  auto steps = drives::make_steps(code, options.node);
   const auto medium = live_medium(set, options.node, supervisor ? kLivePatience : std::chrono::milliseconds{0});
   if (set.topics) try_topics(set);
   const std::optional<Start> told = supervisor ? std::nullopt : std::optional(told_start(set));
-  recording::LogWriter log(free_log(options), wall_manifest(set), recording::LogWriter::Writing::kBehind);
+  recording::log::LogWriter log(free_log(options), wall_manifest(set), recording::log::LogWriter::Writing::kBehind);
   if (told) tell_wait(*told);
   const Start start = told ? *told : start_of(*supervisor);
-  const runner::RunnerConfig config = config_of(options, start, signals.fd());
-  std::optional<LiveTopics> topics;
-  std::vector<records::Sink*> sinks{&log};
+  const nodes::runner::RunnerConfig config = config_of(options, start, signals.fd());
+  std::optional<node_set::LiveTopics> topics;
+  std::vector<recording::records::Sink*> sinks{&log};
   if (set.topics) {
     topics.emplace(set, options.node, config.clock, around);
-    for (records::Sink* sink : topics->sinks()) sinks.push_back(sink);
+    for (recording::records::Sink* sink : topics->sinks()) sinks.push_back(sink);
   }
-  records::Tee tee(std::move(sinks));
+  recording::records::Tee tee(std::move(sinks));
   // To a supervisor, and to whoever listens on ROS 2's topics.
-  runner::HealthTeller teller([&](const Health& health, bus::HostTime at) {
+  nodes::runner::HealthTeller teller([&](const Health& health, bus::ports::HostTime at) {
     if (supervisor) supervisor->health(health_json(health));
     if (topics) topics->health(health, config.clock.drive_time(at));
   });
   // Behind the making of all other threads, which are not to have it.
-  const auto not_granted = runner::ask_for_real_time(index_of(options.node), set.cluster.nodes.size());
+  const auto not_granted = nodes::runner::ask_for_real_time(index_of(options.node), set.cluster.nodes.size());
   if (supervisor)
     supervisor->health({{"not_granted", not_granted}});
   else
     print_warnings(not_granted);
 
-  runner::Runner node(config, std::move(steps), *medium, tee);
+  nodes::runner::Runner node(config, std::move(steps), *medium, tee);
   node.on_health([&teller](const Health& health) { teller.hand_over(health); });
-  const runner::RunnerEnd end = node.run();
+  const nodes::runner::RunnerEnd end = node.run();
   teller.close();
   log.close();
-  const bool failed = end == runner::RunnerEnd::kFailed;
-  tell_ending({counts_json(node.counts()), health_json(node.health()), failed ? medium->failure() : std::string()},
-              supervisor, options.json);
+  const bool failed = end == nodes::runner::RunnerEnd::kFailed;
+  tell_ending(
+      {node_set::counts_json(node.counts()), health_json(node.health()), failed ? medium->failure() : std::string()},
+      supervisor, options.json);
   return 0;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node

@@ -7,49 +7,50 @@
 #include <stdexcept>
 
 #include "bus/dds/exchange/exchange.h"
+#include "cli/node/node_command.h"
 #include "cli/node_set/dds_preflight.h"
+#include "cli/node_set/node_drive.h"
+#include "cli/node_set/session.h"
+#include "cli/output.h"
 #include "cli/supervision/control.h"
 #include "cli/supervision/folder_lock.h"
-#include "cli/node_set/session.h"
-#include "cli/node/node_command.h"
-#include "cli/node_set/node_drive.h"
-#include "cli/output.h"
 #include "core/errors.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node {
 
 // The others are waited for first, so that who is ready hears everybody.
 int run_node_virtual(const NodeOptions& options) {
-  const NodeSet& set = options.set;
-  auto supervisor = launch::ControlLine::from_environment();
+  const node_set::NodeSet& set = options.set;
+  auto supervisor = supervision::ControlLine::from_environment();
   if (!supervisor) {
-    check_dds_configuration();
-    launch::FolderLock::refuse_if_held(set.folder);
+    node_set::check_dds_configuration();
+    supervision::FolderLock::refuse_if_held(set.folder);
   }
   create_folder(set.folder);
   // By hand nobody else sees to it that a log has one writer. One that is not there yet is made when all are there.
-  std::optional<launch::FileLock> log;
+  std::optional<supervision::FileLock> log;
   const auto take_log = [&] {
-    if (!supervisor && !log && !(log = launch::FileLock::take(options.log)))
+    if (!supervisor && !log && !(log = supervision::FileLock::take(options.log)))
       throw InputError({"command line", 0, "--out", set.folder,
                         fmt::format("must be another folder: {} is being written", options.log)});
   };
   if (std::filesystem::exists(options.log)) take_log();
-  dds::Exchange exchange(session_of(set, supervisor.has_value()), options.node);
-  exchange.wait_ready(kOthersPatience);
+  bus::dds::exchange::Exchange exchange(session_of(set, supervisor.has_value()), options.node);
+  exchange.wait_ready(node_set::kOthersPatience);
   take_log();
   if (supervisor) {
     supervisor->ready();
     if (!supervisor->wait_for_start()) throw std::runtime_error("the supervisor has gone before the start");
   }
-  const Recording none;
-  const NodeDrive drive{&set.scenario, &set.cluster, set.strategy, set.seed, &none, options.node, options.log};
-  const sim::DriveOutcome outcome = run_node_drive(drive, exchange);
+  const drive::Recording none;
+  const node_set::NodeDrive drive{&set.scenario, &set.cluster, set.strategy, set.seed,
+                                  &none,         options.node, options.log};
+  const drives::DriveOutcome outcome = run_node_drive(drive, exchange);
   exchange.leave();
-  const nlohmann::ordered_json json = outcome_json(outcome);
+  const nlohmann::ordered_json json = node_set::outcome_json(outcome);
   if (supervisor) supervisor->done(json);
   if (options.json) fmt::print("{}\n", json.dump(2));
   return 0;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node

@@ -7,7 +7,7 @@
 
 #include "core/errors.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node_set {
 namespace {
 
 InputError refused(const std::string& option, std::string expected) {
@@ -15,19 +15,19 @@ InputError refused(const std::string& option, std::string expected) {
 }
 
 // Interface by CAN.
-std::map<std::string, std::string> interfaces_by_name(const schedules::Cluster& cluster,
+std::map<std::string, std::string> interfaces_by_name(const schedules::model::Cluster& cluster,
                                                       const std::vector<std::string>& given) {
   std::map<std::string, std::string> named;
   for (const std::string& option : given) {
     const std::size_t sign = option.rfind('=');
     const std::string interface = sign == std::string::npos ? "" : option.substr(sign + 1);
-    if (!launch::is_interface_name(interface))
+    if (!supervision::is_interface_name(interface))
       throw refused(option, fmt::format("must be NAME=IF, a CAN of {} and its interface ({})", cluster.file,
-                                        launch::kInterfaceNames));
+                                        supervision::kInterfaceNames));
     const std::string name = option.substr(0, sign);
-    if (std::ranges::find(cluster.can_buses, name, &schedules::CanBus::name) == cluster.can_buses.end()) {
+    if (std::ranges::find(cluster.can_buses, name, &schedules::model::CanBus::name) == cluster.can_buses.end()) {
       std::vector<std::string> names;
-      for (const schedules::CanBus& bus : cluster.can_buses) names.push_back(bus.name);
+      for (const schedules::model::CanBus& bus : cluster.can_buses) names.push_back(bus.name);
       throw refused(option, fmt::format("must name a CAN of {}: {}", cluster.file,
                                         names.empty() ? "it has none" : fmt::format("{}", fmt::join(names, ", "))));
     }
@@ -38,9 +38,9 @@ std::map<std::string, std::string> interfaces_by_name(const schedules::Cluster& 
 
 }  // namespace
 
-std::vector<std::string> can_interfaces(const schedules::Cluster& cluster, const launch::Bus& bus,
+std::vector<std::string> can_interfaces(const schedules::model::Cluster& cluster, const supervision::Bus& bus,
                                         const std::vector<std::string>& given) {
-  if (bus.kind != launch::BusKind::kSocketCan) {
+  if (bus.kind != supervision::BusKind::kSocketCan) {
     if (!given.empty())
       throw refused(given.front(), "goes with --bus socketcan:IF[,IF] only: elsewhere private CANs have no interfaces");
     return {};
@@ -50,13 +50,13 @@ std::vector<std::string> can_interfaces(const schedules::Cluster& cluster, const
   for (std::size_t channel = 0; channel < bus.interfaces.size(); ++channel)
     users[bus.interfaces[channel]] = fmt::format("channel {}", "AB"[channel]);
   std::vector<std::string> interfaces;
-  for (const schedules::CanBus& can : cluster.can_buses) {
+  for (const schedules::model::CanBus& can : cluster.can_buses) {
     const auto own = named.find(can.name);
     const std::string interface = own == named.end() ? can.name : own->second;
-    if (!launch::is_interface_name(interface))
+    if (!supervision::is_interface_name(interface))
       throw InputError({cluster.file, can.line, fmt::format("can.{}", can.name), "",
                         fmt::format("needs --can NAME=IF on SocketCAN, as its own name is none of an interface ({})",
-                                    launch::kInterfaceNames)});
+                                    supervision::kInterfaceNames)});
     if (const auto [user, only] = users.emplace(interface, can.name); !only)
       throw refused(fmt::format("{}={}", can.name, interface),
                     fmt::format("must be another interface than that of {}", user->second));
@@ -65,19 +65,20 @@ std::vector<std::string> can_interfaces(const schedules::Cluster& cluster, const
   return interfaces;
 }
 
-std::vector<std::string> can_options(const schedules::Cluster& cluster, const std::vector<std::string>& interfaces) {
+std::vector<std::string> can_options(const schedules::model::Cluster& cluster,
+                                     const std::vector<std::string>& interfaces) {
   std::vector<std::string> options;
   for (std::size_t i = 0; i < interfaces.size(); ++i)
     options.insert(options.end(), {"--can", fmt::format("{}={}", cluster.can_buses[i].name, interfaces[i])});
   return options;
 }
 
-std::vector<launch::PrivateCan> private_cans(const schedules::Cluster& cluster,
-                                             const std::vector<std::string>& interfaces) {
-  std::vector<launch::PrivateCan> cans;
+std::vector<supervision::PrivateCan> private_cans(const schedules::model::Cluster& cluster,
+                                                  const std::vector<std::string>& interfaces) {
+  std::vector<supervision::PrivateCan> cans;
   for (std::size_t i = 0; i < interfaces.size(); ++i)
     cans.push_back({cluster.can_buses[i].name, interfaces[i], cluster.can_buses[i].flexible_data_rate});
   return cans;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node_set

@@ -7,20 +7,21 @@
 #include "cli/supervision/preflight.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node_set {
 
 // By Cluster::can_buses: what --can NAME=IF says of it, or else an interface of the CAN's own name. Each CAN has an
 // interface of its own, and none of the bus', as identifiers would get mixed up. Throws InputError for what is no
 // interface's name, for interfaces that meet, for a CAN that is not in the cluster or is given twice, and for anything
 // given where the bus is none of SocketCAN; there the list is empty.
-std::vector<std::string> can_interfaces(const schedules::Cluster& cluster, const launch::Bus& bus,
+std::vector<std::string> can_interfaces(const schedules::model::Cluster& cluster, const supervision::Bus& bus,
                                         const std::vector<std::string>& given);
 
 // --can options that give these interfaces again.
-std::vector<std::string> can_options(const schedules::Cluster& cluster, const std::vector<std::string>& interfaces);
+std::vector<std::string> can_options(const schedules::model::Cluster& cluster,
+                                     const std::vector<std::string>& interfaces);
 
 // What the preflight looks at.
-std::vector<launch::PrivateCan> private_cans(const schedules::Cluster& cluster,
-                                             const std::vector<std::string>& interfaces);
+std::vector<supervision::PrivateCan> private_cans(const schedules::model::Cluster& cluster,
+                                                  const std::vector<std::string>& interfaces);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node_set

@@ -18,7 +18,7 @@
 #include "cli/supervision/descriptor.h"
 #include "core/errors.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node_set {
 namespace {
 
 [[noreturn]] void fail(const char* what) {
@@ -29,7 +29,7 @@ namespace {
 [[noreturn]] void try_to_join(int words) {
   dup2(words, STDERR_FILENO);
   try {
-    const dds::Participant there(0, std::chrono::seconds(10));
+    const bus::dds::common::Participant there(0, std::chrono::seconds(10));
   } catch (const std::exception&) {
     _exit(1);
   }
@@ -53,7 +53,7 @@ void check_dds_configuration() {
   if (uri == nullptr) return;
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) fail("pipe");
-  launch::Descriptor heard(ends[0]), words(ends[1]);
+  supervision::Descriptor heard(ends[0]), words(ends[1]);
   const pid_t child = fork();
   if (child < 0) fail("fork");
   if (child == 0) try_to_join(words.get());
@@ -74,4 +74,4 @@ void check_dds_configuration() {
                                 said.empty() ? "nothing" : words_of(std::move(said)))});
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node_set

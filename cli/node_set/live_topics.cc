@@ -5,32 +5,32 @@
 #include <array>
 #include <chrono>
 
-namespace ttf::cli {
+namespace ttf::cli::node_set {
 namespace {
 
 constexpr Duration kHealthPeriod = Duration::milliseconds(1000);
 
 // Of the first task with that step, in real time; zero where it is not the schedule that says when it runs.
-Duration period_of(const NodeSet& set, std::string_view step, const runner::DriveClock& clock) {
-  for (const schedules::Node& node : set.cluster.nodes)
-    for (const schedules::Task& task : node.tasks)
-      if (task.step == step && task.activation.kind == schedules::ActivationKind::kTime)
+Duration period_of(const NodeSet& set, std::string_view step, const nodes::runner::DriveClock& clock) {
+  for (const schedules::model::Node& node : set.cluster.nodes)
+    for (const schedules::model::Task& task : node.tasks)
+      if (task.step == step && task.activation.kind == schedules::model::ActivationKind::kTime)
         return clock.in_real(set.cluster.cycle() * task.activation.at.repetition);
   return {};
 }
 
-Duration period_of(const NodeSet& set, const schedules::Sensor& sensor, const runner::DriveClock& clock) {
+Duration period_of(const NodeSet& set, const schedules::model::Sensor& sensor, const nodes::runner::DriveClock& clock) {
   return clock.in_real(sensor.scheduled ? set.cluster.cycle() * sensor.at.repetition : sensor.longest_period());
 }
 
-std::int64_t utc_ns(bus::HostTime at) {
+std::int64_t utc_ns(bus::ports::HostTime at) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() + (at - bus::host_now()).ns;
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() + (at - bus::ports::host_now()).ns;
 }
 
-ros::RosOptions options_of(const NodeSet& set, const runner::DriveClock& clock, bool tells_truth) {
-  ros::RosOptions options;
-  options.domain = ros::domain_of_environment();
+bus::dds::ros::RosOptions options_of(const NodeSet& set, const nodes::runner::DriveClock& clock, bool tells_truth) {
+  bus::dds::ros::RosOptions options;
+  options.domain = bus::dds::ros::domain_of_environment();
   options.origin_realtime_ns = utc_ns(clock.origin());
   options.time_scale_ppm = clock.scale_ppm();
   options.image_period = period_of(set, "image_output", clock);
@@ -52,27 +52,27 @@ std::string us(Duration duration) { return fmt::format("{:.1f}", in_us(duration)
 }  // namespace
 
 void check_topics(const NodeSet& set) {
-  const runner::DriveClock any({}, set.time_scale_ppm);
-  for (const bool with_truth : {false, true}) ros::validate(options_of(set, any, with_truth));
+  const nodes::runner::DriveClock any({}, set.time_scale_ppm);
+  for (const bool with_truth : {false, true}) bus::dds::ros::validate(options_of(set, any, with_truth));
 }
 
 void try_topics(const NodeSet& set) {
-  ros::try_domain(options_of(set, runner::DriveClock({}, set.time_scale_ppm), false));
+  bus::dds::ros::try_domain(options_of(set, nodes::runner::DriveClock({}, set.time_scale_ppm), false));
 }
 
-LiveTopics::LiveTopics(const NodeSet& set, NodeId node, const runner::DriveClock& clock,
-                       const sim::Surroundings& around)
+LiveTopics::LiveTopics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
+                       const drives::Surroundings& around)
     : name_(set.cluster.node(node).name), publisher_(options_of(set, clock, tells_truth(set, node))) {
   if (tells_truth(set, node)) truth_.emplace(*around.scene, set.cluster.nodes.size(), publisher_);
 }
 
-std::vector<records::Sink*> LiveTopics::sinks() {
-  std::vector<records::Sink*> sinks{&publisher_};
+std::vector<recording::records::Sink*> LiveTopics::sinks() {
+  std::vector<recording::records::Sink*> sinks{&publisher_};
   if (truth_) sinks.push_back(&*truth_);
   return sinks;
 }
 
-void LiveTopics::health(const runner::Health& health, TrueTime at) {
+void LiveTopics::health(const nodes::runner::Health& health, TrueTime at) {
   const std::array values{fmt::format("{}", health.timing.late_wakeups),
                           fmt::format("{}", health.timing.slots_missed),
                           fmt::format("{}", health.timing.late_frames),
@@ -81,18 +81,18 @@ void LiveTopics::health(const runner::Health& health, TrueTime at) {
                           us(health.wakeup_p99),
                           us(health.wakeup_longest),
                           us(health.largest_offset)};
-  const std::array<ros::HealthValue, 8> told{{{"late wake-ups", values[0]},
-                                              {"slots missed", values[1]},
-                                              {"late frames", values[2]},
-                                              {"frames lost", values[3]},
-                                              {"wake-up lateness p50 [us]", values[4]},
-                                              {"wake-up lateness p99 [us]", values[5]},
-                                              {"wake-up lateness max [us]", values[6]},
-                                              {"largest offset correction [us]", values[7]}}};
+  const std::array<bus::dds::ros::HealthValue, 8> told{{{"late wake-ups", values[0]},
+                                                        {"slots missed", values[1]},
+                                                        {"late frames", values[2]},
+                                                        {"frames lost", values[3]},
+                                                        {"wake-up lateness p50 [us]", values[4]},
+                                                        {"wake-up lateness p99 [us]", values[5]},
+                                                        {"wake-up lateness max [us]", values[6]},
+                                                        {"largest offset correction [us]", values[7]}}};
   const bool off_flexray = health.state.empty();
   const bool good = off_flexray || health.state == "normal active";
-  publisher_.health({at, good ? ros::HealthLevel::kOk : ros::HealthLevel::kWarn, name_,
+  publisher_.health({at, good ? bus::dds::ros::HealthLevel::kOk : bus::dds::ros::HealthLevel::kWarn, name_,
                      off_flexray ? "running" : health.state, told});
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node_set

@@ -7,13 +7,13 @@
 
 #include "bus/dds/ros/publisher.h"
 #include "cli/node_set/node_set.h"
+#include "drives/observer.h"
+#include "drives/surroundings.h"
 #include "nodes/runner/drive_clock.h"
 #include "nodes/runner/runner.h"
 #include "recording/records/records.h"
-#include "drives/observer.h"
-#include "drives/surroundings.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node_set {
 
 // Whether topics can be published as the set and the environment say; throws InputError else.
 void check_topics(const NodeSet& set);
@@ -23,16 +23,17 @@ void try_topics(const NodeSet& set);
 class LiveTopics {
  public:
   // `around` must outlive it. Throws std::runtime_error where DDS does not start.
-  LiveTopics(const NodeSet& set, NodeId node, const runner::DriveClock& clock, const sim::Surroundings& around);
+  LiveTopics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
+             const drives::Surroundings& around);
 
   // Who is to hear the node's records.
-  std::vector<records::Sink*> sinks();
-  void health(const runner::Health& health, TrueTime at);
+  std::vector<recording::records::Sink*> sinks();
+  void health(const nodes::runner::Health& health, TrueTime at);
 
  private:
   std::string name_;
-  ros::RosPublisher publisher_;
-  std::optional<sim::Observer> truth_;
+  bus::dds::ros::RosPublisher publisher_;
+  std::optional<drives::Observer> truth_;
 };
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node_set

@@ -5,10 +5,10 @@
 
 #include "sim/processes/turn_taking.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node_set {
 namespace {
 
-using nodes::ExecutiveCounts;
+using nodes::host::ExecutiveCounts;
 constexpr std::pair<const char*, std::uint64_t ExecutiveCounts::*> kCounts[] = {
     {"overruns", &ExecutiveCounts::overruns},
     {"deadlines_missed", &ExecutiveCounts::deadlines_missed},
@@ -25,14 +25,14 @@ static_assert(sizeof(ExecutiveCounts) == std::size(kCounts) * sizeof(std::uint64
 
 }  // namespace
 
-sim::DriveOutcome run_node_drive(const NodeDrive& drive, bus::Exchange& exchange) {
-  const auto log = begin_log(drive.log_path,
-                             manifest_of(*drive.scenario, *drive.cluster, drive.strategy, drive.seed, *drive.recording),
-                             *drive.scenario, *drive.cluster);
-  sim::TurnTaking others(*drive.cluster, drive.node, exchange);
-  const sim::DriveConfig config{drive.scenario,        drive.cluster, drive.strategy, drive.seed, 0,
-                                drive.recording->rows, &others};
-  sim::DriveOutcome outcome = sim::run_drive(config, *log);
+drives::DriveOutcome run_node_drive(const NodeDrive& drive, bus::ports::Exchange& exchange) {
+  const auto log = drive::begin_log(
+      drive.log_path, manifest_of(*drive.scenario, *drive.cluster, drive.strategy, drive.seed, *drive.recording),
+      *drive.scenario, *drive.cluster);
+  sim::processes::TurnTaking others(*drive.cluster, drive.node, exchange);
+  const drives::DriveConfig config{drive.scenario,        drive.cluster, drive.strategy, drive.seed, 0,
+                                   drive.recording->rows, &others};
+  drives::DriveOutcome outcome = drives::run_drive(config, *log);
   log->close();
   return outcome;
 }
@@ -51,7 +51,7 @@ void add_counts(ExecutiveCounts& sum, const nlohmann::json& one) {
   }
 }
 
-nlohmann::ordered_json outcome_json(const sim::DriveOutcome& outcome) {
+nlohmann::ordered_json outcome_json(const drives::DriveOutcome& outcome) {
   nlohmann::ordered_json json{{"counts", counts_json(outcome.counts)}};
   json["flexray_load"] = outcome.flexray_load;
   json["can_load"] = outcome.can_load;
@@ -59,7 +59,7 @@ nlohmann::ordered_json outcome_json(const sim::DriveOutcome& outcome) {
   return json;
 }
 
-void add_outcome(sim::DriveOutcome& sum, const nlohmann::json& one) {
+void add_outcome(drives::DriveOutcome& sum, const nlohmann::json& one) {
   try {
     add_counts(sum.counts, one.at("counts"));
     sum.flexray_load = one.at("flexray_load").get<double>();
@@ -70,4 +70,4 @@ void add_outcome(sim::DriveOutcome& sum, const nlohmann::json& one) {
   }
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node_set

@@ -9,17 +9,17 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/dds/common/session.h"
-#include "cli/node_set/can_interfaces.h"
 #include "cli/decimal_option.h"
 #include "cli/drive/drive_setup.h"
+#include "cli/node_set/can_interfaces.h"
 #include "core/decimal.h"
 #include "core/errors.h"
 #include "core/strict_yaml.h"
+#include "drives/drive.h"
 #include "drives/step_catalog.h"
 #include "schedules/check/real_time_rules.h"
-#include "drives/drive.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node_set {
 namespace {
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
@@ -28,10 +28,10 @@ constexpr std::size_t kLongestHost = 255;
 constexpr Range<std::int64_t> kStarts_ns{0, 4'102'444'800 * kNsPerSecond};  // to the end of 2099
 
 // The drive of a cluster that is given without one: the paper's first, on this cluster whatever the strategy.
-nodes::Scenario default_scene(const schedules::Cluster& cluster) {
+drives::Scenario default_scene(const schedules::model::Cluster& cluster) {
   const auto quoted = [](const std::string& text) { return nlohmann::json(text).dump(); };
   const std::string file = quoted(std::filesystem::absolute(cluster.file).string());
-  return nodes::parse_scenario(fmt::format(R"(name: {}
+  return drives::parse_scenario(fmt::format(R"(name: {}
 description: "The default scene: a car ahead accelerates along the sensor vehicle's axis, from 30 m to 40 m within 1.5 s"
 seed: 1
 duration: 3 s
@@ -51,8 +51,8 @@ world:
         - {{duration: 1500 ms, acceleration: 2.89}}
 reference: {{}}
 )",
-                                           quoted(cluster.name), file, file, file),
-                               "default_scene.yaml");
+                                            quoted(cluster.name), file, file, file),
+                                "default_scene.yaml");
 }
 
 // A cluster file has FlexRay parameters, a scenario names clusters.
@@ -63,7 +63,7 @@ bool is_cluster_file(const std::string& file) {
   return root.has("flexray") && !root.has("clusters");
 }
 
-void set_duration(nodes::Scenario& scenario, const std::string& name, const std::string& text) {
+void set_duration(drives::Scenario& scenario, const std::string& name, const std::string& text) {
   const std::string unit =
       fmt::format(" s ({} is evaluated from {} s on)", name, scaled_text(scenario.evaluate_from.ns, kNsPerSecond));
   const Range<std::int64_t> allowed{std::max(kDurations_ns.low, scenario.evaluate_from.ns), kDurations_ns.high};
@@ -73,20 +73,20 @@ void set_duration(nodes::Scenario& scenario, const std::string& name, const std:
 
 // As a session on DDS is named, whatever the bus.
 std::string session_option(const std::string& name) {
-  dds::Session session;
+  bus::dds::common::Session session;
   session.name = name;
   session.members = {NodeId{0}};
   try {
-    return dds::validate(session).name;
+    return bus::dds::common::validate(session).name;
   } catch (const InputError& error) {
     throw InputError({"command line", 0, "--session", name, error.findings().front().expected});
   }
 }
 
-fusion::StrategyKind strategy_of(const std::string& name) {
-  for (const auto kind : {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva})
-    if (nodes::name_of(kind) == name) return kind;
-  return fusion::StrategyKind::kTt;
+fusion::strategies::StrategyKind strategy_of(const std::string& name) {
+  for (const auto kind : {fusion::strategies::StrategyKind::kBuff, fusion::strategies::StrategyKind::kAdva})
+    if (drives::name_of(kind) == name) return kind;
+  return fusion::strategies::StrategyKind::kTt;
 }
 
 // As its name is known to the system.
@@ -123,14 +123,14 @@ void refuse_other_time(const NodeSetArguments& arguments) {
 }
 
 void check_fit_for_real_time(const NodeSet& set) {
-  if (auto findings = schedules::check_real_time(set.cluster, set.time_scale_ppm); !findings.empty())
+  if (auto findings = schedules::check::check_real_time(set.cluster, set.time_scale_ppm); !findings.empty())
     throw InputError(std::move(findings));
   if (!set.scenario.faults.empty())
     throw InputError({set.scenario.file, set.scenario.faults.faults.front().line, "faults", "",
                       "must be run in virtual time: only there faults can be injected"});
-  const bool a_alone = set.bus.kind == launch::BusKind::kSocketCan && set.bus.interfaces.size() == 1;
-  for (const schedules::FrameSlot& frame : set.cluster.frames)
-    if (a_alone && frame.channels == schedules::Channels::kB)
+  const bool a_alone = set.bus.kind == supervision::BusKind::kSocketCan && set.bus.interfaces.size() == 1;
+  for (const schedules::model::FrameSlot& frame : set.cluster.frames)
+    if (a_alone && frame.channels == schedules::model::Channels::kB)
       throw InputError({"command line", 0, "--bus", set.bus.text(),
                         fmt::format("must name an interface for channel B, too: slot {} of {} is sent on B alone",
                                     frame.slot, set.cluster.file)});
@@ -164,7 +164,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   NodeSet set;
   set.file = arguments.scenario;
   set.strategy = strategy_of(arguments.strategy);
-  set.bus = launch::Bus::parse(arguments.bus);
+  set.bus = supervision::Bus::parse(arguments.bus);
   set.session = session_option(arguments.session);
   set.virtual_time = arguments.virtual_time;
   set.topics = !arguments.no_topics && !arguments.virtual_time;
@@ -177,30 +177,30 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
 
   std::string drive = set.file;  // as messages call it
   if (is_cluster_file(set.file)) {
-    set.cluster = checked_cluster(set.file);
+    set.cluster = drive::checked_cluster(set.file);
     set.scenario = default_scene(set.cluster);
     drive = "the default scene";
   } else {
-    set.scenario = nodes::load_scenario(set.file);
-    set.cluster = checked_cluster(set.scenario, set.strategy);
+    set.scenario = drives::load_scenario(set.file);
+    set.cluster = drive::checked_cluster(set.scenario, set.strategy);
   }
-  if (nodes::is_recorded(set.cluster))
+  if (drives::is_recorded(set.cluster))
     throw InputError(
         {set.file, 0, "clusters", set.cluster.file,
          "must be a cluster with sensors: a recording is played by `ttfusion run --input`, in one process"});
-  set.seed = arguments.seed ? seed_of(*arguments.seed) : set.scenario.seed;
+  set.seed = arguments.seed ? drive::seed_of(*arguments.seed) : set.scenario.seed;
   if (arguments.duration) set_duration(set.scenario, drive, *arguments.duration);
-  sim::check_fits(set.scenario, set.cluster, set.strategy, false);
+  drives::check_fits(set.scenario, set.cluster, set.strategy, false);
   set.can_interfaces = can_interfaces(set.cluster, set.bus, arguments.cans);
   if (!set.virtual_time) check_fit_for_real_time(set);
-  set.folder = arguments.out.empty() ? folder_of(set.scenario) + "/launch" : arguments.out;
+  set.folder = arguments.out.empty() ? drive::folder_of(set.scenario) + "/launch" : arguments.out;
   return set;
 }
 
 std::vector<std::string> NodeSet::options() const {
   std::vector<std::string> list{file,
                                 "--strategy",
-                                std::string(nodes::name_of(strategy)),
+                                std::string(drives::name_of(strategy)),
                                 "--seed",
                                 fmt::to_string(seed),
                                 "--bus",
@@ -215,18 +215,18 @@ std::vector<std::string> NodeSet::options() const {
   if (virtual_time)
     list.emplace_back("--virtual-time");
   else
-    list.insert(list.end(), {"--time-scale", schedules::time_scale_text(time_scale_ppm)});
+    list.insert(list.end(), {"--time-scale", schedules::check::time_scale_text(time_scale_ppm)});
   if (!virtual_time && !topics) list.emplace_back("--no-topics");
   list.insert(list.end(), {"--out", folder});
   return list;
 }
 
-NodeId node_of(const schedules::Cluster& cluster, const std::string& name) {
+NodeId node_of(const schedules::model::Cluster& cluster, const std::string& name) {
   if (const auto node = cluster.find_node(name)) return *node;
   std::vector<std::string> names;
-  for (const schedules::Node& node : cluster.nodes) names.push_back(node.name);
+  for (const schedules::model::Node& node : cluster.nodes) names.push_back(node.name);
   throw InputError(
       {"command line", 0, "NAME", name, fmt::format("must be a node of {}: {}", cluster.file, fmt::join(names, ", "))});
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node_set

@@ -10,11 +10,11 @@
 
 #include "cli/supervision/preflight.h"
 #include "core/time.h"
-#include "fusion/strategies/strategy.h"
 #include "drives/scenario.h"
+#include "fusion/strategies/strategy.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node_set {
 
 // As written.
 struct NodeSetArguments {
@@ -36,12 +36,12 @@ struct NodeSetArguments {
 void add_node_set_options(CLI::App& command, NodeSetArguments& arguments);
 
 struct NodeSet {
-  std::string file;            // scenario or cluster, as given
-  nodes::Scenario scenario;    // with the duration asked for
-  schedules::Cluster cluster;  // of the strategy, checked
-  fusion::StrategyKind strategy{};
+  std::string file;                   // scenario or cluster, as given
+  drives::Scenario scenario;          // with the duration asked for
+  schedules::model::Cluster cluster;  // of the strategy, checked
+  fusion::strategies::StrategyKind strategy{};
   std::uint64_t seed = 0;
-  launch::Bus bus;
+  supervision::Bus bus;
   std::vector<std::string> can_interfaces;  // on SocketCAN: by Cluster::can_buses; else empty
   std::string session;                      // who is in another one is not heard
   bool virtual_time = false;
@@ -57,12 +57,12 @@ struct NodeSet {
   std::vector<std::string> options() const;
 };
 
-// In real time the cluster must be fit for it at the time scale (schedules/check/real_time_rules.h), and faults are refused.
-// Given a cluster file instead of a scenario, the drive is the default scene: a car ahead that accelerates. Throws
-// InputError.
+// In real time the cluster must be fit for it at the time scale (schedules/check/real_time_rules.h), and faults are
+// refused. Given a cluster file instead of a scenario, the drive is the default scene: a car ahead that accelerates.
+// Throws InputError.
 NodeSet read_node_set(const NodeSetArguments& arguments);
 
 // The node of this name, or InputError that lists the names.
-NodeId node_of(const schedules::Cluster& cluster, const std::string& name);
+NodeId node_of(const schedules::model::Cluster& cluster, const std::string& name);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node_set

@@ -6,13 +6,13 @@
 #include "bus/dds/common/session.h"
 #include "cli/node_set/node_set.h"
 
-namespace ttf::cli {
+namespace ttf::cli::node_set {
 
 // Everybody is started at about the same time, by a supervisor or by hand on several hosts.
 inline constexpr std::chrono::milliseconds kOthersPatience{30'000};
 
-inline dds::Session session_of(const NodeSet& set, bool supervised) {
-  dds::Session session;
+inline bus::dds::common::Session session_of(const NodeSet& set, bool supervised) {
+  bus::dds::common::Session session;
   session.name = set.session;
   session.supervised = supervised;
   for (std::size_t node = 0; node < set.cluster.nodes.size(); ++node)
@@ -20,4 +20,4 @@ inline dds::Session session_of(const NodeSet& set, bool supervised) {
   return session;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node_set

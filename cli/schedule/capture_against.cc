@@ -10,21 +10,24 @@
 #include "core/counted.h"
 #include "recording/capture/check.h"
 
-namespace ttf::cli {
+namespace ttf::cli::schedule {
 namespace {
 
-using recording::CaptureFinding;
-using recording::CaptureVerdict;
+using recording::capture::CaptureFinding;
+using recording::capture::CaptureVerdict;
 
-schedules::Channels channels_of(const std::string& text) {
-  return text == "A" ? schedules::Channels::kA : text == "B" ? schedules::Channels::kB : schedules::Channels::kAB;
+schedules::model::Channels channels_of(const std::string& text) {
+  return text == "A"   ? schedules::model::Channels::kA
+         : text == "B" ? schedules::model::Channels::kB
+                       : schedules::model::Channels::kAB;
 }
 
-std::string_view name_of(recording::Contradiction kind) {
-  return recording::kContradictionNames[static_cast<std::size_t>(kind)];
+std::string_view name_of(recording::capture::Contradiction kind) {
+  return recording::capture::kContradictionNames[static_cast<std::size_t>(kind)];
 }
 
-void print_json(const schedules::Cluster& cluster, const CaptureArguments& arguments, const CaptureVerdict& verdict) {
+void print_json(const schedules::model::Cluster& cluster, const CaptureArguments& arguments,
+                const CaptureVerdict& verdict) {
   nlohmann::ordered_json json{{"cluster", cluster.name},
                               {"capture", arguments.file},
                               {"channels", arguments.channels},
@@ -32,21 +35,22 @@ void print_json(const schedules::Cluster& cluster, const CaptureArguments& argum
                               {"cycles", verdict.cycles},
                               {"symbols", verdict.symbols},
                               {"consistent", verdict.contradictions() == 0}};
-  for (std::size_t kind = 0; kind < recording::kContradictions; ++kind)
-    json["contradictions"][std::string(recording::kContradictionNames[kind])] = verdict.counts[kind];
+  for (std::size_t kind = 0; kind < recording::capture::kContradictions; ++kind)
+    json["contradictions"][std::string(recording::capture::kContradictionNames[kind])] = verdict.counts[kind];
   json["findings"] = nlohmann::ordered_json::array();
   for (const CaptureFinding& finding : verdict.findings)
     json["findings"].push_back({{"packet", finding.packet}, {"kind", name_of(finding.kind)}, {"text", finding.text}});
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-void print_text(const schedules::Cluster& cluster, const CaptureArguments& arguments, const CaptureVerdict& verdict) {
+void print_text(const schedules::model::Cluster& cluster, const CaptureArguments& arguments,
+                const CaptureVerdict& verdict) {
   for (const CaptureFinding& finding : verdict.findings)
     fmt::print("{}: {} packet {}: {}: {}\n", arguments.file,
-               finding.kind == recording::Contradiction::kMissing ? "after" : "at", finding.packet,
+               finding.kind == recording::capture::Contradiction::kMissing ? "after" : "at", finding.packet,
                name_of(finding.kind), finding.text);
-  if (verdict.findings.size() == recording::kMostFindings)
-    fmt::print("...: the first {} are listed\n", recording::kMostFindings);
+  if (verdict.findings.size() == recording::capture::kMostFindings)
+    fmt::print("...: the first {} are listed\n", recording::capture::kMostFindings);
   fmt::print("{} against {}: {} on {} in {}: ", arguments.file, cluster.name, counted(verdict.frames, "frame"),
              arguments.channels, counted(static_cast<std::uint64_t>(verdict.cycles), "cycle"));
   if (verdict.contradictions() == 0) {
@@ -54,9 +58,9 @@ void print_text(const schedules::Cluster& cluster, const CaptureArguments& argum
     return;
   }
   fmt::print("{}\n", counted(verdict.contradictions(), "contradiction"));
-  for (std::size_t kind = 0; kind < recording::kContradictions; ++kind)
+  for (std::size_t kind = 0; kind < recording::capture::kContradictions; ++kind)
     if (verdict.counts[kind] > 0)
-      fmt::print("  {:24} {}\n", recording::kContradictionNames[kind], verdict.counts[kind]);
+      fmt::print("  {:24} {}\n", recording::capture::kContradictionNames[kind], verdict.counts[kind]);
 }
 
 }  // namespace
@@ -77,15 +81,15 @@ void add_capture_arguments(CLI::App& command, CaptureArguments& arguments) {
       ->needs(against);
 }
 
-int check_against_capture(const schedules::Cluster& cluster, const CaptureArguments& arguments, bool json) {
+int check_against_capture(const schedules::model::Cluster& cluster, const CaptureArguments& arguments, bool json) {
   const TimeWindow window = time_window(arguments.from_s, arguments.to_s);
-  recording::CaptureCheckOptions options;
+  recording::capture::CaptureCheckOptions options;
   options.channels = channels_of(arguments.channels);
   options.from_ns = window.from.ns;
   if (window.to) options.to_ns = window.to->ns;
-  const recording::Capture capture = recording::read_capture(arguments.file);
+  const recording::capture::Capture capture = recording::capture::read_capture(arguments.file);
   print_warnings(capture.warning);
-  const CaptureVerdict verdict = recording::check_capture(capture, arguments.file, cluster, options);
+  const CaptureVerdict verdict = recording::capture::check_capture(capture, arguments.file, cluster, options);
   if (json)
     print_json(cluster, arguments, verdict);
   else
@@ -93,4 +97,4 @@ int check_against_capture(const schedules::Cluster& cluster, const CaptureArgume
   return verdict.contradictions() == 0 ? 0 : 1;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::schedule

@@ -6,7 +6,7 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::cli {
+namespace ttf::cli::schedule {
 
 struct CaptureArguments {
   std::string file;  // empty: not asked for
@@ -16,6 +16,6 @@ struct CaptureArguments {
 void add_capture_arguments(CLI::App& command, CaptureArguments& arguments);
 
 // Prints every contradiction and a summary; returns the exit code. Throws InputError for a capture that cannot be read.
-int check_against_capture(const schedules::Cluster& cluster, const CaptureArguments& arguments, bool json);
+int check_against_capture(const schedules::model::Cluster& cluster, const CaptureArguments& arguments, bool json);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::schedule

@@ -11,15 +11,15 @@
 #include "cli/decimal_option.h"
 #include "core/decimal.h"
 #include "core/errors.h"
-#include "schedules/model/limits.h"
 #include "schedules/check/real_time_rules.h"
+#include "schedules/model/limits.h"
 
-namespace ttf::cli {
+namespace ttf::cli::schedule {
 namespace {
 
-using schedules::kLargestTimeScale;
-using schedules::kTimeScaleOne;
-using socketcan::SlotOnCan;
+using bus::socketcan::SlotOnCan;
+using schedules::check::kLargestTimeScale;
+using schedules::check::kTimeScaleOne;
 
 // "500k", "1M", "1000000": in bit/s, nothing where it is none.
 std::optional<std::int64_t> bit_rate(std::string_view text) {
@@ -30,7 +30,7 @@ std::optional<std::int64_t> bit_rate(std::string_view text) {
   return parse_scaled(text, scale);
 }
 
-socketcan::BitRates bit_rates(const std::string& medium) {
+bus::socketcan::BitRates bit_rates(const std::string& medium) {
   constexpr std::string_view kPrefix = "can-fd:";
   const auto refuse = [&](const std::string& expected) {
     return InputError({"command line", 0, "--medium", medium, expected});
@@ -44,34 +44,34 @@ socketcan::BitRates bit_rates(const std::string& medium) {
   const std::string_view text = medium;
   const auto nominal = formed ? bit_rate(text.substr(kPrefix.size(), slash - kPrefix.size())) : std::nullopt;
   const auto data = formed ? bit_rate(text.substr(slash + 1)) : std::nullopt;
-  if (!nominal || !data || *nominal < schedules::kSlowestCan || *nominal > schedules::kFastestNominal ||
-      *data < *nominal || *data > schedules::kFastestData)
+  if (!nominal || !data || *nominal < schedules::model::kSlowestCan || *nominal > schedules::model::kFastestNominal ||
+      *data < *nominal || *data > schedules::model::kFastestData)
     throw refuse(
         fmt::format("must be can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M: nominal {}..{}, data from nominal to {}",
-                    schedules::kSlowestCan, schedules::kFastestNominal, schedules::kFastestData));
+                    schedules::model::kSlowestCan, schedules::model::kFastestNominal, schedules::model::kFastestData));
   return {*nominal, *data};
 }
 
 struct Verdict {
   std::string medium;
-  socketcan::BitRates rates;
+  bus::socketcan::BitRates rates;
   std::int64_t time_scale = kTimeScaleOne, smallest = kTimeScaleOne;  // ppm
   std::vector<SlotOnCan> slots, not_holding;
   Duration longest{};  // frame
-  std::optional<schedules::ArrivalWindow> window;
+  std::optional<schedules::model::ArrivalWindow> window;
 
   bool window_holds() const { return !window || longest <= window->late; }
   bool holds() const { return not_holding.empty() && window_holds(); }
-  Duration has(const SlotOnCan& slot) const { return schedules::stretched(slot.has, time_scale); }
+  Duration has(const SlotOnCan& slot) const { return schedules::check::stretched(slot.has, time_scale); }
 };
 
-Verdict judged(const schedules::Cluster& cluster, const MediumArguments& arguments) {
+Verdict judged(const schedules::model::Cluster& cluster, const MediumArguments& arguments) {
   Verdict verdict;
   verdict.medium = *arguments.medium;
   verdict.rates = bit_rates(*arguments.medium);
   if (arguments.time_scale) verdict.time_scale = time_scale_option(*arguments.time_scale);
-  verdict.slots = socketcan::slots_on_can(cluster, verdict.rates);
-  verdict.smallest = socketcan::smallest_time_scale(verdict.slots);
+  verdict.slots = bus::socketcan::slots_on_can(cluster, verdict.rates);
+  verdict.smallest = bus::socketcan::smallest_time_scale(verdict.slots);
   verdict.window = cluster.arrival_window;
   for (const SlotOnCan& slot : verdict.slots) {
     verdict.longest = std::max(verdict.longest, slot.frame);
@@ -80,7 +80,7 @@ Verdict judged(const schedules::Cluster& cluster, const MediumArguments& argumen
   return verdict;
 }
 
-void print_json(const schedules::Cluster& cluster, const Verdict& verdict) {
+void print_json(const schedules::model::Cluster& cluster, const Verdict& verdict) {
   nlohmann::ordered_json json{{"cluster", cluster.name},
                               {"medium", verdict.medium},
                               {"nominal_bit_rate", verdict.rates.nominal},
@@ -98,7 +98,7 @@ void print_json(const schedules::Cluster& cluster, const Verdict& verdict) {
   for (const SlotOnCan& slot : verdict.not_holding)
     json["not_holding"].push_back({{"slot", slot.slot},
                                    {"segment", slot.dynamic ? "dynamic" : "static"},
-                                   {"channels", schedules::channels_text(slot.channels)},
+                                   {"channels", schedules::model::channels_text(slot.channels)},
                                    {"can_frames", slot.can_frames},
                                    {"needs_us", in_us(slot.needs)},
                                    {"has_us", in_us(verdict.has(slot))}});
@@ -121,25 +121,25 @@ std::string table(const Verdict& verdict) {
     const std::string numbers =
         end - i == 1 ? fmt::format("{}", slots[i].slot) : fmt::format("{}-{}", slots[i].slot, slots[end - 1].slot);
     text += fmt::format("{:>11}  {:<2}  {:>10}  {:>10.1f}  {:>10.1f}{}\n", numbers,
-                        schedules::channels_text(slots[i].channels), slots[i].can_frames, in_us(slots[i].needs),
+                        schedules::model::channels_text(slots[i].channels), slots[i].can_frames, in_us(slots[i].needs),
                         in_us(verdict.has(slots[i])), slots[i].dynamic ? "  dynamic" : "");
     i = end;
   }
   return text;
 }
 
-void print_text(const schedules::Cluster& cluster, const Verdict& verdict) {
+void print_text(const schedules::model::Cluster& cluster, const Verdict& verdict) {
   const std::string where = fmt::format("{} on {} at time scale {}", cluster.name, verdict.medium,
-                                        schedules::time_scale_text(verdict.time_scale));
+                                        schedules::check::time_scale_text(verdict.time_scale));
   if (verdict.not_holding.empty())
     fmt::print("{}: all {} slots hold\n", where, verdict.slots.size());
   else
     fmt::print("{}: {} of {} slots do not hold\n{}", where, verdict.not_holding.size(), verdict.slots.size(),
                table(verdict));
   if (verdict.smallest > kLargestTimeScale)
-    fmt::print("no time scale up to {} makes them hold\n", schedules::time_scale_text(kLargestTimeScale));
+    fmt::print("no time scale up to {} makes them hold\n", schedules::check::time_scale_text(kLargestTimeScale));
   else
-    fmt::print("smallest time scale at which all hold: {}\n", schedules::time_scale_text(verdict.smallest));
+    fmt::print("smallest time scale at which all hold: {}\n", schedules::check::time_scale_text(verdict.smallest));
   if (!verdict.window_holds())
     fmt::print(
         "every frame of {:.1f} us comes too late: real_time.late is {:g} us after the action point, at any "
@@ -158,7 +158,7 @@ void add_medium_arguments(CLI::App& command, MediumArguments& arguments) {
       ->needs(medium);
 }
 
-int check_on_medium(const schedules::Cluster& cluster, const MediumArguments& arguments, bool json) {
+int check_on_medium(const schedules::model::Cluster& cluster, const MediumArguments& arguments, bool json) {
   const Verdict verdict = judged(cluster, arguments);
   if (json)
     print_json(cluster, verdict);
@@ -167,4 +167,4 @@ int check_on_medium(const schedules::Cluster& cluster, const MediumArguments& ar
   return verdict.holds() ? 0 : 1;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::schedule

@@ -7,7 +7,7 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::cli {
+namespace ttf::cli::schedule {
 
 struct MediumArguments {
   std::optional<std::string> medium;  // nothing: not asked for
@@ -17,6 +17,6 @@ void add_medium_arguments(CLI::App& command, MediumArguments& arguments);
 
 // Of a medium that was asked for: prints what does not hold, and the time scale at which all does; returns the exit
 // code. Throws InputError for what is no medium.
-int check_on_medium(const schedules::Cluster& cluster, const MediumArguments& arguments, bool json);
+int check_on_medium(const schedules::model::Cluster& cluster, const MediumArguments& arguments, bool json);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::schedule

@@ -4,25 +4,25 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/schedule/capture_against.h"
 #include "cli/commands.h"
-#include "cli/schedule/medium_check.h"
 #include "cli/output.h"
+#include "cli/schedule/capture_against.h"
+#include "cli/schedule/medium_check.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
 #include "report/drawing/render.h"
 #include "report/plots/schedule_picture.h"
 #include "schedules/analysis/ages.h"
+#include "schedules/analysis/dynamic_load.h"
 #include "schedules/check/checker.h"
 #include "schedules/exchange/dbc.h"
-#include "schedules/analysis/dynamic_load.h"
 #include "schedules/exchange/fibex/export.h"
 #include "schedules/exchange/fibex/import.h"
+#include "schedules/exchange/text.h"
 #include "schedules/file/loader.h"
 #include "schedules/model/ports.h"
-#include "schedules/exchange/text.h"
 
-namespace ttf::cli {
+namespace ttf::cli::schedule {
 namespace {
 
 struct ScheduleOptions {
@@ -36,20 +36,20 @@ struct ScheduleOptions {
 };
 
 // Null where nothing is sent in the dynamic segment.
-nlohmann::ordered_json dynamic_json(const schedules::Cluster& cluster) {
+nlohmann::ordered_json dynamic_json(const schedules::model::Cluster& cluster) {
   nlohmann::ordered_json json;
-  for (const schedules::DynamicList& list : schedules::dynamic_lists(cluster))
+  for (const schedules::analysis::DynamicList& list : schedules::analysis::dynamic_lists(cluster))
     json["lists"].push_back({{"pdu", cluster.pdu(list.pdu).name},
                              {"sender", cluster.node(list.sender).name},
                              {"slots", {list.first_slot, list.last_slot}},
-                             {"channels", schedules::channels_text(list.channels)},
+                             {"channels", schedules::model::channels_text(list.channels)},
                              {"minislots_each", list.minislots_each},
                              {"turn", {list.earliest_turn, list.latest_turn}},
                              {"always_in_time", list.always_in_time}});
   if (json.is_null()) return json;
   json["minislots"] = cluster.flexray.gNumberOfMinislots;
-  for (const schedules::DynamicLoad& load : schedules::dynamic_load(cluster))
-    json["worst_minislots"][load.channel == schedules::Channel::kA ? "A" : "B"] = load.minislots;
+  for (const schedules::analysis::DynamicLoad& load : schedules::analysis::dynamic_load(cluster))
+    json["worst_minislots"][load.channel == schedules::model::Channel::kA ? "A" : "B"] = load.minislots;
   return json;
 }
 
@@ -66,10 +66,10 @@ void print_findings(const InputError& error) {
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-schedules::Cluster checked_schedule(const ScheduleOptions& options) {
+schedules::model::Cluster checked_schedule(const ScheduleOptions& options) {
   try {
-    schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
-    schedules::bind_ports(cluster, nodes::step_ports());
+    schedules::model::Cluster cluster = schedules::file::load_checked_cluster(options.file);
+    schedules::model::bind_ports(cluster, drives::step_ports());
     return cluster;
   } catch (const InputError& error) {
     if (options.json) print_findings(error);
@@ -78,25 +78,26 @@ schedules::Cluster checked_schedule(const ScheduleOptions& options) {
 }
 
 int check(const ScheduleOptions& options) {
-  const schedules::Cluster cluster = checked_schedule(options);
+  const schedules::model::Cluster cluster = checked_schedule(options);
   if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
   if (options.medium.medium) return check_on_medium(cluster, options.medium, options.json);
   if (!options.json) {
-    fmt::print("{}: consistent\n{}{}", cluster.name, schedules::dynamic_text(cluster), schedules::ages_text(cluster));
+    fmt::print("{}: consistent\n{}{}", cluster.name, schedules::analysis::dynamic_text(cluster),
+               schedules::analysis::ages_text(cluster));
     return 0;
   }
   nlohmann::ordered_json json;
   json["cluster"] = cluster.name;
   json["consistent"] = true;
   if (auto dynamic = dynamic_json(cluster); !dynamic.is_null()) json["dynamic_segment"] = std::move(dynamic);
-  for (const schedules::AgePath& path : schedules::measurement_ages(cluster)) {
+  for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(cluster)) {
     nlohmann::ordered_json one{{"sensor", cluster.sensor(path.sensor).name},
                                {"available_ms", {in_ms(path.fusion_best), in_ms(path.fusion_worst)}},
                                {"fused_ms", {in_ms(path.fused_best), in_ms(path.fused_worst)}},
                                {"first_use_ms", {in_ms(path.use_best), in_ms(path.use_worst)}},
                                {"newest_at_any_use_worst_ms", in_ms(path.newest_worst)},
                                {"buffered_use_worst_ms", in_ms(path.buffered_use_worst)}};
-    for (const schedules::Contribution& contribution : path.to_use)
+    for (const schedules::analysis::Contribution& contribution : path.to_use)
       one["contributions"].push_back({{"name", contribution.name},
                                       {"best_ms", in_ms(contribution.best)},
                                       {"worst_ms", in_ms(contribution.worst)}});
@@ -107,12 +108,12 @@ int check(const ScheduleOptions& options) {
 }
 
 int show(const ScheduleOptions& options) {
-  if (!options.out.empty()) report::check_picture_path(options.out);
-  const schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
+  if (!options.out.empty()) report::drawing::check_picture_path(options.out);
+  const schedules::model::Cluster cluster = schedules::file::load_checked_cluster(options.file);
   if (options.out.empty())
-    fmt::print("{}", schedules::show_text(cluster));
+    fmt::print("{}", schedules::exchange::show_text(cluster));
   else
-    report::write_picture(report::schedule_svg(cluster), options.out);
+    report::drawing::write_picture(report::plots::schedule_svg(cluster), options.out);
   return 0;
 }
 
@@ -128,17 +129,20 @@ int export_cluster(const ScheduleOptions& options) {
   if (!options.can.empty() && options.format != "dbc")
     throw InputError(Finding{"command line", 0, "--can", options.can, "goes with --format dbc only"});
   if (options.format == "dbc") {
-    write_text(schedules::dbc_text(schedules::load_checked_cluster(options.file), options.can), options.out);
+    write_text(schedules::exchange::dbc_text(schedules::file::load_checked_cluster(options.file), options.can),
+               options.out);
     return 0;
   }
   if (options.format == "fibex") {
-    write_text(schedules::fibex_text(schedules::load_checked_cluster(options.file)), options.out);
+    write_text(schedules::exchange::fibex::fibex_text(schedules::file::load_checked_cluster(options.file)),
+               options.out);
     return 0;
   }
-  const schedules::FibexImport import = schedules::import_fibex(options.file);
+  const schedules::exchange::fibex::FibexImport import = schedules::exchange::fibex::import_fibex(options.file);
   for (const Finding& finding : import.left_out) fmt::print(stderr, "note: {}\n", finding.sentence());
-  const std::string yaml = schedules::skeleton_yaml(import);
-  schedules::parse_cluster(yaml, options.out.empty() ? "cluster.yaml" : options.out);  // what is written can be read
+  const std::string yaml = schedules::exchange::fibex::skeleton_yaml(import);
+  schedules::file::parse_cluster(yaml,
+                                 options.out.empty() ? "cluster.yaml" : options.out);  // what is written can be read
   write_text(yaml, options.out);
   return 0;
 }
@@ -181,4 +185,4 @@ void add_schedule(CLI::App& app, Action& action) {
   exporting->callback([options, &action] { action = [options] { return export_cluster(*options); }; });
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::schedule

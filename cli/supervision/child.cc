@@ -18,7 +18,7 @@
 
 #include "cli/supervision/control.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 [[noreturn]] void system_fails(std::string_view what) {
@@ -225,4 +225,4 @@ std::optional<Ending> Child::reap() {
   return Ending{info.si_code != CLD_EXITED, info.si_status};
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -23,7 +23,7 @@
 
 #include "cli/supervision/descriptor.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 struct ChildCommand {
   std::vector<std::string> arguments;  // [0] is the program, looked for in PATH if it has no slash
@@ -90,4 +90,4 @@ class Child {
   bool reaped_ = false;
 };
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 std::optional<ControlLine> ControlLine::from_environment() {
   const char* const text = std::getenv(kControlVariable.data());
@@ -54,4 +54,4 @@ std::optional<nlohmann::json> ControlLine::wait_for_start() {
   }
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

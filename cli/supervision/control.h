@@ -15,7 +15,7 @@
 
 #include "cli/supervision/descriptor.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 inline constexpr std::string_view kControlVariable = "TTF_CONTROL_FD";
 inline constexpr std::size_t kLongestMessage = 65'536;  // bytes
@@ -44,4 +44,4 @@ class ControlLine {
   std::uint64_t dropped_ = 0;
 };
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

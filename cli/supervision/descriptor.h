@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 class Descriptor {
  public:
@@ -32,4 +32,4 @@ class Descriptor {
   int fd_ = -1;
 };
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -12,7 +12,7 @@
 
 #include "core/errors.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 std::string lock_file(const std::string& folder) { return folder + "/launch.lock"; }
@@ -63,4 +63,4 @@ void FolderLock::refuse_if_held(const std::string& folder) {
   if (file.open() && !locked(file.get(), path, LOCK_SH)) refuse(folder);
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -10,7 +10,7 @@
 
 #include "cli/supervision/descriptor.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 // Whose file it is: the kernel's lock on a file that is made where it is not there, and left as it is.
 class FileLock {
@@ -38,4 +38,4 @@ class FolderLock {
   std::optional<FileLock> lock_;
 };
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -8,7 +8,7 @@
 #include "cli/supervision/lines.h"
 #include "report/drawing/tables.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 using Json = nlohmann::json;
@@ -57,7 +57,7 @@ class Reader {
 };
 
 std::string count_cell(const std::optional<std::uint64_t>& value) { return value ? fmt::to_string(*value) : "-"; }
-std::string us_cell(const std::optional<double>& value) { return value ? report::cell(*value, 1) : "-"; }
+std::string us_cell(const std::optional<double>& value) { return value ? report::drawing::cell(*value, 1) : "-"; }
 
 nlohmann::ordered_json or_null(const auto& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
@@ -104,8 +104,8 @@ bool HealthTable::anything_said() const {
 }
 
 std::string HealthTable::text() const {
-  report::Table table({"node", "missed slots", "late wake-ups", "late p50 [us]", "p99 [us]", "max [us]",
-                       "sync precision [us]", "drops", "state"});
+  report::drawing::Table table({"node", "missed slots", "late wake-ups", "late p50 [us]", "p99 [us]", "max [us]",
+                                "sync precision [us]", "drops", "state"});
   for (const Row& row : rows_) {
     const NodeHealth& h = row.health;
     table.add({printable(row.name), count_cell(h.missed_slots), count_cell(h.late_wakeups), us_cell(h.lateness_p50_us),
@@ -134,4 +134,4 @@ nlohmann::ordered_json HealthTable::json() const {
   return list;
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

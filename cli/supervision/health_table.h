@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 // What a node says of itself, since it began.
 struct NodeHealth {
@@ -54,4 +54,4 @@ class HealthTable {
   std::vector<Row> rows_;
 };
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -16,7 +16,7 @@
 #include "cli/output.h"
 #include "core/check.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 Descriptor opened(const std::string& path) {
@@ -183,4 +183,4 @@ void RunFolder::write() const {
   if (failure) throw std::runtime_error(path + ": cannot be written: " + failure.message());
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -26,7 +26,7 @@
 #include "cli/supervision/descriptor.h"
 #include "cli/supervision/folder_lock.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 using WallInstant = std::chrono::system_clock::time_point;
 
@@ -107,4 +107,4 @@ class RunFolder {
   std::vector<Node> nodes_;
 };
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 constexpr unsigned char byte_of(char c) { return static_cast<unsigned char>(c); }
@@ -100,4 +100,4 @@ std::string prefixed(Duration since_launch, const Speaker& speaker, std::size_t 
   return fmt::format("\x1b[{}m{}\x1b[0m{}{}", kColours[speaker.index % kColours.size()], front, gap, text);
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -9,7 +9,7 @@
 
 #include "core/time.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 // A line that grows beyond this is shown in pieces, so that a flood without a newline costs no more than this.
 inline constexpr std::size_t kLongestLine = 4096;  // bytes
@@ -45,4 +45,4 @@ std::string prefixed(Duration since_launch, const Speaker& speaker, std::size_t 
 // Characters (not bytes) of UTF-8.
 std::size_t shown_width(std::string_view text);
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

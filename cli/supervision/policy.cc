@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 std::string_view name_of(Policy policy) {
   switch (policy) {
@@ -43,4 +43,4 @@ std::optional<int> StopOrder::hurry(Duration now) {
 
 std::optional<int> StopOrder::due(Duration now) { return next_ && now >= *next_ ? hurry(now) : std::nullopt; }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

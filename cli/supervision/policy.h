@@ -9,7 +9,7 @@
 
 #include "core/time.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 enum class Policy : std::uint8_t {
   kRequired,  // its failure stops all
@@ -66,4 +66,4 @@ class StopOrder {
   std::optional<Duration> next_;
 };
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -10,14 +10,14 @@
 #include "cli/supervision/lines.h"
 #include "core/errors.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 constexpr std::string_view kBusExpected =
     "must be dds, or socketcan: with one or two different interfaces, as in socketcan:vcan0,vcan1";
 
 PreflightItem look_at_loopback() {
-  const socketcan::InterfaceState lo = socketcan::interface_state("lo");
+  const bus::socketcan::InterfaceState lo = bus::socketcan::interface_state("lo");
   if (!lo.there) return {"lo", false, "is not there: DDS has no loopback interface to run over", {}};
   if (!lo.up) return {"lo", false, "is down: DDS runs over loopback", {"ip link set lo up"}};
   return {"lo", true, "is up: DDS runs over loopback", {}};
@@ -43,12 +43,12 @@ std::vector<User> users_of(const Bus& bus, const std::vector<PrivateCan>& cans) 
 std::vector<PreflightItem> look_at_can(const std::vector<User>& users) {
   std::vector<PreflightItem> items;
   for (const User& user : users) {
-    const socketcan::InterfaceState state = socketcan::interface_state(user.interface);
-    if (const auto kernel = socketcan::kernel_problem(state); items.empty())
+    const bus::socketcan::InterfaceState state = bus::socketcan::interface_state(user.interface);
+    if (const auto kernel = bus::socketcan::kernel_problem(state); items.empty())
       items.push_back({"kernel", !kernel, kernel ? kernel.what : "has CAN sockets", kernel.commands});
-    auto link = socketcan::link_problem(user.interface, state, user.flexible_data_rate);
+    auto link = bus::socketcan::link_problem(user.interface, state, user.flexible_data_rate);
     if (link && !state.there && user.by_own_name)
-      link = {"is not there", socketcan::virtual_interface(user.interface, user.flexible_data_rate)};
+      link = {"is not there", bus::socketcan::virtual_interface(user.interface, user.flexible_data_rate)};
     const char* const good = user.flexible_data_rate ? "is a CAN FD interface and up" : "is a CAN interface and up";
     items.push_back({user.interface, !link, fmt::format("{} ({})", link ? link.what : good, user.who), link.commands});
   }
@@ -112,4 +112,4 @@ nlohmann::ordered_json json_of(const std::vector<PreflightItem>& items) {
   return list;
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 enum class BusKind : std::uint8_t { kDds, kSocketCan };
 
@@ -48,4 +48,4 @@ bool all_good(const std::vector<PreflightItem>& items);
 std::string text_of(const std::vector<PreflightItem>& items);
 nlohmann::ordered_json json_of(const std::vector<PreflightItem>& items);
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

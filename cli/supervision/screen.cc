@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstdlib>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 // What is left of a full disk's copy is no reason to stop a drive.
@@ -59,4 +59,4 @@ bool colour_wanted(int fd) {
   return isatty(fd) != 0 && (refused == nullptr || *refused == '\0');
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -11,7 +11,7 @@
 
 #include "cli/supervision/descriptor.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 class Screen {
  public:
@@ -42,4 +42,4 @@ class Screen {
 // Whether colour is wanted on `fd`: it is a terminal, and NO_COLOR (https://no-color.org) is unset or empty.
 bool colour_wanted(int fd);
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

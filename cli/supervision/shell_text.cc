@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 bool is_plain(std::string_view argument) {
@@ -28,4 +28,4 @@ std::string shell_text(const std::vector<std::string>& arguments) {
   return text;
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 // The arguments, each quoted where a POSIX shell would read it otherwise, with blanks between.
 std::string shell_text(const std::vector<std::string>& arguments);
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

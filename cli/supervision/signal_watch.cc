@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 SignalWatch::SignalWatch() {
   sigemptyset(&watched_);
@@ -37,4 +37,4 @@ std::optional<int> SignalWatch::next() {
                                                             : std::nullopt;
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

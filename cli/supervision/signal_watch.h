@@ -10,7 +10,7 @@
 
 #include "cli/supervision/descriptor.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 class SignalWatch {
  public:
@@ -30,4 +30,4 @@ class SignalWatch {
   Descriptor fd_;
 };
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

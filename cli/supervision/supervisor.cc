@@ -9,7 +9,7 @@
 
 #include "cli/supervision/supervisor_node.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 constexpr std::size_t kReadAtOnce = 65'536;     // bytes of one child, before the others have their turn
@@ -183,4 +183,4 @@ void Supervisor::flush_screen() {
   }
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

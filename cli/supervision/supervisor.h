@@ -33,14 +33,14 @@
 
 #include "cli/supervision/child.h"
 #include "cli/supervision/health_table.h"
+#include "cli/supervision/launch_folder.h"
 #include "cli/supervision/lines.h"
 #include "cli/supervision/policy.h"
-#include "cli/supervision/launch_folder.h"
 #include "cli/supervision/screen.h"
 #include "cli/supervision/signal_watch.h"
 #include "core/time.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 struct NodeSpec {
   std::string name;
@@ -67,7 +67,7 @@ struct Hooks {
   // told.
   std::function<nlohmann::json(std::size_t node)> on_late_ready;
   // A process has ended, and all that it said has been passed on before.
-  std::function<void(std::size_t node, const Ending& ending, bool comes_back)> on_gone;
+  std::function<void(std::size_t node, const ttf::cli::supervision::Ending& ending, bool comes_back)> on_gone;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_health;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_done;
 };
@@ -144,4 +144,4 @@ class Supervisor {
   bool folder_fails_ = false;
 };
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -6,7 +6,7 @@
 
 #include "cli/supervision/supervisor.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 
 struct Supervisor::Node {
   Node(std::size_t number, NodeSpec given, const Backoff::Limits& limits)
@@ -27,4 +27,4 @@ struct Supervisor::Node {
   std::optional<Duration> restart_at;
 };
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

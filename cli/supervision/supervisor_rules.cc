@@ -10,7 +10,7 @@
 #include "cli/supervision/supervisor_node.h"
 #include "core/counted.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 std::string seconds_text(Duration duration) { return fmt::format("{:.4g} s", duration.seconds()); }
@@ -234,4 +234,4 @@ void Supervisor::show_health() {
   }
 }
 
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

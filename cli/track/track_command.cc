@@ -11,17 +11,17 @@
 #include "cli/track/track_options.h"
 #include "cli/track/track_outputs.h"
 #include "core/errors.h"
-#include "replay/recorded_lists.h"
-#include "replay/config.h"
-#include "replay/sensor_timing.h"
-#include "replay/replay.h"
-#include "nodes/sensing/recorded.h"
 #include "drives/scenario.h"
-#include "recording/rows/observation_rows.h"
+#include "nodes/sensing/recorded.h"
 #include "recording/rows/laser_radar_file.h"
+#include "recording/rows/observation_rows.h"
 #include "recording/rows/track_rows.h"
+#include "replay/config.h"
+#include "replay/recorded_lists.h"
+#include "replay/replay.h"
+#include "replay/sensor_timing.h"
 
-namespace ttf::cli {
+namespace ttf::cli::track {
 namespace {
 
 // Findings are all told; rows that have none go on. Where none has, there is nothing to go on with.
@@ -30,10 +30,10 @@ void tell_damage(const Findings& findings, bool skip, std::size_t rows_left) {
   for (const Finding& finding : findings.list()) print_warnings(finding.sentence());
 }
 
-experiments::SensorSetup usual_sensor(bool laser_radar) {
-  experiments::SensorSetup setup;
+replay::SensorSetup usual_sensor(bool laser_radar) {
+  replay::SensorSetup setup;
   if (!laser_radar) return setup;
-  const nodes::RecordedNoise documented;
+  const nodes::sensing::RecordedNoise documented;
   setup.noise.position = documented.position_m;
   setup.noise.range = documented.range_m;
   setup.noise.bearing = documented.bearing_rad;
@@ -41,9 +41,10 @@ experiments::SensorSetup usual_sensor(bool laser_radar) {
   return setup;
 }
 
-std::vector<recording::ObservationRow> read_rows(const TrackOptions& options, Findings& findings) {
-  if (options.format == "csv") return recording::read_observation_rows(options.observations, findings);
-  return recording::observation_rows_of(recording::read_laser_radar(options.observations), options.observations);
+std::vector<recording::rows::ObservationRow> read_rows(const TrackOptions& options, Findings& findings) {
+  if (options.format == "csv") return recording::rows::read_observation_rows(options.observations, findings);
+  return recording::rows::observation_rows_of(recording::rows::read_laser_radar(options.observations),
+                                              options.observations);
 }
 
 int run_track(const TrackOptions& options) {
@@ -52,14 +53,14 @@ int run_track(const TrackOptions& options) {
   if (!options.out.empty()) refuse_overwriting(options.observations, options.out, "--out");
   if (!options.out.empty() && !options.config.empty()) refuse_overwriting(options.config, options.out, "--out");
 
-  const experiments::SensorSetup usual = usual_sensor(options.format == "laser_radar");
-  experiments::ReplayConfig config;
-  if (!options.config.empty()) config = experiments::load_replay_config(options.config, usual);
-  if (!options.strategy.empty()) config.strategy = chosen(options.strategy).front();
+  const replay::SensorSetup usual = usual_sensor(options.format == "laser_radar");
+  replay::ReplayConfig config;
+  if (!options.config.empty()) config = replay::load_replay_config(options.config, usual);
+  if (!options.strategy.empty()) config.strategy = drive::chosen(options.strategy).front();
   Findings findings;
-  const std::vector<recording::ObservationRow> rows = read_rows(options, findings);
-  experiments::list_sensors(config, rows, usual, options.observations);
-  experiments::SimulatedArrivals simulated;
+  const std::vector<recording::rows::ObservationRow> rows = read_rows(options, findings);
+  replay::list_sensors(config, rows, usual, options.observations);
+  replay::SimulatedArrivals simulated;
   try {
     apply_sensor_options(options, config);
     simulated = simulated_arrivals(options, config);
@@ -68,18 +69,18 @@ int run_track(const TrackOptions& options) {
     if (!options.skip_damaged) findings.throw_if_any();
     throw;
   }
-  experiments::Arrivals arrivals = experiments::arrivals_of(rows, config, options.observations, findings);
+  replay::Arrivals arrivals = replay::arrivals_of(rows, config, options.observations, findings);
   tell_damage(findings, options.skip_damaged, arrivals.lists.size());
-  experiments::simulate(arrivals, simulated);
+  replay::simulate(arrivals, simulated);
 
-  TrackResult result{std::string(nodes::name_of(config.strategy)), arrivals.sensors, {}, findings.size()};
-  const experiments::ReplaySetup setup{config.strategy, config.tracker,
-                                       experiments::sensor_timings(arrivals, config, config.strategy), options.predict};
-  std::string tracks(recording::track_heading());
+  TrackResult result{std::string(drives::name_of(config.strategy)), arrivals.sensors, {}, findings.size()};
+  const replay::ReplaySetup setup{config.strategy, config.tracker,
+                                  replay::sensor_timings(arrivals, config, config.strategy), options.predict};
+  std::string tracks(recording::rows::track_heading());
   result.account =
-      experiments::replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::TrackView> views) {
-        for (const fusion::TrackView& view : views)
-          tracks += recording::track_line(experiments::track_row_of(view, known, arrivals.classes));
+      replay::replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::tracks::TrackView> views) {
+        for (const fusion::tracks::TrackView& view : views)
+          tracks += recording::rows::track_line(replay::track_row_of(view, known, arrivals.classes));
       });
 
   if (options.out.empty()) {
@@ -136,4 +137,4 @@ void add_track(CLI::App& app, Action& action) {
   command->callback([options, &action] { action = [options] { return run_track(*options); }; });
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::track

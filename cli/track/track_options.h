@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "replay/recorded_lists.h"
 #include "replay/config.h"
+#include "replay/recorded_lists.h"
 
-namespace ttf::cli {
+namespace ttf::cli::track {
 
 struct TrackOptions {
   std::string observations, config, format = "csv", strategy, seed = "1", out;
@@ -23,7 +23,7 @@ struct TrackOptions {
 // What the options say of sensors, over what the configuration says. Throws InputError that names the option, the value
 // and what is allowed; so for a sensor that is not in the configuration. Of --worst-delay, --period and --noise the
 // last counts.
-void apply_sensor_options(const TrackOptions& options, experiments::ReplayConfig& config);
-experiments::SimulatedArrivals simulated_arrivals(const TrackOptions& options, const experiments::ReplayConfig& config);
+void apply_sensor_options(const TrackOptions& options, replay::ReplayConfig& config);
+replay::SimulatedArrivals simulated_arrivals(const TrackOptions& options, const replay::ReplayConfig& config);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::track

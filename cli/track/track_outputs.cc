@@ -8,12 +8,12 @@
 #include "core/counted.h"
 #include "report/drawing/tables.h"
 
-namespace ttf::cli {
+namespace ttf::cli::track {
 namespace {
 
-experiments::SensorAccount sum_of(const std::vector<experiments::SensorAccount>& accounts) {
-  experiments::SensorAccount sum;
-  for (const experiments::SensorAccount& one : accounts) {
+replay::SensorAccount sum_of(const std::vector<replay::SensorAccount>& accounts) {
+  replay::SensorAccount sum;
+  for (const replay::SensorAccount& one : accounts) {
     sum.lists += one.lists;
     sum.observations += one.observations;
     sum.in_order += one.in_order;
@@ -27,17 +27,17 @@ experiments::SensorAccount sum_of(const std::vector<experiments::SensorAccount>&
   return sum;
 }
 
-void add_row(report::Table& table, const std::string& name, const experiments::SensorAccount& account) {
+void add_row(report::drawing::Table& table, const std::string& name, const replay::SensorAccount& account) {
   std::vector<std::string> row{name};
   for (const std::uint64_t count : {account.lists, account.observations, account.in_order, account.late,
                                     account.too_old, account.duplicates, account.held})
     row.push_back(std::to_string(count));
-  row.push_back(report::cell(in_ms(account.longest_hold), 1));
-  row.push_back(report::cell(in_ms(account.longest_delay), 1));
+  row.push_back(report::drawing::cell(in_ms(account.longest_hold), 1));
+  row.push_back(report::drawing::cell(in_ms(account.longest_delay), 1));
   table.add(std::move(row));
 }
 
-nlohmann::ordered_json account_json(const experiments::SensorAccount& account) {
+nlohmann::ordered_json account_json(const replay::SensorAccount& account) {
   return {{"lists", account.lists},
           {"observations", account.observations},
           {"fused_in_order", account.in_order},
@@ -52,8 +52,8 @@ nlohmann::ordered_json account_json(const experiments::SensorAccount& account) {
 }  // namespace
 
 std::string track_table(const TrackResult& result) {
-  report::Table table({"sensor", "lists", "observations", "in order", "late", "too old", "duplicates", "held back",
-                       "longest hold [ms]", "longest delay [ms]"});
+  report::drawing::Table table({"sensor", "lists", "observations", "in order", "late", "too old", "duplicates",
+                                "held back", "longest hold [ms]", "longest delay [ms]"});
   for (std::size_t s = 0; s < result.sensors.size(); ++s) add_row(table, result.sensors[s], result.account.sensors[s]);
   add_row(table, "all", sum_of(result.account.sensors));
   std::string text = table.text();
@@ -76,4 +76,4 @@ nlohmann::ordered_json to_json(const TrackResult& result) {
   return json;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::track

@@ -8,16 +8,16 @@
 
 #include "replay/replay.h"
 
-namespace ttf::cli {
+namespace ttf::cli::track {
 
 struct TrackResult {
   std::string strategy;
   std::vector<std::string> sensors;
-  experiments::ReplayAccount account;
+  replay::ReplayAccount account;
   std::size_t damaged = 0;  // rows left out
 };
 
 std::string track_table(const TrackResult& result);
 nlohmann::ordered_json to_json(const TrackResult& result);
 
-}  // namespace ttf::cli
+}  // namespace ttf::cli::track

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 
 std::vector<TruthPair> closest_pairs(std::span<const PlanePosition> truth, std::span<const PlanePosition> estimates,
                                      double gate_m) {
@@ -36,4 +36,4 @@ std::vector<TruthPair> closest_pairs(std::span<const PlanePosition> truth, std::
   return pairs;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 
 struct PlanePosition {
   double x = 0.0, y = 0.0;  // [m]
@@ -23,4 +23,4 @@ inline constexpr double kGate_m = 4.0;
 std::vector<TruthPair> closest_pairs(std::span<const PlanePosition> truth, std::span<const PlanePosition> estimates,
                                      double gate_m);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

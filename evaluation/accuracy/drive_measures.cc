@@ -7,7 +7,7 @@
 #include "evaluation/accuracy/closest_pairs.h"
 #include "fusion/metrics/chi_square.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 
 void AgeStatistics::add(Duration age) {
   ++count;
@@ -18,7 +18,7 @@ void AgeStatistics::add(Duration age) {
 // The reference itself may be off by metres.
 DriveMeasures::DriveMeasures(TrueTime from, double gate_m) : from_(from), gate_(gate_m), reference_(2.0 * gate_m) {}
 
-void DriveMeasures::on(const records::FusionInput& input) {
+void DriveMeasures::on(const recording::records::FusionInput& input) {
   ++summary_.received;
   // A fusion node whose clock has gone back has started anew, and received nothing yet.
   if (input.stamp.global < receiving_) newest_received_.reset();
@@ -33,38 +33,38 @@ void DriveMeasures::on(const records::FusionInput& input) {
 }
 
 // Until something else becomes of it. A fusion node that restarts has forgotten what it held.
-void DriveMeasures::note_held(const records::ListFused& list) {
+void DriveMeasures::note_held(const recording::records::ListFused& list) {
   const auto known = std::find_if(held_.begin(), held_.end(), [&](const Held& held) {
     return held.id == list.id && held.measured == list.measured;
   });
-  if (list.disposition == records::Disposition::kHeld) {
+  if (list.disposition == recording::records::Disposition::kHeld) {
     if (known != held_.end()) return;
     held_.push_back({list.id, list.measured, list.stamp.global});
     if (held_.size() > kMostHeld) held_.pop_front();
-  } else if (known != held_.end() && list.disposition != records::Disposition::kDuplicate) {
+  } else if (known != held_.end() && list.disposition != recording::records::Disposition::kDuplicate) {
     if (list.stamp.global >= known->since) summary_.held_for.add(list.stamp.global - known->since);
     held_.erase(known);
   }
 }
 
-void DriveMeasures::on(const records::ListFused& fused) {
+void DriveMeasures::on(const recording::records::ListFused& fused) {
   note_held(fused);
   switch (fused.disposition) {
-    case records::Disposition::kFused: ++summary_.fused; break;
-    case records::Disposition::kFusedLate: ++summary_.fused_late; break;
-    case records::Disposition::kHeld: ++summary_.held; return;
-    case records::Disposition::kDroppedTooOld: ++summary_.dropped; return;
-    case records::Disposition::kDuplicate: ++summary_.duplicates; return;
+    case recording::records::Disposition::kFused: ++summary_.fused; break;
+    case recording::records::Disposition::kFusedLate: ++summary_.fused_late; break;
+    case recording::records::Disposition::kHeld: ++summary_.held; return;
+    case recording::records::Disposition::kDroppedTooOld: ++summary_.dropped; return;
+    case recording::records::Disposition::kDuplicate: ++summary_.duplicates; return;
   }
   const Duration age = fused.stamp.global - fused.measured;
   summary_.age_fused.add(age);
   summary_.age_fused_by_sensor[fused.id.sensor].add(age);
-  const TrueTime measured = records::true_time_of(fused.stamp, fused.measured);
+  const TrueTime measured = recording::records::true_time_of(fused.stamp, fused.measured);
   const auto [newest, first] = newest_fused_.try_emplace(fused.id.sensor, Fused{fused.id, measured});
   if (!first && measured > newest->second.measured) newest->second = {fused.id, measured};
 }
 
-void DriveMeasures::on(const records::TrackState& track) {
+void DriveMeasures::on(const recording::records::TrackState& track) {
   if (!track.predicted_for_image) return;
   Predicted& predicted = predicted_.emplace_back();
   std::copy(track.state.begin(), track.state.end(), predicted.state.begin());
@@ -73,7 +73,7 @@ void DriveMeasures::on(const records::TrackState& track) {
 
 // An image's predictions are reported before it, one an object. Where a torn log lost some, they are not to be told
 // apart.
-void DriveMeasures::on(const records::ImageWritten& image) {
+void DriveMeasures::on(const recording::records::ImageWritten& image) {
   if (predicted_.size() != image.objects.size()) predicted_.clear();
   Image& made = images_.emplace_back();
   made.sequence = image.sequence;
@@ -92,7 +92,7 @@ const DriveMeasures::Image* DriveMeasures::image_of(std::uint32_t sequence) cons
   return last == images_.rend() ? nullptr : &*last;
 }
 
-void DriveMeasures::on(const records::FeatureUsed& used) {
+void DriveMeasures::on(const recording::records::FeatureUsed& used) {
   if (pending_) {
     judge(*pending_);
     pending_.reset();
@@ -104,8 +104,8 @@ void DriveMeasures::on(const records::FeatureUsed& used) {
     judge_age(*image, used.stamp.true_time);
   Use use{used.stamp.true_time, used.image_sequence, used.fresh, {}};
   bool warned = false;
-  for (const records::FeatureObject& object : used.objects) {
-    const records::ImageObject& image = object.image;
+  for (const recording::records::FeatureObject& object : used.objects) {
+    const recording::records::ImageObject& image = object.image;
     use.objects.push_back(
         {image.x, image.y, image.speed * std::cos(image.heading), image.speed * std::sin(image.heading)});
     warned |= object.warning;
@@ -129,7 +129,7 @@ void DriveMeasures::judge_age(const Image& image, TrueTime used) {
   summary_.age_used_newest.add(youngest);
 }
 
-void DriveMeasures::on(const records::TruthState& truth) {
+void DriveMeasures::on(const recording::records::TruthState& truth) {
   if (!truth_.empty() && truth_.front().at != truth.at) {
     if (pending_ && truth_.front().at == pending_->at) {
       judge(*pending_);
@@ -142,12 +142,12 @@ void DriveMeasures::on(const records::TruthState& truth) {
   truth_.push_back(truth);
 }
 
-void DriveMeasures::on(const records::ReferenceFix& fix) { reference_.fix(fix); }
+void DriveMeasures::on(const recording::records::ReferenceFix& fix) { reference_.fix(fix); }
 
 void DriveMeasures::judge(const Use& use) {
   if (truth_.empty() || truth_.front().at != use.at) return;
   std::vector<PlanePosition> truth, objects;
-  for (const records::TruthState& state : truth_) truth.push_back({state.x, state.y});
+  for (const recording::records::TruthState& state : truth_) truth.push_back({state.x, state.y});
   for (const PlaneEstimate& object : use.objects) objects.push_back({object.x, object.y});
   const std::vector<TruthPair> pairs = closest_pairs(truth, objects, gate_);
   summary_.matched += pairs.size();
@@ -157,7 +157,7 @@ void DriveMeasures::judge(const Use& use) {
   const Image* image = image_of(use.image_sequence);
   const bool consistency = use.fresh && image != nullptr && image->predicted.size() == use.objects.size();
   for (const TruthPair& pair : pairs) {
-    const records::TruthState& state = truth_[pair.truth];
+    const recording::records::TruthState& state = truth_[pair.truth];
     const PlaneEstimate& estimate = use.objects[pair.estimate];
     const double errors[] = {estimate.x - state.x, estimate.y - state.y,
                              estimate.vx - state.speed * std::cos(state.heading),
@@ -168,7 +168,7 @@ void DriveMeasures::judge(const Use& use) {
 }
 
 // The prediction as the filter has it, with its full covariance, which the image rounds and shortens.
-void DriveMeasures::judge_consistency(const Predicted& predicted, const records::TruthState& truth) {
+void DriveMeasures::judge_consistency(const Predicted& predicted, const recording::records::TruthState& truth) {
   Eigen::Vector4d error;
   error << predicted.state[0] - truth.x, predicted.state[1] - truth.y,
       predicted.state[2] - truth.speed * std::cos(truth.heading),
@@ -196,10 +196,10 @@ DriveSummary DriveMeasures::finish() {
   if (summary_.nees_samples > 0) {
     const auto samples = static_cast<double>(summary_.nees_samples);
     summary_.nees = nees_sum_ / samples;
-    summary_.nees_low = fusion::chi_square_quantile(0.025, 4.0 * samples) / samples;
-    summary_.nees_high = fusion::chi_square_quantile(0.975, 4.0 * samples) / samples;
+    summary_.nees_low = fusion::metrics::chi_square_quantile(0.025, 4.0 * samples) / samples;
+    summary_.nees_high = fusion::metrics::chi_square_quantile(0.975, 4.0 * samples) / samples;
   }
   return summary_;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

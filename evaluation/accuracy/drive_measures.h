@@ -20,7 +20,7 @@
 #include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 
 // Mean and largest of a duration, with the number of samples.
 struct AgeStatistics {
@@ -60,8 +60,8 @@ struct DriveSummary {
   std::map<SensorId, AgeStatistics> age_fused_by_sensor;
   std::map<SensorId, AgeStatistics> age_used_by_sensor;
   // Of these, at every use of an image: the oldest and the newest, each as a distribution.
-  records::BinnedDurations age_used_oldest;
-  records::BinnedDurations age_used_newest;
+  recording::records::BinnedDurations age_used_oldest;
+  recording::records::BinnedDurations age_used_newest;
   // Observation lists over the whole drive.
   std::uint64_t received = 0;         // lists the fusion node took in
   std::uint64_t out_of_sequence = 0;  // of them older than one taken in before
@@ -73,11 +73,12 @@ struct DriveSummary {
   std::uint64_t duplicates = 0;
   std::uint64_t warnings = 0;  // uses in which an object warned
   // What only who knows the scenario can say: filled in by others.
-  double position_mse_reference_corrected = kNotMeasured;  // less the DGPS' own error (evaluation/accuracy/reference_judge.h)
-  double position_mse_expected = kNotMeasured;             // without sampling (experiments/sweep/expected_drive.h)
+  double position_mse_reference_corrected =
+      kNotMeasured;                             // less the DGPS' own error (evaluation/accuracy/reference_judge.h)
+  double position_mse_expected = kNotMeasured;  // without sampling (experiments/sweep/expected_drive.h)
 };
 
-class DriveMeasures final : public records::Sink {
+class DriveMeasures final : public recording::records::Sink {
  public:
   // Uses before `from` are not judged; image and truth further apart than `gate_m` do not belong together.
   explicit DriveMeasures(TrueTime from, double gate_m = kGate_m);
@@ -86,14 +87,14 @@ class DriveMeasures final : public records::Sink {
   DriveSummary finish();
 
   bool wants_frames() const override { return false; }
-  using records::Sink::on;
-  void on(const records::FusionInput&) override;
-  void on(const records::ListFused&) override;
-  void on(const records::TrackState&) override;
-  void on(const records::ImageWritten&) override;
-  void on(const records::FeatureUsed&) override;
-  void on(const records::TruthState&) override;
-  void on(const records::ReferenceFix&) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::FusionInput&) override;
+  void on(const recording::records::ListFused&) override;
+  void on(const recording::records::TrackState&) override;
+  void on(const recording::records::ImageWritten&) override;
+  void on(const recording::records::FeatureUsed&) override;
+  void on(const recording::records::TruthState&) override;
+  void on(const recording::records::ReferenceFix&) override;
 
  private:
   struct Predicted {
@@ -118,10 +119,10 @@ class DriveMeasures final : public records::Sink {
     bool fresh = true;
     std::vector<PlaneEstimate> objects;
   };
-  void note_held(const records::ListFused& list);
+  void note_held(const recording::records::ListFused& list);
   void judge(const Use& use);
   void judge_age(const Image& image, TrueTime used);
-  void judge_consistency(const Predicted& predicted, const records::TruthState& truth);
+  void judge_consistency(const Predicted& predicted, const recording::records::TruthState& truth);
 
   TrueTime from_;
   double gate_;
@@ -141,8 +142,8 @@ class DriveMeasures final : public records::Sink {
   std::vector<Predicted> predicted_;  // for the image that is being written
   std::deque<Image> images_;          // as they were written, the last few
   std::optional<Use> pending_;
-  std::vector<records::TruthState> truth_;  // of one instant
+  std::vector<recording::records::TruthState> truth_;  // of one instant
   ReferenceJudge reference_;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

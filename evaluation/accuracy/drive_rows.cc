@@ -7,7 +7,7 @@
 
 #include "fusion/metrics/chi_square.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 namespace {
 
 constexpr double kNoRow = std::numeric_limits<double>::quiet_NaN();
@@ -40,8 +40,8 @@ std::vector<NeesRow> nees_rows(const std::vector<ErrorRow>& errors) {
   for (NeesRow& row : rows) {
     const auto n = static_cast<double>(row.samples);
     row.mean /= n;
-    row.low = fusion::chi_square_quantile(0.025, 4.0 * n) / n;
-    row.high = fusion::chi_square_quantile(0.975, 4.0 * n) / n;
+    row.low = fusion::metrics::chi_square_quantile(0.025, 4.0 * n) / n;
+    row.high = fusion::metrics::chi_square_quantile(0.975, 4.0 * n) / n;
   }
   return rows;
 }
@@ -52,16 +52,17 @@ void DriveRows::add_age(AgeOf of, SensorId sensor, Duration age) {
   ++ages_[{of, sensor}][bin];
 }
 
-void DriveRows::on(const records::ListFused& fused) {
-  if (fused.disposition != records::Disposition::kFused && fused.disposition != records::Disposition::kFusedLate)
+void DriveRows::on(const recording::records::ListFused& fused) {
+  if (fused.disposition != recording::records::Disposition::kFused &&
+      fused.disposition != recording::records::Disposition::kFusedLate)
     return;
   add_age(AgeOf::kFused, fused.id.sensor, fused.stamp.global - fused.measured);
-  const TrueTime measured = records::true_time_of(fused.stamp, fused.measured);
+  const TrueTime measured = recording::records::true_time_of(fused.stamp, fused.measured);
   const auto [newest, first] = newest_fused_.try_emplace(fused.id.sensor, fused.id, measured);
   if (!first && measured > newest->second.second) newest->second = {fused.id, measured};
 }
 
-void DriveRows::on(const records::TrackState& track) {
+void DriveRows::on(const recording::records::TrackState& track) {
   if (!track.predicted_for_image) return;
   Predicted& predicted = predicted_.emplace_back();
   for (std::size_t r = 0; r < 4; ++r) {
@@ -72,7 +73,7 @@ void DriveRows::on(const records::TrackState& track) {
 
 // An image's predictions are reported before it, one an object. Where a torn log lost some, they are not to be told
 // apart.
-void DriveRows::on(const records::ImageWritten& image) {
+void DriveRows::on(const recording::records::ImageWritten& image) {
   if (predicted_.size() != image.objects.size()) predicted_.clear();
   Image& made = images_.emplace_back(Image{image.sequence, {}, std::move(predicted_)});
   for (const MeasurementId& id : image.newest)
@@ -88,18 +89,18 @@ const DriveRows::Image* DriveRows::image_of(std::uint32_t sequence) const {
   return last == images_.rend() ? nullptr : &*last;
 }
 
-void DriveRows::on(const records::FeatureUsed& used) {
+void DriveRows::on(const recording::records::FeatureUsed& used) {
   finish();
   const Image* image = used.stale ? nullptr : image_of(used.image_sequence);
   if (image != nullptr)
     for (const auto& [sensor, measured] : image->newest) add_age(AgeOf::kUsed, sensor, used.stamp.true_time - measured);
   Use& use = pending_.emplace(Use{used.stamp.true_time, used.image_sequence, used.fresh, {}});
-  for (const records::FeatureObject& object : used.objects)
+  for (const recording::records::FeatureObject& object : used.objects)
     use.objects.push_back({object.image.x, object.image.y, object.image.speed * std::cos(object.image.heading),
                            object.image.speed * std::sin(object.image.heading)});
 }
 
-void DriveRows::on(const records::TruthState& truth) {
+void DriveRows::on(const recording::records::TruthState& truth) {
   if (!truth_.empty() && truth_.front().at != truth.at) {
     if (pending_ && truth_.front().at == pending_->at) finish();
     truth_.clear();
@@ -108,7 +109,7 @@ void DriveRows::on(const records::TruthState& truth) {
   if (truth_.empty() || truth_.front().node == truth.node) truth_.push_back(truth);
 }
 
-void DriveRows::on(const records::ReferenceFix& fix) {
+void DriveRows::on(const recording::records::ReferenceFix& fix) {
   if (!referenced_) referenced_ = fix.object;
 }
 
@@ -120,12 +121,12 @@ void DriveRows::finish() {
 void DriveRows::judge() {
   if (truth_.empty() || truth_.front().at != pending_->at) return;
   std::vector<PlanePosition> truth, objects;
-  for (const records::TruthState& state : truth_) truth.push_back({state.x, state.y});
+  for (const recording::records::TruthState& state : truth_) truth.push_back({state.x, state.y});
   for (const auto& object : pending_->objects) objects.push_back({object[0], object[1]});
   const Image* image = image_of(pending_->image);
   const bool predicted = pending_->fresh && image != nullptr && image->predicted.size() == pending_->objects.size();
   for (const TruthPair& pair : closest_pairs(truth, objects, gate_)) {
-    const records::TruthState& state = truth_[pair.truth];
+    const recording::records::TruthState& state = truth_[pair.truth];
     const std::array<double, 4> true_state{state.x, state.y, state.speed * std::cos(state.heading),
                                            state.speed * std::sin(state.heading)};
     ErrorRow& row =
@@ -143,4 +144,4 @@ void DriveRows::judge() {
   }
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

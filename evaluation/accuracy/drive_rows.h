@@ -1,8 +1,8 @@
 // What a drive's figures are drawn from, as rows: how wrong every object of an image was when that was used, how wrong
 // the filter believed it to be, and how old measurements were.
 //
-// The same pairs, errors and ages as in DriveMeasures (evaluation/accuracy/drive_measures.h), one by one instead of their means: at
-// the instants the feature service used an image, against the truth at that true time.
+// The same pairs, errors and ages as in DriveMeasures (evaluation/accuracy/drive_measures.h), one by one instead of
+// their means: at the instants the feature service used an image, against the truth at that true time.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 #include "evaluation/accuracy/closest_pairs.h"
 #include "recording/records/records.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 
 struct ErrorRow {
   TrueTime at{};
@@ -45,7 +45,7 @@ enum class AgeOf : std::uint8_t {
 };  // a measurement when fused; its sensor's newest when an image is used
 inline constexpr Duration kAgeBin = Duration::milliseconds(1);
 
-class DriveRows final : public records::Sink {
+class DriveRows final : public recording::records::Sink {
  public:
   explicit DriveRows(double gate_m = kGate_m) : gate_(gate_m) {}
   void finish();  // completes what waits for its truth; once, at the end
@@ -56,13 +56,13 @@ class DriveRows final : public records::Sink {
   const std::map<std::pair<AgeOf, SensorId>, Histogram>& ages() const { return ages_; }
   std::optional<ObjectId> referenced() const { return referenced_; }  // the object that a reference is of
 
-  using records::Sink::on;
-  void on(const records::ListFused&) override;
-  void on(const records::TrackState&) override;
-  void on(const records::ImageWritten&) override;
-  void on(const records::FeatureUsed&) override;
-  void on(const records::TruthState&) override;
-  void on(const records::ReferenceFix&) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::ListFused&) override;
+  void on(const recording::records::TrackState&) override;
+  void on(const recording::records::ImageWritten&) override;
+  void on(const recording::records::FeatureUsed&) override;
+  void on(const recording::records::TruthState&) override;
+  void on(const recording::records::ReferenceFix&) override;
 
  private:
   struct Predicted {
@@ -92,7 +92,7 @@ class DriveRows final : public records::Sink {
   std::vector<Predicted> predicted_;  // for the image that is being written
   std::deque<Image> images_;          // the last few
   std::optional<Use> pending_;
-  std::vector<records::TruthState> truth_;  // of one instant
+  std::vector<recording::records::TruthState> truth_;  // of one instant
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 namespace {
 
 // A use whose fix has not come by then waits in vain: the reference's period and latency are 10 s at most.
@@ -15,7 +15,7 @@ double root_mean(double squares, std::uint64_t n) {
 
 }  // namespace
 
-void ReferenceJudge::fix(const records::ReferenceFix& fix) {
+void ReferenceJudge::fix(const recording::records::ReferenceFix& fix) {
   before_ = after_;
   after_ = fix;
   while (!waiting_.empty() && waiting_.front().at <= fix.measured_true) {
@@ -34,7 +34,7 @@ void ReferenceJudge::use(TrueTime at, std::span<const PlaneEstimate> estimates) 
 
 void ReferenceJudge::judge(const Use& use) {
   if (!before_ || use.at < before_->measured_true) return;
-  const records::ReferenceFix &a = *before_, &b = *after_;
+  const recording::records::ReferenceFix &a = *before_, &b = *after_;
   const double h = (b.measured_true - a.measured_true).seconds();
   if (h <= 0.0) return;
   const double s = (use.at - a.measured_true).seconds() / h;
@@ -64,7 +64,7 @@ ReferenceWeights ReferenceJudge::weights() const {
   return {sums_.squares / n, sums_.products / n, sums_.range_squared / n};
 }
 
-double expected_square(const world::ReferenceConfig& reference, const ReferenceWeights& weights) {
+double expected_square(const sim::world::ReferenceConfig& reference, const ReferenceWeights& weights) {
   const double calm = 1.0 - reference.excursion_probability;
   const double there = 1.0 - std::pow(calm, reference.excursion_fixes);
   const double same = calm * (1.0 - std::pow(calm, reference.excursion_fixes - 1));
@@ -77,4 +77,4 @@ double expected_square(const world::ReferenceConfig& reference, const ReferenceW
 double ReferenceJudge::position_rmse() const { return root_mean(position_squares_, compared_); }
 double ReferenceJudge::velocity_rmse() const { return root_mean(velocity_squares_, velocities_); }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

@@ -15,7 +15,7 @@
 #include "recording/records/records.h"
 #include "sim/world/reference.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 
 // In the plane; [m] and [m/s].
 struct PlaneEstimate {
@@ -37,7 +37,7 @@ struct ReferenceWeights {
 // have been before; that the error has nothing to do with the estimate's, which is so but for the way that the object
 // does not go straight between two fixes, at most density period^3 / 48 [m^2]; and that no use was left out because its
 // estimate and the reference are far apart.
-double expected_square(const world::ReferenceConfig& reference, const ReferenceWeights& weights);
+double expected_square(const sim::world::ReferenceConfig& reference, const ReferenceWeights& weights);
 
 class ReferenceJudge {
  public:
@@ -46,7 +46,7 @@ class ReferenceJudge {
 
   // Both in the order of time among themselves; a use before the older of the two newest fixes is too late to be
   // judged.
-  void fix(const records::ReferenceFix& fix);
+  void fix(const recording::records::ReferenceFix& fix);
   void use(TrueTime at, std::span<const PlaneEstimate> estimates);
 
   std::uint64_t compared() const { return compared_; }
@@ -64,11 +64,11 @@ class ReferenceJudge {
   void judge(const Use& use);
 
   double gate_;
-  std::optional<records::ReferenceFix> before_, after_;  // the newest is after_
+  std::optional<recording::records::ReferenceFix> before_, after_;  // the newest is after_
   std::deque<Use> waiting_;
   std::uint64_t compared_ = 0, velocities_ = 0;
   double position_squares_ = 0.0, velocity_squares_ = 0.0;
   ReferenceWeights sums_;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

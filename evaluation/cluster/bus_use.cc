@@ -5,19 +5,20 @@
 #include "bus/wire/can_timing.h"
 #include "bus/wire/flexray_frame.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::cluster {
 
 // As long as its bits are: when it left, an ordinary kernel has its say in.
-void BusUse::on(const records::SlotFrameSent& frame) {
+void BusUse::on(const recording::records::SlotFrameSent& frame) {
   ++frames_sent_;
-  const std::size_t least = wire::kHeaderBytes + wire::kTrailerBytes;
+  const std::size_t least = bus::wire::kHeaderBytes + bus::wire::kTrailerBytes;
   if (frame.channel > 1 || frame.bytes.size() < least) return;
-  channels_[frame.channel] += wire::frame_duration(cluster_.flexray, wire::words_in_frame(frame.bytes.size()));
+  channels_[frame.channel] +=
+      bus::wire::frame_duration(cluster_.flexray, bus::wire::words_in_frame(frame.bytes.size()));
 }
 
-void BusUse::on(const records::CanFrameSent& frame) {
+void BusUse::on(const recording::records::CanFrameSent& frame) {
   if (frame.bus >= cans_.size()) return;
-  cans_[frame.bus] += wire::can_frame_duration(cluster_.can_buses[frame.bus], frame.identifier, frame.data);
+  cans_[frame.bus] += bus::wire::can_frame_duration(cluster_.can_buses[frame.bus], frame.identifier, frame.data);
 }
 
 double BusUse::flexray_load(Duration elapsed) const {
@@ -30,4 +31,4 @@ std::vector<double> BusUse::can_load(Duration elapsed) const {
   return loads;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::cluster

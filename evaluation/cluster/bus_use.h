@@ -10,15 +10,15 @@
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::cluster {
 
-class BusUse final : public records::Sink {
+class BusUse final : public recording::records::Sink {
  public:
-  explicit BusUse(const schedules::Cluster& cluster) : cluster_(cluster), cans_(cluster.can_buses.size()) {}
+  explicit BusUse(const schedules::model::Cluster& cluster) : cluster_(cluster), cans_(cluster.can_buses.size()) {}
 
-  using records::Sink::on;
-  void on(const records::SlotFrameSent& frame) override;
-  void on(const records::CanFrameSent& frame) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::SlotFrameSent& frame) override;
+  void on(const recording::records::CanFrameSent& frame) override;
 
   std::uint64_t frames_sent() const { return frames_sent_; }  // on FlexRay, each channel's
   // Of the busier channel, and of each CAN.
@@ -26,10 +26,10 @@ class BusUse final : public records::Sink {
   std::vector<double> can_load(Duration elapsed) const;
 
  private:
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   std::array<Duration, 2> channels_{};
   std::vector<Duration> cans_;
   std::uint64_t frames_sent_ = 0;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::cluster

@@ -2,10 +2,10 @@
 
 #include "bus/poc/poc.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::cluster {
 namespace {
 
-constexpr auto kNormalActive = static_cast<std::uint8_t>(bus::PocKind::kNormalActive);
+constexpr auto kNormalActive = static_cast<std::uint8_t>(bus::poc::PocKind::kNormalActive);
 
 }  // namespace
 
@@ -15,7 +15,7 @@ NodeStartup& StartupAccount::of(NodeId node) {
   return startup;
 }
 
-void StartupAccount::on(const records::PowerChanged& power) {
+void StartupAccount::on(const recording::records::PowerChanged& power) {
   NodeStartup& startup = of(power.stamp.node);
   if (power.on && !startup.powered) startup.powered = power.stamp.true_time;
   if (power.on) return;
@@ -23,7 +23,7 @@ void StartupAccount::on(const records::PowerChanged& power) {
   startup.why = "its supply went";
 }
 
-void StartupAccount::on(const records::StateChanged& change) {
+void StartupAccount::on(const recording::records::StateChanged& change) {
   NodeStartup& startup = of(change.stamp.node);
   startup.state = change.to_name;
   startup.why = change.why;
@@ -40,4 +40,4 @@ std::vector<NodeStartup> StartupAccount::nodes() const {
   return list;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::cluster

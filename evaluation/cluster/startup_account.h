@@ -12,7 +12,7 @@
 #include "core/time.h"
 #include "recording/records/records.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::cluster {
 
 struct NodeStartup {
   NodeId node{};
@@ -27,7 +27,7 @@ struct NodeStartup {
   std::string state, why;
 };
 
-class StartupAccount final : public records::Sink {
+class StartupAccount final : public recording::records::Sink {
  public:
   // `cycle`: nominal length of the communication cycle.
   explicit StartupAccount(Duration cycle) : cycle_(cycle) {}
@@ -35,9 +35,9 @@ class StartupAccount final : public records::Sink {
   // Nodes that were powered on or changed their state, by id. None in a drive that began integrated and went well.
   std::vector<NodeStartup> nodes() const;
 
-  using records::Sink::on;
-  void on(const records::PowerChanged&) override;
-  void on(const records::StateChanged&) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::PowerChanged&) override;
+  void on(const recording::records::StateChanged&) override;
 
  private:
   NodeStartup& of(NodeId node);
@@ -46,4 +46,4 @@ class StartupAccount final : public records::Sink {
   std::map<NodeId, NodeStartup> nodes_;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::cluster

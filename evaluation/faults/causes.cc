@@ -7,24 +7,24 @@
 #include "evaluation/faults/judge.h"
 #include "schedules/model/round.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 namespace {
 
-using nodes::FaultKind;
+using ttf::faults::FaultKind;
 
 // What is asked about is no older: losses are settled two cycles after them.
 constexpr int kCyclesRemembered = 5;
-constexpr Duration kRounded{schedules::kGranularity_ns};
+constexpr Duration kRounded{schedules::model::kGranularity_ns};
 
-bool shares(schedules::Channels a, schedules::Channels b) {
+bool shares(schedules::model::Channels a, schedules::model::Channels b) {
   return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0;
 }
 
 }  // namespace
 
-FaultCauses::FaultCauses(const nodes::FaultPlan& plan, const schedules::Cluster& cluster)
+FaultCauses::FaultCauses(const ttf::faults::FaultPlan& plan, const schedules::model::Cluster& cluster)
     : cluster_(cluster), patience_(cluster.cycle() * 2 * (cluster.flexray.gMaxWithoutClockCorrectionFatal + 1)) {
-  for (const nodes::Fault& fault : plan.faults) {
+  for (const ttf::faults::Fault& fault : plan.faults) {
     Suspect& suspect = suspects_.emplace_back();
     suspect.fault = &fault;
     suspect.reach = reach_of(fault);
@@ -33,14 +33,14 @@ FaultCauses::FaultCauses(const nodes::FaultPlan& plan, const schedules::Cluster&
   }
 }
 
-FaultCauses::Reach FaultCauses::reach_of(const nodes::Fault& fault) const {
-  const Duration frame = wire::frame_duration(cluster_.flexray, static_cast<int>(wire::kMaxPayloadBytes / 2));
+FaultCauses::Reach FaultCauses::reach_of(const ttf::faults::Fault& fault) const {
+  const Duration frame = bus::wire::frame_duration(cluster_.flexray, static_cast<int>(bus::wire::kMaxPayloadBytes / 2));
   Reach reach;
   reach.lasts = frame;
   switch (fault.kind) {
     case FaultKind::kCrash:
     case FaultKind::kLoneColdstart: reach.hearing = true; break;
-    case FaultKind::kOmission: reach.hearing = fault.direction != nodes::FaultDirection::kSend; break;
+    case FaultKind::kOmission: reach.hearing = fault.direction != ttf::faults::FaultDirection::kSend; break;
     case FaultKind::kNoise:
     case FaultKind::kBabblingIdiot:
       reach.channel = true;
@@ -141,4 +141,4 @@ FaultCauses::Cause FaultCauses::of_node(NodeId node, TrueTime at) const {
   return latest(at, [&](const Suspect& suspect) { return acting(suspect, at - patience_); });
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

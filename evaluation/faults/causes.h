@@ -24,14 +24,14 @@
 #include "faults/plan.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 
 class FaultCauses {
  public:
   using Cause = std::optional<std::size_t>;  // index in the plan
 
   // `plan`: resolved for the cluster; both must outlive this.
-  FaultCauses(const nodes::FaultPlan& plan, const schedules::Cluster& cluster);
+  FaultCauses(const ttf::faults::FaultPlan& plan, const schedules::model::Cluster& cluster);
 
   // What the faults do, in the order of time.
   void begins(std::size_t fault, TrueTime at);
@@ -47,7 +47,7 @@ class FaultCauses {
   struct Signal {
     NodeId owner = kNoNode;     // who sends there; kNoNode: nobody
     NodeId receiver = kNoNode;  // who saw it; kNoNode: a guardian
-    schedules::Channels channels{};
+    schedules::model::Channels channels{};
     TrueTime from{}, until{};  // when
     bool silence = false;      // there was nothing
   };
@@ -61,13 +61,13 @@ class FaultCauses {
     Duration lasts{};  // what it puts on a channel, from the instant it acts on
   };
   struct Suspect {
-    const nodes::Fault* fault = nullptr;
+    const ttf::faults::Fault* fault = nullptr;
     Reach reach;
     std::vector<bool> named, out;  // by NodeId; `out` by its doing
     std::optional<TrueTime> began, ended;
     std::deque<TrueTime> acts;  // of the last cycles, and one before
   };
-  Reach reach_of(const nodes::Fault& fault) const;
+  Reach reach_of(const ttf::faults::Fault& fault) const;
   static bool begun(const Suspect& suspect, TrueTime by);
   static bool acting(const Suspect& suspect, TrueTime since) { return !suspect.ended || *suspect.ended >= since; }
   static bool owns(const Suspect& suspect, NodeId node, TrueTime since);
@@ -75,9 +75,9 @@ class FaultCauses {
   bool disturbs(const Suspect& suspect, const Signal& signal) const;
   template <class Fits> Cause latest(TrueTime until, Fits fits) const;
 
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   Duration patience_;              // of a controller without sync frames
   std::vector<Suspect> suspects_;  // by index in the plan
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

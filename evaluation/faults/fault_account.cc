@@ -8,26 +8,26 @@
 #include "bus/wire/flexray_frame.h"
 #include "schedules/check/checker.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 namespace {
 
-Duration macroticks(const schedules::GlobalParameters& g, std::int64_t count) {
+Duration macroticks(const schedules::model::GlobalParameters& g, std::int64_t count) {
   return {count * g.gdMacrotick_ps / 1000};
 }
 
-schedules::Channels only(std::uint8_t channel) {
-  return channel == 0 ? schedules::Channels::kA : schedules::Channels::kB;
+schedules::model::Channels only(std::uint8_t channel) {
+  return channel == 0 ? schedules::model::Channels::kA : schedules::model::Channels::kB;
 }
 
 // Of the named nodes: a lone coldstart node takes the others'.
-bool takes_supply(const nodes::Fault& fault, NodeId node) {
-  return fault.kind == nodes::FaultKind::kCrash ||
-         (fault.kind == nodes::FaultKind::kLoneColdstart && fault.node != node);
+bool takes_supply(const ttf::faults::Fault& fault, NodeId node) {
+  return fault.kind == ttf::faults::FaultKind::kCrash ||
+         (fault.kind == ttf::faults::FaultKind::kLoneColdstart && fault.node != node);
 }
 
 // From start-up, to where it begins or ends without success.
-bool falls_back(const records::StateChanged& change) {
-  using bus::PocKind;
+bool falls_back(const recording::records::StateChanged& change) {
+  using bus::poc::PocKind;
   const auto from = static_cast<PocKind>(change.from);
   switch (static_cast<PocKind>(change.to)) {
     case PocKind::kHalt:
@@ -72,11 +72,11 @@ bool FaultFindings::harmed() const {
          std::any_of(faults.begin(), faults.end(), [](const FaultSeen& fault) { return fault.harmed(); });
 }
 
-FaultReport::FaultReport(const schedules::Cluster& cluster, nodes::FaultPlan plan, bool begins_integrated)
+FaultReport::FaultReport(const schedules::model::Cluster& cluster, ttf::faults::FaultPlan plan, bool begins_integrated)
     : cluster_(cluster), plan_(std::move(plan)), cycle_(cluster.cycle()),
       slot_(macroticks(cluster.flexray, cluster.flexray.gdStaticSlot)),
       action_point_(macroticks(cluster.flexray, cluster.flexray.gdActionPointOffset)),
-      assumed_precision_(schedules::assumed_precision(cluster.flexray)), nodes_(cluster.nodes.size()),
+      assumed_precision_(schedules::check::assumed_precision(cluster.flexray)), nodes_(cluster.nodes.size()),
       causes_(plan_, cluster), clocks_(cluster),
       ledger_(
           cluster, [this](NodeId node) { return counts(node); }, [this](const SlotLoss& loss) { lost(loss); }),
@@ -103,9 +103,9 @@ std::int64_t FaultReport::cycle_at(TrueTime at) const {
   return cycle + std::max<std::int64_t>(0, (at - began).ns / cycle_.ns);
 }
 
-void FaultReport::on(const records::FaultActivity& activity) {
+void FaultReport::on(const recording::records::FaultActivity& activity) {
   if (activity.fault >= place_.size()) return;  // of another plan
-  const nodes::Fault& fault = plan_.faults[activity.fault];
+  const ttf::faults::Fault& fault = plan_.faults[activity.fault];
   auto& place = place_[activity.fault];
   if (!place) {
     place = findings_.faults.size();
@@ -125,14 +125,14 @@ void FaultReport::on(const records::FaultActivity& activity) {
   }
   FaultSeen& seen = findings_.faults[*place];
   switch (activity.what) {
-    case records::kFaultActs:
+    case recording::records::kFaultActs:
       causes_.acts(activity.fault, activity.at);
       ++seen.acts;
       if (seen.first_act) break;
       seen.first_act = activity.at;
       seen.text = activity.text;
       break;
-    case records::kFaultEnds:
+    case recording::records::kFaultEnds:
       causes_.ends(activity.fault, activity.at);
       seen.ends = activity.at;
       break;
@@ -140,17 +140,18 @@ void FaultReport::on(const records::FaultActivity& activity) {
   }
 }
 
-void FaultReport::on(const records::StateChanged& change) {
-  constexpr auto kActive = static_cast<std::uint8_t>(bus::PocKind::kNormalActive);
+void FaultReport::on(const recording::records::StateChanged& change) {
+  constexpr auto kActive = static_cast<std::uint8_t>(bus::poc::PocKind::kNormalActive);
   const NodeId node = change.stamp.node;
   const TrueTime at = change.stamp.true_time;
   if (index_of(node) >= nodes_.size()) return;
   const Cause cause = causes_.of_node(node, at);
   if (!starts_as_planned(node) || falls_back(change))
     changed(cause, node, change.from_name, change.to_name, change.why, at);
-  if (change.to == static_cast<std::uint8_t>(bus::PocKind::kNormalPassive))
+  if (change.to == static_cast<std::uint8_t>(bus::poc::PocKind::kNormalPassive))
     notice(cause, Check::kPassive, node, cycle_at(at), at);
-  if (change.to == static_cast<std::uint8_t>(bus::PocKind::kHalt)) notice(cause, Check::kHalt, node, cycle_at(at), at);
+  if (change.to == static_cast<std::uint8_t>(bus::poc::PocKind::kHalt))
+    notice(cause, Check::kHalt, node, cycle_at(at), at);
   if (change.to != kActive) {
     left_active(cause, node, at);
     return;
@@ -160,7 +161,7 @@ void FaultReport::on(const records::StateChanged& change) {
   causes_.is_back(node);
 }
 
-void FaultReport::on(const records::PowerChanged& power) {
+void FaultReport::on(const recording::records::PowerChanged& power) {
   const NodeId node = power.stamp.node;
   const TrueTime at = power.stamp.true_time;
   if (index_of(node) >= nodes_.size()) return;
@@ -179,16 +180,17 @@ void FaultReport::left_active(Cause cause, NodeId node, TrueTime at) {
   nodes_[index_of(node)].active = false;
 }
 
-void FaultReport::on(const records::SlotProblem& problem) {
+void FaultReport::on(const recording::records::SlotProblem& problem) {
   const NodeId node = problem.stamp.node;
   const TrueTime at = problem.stamp.true_time;
   if (index_of(node) >= nodes_.size()) return;
   ledger_.on(problem);
-  const schedules::GlobalParameters& g = cluster_.flexray;
+  const schedules::model::GlobalParameters& g = cluster_.flexray;
   FaultCauses::Signal signal;
   signal.receiver = node;
   signal.channels = only(problem.channel);
-  signal.owner = owner_of(cluster_, problem.slot, static_cast<schedules::Channel>(problem.channel & 1), problem.cycle);
+  signal.owner =
+      owner_of(cluster_, problem.slot, static_cast<schedules::model::Channel>(problem.channel & 1), problem.cycle);
   if (problem.slot >= 1 && problem.slot <= g.gNumberOfStaticSlots) {
     // Told when the static segment is over. Frames begin an action point offset into their slots: clocks are less apart
     // than that.
@@ -196,21 +198,21 @@ void FaultReport::on(const records::SlotProblem& problem) {
     signal.from = signal.until - slot_;
   } else {
     signal.until = at;
-    signal.from = at - wire::frame_duration(g, static_cast<int>(wire::kMaxPayloadBytes / 2));
+    signal.from = at - bus::wire::frame_duration(g, static_cast<int>(bus::wire::kMaxPayloadBytes / 2));
   }
-  const auto seen = [&](bus::SlotStatus bit, Check check) {
+  const auto seen = [&](bus::controller::SlotStatus bit, Check check) {
     if ((problem.status & bit) == 0) return;
-    signal.silence = bit == bus::kNoFrame;
+    signal.silence = bit == bus::controller::kNoFrame;
     notice(causes_.of_signal(signal), check, node, problem.cycle, at);
   };
-  seen(bus::kSyntaxError, Check::kSyntax);
-  seen(bus::kContentError, Check::kContent);
-  seen(bus::kBoundaryViolation, Check::kBoundary);
-  seen(bus::kTransmissionConflict, Check::kConflict);
-  seen(bus::kNoFrame, Check::kNoFrame);
+  seen(bus::controller::kSyntaxError, Check::kSyntax);
+  seen(bus::controller::kContentError, Check::kContent);
+  seen(bus::controller::kBoundaryViolation, Check::kBoundary);
+  seen(bus::controller::kTransmissionConflict, Check::kConflict);
+  seen(bus::controller::kNoFrame, Check::kNoFrame);
 }
 
-void FaultReport::on(const records::ClockCorrected& corrected) {
+void FaultReport::on(const recording::records::ClockCorrected& corrected) {
   const NodeId node = corrected.stamp.node;
   const TrueTime at = corrected.stamp.true_time;
   if (index_of(node) >= nodes_.size()) return;
@@ -221,7 +223,7 @@ void FaultReport::on(const records::ClockCorrected& corrected) {
   seen(corrected.offset_limited || corrected.rate_limited, Check::kLimit);
 }
 
-void FaultReport::on(const records::SlotFrameSent& frame) {
+void FaultReport::on(const recording::records::SlotFrameSent& frame) {
   if (index_of(frame.stamp.node) >= nodes_.size()) return;
   ledger_.on(frame);
   if (!counts(frame.stamp.node)) return;
@@ -231,7 +233,7 @@ void FaultReport::on(const records::SlotFrameSent& frame) {
   if (apart && *apart > assumed_precision_) harm(causes_.of_node(kNoNode, at), Harm::kPrecision, at, kNoNode);
 }
 
-void FaultReport::on(const records::GuardianIntervention& kept) {
+void FaultReport::on(const recording::records::GuardianIntervention& kept) {
   if (!causes_.any_begun(kept.at)) return;
   const Cause cause = causes_.of_signal({kept.branch, kNoNode, only(kept.channel), kept.at, kept.at, false});
   const std::int64_t cycle = cycle_at(kept.at);
@@ -280,11 +282,11 @@ void FaultReport::changed(Cause cause, NodeId node, std::string_view from, std::
 // On none of the channels that receiver and sender share: whatever acts on one of them may be why.
 void FaultReport::lost(const SlotLoss& loss) {
   unsigned channels = 0;
-  for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB})
+  for (const auto channel : {schedules::model::Channel::kA, schedules::model::Channel::kB})
     if (owner_of(cluster_, loss.slot, channel, loss.cycle) == loss.sender) channels |= 1u << index_of(channel);
   const FaultCauses::Signal signal{loss.sender,
                                    loss.receiver,
-                                   static_cast<schedules::Channels>(channels),
+                                   static_cast<schedules::model::Channels>(channels),
                                    loss.at - action_point_,
                                    loss.at - action_point_ + slot_,
                                    false};
@@ -303,4 +305,4 @@ void FaultReport::harm(Cause cause, Harm harm, TrueTime at, NodeId node, NodeId 
     harms.push_back({node, at, sender, slot, 1});
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

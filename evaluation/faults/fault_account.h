@@ -21,14 +21,14 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "evaluation/faults/causes.h"
-#include "evaluation/faults/judge.h"
 #include "evaluation/faults/frame_clocks.h"
+#include "evaluation/faults/judge.h"
 #include "evaluation/faults/slot_ledger.h"
 #include "faults/plan.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 
 // One check, as seen by nodes of one side: those without a fault, or those with one.
 struct CheckSeen {
@@ -87,11 +87,11 @@ struct FaultFindings {
   bool harmed() const;
 };
 
-class FaultReport final : public records::Sink {
+class FaultReport final : public recording::records::Sink {
  public:
   // `plan`: resolved for the cluster, and the run's. `begins_integrated`: the nodes are in normal operation from the
   // start; else they have no supply until they say so.
-  FaultReport(const schedules::Cluster& cluster, nodes::FaultPlan plan, bool begins_integrated);
+  FaultReport(const schedules::model::Cluster& cluster, ttf::faults::FaultPlan plan, bool begins_integrated);
   FaultReport(const FaultReport&) = delete;
   FaultReport& operator=(const FaultReport&) = delete;
 
@@ -100,14 +100,14 @@ class FaultReport final : public records::Sink {
   void finish(TrueTime at);
   const FaultFindings& findings() const { return findings_; }
 
-  using records::Sink::on;
-  void on(const records::FaultActivity&) override;
-  void on(const records::StateChanged&) override;
-  void on(const records::PowerChanged&) override;
-  void on(const records::SlotProblem&) override;
-  void on(const records::ClockCorrected&) override;
-  void on(const records::SlotFrameSent&) override;
-  void on(const records::GuardianIntervention&) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::FaultActivity&) override;
+  void on(const recording::records::StateChanged&) override;
+  void on(const recording::records::PowerChanged&) override;
+  void on(const recording::records::SlotProblem&) override;
+  void on(const recording::records::ClockCorrected&) override;
+  void on(const recording::records::SlotFrameSent&) override;
+  void on(const recording::records::GuardianIntervention&) override;
 
  private:
   using Cause = FaultCauses::Cause;
@@ -134,8 +134,8 @@ class FaultReport final : public records::Sink {
   void lost(const SlotLoss& loss);
   void harm(Cause cause, Harm harm, TrueTime at, NodeId node, NodeId sender = kNoNode, int slot = 0);
 
-  const schedules::Cluster& cluster_;
-  const nodes::FaultPlan plan_;
+  const schedules::model::Cluster& cluster_;
+  const ttf::faults::FaultPlan plan_;
   Duration cycle_, slot_, action_point_, assumed_precision_;
   std::vector<Node> nodes_;  // by NodeId
   FaultCauses causes_;
@@ -148,4 +148,4 @@ class FaultReport final : public records::Sink {
   std::vector<Counted> counted_;                   // by index in the plan, and of what is unattributed
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 
-FrameClocks::FrameClocks(const schedules::Cluster& cluster) : cycle_(cluster.cycle()), clocks_(cluster.nodes.size()) {}
+FrameClocks::FrameClocks(const schedules::model::Cluster& cluster)
+    : cycle_(cluster.cycle()), clocks_(cluster.nodes.size()) {}
 
 void FrameClocks::forget(NodeId node) { clocks_[index_of(node)] = {}; }
 
-std::optional<Duration> FrameClocks::sent(const records::SlotFrameSent& frame) {
+std::optional<Duration> FrameClocks::sent(const recording::records::SlotFrameSent& frame) {
   if (index_of(frame.stamp.node) >= clocks_.size()) return std::nullopt;
   Clock& clock = clocks_[index_of(frame.stamp.node)];
   Reading& first = clock.first;
@@ -35,4 +36,4 @@ std::optional<Duration> FrameClocks::sent(const records::SlotFrameSent& frame) {
   return most;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

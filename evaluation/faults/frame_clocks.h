@@ -20,15 +20,15 @@
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 
 class FrameClocks {
  public:
-  explicit FrameClocks(const schedules::Cluster& cluster);
+  explicit FrameClocks(const schedules::model::Cluster& cluster);
 
   // A frame of a node whose clock counts, in the order of time. The largest distance to any other such clock in the
   // same double cycle, where this frame makes it known.
-  std::optional<Duration> sent(const records::SlotFrameSent& frame);
+  std::optional<Duration> sent(const recording::records::SlotFrameSent& frame);
   // The node's clock counts no more, until it sends again.
   void forget(NodeId node);
 
@@ -47,4 +47,4 @@ class FrameClocks {
   std::vector<Clock> clocks_;  // by NodeId
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

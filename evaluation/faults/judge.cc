@@ -7,11 +7,11 @@
 #include "core/check.h"
 #include "schedules/model/round.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 namespace {
 
-using bus::PocKind;
-using schedules::Channel;
+using bus::poc::PocKind;
+using schedules::model::Channel;
 
 constexpr int kCyclesUntilOverdue = 2;
 
@@ -48,10 +48,10 @@ std::string_view name_of(Harm harm) {
   TTF_CHECK(false, "harm {}", static_cast<int>(harm));
 }
 
-std::vector<bool> named_by(const nodes::Fault& fault, const schedules::Cluster& cluster) {
+std::vector<bool> named_by(const ttf::faults::Fault& fault, const schedules::model::Cluster& cluster) {
   std::vector<bool> named(cluster.nodes.size(), false);
   if (fault.node != kNoNode) named[index_of(fault.node)] = true;
-  if (fault.kind != nodes::FaultKind::kLoneColdstart) return named;
+  if (fault.kind != ttf::faults::FaultKind::kLoneColdstart) return named;
   for (std::size_t n = 0; n < named.size(); ++n) {
     const auto& p = cluster.nodes[n].flexray;
     if (p && (fault.all_others || p->pKeySlotUsedForStartup)) named[n] = true;
@@ -59,10 +59,11 @@ std::vector<bool> named_by(const nodes::Fault& fault, const schedules::Cluster& 
   return named;
 }
 
-NodeId owner_of(const schedules::Cluster& cluster, int slot, Channel channel, std::int64_t cycle) {
-  const auto counter = static_cast<int>(cycle & (schedules::kCycles - 1));
-  for (const schedules::FrameSlot& frame : cluster.frames)
-    if (frame.slot == slot && includes(frame.channels, channel) && bus::in_cycle(frame, counter)) return frame.sender;
+NodeId owner_of(const schedules::model::Cluster& cluster, int slot, Channel channel, std::int64_t cycle) {
+  const auto counter = static_cast<int>(cycle & (schedules::model::kCycles - 1));
+  for (const schedules::model::FrameSlot& frame : cluster.frames)
+    if (frame.slot == slot && includes(frame.channels, channel) && schedules::model::in_cycle(frame, counter))
+      return frame.sender;
   return kNoNode;
 }
 
@@ -77,7 +78,7 @@ Judgement::Since Judgement::detected() const {
   return first;
 }
 
-FaultJudge::FaultJudge(const schedules::Cluster& cluster, JudgeSettings settings)
+FaultJudge::FaultJudge(const schedules::model::Cluster& cluster, JudgeSettings settings)
     : cluster_(cluster), settings_(std::move(settings)), nodes_(cluster.nodes.size()) {
   TTF_CHECK(settings_.faulty.size() == nodes_.size(), "{} of {} nodes", settings_.faulty.size(), nodes_.size());
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
@@ -85,13 +86,13 @@ FaultJudge::FaultJudge(const schedules::Cluster& cluster, JudgeSettings settings
     if (cluster.nodes[n].flexray) nodes_[n].channels = cluster.nodes[n].flexray->pChannels;
   }
   int slots = 0;
-  for (const schedules::FrameSlot& frame : cluster.frames) slots = std::max(slots, frame.slot);
+  for (const schedules::model::FrameSlot& frame : cluster.frames) slots = std::max(slots, frame.slot);
   owed_.resize(static_cast<std::size_t>(slots) + 1);
   for (Owed& owed : owed_) owed.receivers.resize(nodes_.size(), false);
 }
 
-bool FaultJudge::Sent::says(const wire::DecodedFrame& frame) const {
-  const wire::FrameHeader& other = frame.header;
+bool FaultJudge::Sent::says(const bus::wire::DecodedFrame& frame) const {
+  const bus::wire::FrameHeader& other = frame.header;
   return any && other.frame_id == header.frame_id && other.cycle == header.cycle &&
          other.payload_preamble == header.payload_preamble && other.null_frame == header.null_frame &&
          other.sync == header.sync && other.startup == header.startup && same_bytes(payload(), frame.payload);
@@ -148,13 +149,13 @@ void FaultJudge::came_back(Node& node, TrueTime when) {
   node.out_since.reset();
 }
 
-void FaultJudge::slot_problem(NodeId node, bus::SlotStatus status, TrueTime when) {
+void FaultJudge::slot_problem(NodeId node, bus::controller::SlotStatus status, TrueTime when) {
   const auto bits = static_cast<unsigned>(status);
-  if ((bits & bus::kSyntaxError) != 0) notice(Check::kSyntax, node, when);
-  if ((bits & bus::kContentError) != 0) notice(Check::kContent, node, when);
-  if ((bits & bus::kBoundaryViolation) != 0) notice(Check::kBoundary, node, when);
-  if ((bits & bus::kTransmissionConflict) != 0) notice(Check::kConflict, node, when);
-  if ((bits & bus::kNoFrame) != 0) notice(Check::kNoFrame, node, when);
+  if ((bits & bus::controller::kSyntaxError) != 0) notice(Check::kSyntax, node, when);
+  if ((bits & bus::controller::kContentError) != 0) notice(Check::kContent, node, when);
+  if ((bits & bus::controller::kBoundaryViolation) != 0) notice(Check::kBoundary, node, when);
+  if ((bits & bus::controller::kTransmissionConflict) != 0) notice(Check::kConflict, node, when);
+  if ((bits & bus::controller::kNoFrame) != 0) notice(Check::kNoFrame, node, when);
 }
 
 void FaultJudge::clock_corrected(NodeId node, bool missing, bool limit_reached, TrueTime when) {
@@ -170,7 +171,7 @@ void FaultJudge::collect(Owed& owed, int slot) {
   }
 }
 
-void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, const wire::DecodedFrame& frame, TrueTime when) {
+void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, const bus::wire::DecodedFrame& frame, TrueTime when) {
   const Node& sender = nodes_[index_of(id)];
   if (sender.faulty || slot < 0 || static_cast<std::size_t>(slot) >= owed_.size()) return;
   Owed& owed = owed_[static_cast<std::size_t>(slot)];
@@ -185,12 +186,12 @@ void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, const wire::De
     collect(owed, slot);
     owed.sender = id;
     owed.sent = when;
-    for (const schedules::FrameSlot& own : cluster_.frames) {
+    for (const schedules::model::FrameSlot& own : cluster_.frames) {
       if (own.slot != slot || own.sender != id || sender.state != PocKind::kNormalActive) continue;
       for (std::size_t n = 0; n < nodes_.size(); ++n) {
         const Node& node = nodes_[n];
-        const bool shares =
-            std::any_of(schedules::kBothChannels.begin(), schedules::kBothChannels.end(), [&](Channel one) {
+        const bool shares = std::any_of(
+            schedules::model::kBothChannels.begin(), schedules::model::kBothChannels.end(), [&](Channel one) {
               return includes(own.channels, one) && includes(sender.channels, one) && includes(node.channels, one);
             });
         if (static_cast<NodeId>(n) != id && !node.faulty && node.state == PocKind::kNormalActive && shares)
@@ -206,7 +207,8 @@ void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, const wire::De
   sent.size = frame.payload.size();
 }
 
-void FaultJudge::frame_received(NodeId id, int slot, Channel channel, const wire::DecodedFrame& frame, TrueTime when) {
+void FaultJudge::frame_received(NodeId id, int slot, Channel channel, const bus::wire::DecodedFrame& frame,
+                                TrueTime when) {
   if (faulty(id) || slot < 0 || static_cast<std::size_t>(slot) >= owed_.size()) return;
   const NodeId sender = owner_of(cluster_, slot, channel, frame.header.cycle);
   if (sender == kNoNode || faulty(sender) || sender == id) return;
@@ -240,4 +242,4 @@ const Judgement& FaultJudge::finish(TrueTime when) {
   return judgement_;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

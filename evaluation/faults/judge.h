@@ -29,7 +29,7 @@
 #include "faults/plan.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 
 enum class Check : std::uint8_t {
   kSyntax,
@@ -65,9 +65,10 @@ template <class All> std::string names_of(unsigned bits, const All& all) {
 }
 
 // The nodes that the fault names, or takes the supply of, by NodeId.
-std::vector<bool> named_by(const nodes::Fault& fault, const schedules::Cluster& cluster);
+std::vector<bool> named_by(const ttf::faults::Fault& fault, const schedules::model::Cluster& cluster);
 // Whose frame is expected there in this cycle; kNoNode: nobody's.
-NodeId owner_of(const schedules::Cluster& cluster, int slot, schedules::Channel channel, std::int64_t cycle);
+NodeId owner_of(const schedules::model::Cluster& cluster, int slot, schedules::model::Channel channel,
+                std::int64_t cycle);
 
 // What the judge has found.
 struct Judgement {
@@ -104,19 +105,21 @@ struct JudgeSettings {
 
 class FaultJudge {
  public:
-  FaultJudge(const schedules::Cluster& cluster, JudgeSettings settings);
+  FaultJudge(const schedules::model::Cluster& cluster, JudgeSettings settings);
 
   // The nodes' states where a run begins integrated; else they are without supply.
-  void begins_active(NodeId node) { nodes_[index_of(node)].state = bus::PocKind::kNormalActive; }
+  void begins_active(NodeId node) { nodes_[index_of(node)].state = bus::poc::PocKind::kNormalActive; }
 
   // What happened, in the order of time.
-  void state_changed(NodeId node, bus::PocKind from, bus::PocKind to, TrueTime at);
+  void state_changed(NodeId node, bus::poc::PocKind from, bus::poc::PocKind to, TrueTime at);
   void lost_supply(NodeId node, TrueTime at);
-  void slot_problem(NodeId node, bus::SlotStatus status, TrueTime at);
+  void slot_problem(NodeId node, bus::controller::SlotStatus status, TrueTime at);
   void clock_corrected(NodeId node, bool missing, bool limit_reached, TrueTime at);
   // `frame` only during the call.
-  void frame_sent(NodeId node, int slot, schedules::Channel channel, const wire::DecodedFrame& frame, TrueTime at);
-  void frame_received(NodeId node, int slot, schedules::Channel channel, const wire::DecodedFrame& frame, TrueTime at);
+  void frame_sent(NodeId node, int slot, schedules::model::Channel channel, const bus::wire::DecodedFrame& frame,
+                  TrueTime at);
+  void frame_received(NodeId node, int slot, schedules::model::Channel channel, const bus::wire::DecodedFrame& frame,
+                      TrueTime at);
   void guardian_intervened(TrueTime at) { notice(Check::kGuardian, kNoNode, at); }
   // Among the fault-free nodes that are synchronised.
   void precision(Duration apart, TrueTime at);
@@ -127,8 +130,8 @@ class FaultJudge {
 
  private:
   struct Node {
-    bus::PocKind state = bus::PocKind::kDefaultConfig;
-    schedules::Channels channels{};
+    bus::poc::PocKind state = bus::poc::PocKind::kDefaultConfig;
+    schedules::model::Channels channels{};
     bool faulty = false;
     bool was_active = false;
     std::optional<TrueTime> out_since;  // lost normal active, or its supply
@@ -137,11 +140,11 @@ class FaultJudge {
   struct Sent {
     bool any = false;
     TrueTime at{};
-    wire::FrameHeader header;
-    std::array<std::byte, wire::kMaxPayloadBytes> bytes;
+    bus::wire::FrameHeader header;
+    std::array<std::byte, bus::wire::kMaxPayloadBytes> bytes;
     std::size_t size = 0;
     std::span<const std::byte> payload() const { return std::span<const std::byte>(bytes).first(size); }
-    bool says(const wire::DecodedFrame& frame) const;
+    bool says(const bus::wire::DecodedFrame& frame) const;
   };
   // The newest frame of a slot, and which fault-free nodes still have to receive it.
   struct Owed {
@@ -157,11 +160,11 @@ class FaultJudge {
   void collect(Owed& owed, int slot);
   void came_back(Node& node, TrueTime at);
 
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   JudgeSettings settings_;
   std::vector<Node> nodes_;
   std::vector<Owed> owed_;  // by slot
   Judgement judgement_;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

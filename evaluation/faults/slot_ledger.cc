@@ -6,16 +6,16 @@
 #include "bus/controller/slot_table.h"
 #include "schedules/model/round.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 constexpr TrueTime kEverything{std::numeric_limits<std::int64_t>::max()};
 
 }  // namespace
 
-SlotLedger::SlotLedger(const schedules::Cluster& cluster, std::function<bool(NodeId)> counts,
-                       std::function<void(const SlotLoss&)> told)
+SlotLedger::SlotLedger(const schedules::model::Cluster& cluster, std::function<bool(ttf::NodeId)> counts,
+                       std::function<void(const ttf::evaluation::faults::SlotLoss&)> told)
     : cluster_(cluster), counts_(std::move(counts)),
       told_(std::move(told)), slot_{cluster.flexray.gdStaticSlot * cluster.flexray.gdMacrotick_ps / 1000} {
   for (Cycle& cycle : cycles_) {
@@ -28,11 +28,11 @@ SlotLedger::SlotLedger(const schedules::Cluster& cluster, std::function<bool(Nod
 
 // The cycle's page; what was there before is four cycles old, and settled.
 SlotLedger::Cycle& SlotLedger::open(std::int64_t cycle) {
-  const std::int64_t counter = cycle & (schedules::kCycles - 1);
+  const std::int64_t counter = cycle & (schedules::model::kCycles - 1);
   Cycle& page = cycles_[static_cast<std::size_t>(counter) % kCycles];
   if (page.counter == counter) return page;
   // Two cycles back, all have reported.
-  const std::int64_t due = (counter + schedules::kCycles - 2) & (schedules::kCycles - 1);
+  const std::int64_t due = (counter + schedules::model::kCycles - 2) & (schedules::model::kCycles - 1);
   Cycle& before = cycles_[static_cast<std::size_t>(due) % kCycles];
   if (before.counter == due) settle(before, kEverything);
   before.counter = -1;
@@ -50,7 +50,7 @@ SlotLedger::Cycle& SlotLedger::open(std::int64_t cycle) {
 void SlotLedger::finish(TrueTime at) {
   if (newest_ < 0) return;
   for (std::int64_t back = kCycles - 1; back >= 0; --back) {
-    const std::int64_t counter = (newest_ + schedules::kCycles - back) & (schedules::kCycles - 1);
+    const std::int64_t counter = (newest_ + schedules::model::kCycles - back) & (schedules::model::kCycles - 1);
     Cycle& page = cycles_[static_cast<std::size_t>(counter) % kCycles];
     if (page.counter != counter) continue;
     settle(page, at);
@@ -59,13 +59,13 @@ void SlotLedger::finish(TrueTime at) {
   newest_ = -1;
 }
 
-void SlotLedger::on(const records::SlotFrameSent& frame) {
+void SlotLedger::on(const recording::records::SlotFrameSent& frame) {
   if (!counts_(frame.stamp.node)) return;  // it may be in a cycle of its own
   Cycle& page = open(frame.cycle);
   for (std::size_t f = 0; f < cluster_.frames.size(); ++f) {
-    const schedules::FrameSlot& expected = cluster_.frames[f];
+    const schedules::model::FrameSlot& expected = cluster_.frames[f];
     if (expected.slot != frame.slot || expected.sender != frame.stamp.node ||
-        !bus::in_cycle(expected, static_cast<int>(page.counter)))
+        !schedules::model::in_cycle(expected, static_cast<int>(page.counter)))
       continue;
     Slot& slot = page.slots[f];
     slot.counted = true;
@@ -74,17 +74,18 @@ void SlotLedger::on(const records::SlotFrameSent& frame) {
   }
 }
 
-void SlotLedger::on(const records::SlotProblem& problem) {
+void SlotLedger::on(const recording::records::SlotProblem& problem) {
   if (!counts_(problem.stamp.node) || problem.slot == 0 || problem.slot > cluster_.flexray.gNumberOfStaticSlots) return;
   Cycle& page = open(problem.cycle);
   for (std::size_t f = 0; f < cluster_.frames.size(); ++f)
-    if (cluster_.frames[f].slot == problem.slot && bus::in_cycle(cluster_.frames[f], static_cast<int>(page.counter)))
+    if (cluster_.frames[f].slot == problem.slot &&
+        schedules::model::in_cycle(cluster_.frames[f], static_cast<int>(page.counter)))
       page.slots[f].reported[problem.channel & 1u][index_of(problem.stamp.node)] = true;
 }
 
 void SlotLedger::settle(const Cycle& cycle, TrueTime over) {
   for (std::size_t f = 0; f < cluster_.frames.size(); ++f) {
-    const schedules::FrameSlot& frame = cluster_.frames[f];
+    const schedules::model::FrameSlot& frame = cluster_.frames[f];
     const Slot& slot = cycle.slots[f];
     if (frame.slot > cluster_.flexray.gNumberOfStaticSlots || !slot.counted || !counts_(frame.sender)) continue;
     // From the frame on: the slots that are left, and this one, which began an action point offset before it.
@@ -93,7 +94,7 @@ void SlotLedger::settle(const Cycle& cycle, TrueTime over) {
       const auto receiver = static_cast<NodeId>(n);
       if (receiver == frame.sender || !cluster_.nodes[n].flexray || !cycle.counted[n] || !counts_(receiver)) continue;
       bool shared = false, received = false, forged = false;
-      for (const Channel channel : schedules::kBothChannels) {
+      for (const Channel channel : schedules::model::kBothChannels) {
         if (!includes(frame.channels, channel) || !includes(cluster_.nodes[n].flexray->pChannels, channel) ||
             !includes(cluster_.node(frame.sender).flexray->pChannels, channel))
           continue;
@@ -108,4 +109,4 @@ void SlotLedger::settle(const Cycle& cycle, TrueTime over) {
   }
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

@@ -19,7 +19,7 @@
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 
 struct SlotLoss {
   TrueTime at{};
@@ -33,11 +33,11 @@ class SlotLedger {
  public:
   // `told`: every loss between nodes that `counts` says are to be counted at the time of the slot and when it is
   // settled.
-  SlotLedger(const schedules::Cluster& cluster, std::function<bool(NodeId)> counts,
-             std::function<void(const SlotLoss&)> told);
+  SlotLedger(const schedules::model::Cluster& cluster, std::function<bool(ttf::NodeId)> counts,
+             std::function<void(const ttf::evaluation::faults::SlotLoss&)> told);
 
-  void on(const records::SlotFrameSent& frame);
-  void on(const records::SlotProblem& problem);
+  void on(const recording::records::SlotFrameSent& frame);
+  void on(const recording::records::SlotProblem& problem);
   // The run is over at `at`: settles what is open still. A slot counts if those that have not received anything in it
   // must have reported by then, which they do when their static segment is over.
   void finish(TrueTime at);
@@ -59,12 +59,12 @@ class SlotLedger {
   Cycle& open(std::int64_t cycle);
   void settle(const Cycle& cycle, TrueTime over);
 
-  const schedules::Cluster& cluster_;
-  std::function<bool(NodeId)> counts_;
-  std::function<void(const SlotLoss&)> told_;
+  const schedules::model::Cluster& cluster_;
+  std::function<bool(ttf::NodeId)> counts_;
+  std::function<void(const ttf::evaluation::faults::SlotLoss&)> told_;
   std::array<Cycle, kCycles> cycles_;
   std::int64_t newest_ = -1;  // counter of the cycle that was opened last
   Duration slot_;             // how long a static one lasts
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

@@ -5,7 +5,7 @@
 #include "core/int128.h"
 #include "schedules/model/round.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::lateness {
 namespace {
 
 constexpr Duration kLongestCycle = Duration::milliseconds(16);  // cCycleMax
@@ -21,7 +21,7 @@ bool possible(std::int64_t ns) {
 
 AchievedPrecision::AchievedPrecision(Duration cycle) {
   if (cycle <= Duration{} || cycle > kLongestCycle) return;
-  round_ns_ = (cycle * schedules::kCycles).ns;
+  round_ns_ = (cycle * schedules::model::kCycles).ns;
   longest_gap_ = cycle * kGapCycles;
 }
 
@@ -32,7 +32,7 @@ std::int64_t AchievedPrecision::within_round(std::int64_t ns) const {
   return rest < -round_ns_ / 2 ? rest + round_ns_ : rest;
 }
 
-void AchievedPrecision::add(const records::Stamp& stamp) {
+void AchievedPrecision::add(const recording::records::Stamp& stamp) {
   const bool by_the_cluster = stamp.global.ns != stamp.local.ns;  // else it has no global time (records::Stamp)
   if (round_ns_ == 0 || !by_the_cluster || !possible(stamp.true_time.ns) || !possible(stamp.global.ns)) return;
   std::deque<Offset>& own = offsets_[stamp.node];
@@ -65,10 +65,10 @@ void AchievedPrecision::compare(TrueTime at) {
   if (nodes > 1) apart_.add(Duration{highest - lowest});
 }
 
-records::BinnedDurations AchievedPrecision::finish() {
+recording::records::BinnedDurations AchievedPrecision::finish() {
   for (const TrueTime at : instants_) compare(at);
   instants_.clear();
   return apart_;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::lateness

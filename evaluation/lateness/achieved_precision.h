@@ -20,7 +20,7 @@
 #include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::lateness {
 
 class AchievedPrecision {
  public:
@@ -28,9 +28,9 @@ class AchievedPrecision {
   explicit AchievedPrecision(Duration cycle);
 
   // Of one host's nodes, in the order of its clock.
-  void add(const records::Stamp& stamp);
+  void add(const recording::records::Stamp& stamp);
   // At the end, once: the differences at all instants at which two nodes or more had a global time.
-  records::BinnedDurations finish();
+  recording::records::BinnedDurations finish();
 
  private:
   struct Offset {
@@ -44,7 +44,7 @@ class AchievedPrecision {
   Duration longest_gap_{};
   std::map<NodeId, std::deque<Offset>> offsets_;  // of each: what is needed still
   std::deque<TrueTime> instants_;                 // to be compared, when all have said what they showed then
-  records::BinnedDurations apart_;
+  recording::records::BinnedDurations apart_;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::lateness

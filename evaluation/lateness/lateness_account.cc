@@ -7,16 +7,16 @@
 
 #include "core/int128.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::lateness {
 namespace {
 
 std::uint64_t* counter_of(NodeTiming& timing, std::uint8_t what) {
   switch (what) {
-    case records::kLateWakeUp: return &timing.late_wake_ups;
-    case records::kSlotMissed: return &timing.slots_missed;
-    case records::kLateFrame: return &timing.late_frames;
-    case records::kEarlyFrame: return &timing.early_frames;
-    case records::kFramesLost: return &timing.frames_lost;
+    case recording::records::kLateWakeUp: return &timing.late_wake_ups;
+    case recording::records::kSlotMissed: return &timing.slots_missed;
+    case recording::records::kLateFrame: return &timing.late_frames;
+    case recording::records::kEarlyFrame: return &timing.early_frames;
+    case recording::records::kFramesLost: return &timing.frames_lost;
   }
   return nullptr;  // of a later version
 }
@@ -29,11 +29,11 @@ std::uint64_t sum_over(const std::map<NodeId, NodeTiming>& timing, std::uint64_t
 
 }  // namespace
 
-RealTimeRun real_time_run(const recording::MergedLogs& logs) {
+RealTimeRun real_time_run(const recording::merge::MergedLogs& logs) {
   RealTimeRun run;
   run.time_scale_ppm = logs.manifest().time_scale_ppm;
-  for (const recording::StoredLog& log : logs.logs())
-    for (const recording::SyncStamp& stamp : log.sync_stamps()) run.hosts[stamp.node] = log.info().manifest.host;
+  for (const recording::merge::StoredLog& log : logs.logs())
+    for (const recording::merge::SyncStamp& stamp : log.sync_stamps()) run.hosts[stamp.node] = log.info().manifest.host;
   return run;
 }
 
@@ -46,7 +46,7 @@ Duration in_real_time(Duration of_the_drive, std::int64_t time_scale_ppm) {
 std::uint64_t RealTimeFindings::frames_lost() const { return sum_over(timing, &NodeTiming::frames_lost); }
 std::uint64_t RealTimeFindings::late_frames() const { return sum_over(timing, &NodeTiming::late_frames); }
 
-LatenessAccount::LatenessAccount(const schedules::Cluster& cluster, RealTimeRun run)
+LatenessAccount::LatenessAccount(const schedules::model::Cluster& cluster, RealTimeRun run)
     : cluster_(cluster), run_(std::move(run)), missing_(cluster, run_.time_scale_ppm) {
   for (const auto& [node, host] : run_.hosts) by_host_.try_emplace(host, cluster.cycle());
 }
@@ -54,32 +54,32 @@ LatenessAccount::LatenessAccount(const schedules::Cluster& cluster, RealTimeRun 
 // A log may be of another cluster.
 bool LatenessAccount::is_ours(NodeId node) const { return index_of(node) < cluster_.nodes.size(); }
 
-void LatenessAccount::on(const records::TimingProblem& problem) {
+void LatenessAccount::on(const recording::records::TimingProblem& problem) {
   if (!is_ours(problem.stamp.node)) return;
   any_ = true;
   if (std::uint64_t* count = counter_of(timing_[problem.stamp.node], problem.what)) *count += problem.count;
   missing_.add(problem);
 }
 
-void LatenessAccount::on(const records::SlotFrameSent& frame) {
+void LatenessAccount::on(const recording::records::SlotFrameSent& frame) {
   if (is_ours(frame.stamp.node)) missing_.add(frame);
 }
 
-void LatenessAccount::on(const records::LatenessHistogram& histogram) {
+void LatenessAccount::on(const recording::records::LatenessHistogram& histogram) {
   if (!is_ours(histogram.stamp.node)) return;
   any_ = true;
   timing_.try_emplace(histogram.stamp.node);
   sums_.on(histogram);
 }
 
-void LatenessAccount::on(const records::MediumCounts& counts) {
+void LatenessAccount::on(const recording::records::MediumCounts& counts) {
   if (!is_ours(counts.stamp.node)) return;
   any_ = true;
   timing_.try_emplace(counts.stamp.node);
   medium_.on(counts);
 }
 
-void LatenessAccount::on(const records::ClockCorrected& corrected) {
+void LatenessAccount::on(const recording::records::ClockCorrected& corrected) {
   const NodeId node = corrected.stamp.node;
   if (!is_ours(node)) return;
   const std::int64_t microtick_ps = cluster_.node(node).microtick_ps;
@@ -103,4 +103,4 @@ std::optional<RealTimeFindings> LatenessAccount::finish() {
   return findings;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::lateness

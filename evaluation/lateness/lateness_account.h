@@ -24,14 +24,14 @@
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::lateness {
 
 // What the logs say of the run, beside records.
 struct RealTimeRun {
   std::int64_t time_scale_ppm = 1'000'000;  // recording::LogManifest
   std::map<NodeId, std::string> hosts;      // where each node ran; who is not in it is not compared
 };
-RealTimeRun real_time_run(const recording::MergedLogs& logs);
+RealTimeRun real_time_run(const recording::merge::MergedLogs& logs);
 
 // Rounded towards zero; what its type does not hold is the nearest that it does.
 Duration in_real_time(Duration of_the_drive, std::int64_t time_scale_ppm);
@@ -50,45 +50,46 @@ struct NodeTiming {
 
 struct HostPrecision {
   std::string host;
-  records::BinnedDurations apart;  // largest difference of two nodes' clocks, by instants; in the drive's time
+  recording::records::BinnedDurations
+      apart;  // largest difference of two nodes' clocks, by instants; in the drive's time
 };
 
 struct RealTimeFindings {
   std::int64_t time_scale_ppm = 1'000'000;
-  std::map<NodeId, recording::NodeLateness> lateness;  // of nodes that told of any
-  std::map<NodeId, NodeTiming> timing;                 // of nodes that told of any, were corrected, or had problems
-  std::map<NodeId, records::MediumCounts> medium;      // of nodes that told of any
-  std::vector<HostPrecision> precision;                // of hosts with two synchronised nodes or more, by name
+  std::map<NodeId, recording::exports::NodeLateness> lateness;  // of nodes that told of any
+  std::map<NodeId, NodeTiming> timing;  // of nodes that told of any, were corrected, or had problems
+  std::map<NodeId, recording::records::MediumCounts> medium;  // of nodes that told of any
+  std::vector<HostPrecision> precision;                       // of hosts with two synchronised nodes or more, by name
 
   std::uint64_t frames_lost() const;
   std::uint64_t late_frames() const;
 };
 
-class LatenessAccount final : public records::Sink {
+class LatenessAccount final : public recording::records::Sink {
  public:
-  LatenessAccount(const schedules::Cluster& cluster, RealTimeRun run);
+  LatenessAccount(const schedules::model::Cluster& cluster, RealTimeRun run);
 
   // At the end, once. Nothing where no record is of a run in real time.
   std::optional<RealTimeFindings> finish();
 
-  using records::Sink::on;
-  void on(const records::TimingProblem&) override;
-  void on(const records::SlotFrameSent&) override;
-  void on(const records::LatenessHistogram&) override;
-  void on(const records::MediumCounts&) override;
-  void on(const records::ClockCorrected&) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::TimingProblem&) override;
+  void on(const recording::records::SlotFrameSent&) override;
+  void on(const recording::records::LatenessHistogram&) override;
+  void on(const recording::records::MediumCounts&) override;
+  void on(const recording::records::ClockCorrected&) override;
 
  private:
   bool is_ours(NodeId node) const;
 
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   RealTimeRun run_;
   bool any_ = false;  // a record of a run in real time
-  recording::LatenessSums sums_;
+  recording::exports::LatenessSums sums_;
   MediumSums medium_;
   MissingFrames missing_;
   std::map<NodeId, NodeTiming> timing_;
   std::map<std::string, AchievedPrecision> by_host_;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::lateness

@@ -4,10 +4,10 @@
 #include <array>
 #include <cstdint>
 
-namespace ttf::experiments {
+namespace ttf::evaluation::lateness {
 namespace {
 
-using records::MediumCounts;
+using recording::records::MediumCounts;
 
 constexpr std::array<std::uint64_t MediumCounts::*, 7> kCounts{
     &MediumCounts::sent,    &MediumCounts::received,  &MediumCounts::not_sent, &MediumCounts::lost,
@@ -39,4 +39,4 @@ std::map<NodeId, MediumCounts> MediumSums::nodes() const {
   return nodes;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::lateness

@@ -9,22 +9,22 @@
 #include "core/ids.h"
 #include "recording/records/records.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::lateness {
 
-class MediumSums final : public records::Sink {
+class MediumSums final : public recording::records::Sink {
  public:
   // Nodes that told of anything, by id; none in virtual time. Their stamps are of what was told last.
-  std::map<NodeId, records::MediumCounts> nodes() const;
+  std::map<NodeId, recording::records::MediumCounts> nodes() const;
 
-  using records::Sink::on;
-  void on(const records::MediumCounts&) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::MediumCounts&) override;
 
  private:
   struct Told {
-    records::MediumCounts before;  // by the node's former processes
-    records::MediumCounts newest;  // by its present one
+    recording::records::MediumCounts before;  // by the node's former processes
+    recording::records::MediumCounts newest;  // by its present one
   };
   std::map<NodeId, Told> told_;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::lateness

@@ -5,11 +5,11 @@
 
 #include "core/int128.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::lateness {
 namespace {
 
-using schedules::FrameSlot;
-using schedules::kCycles;
+using schedules::model::FrameSlot;
+using schedules::model::kCycles;
 
 std::int64_t within_type_ns(Int128 ns) {
   using Limits = std::numeric_limits<std::int64_t>;
@@ -21,7 +21,8 @@ std::size_t cycle_counter(Int128 cycle) { return static_cast<std::size_t>((cycle
 
 bool is_on(const FrameSlot& frame, int slot, std::uint8_t channel) {
   return frame.slot == slot &&
-         schedules::share_a_channel(frame.channels, channel == 0 ? schedules::Channels::kA : schedules::Channels::kB);
+         schedules::model::share_a_channel(
+             frame.channels, channel == 0 ? schedules::model::Channels::kA : schedules::model::Channels::kB);
 }
 
 }  // namespace
@@ -38,7 +39,7 @@ std::int64_t MissingFrames::Sender::turns_before(std::int64_t cycle, std::int64_
   return first_back > last_back ? 0 : up_to(last_back) - up_to(first_back - 1);
 }
 
-std::int64_t MissingFrames::due_ns(const records::TimingProblem& problem) const {
+std::int64_t MissingFrames::due_ns(const recording::records::TimingProblem& problem) const {
   const std::int64_t scale = time_scale_ppm_ > 0 ? time_scale_ppm_ : 1'000'000;
   return within_type_ns(Int128{problem.stamp.true_time.ns} - Int128{problem.late.ns} * 1'000'000 / scale);
 }
@@ -50,7 +51,7 @@ MissingFrames::Sender& MissingFrames::sender_at(const Place& place) {
   const auto [slot, channel, node] = place;
   for (const FrameSlot& frame : cluster_.frames)
     for (std::size_t counter = 0; counter < kCycles && frame.sender == node && is_on(frame, slot, channel); ++counter)
-      if (schedules::in_cycle(frame, static_cast<std::int64_t>(counter))) sender.turns.set(counter);
+      if (schedules::model::in_cycle(frame, static_cast<std::int64_t>(counter))) sender.turns.set(counter);
   return sender;
 }
 
@@ -64,15 +65,15 @@ std::optional<std::int64_t> MissingFrames::cycles_from(const Turn& earlier, cons
   return within_type_ns(about + (off < kCycles / 2 ? off : off - kCycles));
 }
 
-void MissingFrames::add(const records::TimingProblem& problem) {
+void MissingFrames::add(const recording::records::TimingProblem& problem) {
   const Turn turn{due_ns(problem), problem.cycle};
-  if (problem.what == records::kSlotMissed)
+  if (problem.what == recording::records::kSlotMissed)
     sender_at({problem.slot, problem.channel, problem.stamp.node}).missed.push_back(turn);
-  if (problem.what == records::kFramesLost)
+  if (problem.what == recording::records::kFramesLost)
     lost_.push_back({turn, problem.stamp.node, problem.slot, problem.channel, problem.count});
 }
 
-void MissingFrames::add(const records::SlotFrameSent& frame) {
+void MissingFrames::add(const recording::records::SlotFrameSent& frame) {
   Sender& sender = sender_at({frame.slot, frame.channel, frame.stamp.node});
   const Turn turn{frame.stamp.true_time.ns, frame.cycle};
   if (sender.last)
@@ -89,7 +90,7 @@ std::int64_t MissingFrames::reach_of(const Lost& lost) const {
     const auto counter = static_cast<std::int64_t>(cycle_counter(Int128{lost.came.cycle} - back));
     if (std::any_of(cluster_.frames.begin(), cluster_.frames.end(), [&](const FrameSlot& frame) {
           return frame.sender != lost.receiver && is_on(frame, lost.slot, lost.channel) &&
-                 schedules::in_cycle(frame, counter);
+                 schedules::model::in_cycle(frame, counter);
         }))
       turns.push_back(back);
   }
@@ -151,4 +152,4 @@ std::map<NodeId, MissingFramesCount> MissingFrames::by_receiver() const {
   return all;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::lateness

@@ -9,8 +9,8 @@
 //
 // Two records are of one turn where slot, channel and cycle counter are the same, and the instants are less than half a
 // round of that counter apart: nodes number their rounds each for itself, and anew when they restart, so that running
-// cycles and global times do not compare. True times do, on one scale (recording/merge/common_time.h): a record's less what
-// it says it was late by is near enough to when the turn was due.
+// cycles and global times do not compare. True times do, on one scale (recording/merge/common_time.h): a record's less
+// what it says it was late by is near enough to when the turn was due.
 #pragma once
 
 #include <bitset>
@@ -26,7 +26,7 @@
 #include "schedules/model/cluster.h"
 #include "schedules/model/round.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::lateness {
 
 // How many of the frames that never came to a node.
 struct MissingFramesCount {
@@ -35,13 +35,13 @@ struct MissingFramesCount {
 
 class MissingFrames {
  public:
-  MissingFrames(const schedules::Cluster& cluster, std::int64_t time_scale_ppm)
+  MissingFrames(const schedules::model::Cluster& cluster, std::int64_t time_scale_ppm)
       : cluster_(cluster), time_scale_ppm_(time_scale_ppm) {}
 
   // Of the two kinds that matter; in any order.
-  void add(const records::TimingProblem& problem);
+  void add(const recording::records::TimingProblem& problem);
   // Each node's in the order of their instants.
-  void add(const records::SlotFrameSent& frame);
+  void add(const recording::records::SlotFrameSent& frame);
 
   // None of a node that lacks none.
   std::map<NodeId, MissingFramesCount> by_receiver() const;
@@ -57,7 +57,7 @@ class MissingFrames {
   };
   // What is known of a sender in a slot of a channel.
   struct Sender {
-    std::bitset<schedules::kCycles> turns;  // by cycle counter
+    std::bitset<schedules::model::kCycles> turns;  // by cycle counter
     std::vector<Turn> missed;
     std::vector<Silence> silences;  // in the order of their instants
     std::optional<Turn> last;       // that it sent
@@ -71,16 +71,16 @@ class MissingFrames {
     std::uint8_t channel = 0;
     std::uint32_t count = 0;
   };
-  std::int64_t due_ns(const records::TimingProblem& problem) const;
+  std::int64_t due_ns(const recording::records::TimingProblem& problem) const;
   Sender& sender_at(const Place& place);
   std::optional<std::int64_t> cycles_from(const Turn& earlier, const Turn& later) const;
   std::int64_t reach_of(const Lost& lost) const;
   MissingFramesCount count(const Lost& lost, std::int64_t reach, const Sender& sender) const;
 
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   const std::int64_t time_scale_ppm_;
   std::map<Place, Sender> senders_;
   std::vector<Lost> lost_;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::lateness

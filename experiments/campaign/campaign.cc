@@ -10,7 +10,7 @@
 
 #include "schedules/file/loader.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 namespace {
 
 constexpr std::size_t kFaultsAtATime = 16;  // faults a worker takes
@@ -22,10 +22,9 @@ CampaignClusters::CampaignClusters(const CampaignFile& campaign) : base(cluster_
   for (const Variant& variant : campaign.variants) variants.push_back(cluster_of(campaign, variant));
 }
 
-unsigned workers_here() { return std::max(1u, std::thread::hardware_concurrency()); }
-
-std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters, Shard shard,
-                                      unsigned workers, const std::function<void(std::uint64_t)>& progress) {
+std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters,
+                                      results::Shard shard, unsigned workers,
+                                      const std::function<void(std::uint64_t)>& progress) {
   std::vector<FaultResult> results;
   for (std::uint64_t i = shard.part; i < static_cast<std::uint64_t>(campaign.faults); i += shard.count)
     results.push_back({static_cast<std::uint32_t>(i), {}, {}});
@@ -45,7 +44,7 @@ std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const Campai
         for (std::size_t r = first; r < end; ++r) {
           FaultResult& result = results[r];
           result.drawn = draw_fault(campaign, clusters.base, result.index);
-          for (const schedules::Cluster& cluster : clusters.variants)
+          for (const schedules::model::Cluster& cluster : clusters.variants)
             result.outcomes.push_back(run_trial(campaign, cluster, result.drawn, result.index));
         }
         const std::lock_guard lock(mutex);
@@ -76,4 +75,4 @@ std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const Campai
   return results;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

@@ -10,7 +10,7 @@
 #include "experiments/campaign/trial.h"
 #include "experiments/results/shard.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 
 struct FaultResult {
   std::uint32_t index = 0;
@@ -20,12 +20,13 @@ struct FaultResult {
 
 struct CampaignClusters {
   explicit CampaignClusters(const CampaignFile& campaign);  // throws InputError
-  schedules::Cluster base;                                  // faults are drawn in
-  std::vector<schedules::Cluster> variants;                 // in the file's order
+  schedules::model::Cluster base;                           // faults are drawn in
+  std::vector<schedules::model::Cluster> variants;          // in the file's order
 };
 
 // `progress`: called now and then by the calling thread, with how many faults are done.
-std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters, Shard shard,
-                                      unsigned workers, const std::function<void(std::uint64_t)>& progress);
+std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters,
+                                      results::Shard shard, unsigned workers,
+                                      const std::function<void(std::uint64_t)>& progress);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 namespace {
 
 std::string in_cycles(const Spread& spread, Duration cycle) {
@@ -12,27 +12,27 @@ std::string in_cycles(const Spread& spread, Duration cycle) {
   return fmt::format("{:.1f} / {:.1f}", in_units_of(cycle, {spread.median_ns}), in_units_of(cycle, {spread.worst_ns}));
 }
 
-std::string_view short_name(Check check) {
+std::string_view short_name(evaluation::faults::Check check) {
   switch (check) {
-    case Check::kBoundary: return "bound.";
-    case Check::kConflict: return "confl.";
-    case Check::kNoFrame: return "no fr.";
-    case Check::kMissingTerm: return "missing";
-    case Check::kGuardian: return "guard";
-    case Check::kSyntax:
-    case Check::kContent:
-    case Check::kLimit:
-    case Check::kPassive:
-    case Check::kHalt: return name_of(check);
+    case evaluation::faults::Check::kBoundary: return "bound.";
+    case evaluation::faults::Check::kConflict: return "confl.";
+    case evaluation::faults::Check::kNoFrame: return "no fr.";
+    case evaluation::faults::Check::kMissingTerm: return "missing";
+    case evaluation::faults::Check::kGuardian: return "guard";
+    case evaluation::faults::Check::kSyntax:
+    case evaluation::faults::Check::kContent:
+    case evaluation::faults::Check::kLimit:
+    case evaluation::faults::Check::kPassive:
+    case evaluation::faults::Check::kHalt: return name_of(check);
   }
   return "";
 }
 
 }  // namespace
 
-std::string class_text(nodes::FaultKind kind, bool in_hypothesis) {
-  std::string name(nodes::name_of(kind));
-  if (!in_hypothesis) name += kind == nodes::FaultKind::kLoneColdstart ? " *" : " A+B *";
+std::string class_text(faults::FaultKind kind, bool in_hypothesis) {
+  std::string name(faults::name_of(kind));
+  if (!in_hypothesis) name += kind == faults::FaultKind::kLoneColdstart ? " *" : " A+B *";
   return name;
 }
 
@@ -46,7 +46,7 @@ Coverage coverage_of(const CampaignFile& campaign, std::span<const FaultResult> 
   Coverage coverage;
   coverage.variant = campaign.variants[variant].name;
   coverage.guarded = campaign.variants[variant].guarded();
-  for (const nodes::FaultKind kind : nodes::kAllFaultKinds)
+  for (const faults::FaultKind kind : faults::kAllFaultKinds)
     for (const bool in : {true, false}) {
       ClassCoverage row;
       row.kind = kind;
@@ -58,12 +58,14 @@ Coverage coverage_of(const CampaignFile& campaign, std::span<const FaultResult> 
         ++row.injected;
         row.without += !outcome.starts_without;
         row.harmed += outcome.harms != 0;
-        for (std::size_t h = 0; h < kAllHarms.size(); ++h) row.by_harm[h] += outcome.harms >> h & 1u;
+        for (std::size_t h = 0; h < evaluation::faults::kAllHarms.size(); ++h)
+          row.by_harm[h] += outcome.harms >> h & 1u;
         if (!outcome.activated) continue;
         ++row.activated;
         row.detected += outcome.seen_by_others != 0;
         row.by_itself += outcome.seen_by_itself != 0;
-        for (std::size_t c = 0; c < kAllChecks.size(); ++c) row.by_check[c] += outcome.seen_by_others >> c & 1u;
+        for (std::size_t c = 0; c < evaluation::faults::kAllChecks.size(); ++c)
+          row.by_check[c] += outcome.seen_by_others >> c & 1u;
         if (outcome.detected_after) detect.push_back(*outcome.detected_after);
         if (outcome.passive_after) passive.push_back(*outcome.passive_after);
         if (outcome.halt_after) halt.push_back(*outcome.halt_after);
@@ -84,7 +86,8 @@ std::string coverage_text(const Coverage& coverage, Duration cycle) {
   std::string out =
       fmt::format("variant {}{}\n{:<22}{:>9}{:>10}{:>9}", coverage.variant,
                   coverage.guarded ? " (guardian and two channels)" : "", "class", "injected", "activated", "detected");
-  for (const Check check : kAllChecks) out += fmt::format("{:>9}", short_name(check));
+  for (const evaluation::faults::Check check : evaluation::faults::kAllChecks)
+    out += fmt::format("{:>9}", short_name(check));
   out += fmt::format("{:>9}{:>9}\n", "itself", "harmed");
   for (const ClassCoverage& row : coverage.classes) {
     out += fmt::format("{:<22}{:>9}{:>10}{:>9}", class_text(row.kind, row.in_hypothesis), row.injected, row.activated,
@@ -94,7 +97,7 @@ std::string coverage_text(const Coverage& coverage, Duration cycle) {
   }
   out += fmt::format("\n{:<22}{:>17}{:>17}{:>17}{:>17}", "cycles, median / worst", "to detect", "to passive", "to halt",
                      "to reintegrate");
-  for (const Harm harm : kAllHarms) out += fmt::format("{:>14}", name_of(harm));
+  for (const evaluation::faults::Harm harm : evaluation::faults::kAllHarms) out += fmt::format("{:>14}", name_of(harm));
   out += '\n';
   for (const ClassCoverage& row : coverage.classes) {
     out += fmt::format("{:<22}{:>17}{:>17}{:>17}{:>17}", class_text(row.kind, row.in_hypothesis),
@@ -110,8 +113,8 @@ std::string coverage_text(const Coverage& coverage, Duration cycle) {
   return out;
 }
 
-std::string harm_text(const FaultOutcome& outcome, const schedules::Cluster& cluster) {
-  std::string out = names_of(outcome.harms, kAllHarms);
+std::string harm_text(const FaultOutcome& outcome, const schedules::model::Cluster& cluster) {
+  std::string out = names_of(outcome.harms, evaluation::faults::kAllHarms);
   if (outcome.harmed != kNoNode) out += fmt::format(" at {}", cluster.node(outcome.harmed).name);
   if (outcome.sender != kNoNode) out += fmt::format(", {}'s slot {}", cluster.node(outcome.sender).name, outcome.slot);
   if (outcome.harmed_after)
@@ -120,11 +123,11 @@ std::string harm_text(const FaultOutcome& outcome, const schedules::Cluster& clu
   return out;
 }
 
-std::string fault_text(const DrawnFault& drawn, const schedules::Cluster& cluster) {
-  const nodes::Fault& fault = drawn.fault;
-  return fmt::format("{}{}{} in {}: {}", nodes::name_of(fault.kind), fault.node == kNoNode ? "" : " of ",
+std::string fault_text(const DrawnFault& drawn, const schedules::model::Cluster& cluster) {
+  const faults::Fault& fault = drawn.fault;
+  return fmt::format("{}{}{} in {}: {}", faults::name_of(fault.kind), fault.node == kNoNode ? "" : " of ",
                      fault.node == kNoNode ? "" : cluster.node(fault.node).name,
-                     drawn.starts_up ? "a start-up" : "a running cluster", nodes::entry_of(fault, cluster));
+                     drawn.starts_up ? "a start-up" : "a running cluster", faults::entry_of(fault, cluster));
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

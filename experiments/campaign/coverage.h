@@ -11,7 +11,7 @@
 
 #include "experiments/campaign/campaign.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 
 // Median and worst; nothing where there is nothing.
 struct Spread {
@@ -22,18 +22,18 @@ struct Spread {
 Spread spread_of(std::vector<std::int64_t> values);
 
 // As the table names a class: "noise", and "noise A+B *" outside of the hypothesis.
-std::string class_text(nodes::FaultKind kind, bool in_hypothesis);
+std::string class_text(faults::FaultKind kind, bool in_hypothesis);
 
 // The faults of one class that are of the hypothesis, or those that are not.
 struct ClassCoverage {
-  nodes::FaultKind kind{};
+  faults::FaultKind kind{};
   bool in_hypothesis = true;
   std::uint64_t injected = 0, activated = 0;
-  std::uint64_t detected = 0;                               // of the activated, by another node or a guardian
-  std::array<std::uint64_t, kAllChecks.size()> by_check{};  // one fault may count for several
-  std::uint64_t by_itself = 0;                              // its own controller noticed something
+  std::uint64_t detected = 0;  // of the activated, by another node or a guardian
+  std::array<std::uint64_t, evaluation::faults::kAllChecks.size()> by_check{};  // one fault may count for several
+  std::uint64_t by_itself = 0;                                                  // its own controller noticed something
   std::uint64_t harmed = 0;
-  std::array<std::uint64_t, kAllHarms.size()> by_harm{};
+  std::array<std::uint64_t, evaluation::faults::kAllHarms.size()> by_harm{};
   std::uint64_t without = 0;  // start-ups that fail without the fault, too
   Spread detect, passive, halt, reintegrate;
 };
@@ -52,8 +52,8 @@ Coverage coverage_of(const CampaignFile& campaign, std::span<const FaultResult> 
 std::string coverage_text(const Coverage& coverage, Duration cycle);
 
 // "frame_lost: feature did not receive fusion's slot 3, 1.2 cycles after the fault's first act"
-std::string harm_text(const FaultOutcome& outcome, const schedules::Cluster& cluster);
+std::string harm_text(const FaultOutcome& outcome, const schedules::model::Cluster& cluster);
 // "masquerading of fusion, in a running cluster: from=..."
-std::string fault_text(const DrawnFault& drawn, const schedules::Cluster& cluster);
+std::string fault_text(const DrawnFault& drawn, const schedules::model::Cluster& cluster);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

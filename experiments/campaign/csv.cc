@@ -9,7 +9,7 @@
 
 #include "core/errors.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 namespace {
 
 constexpr std::string_view kHeader =
@@ -20,14 +20,14 @@ constexpr std::size_t kColumns = 21;
 
 std::string or_nothing(const std::optional<std::int64_t>& value) { return value ? fmt::to_string(*value) : ""; }
 
-std::string_view node_name(NodeId node, const schedules::Cluster& cluster) {
+std::string_view node_name(NodeId node, const schedules::model::Cluster& cluster) {
   return node == kNoNode ? std::string_view() : std::string_view(cluster.node(node).name);
 }
 
 // What every line begins with; also what it is known again by.
-std::string drawn_text(const FaultResult& result, const Variant& variant, const schedules::Cluster& cluster) {
-  const nodes::Fault& fault = result.drawn.fault;
-  return fmt::format("{},{},{},{},{},{},{}", result.index, variant.name, nodes::name_of(fault.kind),
+std::string drawn_text(const FaultResult& result, const Variant& variant, const schedules::model::Cluster& cluster) {
+  const faults::Fault& fault = result.drawn.fault;
+  return fmt::format("{},{},{},{},{},{},{}", result.index, variant.name, faults::name_of(fault.kind),
                      result.drawn.starts_up ? "start_up" : "steady_state", node_name(fault.node, cluster),
                      parameters_text(fault, cluster), in_hypothesis(fault) ? "yes" : "no");
 }
@@ -69,7 +69,8 @@ class Line {
     while (!left.empty()) {
       const std::string_view word = left.substr(0, left.find('+'));
       left.remove_prefix(std::min(left.size(), word.size() + 1));
-      const auto found = std::find_if(all.begin(), all.end(), [&](auto one) { return name_of(one) == word; });
+      const auto found =
+          std::find_if(all.begin(), all.end(), [&](auto one) { return evaluation::faults::name_of(one) == word; });
       if (found == all.end()) fail(word, fmt::format("is nothing known in column {}", column + 1));
       bits |= 1u << (found - all.begin());
     }
@@ -80,7 +81,7 @@ class Line {
       fail(cells_[column], fmt::format("must be yes or no in column {}", column + 1));
     return cells_[column] == "yes";
   }
-  NodeId node(std::size_t column, const schedules::Cluster& cluster) const {
+  NodeId node(std::size_t column, const schedules::model::Cluster& cluster) const {
     if (cells_[column].empty()) return kNoNode;
     const auto node = cluster.find_node(cells_[column]);
     if (!node) fail(cells_[column], fmt::format("must be a node of the cluster in column {}", column + 1));
@@ -105,11 +106,12 @@ std::string campaign_csv(const CampaignFile& campaign, const CampaignClusters& c
       const FaultOutcome& o = result.outcomes[v];
       out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
                          drawn_text(result, campaign.variants[v], clusters.base), o.activated ? "yes" : "no",
-                         o.starts_without ? "yes" : "no", names_of(o.seen_by_others, kAllChecks),
-                         names_of(o.seen_by_itself, kAllChecks), names_of(o.harms, kAllHarms),
-                         node_name(o.harmed, clusters.base), node_name(o.sender, clusters.base), o.slot, o.still_out,
-                         or_nothing(o.detected_after), or_nothing(o.passive_after), or_nothing(o.halt_after),
-                         or_nothing(o.harmed_after), or_nothing(o.reintegrated_after));
+                         o.starts_without ? "yes" : "no", names_of(o.seen_by_others, evaluation::faults::kAllChecks),
+                         names_of(o.seen_by_itself, evaluation::faults::kAllChecks),
+                         names_of(o.harms, evaluation::faults::kAllHarms), node_name(o.harmed, clusters.base),
+                         node_name(o.sender, clusters.base), o.slot, o.still_out, or_nothing(o.detected_after),
+                         or_nothing(o.passive_after), or_nothing(o.halt_after), or_nothing(o.harmed_after),
+                         or_nothing(o.reintegrated_after));
     }
   return out;
 }
@@ -138,9 +140,9 @@ std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const C
     FaultOutcome o;
     o.activated = line.yes(7);
     o.starts_without = line.yes(8);
-    o.seen_by_others = static_cast<std::uint16_t>(line.bits(9, kAllChecks));
-    o.seen_by_itself = static_cast<std::uint16_t>(line.bits(10, kAllChecks));
-    o.harms = static_cast<std::uint8_t>(line.bits(11, kAllHarms));
+    o.seen_by_others = static_cast<std::uint16_t>(line.bits(9, evaluation::faults::kAllChecks));
+    o.seen_by_itself = static_cast<std::uint16_t>(line.bits(10, evaluation::faults::kAllChecks));
+    o.harms = static_cast<std::uint8_t>(line.bits(11, evaluation::faults::kAllHarms));
     o.harmed = line.node(12, clusters.base);
     o.sender = line.node(13, clusters.base);
     o.slot = static_cast<int>(line.integer(14, 0, 2047));
@@ -198,4 +200,4 @@ std::vector<FaultResult> merged(const CampaignFile& campaign, std::vector<std::v
   return all;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

@@ -7,7 +7,7 @@
 
 #include "experiments/campaign/campaign.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 
 std::string campaign_csv(const CampaignFile& campaign, const CampaignClusters& clusters,
                          std::span<const FaultResult> results);
@@ -21,4 +21,4 @@ std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const C
 // missing.
 std::vector<FaultResult> merged(const CampaignFile& campaign, std::vector<std::vector<FaultResult>> shards);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

@@ -10,18 +10,18 @@
 #include "core/random.h"
 #include "schedules/model/limits.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 namespace {
 
-using nodes::Fault;
-using nodes::FaultKind;
-using schedules::Channels;
+using faults::Fault;
+using faults::FaultKind;
+using schedules::model::Channels;
 
-constexpr int kMostPayloadWords = schedules::kMostFragmentBytes / 2;  // cPayloadLengthMax
+constexpr int kMostPayloadWords = schedules::model::kMostFragmentBytes / 2;  // cPayloadLengthMax
 
 class Drawing {
  public:
-  Drawing(const CampaignFile& campaign, const schedules::Cluster& cluster, std::uint32_t index)
+  Drawing(const CampaignFile& campaign, const schedules::model::Cluster& cluster, std::uint32_t index)
       : campaign_(campaign), cluster_(cluster), g_(cluster.flexray), cycle_(cluster.cycle()),
         draw_({campaign.seed, index, Purpose::kCampaign, 0, 0}) {}
 
@@ -29,7 +29,7 @@ class Drawing {
     Fault fault;
     fault.kind = kind();
     const bool starts_up = draw_.uniform() < campaign_.startup_share || fault.kind == FaultKind::kLoneColdstart;
-    if (nodes::has_node(fault.kind)) fault.node = node(needs_coldstart(fault.kind));
+    if (faults::has_node(fault.kind)) fault.node = node(needs_coldstart(fault.kind));
     when(fault, starts_up);
     parameters(fault);
     return {fault, starts_up};
@@ -44,7 +44,7 @@ class Drawing {
     for (const std::int64_t weight : campaign_.weights) sum += weight;
     std::int64_t left = draw_.integer(0, sum - 1);
     for (std::size_t k = 0; k < campaign_.weights.size(); ++k) {
-      if (left < campaign_.weights[k]) return nodes::kAllFaultKinds[k];
+      if (left < campaign_.weights[k]) return faults::kAllFaultKinds[k];
       left -= campaign_.weights[k];
     }
     TTF_CHECK(false, "{} beyond all weights", left);
@@ -70,14 +70,14 @@ class Drawing {
     switch (fault.kind) {
       case FaultKind::kCrash: return;
       case FaultKind::kOmission:
-        fault.direction = one_of(
-            std::vector{nodes::FaultDirection::kSend, nodes::FaultDirection::kReceive, nodes::FaultDirection::kBoth});
+        fault.direction = one_of(std::vector{faults::FaultDirection::kSend, faults::FaultDirection::kReceive,
+                                             faults::FaultDirection::kBoth});
         return occasions(fault);
       case FaultKind::kBabblingIdiot:
-        fault.signal = one_of(std::vector{nodes::FaultSignal::kNoise, nodes::FaultSignal::kFrame});
+        fault.signal = one_of(std::vector{faults::FaultSignal::kNoise, faults::FaultSignal::kFrame});
         return bursts(fault);
       case FaultKind::kMasquerading:
-        fault.masquerade = one_of(std::vector{nodes::MasqueradeMode::kInSlot, nodes::MasqueradeMode::kOwnSlot});
+        fault.masquerade = one_of(std::vector{faults::MasqueradeMode::kInSlot, faults::MasqueradeMode::kOwnSlot});
         fault.slot = one_of(slots_of_others(fault.node, false));
         return occasions(fault);
       case FaultKind::kSosTiming:
@@ -96,8 +96,8 @@ class Drawing {
       case FaultKind::kChannelSwap: return chosen(fault);
       case FaultKind::kByzantineClock:
         fault.shift = between(Duration{100}, Duration{g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
-        fault.pattern = one_of(std::vector{nodes::ByzantinePattern::kRandom, nodes::ByzantinePattern::kPullApart,
-                                           nodes::ByzantinePattern::kPullRates});
+        fault.pattern = one_of(std::vector{faults::ByzantinePattern::kRandom, faults::ByzantinePattern::kPullApart,
+                                           faults::ByzantinePattern::kPullRates});
         return;
       case FaultKind::kDrift: {
         // From what no clock notices to what none can follow: 10 ppm to 50000 ppm, evenly in the logarithm.
@@ -108,12 +108,12 @@ class Drawing {
       case FaultKind::kLoneColdstart: fault.all_others = draw_.uniform() < 0.5; return;
       case FaultKind::kDuplicateColdstart:
         fault.duplicate = one_of(duplicates(fault.node));
-        if (fault.duplicate == nodes::DuplicateMode::kSameKeySlot) {
+        if (fault.duplicate == faults::DuplicateMode::kSameKeySlot) {
           fault.slot = one_of(slots_of_others(fault.node, true));
           return always(fault);
         }
         fault.channels = channels();
-        if (fault.duplicate == nodes::DuplicateMode::kCas) bursts(fault);
+        if (fault.duplicate == faults::DuplicateMode::kCas) bursts(fault);
         return;
       case FaultKind::kWrongSchedule: wrong_schedule(fault); return always(fault);
       case FaultKind::kNoise: return bursts(fault);
@@ -130,30 +130,30 @@ class Drawing {
     return std::min(g_.gdNIT - 2, g_.gOffsetCorrectionStart - (g_.gMacroPerCycle - g_.gdNIT)) / g_.gNumberOfStaticSlots;
   }
   // What the cluster leaves room for; a wrong length of the cycle is always possible.
-  std::vector<nodes::WrongSchedule> wrong_schedules(NodeId node) const {
-    std::vector<nodes::WrongSchedule> possible;
-    if (g_.gNumberOfStaticSlots > 1) possible.push_back(nodes::WrongSchedule::kShiftedSlots);
-    possible.push_back(nodes::WrongSchedule::kCycleLength);
-    if (room_in_slots() > 0) possible.push_back(nodes::WrongSchedule::kStaticSlot);
-    if (g_.gPayloadLengthStatic < kMostPayloadWords) possible.push_back(nodes::WrongSchedule::kPayloadLength);
-    if (!slots_of_others(node, false).empty()) possible.push_back(nodes::WrongSchedule::kKeySlot);
+  std::vector<faults::WrongSchedule> wrong_schedules(NodeId node) const {
+    std::vector<faults::WrongSchedule> possible;
+    if (g_.gNumberOfStaticSlots > 1) possible.push_back(faults::WrongSchedule::kShiftedSlots);
+    possible.push_back(faults::WrongSchedule::kCycleLength);
+    if (room_in_slots() > 0) possible.push_back(faults::WrongSchedule::kStaticSlot);
+    if (g_.gPayloadLengthStatic < kMostPayloadWords) possible.push_back(faults::WrongSchedule::kPayloadLength);
+    if (!slots_of_others(node, false).empty()) possible.push_back(faults::WrongSchedule::kKeySlot);
     return possible;
   }
-  std::vector<nodes::DuplicateMode> duplicates(NodeId node) const {
-    std::vector possible{nodes::DuplicateMode::kCas, nodes::DuplicateMode::kStartupFrames};
-    if (!slots_of_others(node, true).empty()) possible.push_back(nodes::DuplicateMode::kSameKeySlot);
+  std::vector<faults::DuplicateMode> duplicates(NodeId node) const {
+    std::vector possible{faults::DuplicateMode::kCas, faults::DuplicateMode::kStartupFrames};
+    if (!slots_of_others(node, true).empty()) possible.push_back(faults::DuplicateMode::kSameKeySlot);
     return possible;
   }
   void wrong_schedule(Fault& fault) {
     fault.wrong = one_of(wrong_schedules(fault.node));
     switch (fault.wrong) {
-      case nodes::WrongSchedule::kShiftedSlots: fault.by = number(1, g_.gNumberOfStaticSlots - 1); return;
-      case nodes::WrongSchedule::kCycleLength: fault.by = number(1, 100); return;
-      case nodes::WrongSchedule::kStaticSlot: fault.by = number(1, room_in_slots()); return;
-      case nodes::WrongSchedule::kPayloadLength:
+      case faults::WrongSchedule::kShiftedSlots: fault.by = number(1, g_.gNumberOfStaticSlots - 1); return;
+      case faults::WrongSchedule::kCycleLength: fault.by = number(1, 100); return;
+      case faults::WrongSchedule::kStaticSlot: fault.by = number(1, room_in_slots()); return;
+      case faults::WrongSchedule::kPayloadLength:
         fault.by = number(1, kMostPayloadWords - g_.gPayloadLengthStatic);
         return;
-      case nodes::WrongSchedule::kKeySlot: fault.slot = one_of(slots_of_others(fault.node, false)); return;
+      case faults::WrongSchedule::kKeySlot: fault.slot = one_of(slots_of_others(fault.node, false)); return;
     }
   }
   void chosen(Fault& fault) {
@@ -167,7 +167,7 @@ class Drawing {
   void bursts(Fault& fault) {
     const Duration length = between(Duration::microseconds(1), Duration::microseconds(300));
     const bool noise = fault.kind == FaultKind::kNoise ||
-                       (fault.kind == FaultKind::kBabblingIdiot && fault.signal == nodes::FaultSignal::kNoise);
+                       (fault.kind == FaultKind::kBabblingIdiot && fault.signal == faults::FaultSignal::kNoise);
     if (noise) fault.length = length;  // frames and symbols are as long as they are
     // From back to back to once in some cycles, evenly in the logarithm.
     const double ns = 1e4 * std::pow(static_cast<double>(cycle_.ns) * 3e-4, draw_.uniform());
@@ -183,8 +183,8 @@ class Drawing {
   }
   std::vector<int> slots_of_others(NodeId node, bool coldstart) const {
     std::vector<int> slots;
-    for (const schedules::FrameSlot& frame : cluster_.frames) {
-      const schedules::NodeParameters& p = *cluster_.node(frame.sender).flexray;
+    for (const schedules::model::FrameSlot& frame : cluster_.frames) {
+      const schedules::model::NodeParameters& p = *cluster_.node(frame.sender).flexray;
       if (frame.sender == node || frame.slot > g_.gNumberOfStaticSlots) continue;
       if (!coldstart || (p.pKeySlotUsedForStartup && p.pKeySlotId == frame.slot)) slots.push_back(frame.slot);
     }
@@ -200,8 +200,8 @@ class Drawing {
   }
 
   const CampaignFile& campaign_;
-  const schedules::Cluster& cluster_;
-  const schedules::GlobalParameters& g_;
+  const schedules::model::Cluster& cluster_;
+  const schedules::model::GlobalParameters& g_;
   Duration cycle_;
   RandomStream draw_;
 };
@@ -210,16 +210,16 @@ class Drawing {
 
 bool in_hypothesis(const Fault& fault) {
   if (fault.kind == FaultKind::kLoneColdstart) return false;
-  return nodes::has_node(fault.kind) || fault.channels != Channels::kAB;
+  return faults::has_node(fault.kind) || fault.channels != Channels::kAB;
 }
 
-DrawnFault draw_fault(const CampaignFile& campaign, const schedules::Cluster& cluster, std::uint32_t index) {
+DrawnFault draw_fault(const CampaignFile& campaign, const schedules::model::Cluster& cluster, std::uint32_t index) {
   return Drawing(campaign, cluster, index).fault();
 }
 
-std::string parameters_text(const Fault& fault, const schedules::Cluster& cluster) {
+std::string parameters_text(const Fault& fault, const schedules::model::Cluster& cluster) {
   std::string out;
-  for (const auto& [key, value] : nodes::keys_of(fault, cluster)) {
+  for (const auto& [key, value] : faults::keys_of(fault, cluster)) {
     if (!out.empty()) out += "; ";
     std::string cell = value;  // a list's commas would be the table's
     for (std::size_t at = 0; (at = cell.find(", ", at)) != std::string::npos;) cell.replace(at, 2, 1, '+');
@@ -228,4 +228,4 @@ std::string parameters_text(const Fault& fault, const schedules::Cluster& cluste
   return out;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

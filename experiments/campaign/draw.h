@@ -13,19 +13,19 @@
 #include "faults/plan.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 
 struct DrawnFault {
-  nodes::Fault fault;      // resolved
+  faults::Fault fault;     // resolved
   bool starts_up = false;  // it meets a start-up
 };
 
-bool in_hypothesis(const nodes::Fault& fault);
+bool in_hypothesis(const faults::Fault& fault);
 
 // `cluster`: with both channels, whichever variant it is injected in.
-DrawnFault draw_fault(const CampaignFile& campaign, const schedules::Cluster& cluster, std::uint32_t index);
+DrawnFault draw_fault(const CampaignFile& campaign, const schedules::model::Cluster& cluster, std::uint32_t index);
 
 // Its keys as in a fault plan, but for kind and node, in one cell of a table: "from: 5 ns; receivers: [fusion+laser]".
-std::string parameters_text(const nodes::Fault& fault, const schedules::Cluster& cluster);
+std::string parameters_text(const faults::Fault& fault, const schedules::model::Cluster& cluster);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

@@ -7,11 +7,11 @@
 #include "schedules/check/checker.h"
 #include "schedules/file/loader.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 namespace {
 
-using schedules::Channels;
-using schedules::Topology;
+using schedules::model::Channels;
+using schedules::model::Topology;
 
 constexpr std::int64_t kMostFaults = 100'000'000, kMostWeight = 1'000'000, kMostCycles = 10'000;
 
@@ -54,7 +54,7 @@ CampaignFile read(const StrictYaml& yaml) {
   if (auto classes = root.map_if("classes")) {
     std::int64_t sum = 0;
     for (std::size_t k = 0; k < campaign.weights.size(); ++k)
-      sum += campaign.weights[k] = classes->integer_or(nodes::name_of(nodes::kAllFaultKinds[k]), 0, {0, kMostWeight});
+      sum += campaign.weights[k] = classes->integer_or(faults::name_of(faults::kAllFaultKinds[k]), 0, {0, kMostWeight});
     classes->finish();
     if (sum == 0) root.fail("classes", "must give some class a weight");
   }
@@ -78,12 +78,12 @@ CampaignFile parse_campaign(std::string text, std::string name) {
   return read(StrictYaml::parse(std::move(text), std::move(name)));
 }
 
-schedules::Cluster cluster_of(const CampaignFile& campaign, const Variant& variant) {
-  schedules::Cluster cluster = schedules::load_cluster(campaign.cluster_file);
+schedules::model::Cluster cluster_of(const CampaignFile& campaign, const Variant& variant) {
+  schedules::model::Cluster cluster = schedules::file::load_cluster(campaign.cluster_file);
   cluster.topology = variant.topology;
   cluster.guardian = variant.guardian;
   Findings findings;
-  for (schedules::Node& node : cluster.nodes) {
+  for (schedules::model::Node& node : cluster.nodes) {
     if (!node.flexray) {
       findings.add(
           {cluster.file, node.line, "nodes." + node.name, "", "must be on FlexRay: a campaign has controllers only"});
@@ -91,14 +91,14 @@ schedules::Cluster cluster_of(const CampaignFile& campaign, const Variant& varia
     }
     if (variant.channels == Channels::kA) {
       node.flexray->pChannels = Channels::kA;
-      node.flexray->pWakeupChannel = schedules::Channel::kA;
+      node.flexray->pWakeupChannel = schedules::model::Channel::kA;
     }
   }
   findings.throw_if_any();
   if (variant.channels == Channels::kA)
-    for (schedules::FrameSlot& frame : cluster.frames) frame.channels = Channels::kA;
-  if (auto wrong = schedules::check(cluster); !wrong.empty()) throw InputError(std::move(wrong));
+    for (schedules::model::FrameSlot& frame : cluster.frames) frame.channels = Channels::kA;
+  if (auto wrong = schedules::check::check(cluster); !wrong.empty()) throw InputError(std::move(wrong));
   return cluster;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

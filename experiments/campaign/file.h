@@ -23,16 +23,16 @@
 #include "faults/plan.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 
 // How the campaign's cluster is wired.
 struct Variant {
   std::string name;
-  schedules::Topology topology = schedules::Topology::kBus;
+  schedules::model::Topology topology = schedules::model::Topology::kBus;
   bool guardian = false;
-  schedules::Channels channels = schedules::Channels::kAB;  // kA: everything on channel A alone
+  schedules::model::Channels channels = schedules::model::Channels::kAB;  // kA: everything on channel A alone
 
-  bool guarded() const { return guardian && channels == schedules::Channels::kAB; }
+  bool guarded() const { return guardian && channels == schedules::model::Channels::kAB; }
 };
 
 struct CampaignFile {
@@ -43,8 +43,8 @@ struct CampaignFile {
   std::uint64_t seed = 0;
   double startup_share = 0.0;
   int steady_cycles = 0, startup_cycles = 0;
-  int restart_halted_after = 0;                                      // [cycles]
-  std::array<std::int64_t, nodes::kAllFaultKinds.size()> weights{};  // in their order
+  int restart_halted_after = 0;                                       // [cycles]
+  std::array<std::int64_t, faults::kAllFaultKinds.size()> weights{};  // in their order
   std::vector<Variant> variants;
   std::optional<std::int64_t> expected_harmed;  // with guardian and two channels, of the hypothesis
 };
@@ -54,6 +54,6 @@ CampaignFile load_campaign(const std::string& path);
 CampaignFile parse_campaign(std::string text, std::string name);
 
 // The campaign's cluster, proved consistent as it stands in a variant; all its nodes are on FlexRay. Throws InputError.
-schedules::Cluster cluster_of(const CampaignFile& campaign, const Variant& variant);
+schedules::model::Cluster cluster_of(const CampaignFile& campaign, const Variant& variant);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

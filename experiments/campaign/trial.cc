@@ -10,14 +10,14 @@
 #include "faults/believed_schedule.h"
 #include "schedules/check/checker.h"
 #include "sim/crank/bus_simulation.h"
-#include "sim/faults/injector.h"
 #include "sim/crank/clock_spread.h"
+#include "sim/faults/injector.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 namespace {
 
-using bus::PocKind;
-using schedules::Channel;
+using bus::poc::PocKind;
+using schedules::model::Channel;
 
 constexpr Duration kBeforeFirstCycle = Duration::milliseconds(1);  // in a running cluster
 constexpr int kSamplesPerCycle = 4;                                // of the precision
@@ -28,16 +28,16 @@ constexpr std::int64_t kGuardianDriftPpb = 1'500'000;
 // The lists and the network management vector of one node, written anew in every cycle.
 class Host {
  public:
-  Host(const schedules::Cluster& cluster, NodeId node) : cluster_(cluster), node_(node) {
-    for (const schedules::FrameSlot& frame : cluster.frames)
+  Host(const schedules::model::Cluster& cluster, NodeId node) : cluster_(cluster), node_(node) {
+    for (const schedules::model::FrameSlot& frame : cluster.frames)
       if (frame.sender == node && frame.pdu != kNoPdu &&
           std::find(pdus_.begin(), pdus_.end(), frame.pdu) == pdus_.end())
         pdus_.push_back(frame.pdu);
     vector_.resize(static_cast<std::size_t>(cluster.flexray.gNetworkManagementVectorLength));
   }
-  void write(bus::FlexRayController& controller, std::int64_t cycle) {
+  void write(bus::controller::FlexRayController& controller, std::int64_t cycle) {
     for (const PduId pdu : pdus_) {
-      const schedules::PduLayout& layout = cluster_.pdu(pdu);
+      const schedules::model::PduLayout& layout = cluster_.pdu(pdu);
       const auto bytes = static_cast<std::size_t>(layout.fragment_bytes);
       const int fragments = layout.max_fragments();
       list_.assign(bytes * static_cast<std::size_t>(fragments), std::byte{0});
@@ -56,34 +56,34 @@ class Host {
   }
 
  private:
-  static void write_header(const schedules::PduLayout& layout, std::span<std::byte> payload, std::string_view name,
-                           std::uint32_t value) {
-    const std::size_t signal = wire::header_signal(layout, name);
+  static void write_header(const schedules::model::PduLayout& layout, std::span<std::byte> payload,
+                           std::string_view name, std::uint32_t value) {
+    const std::size_t signal = bus::wire::header_signal(layout, name);
     const int bits = layout.header[signal].bits;
-    wire::write_header_raw(layout, payload, signal, bits >= 32 ? value : value & ((1u << bits) - 1));
+    bus::wire::write_header_raw(layout, payload, signal, bits >= 32 ? value : value & ((1u << bits) - 1));
   }
 
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   NodeId node_;
   std::vector<PduId> pdus_;
   std::vector<std::byte> list_, vector_;
 };
 
-class Trial final : public sim::Disturbance, public sim::Plant, public records::Sink {
+class Trial final : public sim::medium::Disturbance, public sim::crank::Plant, public recording::records::Sink {
  public:
   // `drawn` null: the same start-up without the fault.
-  Trial(const CampaignFile& campaign, const schedules::Cluster& cluster, const DrawnFault* drawn, bool starts_up,
-        std::uint32_t index, const JudgeSettings& settings, TrialStory* story, bool bit_true)
+  Trial(const CampaignFile& campaign, const schedules::model::Cluster& cluster, const DrawnFault* drawn, bool starts_up,
+        std::uint32_t index, const evaluation::faults::JudgeSettings& settings, TrialStory* story, bool bit_true)
       : campaign_(campaign), cluster_(cluster), plan_{campaign.file, drawn != nullptr ? std::vector{drawn->fault}
-                                                                                      : std::vector<nodes::Fault>{}},
+                                                                                      : std::vector<faults::Fault>{}},
         believed_(plan_, cluster), index_(index), faulty_(settings.faulty), judge_(cluster, settings), story_(story),
         restart_at_(cluster.nodes.size(), kNever) {
-    std::vector<sim::BusNode> nodes;
-    std::vector<bus::ControllerEvents*> events;
+    std::vector<sim::crank::BusNode> nodes;
+    std::vector<bus::controller::ControllerEvents*> events;
     const TrueTime origin = starts_up ? TrueTime{} : TrueTime{} + kBeforeFirstCycle;
     for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
       const auto id = static_cast<NodeId>(n);
-      sim::BusNode node{
+      sim::crank::BusNode node{
           oscillator(n, cluster.nodes[n].microtick_ps, cluster.nodes[n].drift_ppb, cluster.nodes[n].max_drift_ppb)};
       node.view = believed_.of(id);
       if (starts_up) {
@@ -98,17 +98,18 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     }
     std::vector<timebase::Oscillator> guardians;
     for (const Channel channel : {Channel::kA, Channel::kB})
-      guardians.push_back(oscillator(
-          cluster.nodes.size() + index_of(channel),
-          sim::StarCoupler::needed(cluster, channel) ? sim::StarCoupler::microtick_ps(cluster, channel) : 25'000,
-          std::nullopt, kGuardianDriftPpb));
-    simulation_ = std::make_unique<sim::BusSimulation>(cluster, std::move(nodes), std::move(events), guardians);
-    injector_ = std::make_unique<sim::Injector>(plan_, cluster, *this, campaign.seed, index, *this, origin);
+      guardians.push_back(oscillator(cluster.nodes.size() + index_of(channel),
+                                     sim::medium::StarCoupler::needed(cluster, channel)
+                                         ? sim::medium::StarCoupler::microtick_ps(cluster, channel)
+                                         : 25'000,
+                                     std::nullopt, kGuardianDriftPpb));
+    simulation_ = std::make_unique<sim::crank::BusSimulation>(cluster, std::move(nodes), std::move(events), guardians);
+    injector_ = std::make_unique<sim::faults::Injector>(plan_, cluster, *this, campaign.seed, index, *this, origin);
     simulation_->set_disturbance(this);
     simulation_->medium().set_transparent(!bit_true);
     for (const Channel channel : {Channel::kA, Channel::kB})
-      if (sim::StarCoupler* coupler = simulation_->coupler(channel))
-        coupler->on_intervention([this](const sim::StarCoupler::Intervention& intervention) {
+      if (sim::medium::StarCoupler* coupler = simulation_->coupler(channel))
+        coupler->on_intervention([this](const sim::medium::StarCoupler::Intervention& intervention) {
           judge_.guardian_intervened(intervention.at);
           if (story_ != nullptr) story_->guardian_intervened(intervention);
         });
@@ -129,12 +130,12 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     }
     return std::nullopt;
   }
-  const Judgement& finish() { return judge_.finish(simulation_->now()); }
-  const sim::Injector::Activation& activation() const { return injector_->activations().front(); }
+  const evaluation::faults::Judgement& finish() { return judge_.finish(simulation_->now()); }
+  const sim::faults::Injector::Activation& activation() const { return injector_->activations().front(); }
 
  private:
   // What one controller tells its host.
-  struct Witness final : bus::ControllerEvents {
+  struct Witness final : bus::controller::ControllerEvents {
     Witness(Trial& of, NodeId id) : trial(of), node(id), host(of.cluster_, id) {}
     Trial& trial;
     NodeId node;
@@ -143,15 +144,16 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     void cycle_started(std::int64_t cycle, Microticks) override {
       host.write(trial.simulation_->controller(node), cycle);
     }
-    void slot_problem(std::int64_t, int, Channel, bus::SlotStatus status, Microticks) override {
+    void slot_problem(std::int64_t, int, Channel, bus::controller::SlotStatus status, Microticks) override {
       trial.judge_.slot_problem(node, status, now());
     }
-    void frame_sent(const bus::Transmission& transmission, std::int64_t, bool, PduId, std::uint32_t, int,
+    void frame_sent(const bus::ports::Transmission& transmission, std::int64_t, bool, PduId, std::uint32_t, int,
                     bool) override {
       trial.judge_.frame_sent(node, transmission.slot, transmission.channel, transmission.content, now());
     }
     bool wants_bytes() const override { return false; }
-    void frame_received(std::int64_t, int slot, Channel channel, const wire::DecodedFrame& frame, Microticks) override {
+    void frame_received(std::int64_t, int slot, Channel channel, const bus::wire::DecodedFrame& frame,
+                        Microticks) override {
       trial.judge_.frame_received(node, slot, channel, frame, now());
     }
     void clock_corrected(std::int64_t, const timebase::Correction& offset, const timebase::Correction& rate,
@@ -159,10 +161,12 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
       trial.judge_.clock_corrected(node, offset.missing || rate.missing, offset.limit_reached || rate.limit_reached,
                                    now());
     }
-    void state_changed(PocKind from, const bus::PocStep& step, Microticks) override { trial.changed(node, from, step); }
+    void state_changed(PocKind from, const bus::poc::PocStep& step, Microticks) override {
+      trial.changed(node, from, step);
+    }
   };
 
-  void changed(NodeId node, PocKind from, const bus::PocStep& step) {
+  void changed(NodeId node, PocKind from, const bus::poc::PocStep& step) {
     const TrueTime at = simulation_->now();
     judge_.state_changed(node, from, step.next.kind, at);
     if (story_ != nullptr) story_->state_changed(node, from, step, at);
@@ -171,7 +175,7 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
   }
 
   void sample() {
-    sim::ClockSpread spread(cluster_);
+    sim::crank::ClockSpread spread(cluster_);
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
       const auto id = static_cast<NodeId>(n);
       if (faulty_[n] || !simulation_->powered(id) || !simulation_->controller(id).synchronised()) continue;
@@ -191,8 +195,8 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     return {microtick_ps, fixed.value_or(ppb), draw.integer(0, microtick_ps - 1)};
   }
   // As start-up leaves a node: its rate correction cancels its drift to a microtick per cycle.
-  bus::InitialClock integrated(const timebase::Oscillator& oscillator, TrueTime origin,
-                               const schedules::NodeParameters& p) const {
+  bus::controller::InitialClock integrated(const timebase::Oscillator& oscillator, TrueTime origin,
+                                           const schedules::model::NodeParameters& p) const {
     const std::int64_t thousand =
         (oscillator.ticks_at(origin + cluster_.cycle() * 1000) - oscillator.ticks_at(origin)).value;
     return {oscillator.ticks_at(origin) + Microticks{1}, static_cast<int>((thousand + 500) / 1000 - p.pMicroPerCycle)};
@@ -200,8 +204,8 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
 
   // --- the disturbance: the fault, and hosts that restart halted controllers
   bool touches(NodeId sender, Channel channel) const override { return injector_->touches(sender, channel); }
-  bool leaving(sim::Leaving& signal) override { return injector_->leaving(signal); }
-  bool arriving(sim::Arriving& signal) override { return injector_->arriving(signal); }
+  bool leaving(sim::medium::Leaving& signal) override { return injector_->leaving(signal); }
+  bool arriving(sim::medium::Arriving& signal) override { return injector_->arriving(signal); }
   TrueTime next() const override {
     return std::min(injector_->next(), *std::min_element(restart_at_.begin(), restart_at_.end()));
   }
@@ -226,25 +230,27 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
   }
   void power_on(NodeId node, TrueTime at) override { simulation_->power_on(node, at); }
   void change_drift(NodeId node, std::int64_t ppb) override { simulation_->change_drift(node, ppb); }
-  void emit(const sim::Leaving& signal, std::optional<NodeId> source) override { simulation_->emit(signal, source); }
+  void emit(const sim::medium::Leaving& signal, std::optional<NodeId> source) override {
+    simulation_->emit(signal, source);
+  }
 
-  using records::Sink::on;
-  void on(const records::FaultActivity& activity) override {
+  using recording::records::Sink::on;
+  void on(const recording::records::FaultActivity& activity) override {
     if (story_ != nullptr) story_->fault_acts(activity);
   }
 
   const CampaignFile& campaign_;
-  const schedules::Cluster& cluster_;
-  nodes::FaultPlan plan_;
-  nodes::BelievedSchedules believed_;
+  const schedules::model::Cluster& cluster_;
+  faults::FaultPlan plan_;
+  faults::BelievedSchedules believed_;
   std::uint32_t index_;
   std::vector<bool> faulty_;
-  FaultJudge judge_;
+  evaluation::faults::FaultJudge judge_;
   TrialStory* story_;
   std::vector<TrueTime> restart_at_;  // by NodeId
   std::vector<std::unique_ptr<Witness>> witnesses_;
-  std::unique_ptr<sim::BusSimulation> simulation_;
-  std::unique_ptr<sim::Injector> injector_;
+  std::unique_ptr<sim::crank::BusSimulation> simulation_;
+  std::unique_ptr<sim::faults::Injector> injector_;
 };
 
 template <class Times> std::uint16_t bits_of(const Times& times) {
@@ -253,21 +259,22 @@ template <class Times> std::uint16_t bits_of(const Times& times) {
   return static_cast<std::uint16_t>(bits);
 }
 
-FaultOutcome outcome_of(const Judgement& judgement, const sim::Injector::Activation& activation) {
+FaultOutcome outcome_of(const evaluation::faults::Judgement& judgement,
+                        const sim::faults::Injector::Activation& activation) {
   FaultOutcome outcome;
   outcome.activated = activation.times > 0;
   outcome.seen_by_others = bits_of(judgement.seen_by_others);
   outcome.seen_by_itself = bits_of(judgement.seen_by_itself);
   outcome.harms = static_cast<std::uint8_t>(bits_of(judgement.harms));
   outcome.still_out = static_cast<std::int16_t>(judgement.still_out);
-  const auto after = [&](const Judgement::Since& since) {
+  const auto after = [&](const evaluation::faults::Judgement::Since& since) {
     return since ? std::optional(std::max<std::int64_t>(0, (*since - activation.first).ns)) : std::nullopt;
   };
   outcome.detected_after = after(judgement.detected());
   outcome.passive_after = after(judgement.passive);
   outcome.halt_after = after(judgement.halt);
   if (judgement.reintegration) outcome.reintegrated_after = judgement.reintegration->ns;
-  const Judgement::Harmed* first = nullptr;
+  const evaluation::faults::Judgement::Harmed* first = nullptr;
   for (const auto& harm : judgement.harms)
     if (harm && (first == nullptr || harm->first < first->first)) first = &*harm;
   if (first != nullptr) {
@@ -281,12 +288,12 @@ FaultOutcome outcome_of(const Judgement& judgement, const sim::Injector::Activat
 
 }  // namespace
 
-FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& cluster, const DrawnFault& drawn,
+FaultOutcome run_trial(const CampaignFile& campaign, const schedules::model::Cluster& cluster, const DrawnFault& drawn,
                        std::uint32_t index, TrialStory* story, bool bit_true) {
   const bool starts_up = drawn.starts_up;
   const TrueTime end = TrueTime{} + cluster.cycle() * (starts_up ? campaign.startup_cycles : campaign.steady_cycles);
-  JudgeSettings settings;
-  settings.assumed_precision = schedules::assumed_precision(cluster.flexray);
+  evaluation::faults::JudgeSettings settings;
+  settings.assumed_precision = schedules::check::assumed_precision(cluster.flexray);
   settings.starts_up = starts_up;
   bool starts_without = true;
   if (starts_up) {
@@ -296,22 +303,23 @@ FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& c
     const auto settled = without.run_until_all_active(end);
     starts_without = settled.has_value();
     settings.settled = settled.value_or(end) + cluster.cycle() * kCyclesToSettle;
-    const Judgement& usual = without.finish();
-    for (std::size_t c = 0; c < kAllChecks.size(); ++c) settings.usual[c] = usual.seen_by_others[c].has_value();
+    const evaluation::faults::Judgement& usual = without.finish();
+    for (std::size_t c = 0; c < evaluation::faults::kAllChecks.size(); ++c)
+      settings.usual[c] = usual.seen_by_others[c].has_value();
   }
-  const nodes::Fault& fault = drawn.fault;
+  const faults::Fault& fault = drawn.fault;
   const TrueTime origin = starts_up ? TrueTime{} : TrueTime{} + kBeforeFirstCycle;
-  settings.faulty = named_by(fault, cluster);
-  settings.from = nodes::changes_schedule(fault) ? TrueTime{} : origin + fault.from;
-  settings.until =
-      fault.duration == nodes::Fault::kToTheEnd ? sim::Disturbance::kNever : origin + fault.from + fault.duration;
+  settings.faulty = evaluation::faults::named_by(fault, cluster);
+  settings.from = faults::changes_schedule(fault) ? TrueTime{} : origin + fault.from;
+  settings.until = fault.duration == faults::Fault::kToTheEnd ? sim::medium::Disturbance::kNever
+                                                              : origin + fault.from + fault.duration;
   Trial trial(campaign, cluster, &drawn, starts_up, index, settings, story, bit_true);
   trial.run(end);
-  const Judgement& judgement = trial.finish();
+  const evaluation::faults::Judgement& judgement = trial.finish();
   if (story != nullptr) story->judged(judgement);
   FaultOutcome outcome = outcome_of(judgement, trial.activation());
   outcome.starts_without = starts_without;
   return outcome;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

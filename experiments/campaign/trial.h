@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <optional>
 
-#include "experiments/campaign/draw.h"
 #include "evaluation/faults/judge.h"
+#include "experiments/campaign/draw.h"
 #include "recording/records/records.h"
 #include "sim/medium/star_coupler.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 
 // What came of one fault; times in nanoseconds.
 struct FaultOutcome {
@@ -36,15 +36,15 @@ struct FaultOutcome {
 class TrialStory {
  public:
   virtual ~TrialStory() = default;
-  virtual void state_changed(NodeId node, bus::PocKind from, const bus::PocStep& step, TrueTime at) = 0;
-  virtual void fault_acts(const records::FaultActivity& activity) = 0;
-  virtual void guardian_intervened(const sim::StarCoupler::Intervention& intervention) = 0;
-  virtual void judged(const Judgement& judgement) = 0;
+  virtual void state_changed(NodeId node, bus::poc::PocKind from, const bus::poc::PocStep& step, TrueTime at) = 0;
+  virtual void fault_acts(const recording::records::FaultActivity& activity) = 0;
+  virtual void guardian_intervened(const sim::medium::StarCoupler::Intervention& intervention) = 0;
+  virtual void judged(const evaluation::faults::Judgement& judgement) = 0;
 };
 
 // `cluster`: as wired (cluster_of()). `story` may be null. `bit_true`: on a medium that encodes and decodes every
 // frame; the outcome is the same.
-FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& cluster, const DrawnFault& drawn,
+FaultOutcome run_trial(const CampaignFile& campaign, const schedules::model::Cluster& cluster, const DrawnFault& drawn,
                        std::uint32_t index, TrialStory* story = nullptr, bool bit_true = false);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace ttf::experiments {
+namespace ttf::experiments::mpi {
 namespace {
 
 using results::Run;
@@ -153,9 +153,9 @@ std::string Ranks::first_problem(const std::string& mine) const {
 
 bool Ranks::same_as_first(const std::string& text) const { return size_ == 1 || broadcast(text, 0) == text; }
 
-void Ranks::serve(const SweepDrives& drives) {
+void Ranks::serve(const sweep::SweepDrives& drives) {
   std::vector<Run> done;
-  Driver driver(drives);
+  sweep::Driver driver(drives);
   while (true) {
     send(bytes_of(done), 0, kRuns);
     MPI_Status status;
@@ -191,4 +191,4 @@ std::size_t Ranks::turn(const Grab& grab, const Deposit& deposit) {
   return std::accumulate(under_way_.begin(), under_way_.end(), std::size_t{0});
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::mpi

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "experiments/sweep/run.h"
 #include "experiments/sweep/engine.h"
+#include "experiments/sweep/run.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::mpi {
 
-class Ranks final : public Elsewhere {
+class Ranks final : public sweep::Elsewhere {
  public:
   // Of a process that mpirun did not start: it is alone, and MPI is not begun.
   Ranks();
@@ -37,7 +37,7 @@ class Ranks final : public Elsewhere {
   bool same_as_first(const std::string& text) const;
 
   // On every rank but 0: drives what it is handed, until rank 0 is done.
-  void serve(const SweepDrives& drives);
+  void serve(const sweep::SweepDrives& drives);
   // On rank 0: the others serve, or will.
   void are_served() { served_ = true; }
   std::size_t turn(const Grab& grab, const Deposit& deposit) override;
@@ -51,4 +51,4 @@ class Ranks final : public Elsewhere {
   std::vector<std::size_t> under_way_;  // runs, by rank
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::mpi

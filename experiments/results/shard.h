@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace ttf::experiments {
+namespace ttf::experiments::results {
 
 // Indices i with i mod count == part.
 struct Shard {
@@ -14,4 +14,4 @@ struct Shard {
 // As many as there are processors.
 unsigned workers_here();
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::results

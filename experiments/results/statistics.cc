@@ -3,7 +3,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-namespace ttf::results {
+namespace ttf::experiments::results {
 
 void Moments::add(double x) {
   if (!std::isfinite(x)) return;
@@ -27,4 +27,4 @@ Interval interval_of(const Moments& moments, double confidence) {
   return interval;
 }
 
-}  // namespace ttf::results
+}  // namespace ttf::experiments::results

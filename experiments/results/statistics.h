@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace ttf::results {
+namespace ttf::experiments::results {
 
 // Mean and variance of what is added, in one pass (Welford: "Note on a method for calculating corrected sums of squares
 // and products", Technometrics 4, 1962). What is not finite is not counted.
@@ -34,4 +34,4 @@ struct Interval {
 };
 Interval interval_of(const Moments& moments, double confidence);
 
-}  // namespace ttf::results
+}  // namespace ttf::experiments::results

@@ -13,7 +13,7 @@
 
 #include "core/errors.h"
 
-namespace ttf::results {
+namespace ttf::experiments::results {
 namespace {
 
 constexpr const char* kReplications = "replications";  // a key of meta
@@ -227,7 +227,7 @@ std::vector<RunKey> Store::keys() const {
   return keys;
 }
 
-void Store::for_each(const std::function<void(const Run&)>& use) const {
+void Store::for_each(const std::function<void(const ttf::experiments::results::Run&)>& use) const {
   Statement runs(database_->handle, database_->path,
                  "SELECT " + columns(head_) + " FROM runs ORDER BY point, replication, paradigm");
   while (runs.row()) use(run_of(runs, head_.measures.size()));
@@ -242,4 +242,4 @@ std::vector<Run> Store::of_point(std::uint32_t point) const {
   return found;
 }
 
-}  // namespace ttf::results
+}  // namespace ttf::experiments::results

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace ttf::results {
+namespace ttf::experiments::results {
 
 struct RunKey {
   std::uint32_t point = 0, replication = 0, paradigm = 0;
@@ -56,9 +56,9 @@ class Store {
   // what was there before still is.
   void add(const std::vector<Run>& runs);
   std::uint64_t count() const;
-  std::vector<RunKey> keys() const;                                 // in order
-  void for_each(const std::function<void(const Run&)>& use) const;  // in order
-  std::vector<Run> of_point(std::uint32_t point) const;             // in order
+  std::vector<RunKey> keys() const;                                                            // in order
+  void for_each(const std::function<void(const ttf::experiments::results::Run&)>& use) const;  // in order
+  std::vector<Run> of_point(std::uint32_t point) const;                                        // in order
 
  private:
   struct Database;
@@ -68,4 +68,4 @@ class Store {
   StoreHead head_;
 };
 
-}  // namespace ttf::results
+}  // namespace ttf::experiments::results

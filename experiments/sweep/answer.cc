@@ -5,7 +5,7 @@
 
 #include "core/counted.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 using results::Interval;
@@ -179,4 +179,4 @@ bool sure_enough(const SweepFile& sweep, const std::vector<Run>& runs, std::uint
   return true;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -12,7 +12,7 @@
 #include "experiments/results/store.h"
 #include "experiments/sweep/file.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
 struct PointAnswer {
   std::uint32_t point = 0;
@@ -51,4 +51,4 @@ SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store);
 // Whether the stop rule is content with what there is of a point: replications 0..to-1 of `runs`, in order.
 bool sure_enough(const SweepFile& sweep, const std::vector<results::Run>& runs, std::uint32_t to);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -13,7 +13,7 @@
 
 #include "experiments/sweep/answer.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 using results::Run;
@@ -174,8 +174,9 @@ void Driver::drive(std::span<const RunKey> wanted, const std::function<void(Run)
   }
 }
 
-void run_sweep(const SweepDrives& drives, results::Store& store, Shard shard, unsigned workers,
-               const std::function<void(const SweepProgress&)>& progress, Elsewhere* elsewhere) {
+void run_sweep(const SweepDrives& drives, results::Store& store, results::Shard shard, unsigned workers,
+               const std::function<void(const ttf::experiments::sweep::SweepProgress&)>& progress,
+               Elsewhere* elsewhere) {
   const SweepFile& sweep = drives.sweep();
   const auto points = static_cast<std::uint32_t>(sweep.points());
   const auto paradigms = static_cast<std::uint32_t>(sweep.paradigms.size());
@@ -208,4 +209,4 @@ void run_sweep(const SweepDrives& drives, results::Store& store, Shard shard, un
   }
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

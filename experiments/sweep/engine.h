@@ -12,11 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "experiments/results/store.h"
 #include "experiments/results/shard.h"
+#include "experiments/results/store.h"
 #include "experiments/sweep/run.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
 struct SweepProgress {
   std::uint64_t done = 0, all = 0;  // runs of this shard; with a stop rule `all` may not be needed
@@ -28,7 +28,7 @@ class Elsewhere {
  public:
   // The next runs for one of them, valid as long as the call; none: there are no more.
   using Grab = std::function<std::span<const results::RunKey>()>;
-  using Deposit = std::function<void(std::vector<results::Run>)>;
+  using Deposit = std::function<void(std::vector<ttf::experiments::results::Run>)>;
 
   virtual ~Elsewhere() = default;
   // Hands out runs to whoever has none, and gives back what they came to. How many runs are still under way.
@@ -40,7 +40,7 @@ class Elsewhere {
 class Driver {
  public:
   explicit Driver(const SweepDrives& drives) : drives_(drives) {}
-  void drive(std::span<const results::RunKey> wanted, const std::function<void(results::Run)>& take);
+  void drive(std::span<const results::RunKey> wanted, const std::function<void(ttf::experiments::results::Run)>& take);
 
  private:
   const SweepDrives& drives_;
@@ -50,7 +50,8 @@ class Driver {
 
 // Throws std::runtime_error where the store cannot take what was driven; what it has stays. `progress` is called now
 // and then by the calling thread. A stop rule and a shard exclude each other. `elsewhere` may be null.
-void run_sweep(const SweepDrives& drives, results::Store& store, Shard shard, unsigned workers,
-               const std::function<void(const SweepProgress&)>& progress, Elsewhere* elsewhere = nullptr);
+void run_sweep(const SweepDrives& drives, results::Store& store, results::Shard shard, unsigned workers,
+               const std::function<void(const ttf::experiments::sweep::SweepProgress&)>& progress,
+               Elsewhere* elsewhere = nullptr);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

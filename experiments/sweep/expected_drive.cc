@@ -4,18 +4,18 @@
 #include <cmath>
 #include <limits>
 
-#include "evaluation/accuracy/closest_pairs.h"
 #include "drives/drive.h"
+#include "evaluation/accuracy/closest_pairs.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 constexpr double kWorldStep_s = 0.01;  // in each of which the world draws (sim/world/world.h)
 constexpr std::size_t kMostTruths = 128, kMostSeen = 128, kMostImages = 8;
 
 // As white noise: along the heading the acceleration, across it what the turn rate does at this speed.
-PointMotion motion_of(const nodes::Scenario& scenario) {
-  const world::ObjectConfig& object = scenario.world.objects.front();
+PointMotion motion_of(const drives::Scenario& scenario) {
+  const sim::world::ObjectConfig& object = scenario.world.objects.front();
   PointMotion motion = PointMotion::known(scenario.tracker.process_noise, scenario.tracker.initial_velocity_sigma);
   const double c = std::cos(object.heading), s = std::sin(object.heading);
   const double along = scenario.world.acceleration_noise, across = scenario.world.yaw_rate_noise * object.speed;
@@ -30,31 +30,32 @@ PointMotion motion_of(const nodes::Scenario& scenario) {
 
 }  // namespace
 
-bool ExpectedError::is_defined(const nodes::Scenario& scenario) {
-  return scenario.world.objects.size() == 1 && scenario.tracker.motion == fusion::MotionModel::kConstantVelocity;
+bool ExpectedError::is_defined(const drives::Scenario& scenario) {
+  return scenario.world.objects.size() == 1 &&
+         scenario.tracker.motion == fusion::config::MotionModel::kConstantVelocity;
 }
 
-ExpectedError::ExpectedError(const nodes::Scenario& scenario)
-    : from_(sim::evaluation_start(scenario)), motion_(motion_of(scenario)), recursion_(motion_) {}
+ExpectedError::ExpectedError(const drives::Scenario& scenario)
+    : from_(drives::evaluation_start(scenario)), motion_(motion_of(scenario)), recursion_(motion_) {}
 
 double ExpectedError::position_mse() const {
   return uses_ == 0 ? std::numeric_limits<double>::quiet_NaN() : sum_ / static_cast<double>(uses_);
 }
 
-void ExpectedError::on(const records::TruthState& truth) {
+void ExpectedError::on(const recording::records::TruthState& truth) {
   truth_.push_back(truth);
   if (truth_.size() > kMostTruths) truth_.pop_front();
 }
 
 // The truth is told at the instants at which sensors measure, on their own clocks: the nearest one is meant.
-void ExpectedError::on(const records::ObservationSeen& observation) {
-  const TrueTime measured = records::true_time_of(observation.stamp, observation.measured);
-  const auto off = [&](const records::TruthState& truth) { return std::abs((truth.at - measured).ns); };
+void ExpectedError::on(const recording::records::ObservationSeen& observation) {
+  const TrueTime measured = recording::records::true_time_of(observation.stamp, observation.measured);
+  const auto off = [&](const recording::records::TruthState& truth) { return std::abs((truth.at - measured).ns); };
   const auto truth =
       std::min_element(truth_.begin(), truth_.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
   if (truth == truth_.end()) return;
   const double distance = std::hypot(observation.x - truth->x, observation.y - truth->y);
-  if (distance > kGate_m) return;
+  if (distance > evaluation::accuracy::kGate_m) return;
   Seen seen{observation.id, observation.measured, distance, {}};
   seen.noise << observation.sxx, observation.sxy, observation.sxy, observation.syy;
   const auto known = std::find_if(seen_.begin(), seen_.end(),
@@ -67,14 +68,16 @@ void ExpectedError::on(const records::ObservationSeen& observation) {
   }
 }
 
-void ExpectedError::on(const records::ListFused& list) {
+void ExpectedError::on(const recording::records::ListFused& list) {
   // A fusion node that comes back has forgotten all, and may count time anew.
   if (list.stamp.global < fusing_) {
     recursion_ = ErrorRecursion(motion_);
     images_.clear();
   }
   fusing_ = list.stamp.global;
-  if (list.disposition != records::Disposition::kFused && list.disposition != records::Disposition::kFusedLate) return;
+  if (list.disposition != recording::records::Disposition::kFused &&
+      list.disposition != recording::records::Disposition::kFusedLate)
+    return;
   const auto seen = std::find_if(seen_.begin(), seen_.end(),
                                  [&](const Seen& one) { return one.id == list.id && one.measured == list.measured; });
   if (seen == seen_.end()) return;
@@ -82,13 +85,13 @@ void ExpectedError::on(const records::ListFused& list) {
   seen_.erase(seen);
 }
 
-void ExpectedError::on(const records::ImageWritten& image) {
+void ExpectedError::on(const recording::records::ImageWritten& image) {
   if (recursion_.empty() || image.objects.empty() || image.valid_at < image.newest_measurement) return;
   images_.push_back({image.sequence, recursion_.at(image.valid_at).topLeftCorner<2, 2>().trace()});
   if (images_.size() > kMostImages) images_.pop_front();
 }
 
-void ExpectedError::on(const records::FeatureUsed& used) {
+void ExpectedError::on(const recording::records::FeatureUsed& used) {
   if (used.stamp.true_time < from_ || !used.fresh || used.stale) return;
   const auto image = std::find_if(images_.rbegin(), images_.rend(),
                                   [&](const Image& one) { return one.sequence == used.image_sequence; });
@@ -97,4 +100,4 @@ void ExpectedError::on(const records::FeatureUsed& used) {
   ++uses_;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -11,29 +11,29 @@
 #include <deque>
 #include <optional>
 
-#include "experiments/sweep/expected_error.h"
 #include "drives/scenario.h"
+#include "experiments/sweep/expected_error.h"
 #include "recording/records/records.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
-class ExpectedError final : public records::Sink {
+class ExpectedError final : public recording::records::Sink {
  public:
   // One object, and a tracker of constant velocity, in whose plane all that is measured is a position.
-  static bool is_defined(const nodes::Scenario& scenario);
-  explicit ExpectedError(const nodes::Scenario& scenario);
+  static bool is_defined(const drives::Scenario& scenario);
+  explicit ExpectedError(const drives::Scenario& scenario);
 
   // Expected square of the position's error [m^2] over the first uses of images from the scenario's evaluate_from on;
   // not a number where there are none.
   double position_mse() const;
 
   bool wants_frames() const override { return false; }
-  using records::Sink::on;
-  void on(const records::TruthState&) override;
-  void on(const records::ObservationSeen&) override;
-  void on(const records::ListFused&) override;
-  void on(const records::ImageWritten&) override;
-  void on(const records::FeatureUsed&) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::TruthState&) override;
+  void on(const recording::records::ObservationSeen&) override;
+  void on(const recording::records::ListFused&) override;
+  void on(const recording::records::ImageWritten&) override;
+  void on(const recording::records::FeatureUsed&) override;
 
  private:
   struct Seen {
@@ -50,12 +50,12 @@ class ExpectedError final : public records::Sink {
   TrueTime from_;
   PointMotion motion_;
   ErrorRecursion recursion_;
-  GlobalTime fusing_{};                    // instant of the newest list's fusion
-  std::deque<records::TruthState> truth_;  // the last few instants
-  std::deque<Seen> seen_;                  // of lists that are not fused yet: the observation next to the object
-  std::deque<Image> images_;               // the last few
+  GlobalTime fusing_{};                               // instant of the newest list's fusion
+  std::deque<recording::records::TruthState> truth_;  // the last few instants
+  std::deque<Seen> seen_;     // of lists that are not fused yet: the observation next to the object
+  std::deque<Image> images_;  // the last few
   double sum_ = 0.0;
   std::uint64_t uses_ = 0;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 Eigen::Matrix4d blocks(const Eigen::Matrix2d& position, const Eigen::Matrix2d& mixed, const Eigen::Matrix2d& velocity) {
@@ -67,4 +67,4 @@ Eigen::Matrix4d ErrorRecursion::at(GlobalTime use) const {
   return moved_on(last.actual, motion_.actual, dt);
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

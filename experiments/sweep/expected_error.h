@@ -18,7 +18,7 @@
 
 #include "core/time.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
 struct PointMotion {
   // Spectral densities of the acceleration [m^2/s^3], symmetric.
@@ -59,4 +59,4 @@ class ErrorRecursion {
   std::vector<Step> steps_;  // in the order of measurement
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

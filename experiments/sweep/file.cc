@@ -9,11 +9,11 @@
 
 #include "core/counted.h"
 #include "core/strict_yaml.h"
+#include "drives/scenario.h"
 #include "experiments/sweep/keys.h"
 #include "experiments/sweep/measures.h"
-#include "drives/scenario.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 constexpr std::size_t kMostParadigms = 64;
@@ -105,7 +105,7 @@ class Reader {
       Paradigm paradigm;
       paradigm.name = name;
       if (!is_name(name)) map.fail("", std::string(kNames));
-      using fusion::StrategyKind;
+      using fusion::strategies::StrategyKind;
       paradigm.strategy = map.choice<StrategyKind>(
           "strategy", {{"buff", StrategyKind::kBuff}, {"adva", StrategyKind::kAdva}, {"tt", StrategyKind::kTt}});
       if (map.has("cluster")) paradigm.cluster_file = path_of(map.text("cluster"));
@@ -284,4 +284,4 @@ SweepFile parse_sweep(std::string text, std::string name) {
   return Reader(StrictYaml::parse(std::move(text), std::move(name))).read();
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

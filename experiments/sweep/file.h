@@ -42,7 +42,7 @@
 
 #include "fusion/strategies/strategy.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
 struct Edit {
   std::string key, value;
@@ -74,7 +74,7 @@ struct Axis {
 
 struct Paradigm {
   std::string name;
-  fusion::StrategyKind strategy{};
+  fusion::strategies::StrategyKind strategy{};
   std::optional<std::string> cluster_file;  // none: the scenario's for the strategy
   std::vector<Edit> edits;
 };
@@ -123,4 +123,4 @@ inline constexpr std::uint32_t kMostReplications = 10'000'000;
 SweepFile load_sweep(const std::string& path);
 SweepFile parse_sweep(std::string text, std::string name);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -3,7 +3,7 @@
 #include "core/counted.h"
 #include "experiments/sweep/file.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
 std::vector<const Axis*> SweepFile::grid() const {
   std::vector<const Axis*> some;
@@ -46,4 +46,4 @@ std::string SweepFile::label_of(std::uint32_t point) const {
   return parts.empty() ? "the one point" : joined(parts);
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

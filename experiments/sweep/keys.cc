@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 constexpr std::string_view kNotTheirs = "the experiment has a seed, and paradigms have clusters";
@@ -86,4 +86,4 @@ class KeyCheck {
 
 void check_keys(const SweepFile& sweep, Findings& findings) { KeyCheck(sweep, findings).check(); }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -4,26 +4,28 @@
 #include <array>
 #include <string_view>
 
-#include "evaluation/accuracy/drive_measures.h"
 #include "drives/drive.h"
+#include "evaluation/accuracy/drive_measures.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
 struct Measure {
   std::string_view name, unit, meaning;
-  double (*of)(const DriveSummary& summary, const sim::DriveOutcome& outcome);
+  double (*of)(const evaluation::accuracy::DriveSummary& summary, const drives::DriveOutcome& outcome);
 };
 
 namespace measure {
 
-inline double milliseconds(const AgeStatistics& age) {
-  return age.count == 0 ? kNotMeasured : static_cast<double>(age.sum.ns) / static_cast<double>(age.count) * 1e-6;
+inline double milliseconds(const evaluation::accuracy::AgeStatistics& age) {
+  return age.count == 0 ? evaluation::accuracy::kNotMeasured
+                        : static_cast<double>(age.sum.ns) / static_cast<double>(age.count) * 1e-6;
 }
-inline double milliseconds(const records::BinnedDurations& durations, std::uint64_t permille) {
-  return durations.longest() == Duration{} ? kNotMeasured : static_cast<double>(durations.quantile(permille).ns) * 1e-6;
+inline double milliseconds(const recording::records::BinnedDurations& durations, std::uint64_t permille) {
+  return durations.longest() == Duration{} ? evaluation::accuracy::kNotMeasured
+                                           : static_cast<double>(durations.quantile(permille).ns) * 1e-6;
 }
 inline double share(std::uint64_t part, std::uint64_t of) {
-  return of == 0 ? kNotMeasured : static_cast<double>(part) / static_cast<double>(of);
+  return of == 0 ? evaluation::accuracy::kNotMeasured : static_cast<double>(part) / static_cast<double>(of);
 }
 
 }  // namespace measure
@@ -31,47 +33,47 @@ inline double share(std::uint64_t part, std::uint64_t of) {
 // clang-format off
 inline constexpr std::array<Measure, 19> kMeasures{{
   {"position_rmse_truth", "m", "root mean square of the position error against the truth, when the image is used",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_rmse_truth; }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.position_rmse_truth; }},
   {"position_mse_truth", "m^2", "mean square of the same: what averages over runs without bias",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_rmse_truth * s.position_rmse_truth; }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.position_rmse_truth * s.position_rmse_truth; }},
   {"velocity_rmse_truth", "m/s", "root mean square of the velocity error against the truth",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.velocity_rmse_truth; }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.velocity_rmse_truth; }},
   {"position_rmse_reference", "m", "root mean square of the position error against the DGPS",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_rmse_reference; }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.position_rmse_reference; }},
   {"position_mse_reference", "m^2", "mean square of the same",
-   [](const DriveSummary& s, const sim::DriveOutcome&) {
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) {
      return s.position_rmse_reference * s.position_rmse_reference;
    }},
   {"velocity_rmse_reference", "m/s", "root mean square of the velocity error against the DGPS",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.velocity_rmse_reference; }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.velocity_rmse_reference; }},
   {"nees", "", "normalised estimation error squared of (x, y, vx, vy): 4 where the filter knows how wrong it is",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.nees; }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.nees; }},
   {"missed", "", "share of true objects without an image",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return measure::share(s.missed, s.missed + s.matched); }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::share(s.missed, s.missed + s.matched); }},
   {"spurious", "", "share of image objects without a true one",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return measure::share(s.spurious, s.spurious + s.matched); }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::share(s.spurious, s.spurious + s.matched); }},
   {"age_fused", "ms", "mean age of a measurement when it is fused",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return measure::milliseconds(s.age_fused); }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::milliseconds(s.age_fused); }},
   {"age_used_newest", "ms", "median age of the newest measurement in an image when that is used",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return measure::milliseconds(s.age_used_newest, 500); }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::milliseconds(s.age_used_newest, 500); }},
   {"age_used_newest_p99", "ms", "the age that 99 in 100 of them do not exceed",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return measure::milliseconds(s.age_used_newest, 990); }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::milliseconds(s.age_used_newest, 990); }},
   {"age_used_oldest", "ms", "median age of the oldest of the sensors' newest measurements",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return measure::milliseconds(s.age_used_oldest, 500); }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::milliseconds(s.age_used_oldest, 500); }},
   {"lists_fused", "", "observation lists that were fused in the whole drive",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return static_cast<double>(s.fused + s.fused_late); }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return static_cast<double>(s.fused + s.fused_late); }},
   {"out_of_sequence", "", "share of lists that came behind a newer one",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return measure::share(s.out_of_sequence, s.received); }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::share(s.out_of_sequence, s.received); }},
   {"precision", "us", "how far the clocks were apart at most",
-   [](const DriveSummary&, const sim::DriveOutcome& o) { return static_cast<double>(o.precision.ns) * 1e-3; }},
+   [](const evaluation::accuracy::DriveSummary&, const drives::DriveOutcome& o) { return static_cast<double>(o.precision.ns) * 1e-3; }},
   {"flexray_load", "", "share of the time in which the busier FlexRay channel is taken",
-   [](const DriveSummary&, const sim::DriveOutcome& o) { return o.flexray_load; }},
+   [](const evaluation::accuracy::DriveSummary&, const drives::DriveOutcome& o) { return o.flexray_load; }},
   {"position_mse_reference_corrected", "m^2",
    "mean square of the position error against the DGPS, less what the DGPS' own error is known to add",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_mse_reference_corrected; }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.position_mse_reference_corrected; }},
   {"position_mse_expected", "m^2",
    "what position_mse_truth must be expected to be, by covariances alone: one object, going straight, no bias",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_mse_expected; }},
+   [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.position_mse_expected; }},
 }};
 // clang-format on
 
@@ -81,4 +83,4 @@ constexpr const Measure* find_measure(std::string_view name) {
   return nullptr;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -13,18 +13,18 @@
 #include "core/random.h"
 #include "core/strict_yaml.h"
 #include "core/yaml_edit.h"
-#include "experiments/sweep/expected_drive.h"
-#include "evaluation/accuracy/drive_measures.h"
-#include "experiments/sweep/measures.h"
+#include "drives/drive.h"
 #include "drives/step_catalog.h"
+#include "evaluation/accuracy/drive_measures.h"
+#include "experiments/sweep/expected_drive.h"
+#include "experiments/sweep/measures.h"
 #include "faults/plan.h"
 #include "recording/records/tee.h"
 #include "schedules/check/checker.h"
 #include "schedules/file/loader.h"
 #include "schedules/model/ports.h"
-#include "drives/drive.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 constexpr std::string_view kOfCluster = "cluster.";
@@ -84,7 +84,7 @@ void SweepDrives::read_files() {
   for (const Paradigm& paradigm : sweep_.paradigms) {
     if (paradigm.cluster_file) read(*paradigm.cluster_file);
     for (std::size_t s = 0; s < scenarios.size() && !paradigm.cluster_file; ++s)
-      read(nodes::parse_scenario(texts_.at(scenarios[s]), scenarios[s])
+      read(drives::parse_scenario(texts_.at(scenarios[s]), scenarios[s])
                .cluster_files[static_cast<std::size_t>(paradigm.strategy)]);
   }
 }
@@ -156,14 +156,14 @@ std::string SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster,
 }
 
 // As if it had been written in the scenario.
-void SweepDrives::plan_faults(const std::string& file, nodes::Scenario& scenario) const {
+void SweepDrives::plan_faults(const std::string& file, drives::Scenario& scenario) const {
   if (!scenario.faults.empty())
     throw InputError({scenario.file, 0, "faults", "", "must not be there where " + file + " says what goes wrong"});
   const std::string& text = texts_.at(file);
   const StrictYaml yaml = StrictYaml::parse(text, file);
   Findings findings;
   YamlMap root = yaml.root(findings);
-  scenario.faults = nodes::load_fault_plan(root, scenario.duration);
+  scenario.faults = faults::load_fault_plan(root, scenario.duration);
   root.finish();
   findings.throw_if_any();
   scenario.text += "\n" + text;
@@ -175,16 +175,16 @@ PreparedDrive SweepDrives::prepare(const results::RunKey& key, const std::vector
   const std::string* scenario = file_of(edits, kScenarioFile);
   const std::string& scenario_file = scenario != nullptr ? *scenario : sweep_.scenario_file;
   PreparedDrive drive;
-  drive.scenario = nodes::parse_scenario(edited(edits, false, scenario_file), scenario_file);
+  drive.scenario = drives::parse_scenario(edited(edits, false, scenario_file), scenario_file);
   if (const std::string* faults = file_of(edits, kFaultsFile)) plan_faults(*faults, drive.scenario);
   drive.strategy = paradigm.strategy;
   std::string& file = drive.scenario.cluster_files[static_cast<std::size_t>(paradigm.strategy)];
   if (paradigm.cluster_file) file = *paradigm.cluster_file;
   if (const std::string* cluster = file_of(edits, kClusterFile)) file = *cluster;
-  drive.cluster = schedules::parse_cluster(edited(edits, true, file), file);
-  if (auto findings = schedules::check(drive.cluster); !findings.empty()) throw InputError(std::move(findings));
-  schedules::bind_ports(drive.cluster, nodes::step_ports());
-  sim::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
+  drive.cluster = schedules::file::parse_cluster(edited(edits, true, file), file);
+  if (auto findings = schedules::check::check(drive.cluster); !findings.empty()) throw InputError(std::move(findings));
+  schedules::model::bind_ports(drive.cluster, drives::step_ports());
+  drives::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
   return drive;
 }
 
@@ -195,29 +195,30 @@ results::Run SweepDrives::run(const results::RunKey& key) const {
     throw;
   } catch (const std::exception& error) {
     results::Run failed{key, error.what(), drawn(key.replication)};
-    failed.values.resize(columns().size(), kNotMeasured);
+    failed.values.resize(columns().size(), evaluation::accuracy::kNotMeasured);
     return failed;
   }
 }
 
-results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& drive, records::Sink* listener) const {
+results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& drive,
+                              recording::records::Sink* listener) const {
   results::Run run{key, results::kDone, drawn(key.replication)};
   try {
     const auto asked_for = [this](std::string_view measure) {
       return std::find(sweep_.measures.begin(), sweep_.measures.end(), measure) != sweep_.measures.end();
     };
-    DriveMeasures measures(sim::evaluation_start(drive.scenario));
-    std::vector<records::Sink*> sinks{&measures};
+    evaluation::accuracy::DriveMeasures measures(drives::evaluation_start(drive.scenario));
+    std::vector<recording::records::Sink*> sinks{&measures};
     std::optional<ExpectedError> expected;
     if (asked_for("position_mse_expected") && ExpectedError::is_defined(drive.scenario))
       sinks.push_back(&expected.emplace(drive.scenario));
     if (listener != nullptr) sinks.push_back(listener);
-    records::Tee tee(sinks);
-    const sim::DriveConfig config{
+    recording::records::Tee tee(sinks);
+    const drives::DriveConfig config{
         &drive.scenario, &drive.cluster, drive.strategy, sweep_.seed,
         key.replication, nullptr,        nullptr,        listener != nullptr || asked_for("precision")};
-    const sim::DriveOutcome outcome = sim::run_drive(config, tee);
-    DriveSummary summary = measures.finish();
+    const drives::DriveOutcome outcome = drives::run_drive(config, tee);
+    evaluation::accuracy::DriveSummary summary = measures.finish();
     summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -
                                                expected_square(drive.scenario.reference, summary.reference_weights);
     if (expected) summary.position_mse_expected = expected->position_mse();
@@ -226,7 +227,7 @@ results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& d
     throw;
   } catch (const std::exception& error) {
     run.status = error.what();
-    run.values.resize(columns().size(), kNotMeasured);
+    run.values.resize(columns().size(), evaluation::accuracy::kNotMeasured);
   }
   return run;
 }
@@ -238,4 +239,4 @@ std::vector<std::string> SweepDrives::columns() const {
   return names;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "drives/scenario.h"
 #include "experiments/results/store.h"
 #include "experiments/sweep/file.h"
-#include "drives/scenario.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
 struct PreparedDrive {
-  nodes::Scenario scenario;
-  schedules::Cluster cluster;
-  fusion::StrategyKind strategy{};
+  drives::Scenario scenario;
+  schedules::model::Cluster cluster;
+  fusion::strategies::StrategyKind strategy{};
 };
 
 // The files an experiment follows from, read once; const afterwards, for many workers.
@@ -35,7 +35,8 @@ class SweepDrives {
   // Measures and drawn axes; a run that fails says why, but for std::bad_alloc, which says nothing of the run.
   results::Run run(const results::RunKey& key) const;
   // The same of a drive that is prepared, with a listener more.
-  results::Run run(const results::RunKey& key, const PreparedDrive& drive, records::Sink* listener = nullptr) const;
+  results::Run run(const results::RunKey& key, const PreparedDrive& drive,
+                   recording::records::Sink* listener = nullptr) const;
 
   // The store's columns: a drawn axis is called as in the file.
   std::vector<std::string> columns() const;
@@ -50,11 +51,11 @@ class SweepDrives {
   std::vector<Edit> edits_of(const results::RunKey& key, const std::vector<double>& drawn) const;
   // Those of a cluster, or of a scenario, in what stands in the file `name`.
   std::string edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const;
-  void plan_faults(const std::string& file, nodes::Scenario& scenario) const;
+  void plan_faults(const std::string& file, drives::Scenario& scenario) const;
 
   const SweepFile& sweep_;
   std::map<std::string, std::string> texts_;  // of scenarios, clusters and plans of faults, by path
   std::string identity_;
 };
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -8,7 +8,7 @@
 #include "core/counted.h"
 #include "experiments/sweep/measures.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 using results::Interval;
@@ -153,4 +153,4 @@ std::string runs_csv(const SweepFile& sweep, const results::Store& store) {
   return csv;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

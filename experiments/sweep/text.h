@@ -5,7 +5,7 @@
 
 #include "experiments/sweep/answer.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
 // What was asked, the first measure by point, and what it comes to in sentences.
 std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer);
@@ -18,4 +18,4 @@ std::string summary_csv(const SweepFile& sweep, const SweepAnswer& answer);
 // point, the axes' values, replication, paradigm, status, the store's columns
 std::string runs_csv(const SweepFile& sweep, const results::Store& store);
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::association {
 namespace {
 
 // More than any gain, so that a pair outside its gate is never chosen over leaving the row alone (cost 0).
@@ -125,4 +125,4 @@ void Assignment::solve_component() {
           component_columns_[j - 1];
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::association

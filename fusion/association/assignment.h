@@ -13,7 +13,7 @@
 
 #include "fusion/association/components.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::association {
 
 // Assigning observation `row` to track `column` gains `gain` > 0 over leaving both alone.
 struct Candidate {
@@ -45,4 +45,4 @@ class Assignment {
   std::vector<char> used_;
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::association

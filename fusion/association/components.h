@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace ttf::fusion {
+namespace ttf::fusion::association {
 
 class Components {
  public:
@@ -32,4 +32,4 @@ class Components {
   std::vector<int> parent_;
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::association

@@ -4,7 +4,7 @@
 
 #include "core/check.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::association {
 namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -181,4 +181,4 @@ void JointAssociation::solve_cheaply(std::span<Sorted> cluster) {
   for (const int column : cluster_columns_) none_[at(column)] = std::max(0.0, none_[at(column)]);
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::association

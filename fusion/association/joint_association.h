@@ -27,7 +27,7 @@
 
 #include "fusion/association/components.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::association {
 
 // Row: observation; column: track. Weight above 0, at most kLargestWeight.
 struct Pair {
@@ -81,4 +81,4 @@ class JointAssociation {
   std::uint64_t approximated_ = 0;
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::association

@@ -19,7 +19,7 @@ template <class V> struct Axes {
 };
 
 template <class V> [[gnu::always_inline]] inline void predict(Axes<V>& state, const Step& step) {
-  unrolled<2>([&](int i) {
+  motion::unrolled<2>([&](int i) {
     auto& a = state.axis[i];
     const V moved = a.p_xv + step.dt * a.p_vv;
     a.x += step.dt * a.v;
@@ -32,7 +32,7 @@ template <class V> [[gnu::always_inline]] inline void predict(Axes<V>& state, co
 // The update in Joseph form, multiplied out (fusion/filters/correct.h). Returns the NIS, of lanes that are seen.
 template <class V> [[gnu::always_inline]] inline V update(Axes<V>& state, const Position<V>& z) {
   V nis{};
-  unrolled<2>([&](auto axis) {
+  motion::unrolled<2>([&](auto axis) {
     constexpr int i = axis;
     auto& a = state.axis[i];
     const V nu = (i == 0 ? z.x : z.y) - a.x;

@@ -41,7 +41,7 @@ class Positions {
   std::vector<Position<Lanes>> blocks_;
 };
 
-inline void put(Axes<Lanes>& block, std::size_t lane, const Gaussian<4>& state) {
+inline void put(Axes<Lanes>& block, std::size_t lane, const linear::Gaussian<4>& state) {
   for (int i = 0; i < 2; ++i) {
     auto& a = block.axis[i];
     a.x[lane] = state.x(i), a.v[lane] = state.x(i + 2);
@@ -50,15 +50,15 @@ inline void put(Axes<Lanes>& block, std::size_t lane, const Gaussian<4>& state) 
       TTF_CHECK(state.p(i, other) == 0.0 && state.p(i + 2, other) == 0.0, "axes that are correlated");
   }
 }
-inline void put(Joint<Lanes>& block, std::size_t lane, const Gaussian<4>& state) {
+inline void put(Joint<Lanes>& block, std::size_t lane, const linear::Gaussian<4>& state) {
   for (int c = 0; c < 4; ++c) {
     block.x[c][lane] = state.x(c);
     for (int r = 0; r <= c; ++r) block.p[Joint<Lanes>::at(r, c)][lane] = state.p(r, c);
   }
 }
 
-inline Gaussian<4> taken(const Axes<Lanes>& block, std::size_t lane) {
-  Gaussian<4> state;
+inline linear::Gaussian<4> taken(const Axes<Lanes>& block, std::size_t lane) {
+  linear::Gaussian<4> state;
   for (int i = 0; i < 2; ++i) {
     const auto& a = block.axis[i];
     state.x(i) = a.x[lane], state.x(i + 2) = a.v[lane];
@@ -67,8 +67,8 @@ inline Gaussian<4> taken(const Axes<Lanes>& block, std::size_t lane) {
   }
   return state;
 }
-inline Gaussian<4> taken(const Joint<Lanes>& block, std::size_t lane) {
-  Gaussian<4> state;
+inline linear::Gaussian<4> taken(const Joint<Lanes>& block, std::size_t lane) {
+  linear::Gaussian<4> state;
   for (int c = 0; c < 4; ++c) {
     state.x(c) = block.x[c][lane];
     for (int r = 0; r <= c; ++r) state.p(r, c) = state.p(c, r) = block.p[Joint<Lanes>::at(r, c)][lane];
@@ -81,8 +81,8 @@ template <template <class> class Form> class Batch {
   explicit Batch(std::size_t count) : count_(count), blocks_((count + kLanes - 1) / kLanes) {}
 
   std::size_t size() const { return count_; }
-  void set(std::size_t i, const Gaussian<4>& state) { put(blocks_[i / kLanes], i % kLanes, state); }
-  Gaussian<4> state(std::size_t i) const { return taken(blocks_[i / kLanes], i % kLanes); }
+  void set(std::size_t i, const linear::Gaussian<4>& state) { put(blocks_[i / kLanes], i % kLanes, state); }
+  linear::Gaussian<4> state(std::size_t i) const { return taken(blocks_[i / kLanes], i % kLanes); }
 
   void predict(const Step& step) {
     for (Form<Lanes>& block : blocks_) batch::predict(block, step);

@@ -46,24 +46,26 @@ template <class V> [[gnu::always_inline]] inline V update(Joint<V>& state, const
   const V l = (p(1, 0) + z.r_xy) * inverse_x;
   const V inverse_y = 1.0 / ((p(1, 1) + z.r_yy) - l * l * d_x);
   V g_x[4], g_y[4];  // K
-  unrolled<4>([&](int i) {
+  motion::unrolled<4>([&](int i) {
     g_y[i] = (p(i, 1) - l * p(i, 0)) * inverse_y;
     g_x[i] = p(i, 0) * inverse_x - l * g_y[i];
   });
   // T = P - K W of rows and columns 0 and 1 and of the upper triangle, E = T H' - K R.
   const auto t = [&](int r, int c) { return p(r, c) - (g_x[r] * p(c, 0) + g_y[r] * p(c, 1)); };
   V e_x[4], e_y[4];
-  unrolled<4>([&](int i) {
+  motion::unrolled<4>([&](int i) {
     e_x[i] = t(i, 0) - (g_x[i] * z.r_xx + g_y[i] * z.r_xy);
     e_y[i] = t(i, 1) - (g_x[i] * z.r_xy + g_y[i] * z.r_yy);
   });
   V updated[10];
-  unrolled<4>([&](auto column) {
+  motion::unrolled<4>([&](auto column) {
     constexpr int c = column;
-    unrolled<c + 1>([&](int r) { updated[Joint<V>::at(r, c)] = t(r, c) - (e_x[r] * g_x[c] + e_y[r] * g_y[c]); });
+    motion::unrolled<c + 1>(
+        [&](int r) { updated[Joint<V>::at(r, c)] = t(r, c) - (e_x[r] * g_x[c] + e_y[r] * g_y[c]); });
   });
-  unrolled<4>([&](int i) { state.x[i] = select(z.seen, state.x[i] + (g_x[i] * nu_x + g_y[i] * nu_y), state.x[i]); });
-  unrolled<10>([&](int i) { state.p[i] = select(z.seen, updated[i], state.p[i]); });
+  motion::unrolled<4>(
+      [&](int i) { state.x[i] = select(z.seen, state.x[i] + (g_x[i] * nu_x + g_y[i] * nu_y), state.x[i]); });
+  motion::unrolled<10>([&](int i) { state.p[i] = select(z.seen, updated[i], state.p[i]); });
   const V white_y = nu_y - l * nu_x;
   return nu_x * nu_x * inverse_x + white_y * white_y * inverse_y;
 }

@@ -14,7 +14,7 @@ struct Step {
 
   Step() = default;
   Step(const motion::ConstantVelocity& model, double by) : dt(by) {
-    const Matrix<4> q = model.noise(Vector<4>::Zero(), by);
+    const linear::Matrix<4> q = model.noise(linear::Vector<4>::Zero(), by);
     q_xx = q(0, 0), q_xv = q(0, 2), q_vv = q(2, 2);
   }
 };

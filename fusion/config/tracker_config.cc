@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace ttf::fusion {
+namespace ttf::fusion::config {
 namespace {
 
 // There all is linear but a radar's measurement: what carries more than the estimate, errors of sensors or a past, is
@@ -22,7 +22,7 @@ void load_systematic(YamlMap& yaml, TrackerConfig& c) {
               "is extended");
   if (!yaml.has("sensors")) return;
   for (auto& [name, map] : yaml.named_maps("sensors")) {
-    KnownSensor sensor = load_known_sensor(map);
+    sensors::KnownSensor sensor = sensors::load_known_sensor(map);
     sensor.name = name;
     sensor.line = map.line();
     map.finish();
@@ -121,4 +121,4 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   return c;
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::config

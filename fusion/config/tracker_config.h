@@ -6,10 +6,10 @@
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
-#include "fusion/sensors/known_sensor.h"
 #include "fusion/oosm/kind.h"
+#include "fusion/sensors/known_sensor.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::config {
 
 // How objects move (fusion/motion/): in straight lines at constant velocity or acceleration, along bends of constant
 // turn rate at constant speed (CTRV) or acceleration (CTRA), or now at constant velocity and now along bends (CTRV), by
@@ -27,11 +27,11 @@ enum class BuffWaiting : unsigned char {
 };
 
 // What is done about errors of the sensors that are always the same and whose sigmas alone are known
-// (fusion/sensors/known_sensor.h): nothing, or the Schmidt form (fusion/filters/consider.h), in which they are not estimated
-// but remain in every track's covariance.
+// (fusion/sensors/known_sensor.h): nothing, or the Schmidt form (fusion/filters/consider.h), in which they are not
+// estimated but remain in every track's covariance.
 enum class SystematicErrorsAre : unsigned char { kIgnored, kConsidered };
-// Which observation is of which track (docs/tracker.md): the one most probable way (fusion/association/assignment.h), or all of
-// them weighed with their probabilities (fusion/association/joint_association.h).
+// Which observation is of which track (docs/tracker.md): the one most probable way (fusion/association/assignment.h),
+// or all of them weighed with their probabilities (fusion/association/joint_association.h).
 enum class Association : unsigned char { kNearest, kJpda };
 // When a track is believed: after M observations in N scans, or from the probability that its object exists
 // (fusion/tracks/existence.h).
@@ -60,8 +60,8 @@ struct TrackerConfig {
   int delete_misses = 8;               // scans in a row without an observation end a confirmed track
   double delete_position_sigma = 5.0;  // [m] so does this much uncertainty
   // Where scans fail to come nothing counts them: a track is coasting, and ends, this long after its newest
-  // observation, too (given_up() in fusion/tracks/track.h). Above what a fault-free image shows of an object that only the
-  // slowest sensor sees, every other time; and as far ahead as a constant velocity is worth anything in traffic.
+  // observation, too (given_up() in fusion/tracks/track.h). Above what a fault-free image shows of an object that only
+  // the slowest sensor sees, every other time; and as far ahead as a constant velocity is worth anything in traffic.
   Duration coast_after = Duration::milliseconds(300);
   Duration delete_after = Duration::milliseconds(1000);
   int max_objects = 25;               // confirmed tracks: what the image's list carries
@@ -69,8 +69,8 @@ struct TrackerConfig {
   BuffWaiting buff_waits = BuffWaiting::kSchedule;
   Duration fixed_lag = Duration::milliseconds(100);
   std::size_t history_scans = 64;  // how far back a late scan can be taken in
-  // How ADVA and TT take it in (fusion/strategies/late/late_updates.h). Other than rewind: for straight motion under the extended
-  // filter only.
+  // How ADVA and TT take it in (fusion/strategies/late/late_updates.h). Other than rewind: for straight motion under
+  // the extended filter only.
   oosm::Kind late = oosm::Kind::kRewind;
   double heading_noise = 0.05;  // spectral density of the heading's random walk [rad^2/s]
   double extent_noise = 0.01;   // of length and width [m^2/s]
@@ -79,12 +79,13 @@ struct TrackerConfig {
   SystematicErrorsAre systematic = SystematicErrorsAre::kIgnored;
   // By SensorId; of those that are not there nothing is known. As load_tracker() reads them they are in the order of
   // the file: whoever knows the sensors' ids by their names puts them in theirs.
-  std::vector<KnownSensor> sensors;
+  std::vector<sensors::KnownSensor> sensors;
 
   Association association = Association::kNearest;
   Birth birth = Birth::kMOfN;
   // For jpda and existence: how probable it is that a list has an object that is tracked, of all the sensors whose
-  // lists come; and how many observations of nothing there are to the square metre of one list (fusion/tracks/existence.h).
+  // lists come; and how many observations of nothing there are to the square metre of one list
+  // (fusion/tracks/existence.h).
   double detection_probability = 0.9;
   double clutter_density = 1e-3;  // [1/m^2]
   // For existence: of a new track; for how long an object is there, on the average; a track is confirmed from, and ends
@@ -101,4 +102,4 @@ struct TrackerConfig {
 
 TrackerConfig load_tracker(YamlMap& yaml);
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::config

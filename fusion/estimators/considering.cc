@@ -5,11 +5,11 @@
 
 namespace ttf::fusion::estimators {
 
-AllBiases::AllBiases(std::span<const KnownSensor> sensors) {
-  TTF_CHECK(count_biases(sensors) <= kMostBiases, "{} biases", count_biases(sensors));
+AllBiases::AllBiases(std::span<const sensors::KnownSensor> sensors) {
+  TTF_CHECK(count_biases(sensors) <= sensors::kMostBiases, "{} biases", count_biases(sensors));
   int next = 0;
-  for (const KnownSensor& sensor : sensors) {
-    const SystematicErrors& errors = sensor.errors;
+  for (const sensors::KnownSensor& sensor : sensors) {
+    const sensors::SystematicErrors& errors = sensor.errors;
     sensors::OwnBiases& own = own_.emplace_back();
     own.axes = errors.axes;
     own.mounting = sensor.mounting;
@@ -22,9 +22,9 @@ AllBiases::AllBiases(std::span<const KnownSensor> sensors) {
   }
 }
 
-Matrix<4, 3> first_jacobian(const Observation& observation, const sensors::Mounting& mounting) {
-  Matrix<4, 3> j = Matrix<4, 3>::Zero();
-  if (observation.kind == ObservationKind::kPosition) {
+linear::Matrix<4, 3> first_jacobian(const sensors::Observation& observation, const sensors::Mounting& mounting) {
+  linear::Matrix<4, 3> j = linear::Matrix<4, 3>::Zero();
+  if (observation.kind == sensors::ObservationKind::kPosition) {
     j(0, 0) = j(1, 1) = 1.0;
     return j;
   }
@@ -36,15 +36,16 @@ Matrix<4, 3> first_jacobian(const Observation& observation, const sensors::Mount
   return j;
 }
 
-std::shared_ptr<const Estimator> make_considering(const TrackerConfig& config) {
-  TTF_CHECK(config.filter == FilterKind::kExtended, "considered under filter {}", static_cast<int>(config.filter));
+std::shared_ptr<const Estimator> make_considering(const config::TrackerConfig& config) {
+  TTF_CHECK(config.filter == config::FilterKind::kExtended, "considered under filter {}",
+            static_cast<int>(config.filter));
   const auto make = [&](const auto& model) -> std::shared_ptr<const Estimator> {
     using M = std::remove_cvref_t<decltype(model)>;
     return std::make_shared<ConsideringEstimator<M>>(config, model, prior_of<M>(config));
   };
-  if (config.motion == MotionModel::kConstantAcceleration)
+  if (config.motion == config::MotionModel::kConstantAcceleration)
     return make(motion::ConstantAcceleration(config.process_noise));
-  TTF_CHECK(config.motion == MotionModel::kConstantVelocity, "considered with motion {}",
+  TTF_CHECK(config.motion == config::MotionModel::kConstantVelocity, "considered with motion {}",
             static_cast<int>(config.motion));
   return make(motion::ConstantVelocity(config.process_noise));
 }

@@ -27,19 +27,19 @@ namespace ttf::fusion::estimators {
 // The biases of all sensors in one row: those with a sigma above zero, by SensorId, then in the components' order.
 class AllBiases {
  public:
-  explicit AllBiases(std::span<const KnownSensor> sensors);
+  explicit AllBiases(std::span<const sensors::KnownSensor> sensors);
 
   const sensors::OwnBiases& of(SensorId id) const { return index_of(id) < own_.size() ? own_[index_of(id)] : nobodys_; }
-  const Matrix<kMostBiases>& covariance() const { return covariance_; }
+  const linear::Matrix<sensors::kMostBiases>& covariance() const { return covariance_; }
 
  private:
   std::vector<sensors::OwnBiases> own_;
   sensors::OwnBiases nobodys_;
-  Matrix<kMostBiases> covariance_ = Matrix<kMostBiases>::Zero();
+  linear::Matrix<sensors::kMostBiases> covariance_ = linear::Matrix<sensors::kMostBiases>::Zero();
 };
 
 // d (x, y, vx, vy) / d measurement of first_estimate(), in the vehicle's axes.
-Matrix<4, 3> first_jacobian(const Observation& observation, const sensors::Mounting& mounting);
+linear::Matrix<4, 3> first_jacobian(const sensors::Observation& observation, const sensors::Mounting& mounting);
 
 template <motion::Model M>
 requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
@@ -47,26 +47,27 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
   static constexpr int kN = M::kStates;
   using Own = WithBiases<kN>;
 
-  ConsideringEstimator(const TrackerConfig& config, const M& model, const Gaussian<kN>& prior)
+  ConsideringEstimator(const config::TrackerConfig& config, const M& model, const linear::Gaussian<kN>& prior)
       : model_(model), prior_(prior), sensors_(config.sensors),
         biases_(config.sensors), filter_{.bias = biases_.covariance()},
         velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma) {}
 
-  Estimate initial(const Observation& o) const override {
-    const Gaussian<4> first = first_estimate(o, velocity_variance_, known(sensors_, o.sensor));
+  Estimate initial(const sensors::Observation& o) const override {
+    const linear::Gaussian<4> first = first_estimate(o, velocity_variance_, known(sensors_, o.sensor));
     const sensors::OwnBiases& biases = biases_.of(o.sensor);
     Own own{.state = prior_};
     own.state.x.template head<4>() = first.x;
     own.state.p.template topLeftCorner<4, 4>() = first.p;
     own.state.p.template topLeftCorner<2, 2>() += biases.time_variance * first.p.bottomRightCorner<2, 2>();
-    const Kinematics k{.position = first.x.head<2>(), .velocity = first.x.tail<2>()};
+    const motion::Kinematics k{.position = first.x.head<2>(), .velocity = first.x.tail<2>()};
     through_sensor(o, [&](const auto& sensor, const auto&) {
       constexpr int kM = std::remove_cvref_t<decltype(sensor)>::kDimension;
       if (!sensor.sees(k)) return;
-      const Matrix<4, kM> j = first_jacobian(o, biases.mounting).template leftCols<kM>();
-      const Matrix<4, kMostBiases> jd = times<4, kM, kMostBiases>(j, sensor.bias_jacobian(k));
-      own.cross.template topRows<4>() = -times<4, kMostBiases, kMostBiases>(jd, filter_.bias);
-      own.state.p.template topLeftCorner<4, 4>() += sandwich<4, kMostBiases>(jd, filter_.bias);
+      const linear::Matrix<4, kM> j = first_jacobian(o, biases.mounting).template leftCols<kM>();
+      const linear::Matrix<4, sensors::kMostBiases> jd =
+          motion::times<4, kM, sensors::kMostBiases>(j, sensor.bias_jacobian(k));
+      own.cross.template topRows<4>() = -motion::times<4, sensors::kMostBiases, sensors::kMostBiases>(jd, filter_.bias);
+      own.state.p.template topLeftCorner<4, 4>() += motion::sandwich<4, sensors::kMostBiases>(jd, filter_.bias);
     });
     return own;
   }
@@ -76,7 +77,7 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
     if (dt > 0.0) filter_.predict(model_, own_of(estimate), dt);
   }
 
-  std::optional<double> distance_squared(const Estimate& estimate, const Observation& o) const override {
+  std::optional<double> distance_squared(const Estimate& estimate, const sensors::Observation& o) const override {
     const Own& own = own_of(estimate);
     return through_sensor(o, [&](const auto& sensor, auto z) -> std::optional<double> {
       blur(own, sensor, z);
@@ -86,7 +87,7 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
     });
   }
 
-  std::optional<Fit> fit(const Estimate& estimate, const Observation& o) const override {
+  std::optional<Fit> fit(const Estimate& estimate, const sensors::Observation& o) const override {
     const Own& own = own_of(estimate);
     return through_sensor(o, [&](const auto& sensor, auto z) -> std::optional<Fit> {
       blur(own, sensor, z);
@@ -96,7 +97,7 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
     });
   }
 
-  void update(Estimate& estimate, const Observation& o) const override { take_in(own_of(estimate), o); }
+  void update(Estimate& estimate, const sensors::Observation& o) const override { take_in(own_of(estimate), o); }
 
   // No explanation says anything of the biases, whose mean is zero: the mixture's covariance with them is the mean of
   // the explanations'.
@@ -119,18 +120,18 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
     }
   }
 
-  Gaussian<2> position(const Estimate& estimate) const override {
-    const Gaussian<kN>& state = own_of(estimate).state;
+  linear::Gaussian<2> position(const Estimate& estimate) const override {
+    const linear::Gaussian<kN>& state = own_of(estimate).state;
     return {state.x.template head<2>(), state.p.template topLeftCorner<2, 2>()};
   }
   Cartesian cartesian(const Estimate& estimate) const override {
     return motion::whole<M>(own_of(estimate).state).estimate;
   }
 
-  Gaussian<2> seen_position(const Estimate& estimate, SensorId id) const override {
+  linear::Gaussian<2> seen_position(const Estimate& estimate, SensorId id) const override {
     const Own& own = own_of(estimate);
     const sensors::AmongBiases<sensors::Position> sensor{{}, biases_.of(id)};
-    sensors::Measurement<2> z{own.state.x.template head<2>(), Matrix<2>::Zero()};
+    sensors::Measurement<2> z{own.state.x.template head<2>(), linear::Matrix<2>::Zero()};
     blur(own, sensor, z);
     return {z.z, filter_.spread(model_, sensor, z, own)};
   }
@@ -142,39 +143,39 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
     return *own;
   }
 
-  void take_in(Own& own, const Observation& o) const {
+  void take_in(Own& own, const sensors::Observation& o) const {
     through_sensor(o, [&](const auto& sensor, auto z) {
       blur(own, sensor, z);
       filter_.update(model_, sensor, z, own);
     });
   }
 
-  template <class Body> auto through_sensor(const Observation& o, const Body& body) const {
+  template <class Body> auto through_sensor(const sensors::Observation& o, const Body& body) const {
     using sensors::AmongBiases, sensors::Measurement;
     const sensors::OwnBiases& own = biases_.of(o.sensor);
-    if (o.kind == ObservationKind::kPosition)
-      return body(AmongBiases<sensors::Position>{{}, own},
-                  Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});
+    if (o.kind == sensors::ObservationKind::kPosition)
+      return body(sensors::AmongBiases<sensors::Position>{{}, own},
+                  sensors::Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});
     using Radar = sensors::Mounted<sensors::RangeBearingRate>;
-    return body(AmongBiases<Radar>{Radar(own.mounting), own}, Measurement<3>{o.z, o.r});
+    return body(sensors::AmongBiases<Radar>{Radar(own.mounting), own}, sensors::Measurement<3>{o.z, o.r});
   }
 
   // What the stamp's error adds to the noise for the velocity is not known.
   template <class S> static void blur(const Own& own, const S& sensor, sensors::Measurement<S::kDimension>& z) {
     if (sensor.own.time_variance == 0.0) return;
-    const Kinematics k = M::template kinematics<kWithVelocity>(own.state.x);
+    const motion::Kinematics k = M::template kinematics<motion::kWithVelocity>(own.state.x);
     if (!sensor.sees(k)) return;
-    const Matrix<S::kDimension, 2> by_position = sensor.sensor.jacobian(k).template leftCols<2>();
-    const Matrix<2> velocity = own.state.p.template block<2, 2>(2, 2);
-    add_scaled<S::kDimension, S::kDimension>(z.r, sensor.own.time_variance,
-                                             sandwich<S::kDimension, 2>(by_position, velocity));
+    const linear::Matrix<S::kDimension, 2> by_position = sensor.sensor.jacobian(k).template leftCols<2>();
+    const linear::Matrix<2> velocity = own.state.p.template block<2, 2>(2, 2);
+    motion::add_scaled<S::kDimension, S::kDimension>(z.r, sensor.own.time_variance,
+                                                     motion::sandwich<S::kDimension, 2>(by_position, velocity));
   }
 
   M model_;
-  Gaussian<kN> prior_;
-  std::vector<KnownSensor> sensors_;
+  linear::Gaussian<kN> prior_;
+  std::vector<sensors::KnownSensor> sensors_;
   AllBiases biases_;
-  filters::Consider<kMostBiases> filter_;
+  filters::Consider<sensors::kMostBiases> filter_;
   double velocity_variance_;
 };
 

@@ -5,64 +5,61 @@
 #include "core/check.h"
 #include "fusion/estimators/make.h"
 
-namespace ttf::fusion {
-namespace estimators {
-
+namespace ttf::fusion::estimators {
 namespace {
 
 // From the sensor's place and axes to the vehicle's.
-void carry_over(Gaussian<4>& estimate, const sensors::Mounting& mounting) {
+void carry_over(linear::Gaussian<4>& estimate, const sensors::Mounting& mounting) {
   const double c = std::cos(mounting.yaw), s = std::sin(mounting.yaw);
-  Matrix<4> j = Matrix<4>::Zero();
+  linear::Matrix<4> j = linear::Matrix<4>::Zero();
   j.topLeftCorner<2, 2>() << c, -s, s, c;
   j.bottomRightCorner<2, 2>() = j.topLeftCorner<2, 2>();
   estimate.x = (j * estimate.x).eval();
   estimate.x.head<2>() += mounting.position;
-  estimate.p = sandwich<4, 4>(j, estimate.p);
+  estimate.p = motion::sandwich<4, 4>(j, estimate.p);
 }
 
 }  // namespace
 
-Gaussian<4> first_estimate(const Observation& observation, double velocity_variance, const KnownSensor* sensor) {
-  Gaussian<4> estimate;
-  if (observation.kind == ObservationKind::kPosition) {
+linear::Gaussian<4> first_estimate(const sensors::Observation& observation, double velocity_variance,
+                                   const sensors::KnownSensor* sensor) {
+  linear::Gaussian<4> estimate;
+  if (observation.kind == sensors::ObservationKind::kPosition) {
     estimate.x.head<2>() = observation.z.head<2>();
     estimate.p.topLeftCorner<2, 2>() = observation.r.topLeftCorner<2, 2>();
     estimate.p(2, 2) = estimate.p(3, 3) = velocity_variance;
     return estimate;
   }
   const double range = observation.z(0), c = std::cos(observation.z(1)), s = std::sin(observation.z(1));
-  Matrix<2> rotation;
+  linear::Matrix<2> rotation;
   rotation << c, -s, s, c;
   estimate.x.head<2>() = range * rotation.col(0);
   estimate.x.tail<2>() = observation.z(2) * rotation.col(0);
-  const Vector<2> position(observation.r(0, 0), range * range * observation.r(1, 1));
-  const Vector<2> velocity(observation.r(2, 2), velocity_variance);
+  const linear::Vector<2> position(observation.r(0, 0), range * range * observation.r(1, 1));
+  const linear::Vector<2> velocity(observation.r(2, 2), velocity_variance);
   estimate.p.topLeftCorner<2, 2>() = rotation * position.asDiagonal() * rotation.transpose();
   estimate.p.bottomRightCorner<2, 2>() = rotation * velocity.asDiagonal() * rotation.transpose();
-  symmetrise<4>(estimate.p);
+  linear::symmetrise<4>(estimate.p);
   if (sensor != nullptr && !at_the_origin(sensor->mounting)) carry_over(estimate, sensor->mounting);
   return estimate;
 }
 
-bool knows_course(const Gaussian<4>& state) {
+bool knows_course(const linear::Gaussian<4>& state) {
   const double speed_squared = state.x.tail<2>().squaredNorm();
   return speed_squared >= motion::kSlowest * motion::kSlowest &&
          state.p(2, 2) + state.p(3, 3) <= kKnown * kKnown * speed_squared;
 }
 
-}  // namespace estimators
-
-std::shared_ptr<const Estimator> make_estimator(const TrackerConfig& config) {
-  if (config.systematic == SystematicErrorsAre::kConsidered) return estimators::make_considering(config);
+std::shared_ptr<const Estimator> make_estimator(const config::TrackerConfig& config) {
+  if (config.systematic == config::SystematicErrorsAre::kConsidered) return make_considering(config);
   switch (config.motion) {
-    case MotionModel::kConstantVelocity:
-    case MotionModel::kConstantAcceleration: return estimators::make_straight(config);
-    case MotionModel::kCtrv:
-    case MotionModel::kCtra: return estimators::make_turning(config);
-    case MotionModel::kInteracting: return estimators::make_interacting(config);
+    case config::MotionModel::kConstantVelocity:
+    case config::MotionModel::kConstantAcceleration: return make_straight(config);
+    case config::MotionModel::kCtrv:
+    case config::MotionModel::kCtra: return make_turning(config);
+    case config::MotionModel::kInteracting: return make_interacting(config);
   }
   TTF_CHECK(false, "motion model {}", static_cast<int>(config.motion));
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::estimators

@@ -4,7 +4,7 @@
 
 namespace ttf::fusion::estimators {
 
-std::shared_ptr<const Estimator> make_interacting(const TrackerConfig& config) {
+std::shared_ptr<const Estimator> make_interacting(const config::TrackerConfig& config) {
   return under_the_filter(config, [&]<class F>() {
     return StraightAndTurning<F>({.seconds = config.mode_seconds},
                                  single<F>(config, motion::ConstantVelocity(config.process_noise)),

@@ -19,10 +19,10 @@ template <class F> class StraightAndTurning {
                      const Single<F, motion::Ctrv>& turning)
       : imm_(chain, straight.model, turning.model), share_(chain.share), turning_(turning) {}
 
-  Own from(const Gaussian<4>& known) const {
+  Own from(const linear::Gaussian<4>& known) const {
     return {.estimates = {known, turning_.from(known)}, .probability = share_};
   }
-  std::optional<Gaussian<4>> without_course(const Own& own) const {
+  std::optional<linear::Gaussian<4>> without_course(const Own& own) const {
     if (!turning_.without_course(std::get<1>(own.estimates))) return std::nullopt;
     return std::get<0>(own.estimates);
   }
@@ -40,7 +40,7 @@ template <class F> class StraightAndTurning {
     imm_.update(sensor, z, own);
   }
   void merge(Own& first, double a, const Own& second, double b) const { imm_.merge(first, a, second, b); }
-  Gaussian<2> position(const Own& own) const {
+  linear::Gaussian<2> position(const Own& own) const {
     const Cartesian all = cartesian(own);
     return {all.x.head<2>(), all.p.topLeftCorner<2, 2>()};
   }
@@ -48,7 +48,7 @@ template <class F> class StraightAndTurning {
 
  private:
   filters::Imm<F, motion::ConstantVelocity, motion::Ctrv> imm_;
-  Vector<2> share_;
+  linear::Vector<2> share_;
   Single<F, motion::Ctrv> turning_;
 };
 

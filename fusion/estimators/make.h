@@ -11,26 +11,27 @@
 
 namespace ttf::fusion::estimators {
 
-std::shared_ptr<const Estimator> make_straight(const TrackerConfig& config);     // constant velocity, acceleration
-std::shared_ptr<const Estimator> make_turning(const TrackerConfig& config);      // CTRV, CTRA
-std::shared_ptr<const Estimator> make_interacting(const TrackerConfig& config);  // constant velocity and CTRV
+std::shared_ptr<const Estimator> make_straight(const config::TrackerConfig& config);  // constant velocity, acceleration
+std::shared_ptr<const Estimator> make_turning(const config::TrackerConfig& config);   // CTRV, CTRA
+std::shared_ptr<const Estimator> make_interacting(const config::TrackerConfig& config);  // constant velocity and CTRV
 
 // Constant velocity and acceleration under the extended filter, the sensors' biases considered.
-std::shared_ptr<const Estimator> make_considering(const TrackerConfig& config);
+std::shared_ptr<const Estimator> make_considering(const config::TrackerConfig& config);
 
 // make<F>() gives the kernel under filter F.
-template <class Make> std::shared_ptr<const Estimator> under_the_filter(const TrackerConfig& config, const Make& make) {
+template <class Make>
+std::shared_ptr<const Estimator> under_the_filter(const config::TrackerConfig& config, const Make& make) {
   const auto under = [&]<class F>() -> std::shared_ptr<const Estimator> {
     auto kernel = make.template operator()<F>();
     return std::make_shared<ModelEstimator<F, decltype(kernel)>>(config, kernel);
   };
-  return config.filter == FilterKind::kUnscented ? under.template operator()<filters::Unscented>()
-                                                 : under.template operator()<filters::Extended>();
+  return config.filter == config::FilterKind::kUnscented ? under.template operator()<filters::Unscented>()
+                                                         : under.template operator()<filters::Extended>();
 }
 
 // What is believed of any road vehicle's turn rate, and of its acceleration, per axis or along its heading.
-template <motion::Model M> Gaussian<M::kStates> prior_of(const TrackerConfig& config) {
-  Gaussian<M::kStates> prior;
+template <motion::Model M> linear::Gaussian<M::kStates> prior_of(const config::TrackerConfig& config) {
+  linear::Gaussian<M::kStates> prior;
   if constexpr (!M::kCartesian)
     prior.p(M::kTurnRate, M::kTurnRate) = config.initial_turn_rate_sigma * config.initial_turn_rate_sigma;
   if constexpr (M::kStates == 6)
@@ -39,11 +40,12 @@ template <motion::Model M> Gaussian<M::kStates> prior_of(const TrackerConfig& co
   return prior;
 }
 
-template <class F, motion::Model M> Single<F, M> single(const TrackerConfig& config, const M& model) {
+template <class F, motion::Model M> Single<F, M> single(const config::TrackerConfig& config, const M& model) {
   return {.model = model, .prior = prior_of<M>(config), .filter = {}};
 }
 
-template <motion::Model M> std::shared_ptr<const Estimator> make_single(const TrackerConfig& config, const M& model) {
+template <motion::Model M>
+std::shared_ptr<const Estimator> make_single(const config::TrackerConfig& config, const M& model) {
   return under_the_filter(config, [&]<class F>() { return single<F>(config, model); });
 }
 

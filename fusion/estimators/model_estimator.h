@@ -32,19 +32,21 @@ inline bool at_the_origin(const sensors::Mounting& mounting) {
 }
 // Position and velocity as one observation has them, `velocity_variance` in every direction it says nothing of; of a
 // sensor at the origin where `sensor` is null.
-Gaussian<4> first_estimate(const Observation& observation, double velocity_variance, const KnownSensor* sensor);
+linear::Gaussian<4> first_estimate(const sensors::Observation& observation, double velocity_variance,
+                                   const sensors::KnownSensor* sensor);
 // Whether it is known that this moves, and where to.
-bool knows_course(const Gaussian<4>& state);
+bool knows_course(const linear::Gaussian<4>& state);
 
 template <class F, class Kernel> class ModelEstimator final : public Estimator {
  public:
-  ModelEstimator(const TrackerConfig& config, const Kernel& kernel)
+  ModelEstimator(const config::TrackerConfig& config, const Kernel& kernel)
       : kernel_(kernel), velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma),
         sensors_(config.sensors), young_{.model = motion::ConstantVelocity(config.initial_acceleration_sigma *
                                                                            config.initial_acceleration_sigma)} {}
 
-  Estimate initial(const Observation& observation) const override {
-    const Gaussian<4> first = first_estimate(observation, velocity_variance_, known(sensors_, observation.sensor));
+  Estimate initial(const sensors::Observation& observation) const override {
+    const linear::Gaussian<4> first =
+        first_estimate(observation, velocity_variance_, known(sensors_, observation.sensor));
     if constexpr (Kernel::kNeedsCourse)
       return first;
     else
@@ -57,7 +59,8 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
     with(estimate, [&](const auto& kernel, auto& own) { kernel.predict(own, dt); });
   }
 
-  std::optional<double> distance_squared(const Estimate& estimate, const Observation& observation) const override {
+  std::optional<double> distance_squared(const Estimate& estimate,
+                                         const sensors::Observation& observation) const override {
     return with(estimate, [&](const auto& kernel, const auto& own) {
       return through_sensor(observation, [&](const auto& sensor, const auto& z) -> std::optional<double> {
         const auto innovation = kernel.innovate(sensor, z, own);
@@ -67,7 +70,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
     });
   }
 
-  std::optional<Fit> fit(const Estimate& estimate, const Observation& observation) const override {
+  std::optional<Fit> fit(const Estimate& estimate, const sensors::Observation& observation) const override {
     return with(estimate, [&](const auto& kernel, const auto& own) {
       return through_sensor(observation, [&](const auto& sensor, const auto& z) -> std::optional<Fit> {
         const auto innovation = kernel.innovate(sensor, z, own);
@@ -77,7 +80,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
     });
   }
 
-  void update(Estimate& estimate, const Observation& observation) const override {
+  void update(Estimate& estimate, const sensors::Observation& observation) const override {
     with(estimate, [&](const auto& kernel, auto& own) { take_in(kernel, own, observation); });
     follow_course(estimate);
   }
@@ -105,7 +108,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
     if (observed) follow_course(estimate);
   }
 
-  Gaussian<2> position(const Estimate& estimate) const override {
+  linear::Gaussian<2> position(const Estimate& estimate) const override {
     return with(estimate, [](const auto& kernel, const auto& own) { return kernel.position(own); });
   }
   Cartesian cartesian(const Estimate& estimate) const override {
@@ -116,8 +119,8 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
   // Over to the kernel once the course is known, and back where it is lost.
   void follow_course(Estimate& estimate) const {
     if constexpr (Kernel::kNeedsCourse) {
-      if (const auto* young = std::get_if<Gaussian<4>>(&estimate)) {
-        if (knows_course(*young)) estimate = kernel_.from(Gaussian<4>(*young));
+      if (const auto* young = std::get_if<linear::Gaussian<4>>(&estimate)) {
+        if (knows_course(*young)) estimate = kernel_.from(linear::Gaussian<4>(*young));
       } else if (const auto lost = kernel_.without_course(std::get<typename Kernel::Own>(estimate))) {
         estimate = *lost;
       }
@@ -126,7 +129,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
 
   template <class E, class Body> auto with(E& estimate, const Body& body) const {
     if constexpr (Kernel::kNeedsCourse)
-      if (auto* young = std::get_if<Gaussian<4>>(&estimate)) return body(young_, *young);
+      if (auto* young = std::get_if<linear::Gaussian<4>>(&estimate)) return body(young_, *young);
     auto* own = std::get_if<typename Kernel::Own>(&estimate);
     TTF_CHECK(own, "an estimate of another estimator: alternative {}", estimate.index());
     return body(kernel_, *own);
@@ -134,24 +137,25 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
 
   // In one place, for the sake of the hot path: of two the compiler would inline neither filter.
   template <class K, class Own>
-  [[gnu::noinline]] void take_in(const K& kernel, Own& own, const Observation& observation) const {
+  [[gnu::noinline]] void take_in(const K& kernel, Own& own, const sensors::Observation& observation) const {
     through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
   }
 
   // What is a position has been placed in the vehicle's axes before (fusion/sensors/known_sensor.h).
-  template <class Body> auto through_sensor(const Observation& o, const Body& body) const {
-    if (o.kind == ObservationKind::kPosition)
+  template <class Body> auto through_sensor(const sensors::Observation& o, const Body& body) const {
+    if (o.kind == sensors::ObservationKind::kPosition)
       return body(sensors::Position{},
                   sensors::Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});
     const sensors::Measurement<3> z{o.z, o.r};
-    if (const KnownSensor* sensor = known(sensors_, o.sensor); sensor != nullptr && !at_the_origin(sensor->mounting))
+    if (const sensors::KnownSensor* sensor = known(sensors_, o.sensor);
+        sensor != nullptr && !at_the_origin(sensor->mounting))
       return body(sensors::Mounted<sensors::RangeBearingRate>(sensor->mounting), z);
     return body(sensors::RangeBearingRate{}, z);
   }
 
   Kernel kernel_;
   double velocity_variance_;
-  std::vector<KnownSensor> sensors_;
+  std::vector<sensors::KnownSensor> sensors_;
   Single<F, motion::ConstantVelocity> young_;
 };
 

@@ -18,7 +18,7 @@ inline constexpr double kForgotten = 0.7;
 
 // A heading is never known less than not at all, uniform over the circle. Of something that stands for long, white
 // turn acceleration would say otherwise; scaling its row and column alike keeps the covariance positive.
-template <class M> void bound_heading(Gaussian<M::kStates>& state) {
+template <class M> void bound_heading(linear::Gaussian<M::kStates>& state) {
   if constexpr (!M::kCartesian) {
     constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
     const double variance = state.p(M::kHeading, M::kHeading);
@@ -30,7 +30,7 @@ template <class M> void bound_heading(Gaussian<M::kStates>& state) {
 }
 
 template <class F, motion::Model M> struct Single {
-  using Own = Gaussian<M::kStates>;
+  using Own = linear::Gaussian<M::kStates>;
   static constexpr bool kNeedsCourse = !M::kCartesian;
 
   M model{};
@@ -38,14 +38,16 @@ template <class F, motion::Model M> struct Single {
   [[no_unique_address]] F filter{};
 
   // From position and velocity, the rest being as of any object.
-  Own from(const Gaussian<4>& known) const { return motion::converted<motion::ConstantVelocity, M>(known, prior); }
+  Own from(const linear::Gaussian<4>& known) const {
+    return motion::converted<motion::ConstantVelocity, M>(known, prior);
+  }
   // Position and velocity of what does not know its course any more; nothing, where it does. It may move as fast as its
   // speed says, whereto nobody knows.
-  std::optional<Gaussian<4>> without_course(const Own& own) const {
+  std::optional<linear::Gaussian<4>> without_course(const Own& own) const {
     if constexpr (kNeedsCourse) {
       if (own.p(M::kHeading, M::kHeading) <= kForgotten * kForgotten) return std::nullopt;
-      Gaussian<4> known;
-      const Kinematics k = M::template kinematics<kWithVelocity>(own.x);
+      linear::Gaussian<4> known;
+      const motion::Kinematics k = M::template kinematics<motion::kWithVelocity>(own.x);
       known.x << k.position, k.velocity;
       known.p.template topLeftCorner<2, 2>() = own.p.template topLeftCorner<2, 2>();
       known.p(2, 2) = known.p(3, 3) = own.x(M::kSpeed) * own.x(M::kSpeed) + own.p(M::kSpeed, M::kSpeed);
@@ -67,7 +69,7 @@ template <class F, motion::Model M> struct Single {
     filter.update(model, sensor, z, own);
   }
   void merge(Own& first, double a, const Own& second, double b) const { filters::merge<M>(first, a, second, b); }
-  Gaussian<2> position(const Own& own) const {
+  linear::Gaussian<2> position(const Own& own) const {
     return {own.x.template head<2>(), own.p.template topLeftCorner<2, 2>()};
   }
   Cartesian cartesian(const Own& own) const { return motion::whole<M>(own).estimate; }

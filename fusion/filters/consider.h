@@ -21,10 +21,12 @@ template <int B> struct Consider {
   static constexpr const char* kName = "Consider";
   static constexpr int kBiases = B;
 
-  Matrix<B> bias = Matrix<B>::Zero();  // covariance of what is left after known biases are corrected for
+  linear::Matrix<B> bias =
+      linear::Matrix<B>::Zero();  // covariance of what is left after known biases are corrected for
 
   template <motion::Model M> void predict(const M& model, Considered<M::kStates, B>& considered, double dt) const {
-    considered.cross = times<M::kStates, M::kStates, B>(model.jacobian(considered.state.x, dt), considered.cross);
+    considered.cross =
+        motion::times<M::kStates, M::kStates, B>(model.jacobian(considered.state.x, dt), considered.cross);
     Extended{}.predict(model, considered.state, dt);
   }
 
@@ -42,9 +44,9 @@ template <int B> struct Consider {
 
   // The covariance of what the sensor is expected to say, with noise z.r; z.z does not matter.
   template <int First = 0, motion::Model M, sensors::Biased S>
-  requires(First + S::kBiases <= B) Matrix<S::kDimension> spread(const M&, const S& sensor,
-                                                                 const sensors::Measurement<S::kDimension>& z,
-                                                                 const Considered<M::kStates, B>& c)
+  requires(First + S::kBiases <= B) linear::Matrix<S::kDimension> spread(const M&, const S& sensor,
+                                                                         const sensors::Measurement<S::kDimension>& z,
+                                                                         const Considered<M::kStates, B>& c)
   const {
     Sight<M, S> sight;
     look<First>(sensor, z, c, sight);
@@ -56,57 +58,59 @@ template <int B> struct Consider {
                                                                      const sensors::Measurement<S::kDimension>& z,
                                                                      Considered<M::kStates, B>& c)
   const {
-    constexpr int kN = M::kStates, kM = S::kDimension, kC = leading_columns(S::kParts), kS = S::kBiases;
+    constexpr int kN = M::kStates, kM = S::kDimension, kC = motion::leading_columns(S::kParts), kS = S::kBiases;
     Sight<M, S> sight;
     if (!look<First>(sensor, z, c, sight)) return {};
     const Ldl<kM> ldl(sight.innovation.s);
     judge<kM>(sight.innovation, ldl);
 
-    const Matrix<kN, kM> gain = ldl.template divide<kN>(sight.w.transpose());
+    const linear::Matrix<kN, kM> gain = ldl.template divide<kN>(sight.w.transpose());
     c.state.x += gain * sight.innovation.nu;
     M::normalise(c.state.x);
-    add_scaled<kN, B>(c.cross, -1.0, times<kN, kM, B>(gain, sight.with_bias));
-    Matrix<kN> t = c.state.p;
-    add_scaled<kN, kN>(t, -1.0, times<kN, kM, kN>(gain, sight.w));
-    Matrix<kN, kM> e = times_transposed<kN, kC, kM>(t.template leftCols<kC>(), sight.h);
-    add_scaled<kN, kM>(e, 1.0, times_transposed<kN, kS, kM>(c.cross.template middleCols<kS>(First), sight.d));
-    add_scaled<kN, kM>(e, -1.0, times<kN, kM, kM>(gain, z.r));
-    add_scaled<kN, kN>(t, -1.0, times_transposed<kN, kM, kN>(e, gain));
+    motion::add_scaled<kN, B>(c.cross, -1.0, motion::times<kN, kM, B>(gain, sight.with_bias));
+    linear::Matrix<kN> t = c.state.p;
+    motion::add_scaled<kN, kN>(t, -1.0, motion::times<kN, kM, kN>(gain, sight.w));
+    linear::Matrix<kN, kM> e = motion::times_transposed<kN, kC, kM>(t.template leftCols<kC>(), sight.h);
+    motion::add_scaled<kN, kM>(e, 1.0,
+                               motion::times_transposed<kN, kS, kM>(c.cross.template middleCols<kS>(First), sight.d));
+    motion::add_scaled<kN, kM>(e, -1.0, motion::times<kN, kM, kM>(gain, z.r));
+    motion::add_scaled<kN, kN>(t, -1.0, motion::times_transposed<kN, kM, kN>(e, gain));
     c.state.p = t;
-    symmetrise<kN>(c.state.p);
+    linear::symmetrise<kN>(c.state.p);
     return sight.innovation;
   }
 
  private:
   template <class M, class S> struct Sight {
-    Matrix<S::kDimension, leading_columns(S::kParts)> h;
-    Matrix<S::kDimension, S::kBiases> d;
-    Matrix<S::kDimension, M::kStates> w;   // cov(z, x)
-    Matrix<S::kDimension, B> with_bias;    // cov(z, b)
-    Innovation<S::kDimension> innovation;  // but for what judge() says
+    linear::Matrix<S::kDimension, motion::leading_columns(S::kParts)> h;
+    linear::Matrix<S::kDimension, S::kBiases> d;
+    linear::Matrix<S::kDimension, M::kStates> w;  // cov(z, x)
+    linear::Matrix<S::kDimension, B> with_bias;   // cov(z, b)
+    Innovation<S::kDimension> innovation;         // but for what judge() says
   };
 
   // False, and nothing is to be learnt, where the sensor does not see it.
   template <int First, motion::Model M, sensors::Biased S>
   bool look(const S& sensor, const sensors::Measurement<S::kDimension>& z, const Considered<M::kStates, B>& c,
             Sight<M, S>& sight) const {
-    constexpr int kN = M::kStates, kM = S::kDimension, kC = leading_columns(S::kParts), kS = S::kBiases;
-    const Kinematics k = M::template kinematics<S::kParts>(c.state.x);
+    constexpr int kN = M::kStates, kM = S::kDimension, kC = motion::leading_columns(S::kParts), kS = S::kBiases;
+    const motion::Kinematics k = M::template kinematics<S::kParts>(c.state.x);
     if (!sensor.sees(k)) return false;
     sight.h = measurement_matrix<M>(sensor, k, c.state.x);
     sight.d = sensor.bias_jacobian(k);
-    const Matrix<kC, kN> leading = c.state.p.template topRows<kC>();
-    const Matrix<kC, B> leading_cross = c.cross.template topRows<kC>();
-    const Matrix<kN, kS> own_cross = c.cross.template middleCols<kS>(First);
-    const Matrix<kS, B> own_bias = bias.template middleRows<kS>(First);
-    sight.w = times<kM, kC, kN>(sight.h, leading);
-    add_scaled<kM, kN>(sight.w, 1.0, times_transposed<kM, kS, kN>(sight.d, own_cross));
-    sight.with_bias = times<kM, kC, B>(sight.h, leading_cross);
-    add_scaled<kM, B>(sight.with_bias, 1.0, times<kM, kS, B>(sight.d, own_bias));
-    Matrix<kM>& s = sight.innovation.s;
-    s = times_transposed<kM, kC, kM>(sight.w.template leftCols<kC>(), sight.h) + z.r;
-    add_scaled<kM, kM>(s, 1.0, times_transposed<kM, kS, kM>(sight.with_bias.template middleCols<kS>(First), sight.d));
-    symmetrise<kM>(s);
+    const linear::Matrix<kC, kN> leading = c.state.p.template topRows<kC>();
+    const linear::Matrix<kC, B> leading_cross = c.cross.template topRows<kC>();
+    const linear::Matrix<kN, kS> own_cross = c.cross.template middleCols<kS>(First);
+    const linear::Matrix<kS, B> own_bias = bias.template middleRows<kS>(First);
+    sight.w = motion::times<kM, kC, kN>(sight.h, leading);
+    motion::add_scaled<kM, kN>(sight.w, 1.0, motion::times_transposed<kM, kS, kN>(sight.d, own_cross));
+    sight.with_bias = motion::times<kM, kC, B>(sight.h, leading_cross);
+    motion::add_scaled<kM, B>(sight.with_bias, 1.0, motion::times<kM, kS, B>(sight.d, own_bias));
+    linear::Matrix<kM>& s = sight.innovation.s;
+    s = motion::times_transposed<kM, kC, kM>(sight.w.template leftCols<kC>(), sight.h) + z.r;
+    motion::add_scaled<kM, kM>(
+        s, 1.0, motion::times_transposed<kM, kS, kM>(sight.with_bias.template middleCols<kS>(First), sight.d));
+    linear::symmetrise<kM>(s);
     sight.innovation.nu = sensor.residual(z.z, sensor.expected(k));
     return true;
   }

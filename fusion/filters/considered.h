@@ -7,8 +7,8 @@
 namespace ttf::fusion::filters {
 
 template <int N, int B> struct Considered {
-  Gaussian<N> state;
-  Matrix<N, B> cross = Matrix<N, B>::Zero();
+  linear::Gaussian<N> state;
+  linear::Matrix<N, B> cross = linear::Matrix<N, B>::Zero();
 };
 
 }  // namespace ttf::fusion::filters

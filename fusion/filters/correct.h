@@ -14,14 +14,15 @@ namespace ttf::fusion::filters {
 
 // W' and S: whole columns, as everything here.
 template <bool Direct, int N, int M, int C>
-void project(const Matrix<N>& p, const Matrix<M, C>& h, const Matrix<M>& r, Matrix<N, M>& w, Matrix<M>& s) {
+void project(const linear::Matrix<N>& p, const linear::Matrix<M, C>& h, const linear::Matrix<M>& r,
+             linear::Matrix<N, M>& w, linear::Matrix<M>& s) {
   if constexpr (Direct) {
     w = p.template leftCols<M>();
     s = w.template topRows<M>() + r;
   } else {
     w.noalias() = p.template leftCols<C>() * h.transpose();
-    s = times<M, C, M>(h, w.template topRows<C>()) + r;
-    mirror<M>(s);
+    s = motion::times<M, C, M>(h, w.template topRows<C>()) + r;
+    motion::mirror<M>(s);
   }
 }
 
@@ -34,8 +35,9 @@ template <int M> void judge(Innovation<M>& innovation, const Ldl<M>& ldl) {
 
 // What correct() finds, changing nothing.
 template <bool Direct, int N, int M, int C>
-Innovation<M> innovate(const Gaussian<N>& state, const Vector<M>& nu, const Matrix<M, C>& h, const Matrix<M>& r) {
-  Matrix<N, M> w;
+Innovation<M> innovate(const linear::Gaussian<N>& state, const linear::Vector<M>& nu, const linear::Matrix<M, C>& h,
+                       const linear::Matrix<M>& r) {
+  linear::Matrix<N, M> w;
   Innovation<M> innovation;
   innovation.nu = nu;
   project<Direct>(state.p, h, r, w, innovation.s);
@@ -44,25 +46,26 @@ Innovation<M> innovate(const Gaussian<N>& state, const Vector<M>& nu, const Matr
 }
 
 template <bool Direct, int N, int M, int C>
-Innovation<M> correct(Gaussian<N>& state, const Vector<M>& nu, const Matrix<M, C>& h, const Matrix<M>& r) {
-  Matrix<N, M> w;
+Innovation<M> correct(linear::Gaussian<N>& state, const linear::Vector<M>& nu, const linear::Matrix<M, C>& h,
+                      const linear::Matrix<M>& r) {
+  linear::Matrix<N, M> w;
   Innovation<M> innovation;
   innovation.nu = nu;
   project<Direct>(state.p, h, r, w, innovation.s);
   const Ldl<M> ldl(innovation.s);
   judge<M>(innovation, ldl);
-  const Matrix<N, M> gain = ldl.template divide<N>(w);
+  const linear::Matrix<N, M> gain = ldl.template divide<N>(w);
   state.x.noalias() += gain.lazyProduct(nu);
-  Matrix<N> t;
+  linear::Matrix<N> t;
   t.noalias() = state.p - gain.lazyProduct(w.transpose());
-  Matrix<N, M> e;
+  linear::Matrix<N, M> e;
   if constexpr (Direct)
     e = t.template leftCols<M>();
   else
     e.noalias() = t.template leftCols<C>() * h.transpose();
   e.noalias() -= gain.lazyProduct(r);
   state.p.noalias() = t - e.lazyProduct(gain.transpose());
-  mirror<N>(state.p);
+  motion::mirror<N>(state.p);
   return innovation;
 }
 

@@ -17,8 +17,8 @@ namespace ttf::fusion::filters {
 // What an update found: the innovation and its covariance. Not used (nothing changed) where the sensor model has no
 // derivative at the expected state, or sees one of the sigma points not.
 template <int M> struct Innovation {
-  Vector<M> nu = Vector<M>::Zero();
-  Matrix<M> s = Matrix<M>::Identity();
+  linear::Vector<M> nu = linear::Vector<M>::Zero();
+  linear::Matrix<M> s = linear::Matrix<M>::Identity();
   double nis = 0.0;          // nu' S^-1 nu
   double determinant = 1.0;  // of S
   bool used = false;
@@ -29,8 +29,8 @@ template <int M> struct Innovation {
 
 template <class F, class M, class S>
 concept Filter = motion::Model<M> && sensors::Model<S> &&
-    requires(const F& filter, const M& model, const S& sensor, Gaussian<M::kStates>& state,
-             const Gaussian<M::kStates>& kept, const sensors::Measurement<S::kDimension>& z, double dt) {
+    requires(const F& filter, const M& model, const S& sensor, linear::Gaussian<M::kStates>& state,
+             const linear::Gaussian<M::kStates>& kept, const sensors::Measurement<S::kDimension>& z, double dt) {
   {filter.predict(model, state, dt)};
   { filter.innovate(model, sensor, z, kept) } -> std::same_as<Innovation<S::kDimension>>;
   { filter.update(model, sensor, z, state) } -> std::same_as<Innovation<S::kDimension>>;

@@ -28,12 +28,12 @@ namespace ttf::fusion::filters {
 //   P(dt) = e I + (1 - e) 1 share',  e = exp(-dt / seconds),
 // for which P(a) P(b) = P(a + b): asynchronous sensors see the same chain, and nothing changes within no time.
 template <int K> struct ModeChain {
-  Vector<K> share = Vector<K>::Constant(1.0 / K);  // positive, of sum 1
-  double seconds = 5.0;                            // above 0
+  linear::Vector<K> share = linear::Vector<K>::Constant(1.0 / K);  // positive, of sum 1
+  double seconds = 5.0;                                            // above 0
 
-  Matrix<K> transition(double dt) const {
+  linear::Matrix<K> transition(double dt) const {
     const double kept = std::exp(-dt / seconds);
-    Matrix<K> p = (1.0 - kept) * Vector<K>::Ones() * share.transpose();
+    linear::Matrix<K> p = (1.0 - kept) * linear::Vector<K>::Ones() * share.transpose();
     p.diagonal().array() += kept;
     return p;
   }
@@ -51,13 +51,13 @@ template <class F, motion::Model... Ms> class Imm {
   }
 
   // p_ij in row i, rows of sum 1. A mode of probability zero before and after keeps its own estimate.
-  void mix(Modes<Ms...>& modes, const Matrix<kModes>& transition) const {
-    const Vector<kModes> c = transition.transpose() * modes.probability;
+  void mix(Modes<Ms...>& modes, const linear::Matrix<kModes>& transition) const {
+    const linear::Vector<kModes> c = transition.transpose() * modes.probability;
     const auto before = modes.estimates;
     each([&]<std::size_t J>() {
       const int j = static_cast<int>(J);
       if (c(j) <= 0.0) return;
-      const Vector<kModes> weights = transition.col(j).cwiseProduct(modes.probability) / c(j);
+      const linear::Vector<kModes> weights = transition.col(j).cwiseProduct(modes.probability) / c(j);
       mix_one<J>(before, weights, std::get<J>(modes.estimates));
     });
     modes.probability = c;
@@ -83,7 +83,7 @@ template <class F, motion::Model... Ms> class Imm {
     each([&]<std::size_t J>() { of[J] = filter_.update(std::get<J>(models_), sensor, z, std::get<J>(after)); });
     if (!all_used<S::kDimension>(of)) return {};
     modes.estimates = after;
-    Vector<kModes> log_weight;
+    linear::Vector<kModes> log_weight;
     for (int j = 0; j < kModes; ++j)
       log_weight(j) = of[static_cast<std::size_t>(j)].log_likelihood() + std::log(modes.probability(j));
     const Innovation<S::kDimension> mixed = mixture(sensor, of, modes.probability);
@@ -106,18 +106,18 @@ template <class F, motion::Model... Ms> class Imm {
   }
 
   // Mean and covariance of (x, y, vx, vy, ax, ay) over all modes; a mode that knows no acceleration has none.
-  Gaussian<6> whole(const Modes<Ms...>& modes) const {
-    std::array<Gaussian<6>, static_cast<std::size_t>(kModes)> of;
+  linear::Gaussian<6> whole(const Modes<Ms...>& modes) const {
+    std::array<linear::Gaussian<6>, static_cast<std::size_t>(kModes)> of;
     each([&]<std::size_t J>() {
       using M = std::tuple_element_t<J, std::tuple<Ms...>>;
       of[J] = motion::whole<M>(std::get<J>(modes.estimates)).estimate;
     });
-    Gaussian<6> mixed;
+    linear::Gaussian<6> mixed;
     for (std::size_t j = 0; j < of.size(); ++j)
-      add_scaled<6, 1>(mixed.x, modes.probability(static_cast<int>(j)), of[j].x);
+      motion::add_scaled<6, 1>(mixed.x, modes.probability(static_cast<int>(j)), of[j].x);
     for (std::size_t j = 0; j < of.size(); ++j) {
-      add_scaled<6, 6>(mixed.p, modes.probability(static_cast<int>(j)), of[j].p);
-      add_outer<6>(mixed.p, modes.probability(static_cast<int>(j)), of[j].x - mixed.x);
+      motion::add_scaled<6, 6>(mixed.p, modes.probability(static_cast<int>(j)), of[j].p);
+      motion::add_outer<6>(mixed.p, modes.probability(static_cast<int>(j)), of[j].x - mixed.x);
     }
     return mixed;
   }
@@ -137,22 +137,22 @@ template <class F, motion::Model... Ms> class Imm {
   // As differences from the most probable mode's innovation, so that angles average as angles.
   template <sensors::Model S, int M = S::kDimension>
   static Innovation<M> mixture(const S& sensor, const std::array<Innovation<M>, static_cast<std::size_t>(kModes)>& of,
-                               const Vector<kModes>& probability) {
+                               const linear::Vector<kModes>& probability) {
     int likely = 0;
     probability.maxCoeff(&likely);
-    const Vector<M>& about = of[static_cast<std::size_t>(likely)].nu;
-    std::array<Vector<M>, static_cast<std::size_t>(kModes)> d;
-    Vector<M> shift = Vector<M>::Zero();
+    const linear::Vector<M>& about = of[static_cast<std::size_t>(likely)].nu;
+    std::array<linear::Vector<M>, static_cast<std::size_t>(kModes)> d;
+    linear::Vector<M> shift = linear::Vector<M>::Zero();
     for (std::size_t j = 0; j < d.size(); ++j) {
       d[j] = sensor.residual(of[j].nu, about);
-      add_scaled<M, 1>(shift, probability(static_cast<int>(j)), d[j]);
+      motion::add_scaled<M, 1>(shift, probability(static_cast<int>(j)), d[j]);
     }
     Innovation<M> mixed;
-    mixed.nu = sensor.residual(about + shift, Vector<M>::Zero());
+    mixed.nu = sensor.residual(about + shift, linear::Vector<M>::Zero());
     mixed.s.setZero();
     for (std::size_t j = 0; j < d.size(); ++j) {
-      add_scaled<M, M>(mixed.s, probability(static_cast<int>(j)), of[j].s);
-      add_outer<M>(mixed.s, probability(static_cast<int>(j)), d[j] - shift);
+      motion::add_scaled<M, M>(mixed.s, probability(static_cast<int>(j)), of[j].s);
+      motion::add_outer<M>(mixed.s, probability(static_cast<int>(j)), d[j] - shift);
     }
     const Ldl<M> ldl(mixed.s);
     mixed.nis = ldl.norm_squared(mixed.nu);
@@ -162,19 +162,19 @@ template <class F, motion::Model... Ms> class Imm {
   }
 
   template <std::size_t J>
-  static void mix_one(const std::tuple<Gaussian<Ms::kStates>...>& before, const Vector<kModes>& weights,
-                      Gaussian<std::tuple_element_t<J, std::tuple<Ms...>>::kStates>& mixed) {
+  static void mix_one(const std::tuple<linear::Gaussian<Ms::kStates>...>& before, const linear::Vector<kModes>& weights,
+                      linear::Gaussian<std::tuple_element_t<J, std::tuple<Ms...>>::kStates>& mixed) {
     using To = std::tuple_element_t<J, std::tuple<Ms...>>;
     constexpr int kN = To::kStates;
-    const Gaussian<kN> own = std::get<J>(before);
-    std::array<Gaussian<kN>, static_cast<std::size_t>(kModes)> in_own;
-    Vector<kN> shift = Vector<kN>::Zero();  // of the mean, from this mode's own
+    const linear::Gaussian<kN> own = std::get<J>(before);
+    std::array<linear::Gaussian<kN>, static_cast<std::size_t>(kModes)> in_own;
+    linear::Vector<kN> shift = linear::Vector<kN>::Zero();  // of the mean, from this mode's own
     each([&]<std::size_t I>() {
       using From = std::tuple_element_t<I, std::tuple<Ms...>>;
       const double weight = weights(static_cast<int>(I));
       if (weight == 0.0) return;
       in_own[I] = motion::converted<From, To>(std::get<I>(before), own);
-      add_scaled<kN, 1>(shift, weight, To::difference(in_own[I].x, own.x));
+      motion::add_scaled<kN, 1>(shift, weight, To::difference(in_own[I].x, own.x));
     });
     mixed.x = own.x + shift;
     To::normalise(mixed.x);
@@ -182,8 +182,8 @@ template <class F, motion::Model... Ms> class Imm {
     each([&]<std::size_t I>() {
       const double weight = weights(static_cast<int>(I));
       if (weight == 0.0) return;
-      add_scaled<kN, kN>(mixed.p, weight, in_own[I].p);
-      add_outer<kN>(mixed.p, weight, To::difference(in_own[I].x, mixed.x));
+      motion::add_scaled<kN, kN>(mixed.p, weight, in_own[I].p);
+      motion::add_outer<kN>(mixed.p, weight, To::difference(in_own[I].x, mixed.x));
     });
   }
 

@@ -10,30 +10,30 @@ namespace ttf::fusion::filters {
 struct Kalman {
   static constexpr const char* kName = "Kalman";
 
-  template <motion::LinearModel M> void predict(const M& model, Gaussian<M::kStates>& state, double dt) const {
+  template <motion::LinearModel M> void predict(const M& model, linear::Gaussian<M::kStates>& state, double dt) const {
     if constexpr (motion::StructuredModel<M>)
       model.advance(state, dt);
     else
-      fusion::predict<M::kStates>(state, model.step(dt));
+      linear::predict<M::kStates>(state, model.step(dt));
   }
 
   template <motion::LinearModel M, sensors::Model S>
   requires(S::kLinear&& M::kCartesian) Innovation<S::kDimension> innovate(const M&, const S& sensor,
                                                                           const sensors::Measurement<S::kDimension>& z,
-                                                                          const Gaussian<M::kStates>& state)
+                                                                          const linear::Gaussian<M::kStates>& state)
   const {
-    const Kinematics k = M::template kinematics<S::kParts>(state.x);
-    const Vector<S::kDimension> nu = sensor.residual(z.z, sensor.expected(k));
+    const motion::Kinematics k = M::template kinematics<S::kParts>(state.x);
+    const linear::Vector<S::kDimension> nu = sensor.residual(z.z, sensor.expected(k));
     return filters::innovate<sensors::Direct<S>>(state, nu, measurement_matrix<M>(sensor, k, state.x), z.r);
   }
 
   template <motion::LinearModel M, sensors::Model S>
   requires(S::kLinear&& M::kCartesian) Innovation<S::kDimension> update(const M&, const S& sensor,
                                                                         const sensors::Measurement<S::kDimension>& z,
-                                                                        Gaussian<M::kStates>& state)
+                                                                        linear::Gaussian<M::kStates>& state)
   const {
-    const Kinematics k = M::template kinematics<S::kParts>(state.x);
-    const Vector<S::kDimension> nu = sensor.residual(z.z, sensor.expected(k));
+    const motion::Kinematics k = M::template kinematics<S::kParts>(state.x);
+    const linear::Vector<S::kDimension> nu = sensor.residual(z.z, sensor.expected(k));
     return correct<sensors::Direct<S>>(state, nu, measurement_matrix<M>(sensor, k, state.x), z.r);
   }
 };

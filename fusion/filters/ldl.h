@@ -9,13 +9,13 @@
 #include "fusion/linear/gaussian.h"
 #include "fusion/motion/kernels.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::filters {
 
 // What whoever takes in a covariance from outside asks of it (fusion/sensors/sensor_model.h): finite, symmetric to the
 // bit, and no pivot that is rounding only, within 1e-12 of its diagonal element.
-template <int M> bool positive_definite(const Matrix<M>& a) {
+template <int M> bool positive_definite(const linear::Matrix<M>& a) {
   constexpr double kRounding = 1e-12;
-  Matrix<M> l;
+  linear::Matrix<M> l;
   for (int j = 0; j < M; ++j) {
     double d = a(j, j);
     for (int k = 0; k < j; ++k) d -= l(j, k) * l(j, k);
@@ -35,40 +35,41 @@ template <int M> bool positive_definite(const Matrix<M>& a) {
 // for asking).
 template <int M> class Ldl {
  public:
-  explicit Ldl(const Matrix<M>& a) : l_(a) {
-    unrolled<M>([&](auto column) {
+  explicit Ldl(const linear::Matrix<M>& a) : l_(a) {
+    motion::unrolled<M>([&](auto column) {
       constexpr int j = column;
       double d = a(j, j);
-      unrolled<j>([&](int k) { d -= l_(j, k) * l_(j, k) * d_[k]; });
+      motion::unrolled<j>([&](int k) { d -= l_(j, k) * l_(j, k) * d_[k]; });
       TTF_CHECK(d > 0.0, "a matrix that is not positive definite: pivot {} of {} is {}", j, M, d);
       d_[j] = d;
       inverse_[j] = 1.0 / d;
-      unrolled<M - 1 - j>([&](int below) {
+      motion::unrolled<M - 1 - j>([&](int below) {
         const int i = j + 1 + below;
         double sum = a(i, j);
-        unrolled<j>([&](int k) { sum -= l_(i, k) * l_(j, k) * d_[k]; });
+        motion::unrolled<j>([&](int k) { sum -= l_(i, k) * l_(j, k) * d_[k]; });
         l_(i, j) = sum * inverse_[j];
       });
     });
   }
 
   // B A^-1, for B with columns of any length: whole columns at a time.
-  template <int Rows> Matrix<Rows, M> divide(Matrix<Rows, M> b) const {
-    unrolled<M>([&](auto i) { unrolled<i>([&](int k) { b.col(i.value) -= l_(i.value, k) * b.col(k); }); });
-    unrolled<M>([&](auto back) {
+  template <int Rows> linear::Matrix<Rows, M> divide(linear::Matrix<Rows, M> b) const {
+    motion::unrolled<M>(
+        [&](auto i) { motion::unrolled<i>([&](int k) { b.col(i.value) -= l_(i.value, k) * b.col(k); }); });
+    motion::unrolled<M>([&](auto back) {
       constexpr int i = M - 1 - back;
       b.col(i) *= inverse_[i];
-      unrolled<back>([&](int above) { b.col(i) -= l_(i + 1 + above, i) * b.col(i + 1 + above); });
+      motion::unrolled<back>([&](int above) { b.col(i) -= l_(i + 1 + above, i) * b.col(i + 1 + above); });
     });
     return b;
   }
 
   // v' A^-1 v.
-  double norm_squared(Vector<M> v) const {
+  double norm_squared(linear::Vector<M> v) const {
     double sum = 0.0;
-    unrolled<M>([&](auto row) {
+    motion::unrolled<M>([&](auto row) {
       constexpr int i = row;
-      unrolled<i>([&](int k) { v(i) -= l_(i, k) * v(k); });
+      motion::unrolled<i>([&](int k) { v(i) -= l_(i, k) * v(k); });
       sum += v(i) * v(i) * inverse_[i];
     });
     return sum;
@@ -81,15 +82,15 @@ template <int M> class Ldl {
   }
 
  private:
-  Matrix<M> l_;
+  linear::Matrix<M> l_;
   double d_[M], inverse_[M];
 };
 
 // A lower triangular with A A' = P for a positive semi-definite P: a pivot that is zero within rounding leaves a zero
 // column, for there is no uncertainty in that direction.
-template <int N> Matrix<N> square_root(const Matrix<N>& p) {
+template <int N> linear::Matrix<N> square_root(const linear::Matrix<N>& p) {
   constexpr double kRounding = 1e-14;
-  Matrix<N> a = Matrix<N>::Zero();
+  linear::Matrix<N> a = linear::Matrix<N>::Zero();
   for (int j = 0; j < N; ++j) {
     double d = p(j, j);
     for (int k = 0; k < j; ++k) d -= a(j, k) * a(j, k);
@@ -104,4 +105,4 @@ template <int N> Matrix<N> square_root(const Matrix<N>& p) {
   return a;
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::filters

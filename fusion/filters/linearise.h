@@ -8,10 +8,10 @@ namespace ttf::fusion::filters {
 
 // H_c: d expected / d (the leading components of the state, all that it depends on).
 template <motion::Model M, sensors::Model S>
-Matrix<S::kDimension, leading_columns(S::kParts)> measurement_matrix(const S& sensor, const Kinematics& k,
-                                                                     const Vector<M::kStates>& x) {
-  const Matrix<S::kDimension, S::kParts> h = sensor.jacobian(k);
-  if constexpr (S::kParts == kPositionOnly || (S::kParts == kWithVelocity && M::kCartesian))
+linear::Matrix<S::kDimension, motion::leading_columns(S::kParts)> measurement_matrix(
+    const S& sensor, const motion::Kinematics& k, const linear::Vector<M::kStates>& x) {
+  const linear::Matrix<S::kDimension, S::kParts> h = sensor.jacobian(k);
+  if constexpr (S::kParts == motion::kPositionOnly || (S::kParts == motion::kWithVelocity && M::kCartesian))
     return h;
   else
     return h * M::kinematics_jacobian(x).template topRows<S::kParts>();

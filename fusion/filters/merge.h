@@ -12,7 +12,7 @@ namespace ttf::fusion::filters {
 
 // Weights not negative, not both zero; one of zero leaves the other as it is.
 template <motion::Model M>
-void merge(Gaussian<M::kStates>& first, double a, const Gaussian<M::kStates>& second, double b) {
+void merge(linear::Gaussian<M::kStates>& first, double a, const linear::Gaussian<M::kStates>& second, double b) {
   constexpr int kN = M::kStates;
   if (b <= 0.0) return;
   if (a <= 0.0) {
@@ -20,12 +20,12 @@ void merge(Gaussian<M::kStates>& first, double a, const Gaussian<M::kStates>& se
     return;
   }
   const double share = b / (a + b);
-  const Vector<kN> d = M::difference(second.x, first.x);
+  const linear::Vector<kN> d = M::difference(second.x, first.x);
   first.x += share * d;
   M::normalise(first.x);
   for (int c = 0; c < kN; ++c)
     for (int r = 0; r < kN; ++r) first.p(r, c) += share * (second.p(r, c) - first.p(r, c));
-  add_outer<kN>(first.p, share * (1.0 - share), d);
+  motion::add_outer<kN>(first.p, share * (1.0 - share), d);
 }
 
 }  // namespace ttf::fusion::filters

@@ -9,9 +9,9 @@
 namespace ttf::fusion::filters {
 
 template <motion::Model... Ms> struct Modes {
-  std::tuple<Gaussian<Ms::kStates>...> estimates;
-  Vector<static_cast<int>(sizeof...(Ms))> probability =
-      Vector<static_cast<int>(sizeof...(Ms))>::Constant(1.0 / sizeof...(Ms));
+  std::tuple<linear::Gaussian<Ms::kStates>...> estimates;
+  linear::Vector<static_cast<int>(sizeof...(Ms))> probability =
+      linear::Vector<static_cast<int>(sizeof...(Ms))>::Constant(1.0 / sizeof...(Ms));
 };
 
 }  // namespace ttf::fusion::filters

@@ -28,26 +28,26 @@ struct Unscented {
   static constexpr const char* kName = "Unscented";
   double alpha = 1.0, beta = 0.0, kappa = 0.0;
 
-  template <motion::Model M> void predict(const M& model, Gaussian<M::kStates>& state, double dt) const {
+  template <motion::Model M> void predict(const M& model, linear::Gaussian<M::kStates>& state, double dt) const {
     constexpr int kN = M::kStates;
     const Weights w(*this, kN);
-    const Matrix<kN> noise = model.noise(state.x, dt), a = w.spread * square_root<kN>(state.p);
-    const Vector<kN> centre = model.move(state.x, dt);
-    Matrix<kN, 2 * kN> d;
+    const linear::Matrix<kN> noise = model.noise(state.x, dt), a = w.spread * square_root<kN>(state.p);
+    const linear::Vector<kN> centre = model.move(state.x, dt);
+    linear::Matrix<kN, 2 * kN> d;
     for (int i = 0; i < kN; ++i) {
       d.col(i) = M::difference(model.move(state.x + a.col(i), dt), centre);
       d.col(kN + i) = M::difference(model.move(state.x - a.col(i), dt), centre);
     }
-    Vector<kN> shift;
+    linear::Vector<kN> shift;
     state.p = w.spread_of<kN>(d, shift);
-    add_scaled<kN, kN>(state.p, 1.0, noise);
+    motion::add_scaled<kN, kN>(state.p, 1.0, noise);
     state.x = centre + shift;
     M::normalise(state.x);
   }
 
   template <motion::Model M, sensors::Model S>
   Innovation<S::kDimension> innovate(const M& model, const S& sensor, const sensors::Measurement<S::kDimension>& z,
-                                     const Gaussian<M::kStates>& state) const {
+                                     const linear::Gaussian<M::kStates>& state) const {
     Sight<M, S> sight;
     if (!look(model, sensor, z, state, Weights(*this, M::kStates), sight)) return {};
     judge<S::kDimension>(sight.innovation, Ldl<S::kDimension>(sight.innovation.s));
@@ -56,7 +56,7 @@ struct Unscented {
 
   template <motion::Model M, sensors::Model S>
   Innovation<S::kDimension> update(const M& model, const S& sensor, const sensors::Measurement<S::kDimension>& z,
-                                   Gaussian<M::kStates>& state) const {
+                                   linear::Gaussian<M::kStates>& state) const {
     constexpr int kN = M::kStates, kM = S::kDimension;
     const Weights w(*this, kN);
     Sight<M, S> sight;
@@ -66,17 +66,17 @@ struct Unscented {
     judge<kM>(innovation, ldl);
 
     // The points' dx are +-a, and zero for the centre.
-    const Matrix<kN>& a = sight.a;
-    const Matrix<kM, 2 * kN>& d = sight.d;
-    const Matrix<kM, kN> opposite = d.template leftCols<kN>() - d.template rightCols<kN>();
-    Matrix<kN, kM> crossed = Matrix<kN, kM>::Zero();  // cov(x, z)
-    add_scaled<kN, kM>(crossed, w.other, times_transposed<kN, kN, kM>(a, opposite));
-    const Matrix<kN, kM> gain = ldl.template divide<kN>(crossed);
-    state.p = sandwich<kN, kM>(gain, z.r);
-    add_outer<kN>(state.p, w.centre_of_covariance, gain * sight.shift);
+    const linear::Matrix<kN>& a = sight.a;
+    const linear::Matrix<kM, 2 * kN>& d = sight.d;
+    const linear::Matrix<kM, kN> opposite = d.template leftCols<kN>() - d.template rightCols<kN>();
+    linear::Matrix<kN, kM> crossed = linear::Matrix<kN, kM>::Zero();  // cov(x, z)
+    motion::add_scaled<kN, kM>(crossed, w.other, motion::times_transposed<kN, kN, kM>(a, opposite));
+    const linear::Matrix<kN, kM> gain = ldl.template divide<kN>(crossed);
+    state.p = motion::sandwich<kN, kM>(gain, z.r);
+    motion::add_outer<kN>(state.p, w.centre_of_covariance, gain * sight.shift);
     for (int i = 0; i < kN; ++i) {
-      add_outer<kN>(state.p, w.other, a.col(i) - gain * d.col(i));
-      add_outer<kN>(state.p, w.other, a.col(i) + gain * d.col(kN + i));
+      motion::add_outer<kN>(state.p, w.other, a.col(i) - gain * d.col(i));
+      motion::add_outer<kN>(state.p, w.other, a.col(i) + gain * d.col(kN + i));
     }
     state.x += gain * innovation.nu;
     M::normalise(state.x);
@@ -93,14 +93,15 @@ struct Unscented {
     }
 
     // Of images d of the points as differences from the centre's, which become differences from their mean, `shift`.
-    template <int D, int Points> Matrix<D> spread_of(Matrix<D, Points>& d, Vector<D>& shift) const {
+    template <int D, int Points>
+    linear::Matrix<D> spread_of(linear::Matrix<D, Points>& d, linear::Vector<D>& shift) const {
       shift.setZero();
       for (int i = 0; i < Points; ++i) shift += other * d.col(i);
-      Matrix<D> sum = Matrix<D>::Zero();
-      add_outer<D>(sum, centre_of_covariance, shift);
+      linear::Matrix<D> sum = linear::Matrix<D>::Zero();
+      motion::add_outer<D>(sum, centre_of_covariance, shift);
       for (int i = 0; i < Points; ++i) {
         d.col(i) -= shift;
-        add_outer<D>(sum, other, d.col(i));
+        motion::add_outer<D>(sum, other, d.col(i));
       }
       return sum;
     }
@@ -111,25 +112,25 @@ struct Unscented {
   // The points, seen: their distances a from the centre, their images d as differences from the mean of all, which is
   // the centre's image plus `shift`.
   template <class M, class S> struct Sight {
-    Matrix<M::kStates> a;
-    Matrix<S::kDimension, 2 * M::kStates> d;
-    Vector<S::kDimension> shift;
+    linear::Matrix<M::kStates> a;
+    linear::Matrix<S::kDimension, 2 * M::kStates> d;
+    linear::Vector<S::kDimension> shift;
     Innovation<S::kDimension> innovation;  // but for what judge() says
   };
 
   // False, and nothing is to be learnt, where the sensor does not see one of the points.
   template <motion::Model M, sensors::Model S>
   static bool look(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
-                   const Gaussian<M::kStates>& state, const Weights& w, Sight<M, S>& sight) {
+                   const linear::Gaussian<M::kStates>& state, const Weights& w, Sight<M, S>& sight) {
     constexpr int kN = M::kStates, kM = S::kDimension;
-    const Kinematics at_centre = M::template kinematics<S::kParts>(state.x);
+    const motion::Kinematics at_centre = M::template kinematics<S::kParts>(state.x);
     if (!sensor.sees(at_centre)) return false;
     sight.a = w.spread * square_root<kN>(state.p);
-    const Vector<kM> centre = sensor.expected(at_centre);
+    const linear::Vector<kM> centre = sensor.expected(at_centre);
     for (int i = 0; i < kN; ++i) {
-      const Vector<kN> above = state.x + sight.a.col(i), below = state.x - sight.a.col(i);
-      const Kinematics at_above = M::template kinematics<S::kParts>(above);
-      const Kinematics at_below = M::template kinematics<S::kParts>(below);
+      const linear::Vector<kN> above = state.x + sight.a.col(i), below = state.x - sight.a.col(i);
+      const motion::Kinematics at_above = M::template kinematics<S::kParts>(above);
+      const motion::Kinematics at_below = M::template kinematics<S::kParts>(below);
       if (!sensor.sees(at_above) || !sensor.sees(at_below)) return false;
       sight.d.col(i) = sensor.residual(sensor.expected(at_above), centre);
       sight.d.col(kN + i) = sensor.residual(sensor.expected(at_below), centre);

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-namespace ttf::fusion {
+namespace ttf::fusion::linear {
 
 template <int Rows> using Vector = Eigen::Matrix<double, Rows, 1>;
 template <int Rows, int Columns = Rows> using Matrix = Eigen::Matrix<double, Rows, Columns>;
@@ -39,4 +39,4 @@ template <int N> void predict(Gaussian<N>& state, const LinearStep<N>& step) {
   symmetrise<N>(state.p);
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::linear

@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::metrics {
 namespace {
 
 constexpr double kTiny = std::numeric_limits<double>::min() * 1e10;
@@ -56,4 +56,4 @@ double chi_square_quantile(double probability, double degrees) {
   return 0.5 * (low + high);
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::metrics

@@ -1,7 +1,7 @@
 // Statistics that judge an estimator.
 #pragma once
 
-namespace ttf::fusion {
+namespace ttf::fusion::metrics {
 
 // Regularised lower incomplete gamma function P(a, x), a > 0, x >= 0 (series below a + 1, continued fraction
 // above; Abramowitz and Stegun 6.5.29 and 6.5.31).
@@ -11,4 +11,4 @@ double regularised_gamma(double a, double x);
 // lies in (0, 1).
 double chi_square_quantile(double probability, double degrees);
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::metrics

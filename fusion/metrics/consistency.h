@@ -14,11 +14,11 @@
 namespace ttf::fusion::metrics {
 
 // Of an innovation and its covariance, the NIS.
-template <int N> double normalised_squared(const Vector<N>& error, const Matrix<N>& covariance) {
+template <int N> double normalised_squared(const linear::Vector<N>& error, const linear::Matrix<N>& covariance) {
   return error.dot(covariance.ldlt().solve(error));
 }
 
-template <int N> double nees(const Gaussian<N>& estimate, const Vector<N>& truth) {
+template <int N> double nees(const linear::Gaussian<N>& estimate, const linear::Vector<N>& truth) {
   return normalised_squared<N>(truth - estimate.x, estimate.p);
 }
 

@@ -32,7 +32,7 @@ void Pairing::offer(std::size_t row, std::size_t column, double relative_cost) {
 
 void Pairing::solve(double bonus) {
   TTF_CHECK(bonus > 0.0, "bonus {}", bonus);
-  for (Candidate& pair : candidates_)
+  for (association::Candidate& pair : candidates_)
     pair.gain = bonus + (1.0 - cost(static_cast<std::size_t>(pair.row), static_cast<std::size_t>(pair.column)));
   assignment_.solve(candidates_, rows_, columns_);
   std::fill_n(row_of_.begin(), columns_, kNone);

@@ -1,7 +1,8 @@
 // One-to-one pairs of two lists at least cost, where a pair that is not offered, or not worth it, stays apart.
 //
-// The optimum is that of fusion/association/assignment.h, exact for dense and for square problems; with a pair's gain 1 + bonus -
-// cost it is the cut-off problem of GOSPA and OSPA, or the one that takes as many pairs as it can first. Laws:
+// The optimum is that of fusion/association/assignment.h, exact for dense and for square problems; with a pair's gain 1
+// + bonus - cost it is the cut-off problem of GOSPA and OSPA, or the one that takes as many pairs as it can first.
+// Laws:
 //   P1  no set of one-to-one pairs of what was offered has a larger sum of gains (but for rounding, 1e-12 of the sum)
 //   P2  equal sums: rows come in order and prefer small columns. Among pairs of exactly equal cost no row could move to
 //       a smaller free column, no unpaired row could replace a later one, and no two rows could exchange columns so
@@ -44,9 +45,9 @@ class Pairing {
 
   std::size_t max_rows_, max_columns_, rows_ = 0, columns_ = 0;
   std::vector<double> cost_;  // infinite where no pair was offered
-  std::vector<Candidate> candidates_;
+  std::vector<association::Candidate> candidates_;
   std::vector<int> column_of_, row_of_;
-  Assignment assignment_;
+  association::Assignment assignment_;
 };
 
 }  // namespace ttf::fusion::metrics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ttf::fusion {
+namespace ttf::fusion::motion {
 
 // To [-pi, pi]; what lies there already keeps its bits.
 inline double to_half_turn(double angle) {
@@ -18,4 +18,4 @@ inline double to_quarter_turn(double angle) {
   return std::abs(angle) <= 0.5 * kPi ? angle : std::remainder(angle, kPi);
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::motion

@@ -25,19 +25,19 @@ inline constexpr double kTurning = 1.0;  // [m/s]
 
 // (x, y, vx, vy, ax, ay), or only the first four of them.
 struct Whole {
-  Gaussian<6> estimate;
+  linear::Gaussian<6> estimate;
   bool knows_acceleration = false;
 };
 
-template <Model From> Whole whole(const Gaussian<From::kStates>& from) {
+template <Model From> Whole whole(const linear::Gaussian<From::kStates>& from) {
   constexpr int kN = From::kStates;
   Whole to{.estimate = {}, .knows_acceleration = !(From::kCartesian && kN == 4)};
-  Vector<6>& x = to.estimate.x;
+  linear::Vector<6>& x = to.estimate.x;
   if constexpr (From::kCartesian) {
     x.template head<kN>() = from.x;
     to.estimate.p.template topLeftCorner<kN, kN>() = from.p;
   } else {
-    Matrix<6, kN> j = Matrix<6, kN>::Zero();
+    linear::Matrix<6, kN> j = linear::Matrix<6, kN>::Zero();
     const double c = std::cos(from.x(2)), s = std::sin(from.x(2)), speed = from.x(3), rate = from.x(4);
     double along = 0.0;
     if constexpr (kN == 6) along = from.x(5);
@@ -62,11 +62,12 @@ template <Model From> Whole whole(const Gaussian<From::kStates>& from) {
   return to;
 }
 
-template <Model To> Gaussian<To::kStates> from_whole(const Whole& from, const Gaussian<To::kStates>& own) {
+template <Model To>
+linear::Gaussian<To::kStates> from_whole(const Whole& from, const linear::Gaussian<To::kStates>& own) {
   constexpr int kN = To::kStates;
-  const Vector<6>& w = from.estimate.x;
-  Gaussian<kN> to = own;
-  Matrix<kN, 6> j = Matrix<kN, 6>::Zero();
+  const linear::Vector<6>& w = from.estimate.x;
+  linear::Gaussian<kN> to = own;
+  linear::Matrix<kN, 6> j = linear::Matrix<kN, 6>::Zero();
   j(0, 0) = j(1, 1) = 1.0;
   to.x(0) = w(0);
   to.x(1) = w(1);
@@ -106,7 +107,7 @@ template <Model To> Gaussian<To::kStates> from_whole(const Whole& from, const Ga
       }
     }
   }
-  const Matrix<kN> p = sandwich<kN, 6>(j, from.estimate.p);
+  const linear::Matrix<kN> p = sandwich<kN, 6>(j, from.estimate.p);
   for (int i = 0; i < kN; ++i)
     for (int k = 0; k < kN; ++k)
       if (i < known || k < known) to.p(i, k) = i < known && k < known ? p(i, k) : 0.0;
@@ -117,7 +118,8 @@ template <class A, class B>
 inline constexpr bool kSameLayout = A::kCartesian == B::kCartesian&& A::kStates == B::kStates;
 
 template <Model From, Model To>
-Gaussian<To::kStates> converted(const Gaussian<From::kStates>& from, const Gaussian<To::kStates>& own) {
+linear::Gaussian<To::kStates> converted(const linear::Gaussian<From::kStates>& from,
+                                        const linear::Gaussian<To::kStates>& own) {
   if constexpr (kSameLayout<From, To>)
     return from;
   else

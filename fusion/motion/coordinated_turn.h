@@ -34,10 +34,10 @@ template <int N> struct CoordinatedTurn : Polar<N> {
   double turn_density = 1.0;   // of the turn acceleration [rad^2/s^3], >= 0
   double along_density = 1.0;  // of the acceleration [m^2/s^3], or of the jerk [m^2/s^5]; >= 0
 
-  Vector<N> move(const Vector<N>& x, double dt) const {
+  linear::Vector<N> move(const linear::Vector<N>& x, double dt) const {
     TTF_CHECK(dt >= 0.0, "prediction by {} s", dt);
     const Turned m(x, dt);
-    Vector<N> moved = x;
+    linear::Vector<N> moved = x;
     moved(0) += x(3) * dt * m.c[0];
     moved(1) += x(3) * dt * m.s[0];
     if constexpr (kAccelerates) {
@@ -49,10 +49,10 @@ template <int N> struct CoordinatedTurn : Polar<N> {
     return moved;
   }
 
-  Matrix<N> jacobian(const Vector<N>& x, double dt) const {
+  linear::Matrix<N> jacobian(const linear::Vector<N>& x, double dt) const {
     const Turned m(x, dt);
     const double v = x(3) * dt, by_rate = x(3) * dt * dt;
-    Matrix<N> f = Matrix<N>::Identity();
+    linear::Matrix<N> f = linear::Matrix<N>::Identity();
     f(0, 2) = -v * m.s[0];
     f(1, 2) = v * m.c[0];
     f(0, 3) = dt * m.c[0];
@@ -73,14 +73,14 @@ template <int N> struct CoordinatedTurn : Polar<N> {
     return f;
   }
 
-  Matrix<N> noise(const Vector<N>& x, double dt) const {
+  linear::Matrix<N> noise(const linear::Vector<N>& x, double dt) const {
     constexpr double kInner = 0.33998104358485626, kOuter = 0.86113631159405258;  // sqrt(3/7 -+ 2/7 sqrt(6/5))
     constexpr double kHeavy = 0.32607257743127307, kLight = 0.17392742256872693;  // (18 +- sqrt(30)) / 72
     constexpr double kNodes[] = {-kOuter, -kInner, kInner, kOuter}, kWeights[] = {kLight, kHeavy, kHeavy, kLight};
-    Matrix<N> q = Matrix<N>::Zero();
+    linear::Matrix<N> q = linear::Matrix<N>::Zero();
     for (int i = 0; i < 4; ++i) {
       const double done = 0.5 * dt * (1.0 + kNodes[i]);
-      const Matrix<N> f = jacobian(turned(x, done), dt - done);
+      const linear::Matrix<N> f = jacobian(turned(x, done), dt - done);
       constexpr int kDriven = kAccelerates ? 5 : 3;
       const double by_turn = kWeights[i] * dt * turn_density, by_speed = kWeights[i] * dt * along_density;
       unrolled<N>([&](auto column) {
@@ -97,14 +97,14 @@ template <int N> struct CoordinatedTurn : Polar<N> {
 
  private:
   // Moved but for its position, on which no derivative depends.
-  static Vector<N> turned(Vector<N> x, double dt) {
+  static linear::Vector<N> turned(linear::Vector<N> x, double dt) {
     x(2) = to_half_turn(x(2) + x(4) * dt);
     if constexpr (kAccelerates) x(3) += x(5) * dt;
     return x;
   }
 
   struct Turned {
-    Turned(const Vector<N>& x, double dt) {
+    Turned(const linear::Vector<N>& x, double dt) {
       const TurnMoments m = turn_moments(x(4) * dt);
       const double cos = std::cos(x(2)), sin = std::sin(x(2));
       for (std::size_t k = 0; k < 3; ++k) {

@@ -15,25 +15,25 @@ namespace ttf::fusion::motion {
 
 // The vehicle's pose at the later instant, in its axes at the earlier one.
 struct PlanarMotion {
-  Vector<2> translation = Vector<2>::Zero();  // [m]
-  double yaw = 0.0;                           // [rad]
-  Matrix<3> covariance = Matrix<3>::Zero();   // of (x, y, yaw): how well odometry knows it
+  linear::Vector<2> translation = linear::Vector<2>::Zero();  // [m]
+  double yaw = 0.0;                                           // [rad]
+  linear::Matrix<3> covariance = linear::Matrix<3>::Zero();   // of (x, y, yaw): how well odometry knows it
 };
 
-template <Model M> void compensate(Gaussian<M::kStates>& state, const PlanarMotion& ego) {
+template <Model M> void compensate(linear::Gaussian<M::kStates>& state, const PlanarMotion& ego) {
   constexpr int kN = M::kStates;
   const double c = std::cos(ego.yaw), s = std::sin(ego.yaw);
-  Matrix<2> back;  // R'
+  linear::Matrix<2> back;  // R'
   back << c, s, -s, c;
   state.x.template head<2>() -= ego.translation;
-  Matrix<kN> j = Matrix<kN>::Identity();
+  linear::Matrix<kN> j = linear::Matrix<kN>::Identity();
   constexpr int kVectors = M::kCartesian ? kN : 2;  // components that are vectors in the plane
   for (int i = 0; i < kVectors; i += 2) j.template block<2, 2>(i, i) = back;
   state.x = (j * state.x).eval();
   if constexpr (!M::kCartesian) state.x(M::kHeading) -= ego.yaw;
   M::normalise(state.x);
 
-  Matrix<kN, 3> g = Matrix<kN, 3>::Zero();
+  linear::Matrix<kN, 3> g = linear::Matrix<kN, 3>::Zero();
   g.template topLeftCorner<2, 2>() = -back;
   for (int i = 0; i < kVectors; i += 2) {  // d (R' a) / d yaw = (y, -x) of what has been turned
     g(i, 2) = state.x(i + 1);

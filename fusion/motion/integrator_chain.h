@@ -17,28 +17,28 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
 
   double spectral_density = 1.0;  // of the noise that drives each axis [m^2/s^(2K-1)], >= 0
 
-  Vector<kStates> move(const Vector<kStates>& x, double dt) const {
-    Vector<kStates> moved = x;
+  linear::Vector<kStates> move(const linear::Vector<kStates>& x, double dt) const {
+    linear::Vector<kStates> moved = x;
     advance_rows(moved, dt);
     return moved;
   }
-  Matrix<kStates> jacobian(const Vector<kStates>&, double dt) const {
-    Matrix<kStates> f = Matrix<kStates>::Identity();
+  linear::Matrix<kStates> jacobian(const linear::Vector<kStates>&, double dt) const {
+    linear::Matrix<kStates> f = linear::Matrix<kStates>::Identity();
     advance_rows(f, dt);
     return f;
   }
-  Matrix<kStates> noise(const Vector<kStates>&, double dt) const {
-    Matrix<kStates> q = Matrix<kStates>::Zero();
+  linear::Matrix<kStates> noise(const linear::Vector<kStates>&, double dt) const {
+    linear::Matrix<kStates> q = linear::Matrix<kStates>::Zero();
     add_noise(q, dt);
     return q;
   }
-  LinearStep<kStates> step(double dt) const {
-    const Vector<kStates> anywhere = Vector<kStates>::Zero();
+  linear::LinearStep<kStates> step(double dt) const {
+    const linear::Vector<kStates> anywhere = linear::Vector<kStates>::Zero();
     return {jacobian(anywhere, dt), noise(anywhere, dt)};
   }
 
   // F P F' as sums of rows, then of columns.
-  void advance(Gaussian<kStates>& state, double dt) const {
+  void advance(linear::Gaussian<kStates>& state, double dt) const {
     TTF_CHECK(dt >= 0.0, "prediction by {} s", dt);
     advance_rows(state.x, dt);
     advance_rows(state.p, dt);
@@ -62,7 +62,7 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
       });
     });
   }
-  static void advance_columns(Matrix<kStates>& a, double dt) {
+  static void advance_columns(linear::Matrix<kStates>& a, double dt) {
     unrolled<K>([&](auto i) {
       unrolled<K - 1 - i>([&](auto right) {
         constexpr int kSteps = right + 1;
@@ -70,7 +70,7 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
       });
     });
   }
-  void add_noise(Matrix<kStates>& p, double dt) const {
+  void add_noise(linear::Matrix<kStates>& p, double dt) const {
     unrolled<K>([&](auto i) {
       unrolled<K>([&](auto j) {
         constexpr int a = K - 1 - i, b = K - 1 - j;

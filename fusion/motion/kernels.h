@@ -7,7 +7,7 @@
 
 #include "fusion/linear/gaussian.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::motion {
 
 // body(0), ..., body(N - 1) with indices that are constants: g++ at -O2 keeps most small loops as loops.
 template <int N, class Body> constexpr void unrolled(const Body& body) {
@@ -16,13 +16,14 @@ template <int N, class Body> constexpr void unrolled(const Body& body) {
 }
 
 // The lower triangle becomes the upper one's mirror image: of what is symmetric but for rounding.
-template <int N> void mirror(Matrix<N>& p) {
+template <int N> void mirror(linear::Matrix<N>& p) {
   unrolled<N>([&](auto c) { unrolled<c>([&](int r) { p(c.value, r) = p(r, c.value); }); });
 }
 
 // A B.
-template <int R, int K, int C> Matrix<R, C> times(const Matrix<R, K>& a, const Matrix<K, C>& b) {
-  Matrix<R, C> out;
+template <int R, int K, int C>
+linear::Matrix<R, C> times(const linear::Matrix<R, K>& a, const linear::Matrix<K, C>& b) {
+  linear::Matrix<R, C> out;
   for (int j = 0; j < C; ++j)
     for (int i = 0; i < R; ++i) {
       double sum = 0.0;
@@ -33,8 +34,9 @@ template <int R, int K, int C> Matrix<R, C> times(const Matrix<R, K>& a, const M
 }
 
 // A B'.
-template <int R, int K, int C> Matrix<R, C> times_transposed(const Matrix<R, K>& a, const Matrix<C, K>& b) {
-  Matrix<R, C> out;
+template <int R, int K, int C>
+linear::Matrix<R, C> times_transposed(const linear::Matrix<R, K>& a, const linear::Matrix<C, K>& b) {
+  linear::Matrix<R, C> out;
   for (int j = 0; j < C; ++j)
     for (int i = 0; i < R; ++i) {
       double sum = 0.0;
@@ -45,15 +47,15 @@ template <int R, int K, int C> Matrix<R, C> times_transposed(const Matrix<R, K>&
 }
 
 // J P J'. Only the innermost loops are unrolled: most of the gain, little of the compiler's time.
-template <int N, int K> Matrix<N> sandwich(const Matrix<N, K>& j, const Matrix<K>& p) {
-  Matrix<N, K> jp;
+template <int N, int K> linear::Matrix<N> sandwich(const linear::Matrix<N, K>& j, const linear::Matrix<K>& p) {
+  linear::Matrix<N, K> jp;
   for (int c = 0; c < K; ++c)
     for (int r = 0; r < N; ++r) {
       double sum = 0.0;
       unrolled<K>([&](int k) { sum += j(r, k) * p(k, c); });
       jp(r, c) = sum;
     }
-  Matrix<N> out;
+  linear::Matrix<N> out;
   for (int c = 0; c < N; ++c)
     for (int r = 0; r <= c; ++r) {
       double sum = 0.0;
@@ -64,14 +66,14 @@ template <int N, int K> Matrix<N> sandwich(const Matrix<N, K>& j, const Matrix<K
 }
 
 // P += weight v v'.
-template <int N> void add_outer(Matrix<N>& p, double weight, const Vector<N>& v) {
+template <int N> void add_outer(linear::Matrix<N>& p, double weight, const linear::Vector<N>& v) {
   for (int c = 0; c < N; ++c) unrolled<N>([&](int r) { p(r, c) += weight * (v(r) * v(c)); });
 }
 
 // a += weight b, of any shape.
-template <int N, int K> void add_scaled(Matrix<N, K>& a, double weight, const Matrix<N, K>& b) {
+template <int N, int K> void add_scaled(linear::Matrix<N, K>& a, double weight, const linear::Matrix<N, K>& b) {
   for (int c = 0; c < K; ++c)
     for (int r = 0; r < N; ++r) a(r, c) += weight * b(r, c);
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::motion

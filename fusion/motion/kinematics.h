@@ -5,13 +5,13 @@
 
 #include "fusion/linear/gaussian.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::motion {
 
 struct Kinematics {
-  Vector<2> position = Vector<2>::Zero();  // [m]
-  Vector<2> velocity = Vector<2>::Zero();  // [m/s]
-  double heading = 0.0;                    // [rad]
-  bool has_heading = false;                // not of something slow whose heading is only known as its course
+  linear::Vector<2> position = linear::Vector<2>::Zero();  // [m]
+  linear::Vector<2> velocity = linear::Vector<2>::Zero();  // [m/s]
+  double heading = 0.0;                                    // [rad]
+  bool has_heading = false;  // not of something slow whose heading is only known as its course
 };
 
 // How many of (x, y, vx, vy, heading) are asked for: what is not asked for need not be computed.
@@ -21,4 +21,4 @@ inline constexpr int kPositionOnly = 2, kWithVelocity = 4, kWithHeading = 5;
 // all of the kinematics: a measurement matrix is [H 0] with H of so many columns.
 constexpr int leading_columns(int parts) { return parts == kPositionOnly ? 2 : 4; }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::motion

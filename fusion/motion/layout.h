@@ -21,10 +21,10 @@ template <int N> struct Cartesian {
   static constexpr int kStates = N;
   static constexpr bool kCartesian = true;
 
-  static Vector<N> difference(const Vector<N>& a, const Vector<N>& b) { return a - b; }
-  static void normalise(Vector<N>&) {}
+  static linear::Vector<N> difference(const linear::Vector<N>& a, const linear::Vector<N>& b) { return a - b; }
+  static void normalise(linear::Vector<N>&) {}
 
-  template <int Parts> static Kinematics kinematics(const Vector<N>& x) {
+  template <int Parts> static Kinematics kinematics(const linear::Vector<N>& x) {
     Kinematics k{.position = x.template head<2>(), .velocity = x.template segment<2>(2)};
     if constexpr (Parts == kWithHeading) {
       k.has_heading = k.velocity.squaredNorm() >= kSlowest * kSlowest;
@@ -34,8 +34,8 @@ template <int N> struct Cartesian {
   }
 
   // d (x, y, vx, vy, heading) / d (the first four components).
-  static Matrix<5, 4> kinematics_jacobian(const Vector<N>& x) {
-    Matrix<5, 4> j = Matrix<5, 4>::Identity();
+  static linear::Matrix<5, 4> kinematics_jacobian(const linear::Vector<N>& x) {
+    linear::Matrix<5, 4> j = linear::Matrix<5, 4>::Identity();
     const double squared = x.template segment<2>(2).squaredNorm();
     if (squared >= kSlowest * kSlowest) {
       j(4, 2) = -x(3) / squared;
@@ -51,25 +51,25 @@ template <int N> struct Polar {
   static constexpr bool kCartesian = false;
   static constexpr int kHeading = 2, kSpeed = 3, kTurnRate = 4, kAcceleration = 5;
 
-  static Vector<N> difference(const Vector<N>& a, const Vector<N>& b) {
-    Vector<N> d = a - b;
+  static linear::Vector<N> difference(const linear::Vector<N>& a, const linear::Vector<N>& b) {
+    linear::Vector<N> d = a - b;
     d(kHeading) = to_half_turn(d(kHeading));
     return d;
   }
-  static void normalise(Vector<N>& x) { x(kHeading) = to_half_turn(x(kHeading)); }
+  static void normalise(linear::Vector<N>& x) { x(kHeading) = to_half_turn(x(kHeading)); }
 
-  template <int Parts> static Kinematics kinematics(const Vector<N>& x) {
+  template <int Parts> static Kinematics kinematics(const linear::Vector<N>& x) {
     Kinematics k{.position = x.template head<2>()};
     if constexpr (Parts >= kWithVelocity)
-      k.velocity = x(kSpeed) * Vector<2>(std::cos(x(kHeading)), std::sin(x(kHeading)));
+      k.velocity = x(kSpeed) * linear::Vector<2>(std::cos(x(kHeading)), std::sin(x(kHeading)));
     k.heading = x(kHeading);
     k.has_heading = true;
     return k;
   }
 
-  static Matrix<5, 4> kinematics_jacobian(const Vector<N>& x) {
+  static linear::Matrix<5, 4> kinematics_jacobian(const linear::Vector<N>& x) {
     const double c = std::cos(x(kHeading)), s = std::sin(x(kHeading));
-    Matrix<5, 4> j = Matrix<5, 4>::Zero();
+    linear::Matrix<5, 4> j = linear::Matrix<5, 4>::Zero();
     j(0, 0) = j(1, 1) = j(4, kHeading) = 1.0;
     j(2, kHeading) = -x(kSpeed) * s;
     j(3, kHeading) = x(kSpeed) * c;

@@ -16,27 +16,28 @@
 namespace ttf::fusion::motion {
 
 template <class M>
-concept Model = requires(const M& model, const Vector<M::kStates>& x, Vector<M::kStates>& changed, double dt) {
+concept Model = requires(const M& model, const linear::Vector<M::kStates>& x, linear::Vector<M::kStates>& changed,
+                         double dt) {
   requires M::kStates >= 4;
   { M::kCartesian } -> std::convertible_to<bool>;
   { M::kLinear } -> std::convertible_to<bool>;
-  { model.move(x, dt) } -> std::same_as<Vector<M::kStates>>;
-  { model.jacobian(x, dt) } -> std::same_as<Matrix<M::kStates>>;
-  { model.noise(x, dt) } -> std::same_as<Matrix<M::kStates>>;
-  { M::difference(x, x) } -> std::same_as<Vector<M::kStates>>;
+  { model.move(x, dt) } -> std::same_as<linear::Vector<M::kStates>>;
+  { model.jacobian(x, dt) } -> std::same_as<linear::Matrix<M::kStates>>;
+  { model.noise(x, dt) } -> std::same_as<linear::Matrix<M::kStates>>;
+  { M::difference(x, x) } -> std::same_as<linear::Vector<M::kStates>>;
   {M::normalise(changed)};
   { M::template kinematics<kWithHeading>(x) } -> std::same_as<Kinematics>;
-  { M::kinematics_jacobian(x) } -> std::same_as<Matrix<5, 4>>;
+  { M::kinematics_jacobian(x) } -> std::same_as<linear::Matrix<5, 4>>;
 };
 
 template <class M>
 concept LinearModel = Model<M> && M::kLinear && requires(const M& model, double dt) {
-  { model.step(dt) } -> std::same_as<LinearStep<M::kStates>>;
+  { model.step(dt) } -> std::same_as<linear::LinearStep<M::kStates>>;
 };
 
 // Adds a step to state and covariance in place; the same as step(dt), but for rounding.
 template <class M>
-concept StructuredModel = LinearModel<M> && requires(const M& model, Gaussian<M::kStates>& state, double dt) {
+concept StructuredModel = LinearModel<M> && requires(const M& model, linear::Gaussian<M::kStates>& state, double dt) {
   {model.advance(state, dt)};
 };
 

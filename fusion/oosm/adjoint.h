@@ -29,10 +29,10 @@ template <int N, int M, Motion<N> Model, int Capacity> class Adjoint {
 
   explicit Adjoint(const Model& motion) : motion_(motion) {}
 
-  void start(GlobalTime time, const Gaussian<N>& prior) { begin(Stamp::start(time), prior); }
+  void start(GlobalTime time, const linear::Gaussian<N>& prior) { begin(Stamp::start(time), prior); }
   bool announce(const Stamp&) { return true; }
 
-  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
     const int n = history_.not_after(stamp);
     if (n == 0) return Taken::kTooOld;
     if (history_[n - 1].stamp == stamp) return Taken::kDuplicate;
@@ -40,83 +40,83 @@ template <int N, int M, Motion<N> Model, int Capacity> class Adjoint {
       step_in_order(stamp, measurement);
       return Taken::kInOrder;
     }
-    Gaussian<N> now = state();
+    linear::Gaussian<N> now = state();
     fuse_retrodicted<N, M>(now, retrodicted(stamp.time(), n), measurement);
     begin(Stamp{history_.newest().stamp}, now);
     return Taken::kLate;
   }
 
-  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+  std::optional<linear::Gaussian<N>> at(const Stamp& stamp) const {
     const int n = history_.not_after(stamp);
     if (n == 0 || history_[n - 1].stamp == stamp) return std::nullopt;
     if (n == history_.size()) return advanced<N>(state(), motion_, stamp.time() - time());
     return retrodicted(stamp.time(), n).then;
   }
 
-  const Gaussian<N>& state() const { return history_.newest().estimate; }
+  const linear::Gaussian<N>& state() const { return history_.newest().estimate; }
   GlobalTime time() const { return history_.newest().stamp.time(); }
 
  private:
   struct Entry {
     Stamp stamp;
-    Gaussian<N> estimate;   // after the update
-    Matrix<N> f;            // over the step before it
-    Matrix<N> kept;         // M = I - K H
-    Vector<N> pull;         // H' S^-1 nu
-    Matrix<N> information;  // H' S^-1 H
+    linear::Gaussian<N> estimate;   // after the update
+    linear::Matrix<N> f;            // over the step before it
+    linear::Matrix<N> kept;         // M = I - K H
+    linear::Vector<N> pull;         // H' S^-1 nu
+    linear::Matrix<N> information;  // H' S^-1 H
   };
 
-  void begin(const Stamp& stamp, const Gaussian<N>& estimate) {
+  void begin(const Stamp& stamp, const linear::Gaussian<N>& estimate) {
     history_.clear();
     Entry& first = history_.append();
     first.stamp = stamp;
     first.estimate = estimate;
   }
 
-  [[gnu::flatten]] void step_in_order(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
-    Gaussian<N> estimate = state();
+  [[gnu::flatten]] void step_in_order(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
+    linear::Gaussian<N> estimate = state();
     const Duration elapsed = stamp.time() - time();
     Entry& entry = history_.append();
     entry.stamp = stamp;
-    entry.f = Matrix<N>::Identity();
+    entry.f = linear::Matrix<N>::Identity();
     if (elapsed > Duration{}) {
-      const LinearStep<N> step = motion_.step(elapsed.seconds());
-      predict<N>(estimate, step);
+      const linear::LinearStep<N> step = motion_.step(elapsed.seconds());
+      linear::predict<N>(estimate, step);
       entry.f = step.f;
     }
     const Whitened<N, M> whitened = correct<N, M>(estimate, measurement);
     entry.estimate = estimate;
-    entry.kept = Matrix<N>::Identity() - whitened.v * whitened.h;
+    entry.kept = linear::Matrix<N>::Identity() - whitened.v * whitened.h;
     entry.pull = whitened.h.transpose() * whitened.nu;
     entry.information = whitened.h.transpose() * whitened.h;
   }
 
   // `first` is the first entry after tau.
   [[gnu::flatten]] Retrodicted<N> retrodicted(GlobalTime tau, int first) const {
-    Vector<N> r = Vector<N>::Zero();
-    Matrix<N> information = Matrix<N>::Zero(), transition = Matrix<N>::Identity();
+    linear::Vector<N> r = linear::Vector<N>::Zero();
+    linear::Matrix<N> information = linear::Matrix<N>::Zero(), transition = linear::Matrix<N>::Identity();
     for (int i = history_.size() - 1; i >= first; --i) {
       const Entry& entry = history_[i];
-      const Matrix<N> f = i == first ? transition_between(tau, entry.stamp.time()) : entry.f;
-      const Matrix<N> over = entry.kept * f;
+      const linear::Matrix<N> f = i == first ? transition_between(tau, entry.stamp.time()) : entry.f;
+      const linear::Matrix<N> over = entry.kept * f;
       r = (f.transpose() * entry.pull + over.transpose() * r).eval();
-      const Matrix<N> here = entry.information * f, later = information * over;
+      const linear::Matrix<N> here = entry.information * f, later = information * over;
       information = f.transpose() * here + over.transpose() * later;
       transition = (transition * over).eval();
     }
-    Retrodicted<N> result{history_[first - 1].estimate, Matrix<N>::Zero()};
+    Retrodicted<N> result{history_[first - 1].estimate, linear::Matrix<N>::Zero()};
     advance<N>(result.then, motion_, tau - history_[first - 1].stamp.time());
-    const Matrix<N> prior = result.then.p;
+    const linear::Matrix<N> prior = result.then.p;
     result.cross = transition * prior;
     result.then.x += prior * r;
-    const Matrix<N> explained = information * prior;
+    const linear::Matrix<N> explained = information * prior;
     result.then.p -= prior * explained;
-    symmetrise<N>(result.then.p);
+    linear::symmetrise<N>(result.then.p);
     return result;
   }
 
-  Matrix<N> transition_between(GlobalTime from, GlobalTime to) const {
-    return to > from ? motion_.step((to - from).seconds()).f : Matrix<N>::Identity();
+  linear::Matrix<N> transition_between(GlobalTime from, GlobalTime to) const {
+    return to > from ? motion_.step((to - from).seconds()).f : linear::Matrix<N>::Identity();
   }
 
   Model motion_;

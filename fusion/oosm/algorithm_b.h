@@ -14,23 +14,23 @@ namespace ttf::fusion::oosm {
 
 template <int N> class MemoryB {
  public:
-  template <int M> [[gnu::flatten]] void corrected(const Matrix<N>& predicted, const Whitened<N, M>& whitened) {
+  template <int M> [[gnu::flatten]] void corrected(const linear::Matrix<N>& predicted, const Whitened<N, M>& whitened) {
     predicted_ = predicted;
     information_ = whitened.h.transpose() * whitened.h;
   }
-  [[gnu::flatten]] Retrodicted<N> retrodict(const Gaussian<N>& now, const LinearStep<N>& step) const {
-    const Matrix<N> cross = step.q - predicted_ * information_ * step.q;
-    return fusion::oosm::retrodict<N>(now, step.f, Vector<N>::Zero(), step.q, cross);
+  [[gnu::flatten]] Retrodicted<N> retrodict(const linear::Gaussian<N>& now, const linear::LinearStep<N>& step) const {
+    const linear::Matrix<N> cross = step.q - predicted_ * information_ * step.q;
+    return fusion::oosm::retrodict<N>(now, step.f, linear::Vector<N>::Zero(), step.q, cross);
   }
-  [[gnu::flatten]] void booked(const Gaussian<N>& before, const Gaussian<N>& now) {
-    const Matrix<N> root = whitening<N>(predicted_), prior = root.transpose() * root;
+  [[gnu::flatten]] void booked(const linear::Gaussian<N>& before, const linear::Gaussian<N>& now) {
+    const linear::Matrix<N> root = whitening<N>(predicted_), prior = root.transpose() * root;
     information_ += prior * (before.p - now.p) * prior;
-    symmetrise<N>(information_);
+    linear::symmetrise<N>(information_);
   }
 
  private:
-  Matrix<N> predicted_ = Matrix<N>::Zero();
-  Matrix<N> information_ = Matrix<N>::Zero();
+  linear::Matrix<N> predicted_ = linear::Matrix<N>::Zero();
+  linear::Matrix<N> information_ = linear::Matrix<N>::Zero();
 };
 
 template <int N, int M, Motion<N> Model> using AlgorithmB = OneLag<N, M, Model, MemoryB<N>, Exactness::kApproximate>;

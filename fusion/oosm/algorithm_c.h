@@ -12,11 +12,12 @@ namespace ttf::fusion::oosm {
 
 template <int N> class MemoryC {
  public:
-  template <int M> void corrected(const Matrix<N>&, const Whitened<N, M>&) {}
-  Retrodicted<N> retrodict(const Gaussian<N>& now, const LinearStep<N>& step) const {
-    return fusion::oosm::retrodict<N>(now, step.f, Vector<N>::Zero(), Matrix<N>::Zero(), Matrix<N>::Zero());
+  template <int M> void corrected(const linear::Matrix<N>&, const Whitened<N, M>&) {}
+  Retrodicted<N> retrodict(const linear::Gaussian<N>& now, const linear::LinearStep<N>& step) const {
+    return fusion::oosm::retrodict<N>(now, step.f, linear::Vector<N>::Zero(), linear::Matrix<N>::Zero(),
+                                      linear::Matrix<N>::Zero());
   }
-  void booked(const Gaussian<N>&, const Gaussian<N>&) {}
+  void booked(const linear::Gaussian<N>&, const linear::Gaussian<N>&) {}
 };
 
 template <int N, int M, Motion<N> Model> using AlgorithmC = OneLag<N, M, Model, MemoryC<N>, Exactness::kApproximate>;

@@ -34,20 +34,20 @@ template <int N, int M, Motion<N> Model, int Capacity = 16, int Clones = 8> clas
     return std::visit([](const auto& method) { return std::decay_t<decltype(method)>::kExactness; }, method_);
   }
 
-  void start(GlobalTime time, const Gaussian<N>& prior) {
+  void start(GlobalTime time, const linear::Gaussian<N>& prior) {
     std::visit([&](auto& method) { method.start(time, prior); }, method_);
   }
   bool announce(const Stamp& stamp) {
     return std::visit([&](auto& method) { return method.announce(stamp); }, method_);
   }
-  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
     return std::visit([&](auto& method) { return method.take(stamp, measurement); }, method_);
   }
-  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+  std::optional<linear::Gaussian<N>> at(const Stamp& stamp) const {
     return std::visit([&](const auto& method) { return method.at(stamp); }, method_);
   }
-  const Gaussian<N>& state() const {
-    return std::visit([](const auto& method) -> const Gaussian<N>& { return method.state(); }, method_);
+  const linear::Gaussian<N>& state() const {
+    return std::visit([](const auto& method) -> const linear::Gaussian<N>& { return method.state(); }, method_);
   }
   GlobalTime time() const {
     return std::visit([](const auto& method) { return method.time(); }, method_);

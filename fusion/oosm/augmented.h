@@ -28,13 +28,13 @@ template <int N, int M, Motion<N> Model, int Capacity> class Augmented {
 
   explicit Augmented(const Model& motion) : motion_(motion) {}
 
-  void start(GlobalTime time, const Gaussian<N>& prior) {
+  void start(GlobalTime time, const linear::Gaussian<N>& prior) {
     joint_.start(prior);
     last_ = Stamp::start(time);
   }
   bool announce(const Stamp&) { return true; }
 
-  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
     if (stamp > last_) {
       stamps_[place(joint_.keep())] = last_;
       forget();
@@ -54,7 +54,7 @@ template <int N, int M, Motion<N> Model, int Capacity> class Augmented {
     return Taken::kLate;
   }
 
-  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+  std::optional<linear::Gaussian<N>> at(const Stamp& stamp) const {
     if (stamp > last_) return advanced<N>(state(), motion_, stamp.time() - last_.time());
     if (stamp == last_) return std::nullopt;
     const Neighbours found = neighbours(stamp);
@@ -62,7 +62,7 @@ template <int N, int M, Motion<N> Model, int Capacity> class Augmented {
     return joint_.interpolated(found.before, found.after, bridge_at(stamp.time(), found));
   }
 
-  const Gaussian<N>& state() const { return joint_.now(); }
+  const linear::Gaussian<N>& state() const { return joint_.now(); }
   GlobalTime time() const { return last_.time(); }
 
  private:

@@ -32,7 +32,7 @@ template <int N, int M, Motion<N> Model, int Clones> class Clone {
 
   explicit Clone(const Model& motion) : motion_(motion) {}
 
-  void start(GlobalTime time, const Gaussian<N>& prior) {
+  void start(GlobalTime time, const linear::Gaussian<N>& prior) {
     joint_.start(prior);
     last_ = gone_ = Stamp::start(time);
     pending_ = 0;
@@ -51,7 +51,7 @@ template <int N, int M, Motion<N> Model, int Clones> class Clone {
     return true;
   }
 
-  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
     if (stamp > last_) {
       pass(stamp);
       move(stamp.time() - reached_);
@@ -69,14 +69,14 @@ template <int N, int M, Motion<N> Model, int Clones> class Clone {
     return stamp <= gone_ ? Taken::kTooOld : Taken::kUnannounced;
   }
 
-  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+  std::optional<linear::Gaussian<N>> at(const Stamp& stamp) const {
     if (stamp > last_) return advanced<N>(state(), motion_, stamp.time() - last_.time());
     for (int i = 0; i < joint_.size(); ++i)
       if (stamps_[place(i)] == stamp) return joint_.kept(i);
     return std::nullopt;
   }
 
-  const Gaussian<N>& state() const { return joint_.now(); }
+  const linear::Gaussian<N>& state() const { return joint_.now(); }
   GlobalTime time() const { return last_.time(); }
 
  private:

@@ -24,13 +24,14 @@ enum class Noise : std::uint8_t { kRetrodicted = 0, kIgnored = 1 };  // Al1, Bl1
 
 // `predicted` is (x*, P*), `step` goes from tau to t(k).
 template <int N>
-[[gnu::flatten]] Retrodicted<N> retrodict_collapsed(const Gaussian<N>& now, const Gaussian<N>& predicted,
-                                                    const LinearStep<N>& step, Noise noise) {
-  const Matrix<N> root = whitening<N>(predicted.p);
-  const Matrix<N> share = root.transpose() * (root * step.q);  // P*^-1 Q
-  const Matrix<N> cross = now.p * share;
-  if (noise == Noise::kIgnored) return retrodict<N>(now, step.f, Vector<N>::Zero(), step.q, cross);
-  const Vector<N> mean = share.transpose() * (now.x - predicted.x);
+[[gnu::flatten]] Retrodicted<N> retrodict_collapsed(const linear::Gaussian<N>& now,
+                                                    const linear::Gaussian<N>& predicted,
+                                                    const linear::LinearStep<N>& step, Noise noise) {
+  const linear::Matrix<N> root = whitening<N>(predicted.p);
+  const linear::Matrix<N> share = root.transpose() * (root * step.q);  // P*^-1 Q
+  const linear::Matrix<N> cross = now.p * share;
+  if (noise == Noise::kIgnored) return retrodict<N>(now, step.f, linear::Vector<N>::Zero(), step.q, cross);
+  const linear::Vector<N> mean = share.transpose() * (now.x - predicted.x);
   return retrodict<N>(now, step.f, mean, step.q - share.transpose() * step.q + share.transpose() * cross, cross);
 }
 
@@ -42,16 +43,16 @@ template <int N, int M, Motion<N> Model, int Capacity, Noise kNoise> class Colla
 
   explicit Collapsed(const Model& motion) : motion_(motion) {}
 
-  void start(GlobalTime time, const Gaussian<N>& prior) {
+  void start(GlobalTime time, const linear::Gaussian<N>& prior) {
     history_.clear();
     history_.append() = {Stamp::start(time), prior};
   }
   bool announce(const Stamp&) { return true; }
 
-  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
     const Stamp last = history_.newest().stamp;
     if (stamp > last) {
-      Gaussian<N> estimate = state();
+      linear::Gaussian<N> estimate = state();
       advance<N>(estimate, motion_, stamp.time() - last.time());
       correct<N, M>(estimate, measurement);
       history_.append() = {stamp, estimate};
@@ -65,27 +66,27 @@ template <int N, int M, Motion<N> Model, int Capacity, Noise kNoise> class Colla
     return Taken::kLate;
   }
 
-  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+  std::optional<linear::Gaussian<N>> at(const Stamp& stamp) const {
     const int n = history_.not_after(stamp);
     if (n == 0 || history_[n - 1].stamp == stamp) return std::nullopt;
     if (n == history_.size()) return advanced<N>(state(), motion_, stamp.time() - time());
     return retrodicted(stamp.time(), history_[n - 1]).then;
   }
 
-  const Gaussian<N>& state() const { return history_.newest().estimate; }
+  const linear::Gaussian<N>& state() const { return history_.newest().estimate; }
   GlobalTime time() const { return history_.newest().stamp.time(); }
 
  private:
   struct Entry {
     Stamp stamp;
-    Gaussian<N> estimate;  // as it was when the next one came
+    linear::Gaussian<N> estimate;  // as it was when the next one came
   };
 
   // `then` is the last not after tau.
   Retrodicted<N> retrodicted(GlobalTime tau, const Entry& then) const {
-    const Gaussian<N> predicted = advanced<N>(then.estimate, motion_, time() - then.stamp.time());
+    const linear::Gaussian<N> predicted = advanced<N>(then.estimate, motion_, time() - then.stamp.time());
     const Duration lag = time() - tau;
-    const LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : LinearStep<N>{};
+    const linear::LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : linear::LinearStep<N>{};
     return retrodict_collapsed<N>(state(), predicted, step, kNoise);
   }
 

@@ -14,26 +14,27 @@
 namespace ttf::fusion::oosm {
 
 template <int N, int M> struct Whitened {
-  Matrix<M, N> h;
-  Vector<M> nu;
-  Matrix<N, M> v;
+  linear::Matrix<M, N> h;
+  linear::Vector<M> nu;
+  linear::Matrix<N, M> v;
 };
 
 template <int N, int M>
-[[gnu::flatten]] Whitened<N, M> correct(Gaussian<N>& state, const LinearMeasurement<N, M>& measurement) {
-  const Matrix<M, N> hp = measurement.h * state.p;
-  Matrix<M> s = measurement.r;
+[[gnu::flatten]] Whitened<N, M> correct(linear::Gaussian<N>& state,
+                                        const linear::LinearMeasurement<N, M>& measurement) {
+  const linear::Matrix<M, N> hp = measurement.h * state.p;
+  linear::Matrix<M> s = measurement.r;
   s.noalias() += hp * measurement.h.transpose();
-  const Matrix<M> root = whitening<M>(s);
+  const linear::Matrix<M> root = whitening<M>(s);
   Whitened<N, M> result;
   result.h.noalias() = root * measurement.h;
   result.nu.noalias() = root * (measurement.z - measurement.h * state.x);
   result.v.noalias() = hp.transpose() * root.transpose();
   state.x.noalias() += result.v * result.nu;
-  const Matrix<N, M> gain = result.v * root;
-  Matrix<N> p = state.p;
+  const linear::Matrix<N, M> gain = result.v * root;
+  linear::Matrix<N> p = state.p;
   p.noalias() -= result.v * result.v.transpose();
-  Matrix<N, M> slip;  // T H' - K R
+  linear::Matrix<N, M> slip;  // T H' - K R
   slip.noalias() = p * measurement.h.transpose();
   slip.noalias() -= gain * measurement.r;
   p.noalias() -= slip * gain.transpose();

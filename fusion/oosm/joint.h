@@ -23,9 +23,9 @@ namespace ttf::fusion::oosm {
 
 // x(tau) = a x(before) + b x(after) + e, e ~ N(0, q) and independent of all else.
 template <int N> struct Bridge {
-  Matrix<N> a = Matrix<N>::Zero();
-  Matrix<N> b = Matrix<N>::Zero();
-  Matrix<N> q = Matrix<N>::Zero();
+  linear::Matrix<N> a = linear::Matrix<N>::Zero();
+  linear::Matrix<N> b = linear::Matrix<N>::Zero();
+  linear::Matrix<N> q = linear::Matrix<N>::Zero();
 };
 
 // A Markov process between two instants, `first` leading from the earlier one to tau and `second` from there to the
@@ -33,12 +33,13 @@ template <int N> struct Bridge {
 //   b = Q1 F2' (F2 Q1 F2' + Q2)^-1,  a = F1 - b F2 F1,  q = Q1 - b F2 Q1
 // (the gain as in Garcia-Fernandez, Yi: "Continuous-discrete multiple target tracking with out-of-sequence
 // measurements", IEEE TSP 69, 2021, eq. 36-37). Without noise the earlier instant alone tells.
-template <int N> [[gnu::flatten]] Bridge<N> bridge(const LinearStep<N>& first, const LinearStep<N>& second) {
-  const Matrix<N> fq = second.f * first.q;
-  Matrix<N> whole = second.q;
+template <int N>
+[[gnu::flatten]] Bridge<N> bridge(const linear::LinearStep<N>& first, const linear::LinearStep<N>& second) {
+  const linear::Matrix<N> fq = second.f * first.q;
+  linear::Matrix<N> whole = second.q;
   whole.noalias() += fq * second.f.transpose();
-  const Matrix<N> root = whitening<N>(whole);
-  const Matrix<N> half = root * fq;
+  const linear::Matrix<N> root = whitening<N>(whole);
+  const linear::Matrix<N> half = root * fq;
   Bridge<N> result;
   result.b.noalias() = half.transpose() * root;
   result.a = first.f;
@@ -52,10 +53,10 @@ template <int N, int M, int Slots> class Joint {
  public:
   static constexpr int kNow = -1;  // in place of a slot: the newest state
 
-  const Gaussian<N>& now() const { return now_; }
+  const linear::Gaussian<N>& now() const { return now_; }
   int size() const { return size_; }
 
-  void start(const Gaussian<N>& prior) {
+  void start(const linear::Gaussian<N>& prior) {
     now_ = prior;
     size_ = 0;
   }
@@ -68,56 +69,56 @@ template <int N, int M, int Slots> class Joint {
     return s;
   }
 
-  [[gnu::flatten]] void propagate(const LinearStep<N>& step) {
-    predict<N>(now_, step);
+  [[gnu::flatten]] void propagate(const linear::LinearStep<N>& step) {
+    linear::predict<N>(now_, step);
     for (int i = 0; i < size_; ++i) cross_[at(i)] = (cross_[at(i)] * step.f.transpose()).eval();
   }
 
-  [[gnu::flatten]] void correct_now(const LinearMeasurement<N, M>& measurement) {
+  [[gnu::flatten]] void correct_now(const linear::LinearMeasurement<N, M>& measurement) {
     const Whitened<N, M> whitened = correct<N, M>(now_, measurement);
     for (int i = 0; i < size_; ++i) gains_[at(i)].noalias() = cross_[at(i)] * whitened.h.transpose();
     learn(whitened.v, whitened.nu);
   }
 
-  [[gnu::flatten]] void correct_slot(int a, const LinearMeasurement<N, M>& measurement) {
-    Matrix<M> s = measurement.r;
+  [[gnu::flatten]] void correct_slot(int a, const linear::LinearMeasurement<N, M>& measurement) {
+    linear::Matrix<M> s = measurement.r;
     s.noalias() += measurement.h * block(a, a) * measurement.h.transpose();
-    const Matrix<M> root = whitening<M>(s);
-    const Matrix<M, N> h = root * measurement.h;
-    const Vector<M> nu = root * (measurement.z - measurement.h * x_[at(a)]);
+    const linear::Matrix<M> root = whitening<M>(s);
+    const linear::Matrix<M, N> h = root * measurement.h;
+    const linear::Vector<M> nu = root * (measurement.z - measurement.h * x_[at(a)]);
     for (int i = 0; i < a; ++i) gains_[at(i)].noalias() = block(a, i).transpose() * h.transpose();
     for (int i = a; i < size_; ++i) gains_[at(i)].noalias() = block(i, a) * h.transpose();
-    const Matrix<N, M> v = cross_[at(a)].transpose() * h.transpose();
+    const linear::Matrix<N, M> v = cross_[at(a)].transpose() * h.transpose();
     now_.x.noalias() += v * nu;
     now_.p.noalias() -= v * v.transpose();
     learn(v, nu);
   }
 
-  Gaussian<N> kept(int s) const { return {x_[at(s)], between(s, s)}; }
+  linear::Gaussian<N> kept(int s) const { return {x_[at(s)], between(s, s)}; }
   // What insert() of the same would keep.
-  [[gnu::flatten]] Gaussian<N> interpolated(int before, int after, const Bridge<N>& bridge) const {
-    const Gaussian<N> then = kept(before), later = after == kNow ? now_ : kept(after);
-    const Matrix<N> mixed = bridge.b * between(after, before) * bridge.a.transpose();
-    Gaussian<N> result;
+  [[gnu::flatten]] linear::Gaussian<N> interpolated(int before, int after, const Bridge<N>& bridge) const {
+    const linear::Gaussian<N> then = kept(before), later = after == kNow ? now_ : kept(after);
+    const linear::Matrix<N> mixed = bridge.b * between(after, before) * bridge.a.transpose();
+    linear::Gaussian<N> result;
     result.x = bridge.a * then.x + bridge.b * later.x;
     result.p = bridge.q + bridge.a * then.p * bridge.a.transpose() + bridge.b * later.p * bridge.b.transpose() + mixed +
                mixed.transpose();
-    symmetrise<N>(result.p);
+    linear::symmetrise<N>(result.p);
     return result;
   }
 
   // A new slot by interpolation between the slot `before` and `after`, a slot or kNow.
   [[gnu::flatten]] int insert(int before, int after, const Bridge<N>& bridge) {
     const int s = room();
-    const Gaussian<N>& now = now_;
-    const Vector<N>& x_after = after == kNow ? now.x : x_[at(after)];
-    const Matrix<N>& cross_after = after == kNow ? now.p : cross_[at(after)];
+    const linear::Gaussian<N>& now = now_;
+    const linear::Vector<N>& x_after = after == kNow ? now.x : x_[at(after)];
+    const linear::Matrix<N>& cross_after = after == kNow ? now.p : cross_[at(after)];
     x_[at(s)] = bridge.a * x_[at(before)] + bridge.b * x_after;
     cross_[at(s)] = bridge.a * cross_[at(before)] + bridge.b * cross_after;
     for (int j = 0; j < s; ++j) block(s, j) = bridge.a * between(before, j) + bridge.b * between(after, j);
-    const Matrix<N>& with_after = after == kNow ? cross_[at(s)] : block(s, after);
-    Matrix<N> p = bridge.q + bridge.a * block(s, before).transpose() + bridge.b * with_after.transpose();
-    symmetrise<N>(p);
+    const linear::Matrix<N>& with_after = after == kNow ? cross_[at(s)] : block(s, after);
+    linear::Matrix<N> p = bridge.q + bridge.a * block(s, before).transpose() + bridge.b * with_after.transpose();
+    linear::symmetrise<N>(p);
     block(s, s) = p;
     return s;
   }
@@ -139,11 +140,11 @@ template <int N, int M, int Slots> class Joint {
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   static std::size_t at(int i, int j) { return at(i) * (at(i) + 1) / 2 + at(j); }
-  Matrix<N>& block(int i, int j) { return blocks_[at(i, j)]; }
+  linear::Matrix<N>& block(int i, int j) { return blocks_[at(i, j)]; }
 
   // cov(x(i), x(j)), i and j slots or i the newest.
-  Matrix<N> between(int i, int j) const {
-    Matrix<N> result;
+  linear::Matrix<N> between(int i, int j) const {
+    linear::Matrix<N> result;
     if (i == kNow)
       result = cross_[at(j)].transpose();
     else if (i >= j)
@@ -159,21 +160,21 @@ template <int N, int M, int Slots> class Joint {
   }
 
   // What the slots learn; their V is in gains_.
-  [[gnu::flatten]] void learn(const Matrix<N, M>& now, const Vector<M>& nu) {
+  [[gnu::flatten]] void learn(const linear::Matrix<N, M>& now, const linear::Vector<M>& nu) {
     for (int i = 0; i < size_; ++i) {
-      const Matrix<N, M>& v = gains_[at(i)];
+      const linear::Matrix<N, M>& v = gains_[at(i)];
       x_[at(i)].noalias() += v * nu;
       cross_[at(i)].noalias() -= v * now.transpose();
       for (int j = 0; j <= i; ++j) block(i, j).noalias() -= v * gains_[at(j)].transpose();
     }
   }
 
-  Gaussian<N> now_;
+  linear::Gaussian<N> now_;
   int size_ = 0;
-  std::array<Vector<N>, Slots> x_{};
-  std::array<Matrix<N>, Slots> cross_{};
-  std::array<Matrix<N>, kBlocks> blocks_{};
-  std::array<Matrix<N, M>, Slots> gains_{};  // of the correction at work
+  std::array<linear::Vector<N>, Slots> x_{};
+  std::array<linear::Matrix<N>, Slots> cross_{};
+  std::array<linear::Matrix<N>, kBlocks> blocks_{};
+  std::array<linear::Matrix<N, M>, Slots> gains_{};  // of the correction at work
 };
 
 }  // namespace ttf::fusion::oosm

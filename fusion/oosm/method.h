@@ -75,29 +75,31 @@ enum class Exactness : std::uint8_t {
 // time does, and noise that is constant within every step does not. Rewinding needs no such thing.
 template <class X, int N>
 concept Motion = std::copyable<X> && requires(const X& motion, double dt) {
-  { motion.step(dt) } -> std::same_as<LinearStep<N>>;
+  { motion.step(dt) } -> std::same_as<linear::LinearStep<N>>;
 };
 
 // announce() says beforehand that a measurement of this stamp will come, late perhaps; it is false if the method
 // can do nothing with that any more. Methods that need no such word take it and do nothing.
 template <class X>
 concept Method = std::copyable<X> &&
-    requires(X x, const X& told, GlobalTime time, const Stamp& stamp, const Gaussian<X::kStates>& prior,
-             const LinearMeasurement<X::kStates, X::kDimension>& measurement) {
+    requires(X x, const X& told, GlobalTime time, const Stamp& stamp, const linear::Gaussian<X::kStates>& prior,
+             const linear::LinearMeasurement<X::kStates, X::kDimension>& measurement) {
   { X::kExactness } -> std::convertible_to<Exactness>;
   x.start(time, prior);
   { x.announce(stamp) } -> std::same_as<bool>;
   { x.take(stamp, measurement) } -> std::same_as<Taken>;
-  { told.at(stamp) } -> std::same_as<std::optional<Gaussian<X::kStates>>>;
-  { told.state() } -> std::same_as<const Gaussian<X::kStates>&>;
+  { told.at(stamp) } -> std::same_as<std::optional<linear::Gaussian<X::kStates>>>;
+  { told.state() } -> std::same_as<const linear::Gaussian<X::kStates>&>;
   { told.time() } -> std::same_as<GlobalTime>;
 };
 
 // Over `elapsed`, which may be nothing.
-template <int N, Motion<N> M> [[gnu::flatten]] void advance(Gaussian<N>& state, const M& motion, Duration elapsed) {
-  if (elapsed > Duration{}) predict<N>(state, motion.step(elapsed.seconds()));
+template <int N, Motion<N> M>
+[[gnu::flatten]] void advance(linear::Gaussian<N>& state, const M& motion, Duration elapsed) {
+  if (elapsed > Duration{}) linear::predict<N>(state, motion.step(elapsed.seconds()));
 }
-template <int N, Motion<N> M> Gaussian<N> advanced(Gaussian<N> state, const M& motion, Duration elapsed) {
+template <int N, Motion<N> M>
+linear::Gaussian<N> advanced(linear::Gaussian<N> state, const M& motion, Duration elapsed) {
   advance<N>(state, motion, elapsed);
   return state;
 }

@@ -24,16 +24,16 @@ template <int N, int M, Motion<N> Model, class Memory, Exactness kExact> class O
 
   explicit OneLag(const Model& motion) : motion_(motion) {}
 
-  void start(GlobalTime time, const Gaussian<N>& prior) {
+  void start(GlobalTime time, const linear::Gaussian<N>& prior) {
     before_last_ = last_ = Stamp::start(time);
     state_ = prior;
   }
   bool announce(const Stamp&) { return true; }
 
-  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
     if (stamp > last_) {
       advance<N>(state_, motion_, stamp.time() - last_.time());
-      const Matrix<N> predicted = state_.p;
+      const linear::Matrix<N> predicted = state_.p;
       memory_.corrected(predicted, correct<N, M>(state_, measurement));
       before_last_ = last_;
       last_ = stamp;
@@ -41,31 +41,31 @@ template <int N, int M, Motion<N> Model, class Memory, Exactness kExact> class O
     }
     if (stamp == last_ || stamp == before_last_) return Taken::kDuplicate;
     if (stamp < before_last_) return Taken::kTooOld;
-    const Gaussian<N> before = state_;
+    const linear::Gaussian<N> before = state_;
     fuse_retrodicted<N, M>(state_, retrodicted(stamp.time()), measurement);
     memory_.booked(before, state_);
     return Taken::kLate;
   }
 
-  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+  std::optional<linear::Gaussian<N>> at(const Stamp& stamp) const {
     if (stamp > last_) return advanced<N>(state_, motion_, stamp.time() - last_.time());
     if (stamp <= before_last_ || stamp == last_) return std::nullopt;
     return retrodicted(stamp.time()).then;
   }
 
-  const Gaussian<N>& state() const { return state_; }
+  const linear::Gaussian<N>& state() const { return state_; }
   GlobalTime time() const { return last_.time(); }
 
  private:
   Retrodicted<N> retrodicted(GlobalTime tau) const {
     const Duration lag = last_.time() - tau;
-    const LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : LinearStep<N>{};
+    const linear::LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : linear::LinearStep<N>{};
     return memory_.retrodict(state_, step);
   }
 
   Model motion_;
   Stamp before_last_, last_;
-  Gaussian<N> state_;
+  linear::Gaussian<N> state_;
   Memory memory_;
 };
 

@@ -15,17 +15,17 @@
 namespace ttf::fusion::oosm {
 
 template <int N> struct Retrodicted {
-  Gaussian<N> then;  // x(tau)
-  Matrix<N> cross;   // cov(x(k), x(tau))
+  linear::Gaussian<N> then;  // x(tau)
+  linear::Matrix<N> cross;   // cov(x(k), x(tau))
 };
 
 template <int N, int M>
-[[gnu::flatten]] void fuse_retrodicted(Gaussian<N>& now, const Retrodicted<N>& retrodicted,
-                                       const LinearMeasurement<N, M>& measurement) {
-  const Matrix<M> s = measurement.h * retrodicted.then.p * measurement.h.transpose() + measurement.r;
-  const Matrix<M> root = whitening<M>(s);
-  const Matrix<N, M> v = retrodicted.cross * (root * measurement.h).transpose();
-  const Vector<M> nu = root * (measurement.z - measurement.h * retrodicted.then.x);
+[[gnu::flatten]] void fuse_retrodicted(linear::Gaussian<N>& now, const Retrodicted<N>& retrodicted,
+                                       const linear::LinearMeasurement<N, M>& measurement) {
+  const linear::Matrix<M> s = measurement.h * retrodicted.then.p * measurement.h.transpose() + measurement.r;
+  const linear::Matrix<M> root = whitening<M>(s);
+  const linear::Matrix<N, M> v = retrodicted.cross * (root * measurement.h).transpose();
+  const linear::Vector<M> nu = root * (measurement.z - measurement.h * retrodicted.then.x);
   now.x += v * nu;
   now.p -= v * v.transpose();
 }
@@ -33,15 +33,16 @@ template <int N, int M>
 // From x(k) = F x(tau) + v and what is known of (x(k), v): mean of v, its covariance, and cov(x(k), v). F is a
 // transition matrix over a short step and well conditioned.
 template <int N>
-[[gnu::flatten]] Retrodicted<N> retrodict(const Gaussian<N>& now, const Matrix<N>& f, const Vector<N>& noise,
-                                          const Matrix<N>& noise_p, const Matrix<N>& cross) {
-  const Matrix<N> back = f.inverse();
+[[gnu::flatten]] Retrodicted<N> retrodict(const linear::Gaussian<N>& now, const linear::Matrix<N>& f,
+                                          const linear::Vector<N>& noise, const linear::Matrix<N>& noise_p,
+                                          const linear::Matrix<N>& cross) {
+  const linear::Matrix<N> back = f.inverse();
   Retrodicted<N> result;
   result.then.x = back * (now.x - noise);
-  const Matrix<N> difference = now.p - cross;
+  const linear::Matrix<N> difference = now.p - cross;
   result.cross = difference * back.transpose();
-  Matrix<N> p = difference + noise_p - cross.transpose();
-  symmetrise<N>(p);
+  linear::Matrix<N> p = difference + noise_p - cross.transpose();
+  linear::symmetrise<N>(p);
   result.then.p = back * p * back.transpose();
   return result;
 }

@@ -23,7 +23,7 @@ template <int N, int M, Motion<N> Model, int Capacity> class Rewind {
 
   explicit Rewind(const Model& motion) : motion_(motion) {}
 
-  void start(GlobalTime time, const Gaussian<N>& prior) {
+  void start(GlobalTime time, const linear::Gaussian<N>& prior) {
     history_.clear();
     Entry& first = history_.append();
     first.stamp = Stamp::start(time);
@@ -31,12 +31,12 @@ template <int N, int M, Motion<N> Model, int Capacity> class Rewind {
   }
   bool announce(const Stamp&) { return true; }
 
-  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
     const int n = history_.not_after(stamp);
     if (n == 0) return Taken::kTooOld;
     const Entry& before = history_[n - 1];
     if (before.stamp == stamp) return Taken::kDuplicate;
-    Gaussian<N> estimate = before.estimate;  // `before` itself may be forgotten
+    linear::Gaussian<N> estimate = before.estimate;  // `before` itself may be forgotten
     GlobalTime time = before.stamp.time();
     const bool late = n < history_.size();
     int at = n;
@@ -58,21 +58,21 @@ template <int N, int M, Motion<N> Model, int Capacity> class Rewind {
     return late ? Taken::kLate : Taken::kInOrder;
   }
 
-  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+  std::optional<linear::Gaussian<N>> at(const Stamp& stamp) const {
     const int n = history_.not_after(stamp);
     if (n == 0 || history_[n - 1].stamp == stamp) return std::nullopt;
     const Entry& before = history_[n - 1];
     return advanced<N>(before.estimate, motion_, stamp.time() - before.stamp.time());
   }
 
-  const Gaussian<N>& state() const { return history_.newest().estimate; }
+  const linear::Gaussian<N>& state() const { return history_.newest().estimate; }
   GlobalTime time() const { return history_.newest().stamp.time(); }
 
  private:
   struct Entry {
     Stamp stamp;
-    LinearMeasurement<N, M> measurement;  // of a start: none
-    Gaussian<N> estimate;                 // after it
+    linear::LinearMeasurement<N, M> measurement;  // of a start: none
+    linear::Gaussian<N> estimate;                 // after it
   };
 
   Model motion_;

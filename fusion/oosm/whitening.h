@@ -19,15 +19,15 @@ inline double inverse_root(double pivot, double diagonal) {
   return pivot > kNoPivot * diagonal ? 1.0 / std::sqrt(pivot) : 0.0;
 }
 
-template <int M> Matrix<M> whitening(const Matrix<M>& s) {
-  Matrix<M> inverse = Matrix<M>::Zero();
+template <int M> linear::Matrix<M> whitening(const linear::Matrix<M>& s) {
+  linear::Matrix<M> inverse = linear::Matrix<M>::Zero();
   inverse(0, 0) = inverse_root(s(0, 0), s(0, 0));
   if constexpr (M == 2) {
     const double below = s(1, 0) * inverse(0, 0);
     inverse(1, 1) = inverse_root(s(1, 1) - below * below, s(1, 1));
     inverse(1, 0) = -inverse(1, 1) * below * inverse(0, 0);
   } else if constexpr (M > 2) {
-    Matrix<M> root = Matrix<M>::Zero();
+    linear::Matrix<M> root = linear::Matrix<M>::Zero();
     for (int j = 0; j < M; ++j) {
       double pivot = s(j, j);
       for (int k = 0; k < j; ++k) pivot -= root(j, k) * root(j, k);

@@ -16,7 +16,7 @@
 
 #include "fusion/sensors/observation.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::sensors {
 
 // range r > 0 [m] and bearing b [rad, from x to y], of independent errors with sigmas sr > 0 and 0 < sb < 1.
 inline Observation converted_position(double range, double bearing, double sigma_range, double sigma_bearing) {
@@ -35,4 +35,4 @@ inline Observation converted_position(double range, double bearing, double sigma
   return observation;
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::sensors

@@ -9,7 +9,7 @@
 #include "fusion/motion/angles.h"
 #include "fusion/sensors/range_bearing.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::sensors {
 namespace {
 
 constexpr Range<double> kPlace{-50.0, 50.0}, kHeading{-7.0, 7.0};
@@ -42,20 +42,20 @@ void read_components(YamlMap& yaml, double least, Values& values, std::optional<
   }
 }
 
-Vector<2> rotated(const Vector<2>& v, double angle) {
+linear::Vector<2> rotated(const linear::Vector<2>& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
 void turn(Observation& o, double angle) {
-  Matrix<2> rotation;
+  linear::Matrix<2> rotation;
   const double c = std::cos(angle), s = std::sin(angle);
   rotation << c, -s, s, c;
   o.z.head<2>() = (rotation * o.z.head<2>()).eval();
-  Matrix<2> r = rotation * o.r.topLeftCorner<2, 2>() * rotation.transpose();
-  symmetrise<2>(r);
+  linear::Matrix<2> r = rotation * o.r.topLeftCorner<2, 2>() * rotation.transpose();
+  linear::symmetrise<2>(r);
   o.r.topLeftCorner<2, 2>() = r;
-  if (o.has_heading) o.heading = to_half_turn(o.heading + angle);
+  if (o.has_heading) o.heading = motion::to_half_turn(o.heading + angle);
 }
 
 void correct_position(Observation& o, const SystematicErrors& errors) {
@@ -75,7 +75,7 @@ void correct_polar(Observation& o, const SystematicErrors& errors) {
     o.z(0) = std::max(o.z(0), sensors::kNearest);
     return;
   }
-  const Vector<2> at = rotated({o.z(0), 0.0}, o.z(1)) - errors.known.head<2>();
+  const linear::Vector<2> at = rotated({o.z(0), 0.0}, o.z(1)) - errors.known.head<2>();
   o.z(0) = std::max(at.norm(), sensors::kNearest);
   o.z(1) = std::atan2(at.y(), at.x());
 }
@@ -128,7 +128,7 @@ void place(Observation& observation, SensorId id, const KnownSensor& sensor) {
   const bool position = observation.kind == ObservationKind::kPosition;
   if (!position) {
     correct_polar(observation, sensor.errors);
-    if (observation.has_heading) observation.heading = to_half_turn(observation.heading + sensor.mounting.yaw);
+    if (observation.has_heading) observation.heading = motion::to_half_turn(observation.heading + sensor.mounting.yaw);
     return;
   }
   correct_position(observation, sensor.errors);
@@ -136,4 +136,4 @@ void place(Observation& observation, SensorId id, const KnownSensor& sensor) {
   observation.z.head<2>() += sensor.mounting.position;
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::sensors

@@ -19,17 +19,18 @@
 #include "core/ids.h"
 #include "core/strict_yaml.h"
 #include "fusion/linear/gaussian.h"
-#include "fusion/sensors/observation.h"
 #include "fusion/sensors/mounted.h"
+#include "fusion/sensors/observation.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::sensors {
 
 enum class ErrorAxes : unsigned char { kPolar, kCartesian };
 
 struct SystematicErrors {
   ErrorAxes axes = ErrorAxes::kPolar;
-  Vector<3> known = Vector<3>::Zero();  // of range [m], bearing [rad], range rate [m/s]; or of x, y [m], and nothing
-  Vector<4> sigma = Vector<4>::Zero();  // of what is left of these, and of the stamp [s]
+  linear::Vector<3> known =
+      linear::Vector<3>::Zero();  // of range [m], bearing [rad], range rate [m/s]; or of x, y [m], and nothing
+  linear::Vector<4> sigma = linear::Vector<4>::Zero();  // of what is left of these, and of the stamp [s]
 };
 
 struct KnownSensor {
@@ -61,9 +62,9 @@ inline const KnownSensor* known(std::span<const KnownSensor> sensors, SensorId i
   return index_of(id) < sensors.size() ? &sensors[index_of(id)] : nullptr;
 }
 // Where it stands [m], in the vehicle's axes.
-inline Vector<2> place_of(std::span<const KnownSensor> sensors, SensorId id) {
+inline linear::Vector<2> place_of(std::span<const KnownSensor> sensors, SensorId id) {
   const KnownSensor* sensor = known(sensors, id);
-  return sensor != nullptr ? sensor->mounting.position : Vector<2>(0.0, 0.0);
+  return sensor != nullptr ? sensor->mounting.position : linear::Vector<2>(0.0, 0.0);
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::sensors

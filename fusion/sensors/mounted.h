@@ -12,15 +12,15 @@
 namespace ttf::fusion::sensors {
 
 struct Mounting {
-  Vector<2> position = Vector<2>::Zero();  // [m] in the vehicle's axes
-  double yaw = 0.0;                        // [rad] from the vehicle's x axis to the sensor's
-  Vector<2> velocity = Vector<2>::Zero();  // [m/s], zero on a vehicle that stands: see carried()
+  linear::Vector<2> position = linear::Vector<2>::Zero();  // [m] in the vehicle's axes
+  double yaw = 0.0;                                        // [rad] from the vehicle's x axis to the sensor's
+  linear::Vector<2> velocity = linear::Vector<2>::Zero();  // [m/s], zero on a vehicle that stands: see carried()
 };
 
 // The same mounting on a vehicle that drives: velocity of its origin over ground, in its own axes, and its yaw rate
 // [rad/s].
-inline Mounting carried(Mounting mounting, const Vector<2>& velocity, double yaw_rate) {
-  mounting.velocity = velocity + yaw_rate * Vector<2>(-mounting.position.y(), mounting.position.x());
+inline Mounting carried(Mounting mounting, const linear::Vector<2>& velocity, double yaw_rate) {
+  mounting.velocity = velocity + yaw_rate * linear::Vector<2>(-mounting.position.y(), mounting.position.x());
   return mounting;
 }
 
@@ -38,30 +38,30 @@ requires(!Placed<S>) class Mounted : public BiasesOf<S> {
     back_ << c, s, -s, c;
   }
 
-  Vector<kDimension> expected(const Kinematics& k) const { return sensor_.expected(from_here(k)); }
-  Matrix<kDimension, kParts> jacobian(const Kinematics& k) const {
-    Matrix<kDimension, kParts> h = sensor_.jacobian(from_here(k));
-    constexpr int kVectors = std::min(kParts, static_cast<int>(kWithVelocity));
+  linear::Vector<kDimension> expected(const motion::Kinematics& k) const { return sensor_.expected(from_here(k)); }
+  linear::Matrix<kDimension, kParts> jacobian(const motion::Kinematics& k) const {
+    linear::Matrix<kDimension, kParts> h = sensor_.jacobian(from_here(k));
+    constexpr int kVectors = std::min(kParts, static_cast<int>(motion::kWithVelocity));
     for (int i = 0; i < kVectors; i += 2) h.template middleCols<2>(i) = (h.template middleCols<2>(i) * back_).eval();
     return h;
   }
-  template <Biased B = S> Matrix<kDimension, B::kBiases> bias_jacobian(const Kinematics& k) const {
+  template <Biased B = S> linear::Matrix<kDimension, B::kBiases> bias_jacobian(const motion::Kinematics& k) const {
     return sensor_.bias_jacobian(from_here(k));
   }
-  Vector<kDimension> residual(const Vector<kDimension>& z, const Vector<kDimension>& e) const {
+  linear::Vector<kDimension> residual(const linear::Vector<kDimension>& z, const linear::Vector<kDimension>& e) const {
     return sensor_.residual(z, e);
   }
-  bool sees(const Kinematics& k) const { return sensor_.sees(from_here(k)); }
+  bool sees(const motion::Kinematics& k) const { return sensor_.sees(from_here(k)); }
 
  private:
-  Kinematics from_here(const Kinematics& k) const {
+  motion::Kinematics from_here(const motion::Kinematics& k) const {
     return {back_ * (k.position - mounting_.position), back_ * (k.velocity - mounting_.velocity),
             k.heading - mounting_.yaw, k.has_heading};
   }
 
   S sensor_;
   Mounting mounting_;
-  Matrix<2> back_;  // R', from the vehicle's axes to the sensor's
+  linear::Matrix<2> back_;  // R', from the vehicle's axes to the sensor's
 };
 
 }  // namespace ttf::fusion::sensors

@@ -9,10 +9,10 @@
 #include "core/ids.h"
 #include "core/time.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::sensors {
 
-// In the sensor's axes until it is placed (fusion/sensors/known_sensor.h); then a position is in the sensor car's frame (ISO
-// 8855).
+// In the sensor's axes until it is placed (fusion/sensors/known_sensor.h); then a position is in the sensor car's frame
+// (ISO 8855).
 enum class ObservationKind : std::uint8_t {
   kPosition,          // z = (x, y) [m]
   kRangeBearingRate,  // z = (range [m], bearing [rad], range rate [m/s])
@@ -55,4 +55,4 @@ struct Scan {
   std::span<const Observation> observations;
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::sensors

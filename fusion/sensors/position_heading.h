@@ -9,21 +9,21 @@ namespace ttf::fusion::sensors {
 
 struct PositionHeading {
   static constexpr const char* kName = "PositionHeading";
-  static constexpr int kDimension = 3, kParts = kWithHeading;
+  static constexpr int kDimension = 3, kParts = motion::kWithHeading;
   static constexpr bool kLinear = false;
 
-  Vector<3> expected(const Kinematics& k) const { return {k.position.x(), k.position.y(), k.heading}; }
-  Matrix<3, 5> jacobian(const Kinematics&) const {
-    Matrix<3, 5> h = Matrix<3, 5>::Zero();
+  linear::Vector<3> expected(const motion::Kinematics& k) const { return {k.position.x(), k.position.y(), k.heading}; }
+  linear::Matrix<3, 5> jacobian(const motion::Kinematics&) const {
+    linear::Matrix<3, 5> h = linear::Matrix<3, 5>::Zero();
     h(0, 0) = h(1, 1) = h(2, 4) = 1.0;
     return h;
   }
-  Vector<3> residual(const Vector<3>& z, const Vector<3>& e) const {
-    Vector<3> d = z - e;
-    d(2) = to_quarter_turn(d(2));
+  linear::Vector<3> residual(const linear::Vector<3>& z, const linear::Vector<3>& e) const {
+    linear::Vector<3> d = z - e;
+    d(2) = motion::to_quarter_turn(d(2));
     return d;
   }
-  bool sees(const Kinematics& k) const { return k.has_heading; }
+  bool sees(const motion::Kinematics& k) const { return k.has_heading; }
 };
 static_assert(Model<PositionHeading>);
 

@@ -13,21 +13,23 @@ inline constexpr double kNearest = 1e-3;
 
 struct RangeBearing {
   static constexpr const char* kName = "RangeBearing";
-  static constexpr int kDimension = 2, kParts = kPositionOnly;
+  static constexpr int kDimension = 2, kParts = motion::kPositionOnly;
   static constexpr bool kLinear = false;
 
-  Vector<2> expected(const Kinematics& k) const {
+  linear::Vector<2> expected(const motion::Kinematics& k) const {
     return {k.position.norm(), std::atan2(k.position.y(), k.position.x())};
   }
-  Matrix<2, 2> jacobian(const Kinematics& k) const {
+  linear::Matrix<2, 2> jacobian(const motion::Kinematics& k) const {
     const double squared = k.position.squaredNorm(), range = std::sqrt(squared);
     const double x = k.position.x(), y = k.position.y();
-    Matrix<2, 2> h;
+    linear::Matrix<2, 2> h;
     h << x / range, y / range, -y / squared, x / squared;
     return h;
   }
-  Vector<2> residual(const Vector<2>& z, const Vector<2>& e) const { return {z(0) - e(0), to_half_turn(z(1) - e(1))}; }
-  bool sees(const Kinematics& k) const { return k.position.squaredNorm() >= kNearest * kNearest; }
+  linear::Vector<2> residual(const linear::Vector<2>& z, const linear::Vector<2>& e) const {
+    return {z(0) - e(0), motion::to_half_turn(z(1) - e(1))};
+  }
+  bool sees(const motion::Kinematics& k) const { return k.position.squaredNorm() >= kNearest * kNearest; }
 };
 static_assert(Model<RangeBearing>);
 

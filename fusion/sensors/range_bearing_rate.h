@@ -12,25 +12,25 @@ namespace ttf::fusion::sensors {
 
 struct RangeBearingRate {
   static constexpr const char* kName = "RangeBearingRate";
-  static constexpr int kDimension = 3, kParts = kWithVelocity;
+  static constexpr int kDimension = 3, kParts = motion::kWithVelocity;
   static constexpr bool kLinear = false;
 
-  Vector<3> expected(const Kinematics& k) const {
+  linear::Vector<3> expected(const motion::Kinematics& k) const {
     const double range = k.position.norm();
     return {range, std::atan2(k.position.y(), k.position.x()), k.position.dot(k.velocity) / std::max(range, kNearest)};
   }
-  Matrix<3, 4> jacobian(const Kinematics& k) const {
+  linear::Matrix<3, 4> jacobian(const motion::Kinematics& k) const {
     const double squared = k.position.squaredNorm(), range = std::sqrt(squared);
     const double c = k.position.x() / range, s = k.position.y() / range;
     const double across = (c * k.velocity.y() - s * k.velocity.x()) / range;  // turn rate of the line of sight
-    Matrix<3, 4> h;
+    linear::Matrix<3, 4> h;
     h << c, s, 0.0, 0.0, -s / range, c / range, 0.0, 0.0, -s * across, c * across, c, s;
     return h;
   }
-  Vector<3> residual(const Vector<3>& z, const Vector<3>& e) const {
-    return {z(0) - e(0), to_half_turn(z(1) - e(1)), z(2) - e(2)};
+  linear::Vector<3> residual(const linear::Vector<3>& z, const linear::Vector<3>& e) const {
+    return {z(0) - e(0), motion::to_half_turn(z(1) - e(1)), z(2) - e(2)};
   }
-  bool sees(const Kinematics& k) const { return k.position.squaredNorm() >= kNearest * kNearest; }
+  bool sees(const motion::Kinematics& k) const { return k.position.squaredNorm() >= kNearest * kNearest; }
 };
 static_assert(Model<RangeBearingRate>);
 

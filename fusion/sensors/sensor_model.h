@@ -21,20 +21,21 @@ namespace ttf::fusion::sensors {
 // every update factors S = H P H' + R and stops the program at a pivot that is not positive (filters/ldl.h): what comes
 // from outside is checked where it enters, a sensor's noise when its configuration is loaded, a covariance that a
 // message carries when it is unpacked, by positive_definite() there. R must also not drown in the rounding of H P H':
-// 1e-12 of it is enough. The methods of fusion/oosm/ ask the same of R (fusion/linear/gaussian.h); that their whitening.h lets
-// pivots of zero pass is for predicted covariances and process noise, which may be semi-definite.
+// 1e-12 of it is enough. The methods of fusion/oosm/ ask the same of R (fusion/linear/gaussian.h); that their
+// whitening.h lets pivots of zero pass is for predicted covariances and process noise, which may be semi-definite.
 template <int M> struct Measurement {
-  Vector<M> z = Vector<M>::Zero();
-  Matrix<M> r = Matrix<M>::Identity();
+  linear::Vector<M> z = linear::Vector<M>::Zero();
+  linear::Matrix<M> r = linear::Matrix<M>::Identity();
 };
 
 template <class S>
-concept Model = requires(const S& sensor, const Kinematics& k, const Vector<S::kDimension>& z) {
-  requires S::kParts == kPositionOnly || S::kParts == kWithVelocity || S::kParts == kWithHeading;
+concept Model = requires(const S& sensor, const motion::Kinematics& k, const linear::Vector<S::kDimension>& z) {
+  requires S::kParts == motion::kPositionOnly || S::kParts == motion::kWithVelocity ||
+      S::kParts == motion::kWithHeading;
   { S::kLinear } -> std::convertible_to<bool>;
-  { sensor.expected(k) } -> std::same_as<Vector<S::kDimension>>;
-  { sensor.jacobian(k) } -> std::same_as<Matrix<S::kDimension, S::kParts>>;
-  { sensor.residual(z, z) } -> std::same_as<Vector<S::kDimension>>;
+  { sensor.expected(k) } -> std::same_as<linear::Vector<S::kDimension>>;
+  { sensor.jacobian(k) } -> std::same_as<linear::Matrix<S::kDimension, S::kParts>>;
+  { sensor.residual(z, z) } -> std::same_as<linear::Vector<S::kDimension>>;
   { sensor.sees(k) } -> std::same_as<bool>;
 };
 
@@ -51,8 +52,8 @@ concept Placed = Model<S> && requires {
 
 // One with systematic errors: d expected / d (what it is wrong by).
 template <class S>
-concept Biased = Model<S> && requires(const S& sensor, const Kinematics& k) {
-  { sensor.bias_jacobian(k) } -> std::same_as<Matrix<S::kDimension, S::kBiases>>;
+concept Biased = Model<S> && requires(const S& sensor, const motion::Kinematics& k) {
+  { sensor.bias_jacobian(k) } -> std::same_as<linear::Matrix<S::kDimension, S::kBiases>>;
 };
 
 }  // namespace ttf::fusion::sensors

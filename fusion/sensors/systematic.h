@@ -19,34 +19,34 @@ namespace ttf::fusion::sensors {
 template <Model S>
 requires(!Placed<S>) struct Systematic {
   static constexpr int kDimension = S::kDimension;
-  static constexpr int kParts = std::max(S::kParts, static_cast<int>(kWithVelocity));
+  static constexpr int kParts = std::max(S::kParts, static_cast<int>(motion::kWithVelocity));
   static constexpr bool kLinear = S::kLinear;
   static constexpr int kBiases = kDimension + 1;  // b, then tau
 
   S sensor{};
-  Vector<kDimension> bias = Vector<kDimension>::Zero();
+  linear::Vector<kDimension> bias = linear::Vector<kDimension>::Zero();
   double time_bias = 0.0;
 
-  Vector<kDimension> expected(const Kinematics& k) const { return sensor.expected(then(k)) + bias; }
-  Matrix<kDimension, kParts> jacobian(const Kinematics& k) const {
-    Matrix<kDimension, kParts> h = Matrix<kDimension, kParts>::Zero();
+  linear::Vector<kDimension> expected(const motion::Kinematics& k) const { return sensor.expected(then(k)) + bias; }
+  linear::Matrix<kDimension, kParts> jacobian(const motion::Kinematics& k) const {
+    linear::Matrix<kDimension, kParts> h = linear::Matrix<kDimension, kParts>::Zero();
     h.template leftCols<S::kParts>() = sensor.jacobian(then(k));
     h.template middleCols<2>(2) += time_bias * h.template leftCols<2>();
     return h;
   }
-  Matrix<kDimension, kBiases> bias_jacobian(const Kinematics& k) const {
-    Matrix<kDimension, kBiases> d;
+  linear::Matrix<kDimension, kBiases> bias_jacobian(const motion::Kinematics& k) const {
+    linear::Matrix<kDimension, kBiases> d;
     d.template leftCols<kDimension>().setIdentity();
     d.col(kDimension) = sensor.jacobian(then(k)).template leftCols<2>() * k.velocity;
     return d;
   }
-  Vector<kDimension> residual(const Vector<kDimension>& z, const Vector<kDimension>& e) const {
+  linear::Vector<kDimension> residual(const linear::Vector<kDimension>& z, const linear::Vector<kDimension>& e) const {
     return sensor.residual(z, e);
   }
-  bool sees(const Kinematics& k) const { return sensor.sees(then(k)); }
+  bool sees(const motion::Kinematics& k) const { return sensor.sees(then(k)); }
 
  private:
-  Kinematics then(Kinematics k) const {
+  motion::Kinematics then(motion::Kinematics k) const {
     k.position += time_bias * k.velocity;
     return k;
   }

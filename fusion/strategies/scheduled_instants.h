@@ -6,7 +6,7 @@
 
 #include "core/time.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 
 struct ScheduledInstants {
   GlobalTime first{};
@@ -28,4 +28,4 @@ struct ScheduledInstants {
   GlobalTime newest_at(GlobalTime time) const { return first + period * ((time - first).ns / period.ns); }
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

@@ -8,7 +8,7 @@
 
 #include "core/check.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 namespace {
 
 std::int64_t floor_of(Duration whole, Duration part) {
@@ -45,4 +45,4 @@ GlobalTime Settling::settled_from(GlobalTime measured) const {
   return step != steps_.end() ? step->at + round_ * rounds : steps_.front().at + round_ * (rounds + 1);
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

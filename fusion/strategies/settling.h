@@ -15,7 +15,7 @@
 
 #include "core/time.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 
 class Settling {
  public:
@@ -40,4 +40,4 @@ class Settling {
   Duration round_;
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

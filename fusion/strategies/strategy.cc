@@ -13,7 +13,7 @@
 #include "fusion/tracks/timeline.h"
 #include "fusion/tracks/track_history.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 namespace {
 
 constexpr GlobalTime kLongAgo{std::numeric_limits<std::int64_t>::min()};
@@ -22,8 +22,8 @@ constexpr GlobalTime kLongAgo{std::numeric_limits<std::int64_t>::min()};
 // differ in which waiting scan may be fused.
 class HistoryStrategy : public Strategy {
  public:
-  HistoryStrategy(const TrackerConfig& config, std::span<const SensorTiming> sensors,
-                  std::unique_ptr<TrackHistory> history)
+  HistoryStrategy(const config::TrackerConfig& config, std::span<const SensorTiming> sensors,
+                  std::unique_ptr<tracks::TrackHistory> history)
       : config_(config), sensors_(sensors.begin(), sensors.end()), history_(std::move(history)),
         estimator_(&history_->estimator()) {
     pending_.reserve(kMaxPending);
@@ -45,7 +45,7 @@ class HistoryStrategy : public Strategy {
       TTF_CHECK(!s.scheduled || s.period.ns > 0, "sensor {}: period of {} ns", index_of(s.sensor), s.period.ns);
   }
 
-  void accept(const Scan& scan) final {
+  void accept(const sensors::Scan& scan) final {
     const bool waiting = std::any_of(waiting_.begin(), waiting_.end(), [&](std::size_t w) {
       return pending_[w].id == scan.id && pending_[w].measured == scan.measured;
     });
@@ -65,7 +65,7 @@ class HistoryStrategy : public Strategy {
     pending_[slot].assign(scan);
     seen_[slot] = 0;
     const auto place = std::find_if(waiting_.begin(), waiting_.end(), [&](std::size_t w) {
-      return before(scan.id, scan.measured, pending_[w].id, pending_[w].measured);
+      return tracks::before(scan.id, scan.measured, pending_[w].id, pending_[w].measured);
     });
     waiting_.insert(place, slot);
   }
@@ -81,7 +81,7 @@ class HistoryStrategy : public Strategy {
     bool blocked = false;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const std::size_t slot = waiting_[i];
-      const StoredScan& scan = pending_[slot];
+      const tracks::StoredScan& scan = pending_[slot];
       // In chronological order: what must wait holds back all that is younger. A stamp from the future is
       // wrong, and would make everything after it late.
       blocked = blocked || fuses_from(scan) > now;
@@ -103,25 +103,25 @@ class HistoryStrategy : public Strategy {
   }
   std::span<const FusedScan> last_fused() const final { return report_; }
   std::uint64_t unlisted() const final { return unlisted_; }
-  std::span<const TrackView> tracks() const final { return views_; }
+  std::span<const tracks::TrackView> tracks() const final { return views_; }
   std::span<const MeasurementId> newest() const final { return newest_; }
   GlobalTime newest_measured() const final { return history_->current().time; }
   int confirmed_count() const final { return static_cast<int>(views_.size()); }
   int tentative_count() const final { return tentative_; }
 
-  void image(GlobalTime at, std::vector<TrackView>& out) const final {
+  void image(GlobalTime at, std::vector<tracks::TrackView>& out) const final {
     out.clear();
-    const TrackSet& set = history_->current();
-    for (const Track& track : set.tracks)
+    const tracks::TrackSet& set = history_->current();
+    for (const tracks::Track& track : set.tracks)
       if (track.confirmed && !given_up(track, set.time, at, config_, *estimator_))
         out.push_back(view_of(track, set.time, at, config_, *estimator_));
   }
 
  protected:
   // From when on a scan may be fused if nothing more arrives; over, where it may be now.
-  virtual GlobalTime may_fuse_from(const StoredScan& scan) const = 0;
+  virtual GlobalTime may_fuse_from(const tracks::StoredScan& scan) const = 0;
 
-  const TrackerConfig& config() const { return config_; }
+  const config::TrackerConfig& config() const { return config_; }
   // The longest that a list of sensor s was on its way, as far as fusion instants tell.
   std::optional<Duration> longest_delay(std::size_t s) const { return longest_delay_[s]; }
 
@@ -141,9 +141,9 @@ class HistoryStrategy : public Strategy {
       ++unlisted_;
   }
 
-  GlobalTime fuses_from(const StoredScan& scan) const { return std::max(scan.measured, may_fuse_from(scan)); }
+  GlobalTime fuses_from(const tracks::StoredScan& scan) const { return std::max(scan.measured, may_fuse_from(scan)); }
 
-  void receive(const StoredScan& scan) {
+  void receive(const tracks::StoredScan& scan) {
     for (std::size_t s = 0; s < sensors_.size(); ++s) {
       if (sensors_[s].sensor != scan.id.sensor) continue;
       newest_received_[s] = any_received_[s] ? std::max(newest_received_[s], scan.measured) : scan.measured;
@@ -152,12 +152,12 @@ class HistoryStrategy : public Strategy {
     }
   }
 
-  FusedScan take(const StoredScan& scan) {
+  FusedScan take(const tracks::StoredScan& scan) {
     Disposition disposition = Disposition::kFused;
     switch (history_->insert(scan.view())) {
-      case TrackHistory::Insertion::kInOrder: break;
-      case TrackHistory::Insertion::kLate: disposition = Disposition::kFusedLate; break;
-      case TrackHistory::Insertion::kTooOld: disposition = Disposition::kDroppedTooOld; break;
+      case tracks::TrackHistory::Insertion::kInOrder: break;
+      case tracks::TrackHistory::Insertion::kLate: disposition = Disposition::kFusedLate; break;
+      case tracks::TrackHistory::Insertion::kTooOld: disposition = Disposition::kDroppedTooOld; break;
     }
     const FusedScan result{scan.id, scan.measured, disposition};
     if (disposition == Disposition::kDroppedTooOld) return result;
@@ -177,8 +177,8 @@ class HistoryStrategy : public Strategy {
   void show(GlobalTime now) {
     views_.clear();
     tentative_ = 0;
-    const TrackSet& set = history_->current();
-    for (const Track& track : set.tracks) {
+    const tracks::TrackSet& set = history_->current();
+    for (const tracks::Track& track : set.tracks) {
       if (given_up(track, set.time, now, config_, *estimator_)) continue;
       if (track.confirmed)
         views_.push_back(view_of(track, set.time, set.time, config_, *estimator_));
@@ -187,16 +187,16 @@ class HistoryStrategy : public Strategy {
     }
   }
 
-  TrackerConfig config_;
+  config::TrackerConfig config_;
   std::vector<SensorTiming> sensors_;
-  std::unique_ptr<TrackHistory> history_;
-  const Estimator* estimator_;               // the history's
-  std::vector<StoredScan> pending_;          // storage
+  std::unique_ptr<tracks::TrackHistory> history_;
+  const estimators::Estimator* estimator_;   // the history's
+  std::vector<tracks::StoredScan> pending_;  // storage
   std::vector<std::size_t> free_, waiting_;  // waiting: chronological
   std::vector<char> seen_;                   // by a fusion instant, of those that wait
   std::vector<FusedScan> report_, between_;  // between_: what happened since the last fusion instant
   std::uint64_t unlisted_ = 0;
-  std::vector<TrackView> views_;
+  std::vector<tracks::TrackView> views_;
   int tentative_ = 0;
   std::vector<MeasurementId> newest_;
   std::vector<GlobalTime> newest_stamps_;  // of these
@@ -210,8 +210,8 @@ class Buff final : public HistoryStrategy {
   using HistoryStrategy::HistoryStrategy;
 
  private:
-  GlobalTime may_fuse_from(const StoredScan& scan) const override {
-    if (config().buff_waits == BuffWaiting::kFixedLag) return scan.measured + config().fixed_lag;
+  GlobalTime may_fuse_from(const tracks::StoredScan& scan) const override {
+    if (config().buff_waits == config::BuffWaiting::kFixedLag) return scan.measured + config().fixed_lag;
     GlobalTime from = kLongAgo;
     for (std::size_t s = 0; s < sensor_count(); ++s)
       if (sensor(s).sensor != scan.id.sensor && !arrived_since(s, scan.measured))
@@ -222,7 +222,7 @@ class Buff final : public HistoryStrategy {
   // When all that sensor s measured until `instant` has arrived, or never will.
   GlobalTime settled_from(std::size_t s, GlobalTime instant) const {
     const auto longest = longest_delay(s);
-    const bool by_measured = config().buff_waits == BuffWaiting::kMeasured && longest;
+    const bool by_measured = config().buff_waits == config::BuffWaiting::kMeasured && longest;
     return by_measured ? instant + *longest : sensor(s).settling.settled_from(instant);
   }
 };
@@ -231,14 +231,14 @@ class Adva final : public HistoryStrategy {
   using HistoryStrategy::HistoryStrategy;
 
  private:
-  GlobalTime may_fuse_from(const StoredScan&) const override { return kLongAgo; }
+  GlobalTime may_fuse_from(const tracks::StoredScan&) const override { return kLongAgo; }
 };
 
 class TimeTriggered final : public HistoryStrategy {
   using HistoryStrategy::HistoryStrategy;
 
  private:
-  GlobalTime may_fuse_from(const StoredScan& scan) const override {
+  GlobalTime may_fuse_from(const tracks::StoredScan& scan) const override {
     const GlobalTime mine = scheduled_instant(scan);
     GlobalTime from = kLongAgo;
     for (std::size_t s = 0; s < sensor_count(); ++s) {
@@ -258,7 +258,7 @@ class TimeTriggered final : public HistoryStrategy {
   // Instants are compared on the schedule, not by their stamps: two sensors that measure at the same instant
   // wait for each other whichever stamp happens to be smaller. A measurement that fits no instant stands for
   // itself.
-  GlobalTime scheduled_instant(const StoredScan& scan) const {
+  GlobalTime scheduled_instant(const tracks::StoredScan& scan) const {
     for (std::size_t s = 0; s < sensor_count(); ++s)
       if (sensor(s).sensor == scan.id.sensor && sensor(s).scheduled)
         if (const std::optional<GlobalTime> instant = instants_of(sensor(s)).of(scan.measured)) return *instant;
@@ -281,15 +281,15 @@ std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const Sen
   return {};
 }
 
-std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const TrackerConfig& config,
+std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const config::TrackerConfig& config,
                                         std::span<const SensorTiming> sensors) {
   const std::string refusal = late_refusal(kind, config.late, sensors, true);
   TTF_CHECK(refusal.empty(), "late {}", refusal);
-  std::unique_ptr<TrackHistory> history;
+  std::unique_ptr<tracks::TrackHistory> history;
   if (kind == StrategyKind::kBuff || config.late == oosm::Kind::kRewind)
-    history = std::make_unique<Timeline>(config, config.max_observations);
+    history = std::make_unique<tracks::Timeline>(config, config.max_observations);
   else
-    history = std::make_unique<LateUpdates>(config, config.max_observations, sensors);
+    history = std::make_unique<late::LateUpdates>(config, config.max_observations, sensors);
   switch (kind) {
     case StrategyKind::kBuff: return std::make_unique<Buff>(config, sensors, std::move(history));
     case StrategyKind::kAdva: return std::make_unique<Adva>(config, sensors, std::move(history));
@@ -298,4 +298,4 @@ std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const TrackerConfig& 
   TTF_CHECK(false, "strategy {}", static_cast<int>(kind));
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

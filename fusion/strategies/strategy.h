@@ -2,8 +2,9 @@
 // interface.
 //
 // BUFF  keeps a scan back until chronological order is certain: for every other sensor, a scan that is not
-//       older has arrived, or none can arrive any more (fusion/strategies/settling.h). Then fuses in order. Or until the delays
-//       that were measured so far, or a fixed lag, say so (BuffWaiting): then what is later still is taken in late.
+//       older has arrived, or none can arrive any more (fusion/strategies/settling.h). Then fuses in order. Or until
+//       the delays that were measured so far, or a fixed lag, say so (BuffWaiting): then what is later still is taken
+//       in late.
 // ADVA  takes scans as they come. One that is older than what is fused already is taken in exactly: the
 //       tracker goes back to before it, takes it in, and takes in again what came after, associations
 //       included. That is bit-identical to having received everything in order.
@@ -20,9 +21,9 @@
 // older than the history are dropped and reported; one with a stamp from the future waits until its time.
 //
 // Going back is the default; by TrackerConfig::late, ADVA takes late scans in by any method for single states, and TT
-// by clones (fusion/strategies/late/late_updates.h), where late_refusal() has nothing against it. BUFF takes nothing late by
-// design: what it must repair nevertheless it always goes back for.
-// Order among scans: (measured, sensor, sequence).
+// by clones (fusion/strategies/late/late_updates.h), where late_refusal() has nothing against it. BUFF takes nothing
+// late by design: what it must repair nevertheless it always goes back for. Order among scans: (measured, sensor,
+// sequence).
 //
 // After construction nothing allocates.
 #pragma once
@@ -36,12 +37,12 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "fusion/config/tracker_config.h"
 #include "fusion/sensors/observation.h"
 #include "fusion/strategies/settling.h"
 #include "fusion/tracks/tracker.h"
-#include "fusion/config/tracker_config.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 
 enum class StrategyKind : std::uint8_t { kBuff = 0, kAdva = 1, kTt = 2 };
 
@@ -72,7 +73,7 @@ class Strategy {
  public:
   virtual ~Strategy() = default;
   // Takes a scan from the controller (copied). Fuses nothing yet.
-  virtual void accept(const Scan& scan) = 0;
+  virtual void accept(const sensors::Scan& scan) = 0;
   // The fusion instant: fuses what may be fused at `now`.
   virtual void fuse(GlobalTime now) = 0;
   // The first instant after the last fusion instant from which a scan that is held may be fused though nothing arrives;
@@ -83,12 +84,12 @@ class Strategy {
   // How many fates since construction last_fused() had no room for (kMaxListedArrivals).
   virtual std::uint64_t unlisted() const = 0;
   // Confirmed tracks predicted to `at`, into `out` (which keeps its capacity), without those that are given up by then
-  // (fusion/tracks/track.h). Never touches the filter state; where `at` is before the newest measurement, the tracks are shown
-  // as of that measurement.
-  virtual void image(GlobalTime at, std::vector<TrackView>& out) const = 0;
+  // (fusion/tracks/track.h). Never touches the filter state; where `at` is before the newest measurement, the tracks
+  // are shown as of that measurement.
+  virtual void image(GlobalTime at, std::vector<tracks::TrackView>& out) const = 0;
   // Confirmed tracks at the instant of the newest fused measurement, without those that were given up by the last
   // fuse().
-  virtual std::span<const TrackView> tracks() const = 0;
+  virtual std::span<const tracks::TrackView> tracks() const = 0;
   // The newest fused measurement of each sensor that has one, and the newest of all.
   virtual std::span<const MeasurementId> newest() const = 0;
   virtual GlobalTime newest_measured() const = 0;
@@ -101,7 +102,7 @@ class Strategy {
 std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors,
                          bool only_positions);
 
-std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const TrackerConfig& config,
+std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const config::TrackerConfig& config,
                                         std::span<const SensorTiming> sensors);
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

@@ -26,45 +26,46 @@
 #include <cmath>
 
 #include "fusion/association/joint_association.h"
-#include "fusion/sensors/observation.h"
 #include "fusion/config/tracker_config.h"
+#include "fusion/sensors/observation.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
-inline double clutter_at(const Observation& observation, const TrackerConfig& config) {
-  if (observation.kind == ObservationKind::kPosition) return config.clutter_density;
+inline double clutter_at(const sensors::Observation& observation, const config::TrackerConfig& config) {
+  if (observation.kind == sensors::ObservationKind::kPosition) return config.clutter_density;
   constexpr double kNearest = 0.1;  // [m], nearer than any sensor sees
   const double width = 2.0 * std::sqrt(3.0) * config.initial_velocity_sigma;
   return config.clutter_density * std::max(kNearest, observation.z(0)) / width;
 }
 
 // P_D f / lambda.
-inline double likelihood_ratio(const Observation& observation, double density, const TrackerConfig& config) {
+inline double likelihood_ratio(const sensors::Observation& observation, double density,
+                               const config::TrackerConfig& config) {
   return config.detection_probability * density / clutter_at(observation, config);
 }
 
-inline double seen_in_gate(const TrackerConfig& config) {
+inline double seen_in_gate(const config::TrackerConfig& config) {
   return config.detection_probability * config.gate_probability;
 }
 
-inline double survived(double existence, double dt, const TrackerConfig& config) {
+inline double survived(double existence, double dt, const config::TrackerConfig& config) {
   return existence * std::exp(-dt / config.survival_seconds);
 }
 
 // L, ratio being zero where there is no observation.
-inline double after_list(double existence, double ratio, const TrackerConfig& config) {
+inline double after_list(double existence, double ratio, const config::TrackerConfig& config) {
   const double likelihood = 1.0 - seen_in_gate(config) + ratio;
   return likelihood * existence / (1.0 - existence + likelihood * existence);
 }
 
 // Of pairs in joint events. The smallest number above zero, and a bound, keep all sums finite (joint_association.h).
-inline double joint_weight(double existence, double ratio, const TrackerConfig& config) {
+inline double joint_weight(double existence, double ratio, const config::TrackerConfig& config) {
   constexpr double kLeast = 1e-300;
   const double weight = existence * ratio / (1.0 - seen_in_gate(config) * existence);
-  return std::clamp(weight, kLeast, JointAssociation::kLargestWeight);
+  return std::clamp(weight, kLeast, association::JointAssociation::kLargestWeight);
 }
-inline double exists_unseen(double existence, const TrackerConfig& config) {
+inline double exists_unseen(double existence, const config::TrackerConfig& config) {
   return existence * (1.0 - seen_in_gate(config)) / (1.0 - seen_in_gate(config) * existence);
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
 constexpr double kWorstAspectSigma = 0.3;  // [rad]
@@ -96,4 +96,4 @@ void correct_span(Extent& extent, const Aspect& aspect, double span, double sigm
   correct(extent, told, nu, sigma * sigma, repeating);
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

@@ -16,7 +16,7 @@
 
 #include <Eigen/Core>
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
 struct Extent {
   // Road vehicles: 4.5 m by 1.8 m, from motor cycles to light lorries.
@@ -60,4 +60,4 @@ struct Subtended {
 };
 Subtended subtended(double range, double aspect, const Eigen::Vector2d& size);
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

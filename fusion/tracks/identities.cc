@@ -4,7 +4,7 @@
 
 #include "core/check.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
 // Every living track may have a name, and as many that died may come to life again.
 Identities::Identities(std::size_t max_tracks) { known_.reserve(2 * max_tracks); }
@@ -59,4 +59,4 @@ TrackId Identities::next() {
   return static_cast<TrackId>(next_++);
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

@@ -19,7 +19,7 @@
 #include "core/time.h"
 #include "fusion/tracks/tracker.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
 class Identities {
  public:
@@ -42,4 +42,4 @@ class Identities {
   std::uint16_t next_ = 0;
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

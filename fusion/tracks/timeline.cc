@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
-Timeline::Timeline(const TrackerConfig& config, std::size_t max_observations)
+Timeline::Timeline(const config::TrackerConfig& config, std::size_t max_observations)
     : tracker_(config, max_observations), identities_(tracker_.max_tracks()), base_(tracker_.max_tracks()) {
   const std::size_t entries = config.history_scans + 1;
   entries_.reserve(entries);
@@ -24,7 +24,7 @@ bool Timeline::contains(const MeasurementId& id, GlobalTime measured) const {
          (base_is_scan_ && base_id_ == id && base_time_ == measured);
 }
 
-Timeline::Insertion Timeline::insert(const Scan& scan) {
+Timeline::Insertion Timeline::insert(const sensors::Scan& scan) {
   if (base_is_scan_ && before(scan.id, scan.measured, base_id_, base_time_)) return Insertion::kTooOld;
   // From the end: late scans are rarely very late.
   std::size_t position = order_.size();
@@ -58,4 +58,4 @@ void Timeline::process(std::size_t position) {
   tracker_.step(entry.after, entry.scan.view());
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

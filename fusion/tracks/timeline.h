@@ -16,30 +16,30 @@
 #include "fusion/tracks/identities.h"
 #include "fusion/tracks/track_history.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
 // A scan with its own copy of the observations.
 struct StoredScan {
   MeasurementId id;
   GlobalTime measured{};
-  std::vector<Observation> observations;
+  std::vector<sensors::Observation> observations;
 
   explicit StoredScan(std::size_t most_observations) { observations.reserve(most_observations); }
-  void assign(const Scan& scan) {
+  void assign(const sensors::Scan& scan) {
     id = scan.id;
     measured = scan.measured;
     observations.assign(scan.observations.begin(), scan.observations.end());
   }
-  Scan view() const { return {id, measured, observations}; }
+  sensors::Scan view() const { return {id, measured, observations}; }
 };
 
 class Timeline final : public TrackHistory {
  public:
-  Timeline(const TrackerConfig& config, std::size_t max_observations);
+  Timeline(const config::TrackerConfig& config, std::size_t max_observations);
 
-  Insertion insert(const Scan& scan) override;
+  Insertion insert(const sensors::Scan& scan) override;
   const TrackSet& current() const override;
-  const Estimator& estimator() const override { return tracker_.estimator(); }
+  const estimators::Estimator& estimator() const override { return tracker_.estimator(); }
   bool contains(const MeasurementId& id, GlobalTime measured) const override;
 
  private:
@@ -61,4 +61,4 @@ class Timeline final : public TrackHistory {
   bool base_is_scan_ = false;  // something was dropped into the base
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

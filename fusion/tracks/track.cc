@@ -6,7 +6,7 @@
 
 #include "fusion/motion/angles.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
 Scalar predicted(const Scalar& scalar, double noise, double dt) {
   Scalar later = scalar;
@@ -16,11 +16,11 @@ Scalar predicted(const Scalar& scalar, double noise, double dt) {
 
 double nearest_half_turn(double axis, double expected) {
   constexpr double kPi = std::numbers::pi;
-  const double difference = to_half_turn(axis - expected);
-  return std::abs(difference) <= 0.5 * kPi ? axis : to_half_turn(axis + kPi);
+  const double difference = motion::to_half_turn(axis - expected);
+  return std::abs(difference) <= 0.5 * kPi ? axis : motion::to_half_turn(axis + kPi);
 }
 
-Facing facing_of(const Cartesian& estimate, const Scalar& axis) {
+Facing facing_of(const estimators::Cartesian& estimate, const Scalar& axis) {
   // Variance of an angle of which nothing is known.
   constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
   const double vx = estimate.x(2), vy = estimate.x(3), speed = std::hypot(vx, vy);
@@ -31,34 +31,34 @@ Facing facing_of(const Cartesian& estimate, const Scalar& axis) {
   const double course_variance = across.dot(estimate.p.block<2, 2>(2, 2) * across) / std::max(1e-6, speed * speed);
   const bool moving = course_variance < kUnknown / 4.0;
   if (moving && axis.known) {
-    const double difference = to_half_turn(nearest_half_turn(axis.value, course) - course);
+    const double difference = motion::to_half_turn(nearest_half_turn(axis.value, course) - course);
     const double weight = course_variance / (course_variance + axis.variance);
-    return {to_half_turn(course + weight * difference),
+    return {motion::to_half_turn(course + weight * difference),
             std::sqrt(course_variance * axis.variance / (course_variance + axis.variance))};
   }
   if (moving) return {course, std::sqrt(course_variance)};
-  if (axis.known) return {to_half_turn(axis.value), std::sqrt(axis.variance)};
+  if (axis.known) return {motion::to_half_turn(axis.value), std::sqrt(axis.variance)};
   return {course, std::sqrt(kUnknown)};
 }
 
-bool given_up(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config,
-              const Estimator& estimator) {
+bool given_up(const Track& track, GlobalTime time, GlobalTime at, const config::TrackerConfig& config,
+              const estimators::Estimator& estimator) {
   at = std::max(at, time);
   const Duration silent = at - track.newest.measured;
   if (silent <= config.coast_after) return false;
   if (silent > config.delete_after) return true;
-  Estimate estimate = track.estimate;
+  estimators::Estimate estimate = track.estimate;
   estimator.predict(estimate, (at - time).seconds());
   const double largest = config.delete_position_sigma * config.delete_position_sigma;
   return estimator.position(estimate).p.diagonal().maxCoeff() > largest;
 }
 
-TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config,
-                  const Estimator& estimator) {
-  Estimate later = track.estimate;
+TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const config::TrackerConfig& config,
+                  const estimators::Estimator& estimator) {
+  estimators::Estimate later = track.estimate;
   const double dt = std::max(0.0, (at - time).seconds());
   estimator.predict(later, dt);
-  const Cartesian estimate = estimator.cartesian(later);
+  const estimators::Cartesian estimate = estimator.cartesian(later);
   TrackView view;
   view.id = track.id;
   view.valid_at = std::max(at, time);
@@ -94,4 +94,4 @@ TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const Trac
   return view;
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

@@ -5,12 +5,12 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "fusion/config/tracker_config.h"
 #include "fusion/estimators/estimator.h"
 #include "fusion/tracks/extent.h"
-#include "fusion/config/tracker_config.h"
 #include "fusion/tracks/unfiltered.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
 // A scalar with its variance; `known` once something was measured.
 struct Scalar {
@@ -32,7 +32,7 @@ struct ObservationId {
 struct Track {
   TrackId id = kNoTrack;        // once it has one (fusion/tracks/identities.h)
   ObservationId birth, newest;  // the first observation it took, and the last: how long it has been coasting
-  Estimate estimate;
+  estimators::Estimate estimate;
   Scalar heading;  // [rad], the direction it faces
   Extent extent;
   Unfiltered unfiltered;
@@ -51,7 +51,7 @@ struct Facing {
   double heading = 0.0;
   double sigma = 0.0;
 };
-Facing facing_of(const Cartesian& estimate, const Scalar& axis);
+Facing facing_of(const estimators::Cartesian& estimate, const Scalar& axis);
 
 // An object's axis is measured up to half a turn: the turn that fits the expected direction better is meant.
 double nearest_half_turn(double axis, double expected);
@@ -59,8 +59,8 @@ double nearest_half_turn(double axis, double expected);
 struct TrackView {
   TrackId id{};
   GlobalTime valid_at{};
-  State state = State::Zero();  // (fusion/estimators/estimate.h)
-  Covariance covariance = Covariance::Zero();
+  estimators::State state = estimators::State::Zero();  // (fusion/estimators/estimate.h)
+  estimators::Covariance covariance = estimators::Covariance::Zero();
   // Speed: magnitude of the velocity; acceleration: along the heading.
   double heading = 0.0, sigma_heading = 0.0;
   double speed = 0.0, sigma_speed = 0.0;
@@ -79,11 +79,11 @@ struct TrackView {
 //   - or older than coast_after, and the position predicted to `at` is less certain than delete_position_sigma on an
 //     axis.
 // Such a track is in no image and takes no observation any more: what it might have been is born anew.
-bool given_up(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config,
-              const Estimator& estimator);
+bool given_up(const Track& track, GlobalTime time, GlobalTime at, const config::TrackerConfig& config,
+              const estimators::Estimator& estimator);
 
 // A track whose state is of `time`, predicted to `at`; never backwards.
-TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config,
-                  const Estimator& estimator);
+TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const config::TrackerConfig& config,
+                  const estimators::Estimator& estimator);
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

@@ -11,7 +11,7 @@
 #include "fusion/sensors/observation.h"
 #include "fusion/tracks/tracker.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
 // The chronological order of scans, ties included.
 inline bool before(const MeasurementId& a, GlobalTime a_time, const MeasurementId& b, GlobalTime b_time) {
@@ -24,12 +24,12 @@ class TrackHistory {
   virtual ~TrackHistory() = default;
 
   enum class Insertion : std::uint8_t { kInOrder, kLate, kTooOld };
-  virtual Insertion insert(const Scan& scan) = 0;
+  virtual Insertion insert(const sensors::Scan& scan) = 0;
   // The newest tracks, confirmed ones with their ids.
   virtual const TrackSet& current() const = 0;
-  virtual const Estimator& estimator() const = 0;  // of the tracks' estimates
+  virtual const estimators::Estimator& estimator() const = 0;  // of the tracks' estimates
   // Whether this measurement is in it: a sensor that restarts gives its numbers again, to other instants.
   virtual bool contains(const MeasurementId& id, GlobalTime measured) const = 0;
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "core/check.h"
-#include "fusion/tracks/existence.h"
 #include "fusion/metrics/chi_square.h"
 #include "fusion/motion/angles.h"
+#include "fusion/tracks/existence.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
 void correct_scalar(Scalar& scalar, double innovation, double measured, double sigma) {
@@ -39,24 +39,24 @@ void TrackSet::assign(const TrackSet& other) {
   started = other.started;
 }
 
-Tracker::Tracker(const TrackerConfig& config, std::size_t max_observations)
-    : config_(config), estimator_(make_estimator(config)), max_observations_(max_observations),
+Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observations)
+    : config_(config), estimator_(estimators::make_estimator(config)), max_observations_(max_observations),
       max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
       assignment_(max_observations, max_tracks_),
-      joint_(config.association == Association::kJpda ? max_observations : 0,
-             config.association == Association::kJpda ? max_tracks_ : 0),
+      joint_(config.association == config::Association::kJpda ? max_observations : 0,
+             config.association == config::Association::kJpda ? max_tracks_ : 0),
       twins_(config, max_tracks_), near_track_(max_observations), observation_of_(max_tracks_) {
   candidates_.reserve(max_observations * max_tracks_);
   by_x_.reserve(max_tracks_);
-  if (config.association == Association::kJpda) {
+  if (config.association == config::Association::kJpda) {
     pairs_.reserve(max_observations * max_tracks_);
     explanations_.reserve(max_observations + 1);
   }
   for (int dimension = 1; dimension <= 3; ++dimension)
-    gate_[dimension] = chi_square_quantile(config.gate_probability, dimension);
+    gate_[dimension] = metrics::chi_square_quantile(config.gate_probability, dimension);
 }
 
-void Tracker::step(TrackSet& set, const Scan& scan) {
+void Tracker::step(TrackSet& set, const sensors::Scan& scan) {
   TTF_CHECK(scan.observations.size() <= max_observations_, "{} observations", scan.observations.size());
   if (!set.started) {
     set.started = true;
@@ -72,14 +72,15 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
     ++track.scans;
     track.hits = (track.hits << 1) | (observation >= 0 ? 1u : 0u);
     track.misses = observation >= 0 ? 0 : track.misses + 1;
-    const Observation* z = observation >= 0 ? &scan.observations[static_cast<std::size_t>(observation)] : nullptr;
+    const sensors::Observation* z =
+        observation >= 0 ? &scan.observations[static_cast<std::size_t>(observation)] : nullptr;
     if (z) track.newest = {scan.id, static_cast<std::uint16_t>(observation), scan.measured};
-    if (config_.association == Association::kJpda) {
+    if (config_.association == config::Association::kJpda) {
       take_in_all(track, t, scan);
       if (z) correct_beside(track, *z);
       continue;
     }
-    if (config_.birth == Birth::kExistence) judge_existence(track, z);
+    if (config_.birth == config::Birth::kExistence) judge_existence(track, z);
     if (z) {
       estimator_->update(track.estimate, *z);
       correct_beside(track, *z);
@@ -90,7 +91,7 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
   if (config_.merge_probability > 0.0) twins_.unite(set.tracks, *estimator_);
 }
 
-std::span<const int> Tracker::assigned(const TrackSet& set, const Scan& scan) {
+std::span<const int> Tracker::assigned(const TrackSet& set, const sensors::Scan& scan) {
   TTF_CHECK(scan.observations.size() <= max_observations_, "{} observations", scan.observations.size());
   associate(set, scan);
   return std::span(observation_of_).first(set.tracks.size());
@@ -102,7 +103,7 @@ void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
     estimator_->predict(track.estimate, dt);
     track.heading = predicted(track.heading, config_.heading_noise, dt);
     predict(track.extent, config_.extent_noise, dt);
-    if (config_.birth == Birth::kExistence) track.existence = survived(track.existence, dt, config_);
+    if (config_.birth == config::Birth::kExistence) track.existence = survived(track.existence, dt, config_);
   }
   set.time = to;
 }
@@ -111,7 +112,7 @@ void Tracker::sort_by_x(const TrackSet& set, SensorId seen_by) {
   by_x_.clear();
   largest_variance_x_ = 0.0;
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
-    const Gaussian<2> at = estimator_->seen_position(set.tracks[t].estimate, seen_by);
+    const linear::Gaussian<2> at = estimator_->seen_position(set.tracks[t].estimate, seen_by);
     by_x_.push_back({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), t});
     largest_variance_x_ = std::max(largest_variance_x_, at.p(0, 0));
   }
@@ -120,15 +121,15 @@ void Tracker::sort_by_x(const TrackSet& set, SensorId seen_by) {
 }
 
 // In the order of the tracks along x; what is assigned does not depend on the order of candidates.
-void Tracker::associate(const TrackSet& set, const Scan& scan) {
+void Tracker::associate(const TrackSet& set, const sensors::Scan& scan) {
   candidates_.clear();
   pairs_.clear();
   std::fill(near_track_.begin(), near_track_.end(), 0);
   sort_by_x(set, scan.observations.empty() ? kNoSensor : scan.observations.front().sensor);
   for (std::size_t o = 0; o < scan.observations.size(); ++o) {
-    const Observation& z = scan.observations[o];
+    const sensors::Observation& z = scan.observations[o];
     const double gate = gate_[dimension_of(z.kind)];
-    const bool position = z.kind == ObservationKind::kPosition;
+    const bool position = z.kind == sensors::ObservationKind::kPosition;
     auto at = by_x_.begin();
     double to = std::numeric_limits<double>::infinity();
     if (position) {
@@ -145,7 +146,7 @@ void Tracker::associate(const TrackSet& set, const Scan& scan) {
         const double dx = z.z(0) - at->x, dy = z.z(1) - at->y;
         if (dx * dx > gate * (at->variance_x + z.r(0, 0)) || dy * dy > gate * (at->variance_y + z.r(1, 1))) continue;
       }
-      if (config_.association == Association::kJpda) {
+      if (config_.association == config::Association::kJpda) {
         offer(track, z, static_cast<int>(o), static_cast<int>(t));
         continue;
       }
@@ -158,7 +159,8 @@ void Tracker::associate(const TrackSet& set, const Scan& scan) {
     }
   }
   assignment_.solve(candidates_, scan.observations.size(), set.tracks.size());
-  if (config_.association == Association::kJpda) joint_.solve(pairs_, scan.observations.size(), set.tracks.size());
+  if (config_.association == config::Association::kJpda)
+    joint_.solve(pairs_, scan.observations.size(), set.tracks.size());
   std::fill(observation_of_.begin(), observation_of_.end(), -1);
   const auto columns = assignment_.column_of();
   for (std::size_t o = 0; o < columns.size(); ++o)
@@ -167,8 +169,8 @@ void Tracker::associate(const TrackSet& set, const Scan& scan) {
 
 // The most probable joint event has the largest product of weights; a pair that is less probable than both alone is in
 // none such.
-void Tracker::offer(const Track& track, const Observation& z, int row, int column) {
-  const std::optional<Fit> fit = estimator_->fit(track.estimate, z);
+void Tracker::offer(const Track& track, const sensors::Observation& z, int row, int column) {
+  const std::optional<estimators::Fit> fit = estimator_->fit(track.estimate, z);
   if (!fit || fit->distance_squared > gate_[dimension_of(z.kind)]) return;
   if (track.confirmed) near_track_[static_cast<std::size_t>(row)] = 1;
   const double weight = joint_weight(track.existence, likelihood_ratio(z, fit->density, config_), config_);
@@ -177,64 +179,65 @@ void Tracker::offer(const Track& track, const Observation& z, int row, int colum
 }
 
 // Before the update: by what the observation says of the prediction.
-void Tracker::judge_existence(Track& track, const Observation* z) const {
-  const std::optional<Fit> fit = z ? estimator_->fit(track.estimate, *z) : std::nullopt;
+void Tracker::judge_existence(Track& track, const sensors::Observation* z) const {
+  const std::optional<estimators::Fit> fit = z ? estimator_->fit(track.estimate, *z) : std::nullopt;
   track.existence = after_list(track.existence, fit ? likelihood_ratio(*z, fit->density, config_) : 0.0, config_);
 }
 
 // All in the track's gate, with their probabilities given that its object exists.
-void Tracker::take_in_all(Track& track, std::size_t column, const Scan& scan) {
+void Tracker::take_in_all(Track& track, std::size_t column, const sensors::Scan& scan) {
   const double unseen = joint_.none_of_column(column) * exists_unseen(track.existence, config_);
   double exists = unseen;
-  for (const JointAssociation::Shared& shared : joint_.of_column(column)) exists += shared.probability;
+  for (const association::JointAssociation::Shared& shared : joint_.of_column(column)) exists += shared.probability;
   if (!(exists > 0.0)) return;  // it is long gone, and nothing has been seen of it
   explanations_.clear();
   explanations_.push_back({nullptr, unseen / exists});
-  for (const JointAssociation::Shared& shared : joint_.of_column(column))
+  for (const association::JointAssociation::Shared& shared : joint_.of_column(column))
     explanations_.push_back({&scan.observations[static_cast<std::size_t>(shared.row)], shared.probability / exists});
   if (explanations_.size() > 1) estimator_->update(track.estimate, explanations_);
-  if (config_.birth == Birth::kExistence) track.existence = std::min(1.0, exists);
+  if (config_.birth == config::Birth::kExistence) track.existence = std::min(1.0, exists);
 }
 
-void Tracker::correct_outline(Track& track, const Observation& z) const {
+void Tracker::correct_outline(Track& track, const sensors::Observation& z) const {
   if (z.has_heading) {
-    const Cartesian now = estimator_->cartesian(track.estimate);
+    const estimators::Cartesian now = estimator_->cartesian(track.estimate);
     const double vx = now.x(2), vy = now.x(3);
     const double expected = track.heading.known        ? track.heading.value
                             : std::hypot(vx, vy) > 1.0 ? std::atan2(vy, vx)
                                                        : z.heading;
     const double measured = nearest_half_turn(z.heading, expected);
-    correct_scalar(track.heading, to_half_turn(measured - track.heading.value), measured, z.sigma_heading);
-    track.heading.value = to_half_turn(track.heading.value);
+    correct_scalar(track.heading, motion::to_half_turn(measured - track.heading.value), measured, z.sigma_heading);
+    track.heading.value = motion::to_half_turn(track.heading.value);
   }
   correct_extent(track, z);
 }
 
 // The span needs the aspect: it comes last, when position, course and axis know what this observation says of
 // them.
-void Tracker::correct_extent(Track& track, const Observation& z) const {
+void Tracker::correct_extent(Track& track, const sensors::Observation& z) const {
   if (z.has_length) correct_length(track.extent, z.length, z.sigma_length);
   if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
   if (!z.has_span) return;
-  const Cartesian now = estimator_->cartesian(track.estimate);
-  const Vector<2> from = place_of(config_.sensors, z.sensor);
+  const estimators::Cartesian now = estimator_->cartesian(track.estimate);
+  const linear::Vector<2> from = place_of(config_.sensors, z.sensor);
   const double x = now.x(0) - from.x(), y = now.x(1) - from.y(), range = std::hypot(x, y);
   if (range <= 0.0) return;
   const Facing facing = facing_of(now, track.heading);
   const Eigen::Vector2d sight(x / range, y / range);
   const double range_variance = sight.dot(now.p.topLeftCorner<2, 2>() * sight);
-  correct_span(track.extent,
-               {range, std::sqrt(range_variance), to_half_turn(facing.heading - std::atan2(y, x)), facing.sigma},
-               z.span, z.sigma_span);
+  correct_span(
+      track.extent,
+      {range, std::sqrt(range_variance), motion::to_half_turn(facing.heading - std::atan2(y, x)), facing.sigma}, z.span,
+      z.sigma_span);
 }
 
 // An observation no track took becomes a tentative track, unless it lies in the gate of a confirmed one: that
 // is a second echo of an object which is known already.
-void Tracker::give_birth(TrackSet& set, const Scan& scan) {
+void Tracker::give_birth(TrackSet& set, const sensors::Scan& scan) {
   const auto columns = assignment_.column_of();
   for (std::size_t o = 0; o < scan.observations.size(); ++o) {
     if (columns[o] >= 0 || near_track_[o] || set.tracks.size() == max_tracks_) continue;
-    const Observation& z = scan.observations[o];
+    const sensors::Observation& z = scan.observations[o];
     Track track;
     track.birth = track.newest = {scan.id, static_cast<std::uint16_t>(o), scan.measured};
     track.estimate = estimator_->initial(z);
@@ -243,14 +246,14 @@ void Tracker::give_birth(TrackSet& set, const Scan& scan) {
     carry(track.unfiltered, z);
     track.hits = 1;
     track.scans = 1;
-    if (config_.birth == Birth::kExistence) track.existence = config_.initial_existence;
+    if (config_.birth == config::Birth::kExistence) track.existence = config_.initial_existence;
     set.tracks.push_back(track);
   }
 }
 
 void Tracker::prune(TrackSet& set) const {
   const std::uint32_t window = config_.confirm_window >= 32 ? ~0u : (1u << config_.confirm_window) - 1u;
-  const bool by_existence = config_.birth == Birth::kExistence;
+  const bool by_existence = config_.birth == config::Birth::kExistence;
   auto confirmed = std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; });
   for (Track& track : set.tracks)
     if (!track.confirmed && confirmed < config_.max_objects &&
@@ -271,4 +274,4 @@ void Tracker::prune(TrackSet& set) const {
   });
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

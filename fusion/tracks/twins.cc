@@ -7,7 +7,7 @@
 
 #include "fusion/metrics/chi_square.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
 struct Difference {
@@ -15,9 +15,10 @@ struct Difference {
   int degrees = 4;
 };
 
-Difference difference_of(const Cartesian& a, const Extent& a_size, const Cartesian& b, const Extent& b_size) {
-  const Vector<4> d = (a.x - b.x).head<4>();
-  const Matrix<4> sum = (a.p + b.p).topLeftCorner<4, 4>();
+Difference difference_of(const estimators::Cartesian& a, const Extent& a_size, const estimators::Cartesian& b,
+                         const Extent& b_size) {
+  const linear::Vector<4> d = (a.x - b.x).head<4>();
+  const linear::Matrix<4> sum = (a.p + b.p).topLeftCorner<4, 4>();
   Difference difference{.squared = d.dot(sum.ldlt().solve(d))};
   const bool known[] = {a_size.knows_length() && b_size.knows_length(), a_size.knows_width() && b_size.knows_width()};
   for (Eigen::Index side = 0; side < 2; ++side) {
@@ -30,11 +31,11 @@ Difference difference_of(const Cartesian& a, const Extent& a_size, const Cartesi
 }
 
 // How uncertain a track's motion is, in one number.
-double volume_of(const Track& track, const Estimator& estimator) {
+double volume_of(const Track& track, const estimators::Estimator& estimator) {
   return estimator.cartesian(track.estimate).p.topLeftCorner<4, 4>().eval().determinant();
 }
 
-void join(Track& elder, const Track& younger, const Estimator& estimator) {
+void join(Track& elder, const Track& younger, const estimators::Estimator& estimator) {
   if (volume_of(younger, estimator) < volume_of(elder, estimator)) elder.estimate = younger.estimate;
   if (younger.heading.known && (!elder.heading.known || younger.heading.variance < elder.heading.variance))
     elder.heading = younger.heading;
@@ -43,8 +44,8 @@ void join(Track& elder, const Track& younger, const Estimator& estimator) {
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += younger.unfiltered.classes.sums[i];
   const bool newer = younger.newest.measured > elder.newest.measured;
   if (newer) elder.newest = younger.newest;
-  ThirdAxis& third = elder.unfiltered.third;
-  const ThirdAxis& other = younger.unfiltered.third;
+  sensors::ThirdAxis& third = elder.unfiltered.third;
+  const sensors::ThirdAxis& other = younger.unfiltered.third;
   if (other.has_z && (newer || !third.has_z)) {
     third.has_z = true;
     third.z = other.z;
@@ -60,15 +61,15 @@ void join(Track& elder, const Track& younger, const Estimator& estimator) {
 
 }  // namespace
 
-Twins::Twins(const TrackerConfig& config, std::size_t max_tracks) : scans_(config.merge_scans) {
+Twins::Twins(const config::TrackerConfig& config, std::size_t max_tracks) : scans_(config.merge_scans) {
   if (config.merge_probability <= 0.0) return;
   for (int degrees = 4; degrees <= 6; ++degrees)
-    quantile_[degrees] = chi_square_quantile(config.merge_probability, degrees);
+    quantile_[degrees] = metrics::chi_square_quantile(config.merge_probability, degrees);
   by_x_.reserve(max_tracks);
   nearest_.reserve(max_tracks);
 }
 
-void Twins::find_nearest(const std::vector<Track>& tracks, const Estimator& estimator) {
+void Twins::find_nearest(const std::vector<Track>& tracks, const estimators::Estimator& estimator) {
   by_x_.clear();
   nearest_.assign(tracks.size(), {});
   double largest = 0.0;
@@ -99,7 +100,7 @@ void Twins::find_nearest(const std::vector<Track>& tracks, const Estimator& esti
   }
 }
 
-void Twins::unite(std::vector<Track>& tracks, const Estimator& estimator) {
+void Twins::unite(std::vector<Track>& tracks, const estimators::Estimator& estimator) {
   find_nearest(tracks, estimator);
   for (std::size_t t = tracks.size(); t-- > 0;) {
     Track& younger = tracks[t];
@@ -123,4 +124,4 @@ void Twins::unite(std::vector<Track>& tracks, const Estimator& estimator) {
   }
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

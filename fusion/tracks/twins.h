@@ -22,28 +22,28 @@
 #include <cstddef>
 #include <vector>
 
+#include "fusion/config/tracker_config.h"
 #include "fusion/estimators/estimator.h"
 #include "fusion/tracks/track.h"
-#include "fusion/config/tracker_config.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
 class Twins {
  public:
-  Twins(const TrackerConfig& config, std::size_t max_tracks);
+  Twins(const config::TrackerConfig& config, std::size_t max_tracks);
   // After a list was taken in: hits says who had an observation in it. Tracks in order of birth.
-  void unite(std::vector<Track>& tracks, const Estimator& estimator);
+  void unite(std::vector<Track>& tracks, const estimators::Estimator& estimator);
 
  private:
   struct Seen {
-    Cartesian at;
+    estimators::Cartesian at;
     std::size_t track = 0;
   };
   struct Nearest {
     int elder = -1;
     double distance = 0.0;  // of the quantile, squared
   };
-  void find_nearest(const std::vector<Track>& tracks, const Estimator& estimator);
+  void find_nearest(const std::vector<Track>& tracks, const estimators::Estimator& estimator);
 
   int scans_;
   double quantile_[7] = {};  // by degrees of freedom
@@ -51,4 +51,4 @@ class Twins {
   std::vector<Nearest> nearest_;
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

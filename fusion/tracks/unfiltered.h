@@ -9,19 +9,19 @@
 
 #include "fusion/sensors/observation.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 
 // Scores summed by class.
 struct Classification {
-  std::array<double, kMostClasses> sums{};
+  std::array<double, sensors::kMostClasses> sums{};
 
-  void add(ClassId what, double score) { sums[static_cast<std::size_t>(what)] += score; }
+  void add(sensors::ClassId what, double score) { sums[static_cast<std::size_t>(what)] += score; }
   // The class of the largest sum, of equal ones the first; kNoClass where nothing above zero was added.
-  ClassId best() const {
+  sensors::ClassId best() const {
     std::size_t best = 0;
     for (std::size_t i = 1; i < sums.size(); ++i)
       if (sums[i] > sums[best]) best = i;
-    return sums[best] > 0.0 ? static_cast<ClassId>(best) : kNoClass;
+    return sums[best] > 0.0 ? static_cast<sensors::ClassId>(best) : sensors::kNoClass;
   }
   // Of all that was added, the part that the best class has; 0 where there is none.
   double share() const {
@@ -36,12 +36,12 @@ struct Classification {
 
 struct Unfiltered {
   Classification classes;
-  ThirdAxis third;  // each from the newest observation that had it
+  sensors::ThirdAxis third;  // each from the newest observation that had it
 };
 
-inline void carry(Unfiltered& unfiltered, const Observation& observation) {
-  if (observation.class_id != kNoClass) unfiltered.classes.add(observation.class_id, observation.score);
-  const ThirdAxis& seen = observation.third;
+inline void carry(Unfiltered& unfiltered, const sensors::Observation& observation) {
+  if (observation.class_id != sensors::kNoClass) unfiltered.classes.add(observation.class_id, observation.score);
+  const sensors::ThirdAxis& seen = observation.third;
   if (seen.has_z) {
     unfiltered.third.has_z = true;
     unfiltered.third.z = seen.z;
@@ -52,4 +52,4 @@ inline void carry(Unfiltered& unfiltered, const Observation& observation) {
   }
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

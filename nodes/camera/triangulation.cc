@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ttf::nodes {
+namespace ttf::nodes::camera {
 
 CameraCalibration load_camera_calibration(YamlMap& yaml) {
   CameraCalibration c;
@@ -56,4 +56,4 @@ CameraObject triangulate(const CameraCalibration& k, double bearing, double disp
   return object;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::camera

@@ -14,7 +14,7 @@
 
 #include "core/strict_yaml.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::camera {
 
 struct CameraCalibration {
   double baseline_m = 0.4;
@@ -36,4 +36,4 @@ struct CameraObject {
 // bearing [rad] within +-1.5, disparity [px] above zero, width [px]: the silhouette's, f * span / cos(bearing).
 CameraObject triangulate(const CameraCalibration& calibration, double bearing, double disparity, double width_px);
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::camera

@@ -12,58 +12,62 @@
 #include "schedules/analysis/ages.h"
 #include "schedules/analysis/settled.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::fusion {
 namespace {
 
 // When the task that reads the image starts.
-schedules::CycleInstant image_use(const schedules::Cluster& cluster, PduId image) {
-  for (const schedules::Node& node : cluster.nodes)
-    for (const schedules::Task& task : node.tasks)
-      for (const schedules::PortBinding& binding : task.reads)
-        if (binding.pdu == image && task.activation.kind == schedules::ActivationKind::kTime) return task.activation.at;
+schedules::model::CycleInstant image_use(const schedules::model::Cluster& cluster, PduId image) {
+  for (const schedules::model::Node& node : cluster.nodes)
+    for (const schedules::model::Task& task : node.tasks)
+      for (const schedules::model::PortBinding& binding : task.reads)
+        if (binding.pdu == image && task.activation.kind == schedules::model::ActivationKind::kTime)
+          return task.activation.at;
   throw InputError({cluster.file, cluster.pdu(image).line, "pdus." + cluster.pdu(image).name, "",
                     "needs a reader that is activated by time: the image is predicted to that instant"});
 }
 
 // The schedule's fusion instants, one by one. A fusing task that time does not activate has none: there the worst delay
 // says when to stop waiting: until its own task, which may wait for others, hands a list to the strategy.
-fusion::Settling settling(const schedules::Cluster& cluster, const schedules::AgePath& path) {
-  const auto round = schedules::settled_round(cluster, path.sensor);
-  if (!round) return fusion::Settling::after(path.fused_worst);
-  std::vector<fusion::Settling::Step> steps;
-  for (const schedules::Settled& settled : round->instants) steps.push_back({settled.at, settled.measured});
+ttf::fusion::strategies::Settling settling(const schedules::model::Cluster& cluster,
+                                           const schedules::analysis::AgePath& path) {
+  const auto round = schedules::analysis::settled_round(cluster, path.sensor);
+  if (!round) return ttf::fusion::strategies::Settling::after(path.fused_worst);
+  std::vector<ttf::fusion::strategies::Settling::Step> steps;
+  for (const schedules::analysis::Settled& settled : round->instants) steps.push_back({settled.at, settled.measured});
   return {std::move(steps), round->round};
 }
 
 // By how many rounds the list's stamp, as its sender counts, was brought to `measured`.
-std::int64_t rounds_between(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near,
+std::int64_t rounds_between(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime near,
                             GlobalTime measured, Duration round) {
   constexpr Duration kNoRounds{std::numeric_limits<std::int64_t>::max()};
-  const std::int64_t apart = (measured - time_stamp(layout, list, near, kNoRounds)).ns;
+  const std::int64_t apart = (measured - host::time_stamp(layout, list, near, kNoRounds)).ns;
   return (apart + (apart < 0 ? -round.ns : round.ns) / 2) / round.ns;
 }
 
 }  // namespace
 
-std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& cluster) {
-  std::vector<fusion::SensorTiming> timings;
-  for (const schedules::AgePath& path : schedules::measurement_ages(cluster)) {
-    const schedules::Sensor& sensor = cluster.sensor(path.sensor);
-    const GlobalTime first =
-        sensor.scheduled ? schedules::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time : GlobalTime{};
+std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedules::model::Cluster& cluster) {
+  std::vector<ttf::fusion::strategies::SensorTiming> timings;
+  for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(cluster)) {
+    const schedules::model::Sensor& sensor = cluster.sensor(path.sensor);
+    const GlobalTime first = sensor.scheduled
+                                 ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
+                                 : GlobalTime{};
     const Duration period = sensor.scheduled ? cluster.cycle() * sensor.at.repetition : sensor.period;
     timings.push_back({path.sensor, settling(cluster, path), sensor.scheduled, first, period});
   }
   return timings;
 }
 
-fusion::TrackerConfig tracker_in(const schedules::Cluster& cluster, fusion::TrackerConfig tracker,
-                                 const std::string& scenario_file) {
+ttf::fusion::config::TrackerConfig tracker_in(const schedules::model::Cluster& cluster,
+                                              ttf::fusion::config::TrackerConfig tracker,
+                                              const std::string& scenario_file) {
   if (tracker.sensors.empty()) return tracker;
-  std::vector<fusion::KnownSensor> by_id(cluster.sensors.size());
+  std::vector<ttf::fusion::sensors::KnownSensor> by_id(cluster.sensors.size());
   std::vector<std::string> names;
-  for (const schedules::Sensor& sensor : cluster.sensors) names.push_back(sensor.name);
-  for (fusion::KnownSensor& sensor : tracker.sensors) {
+  for (const schedules::model::Sensor& sensor : cluster.sensors) names.push_back(sensor.name);
+  for (ttf::fusion::sensors::KnownSensor& sensor : tracker.sensors) {
     const auto found = std::find(names.begin(), names.end(), sensor.name);
     if (found == names.end())
       throw InputError({scenario_file, sensor.line, "tracker.sensors." + sensor.name, "",
@@ -74,10 +78,11 @@ fusion::TrackerConfig tracker_in(const schedules::Cluster& cluster, fusion::Trac
   return tracker;
 }
 
-FusionHost::FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind,
-                       const fusion::TrackerConfig& tracker)
-    : strategy(fusion::make_strategy(kind, tracker, sensor_timings(cluster))), sensors(tracker.sensors),
-      most_objects(static_cast<std::size_t>(tracker.max_objects)), most_observations(tracker.max_observations) {}
+FusionHost::FusionHost(const schedules::model::Cluster& cluster, ttf::fusion::strategies::StrategyKind kind,
+                       const ttf::fusion::config::TrackerConfig& tracker)
+    : strategy(ttf::fusion::strategies::make_strategy(kind, tracker, sensor_timings(cluster))),
+      sensors(tracker.sensors), most_objects(static_cast<std::size_t>(tracker.max_objects)),
+      most_observations(tracker.max_observations) {}
 
 bool RoundsBelieved::believed(std::int64_t rounds) {
   if (rounds != rounds_ && claimed_ != rounds) {
@@ -89,11 +94,12 @@ bool RoundsBelieved::believed(std::int64_t rounds) {
   return true;
 }
 
-FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task& task, std::shared_ptr<FusionHost> host)
+FusionStep::FusionStep(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                       std::shared_ptr<FusionHost> host)
     : host_(std::move(host)), round_(cluster.round()) {
   std::size_t most = 0;
-  for (const schedules::PortBinding& binding : task.reads) {
-    const schedules::PduLayout& layout = cluster.pdu(binding.pdu);
+  for (const schedules::model::PortBinding& binding : task.reads) {
+    const schedules::model::PduLayout& layout = cluster.pdu(binding.pdu);
     if (static_cast<std::size_t>(layout.max_elements) > host_->most_observations)
       throw InputError({cluster.file, layout.line, "pdus." + layout.name + ".max_elements",
                         std::to_string(layout.max_elements),
@@ -106,10 +112,10 @@ FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task&
   rounds_.resize(task.reads.size());
 }
 
-void FusionStep::run(StepContext& context) {
+void FusionStep::run(host::StepContext& context) {
   // A list may come, and activate this, before the node has integrated: then no list has an age.
   if (!context.global_time) {
-    for (Input& input : context.inputs) input.discarded = input.fresh;
+    for (host::Input& input : context.inputs) input.discarded = input.fresh;
     return;
   }
   ++host_->step;
@@ -118,15 +124,16 @@ void FusionStep::run(StepContext& context) {
   // this one.
   const GlobalTime about = now - Duration{round_.ns / 8 * 3};
   for (std::size_t i = 0; i < context.inputs.size(); ++i) {
-    Input& input = context.inputs[i];
+    host::Input& input = context.inputs[i];
     if (!input.fresh || !input.list) continue;  // each list is taken exactly once
-    const GlobalTime measured = time_stamp(*input.layout, *input.list, about, round_);
+    const GlobalTime measured = host::time_stamp(*input.layout, *input.list, about, round_);
     input.discarded = !rounds_[i].believed(rounds_between(*input.layout, *input.list, about, measured, round_));
     if (input.discarded) continue;
     codecs_[i].decode(*input.list, observations_);
     const SensorId id = input.layout->sensor;
-    if (const fusion::KnownSensor* sensor = fusion::known(host_->sensors, id))
-      for (fusion::Observation& observation : observations_) fusion::place(observation, id, *sensor);
+    if (const ttf::fusion::sensors::KnownSensor* sensor = ttf::fusion::sensors::known(host_->sensors, id))
+      for (ttf::fusion::sensors::Observation& observation : observations_)
+        ttf::fusion::sensors::place(observation, id, *sensor);
     record(context, input, measured);
     host_->strategy->accept({{input.layout->sensor, input.list->sequence}, measured, observations_});
   }
@@ -136,8 +143,8 @@ void FusionStep::run(StepContext& context) {
   record_result(context);
 }
 
-void FusionStep::record(const StepContext& context, const Input& input, GlobalTime measured) const {
-  records::FusionInput in;
+void FusionStep::record(const host::StepContext& context, const host::Input& input, GlobalTime measured) const {
+  recording::records::FusionInput in;
   in.stamp = context.stamp;
   in.step = host_->step;
   in.pdu = input.pdu;
@@ -148,13 +155,13 @@ void FusionStep::record(const StepContext& context, const Input& input, GlobalTi
   in.fragments = input.list->bytes;
   context.sink->on(in);
   for (std::size_t i = 0; i < observations_.size(); ++i) {
-    const fusion::Observation& observation = observations_[i];
-    records::ObservationSeen seen;
+    const ttf::fusion::sensors::Observation& observation = observations_[i];
+    recording::records::ObservationSeen seen;
     seen.stamp = context.stamp;
     seen.id = {input.layout->sensor, input.list->sequence};
     seen.measured = measured;
     seen.index = static_cast<std::uint16_t>(i);
-    if (observation.kind == fusion::ObservationKind::kPosition) {
+    if (observation.kind == ttf::fusion::sensors::ObservationKind::kPosition) {
       seen.x = observation.z(0);
       seen.y = observation.z(1);
       seen.sxx = observation.r(0, 0);
@@ -162,8 +169,9 @@ void FusionStep::record(const StepContext& context, const Input& input, GlobalTi
       seen.syy = observation.r(1, 1);
     } else {
       // First-order transformation of range and bearing, from where the sensor is, to the plane.
-      const fusion::KnownSensor* sensor = fusion::known(host_->sensors, observation.sensor);
-      const fusion::sensors::Mounting from = sensor != nullptr ? sensor->mounting : fusion::sensors::Mounting{};
+      const ttf::fusion::sensors::KnownSensor* sensor = ttf::fusion::sensors::known(host_->sensors, observation.sensor);
+      const ttf::fusion::sensors::Mounting from =
+          sensor != nullptr ? sensor->mounting : ttf::fusion::sensors::Mounting{};
       const double bearing = observation.z(1) + from.yaw;
       const double c = std::cos(bearing), s = std::sin(bearing), r = observation.z(0);
       const double along = observation.r(0, 0), across = r * r * observation.r(1, 1);
@@ -177,58 +185,59 @@ void FusionStep::record(const StepContext& context, const Input& input, GlobalTi
   }
 }
 
-void FusionStep::record_result(const StepContext& context) const {
-  const fusion::Strategy& strategy = *host_->strategy;
-  for (const fusion::FusedScan& scan : strategy.last_fused())
-    context.sink->on(records::ListFused{context.stamp, host_->step, scan.id, scan.measured,
-                                        static_cast<records::Disposition>(scan.disposition)});
-  for (const fusion::TrackView& track : strategy.tracks()) {
+void FusionStep::record_result(const host::StepContext& context) const {
+  const ttf::fusion::strategies::Strategy& strategy = *host_->strategy;
+  for (const ttf::fusion::strategies::FusedScan& scan : strategy.last_fused())
+    context.sink->on(recording::records::ListFused{context.stamp, host_->step, scan.id, scan.measured,
+                                                   static_cast<recording::records::Disposition>(scan.disposition)});
+  for (const ttf::fusion::tracks::TrackView& track : strategy.tracks()) {
     if (!track.confirmed) continue;
-    records::TrackState state{context.stamp,
-                              host_->step,
-                              track.id,
-                              track.valid_at,
-                              std::span<const double, 6>(track.state.data(), 6),
-                              std::span<const double, 36>(track.covariance.data(), 36),
-                              false};
+    recording::records::TrackState state{context.stamp,
+                                         host_->step,
+                                         track.id,
+                                         track.valid_at,
+                                         std::span<const double, 6>(track.state.data(), 6),
+                                         std::span<const double, 36>(track.covariance.data(), 36),
+                                         false};
     context.sink->on(state);
   }
-  context.sink->on(records::FusionStep{context.stamp, host_->step,
-                                       static_cast<std::uint16_t>(strategy.confirmed_count()),
-                                       static_cast<std::uint16_t>(strategy.tentative_count())});
+  context.sink->on(recording::records::FusionStep{context.stamp, host_->step,
+                                                  static_cast<std::uint16_t>(strategy.confirmed_count()),
+                                                  static_cast<std::uint16_t>(strategy.tentative_count())});
 }
 
-ImageOutput::ImageOutput(const schedules::Cluster& cluster, const schedules::Task& task,
+ImageOutput::ImageOutput(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                          std::shared_ptr<FusionHost> host)
     : cluster_(cluster), host_(std::move(host)) {
-  const PduId pdu = binding_of(task.writes, "image").pdu;
+  const PduId pdu = host::binding_of(task.writes, "image").pdu;
   use_ = image_use(cluster, pdu);
   signals_ = bind_image(cluster, cluster.pdu(pdu));
   views_.reserve(host_->most_objects);
   objects_.reserve(static_cast<std::size_t>(cluster.pdu(pdu).max_elements));
 }
 
-void ImageOutput::run(StepContext& context) {
-  const GlobalTime use = schedules::next_occurrence(cluster_.flexray, use_, context.stamp.global).time;
+void ImageOutput::run(host::StepContext& context) {
+  const GlobalTime use = schedules::model::next_occurrence(cluster_.flexray, use_, context.stamp.global).time;
   host_->strategy->image(use, views_);
   // The list holds the nearest objects; the order is theirs, so that it never depends on how tracks are stored.
-  std::sort(views_.begin(), views_.end(), [](const fusion::TrackView& a, const fusion::TrackView& b) {
-    const double ra = a.state.head<2>().squaredNorm(), rb = b.state.head<2>().squaredNorm();
-    return ra != rb ? ra < rb : a.id < b.id;
-  });
-  Output& out = context.outputs[0];
+  std::sort(views_.begin(), views_.end(),
+            [](const ttf::fusion::tracks::TrackView& a, const ttf::fusion::tracks::TrackView& b) {
+              const double ra = a.state.head<2>().squaredNorm(), rb = b.state.head<2>().squaredNorm();
+              return ra != rb ? ra < rb : a.id < b.id;
+            });
+  host::Output& out = context.outputs[0];
   const int count = std::min(static_cast<int>(views_.size()), out.layout().max_elements);
   out.begin(sequence_, count, use);
   objects_.clear();
   for (int i = 0; i < count; ++i) {
-    const fusion::TrackView& view = views_[static_cast<std::size_t>(i)];
+    const ttf::fusion::tracks::TrackView& view = views_[static_cast<std::size_t>(i)];
     encode_image_object(view, out, i, signals_);
     objects_.push_back(decode_image_object(out.layout(), out.view(), i, signals_));
-    context.sink->on(records::TrackState{context.stamp, host_->step, view.id, use,
-                                         std::span<const double, 6>(view.state.data(), 6),
-                                         std::span<const double, 36>(view.covariance.data(), 36), true});
+    context.sink->on(recording::records::TrackState{context.stamp, host_->step, view.id, use,
+                                                    std::span<const double, 6>(view.state.data(), 6),
+                                                    std::span<const double, 36>(view.covariance.data(), 36), true});
   }
-  records::ImageWritten written;
+  recording::records::ImageWritten written;
   written.stamp = context.stamp;
   written.sequence = sequence_;
   written.valid_at = use;
@@ -239,4 +248,4 @@ void ImageOutput::run(StepContext& context) {
   ++sequence_;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::fusion

@@ -4,21 +4,24 @@
 
 #include "nodes/host/signals.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::fusion {
 namespace {
 
-double status_of(const fusion::TrackView& view) {
-  return (view.confirmed ? records::kImageConfirmed : 0) + (view.coasting ? records::kImageCoasting : 0) +
-         (view.has_length ? records::kImageHasLength : 0) + (view.has_width ? records::kImageHasWidth : 0);
+double status_of(const ttf::fusion::tracks::TrackView& view) {
+  return (view.confirmed ? recording::records::kImageConfirmed : 0) +
+         (view.coasting ? recording::records::kImageCoasting : 0) +
+         (view.has_length ? recording::records::kImageHasLength : 0) +
+         (view.has_width ? recording::records::kImageHasWidth : 0);
 }
 
 }  // namespace
 
-ImageSignals bind_image(const schedules::Cluster& cluster, const schedules::PduLayout& layout) {
-  return bind_element(cluster, layout, kImageSignals);
+ImageSignals bind_image(const schedules::model::Cluster& cluster, const schedules::model::PduLayout& layout) {
+  return host::bind_element(cluster, layout, kImageSignals);
 }
 
-void encode_image_object(const fusion::TrackView& view, Output& out, int index, const ImageSignals& signals) {
+void encode_image_object(const ttf::fusion::tracks::TrackView& view, host::Output& out, int index,
+                         const ImageSignals& signals) {
   const double sigma_x = std::sqrt(view.covariance(0, 0)), sigma_y = std::sqrt(view.covariance(1, 1));
   const std::array<double, kImageSignals.size()> values{static_cast<double>(index_of(view.id)),
                                                         view.state(0),
@@ -40,10 +43,11 @@ void encode_image_object(const fusion::TrackView& view, Output& out, int index, 
   for (std::size_t s = 0; s < values.size(); ++s) out.set(index, signals[s], values[s]);
 }
 
-records::ImageObject decode_image_object(const schedules::PduLayout& layout, const bus::ListView& list, int index,
-                                         const ImageSignals& signals) {
-  const auto value = [&](std::size_t s) { return element_value(layout, list, index, signals[s]); };
-  records::ImageObject object;
+recording::records::ImageObject decode_image_object(const schedules::model::PduLayout& layout,
+                                                    const bus::cni::ListView& list, int index,
+                                                    const ImageSignals& signals) {
+  const auto value = [&](std::size_t s) { return host::element_value(layout, list, index, signals[s]); };
+  recording::records::ImageObject object;
   object.track = static_cast<TrackId>(std::lround(value(0)));
   double* const fields[] = {&object.x,
                             &object.y,
@@ -66,4 +70,4 @@ records::ImageObject decode_image_object(const schedules::PduLayout& layout, con
   return object;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::fusion

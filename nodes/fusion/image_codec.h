@@ -12,19 +12,21 @@
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::fusion {
 
 // The element's signals, in the code's order; a layout may have them in any.
 inline constexpr auto kImageSignals = std::to_array<std::string_view>(
     {"id", "x", "y", "heading", "speed", "acceleration", "length", "width", "sigma_x", "sigma_y", "correlation",
      "sigma_heading", "sigma_speed", "sigma_acceleration", "sigma_length", "sigma_width", "status"});
 using ImageSignals = std::array<std::size_t, kImageSignals.size()>;
-ImageSignals bind_image(const schedules::Cluster& cluster, const schedules::PduLayout& layout);
+ImageSignals bind_image(const schedules::model::Cluster& cluster, const schedules::model::PduLayout& layout);
 
 // Writes element `index` of the list begun in `out`.
-void encode_image_object(const fusion::TrackView& view, Output& out, int index, const ImageSignals& signals);
+void encode_image_object(const ttf::fusion::tracks::TrackView& view, host::Output& out, int index,
+                         const ImageSignals& signals);
 // Element `index` of an image list, as whoever receives it understands it.
-records::ImageObject decode_image_object(const schedules::PduLayout& layout, const bus::ListView& list, int index,
-                                         const ImageSignals& signals);
+recording::records::ImageObject decode_image_object(const schedules::model::PduLayout& layout,
+                                                    const bus::cni::ListView& list, int index,
+                                                    const ImageSignals& signals);
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::fusion

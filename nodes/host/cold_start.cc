@@ -5,7 +5,7 @@
 #include "core/errors.h"
 #include "core/random.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 
 Startup load_startup(YamlMap& scenario, Duration latest) {
   Startup startup;
@@ -34,7 +34,7 @@ Startup load_startup(YamlMap& scenario, Duration latest) {
   return startup;
 }
 
-std::vector<NodeStart> node_starts(const Startup& startup, const schedules::Cluster& cluster, std::uint64_t seed,
+std::vector<NodeStart> node_starts(const Startup& startup, const schedules::model::Cluster& cluster, std::uint64_t seed,
                                    std::uint32_t replication) {
   Findings findings;
   std::vector<NodeStart> starts(cluster.nodes.size());
@@ -58,14 +58,14 @@ std::vector<NodeStart> node_starts(const Startup& startup, const schedules::Clus
       refuse("is no node of " + cluster.file);
     else if (!flexray)
       refuse("must be on FlexRay to wake others over it");
-    else if (!schedules::includes(flexray->pChannels, flexray->pWakeupChannel))
+    else if (!schedules::model::includes(flexray->pChannels, flexray->pWakeupChannel))
       refuse("must be attached to its wake-up channel");
     else
       for (std::size_t n = 0; n < starts.size(); ++n) {
         const auto& node = cluster.nodes[n].flexray;
         if (static_cast<NodeId>(n) == *waker)
           starts[n].how = ColdStart::kWakes;
-        else if (node && schedules::includes(node->pChannels, flexray->pWakeupChannel))
+        else if (node && schedules::model::includes(node->pChannels, flexray->pWakeupChannel))
           starts[n].how = ColdStart::kSleeps;
       }
   }
@@ -73,4 +73,4 @@ std::vector<NodeStart> node_starts(const Startup& startup, const schedules::Clus
   return starts;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

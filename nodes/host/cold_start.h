@@ -23,7 +23,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 
 struct Startup {
   bool cold = false;
@@ -57,7 +57,7 @@ struct NodeStart {
 
 // Of every node of the cluster, drawn where the scenario leaves it open. Throws InputError with every finding: names
 // nobody has, a node that wakes without FlexRay, or whose wake-up channel it is not attached to.
-std::vector<NodeStart> node_starts(const Startup& startup, const schedules::Cluster& cluster, std::uint64_t seed,
+std::vector<NodeStart> node_starts(const Startup& startup, const schedules::model::Cluster& cluster, std::uint64_t seed,
                                    std::uint32_t replication);
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

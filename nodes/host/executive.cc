@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "schedules/model/limits.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 namespace {
 
 constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
@@ -16,7 +16,7 @@ constexpr std::int64_t kNoCycle = -1;
 }  // namespace
 
 struct Executive::TaskState {
-  const schedules::Task* task = nullptr;
+  const schedules::model::Task* task = nullptr;
   std::shared_ptr<Step> step;
   std::vector<Input> inputs;
   std::vector<Output> outputs;
@@ -26,13 +26,13 @@ struct Executive::TaskState {
   bool armed = false;  // activation by time, still due in this cycle
   bool waiting = false;
   Microticks activated{};  // of the waiting activation, which may come while the one before still runs
-  records::Stamp activated_at;
-  records::TaskRun run;  // that is going on
+  recording::records::Stamp activated_at;
+  recording::records::TaskRun run;  // that is going on
 };
 
 struct Executive::SensorState {
   SensorId id{};
-  const schedules::Sensor* sensor = nullptr;
+  const schedules::model::Sensor* sensor = nullptr;
   bool is_device = false, is_host = false;
   bool runs_freely = false, follows = false;  // device
   std::size_t task = 0;                       // the device's measuring task
@@ -45,22 +45,23 @@ struct Executive::SensorState {
   std::optional<std::size_t> after;  // host, of one that follows: the task whose end triggers
 };
 
-Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps, bus::FlexRayPort* flexray,
-                     std::vector<bus::CanPort*> cans, SensorLines& lines, records::Sink& sink)
+Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps,
+                     bus::ports::FlexRayPort* flexray, std::vector<bus::ports::CanPort*> cans, SensorLines& lines,
+                     recording::records::Sink& sink)
     : config_(config), cluster_(*config.cluster), node_(cluster_.node(config.node)), lines_(lines), sink_(sink),
       wants_frames_(sink.wants_frames()), strobes_(cluster_.sensors.size()) {
   TTF_CHECK(steps.size() == node_.tasks.size(), "{} steps for {} tasks", steps.size(), node_.tasks.size());
   if (node_.flexray) {
     TTF_CHECK(flexray != nullptr, "{} needs a FlexRay port", node_.name);
-    flexray_ = std::make_unique<bus::FlexRayController>(cluster_, config.node, *flexray,
-                                                        static_cast<bus::ControllerEvents&>(*this));
+    flexray_ = std::make_unique<bus::controller::FlexRayController>(
+        cluster_, config.node, *flexray, static_cast<bus::controller::ControllerEvents&>(*this));
     if (config.clock) flexray_->start_integrated(*config.clock);
   }
   asleep_ = flexray_ && !config.clock && config.cold == ColdStart::kSleeps;
   cans_.resize(cluster_.can_buses.size());
   for (std::size_t b = 0; b < cans_.size(); ++b)
     if (b < cans.size() && cans[b] != nullptr)
-      cans_[b] = std::make_unique<bus::CanController>(cluster_, config.node, b, *cans[b]);
+      cans_[b] = std::make_unique<bus::cni::CanController>(cluster_, config.node, b, *cans[b]);
   for (std::size_t t = 0; t < steps.size(); ++t) {
     TaskState state;
     state.task = &node_.tasks[t];
@@ -74,7 +75,7 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
   }
   ready_.reserve(tasks_.size());
   for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
-    const schedules::Sensor& sensor = cluster_.sensors[s];
+    const schedules::model::Sensor& sensor = cluster_.sensors[s];
     SensorState state;
     state.id = static_cast<SensorId>(s);
     state.sensor = &sensor;
@@ -84,9 +85,11 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
     state.follows = state.is_device && sensor.follows();
     state.runs_freely = state.is_device && !sensor.scheduled && !sensor.follows();
     if (state.is_device) {
-      const auto measuring = std::find_if(node_.tasks.begin(), node_.tasks.end(), [&](const schedules::Task& task) {
-        return task.activation.kind == schedules::ActivationKind::kSensor && task.activation.sensor == state.id;
-      });
+      const auto measuring =
+          std::find_if(node_.tasks.begin(), node_.tasks.end(), [&](const schedules::model::Task& task) {
+            return task.activation.kind == schedules::model::ActivationKind::kSensor &&
+                   task.activation.sensor == state.id;
+          });
       TTF_CHECK(measuring != node_.tasks.end(), "{} has no measuring task for {}", node_.name, sensor.name);
       state.task = static_cast<std::size_t>(measuring - node_.tasks.begin());
       if (!sensor.scheduled) {
@@ -96,7 +99,7 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
     }
     if (state.is_host && sensor.follows()) {
       const auto after = std::find_if(node_.tasks.begin(), node_.tasks.end(),
-                                      [&](const schedules::Task& task) { return task.name == sensor.after; });
+                                      [&](const schedules::model::Task& task) { return task.name == sensor.after; });
       TTF_CHECK(after != node_.tasks.end(), "{} has no task {} for {}", node_.name, sensor.after, sensor.name);
       state.after = static_cast<std::size_t>(after - node_.tasks.begin());
     }
@@ -109,8 +112,8 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
 
 Executive::~Executive() = default;
 
-records::Stamp Executive::stamp(Microticks at) const {
-  records::Stamp stamp;
+recording::records::Stamp Executive::stamp(Microticks at) const {
+  recording::records::Stamp stamp;
   stamp.true_time = config_.oscillator.time_of(at);
   if (config_.true_clock != nullptr) stamp.true_time = std::max(stamp.true_time, config_.true_clock->now());
   stamp.local = config_.oscillator.local_time(at);
@@ -134,7 +137,7 @@ void Executive::rise(Microticks now) {
   waking_ = config_.cold == ColdStart::kWakes;
   if (!waking_) return flexray_->start_cold(now);
   for (const auto command :
-       {bus::PocEventKind::kConfig, bus::PocEventKind::kConfigComplete, bus::PocEventKind::kWakeup})
+       {bus::poc::PocEventKind::kConfig, bus::poc::PocEventKind::kConfigComplete, bus::poc::PocEventKind::kWakeup})
     flexray_->command(command, now);
 }
 
@@ -146,10 +149,10 @@ void Executive::start_anew(Microticks now) {
 
 // However the wake-up ended, its host lets the controller start up then.
 void Executive::start_up_after_waking(Microticks now) {
-  if (!waking_ || flexray_->state().kind != bus::PocKind::kReady) return;
+  if (!waking_ || flexray_->state().kind != bus::poc::PocKind::kReady) return;
   waking_ = false;
-  if (node_.flexray->pKeySlotUsedForStartup) flexray_->command(bus::PocEventKind::kAllowColdstart, now);
-  flexray_->command(bus::PocEventKind::kRun, now);
+  if (node_.flexray->pKeySlotUsedForStartup) flexray_->command(bus::poc::PocEventKind::kAllowColdstart, now);
+  flexray_->command(bus::poc::PocEventKind::kRun, now);
 }
 
 Microticks Executive::next_event() const {
@@ -186,12 +189,13 @@ Promise Executive::promise() const {
 Microticks Executive::soonest_end(bool on_can) const {
   Microticks soonest = kNever;
   for (const TaskState& state : tasks_) {
-    const schedules::Task& task = *state.task;
-    if (task.activation.kind != schedules::ActivationKind::kMessage) continue;
-    const bool set_off = std::any_of(task.reads.begin(), task.reads.end(), [&](const schedules::PortBinding& port) {
-      return activates(task, port) && port.can_bus.has_value() == on_can;
-    });
-    const bool drawn = task.draw == schedules::ExecutionDraw::kUniform;
+    const schedules::model::Task& task = *state.task;
+    if (task.activation.kind != schedules::model::ActivationKind::kMessage) continue;
+    const bool set_off =
+        std::any_of(task.reads.begin(), task.reads.end(), [&](const schedules::model::PortBinding& port) {
+          return activates(task, port) && port.can_bus.has_value() == on_can;
+        });
+    const bool drawn = task.draw == schedules::model::ExecutionDraw::kUniform;
     if (set_off) soonest = std::min(soonest, ticks(drawn ? task.best_case : task.worst_case));
   }
   return soonest;
@@ -204,7 +208,7 @@ void Executive::arm_cycle() {
   if (cycle == armed_cycle_) return;
   armed_cycle_ = cycle;
   for (TaskState& state : tasks_)
-    state.armed = global != nullptr && state.task->activation.kind == schedules::ActivationKind::kTime &&
+    state.armed = global != nullptr && state.task->activation.kind == schedules::model::ActivationKind::kTime &&
                   in_cycle(state.task->activation.at, armed_cycle_);
   for (SensorState& state : sensors_)
     state.armed =
@@ -216,7 +220,7 @@ void Executive::advance(Microticks now) {
     if (!rises_ || *rises_ > now) return;
     asleep_ = false;
     concerned_ = true;
-    sink_.on(records::PowerChanged{stamp(now), true});
+    sink_.on(recording::records::PowerChanged{stamp(now), true});
     rise(now);
   }
   concerned_ |= own_next_ <= now;
@@ -299,15 +303,15 @@ void Executive::activate(std::size_t task, Microticks now) {
 
 void Executive::fill_inputs(TaskState& task) {
   for (std::size_t i = 0; i < task.inputs.size(); ++i) {
-    const schedules::PortBinding& binding = task.task->reads[i];
-    bus::IncomingList& list = incoming(binding);
+    const schedules::model::PortBinding& binding = task.task->reads[i];
+    bus::cni::IncomingList& list = incoming(binding);
     Input& input = task.inputs[i];
     input.list = list.latest();
     input.fresh = list.mark_read();
     input.discarded = false;
     task.unread[i].reset();
     if (input.fresh)
-      hop(task.run.start, records::Hop::kRead, binding.pdu, input.list->sequence,
+      hop(task.run.start, recording::records::Hop::kRead, binding.pdu, input.list->sequence,
           binding.can_bus ? static_cast<int>(*binding.can_bus) : -1);
   }
 }
@@ -339,14 +343,15 @@ void Executive::start_next(Microticks now) {
       if (!input.discarded) continue;
       ++counts_.discarded_lists;
       const auto& can_bus = state.task->reads[i].can_bus;
-      hop(state.run.start, records::Hop::kDiscarded, input.pdu, input.list->sequence,
+      hop(state.run.start, recording::records::Hop::kDiscarded, input.pdu, input.list->sequence,
           can_bus ? static_cast<int>(*can_bus) : -1);
     }
 
     Duration execution = state.task->worst_case;
-    if (state.task->draw == schedules::ExecutionDraw::kUniform) {
-      static_assert(schedules::kMostNamed * schedules::kMostTasks <= 1U << 16, "every task has a stream of its own");
-      const auto entity = static_cast<std::uint16_t>(index_of(config_.node) * schedules::kMostTasks + index);
+    if (state.task->draw == schedules::model::ExecutionDraw::kUniform) {
+      static_assert(schedules::model::kMostNamed * schedules::model::kMostTasks <= 1U << 16,
+                    "every task has a stream of its own");
+      const auto entity = static_cast<std::uint16_t>(index_of(config_.node) * schedules::model::kMostTasks + index);
       RandomStream stream({config_.seed, config_.replication, Purpose::kExecutionTime, entity, state.activations});
       execution = Duration{stream.integer(state.task->best_case.ns, state.task->worst_case.ns)};
     }
@@ -369,7 +374,7 @@ void Executive::finish(Microticks now) {
     counts_.saturated_signals += static_cast<std::uint64_t>(output.take_saturated());
     if (!output.written()) continue;
     const auto& can_bus = state.task->writes[o].can_bus;
-    hop(state.run.end, records::Hop::kWritten, output.pdu(), output.view().sequence,
+    hop(state.run.end, recording::records::Hop::kWritten, output.pdu(), output.view().sequence,
         can_bus ? static_cast<int>(*can_bus) : -1);
     if (can_bus)
       cans_[*can_bus]->send(output.pdu(), output.view());
@@ -379,20 +384,20 @@ void Executive::finish(Microticks now) {
   }
   sink_.on(state.run);
   for (std::size_t t = 0; t < tasks_.size(); ++t)
-    if (tasks_[t].task->activation.kind == schedules::ActivationKind::kCompletion &&
+    if (tasks_[t].task->activation.kind == schedules::model::ActivationKind::kCompletion &&
         tasks_[t].task->activation.after == state.task->name)
       activate(t, now);
   for (const SensorState& sensor : sensors_)
     if (sensor.after == ended && !state.waiting) lines_.trigger(sensor.id);
 }
 
-bus::IncomingList& Executive::incoming(const schedules::PortBinding& binding) {
+bus::cni::IncomingList& Executive::incoming(const schedules::model::PortBinding& binding) {
   return binding.can_bus ? cans_[*binding.can_bus]->incoming(binding.pdu) : flexray_->incoming(binding.pdu);
 }
 
-void Executive::receive(const bus::Reception& reception) {
+void Executive::receive(const bus::ports::Reception& reception) {
   if (asleep_) {
-    if (reception.signal == bus::Signal::kWakeup && !rises_) rises_ = reception.end + ticks(config_.boots);
+    if (reception.signal == bus::ports::Signal::kWakeup && !rises_) rises_ = reception.end + ticks(config_.boots);
     return;
   }
   flexray_->receive(reception);
@@ -400,7 +405,7 @@ void Executive::receive(const bus::Reception& reception) {
   if (concerned_) look_ahead();
 }
 
-bool Executive::receive_on_both(const bus::Reception& reception) {
+bool Executive::receive_on_both(const bus::ports::Reception& reception) {
   if (asleep_) {
     receive(reception);
     return true;
@@ -412,7 +417,7 @@ bool Executive::receive_on_both(const bus::Reception& reception) {
   return true;
 }
 
-void Executive::receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now) {
+void Executive::receive_can(std::size_t can_bus, const bus::ports::CanFrame& frame, Microticks now) {
   if (!cans_[can_bus] || asleep_) return;
   if (const auto arrival = cans_[can_bus]->receive(frame))
     arrived(arrival->pdu, static_cast<int>(can_bus), arrival->effect, arrival->sequence, arrival->torn, now);
@@ -421,35 +426,35 @@ void Executive::receive_can(std::size_t can_bus, const bus::CanFrame& frame, Mic
   if (concerned_) look_ahead();
 }
 
-void Executive::list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence,
+void Executive::list_arrived(PduId pdu, bus::cni::ArrivalEffect effect, std::uint32_t sequence,
                              std::optional<std::uint32_t> torn, Microticks at) {
   arrived(pdu, -1, effect, sequence, torn, at);
 }
 
-void Executive::arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence,
+void Executive::arrived(PduId pdu, int can_bus, bus::cni::ArrivalEffect effect, std::uint32_t sequence,
                         std::optional<std::uint32_t> torn, Microticks at) {
-  using enum bus::ArrivalEffect;
+  using enum bus::cni::ArrivalEffect;
   if (effect == kStale || effect == kMalformed) ++counts_.refused_fragments;
   // One fragment may end two lists: the one it tears, and its own if that is complete with it.
   if (!torn && effect != kCompleted && effect != kStale) return;
-  const records::Stamp stamp_at = stamp(at);
+  const recording::records::Stamp stamp_at = stamp(at);
   bool reported = false;  // once per arrival, however many tasks read it; never where nobody does
   for (std::size_t t = 0; t < tasks_.size(); ++t) {
     TaskState& state = tasks_[t];
     for (std::size_t i = 0; i < state.inputs.size(); ++i) {
-      const schedules::PortBinding& binding = state.task->reads[i];
+      const schedules::model::PortBinding& binding = state.task->reads[i];
       if (binding.pdu != pdu || (binding.can_bus ? static_cast<int>(*binding.can_bus) : -1) != can_bus) continue;
       if (!reported && torn) {
         ++counts_.torn_lists;
-        hop(stamp_at, records::Hop::kTorn, pdu, *torn, can_bus);
+        hop(stamp_at, recording::records::Hop::kTorn, pdu, *torn, can_bus);
       }
-      if (!reported && effect == kCompleted) hop(stamp_at, records::Hop::kReceived, pdu, sequence, can_bus);
-      if (!reported && effect == kStale) hop(stamp_at, records::Hop::kStale, pdu, sequence, can_bus);
+      if (!reported && effect == kCompleted) hop(stamp_at, recording::records::Hop::kReceived, pdu, sequence, can_bus);
+      if (!reported && effect == kStale) hop(stamp_at, recording::records::Hop::kStale, pdu, sequence, can_bus);
       reported = true;
       if (effect != kCompleted) continue;
       if (state.unread[i]) {
         ++counts_.overwritten_lists;
-        hop(stamp_at, records::Hop::kOverwritten, pdu, *state.unread[i], can_bus);
+        hop(stamp_at, recording::records::Hop::kOverwritten, pdu, *state.unread[i], can_bus);
       }
       state.unread[i] = sequence;
       if (activates(*state.task, binding)) activate(t, at);
@@ -457,4 +462,4 @@ void Executive::arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::
   }
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

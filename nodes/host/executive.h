@@ -25,17 +25,17 @@
 #include <vector>
 
 #include "bus/cni/can_controller.h"
-#include "bus/ports/can_port.h"
 #include "bus/controller/controller.h"
+#include "bus/ports/can_port.h"
 #include "core/ids.h"
-#include "nodes/host/promise.h"
 #include "nodes/host/cold_start.h"
+#include "nodes/host/promise.h"
 #include "nodes/host/step.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 #include "timebase/oscillator.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 
 // The wires between a sensor and its host: a trigger to the device, a strobe back at the instant of measuring.
 class SensorLines {
@@ -54,11 +54,12 @@ class TrueClock {
 };
 
 struct ExecutiveConfig {
-  const schedules::Cluster* cluster = nullptr;
+  const schedules::model::Cluster* cluster = nullptr;
   NodeId node{};
   timebase::Oscillator oscillator;
-  std::optional<bus::InitialClock> clock;  // of a node that begins integrated; else it starts up at power_on
-  std::uint64_t seed = 0;                  // of the execution times
+  std::optional<bus::controller::InitialClock>
+      clock;               // of a node that begins integrated; else it starts up at power_on
+  std::uint64_t seed = 0;  // of the execution times
   std::uint32_t replication = 0;
   Microticks power_on{};                  // free-running sensors count their phase from here, too
   ColdStart cold{};                       // of a node that does not begin integrated
@@ -79,12 +80,12 @@ struct ExecutiveCounts {
   std::uint64_t unlisted_fates = 0;      // of lists that no record tells of (fusion/strategies/strategy.h)
 };
 
-class Executive final : private bus::ControllerEvents {
+class Executive final : private bus::controller::ControllerEvents {
  public:
   // `steps`: one per task of the node, in file order. `flexray` may be null for a node off FlexRay; `cans` has one
   // entry per CAN of the cluster, null where this node is not on it.
-  Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps, bus::FlexRayPort* flexray,
-            std::vector<bus::CanPort*> cans, SensorLines& lines, records::Sink& sink);
+  Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps, bus::ports::FlexRayPort* flexray,
+            std::vector<bus::ports::CanPort*> cans, SensorLines& lines, recording::records::Sink& sink);
   ~Executive() override;
 
   Microticks next_event() const;
@@ -95,16 +96,16 @@ class Executive final : private bus::ControllerEvents {
 
   // Arrivals. `now` is the node's microtick of the arrival. What they set off happens at the next advance(), which
   // next_event() then asks for.
-  void receive(const bus::Reception& reception);
+  void receive(const bus::ports::Reception& reception);
   // The same on both channels at once (bus/controller/controller.h). False: next_event() is what it was.
-  bool receive_on_both(const bus::Reception& reception);
+  bool receive_on_both(const bus::ports::Reception& reception);
   // What is on its way to its controller (bus/controller/controller.h).
-  bool knows(const bus::Reception& reception) { return !asleep_ && flexray_->knows(reception); }
-  void hear_known(const bus::Reception& reception) { flexray_->hear_known(reception); }
-  void receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now);
+  bool knows(const bus::ports::Reception& reception) { return !asleep_ && flexray_->knows(reception); }
+  void hear_known(const bus::ports::Reception& reception) { flexray_->hear_known(reception); }
+  void receive_can(std::size_t can_bus, const bus::ports::CanFrame& frame, Microticks now);
   // A frame of this node has left, `now`. `frame` is what the medium knows of it: bus, start, when it has left in true
   // time, identifier and data; the node reports it with its own clock's times and the list and measurement it is of.
-  void can_frame_sent(records::CanFrameSent frame, Microticks now);
+  void can_frame_sent(recording::records::CanFrameSent frame, Microticks now);
   void trigger(SensorId sensor, Microticks now);                         // at a device
   void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);  // at a host
 
@@ -119,31 +120,32 @@ class Executive final : private bus::ControllerEvents {
   // The node's clock of the cluster, null while it has none: off FlexRay, or before it has integrated.
   const timebase::CycleClock* clock() const { return flexray_ ? flexray_->synchronised_clock() : nullptr; }
   // Null off FlexRay.
-  const bus::FlexRayController* controller() const { return flexray_.get(); }
+  const bus::controller::FlexRayController* controller() const { return flexray_.get(); }
   const timebase::Oscillator& oscillator() const { return config_.oscillator; }
-  records::Stamp stamp(Microticks at) const;
+  recording::records::Stamp stamp(Microticks at) const;
   const ExecutiveCounts& counts() const { return counts_; }
 
  private:
   struct TaskState;
   struct SensorState;
 
-  void list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
-                    Microticks at) override;
+  void list_arrived(PduId pdu, bus::cni::ArrivalEffect effect, std::uint32_t sequence,
+                    std::optional<std::uint32_t> torn, Microticks at) override;
   bool wants_bytes() const override { return wants_frames_; }
   bool wants_receptions() const override { return false; }
-  void frame_sent(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
+  void frame_sent(const bus::ports::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                   std::uint32_t sequence, int fragment, bool last) override {
     if (wants_frames_ || last) tell_of_frame(transmission, cycle, null_frame, pdu, sequence, fragment, last);
   }
-  void tell_of_frame(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
+  void tell_of_frame(const bus::ports::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                      std::uint32_t sequence, int fragment, bool last);
-  void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
+  void slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel, bus::controller::SlotStatus status,
                     Microticks at) override;
   void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
                        Microticks at) override;
-  void symbol_sent(bus::Signal signal, schedules::Channel channel, Microticks start, Microticks end) override;
-  void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override;
+  void symbol_sent(bus::ports::Signal signal, schedules::model::Channel channel, Microticks start,
+                   Microticks end) override;
+  void state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) override;
 
   // What happens by the cluster's clock happens at other ticks now.
   void cycle_started(std::int64_t cycle, Microticks at) override {
@@ -151,7 +153,7 @@ class Executive final : private bus::ControllerEvents {
     concerned_ = true;
   }
   void look_ahead();  // own_next_, whenever something has concerned it
-  void arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence,
+  void arrived(PduId pdu, int can_bus, bus::cni::ArrivalEffect effect, std::uint32_t sequence,
                std::optional<std::uint32_t> torn, Microticks at);
   void rise(Microticks now);
   void start_up_after_waking(Microticks now);
@@ -164,19 +166,20 @@ class Executive final : private bus::ControllerEvents {
   // The shortest time from an arrival on that medium that activates a task to the task's end.
   Microticks soonest_end(bool on_can) const;
   void fill_inputs(TaskState& task);
-  void identify(records::CanFrameSent& frame) const;
-  void hop(const records::Stamp& at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus);
-  bus::IncomingList& incoming(const schedules::PortBinding& binding);
+  void identify(recording::records::CanFrameSent& frame) const;
+  void hop(const recording::records::Stamp& at, recording::records::Hop what, PduId pdu, std::uint32_t sequence,
+           int can_bus);
+  bus::cni::IncomingList& incoming(const schedules::model::PortBinding& binding);
   Microticks ticks(Duration duration) const;
 
   ExecutiveConfig config_;
-  const schedules::Cluster& cluster_;
-  const schedules::Node& node_;
+  const schedules::model::Cluster& cluster_;
+  const schedules::model::Node& node_;
   SensorLines& lines_;
-  records::Sink& sink_;
+  recording::records::Sink& sink_;
   const bool wants_frames_;
-  std::unique_ptr<bus::FlexRayController> flexray_;
-  std::vector<std::unique_ptr<bus::CanController>> cans_;
+  std::unique_ptr<bus::controller::FlexRayController> flexray_;
+  std::vector<std::unique_ptr<bus::cni::CanController>> cans_;
   std::vector<TaskState> tasks_;
   std::vector<SensorState> sensors_;  // those this node is device or host of
   std::vector<StrobeLatch> strobes_;  // by SensorId
@@ -192,4 +195,4 @@ class Executive final : private bus::ControllerEvents {
   ExecutiveCounts counts_;
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

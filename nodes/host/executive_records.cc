@@ -2,14 +2,14 @@
 #include "bus/wire/pdu_codec.h"
 #include "nodes/host/executive.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 
-void Executive::tell_of_frame(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
-                              std::uint32_t sequence, int fragment, bool last) {
+void Executive::tell_of_frame(const bus::ports::Transmission& transmission, std::int64_t cycle, bool null_frame,
+                              PduId pdu, std::uint32_t sequence, int fragment, bool last) {
   // A frame ends in the cycle it began in, so the clock can say now when that will be.
-  const records::Stamp end = stamp(transmission.end);
+  const recording::records::Stamp end = stamp(transmission.end);
   if (wants_frames_) {
-    records::SlotFrameSent sent;
+    recording::records::SlotFrameSent sent;
     sent.stamp = stamp(transmission.start);
     sent.end = end;
     sent.cycle = cycle;
@@ -23,46 +23,46 @@ void Executive::tell_of_frame(const bus::Transmission& transmission, std::int64_
     sent.bytes = transmission.bytes;
     sink_.on(sent);
   }
-  if (last) hop(end, records::Hop::kSent, pdu, sequence, -1);
+  if (last) hop(end, recording::records::Hop::kSent, pdu, sequence, -1);
 }
 
 // The message a frame is of; none for a foreign frame, which receivers ignore, too.
-void Executive::identify(records::CanFrameSent& frame) const {
-  for (const schedules::CanMessage& message : cluster_.can_buses[frame.bus].messages) {
+void Executive::identify(recording::records::CanFrameSent& frame) const {
+  for (const schedules::model::CanMessage& message : cluster_.can_buses[frame.bus].messages) {
     if (message.identifier != frame.identifier) continue;
-    const schedules::PduLayout& layout = cluster_.pdu(message.pdu);
+    const schedules::model::PduLayout& layout = cluster_.pdu(message.pdu);
     const auto bytes = static_cast<std::size_t>(layout.fragment_bytes);
     if (frame.data.size() < bytes) return;
     const auto payload = frame.data.first(bytes);
     frame.pdu = message.pdu;
     frame.sensor = layout.sensor;
-    frame.fragment =
-        static_cast<std::uint8_t>(wire::read_header_raw(layout, payload, wire::header_signal(layout, "fragment")));
-    frame.sequence = cans_[frame.bus]->sent_sequence(
-        frame.pdu,
-        static_cast<std::uint32_t>(wire::read_header_raw(layout, payload, wire::header_signal(layout, "sequence"))));
+    frame.fragment = static_cast<std::uint8_t>(
+        bus::wire::read_header_raw(layout, payload, bus::wire::header_signal(layout, "fragment")));
+    frame.sequence =
+        cans_[frame.bus]->sent_sequence(frame.pdu, static_cast<std::uint32_t>(bus::wire::read_header_raw(
+                                                       layout, payload, bus::wire::header_signal(layout, "sequence"))));
   }
 }
 
-void Executive::can_frame_sent(records::CanFrameSent frame, Microticks now) {
+void Executive::can_frame_sent(recording::records::CanFrameSent frame, Microticks now) {
   const TrueTime end = frame.end.true_time;
   frame.end = stamp(now);
   frame.end.true_time = end;
   identify(frame);
   sink_.on(frame);
   if (frame.pdu == kNoPdu) return;
-  const schedules::PduLayout& layout = cluster_.pdu(frame.pdu);
+  const schedules::model::PduLayout& layout = cluster_.pdu(frame.pdu);
   const auto payload = frame.data.first(static_cast<std::size_t>(layout.fragment_bytes));
-  const auto count = wire::read_header_raw(layout, payload, wire::header_signal(layout, "count"));
+  const auto count = bus::wire::read_header_raw(layout, payload, bus::wire::header_signal(layout, "count"));
   const bool last = frame.fragment == layout.fragments_of(static_cast<int>(count)) - 1;
-  if (last) hop(frame.end, records::Hop::kSent, frame.pdu, frame.sequence, frame.bus);
+  if (last) hop(frame.end, recording::records::Hop::kSent, frame.pdu, frame.sequence, frame.bus);
 }
 
-void Executive::slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
-                             Microticks at) {
+void Executive::slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel,
+                             bus::controller::SlotStatus status, Microticks at) {
   ++counts_.slot_problems;
-  sink_.on(records::SlotProblem{stamp(at), cycle, static_cast<std::uint16_t>(slot), static_cast<std::uint8_t>(channel),
-                                static_cast<std::uint8_t>(status)});
+  sink_.on(recording::records::SlotProblem{stamp(at), cycle, static_cast<std::uint16_t>(slot),
+                                           static_cast<std::uint8_t>(channel), static_cast<std::uint8_t>(status)});
 }
 
 void Executive::clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
@@ -70,30 +70,33 @@ void Executive::clock_corrected(std::int64_t cycle, const timebase::Correction& 
   concerned_ = true;
   // One instant by both clocks, from which others take what they were apart by: true time is when this one showed that,
   // however late it was looked at.
-  records::Stamp both = stamp(at);
+  recording::records::Stamp both = stamp(at);
   both.true_time = config_.oscillator.time_of(at);
-  sink_.on(records::ClockCorrected{both, cycle, offset.value, rate.value, offset.missing, rate.missing,
-                                   offset.limit_reached, rate.limit_reached});
+  sink_.on(recording::records::ClockCorrected{both, cycle, offset.value, rate.value, offset.missing, rate.missing,
+                                              offset.limit_reached, rate.limit_reached});
 }
 
-void Executive::symbol_sent(bus::Signal signal, schedules::Channel channel, Microticks start, Microticks end) {
+void Executive::symbol_sent(bus::ports::Signal signal, schedules::model::Channel channel, Microticks start,
+                            Microticks end) {
   // A collision avoidance symbol comes before there is a schedule; within one the same bits are a test of the medium.
-  const std::uint8_t kind = signal == bus::Signal::kWakeup ? records::kSymbolWakeup
-                            : flexray_->synchronised()     ? records::kSymbolMediaTest
-                                                           : records::kSymbolCas;
-  sink_.on(records::SymbolSent{stamp(start), stamp(end), static_cast<std::uint8_t>(channel), kind});
+  const std::uint8_t kind = signal == bus::ports::Signal::kWakeup ? recording::records::kSymbolWakeup
+                            : flexray_->synchronised()            ? recording::records::kSymbolMediaTest
+                                                                  : recording::records::kSymbolCas;
+  sink_.on(recording::records::SymbolSent{stamp(start), stamp(end), static_cast<std::uint8_t>(channel), kind});
 }
 
-void Executive::state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) {
+void Executive::state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) {
   concerned_ = true;
-  const bus::PocKind to = step.next.kind;
-  sink_.on(records::StateChanged{stamp(at), static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
-                                 bus::to_text(from), bus::to_text(to), bus::to_text(step.reason),
-                                 bus::to_text(step.consequence)});
+  const bus::poc::PocKind to = step.next.kind;
+  sink_.on(recording::records::StateChanged{stamp(at), static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
+                                            bus::poc::to_text(from), bus::poc::to_text(to),
+                                            bus::poc::to_text(step.reason), bus::poc::to_text(step.consequence)});
 }
 
-void Executive::hop(const records::Stamp& at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus) {
-  sink_.on(records::ListHop{at, what, pdu, cluster_.pdu(pdu).sensor, sequence, static_cast<std::int8_t>(can_bus)});
+void Executive::hop(const recording::records::Stamp& at, recording::records::Hop what, PduId pdu,
+                    std::uint32_t sequence, int can_bus) {
+  sink_.on(recording::records::ListHop{at, what, pdu, cluster_.pdu(pdu).sensor, sequence,
+                                       static_cast<std::int8_t>(can_bus)});
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

@@ -2,9 +2,9 @@
 
 #include "core/random.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 
-timebase::Oscillator drawn_oscillator(const schedules::Node& node, std::size_t index, std::uint64_t seed,
+timebase::Oscillator drawn_oscillator(const schedules::model::Node& node, std::size_t index, std::uint64_t seed,
                                       std::uint32_t replication) {
   const auto entity = static_cast<std::uint16_t>(index);
   RandomStream drift({seed, replication, Purpose::kClockDrift, entity, 0});
@@ -13,9 +13,10 @@ timebase::Oscillator drawn_oscillator(const schedules::Node& node, std::size_t i
   return {node.microtick_ps, ppb, phase.integer(0, node.microtick_ps - 1)};
 }
 
-bus::InitialClock integrated_clock(const timebase::Oscillator& oscillator, const schedules::Cluster& cluster,
-                                   const schedules::Node& node, TrueTime first_cycle) {
-  bus::InitialClock clock;
+bus::controller::InitialClock integrated_clock(const timebase::Oscillator& oscillator,
+                                               const schedules::model::Cluster& cluster,
+                                               const schedules::model::Node& node, TrueTime first_cycle) {
+  bus::controller::InitialClock clock;
   clock.cycle_start = oscillator.ticks_at(first_cycle) + Microticks{1};
   // Ticks in a thousand cycles, so that rounding to one microtick per cycle is all that is lost.
   const std::int64_t thousand =
@@ -24,4 +25,4 @@ bus::InitialClock integrated_clock(const timebase::Oscillator& oscillator, const
   return clock;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

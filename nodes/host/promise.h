@@ -6,7 +6,7 @@
 
 #include "core/time.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 
 struct Promise {
   static constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
@@ -20,4 +20,4 @@ struct Promise {
   bool operator==(const Promise&) const = default;
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

@@ -2,13 +2,14 @@
 
 #include "core/check.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 
-const schedules::PortBinding& binding_of(const std::vector<schedules::PortBinding>& bindings, std::string_view port) {
+const schedules::model::PortBinding& binding_of(const std::vector<schedules::model::PortBinding>& bindings,
+                                                std::string_view port) {
   const auto found = std::find_if(bindings.begin(), bindings.end(),
-                                  [&](const schedules::PortBinding& binding) { return binding.port == port; });
+                                  [&](const schedules::model::PortBinding& binding) { return binding.port == port; });
   TTF_CHECK(found != bindings.end(), "no port {}", port);
   return *found;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

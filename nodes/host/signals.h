@@ -11,22 +11,23 @@
 #include "core/errors.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 
 template <std::size_t N>
-std::array<std::size_t, N> bind_element(const schedules::Cluster& cluster, const schedules::PduLayout& layout,
+std::array<std::size_t, N> bind_element(const schedules::model::Cluster& cluster,
+                                        const schedules::model::PduLayout& layout,
                                         const std::array<std::string_view, N>& names) {
   Findings findings;
   std::array<std::size_t, N> signals{};
   for (std::size_t i = 0; i < N; ++i) {
-    const auto found = schedules::find_signal(layout.element, names[i]);
+    const auto found = schedules::model::find_signal(layout.element, names[i]);
     if (found)
       signals[i] = *found;
     else
       findings.add({cluster.file, layout.line, "pdus." + layout.name + ".element", std::string(names[i]),
                     "is missing: the code that fills or reads this PDU needs it"});
   }
-  for (const schedules::Signal& signal : layout.element)
+  for (const schedules::model::Signal& signal : layout.element)
     if (signal.name != "spare" && std::find(names.begin(), names.end(), signal.name) == names.end())
       findings.add({cluster.file, layout.line, "pdus." + layout.name + ".element", signal.name,
                     "is not a signal the code knows"});
@@ -36,13 +37,15 @@ std::array<std::size_t, N> bind_element(const schedules::Cluster& cluster, const
 
 // The same, for code whose number of signals depends on the PDU.
 template <std::size_t N>
-std::vector<std::size_t> bind_elements(const schedules::Cluster& cluster, const schedules::PduLayout& layout,
+std::vector<std::size_t> bind_elements(const schedules::model::Cluster& cluster,
+                                       const schedules::model::PduLayout& layout,
                                        const std::array<std::string_view, N>& names) {
   const auto signals = bind_element<N>(cluster, layout, names);
   return {signals.begin(), signals.end()};
 }
 
 // The layout of the PDU bound to `port` of a task; ports are checked to exist before (schedules/model/ports.h).
-const schedules::PortBinding& binding_of(const std::vector<schedules::PortBinding>& bindings, std::string_view port);
+const schedules::model::PortBinding& binding_of(const std::vector<schedules::model::PortBinding>& bindings,
+                                                std::string_view port);
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

@@ -5,20 +5,20 @@
 #include "bus/wire/pdu_codec.h"
 #include "core/check.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 namespace {
 
 std::uint32_t low_bits(std::uint64_t value, int bits) {
   return static_cast<std::uint32_t>(bits >= 32 ? value : value & ((std::uint64_t{1} << bits) - 1));
 }
 
-std::size_t fragment_bytes(const schedules::PduLayout& layout) {
+std::size_t fragment_bytes(const schedules::model::PduLayout& layout) {
   return static_cast<std::size_t>(layout.fragment_bytes);
 }
 
 }  // namespace
 
-Output::Output(std::string_view port, PduId pdu, const schedules::PduLayout& layout)
+Output::Output(std::string_view port, PduId pdu, const schedules::model::PduLayout& layout)
     : port_(port), pdu_(pdu), layout_(&layout) {
   bytes_.resize(static_cast<std::size_t>(layout.max_fragments()) * fragment_bytes(layout));
 }
@@ -30,22 +30,22 @@ void Output::begin(std::uint32_t sequence, int count, GlobalTime time_stamp) {
   fragments_ = layout_->fragments_of(count);
   written_ = true;
   std::fill_n(bytes_.begin(), static_cast<std::size_t>(fragments_) * fragment_bytes(*layout_), std::byte{0});
-  const std::size_t sequence_signal = wire::header_signal(*layout_, "sequence");
-  const std::size_t fragment_signal = wire::header_signal(*layout_, "fragment");
-  const std::size_t count_signal = wire::header_signal(*layout_, "count");
-  const auto stamp_signal = schedules::find_signal(layout_->header, "timestamp");
+  const std::size_t sequence_signal = bus::wire::header_signal(*layout_, "sequence");
+  const std::size_t fragment_signal = bus::wire::header_signal(*layout_, "fragment");
+  const std::size_t count_signal = bus::wire::header_signal(*layout_, "count");
+  const auto stamp_signal = schedules::model::find_signal(layout_->header, "timestamp");
   for (int f = 0; f < fragments_; ++f) {
     const std::span<std::byte> payload(bytes_.data() + static_cast<std::size_t>(f) * fragment_bytes(*layout_),
                                        fragment_bytes(*layout_));
-    wire::write_header_raw(*layout_, payload, sequence_signal,
-                           low_bits(sequence, layout_->header[sequence_signal].bits));
-    wire::write_header_raw(*layout_, payload, fragment_signal, static_cast<std::uint32_t>(f));
-    wire::write_header_raw(*layout_, payload, count_signal, static_cast<std::uint32_t>(count));
+    bus::wire::write_header_raw(*layout_, payload, sequence_signal,
+                                low_bits(sequence, layout_->header[sequence_signal].bits));
+    bus::wire::write_header_raw(*layout_, payload, fragment_signal, static_cast<std::uint32_t>(f));
+    bus::wire::write_header_raw(*layout_, payload, count_signal, static_cast<std::uint32_t>(count));
     if (stamp_signal) {
       // Nearest microsecond; instants before the start of the run wrap like any other.
       const std::int64_t us = (time_stamp.ns + 500 - (time_stamp.ns + 500 < 0 ? 999 : 0)) / 1000;
-      wire::write_header_raw(*layout_, payload, *stamp_signal,
-                             low_bits(static_cast<std::uint64_t>(us), layout_->header[*stamp_signal].bits));
+      bus::wire::write_header_raw(*layout_, payload, *stamp_signal,
+                                  low_bits(static_cast<std::uint64_t>(us), layout_->header[*stamp_signal].bits));
     }
   }
 }
@@ -54,11 +54,11 @@ void Output::set(int index, std::size_t signal, double physical) {
   const int fragment = index / layout_->elements_per_fragment;
   const std::span<std::byte> payload(bytes_.data() + static_cast<std::size_t>(fragment) * fragment_bytes(*layout_),
                                      fragment_bytes(*layout_));
-  wire::write_element_raw(*layout_, payload, index % layout_->elements_per_fragment, signal,
-                          wire::to_raw(layout_->element[signal], physical, &saturated_));
+  bus::wire::write_element_raw(*layout_, payload, index % layout_->elements_per_fragment, signal,
+                               bus::wire::to_raw(layout_->element[signal], physical, &saturated_));
 }
 
-void Output::copy(const bus::ListView& list) {
+void Output::copy(const bus::cni::ListView& list) {
   TTF_CHECK(list.bytes.size() <= bytes_.size(), "{} bytes into {}", list.bytes.size(), bytes_.size());
   std::copy(list.bytes.begin(), list.bytes.end(), bytes_.begin());
   sequence_ = list.sequence;
@@ -72,7 +72,7 @@ int Output::take_saturated() {
   return count;
 }
 
-bus::ListView Output::view() const {
+bus::cni::ListView Output::view() const {
   return {sequence_, fragments_,
           std::span<const std::byte>(bytes_.data(), static_cast<std::size_t>(fragments_) * fragment_bytes(*layout_))};
 }
@@ -90,17 +90,18 @@ std::optional<Strobe> StrobeLatch::find(std::uint32_t sequence, int bits) const 
 std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor) {
   Input& raw = context.inputs[0];
   if (!raw.fresh || !raw.list) return std::nullopt;
-  const int bits = raw.layout->header[wire::header_signal(*raw.layout, "sequence")].bits;
+  const int bits = raw.layout->header[bus::wire::header_signal(*raw.layout, "sequence")].bits;
   const auto measurement = context.strobes[index_of(sensor)].find(raw.list->sequence, bits);
   raw.discarded = !measurement;
   return measurement;
 }
 
-GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near, Duration round) {
-  const std::size_t signal = wire::header_signal(layout, "timestamp");
+GlobalTime time_stamp(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime near,
+                      Duration round) {
+  const std::size_t signal = bus::wire::header_signal(layout, "timestamp");
   const int bits = layout.header[signal].bits;
   const std::int64_t modulus = std::int64_t{1} << bits;
-  const std::int64_t raw = wire::read_header_raw(layout, list.bytes.first(fragment_bytes(layout)), signal);
+  const std::int64_t raw = bus::wire::read_header_raw(layout, list.bytes.first(fragment_bytes(layout)), signal);
   const std::int64_t near_us = near.ns / 1000;
   // The candidate in (near - modulus/2, near + modulus/2].
   std::int64_t difference = (raw - near_us) % modulus;
@@ -115,16 +116,18 @@ GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& l
   return near + Duration{apart};
 }
 
-int element_count(const schedules::PduLayout& layout, const bus::ListView& list) {
-  return static_cast<int>(
-      wire::read_header_raw(layout, list.bytes.first(fragment_bytes(layout)), wire::header_signal(layout, "count")));
+int element_count(const schedules::model::PduLayout& layout, const bus::cni::ListView& list) {
+  return static_cast<int>(bus::wire::read_header_raw(layout, list.bytes.first(fragment_bytes(layout)),
+                                                     bus::wire::header_signal(layout, "count")));
 }
 
-double element_value(const schedules::PduLayout& layout, const bus::ListView& list, int index, std::size_t signal) {
+double element_value(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, int index,
+                     std::size_t signal) {
   const auto fragment = static_cast<std::size_t>(index / layout.elements_per_fragment);
   const auto payload = list.bytes.subspan(fragment * fragment_bytes(layout), fragment_bytes(layout));
-  return wire::to_physical(layout.element[signal],
-                           wire::read_element_raw(layout, payload, index % layout.elements_per_fragment, signal));
+  return bus::wire::to_physical(
+      layout.element[signal],
+      bus::wire::read_element_raw(layout, payload, index % layout.elements_per_fragment, signal));
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

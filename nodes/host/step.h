@@ -18,26 +18,26 @@
 #include "recording/records/records.h"
 #include "schedules/model/pdu.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 
 // An input port as the task found it at its start.
 struct Input {
   std::string_view port;
   PduId pdu{};
-  const schedules::PduLayout* layout = nullptr;
-  std::optional<bus::ListView> list;  // the newest complete list, if any ever arrived
-  bool fresh = false;                 // first time this task sees it
-  bool discarded = false;             // set by a step that cannot use the list it was given; counted and recorded
+  const schedules::model::PduLayout* layout = nullptr;
+  std::optional<bus::cni::ListView> list;  // the newest complete list, if any ever arrived
+  bool fresh = false;                      // first time this task sees it
+  bool discarded = false;                  // set by a step that cannot use the list it was given; counted and recorded
 };
 
 // An output port: a list under construction. Capacity is the layout's maximum, taken once.
 class Output {
  public:
-  Output(std::string_view port, PduId pdu, const schedules::PduLayout& layout);
+  Output(std::string_view port, PduId pdu, const schedules::model::PduLayout& layout);
 
   std::string_view port() const { return port_; }
   PduId pdu() const { return pdu_; }
-  const schedules::PduLayout& layout() const { return *layout_; }
+  const schedules::model::PduLayout& layout() const { return *layout_; }
 
   // Starts a list of `count` elements (at most layout().max_elements), zeroed, and fills in the headers. `time_stamp`
   // goes into the header's "timestamp" where the layout has one.
@@ -45,17 +45,17 @@ class Output {
   // Sets signal `signal` of element `index` from its physical value, saturating at the signal's range.
   void set(int index, std::size_t signal, double physical);
   // Takes over a list whose layout has the same fragments, as a gateway does.
-  void copy(const bus::ListView& list);
+  void copy(const bus::cni::ListView& list);
 
   bool written() const { return written_; }
-  bus::ListView view() const;
+  bus::cni::ListView view() const;
   void clear() { written_ = false; }
   int take_saturated();  // values outside their signal's range since the last call
 
  private:
   std::string_view port_;
   PduId pdu_;
-  const schedules::PduLayout* layout_;
+  const schedules::model::PduLayout* layout_;
   std::vector<std::byte> bytes_;
   std::uint32_t sequence_ = 0;
   int fragments_ = 0;
@@ -84,7 +84,7 @@ class StrobeLatch {
 };
 
 struct StepContext {
-  records::Stamp stamp;                  // the task's start on all clocks; true time is for emulators and records
+  recording::records::Stamp stamp;       // the task's start on all clocks; true time is for emulators and records
   bool global_time = true;               // else the node knows none, and the stamp's is its own clock's
   std::uint32_t activation = 0;          // how many times the task ran before
   std::uint32_t measurement = 0;         // sensor devices: the sequence number of this measurement
@@ -92,7 +92,7 @@ struct StepContext {
   std::span<Output> outputs;             // in the order of the task's `writes`
   std::span<const StrobeLatch> strobes;  // by SensorId
   std::uint64_t unlisted = 0;            // set by a step that had more to record than it has room for; counted
-  records::Sink* sink = nullptr;
+  recording::records::Sink* sink = nullptr;
 };
 
 class Step {
@@ -113,10 +113,12 @@ std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor);
 // half a round of `near` that is the instant with these low bits itself; else the sender counts other rounds, and its
 // stamp is brought here by whole rounds. That takes a signal that has not wrapped on the sender's count: 32 bits hold
 // 71 minutes.
-GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near, Duration round);
+GlobalTime time_stamp(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime near,
+                      Duration round);
 // Elements in the list.
-int element_count(const schedules::PduLayout& layout, const bus::ListView& list);
+int element_count(const schedules::model::PduLayout& layout, const bus::cni::ListView& list);
 // Physical value of signal `signal` of element `index` of the whole list.
-double element_value(const schedules::PduLayout& layout, const bus::ListView& list, int index, std::size_t signal);
+double element_value(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, int index,
+                     std::size_t signal);
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

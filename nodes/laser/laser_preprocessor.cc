@@ -5,7 +5,7 @@
 
 #include "nodes/laser/orientation_search.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 
 LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml) {
   LaserPreprocessingConfig c;
@@ -53,4 +53,4 @@ void LaserPreprocessor::process(std::span<const ScanPoint> scan, std::vector<Las
   }
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

@@ -9,7 +9,7 @@
 #include "nodes/laser/rectangle_fit.h"
 #include "nodes/laser/segmentation.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 
 struct LaserPreprocessingConfig {
   SegmentationConfig segmentation;
@@ -34,4 +34,4 @@ class LaserPreprocessor {
   std::vector<Segment> segments_;
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

@@ -9,13 +9,13 @@
 
 #include "fusion/batch/lanes.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 namespace {
 
-using fusion::batch::kLanes;
-using fusion::batch::Lanes;
-using fusion::batch::Mask;
-using fusion::batch::select;
+using ttf::fusion::batch::kLanes;
+using ttf::fusion::batch::Lanes;
+using ttf::fusion::batch::Mask;
+using ttf::fusion::batch::select;
 
 constexpr double kCoarseStep = std::numbers::pi / 90.0;
 constexpr int kCoarseAngles = 45;
@@ -121,4 +121,4 @@ double search_orientation(std::span<const PlanePoint> points, double closest) {
 
 void prepare_orientation_search() { grid(); }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

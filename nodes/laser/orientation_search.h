@@ -8,7 +8,7 @@
 
 #include "nodes/laser/segmentation.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 
 // The candidate angle [rad] with the highest score, the first one of several. The score is the sum of
 // 1 / max(d, closest) over the returns, d [m] their distances to the nearer face in view, closest > 0 [m]. At least one
@@ -18,4 +18,4 @@ double search_orientation(std::span<const PlanePoint> points, double closest);
 // Computes the candidates' directions, which the first search would do otherwise.
 void prepare_orientation_search();
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

@@ -7,7 +7,7 @@
 
 #include "nodes/laser/orientation_search.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -232,4 +232,4 @@ LaserObject fit_rectangle(const RectangleConfig& config, std::span<const PlanePo
   return object;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

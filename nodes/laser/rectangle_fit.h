@@ -13,7 +13,7 @@
 
 #include "nodes/laser/segmentation.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 
 struct RectangleConfig {
   double range_noise_m = 0.06;
@@ -38,4 +38,4 @@ struct LaserObject {
 // At least one point, in order of azimuth. The covariance is always positive definite.
 LaserObject fit_rectangle(const RectangleConfig& config, std::span<const PlanePoint> points);
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

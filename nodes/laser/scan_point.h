@@ -1,7 +1,7 @@
 // One return of a laser scanner as preprocessing sees it, whether emulated or recorded.
 #pragma once
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 
 struct ScanPoint {
   int layer = 0;
@@ -9,4 +9,4 @@ struct ScanPoint {
   double range = 0.0;    // [m]
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 namespace {
 
 // Neighbours are at most three beams apart (two missed between them); half a beam more for rounded azimuths.
@@ -50,4 +50,4 @@ void segment_scan(const SegmentationConfig& config, std::span<const ScanPoint> s
   }
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

@@ -17,7 +17,7 @@
 
 #include "nodes/laser/scan_point.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 
 // A return in the plane [m].
 struct PlanePoint {
@@ -43,4 +43,4 @@ struct SegmentationConfig {
 void segment_scan(const SegmentationConfig& config, std::span<const ScanPoint> scan, std::vector<PlanePoint>& points,
                   std::vector<Segment>& segments);
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

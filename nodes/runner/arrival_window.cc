@@ -7,23 +7,23 @@
 #include "core/check.h"
 #include "timebase/floor_div.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 namespace {
 
-using Kind = bus::LiveArrival::Kind;
+using Kind = bus::ports::LiveArrival::Kind;
 constexpr Microticks kNotDue{std::numeric_limits<std::int64_t>::max()};
 constexpr std::int64_t kNotHeard = -1;
 
-Microticks bits(const schedules::GlobalParameters& g, const schedules::NodeParameters& p, int count) {
+Microticks bits(const schedules::model::GlobalParameters& g, const schedules::model::NodeParameters& p, int count) {
   return {(count * g.gdBit_ps + p.pdMicrotick_ps - 1) / p.pdMicrotick_ps};
 }
 
 // So that wherever a sync frame is put, it is within its slot, a startup frame near enough to be one, and no midpoint
 // of such deviations beyond what may be corrected.
-Microticks reach_of(const schedules::GlobalParameters& g, const schedules::NodeParameters& p) {
+Microticks reach_of(const schedules::model::GlobalParameters& g, const schedules::model::NodeParameters& p) {
   const std::int64_t macrotick = g.gdMacrotick_ps / p.pdMicrotick_ps;
   const std::int64_t behind = (g.gdStaticSlot - g.gdActionPointOffset) * macrotick -
-                              bits(g, p, schedules::frame_bits(g, g.gPayloadLengthStatic)).value -
+                              bits(g, p, schedules::model::frame_bits(g, g.gPayloadLengthStatic)).value -
                               std::max(p.pDelayCompensationA, p.pDelayCompensationB) - macrotick;
   const std::int64_t before = g.gdActionPointOffset * macrotick - macrotick;
   return {std::max<std::int64_t>(0, std::min({behind, before, static_cast<std::int64_t>(p.pdAcceptedStartupRange),
@@ -32,7 +32,7 @@ Microticks reach_of(const schedules::GlobalParameters& g, const schedules::NodeP
 
 }  // namespace
 
-Arrivals::Arrivals(const schedules::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events)
+Arrivals::Arrivals(const schedules::model::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events)
     : cluster_(cluster), parameters_(cluster.node(node).flexray ? &*cluster.node(node).flexray : nullptr),
       slots_(cluster, node), window_(window), events_(events), pool_(kMost) {
   if (parameters_ != nullptr) reach_ = reach_of(cluster.flexray, *parameters_);
@@ -43,7 +43,7 @@ Arrivals::Arrivals(const schedules::Cluster& cluster, NodeId node, Window window
   for (auto& slots : heard_) slots.assign(static_cast<std::size_t>(cluster.flexray.gNumberOfStaticSlots), kNotHeard);
 }
 
-void Arrivals::arrive(const bus::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
+void Arrivals::arrive(const bus::ports::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
                       Microticks duration, const timebase::CycleClock* clock) {
   if (arrival.kind == Kind::kFollowUp) return follow_up(arrival, late.value_or(Microticks{}), clock);
   if (free_.empty()) {
@@ -76,7 +76,7 @@ void Arrivals::arrive(const bus::LiveArrival& arrival, Microticks at, std::optio
   if (held.kind == Kind::kFlexRay) {
     if (parameters_ == nullptr) return;
     // A frame is placed when the node has got to the instant of its arrival: what its clock shows then is known then.
-    if (held.signal == bus::Signal::kFrame)
+    if (held.signal == bus::ports::Signal::kFrame)
       held.placed = false;
     else
       place_raw(held, duration);
@@ -85,13 +85,13 @@ void Arrivals::arrive(const bus::LiveArrival& arrival, Microticks at, std::optio
   used_.push_back(index);
 }
 
-void Arrivals::follow_up(const bus::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock) {
+void Arrivals::follow_up(const bus::ports::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock) {
   for (std::size_t i = 0; i < used_.size(); ++i) {
     Held& held = pool_[used_[i]];
     if (held.kind != Kind::kFlexRay || held.placed || held.late || held.channel != arrival.signal.channel ||
         held.slot != arrival.signal.slot)
       continue;
-    const auto header = wire::header_of(std::span(held.bytes).first(held.size));
+    const auto header = bus::wire::header_of(std::span(held.bytes).first(held.size));
     if (!header || header->cycle != arrival.cycle_counter) continue;
     held.late = late;
     if (held.awaits_follow_up && !place(held, clock)) drop(i);
@@ -101,7 +101,7 @@ void Arrivals::follow_up(const bus::LiveArrival& arrival, Microticks late, const
 
 Microticks Arrivals::length_of(const Held& frame) const {
   return bits(cluster_.flexray, *parameters_,
-              schedules::frame_bits(cluster_.flexray, wire::words_in_frame(frame.size)));
+              schedules::model::frame_bits(cluster_.flexray, bus::wire::words_in_frame(frame.size)));
 }
 
 void Arrivals::place_raw(Held& held, Microticks length) {
@@ -111,12 +111,12 @@ void Arrivals::place_raw(Held& held, Microticks length) {
 }
 
 bool Arrivals::place(Held& held, const timebase::CycleClock* clock) {
-  const schedules::GlobalParameters& g = cluster_.flexray;
+  const schedules::model::GlobalParameters& g = cluster_.flexray;
   const std::span<const std::byte> bytes = std::span<const std::byte>(held.bytes).first(held.size);
-  const auto header = wire::header_of(bytes);
+  const auto header = bus::wire::header_of(bytes);
   const Microticks length = length_of(held);
-  const bool known = header && wire::header_crc_holds(*header) && header->frame_id == held.slot && held.slot >= 1 &&
-                     held.slot <= g.gNumberOfStaticSlots;
+  const bool known = header && bus::wire::header_crc_holds(*header) && header->frame_id == held.slot &&
+                     held.slot >= 1 && held.slot <= g.gNumberOfStaticSlots;
   if (known && header->sync && !held.late && !held.awaits_follow_up) {
     // Until its follow-up comes, or comes no more.
     held.awaits_follow_up = true;
@@ -128,7 +128,7 @@ bool Arrivals::place(Held& held, const timebase::CycleClock* clock) {
   if (!known || clock == nullptr) {
     // A clock that comes anew counts anew.
     if (clock == nullptr)
-      for (const schedules::Channel channel : schedules::kBothChannels) {
+      for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
         auto& heard = heard_[index_of(channel)];
         auto& deviations = deviations_[index_of(channel)];
         std::fill(heard.begin(), heard.end(), kNotHeard);
@@ -140,9 +140,9 @@ bool Arrivals::place(Held& held, const timebase::CycleClock* clock) {
   return place_in_slot(held, *header, *clock, length);
 }
 
-bool Arrivals::place_in_slot(Held& held, const wire::FrameHeader& header, const timebase::CycleClock& clock,
+bool Arrivals::place_in_slot(Held& held, const bus::wire::FrameHeader& header, const timebase::CycleClock& clock,
                              Microticks length) {
-  const schedules::GlobalParameters& g = cluster_.flexray;
+  const schedules::model::GlobalParameters& g = cluster_.flexray;
   const std::int64_t round = g.gCycleCountMax + 1;
   const Macroticks action_point{static_cast<std::int64_t>(held.slot - 1) * g.gdStaticSlot + g.gdActionPointOffset};
   // Of the cycles that it may be of the one nearest to where it came; the counter alone would take it for one of
@@ -170,7 +170,7 @@ bool Arrivals::place_in_slot(Held& held, const wire::FrameHeader& header, const 
     events_.missed_window(cycle, held.slot, held.channel, behind);
     return false;
   }
-  const bool on_a = held.channel == schedules::Channel::kA;
+  const bool on_a = held.channel == schedules::model::Channel::kA;
   const Microticks travelled{on_a ? parameters_->pDelayCompensationA : parameters_->pDelayCompensationB};
   Microticks deviation{};
   if (header.sync && held.late) deviation = within_reach(behind - *held.late, cycle, held.slot, held.channel);
@@ -181,7 +181,8 @@ bool Arrivals::place_in_slot(Held& held, const wire::FrameHeader& header, const 
 }
 
 // Offsets are measured in odd cycles, rates as what an odd cycle's deviation is more than that of the even one before.
-Microticks Arrivals::within_reach(Microticks deviation, std::int64_t cycle, int slot, schedules::Channel channel) {
+Microticks Arrivals::within_reach(Microticks deviation, std::int64_t cycle, int slot,
+                                  schedules::model::Channel channel) {
   Deviation& last = deviations_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
   const bool second = cycle % 2 == 1 && last.cycle == cycle - 1;
   const Microticks most = reach_ - Microticks{reach_.value / 8};
@@ -191,7 +192,7 @@ Microticks Arrivals::within_reach(Microticks deviation, std::int64_t cycle, int 
   return put;
 }
 
-void Arrivals::count_gap(std::int64_t cycle, int slot, schedules::Channel channel) {
+void Arrivals::count_gap(std::int64_t cycle, int slot, schedules::model::Channel channel) {
   std::int64_t& last = heard_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
   const std::int64_t before = std::exchange(last, std::max(last, cycle));
   if (before == kNotHeard || cycle - before > kLongestGap) return;
@@ -234,7 +235,7 @@ std::optional<Arrivals::Due> Arrivals::take(Microticks now, const timebase::Cycl
     }
     // Placed before the node had this clock, or late: its cycle is over, and the controller knows no more of it.
     if (held.kind == Kind::kFlexRay && clock != nullptr && held.end < clock->cycle_start()) {
-      if (held.signal == bus::Signal::kFrame)
+      if (held.signal == bus::ports::Signal::kFrame)
         events_.missed_window(clock->cycle(), held.slot, held.channel, clock->cycle_start() - held.start);
       drop(place_in_used);
       continue;
@@ -249,20 +250,20 @@ std::optional<Arrivals::Due> Arrivals::take(Microticks now, const timebase::Cycl
       due.can_bus = held.can_bus;
       due.can = {held.identifier, held.flexible_data_rate, bytes};
     } else {
-      due.reception = {
-          held.channel, held.signal, held.start, held.end,
-          held.signal == bus::Signal::kFrame ? wire::decode_frame(held.channel, bytes) : wire::DecodedFrame{}};
+      due.reception = {held.channel, held.signal, held.start, held.end,
+                       held.signal == bus::ports::Signal::kFrame ? bus::wire::decode_frame(held.channel, bytes)
+                                                                 : bus::wire::DecodedFrame{}};
     }
     return due;
   }
   return std::nullopt;
 }
 
-bool Arrivals::carrier(schedules::Channel channel, Microticks now) const {
+bool Arrivals::carrier(schedules::model::Channel channel, Microticks now) const {
   return std::any_of(used_.begin(), used_.end(), [&](std::uint16_t index) {
     const Held& held = pool_[index];
     return held.kind == Kind::kFlexRay && held.placed && held.channel == channel && held.start <= now && held.due > now;
   });
 }
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

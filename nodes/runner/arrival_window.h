@@ -28,14 +28,14 @@
 #include <span>
 #include <vector>
 
+#include "bus/controller/slot_table.h"
 #include "bus/ports/flexray_port.h"
 #include "bus/ports/live_medium.h"
-#include "bus/controller/slot_table.h"
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 #include "timebase/cycle_clock.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
 class ArrivalEvents {
  public:
@@ -43,11 +43,11 @@ class ArrivalEvents {
   // A frame of another node was so much behind the action point of its slot (negative: before it).
   virtual void arrived(Microticks behind) { (void)behind; }
   // Outside its window, and not used.
-  virtual void missed_window(std::int64_t cycle, int slot, schedules::Channel channel, Microticks behind) {
+  virtual void missed_window(std::int64_t cycle, int slot, schedules::model::Channel channel, Microticks behind) {
     (void)cycle, (void)slot, (void)channel, (void)behind;
   }
   // So many frames of the slot, before that cycle, never came.
-  virtual void lost(std::int64_t cycle, int slot, schedules::Channel channel, std::uint32_t count) {
+  virtual void lost(std::int64_t cycle, int slot, schedules::model::Channel channel, std::uint32_t count) {
     (void)cycle, (void)slot, (void)channel, (void)count;
   }
 };
@@ -60,28 +60,28 @@ class Arrivals {
   struct Window {
     Microticks early{}, late{};
   };
-  Arrivals(const schedules::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events);
+  Arrivals(const schedules::model::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events);
 
   // `at`: of the arrival, in this node's microticks. `late`: the same of what it says it left late by. `duration`: of a
   // symbol. `clock`: the controller's, null while it has none.
-  void arrive(const bus::LiveArrival& arrival, Microticks at, std::optional<Microticks> late, Microticks duration,
-              const timebase::CycleClock* clock);
+  void arrive(const bus::ports::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
+              Microticks duration, const timebase::CycleClock* clock);
 
   // When something is due next; far in the future where nothing is.
   Microticks next() const;
 
   struct Due {
-    bus::LiveArrival::Kind kind{};
-    bus::Reception reception;  // of kFlexRay
-    std::size_t can_bus = 0;   // of kCan
-    bus::CanFrame can;
+    bus::ports::LiveArrival::Kind kind{};
+    bus::ports::Reception reception;  // of kFlexRay
+    std::size_t can_bus = 0;          // of kCan
+    bus::ports::CanFrame can;
     Microticks at{};
   };
   // The next that is due up to `now`; views are valid until the next call of anything here.
   std::optional<Due> take(Microticks now, const timebase::CycleClock* clock);
 
   // Something whose begin has come is still on its way.
-  bool carrier(schedules::Channel channel, Microticks now) const;
+  bool carrier(schedules::model::Channel channel, Microticks now) const;
   // How long after its end a frame in its window may still be handed over: it comes late, and its follow-up as late
   // again.
   Microticks handed_over_within() const { return {2 * window_.late.value}; }
@@ -91,9 +91,9 @@ class Arrivals {
 
  private:
   struct Held {
-    bus::LiveArrival::Kind kind{};
-    bus::Signal signal{};
-    schedules::Channel channel{};
+    bus::ports::LiveArrival::Kind kind{};
+    bus::ports::Signal signal{};
+    schedules::model::Channel channel{};
     std::uint64_t order = 0;
     Microticks at{}, due{};
     std::optional<Microticks> late;
@@ -104,22 +104,23 @@ class Arrivals {
     std::size_t can_bus = 0;
     std::uint32_t identifier = 0;
     bool flexible_data_rate = false;
-    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+    std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
     std::size_t size = 0;
   };
-  void follow_up(const bus::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock);
+  void follow_up(const bus::ports::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock);
   // False: it is not to be handed over.
   bool place(Held& held, const timebase::CycleClock* clock);
   Microticks length_of(const Held& frame) const;
   void place_raw(Held& held, Microticks length);
-  bool place_in_slot(Held& held, const wire::FrameHeader& header, const timebase::CycleClock& clock, Microticks length);
-  Microticks within_reach(Microticks deviation, std::int64_t cycle, int slot, schedules::Channel channel);
-  void count_gap(std::int64_t cycle, int slot, schedules::Channel channel);
+  bool place_in_slot(Held& held, const bus::wire::FrameHeader& header, const timebase::CycleClock& clock,
+                     Microticks length);
+  Microticks within_reach(Microticks deviation, std::int64_t cycle, int slot, schedules::model::Channel channel);
+  void count_gap(std::int64_t cycle, int slot, schedules::model::Channel channel);
   void drop(std::size_t place);  // in used_
 
-  const schedules::Cluster& cluster_;
-  const schedules::NodeParameters* parameters_;  // null: off FlexRay
-  const bus::SlotTable slots_;
+  const schedules::model::Cluster& cluster_;
+  const schedules::model::NodeParameters* parameters_;  // null: off FlexRay
+  const bus::controller::SlotTable slots_;
   const Window window_;
   ArrivalEvents& events_;
   Microticks reach_{};  // a sync frame's from its action point, at most
@@ -135,4 +136,4 @@ class Arrivals {
   std::array<std::vector<std::int64_t>, 2> heard_;  // by channel and slot - 1, the last cycle; kNotHeard
 };
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -2,27 +2,27 @@
 
 #include <time.h>
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
-Floor::Floor(Duration period, bus::HostTime first) : thread_([this, period, first] { run(period, first); }) {}
+Floor::Floor(Duration period, bus::ports::HostTime first) : thread_([this, period, first] { run(period, first); }) {}
 
 Floor::~Floor() {
   stopped_ = true;
   thread_.join();
 }
 
-records::BinnedDurations Floor::lateness() const {
+recording::records::BinnedDurations Floor::lateness() const {
   const std::lock_guard lock(mutex_);
   return lateness_;
 }
 
-void Floor::run(Duration period, bus::HostTime first) {
+void Floor::run(Duration period, bus::ports::HostTime first) {
   constexpr std::int64_t kSecond = 1'000'000'000;
-  for (bus::HostTime next = first; !stopped_; next += period) {
+  for (bus::ports::HostTime next = first; !stopped_; next += period) {
     const timespec until{.tv_sec = next.ns / kSecond, .tv_nsec = next.ns % kSecond};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
     }
-    const bus::HostTime now = bus::host_now();
+    const bus::ports::HostTime now = bus::ports::host_now();
     {
       const std::lock_guard lock(mutex_);
       lateness_.add(now - next);
@@ -32,4 +32,4 @@ void Floor::run(Duration period, bus::HostTime first) {
   }
 }
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -10,26 +10,26 @@
 #include "core/time.h"
 #include "recording/records/binned_durations.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
 class Floor {
  public:
   // Woken up at `first`, and every period from then on.
-  Floor(Duration period, bus::HostTime first);
+  Floor(Duration period, bus::ports::HostTime first);
   ~Floor();
   Floor(const Floor&) = delete;
   Floor& operator=(const Floor&) = delete;
 
   // So far.
-  records::BinnedDurations lateness() const;
+  recording::records::BinnedDurations lateness() const;
 
  private:
-  void run(Duration period, bus::HostTime first);
+  void run(Duration period, bus::ports::HostTime first);
 
   mutable std::mutex mutex_;
-  records::BinnedDurations lateness_;
+  recording::records::BinnedDurations lateness_;
   std::atomic<bool> stopped_{false};
   std::thread thread_;
 };
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -5,9 +5,10 @@
 
 #include "core/check.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
-HealthTeller::HealthTeller(std::function<void(const Health&, bus::HostTime)> tell) : tell_(std::move(tell)) {
+HealthTeller::HealthTeller(std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::HostTime)> tell)
+    : tell_(std::move(tell)) {
   TTF_CHECK(sem_init(&called_, 0, 0) == 0);
   thread_ = std::thread([this] { run(); });
 }
@@ -23,7 +24,7 @@ bool HealthTeller::hand_over(const Health& health) {
     return false;
   }
   health_ = health;
-  at_ = bus::host_now();
+  at_ = bus::ports::host_now();
   waits_.store(true, std::memory_order_release);
   sem_post(&called_);  // never waits
   return true;
@@ -46,4 +47,4 @@ void HealthTeller::close() {
   thread_.join();
 }
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -15,13 +15,13 @@
 #include "bus/ports/live_medium.h"
 #include "nodes/runner/runner.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
 class HealthTeller {
  public:
   // `tell` is called on the other thread, with the instant of the handing over. It must not throw. That thread begins
   // with the priority and on the processors of who makes this: make it before asking for real time.
-  explicit HealthTeller(std::function<void(const Health&, bus::HostTime)> tell);
+  explicit HealthTeller(std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::HostTime)> tell);
   ~HealthTeller();  // close()
   HealthTeller(const HealthTeller&) = delete;
   HealthTeller& operator=(const HealthTeller&) = delete;
@@ -35,9 +35,9 @@ class HealthTeller {
  private:
   void run();
 
-  const std::function<void(const Health&, bus::HostTime)> tell_;
-  Health health_;       // of who hands over while nothing waits, of the other thread while it does
-  bus::HostTime at_{};  // likewise
+  const std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::HostTime)> tell_;
+  Health health_;              // of who hands over while nothing waits, of the other thread while it does
+  bus::ports::HostTime at_{};  // likewise
   std::atomic<bool> waits_{false};
   std::atomic<bool> closing_{false};
   std::uint64_t left_out_ = 0;
@@ -45,4 +45,4 @@ class HealthTeller {
   std::thread thread_;  // last: it uses all of the above
 };
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -1,31 +1,31 @@
 #include "nodes/runner/live_flexray.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
 LiveFlexRay::LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest,
-                         bus::LiveMedium& medium, const Arrivals& arrivals, TimingAccount& account)
+                         bus::ports::LiveMedium& medium, const Arrivals& arrivals, TimingAccount& account)
     : clock_(clock), oscillator_(oscillator), latest_(latest), medium_(medium), arrivals_(arrivals), account_(account) {
 }
 
-bool LiveFlexRay::may_leave(schedules::Channel channel, int slot, Microticks start) {
-  const Duration late = bus::host_now() - due(start);
+bool LiveFlexRay::may_leave(schedules::model::Channel channel, int slot, Microticks start) {
+  const Duration late = bus::ports::host_now() - due(start);
   if (late <= latest_) return true;
   const auto& clock = controller_->clock();
   account_.slot_missed(now_, late, clock ? clock->cycle() : 0, slot, channel);
   return false;
 }
 
-void LiveFlexRay::transmit(const bus::Transmission& transmission) {
-  const bus::HostTime at = due(transmission.start);
-  account_.departures.add(bus::host_now() - at);
-  bus::LiveSignal signal;
+void LiveFlexRay::transmit(const bus::ports::Transmission& transmission) {
+  const bus::ports::HostTime at = due(transmission.start);
+  account_.departures.add(bus::ports::host_now() - at);
+  bus::ports::LiveSignal signal;
   signal.channel = transmission.channel;
   signal.signal = transmission.signal;
   signal.slot = transmission.slot;
   signal.bytes = transmission.bytes;
-  signal.tells_late = transmission.signal == bus::Signal::kFrame && transmission.content.header.sync;
-  if (transmission.signal != bus::Signal::kFrame) signal.duration = due(transmission.end) - at;
+  signal.tells_late = transmission.signal == bus::ports::Signal::kFrame && transmission.content.header.sync;
+  if (transmission.signal != bus::ports::Signal::kFrame) signal.duration = due(transmission.end) - at;
   (void)medium_.send(signal, at);  // what it has no room for, it counts
 }
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

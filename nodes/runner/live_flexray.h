@@ -16,35 +16,35 @@
 #include "nodes/runner/timing_account.h"
 #include "timebase/oscillator.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
-class LiveFlexRay final : public bus::FlexRayPort {
+class LiveFlexRay final : public bus::ports::FlexRayPort {
  public:
   // `latest`: behind the action point, in real time.
-  LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest, bus::LiveMedium& medium,
-              const Arrivals& arrivals, TimingAccount& account);
+  LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest,
+              bus::ports::LiveMedium& medium, const Arrivals& arrivals, TimingAccount& account);
 
-  bool may_leave(schedules::Channel channel, int slot, Microticks start) override;
-  void transmit(const bus::Transmission& transmission) override;
+  bool may_leave(schedules::model::Channel channel, int slot, Microticks start) override;
+  void transmit(const bus::ports::Transmission& transmission) override;
   Microticks handed_over_within() const override { return arrivals_.handed_over_within(); }
-  bool carrier(schedules::Channel channel) const override { return arrivals_.carrier(channel, now_); }
+  bool carrier(schedules::model::Channel channel) const override { return arrivals_.carrier(channel, now_); }
 
   // The node's instant, as of everything that is asked until the next one.
   void set_now(Microticks now) { now_ = now; }
   // Whose port this is: before anything is sent.
-  void bind(const bus::FlexRayController& controller) { controller_ = &controller; }
+  void bind(const bus::controller::FlexRayController& controller) { controller_ = &controller; }
 
  private:
-  bus::HostTime due(Microticks start) const { return clock_.host_time(oscillator_.time_of(start)); }
+  bus::ports::HostTime due(Microticks start) const { return clock_.host_time(oscillator_.time_of(start)); }
 
   const DriveClock& clock_;
   const timebase::Oscillator& oscillator_;
   const Duration latest_;
-  bus::LiveMedium& medium_;
+  bus::ports::LiveMedium& medium_;
   const Arrivals& arrivals_;
   TimingAccount& account_;
   Microticks now_{};
-  const bus::FlexRayController* controller_ = nullptr;
+  const bus::controller::FlexRayController* controller_ = nullptr;
 };
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

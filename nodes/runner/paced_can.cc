@@ -6,14 +6,14 @@
 #include "bus/wire/can_timing.h"
 #include "core/check.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
-PacedCan::PacedCan(const schedules::Cluster& cluster, std::size_t can_bus, std::size_t most,
-                   std::function<records::Stamp()> now)
+PacedCan::PacedCan(const schedules::model::Cluster& cluster, std::size_t can_bus, std::size_t most,
+                   std::function<recording::records::Stamp()> now)
     : bus_(cluster.can_buses[can_bus]), can_bus_(static_cast<std::uint8_t>(can_bus)), now_(std::move(now)),
       ring_(most) {}
 
-void PacedCan::send(const bus::CanFrame& frame) {
+void PacedCan::send(const bus::ports::CanFrame& frame) {
   if (count_ == ring_.size()) {
     ++dropped_;
     return;
@@ -32,7 +32,7 @@ void PacedCan::begin_first(TrueTime at) {
   began_ = now_();
   began_.true_time = at;
   through_ = began_.true_time +
-             wire::can_frame_duration(bus_, waiting.identifier, std::span(waiting.data).first(waiting.size));
+             bus::wire::can_frame_duration(bus_, waiting.identifier, std::span(waiting.data).first(waiting.size));
 }
 
 TrueTime PacedCan::next() const { return count_ == 0 ? TrueTime{std::numeric_limits<std::int64_t>::max()} : through_; }
@@ -56,4 +56,4 @@ PacedCan::Departure PacedCan::leave() {
   return departure;
 }
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

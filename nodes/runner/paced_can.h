@@ -14,22 +14,22 @@
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
-class PacedCan final : public bus::CanPort {
+class PacedCan final : public bus::ports::CanPort {
  public:
   // `now`: true time, with the node's clocks. `most`: frames that wait, at most.
-  PacedCan(const schedules::Cluster& cluster, std::size_t can_bus, std::size_t most,
-           std::function<records::Stamp()> now);
+  PacedCan(const schedules::model::Cluster& cluster, std::size_t can_bus, std::size_t most,
+           std::function<recording::records::Stamp()> now);
 
   // What there is no room for is dropped, and counted.
-  void send(const bus::CanFrame& frame) override;
+  void send(const bus::ports::CanFrame& frame) override;
 
   // When the first that waits has come through; far in the future where none waits.
   TrueTime next() const;
   struct Departure {
-    bus::CanFrame frame;
-    records::CanFrameSent sent;  // as Executive::can_frame_sent() takes it
+    bus::ports::CanFrame frame;
+    recording::records::CanFrameSent sent;  // as Executive::can_frame_sent() takes it
   };
   // It leaves: to be put on the medium now. Precondition: one waits. Views are valid until the next call of anything
   // here.
@@ -45,14 +45,14 @@ class PacedCan final : public bus::CanPort {
   };
   void begin_first(TrueTime at);
 
-  const schedules::CanBus& bus_;
+  const schedules::model::CanBus& bus_;
   const std::uint8_t can_bus_;
-  const std::function<records::Stamp()> now_;
+  const std::function<recording::records::Stamp()> now_;
   std::vector<Waiting> ring_;
   std::size_t first_ = 0, count_ = 0;
-  records::Stamp began_;  // the first of them
+  recording::records::Stamp began_;  // the first of them
   TrueTime through_{}, idle_from_{};
   std::uint64_t dropped_ = 0;
 };
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

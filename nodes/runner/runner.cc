@@ -13,7 +13,7 @@
 #include "recording/records/tee.h"
 #include "schedules/model/sensor_lines.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 namespace {
 
 constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
@@ -32,30 +32,30 @@ bool readable(int descriptor) {
   return poll(&one, 1, 0) > 0;
 }
 
-std::size_t frames_waiting(const schedules::Cluster& cluster, const schedules::CanBus& bus) {
+std::size_t frames_waiting(const schedules::model::Cluster& cluster, const schedules::model::CanBus& bus) {
   std::size_t most = 1;
-  for (const schedules::CanMessage& message : bus.messages)
+  for (const schedules::model::CanMessage& message : bus.messages)
     most = std::max(most, static_cast<std::size_t>(cluster.pdu(message.pdu).max_fragments()));
   return kListsWaiting * most;
 }
 
 }  // namespace
 
-class Runner::Watch final : public records::Sink {
+class Runner::Watch final : public recording::records::Sink {
  public:
-  using records::Sink::on;
-  void on(const records::ClockCorrected& corrected) override {
+  using recording::records::Sink::on;
+  void on(const recording::records::ClockCorrected& corrected) override {
     largest = std::max(largest, std::abs(corrected.offset_microticks));
   }
   int largest = 0;  // offset correction [uT]
-  std::unique_ptr<records::Tee> out;
+  std::unique_ptr<recording::records::Tee> out;
 };
 
-Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<nodes::Step>> steps, bus::LiveMedium& medium,
-               records::Sink& sink)
+Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Step>> steps,
+               bus::ports::LiveMedium& medium, recording::records::Sink& sink)
     : config_(config), cluster_(*config.cluster),
       oscillator_(
-          nodes::drawn_oscillator(cluster_.node(config.node), index_of(config.node), config.seed, config.replication)),
+          host::drawn_oscillator(cluster_.node(config.node), index_of(config.node), config.seed, config.replication)),
       medium_(medium), watch_(std::make_unique<Watch>()),
       account_([this](Microticks at) { return executive_->stamp(at); }, sink),
       arrivals_(cluster_, config.node,
@@ -63,30 +63,30 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<nodes::St
                  ticks(config.clock.in_drive(cluster_.arrival_window->late))},
                 *this),
       flexray_(config_.clock, oscillator_, cluster_.arrival_window->late, medium, arrivals_, account_),
-      floor_(kFloorPeriod, config.clock.next_turn(kFloorPeriod, kFloorPhase, bus::host_now())),
+      floor_(kFloorPeriod, config.clock.next_turn(kFloorPeriod, kFloorPhase, bus::ports::host_now())),
       wake_up_(2 + cluster_.can_buses.size() + 1) {
-  const schedules::Node& node = cluster_.node(config.node);
-  watch_->out = std::make_unique<records::Tee>(std::vector<records::Sink*>{&sink, watch_.get()});
-  std::vector<bus::CanPort*> ports;
+  const schedules::model::Node& node = cluster_.node(config.node);
+  watch_->out = std::make_unique<recording::records::Tee>(std::vector<recording::records::Sink*>{&sink, watch_.get()});
+  std::vector<bus::ports::CanPort*> ports;
   for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b) {
     const std::size_t most = frames_waiting(cluster_, cluster_.can_buses[b]);
-    cans_.push_back(!schedules::is_on_can(node, b) ? nullptr : std::make_unique<PacedCan>(cluster_, b, most, [this] {
-      return executive_->stamp(last_);
-    }));
+    cans_.push_back(!schedules::model::is_on_can(node, b)
+                        ? nullptr
+                        : std::make_unique<PacedCan>(cluster_, b, most, [this] { return executive_->stamp(last_); }));
     ports.push_back(cans_.back().get());
   }
   for (std::size_t s = 0; s < cluster_.sensors.size(); ++s)
-    sensor_can_.push_back(schedules::can_of_lines(cluster_, static_cast<SensorId>(s)));
+    sensor_can_.push_back(schedules::model::can_of_lines(cluster_, static_cast<SensorId>(s)));
   const bool integrated = !config.power_on.has_value();
   const TrueTime begin = integrated ? config.first_cycle : std::max(*config.power_on, now());
   last_ = ticks(begin);
   if (!integrated) powered_on_ = config.clock.host_time(begin);
-  const nodes::ExecutiveConfig executive{
+  const host::ExecutiveConfig executive{
       &cluster_,
       config.node,
       oscillator_,
       integrated && node.flexray
-          ? std::optional(nodes::integrated_clock(oscillator_, cluster_, node, config.first_cycle))
+          ? std::optional(host::integrated_clock(oscillator_, cluster_, node, config.first_cycle))
           : std::nullopt,
       config.seed,
       config.replication,
@@ -95,11 +95,12 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<nodes::St
       config.cold.after,
       this};
   executive_ =
-      std::make_unique<nodes::Executive>(executive, std::move(steps), node.flexray ? &flexray_ : nullptr,
-                                         std::move(ports), static_cast<nodes::SensorLines&>(*this), *watch_->out);
+      std::make_unique<host::Executive>(executive, std::move(steps), node.flexray ? &flexray_ : nullptr,
+                                        std::move(ports), static_cast<host::SensorLines&>(*this), *watch_->out);
   if (node.flexray) flexray_.bind(*executive_->controller());
-  if (!integrated && !executive_->asleep()) watch_->out->on(records::PowerChanged{executive_->stamp(last_), true});
-  health_due_ = next_health(bus::host_now());
+  if (!integrated && !executive_->asleep())
+    watch_->out->on(recording::records::PowerChanged{executive_->stamp(last_), true});
+  health_due_ = next_health(bus::ports::host_now());
 }
 
 Runner::~Runner() = default;
@@ -114,7 +115,7 @@ Duration Runner::in_real(Microticks ticks) const {
 }
 
 const timebase::CycleClock* Runner::schedule() const {
-  const bus::FlexRayController* controller = executive_->controller();
+  const bus::controller::FlexRayController* controller = executive_->controller();
   return controller != nullptr && controller->clock() ? &*controller->clock() : nullptr;
 }
 
@@ -122,25 +123,25 @@ const timebase::CycleClock* Runner::schedule() const {
 
 void Runner::trigger(SensorId sensor) {
   if (const auto can = sensor_can_[index_of(sensor)])
-    (void)medium_.send_can(*can, {schedules::trigger_identifier(sensor), false, {}});
+    (void)medium_.send_can(*can, {schedules::model::trigger_identifier(sensor), false, {}});
 }
 
 void Runner::strobe(SensorId sensor, std::uint32_t sequence) {
-  const auto data = wire::strobe_data(sequence);
+  const auto data = bus::wire::strobe_data(sequence);
   if (const auto can = sensor_can_[index_of(sensor)])
-    (void)medium_.send_can(*can, {schedules::strobe_identifier(sensor), false, data});
+    (void)medium_.send_can(*can, {schedules::model::strobe_identifier(sensor), false, data});
 }
 
 // ---- what arrives
 
 void Runner::arrived(Microticks behind) { account_.arrivals.add(in_real(behind)); }
 
-void Runner::missed_window(std::int64_t cycle, int slot, schedules::Channel channel, Microticks behind) {
+void Runner::missed_window(std::int64_t cycle, int slot, schedules::model::Channel channel, Microticks behind) {
   account_.missed_window(last_, in_real(behind), cycle, slot, channel);
 }
 
-void Runner::lost(std::int64_t cycle, int slot, schedules::Channel channel, std::uint32_t count) {
-  account_.frames_lost(last_, bus::host_now() - host_time(last_), cycle, slot, channel, count);
+void Runner::lost(std::int64_t cycle, int slot, schedules::model::Channel channel, std::uint32_t count) {
+  account_.frames_lost(last_, bus::ports::host_now() - host_time(last_), cycle, slot, channel, count);
 }
 
 void Runner::take_in() {
@@ -155,17 +156,17 @@ void Runner::take_in() {
 }
 
 void Runner::hand_over(const Arrivals::Due& due) {
-  if (due.kind == bus::LiveArrival::Kind::kFlexRay) return executive_->receive(due.reception);
+  if (due.kind == bus::ports::LiveArrival::Kind::kFlexRay) return executive_->receive(due.reception);
   for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
     const auto sensor = static_cast<SensorId>(s);
     if (sensor_can_[s] != due.can_bus) continue;
     const bool classic = !due.can.flexible_data_rate;
-    if (const auto sequence = wire::strobe_sequence(due.can.data);
-        due.can.identifier == schedules::strobe_identifier(sensor) && classic && sequence) {
+    if (const auto sequence = bus::wire::strobe_sequence(due.can.data);
+        due.can.identifier == schedules::model::strobe_identifier(sensor) && classic && sequence) {
       if (cluster_.sensors[s].host == config_.node) executive_->strobe(sensor, *sequence, due.at);
       return;
     }
-    if (due.can.identifier == schedules::trigger_identifier(sensor) && classic && due.can.data.empty()) {
+    if (due.can.identifier == schedules::model::trigger_identifier(sensor) && classic && due.can.data.empty()) {
       if (cluster_.sensors[s].device == config_.node) executive_->trigger(sensor, due.at);
       return;
     }
@@ -203,7 +204,7 @@ void Runner::do_due(Microticks now) {
                can != cans_.end()) {
       leave(static_cast<std::size_t>(can - cans_.begin()));
     } else if (const Microticks due_tick = executive_->next_event(); due_tick <= last_) {
-      const Duration late = bus::host_now() - host_time(due_tick);
+      const Duration late = bus::ports::host_now() - host_time(due_tick);
       account_.wake_ups.add(late);
       if (late > cluster_.arrival_window->late) account_.late_wakeup(last_, late);
       executive_->advance(last_);
@@ -214,48 +215,48 @@ void Runner::do_due(Microticks now) {
 }
 
 void Runner::look_after_controller() {
-  const bus::FlexRayController* controller = executive_->controller();
+  const bus::controller::FlexRayController* controller = executive_->controller();
   if (controller == nullptr) return;
-  const bus::PocState& state = controller->state();
-  const schedules::NodeParameters& node = *cluster_.node(config_.node).flexray;
-  const bool gave_up =
-      state.kind == bus::PocKind::kIntegrationListen && node.pKeySlotUsedForStartup && bus::attempts_exhausted(state);
+  const bus::poc::PocState& state = controller->state();
+  const schedules::model::NodeParameters& node = *cluster_.node(config_.node).flexray;
+  const bool gave_up = state.kind == bus::poc::PocKind::kIntegrationListen && node.pKeySlotUsedForStartup &&
+                       bus::poc::attempts_exhausted(state);
   if (!gave_up)
     tries_again_ = kNever;
   else if (tries_again_ == kNever)
     tries_again_ = last_ + Microticks{kCyclesUntilAnew * node.pMicroPerCycle};
-  if (state.kind != bus::PocKind::kHalt && last_ < tries_again_) return;
+  if (state.kind != bus::poc::PocKind::kHalt && last_ < tries_again_) return;
   executive_->start_anew(last_);
   tries_again_ = kNever;
 }
 
 // A line is watched where something is to be done as soon as something comes.
 void Runner::watch_lines() {
-  const bool listens = executive_->promise().after_flexray != nodes::Promise::kNever;
+  const bool listens = executive_->promise().after_flexray != host::Promise::kNever;
   if (listens == listens_) return;
   listens_ = listens;
   wake_up_.clear();
   wake_up_.watch(config_.stop_descriptor);
-  for (const schedules::Channel channel : schedules::kBothChannels) {
-    medium_.watch(bus::line_of(channel), listens);
-    if (listens) wake_up_.watch(medium_.descriptor(bus::line_of(channel)));
+  for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
+    medium_.watch(bus::ports::line_of(channel), listens);
+    if (listens) wake_up_.watch(medium_.descriptor(bus::ports::line_of(channel)));
   }
   for (std::size_t b = 0; b < cans_.size(); ++b) {
     if (!cans_[b]) continue;
-    medium_.watch(bus::line_of_can(b), true);
-    wake_up_.watch(medium_.descriptor(bus::line_of_can(b)));
+    medium_.watch(bus::ports::line_of_can(b), true);
+    wake_up_.watch(medium_.descriptor(bus::ports::line_of_can(b)));
   }
 }
 
 // The nodes take turns.
-bus::HostTime Runner::next_health(bus::HostTime now) const {
+bus::ports::HostTime Runner::next_health(bus::ports::HostTime now) const {
   const auto turn = static_cast<std::int64_t>(index_of(config_.node) + 1);
   const Duration phase{kHealthEvery.ns * turn / static_cast<std::int64_t>(cluster_.nodes.size() + 1)};
   return config_.clock.next_turn(kHealthEvery, phase, now);
 }
 
 void Runner::tell_health() {
-  const bus::HostTime now = bus::host_now();
+  const bus::ports::HostTime now = bus::ports::host_now();
   if (now < health_due_) return;
   const Microticks next = next_due();
   const bool room = next == kNever || host_time(next) > now + kRoomForHealth;
@@ -283,25 +284,25 @@ Health Runner::health() const {
   health.wakeup_p99 = account_.wake_ups.quantile(990);
   health.wakeup_longest = account_.wake_ups.longest();
   health.largest_offset = in_real(Microticks{watch_->largest});
-  if (const auto* controller = executive_->controller()) health.state = bus::to_text(controller->state().kind);
+  if (const auto* controller = executive_->controller()) health.state = bus::poc::to_text(controller->state().kind);
   return health;
 }
 
 RunnerEnd Runner::run() {
   listens_ = true;  // so that watch_lines() does it
-  if (executive_->promise().after_flexray != nodes::Promise::kNever) listens_ = false;
+  if (executive_->promise().after_flexray != host::Promise::kNever) listens_ = false;
   watch_lines();
-  const bus::HostTime end = config_.clock.host_time(config_.end);
+  const bus::ports::HostTime end = config_.clock.host_time(config_.end);
   RunnerEnd how = RunnerEnd::kDone;
   bool was_behind = false;
   while (true) {
-    bus::HostTime now = bus::host_now();
+    bus::ports::HostTime now = bus::ports::host_now();
     // Who was stopped was so with the medium's threads: what they have to take in is to be there before it is missed.
     const bool behind = next_due() != kNever && now - host_time(next_due()) > config_.clock.in_real(cluster_.cycle());
     if (behind && !was_behind) {
       const timespec pause{.tv_sec = 0, .tv_nsec = kUntilTakenIn.ns};
       nanosleep(&pause, nullptr);
-      now = bus::host_now();
+      now = bus::ports::host_now();
     }
     was_behind = behind;
     take_in();
@@ -318,11 +319,11 @@ RunnerEnd Runner::run() {
     tell_health();
     watch_lines();
     const Microticks next = next_due();
-    const bus::HostTime due = next == kNever ? end : std::min(end, host_time(next));
+    const bus::ports::HostTime due = next == kNever ? end : std::min(end, host_time(next));
     wake_up_.sleep_until(std::min(due, health_due_));
   }
   record_account();
   return how;
 }
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -39,17 +39,17 @@
 #include "schedules/model/cluster.h"
 #include "timebase/oscillator.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
 struct RunnerConfig {
-  const schedules::Cluster* cluster = nullptr;  // with an arrival window
+  const schedules::model::Cluster* cluster = nullptr;  // with an arrival window
   NodeId node{};
   DriveClock clock{{}, 1'000'000};
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
   TrueTime first_cycle{};            // of who begins integrated; off FlexRay, of its power-on
   std::optional<TrueTime> power_on;  // it begins cold, then or at once if that is over
-  nodes::NodeStart cold{};
+  host::NodeStart cold{};
   TrueTime end{};            // what is due later is not done
   int stop_descriptor = -1;  // readable: stop now
 };
@@ -57,7 +57,7 @@ struct RunnerConfig {
 // How it goes, for people: in real time since the run began.
 struct Health {
   TimingCounts timing;
-  bus::LiveCounts medium;
+  bus::ports::LiveCounts medium;
   std::uint64_t dropped = 0;  // frames that no room was for in this process, on their way in or out
   Duration wakeup_p50{}, wakeup_p99{}, wakeup_longest{};
   Duration largest_offset{};  // that clock synchronisation corrected, either sign
@@ -74,37 +74,37 @@ enum class RunnerEnd : std::uint8_t {
   kFailed,   // the medium is of no use any more: LiveMedium::failure()
 };
 
-class Runner final : private nodes::SensorLines, private nodes::TrueClock, private ArrivalEvents {
+class Runner final : private host::SensorLines, private host::TrueClock, private ArrivalEvents {
  public:
   // All must outlive it. Throws std::runtime_error where the system gives no timer.
-  Runner(const RunnerConfig& config, std::vector<std::shared_ptr<nodes::Step>> steps, bus::LiveMedium& medium,
-         records::Sink& sink);
+  Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Step>> steps, bus::ports::LiveMedium& medium,
+         recording::records::Sink& sink);
   ~Runner() override;
 
   // About once a second of real time, where nothing is due at once.
-  void on_health(std::function<void(const Health&)> hear) { on_health_ = std::move(hear); }
+  void on_health(std::function<void(const ttf::nodes::runner::Health&)> hear) { on_health_ = std::move(hear); }
   RunnerEnd run();
 
   Health health() const;
-  const nodes::ExecutiveCounts& counts() const { return executive_->counts(); }
+  const host::ExecutiveCounts& counts() const { return executive_->counts(); }
   const TimingAccount& timing() const { return account_; }
-  records::BinnedDurations floor() const { return floor_.lateness(); }
+  recording::records::BinnedDurations floor() const { return floor_.lateness(); }
 
  private:
   class Watch;
 
-  TrueTime now() const override { return config_.clock.drive_time(bus::host_now()); }
+  TrueTime now() const override { return config_.clock.drive_time(bus::ports::host_now()); }
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
   void arrived(Microticks behind) override;
-  void missed_window(std::int64_t cycle, int slot, schedules::Channel channel, Microticks behind) override;
-  void lost(std::int64_t cycle, int slot, schedules::Channel channel, std::uint32_t count) override;
+  void missed_window(std::int64_t cycle, int slot, schedules::model::Channel channel, Microticks behind) override;
+  void lost(std::int64_t cycle, int slot, schedules::model::Channel channel, std::uint32_t count) override;
 
   const timebase::CycleClock* schedule() const;
   Microticks ticks(TrueTime at) const { return oscillator_.ticks_at(at); }
   Microticks ticks(Duration drive) const;
   Duration in_real(Microticks ticks) const;
-  bus::HostTime host_time(Microticks at) const { return config_.clock.host_time(oscillator_.time_of(at)); }
+  bus::ports::HostTime host_time(Microticks at) const { return config_.clock.host_time(oscillator_.time_of(at)); }
 
   void take_in();
   void do_due(Microticks now);
@@ -115,30 +115,30 @@ class Runner final : private nodes::SensorLines, private nodes::TrueClock, priva
   void leave(std::size_t can_bus);
   Microticks next_due() const;
   void watch_lines();
-  bus::HostTime next_health(bus::HostTime now) const;
+  bus::ports::HostTime next_health(bus::ports::HostTime now) const;
   void tell_health();
   std::uint64_t dropped() const;
   void record_account();
 
   const RunnerConfig config_;
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   const timebase::Oscillator oscillator_;
-  bus::LiveMedium& medium_;
+  bus::ports::LiveMedium& medium_;
   std::unique_ptr<Watch> watch_;  // the sink, with what is seen on the way to it
   TimingAccount account_;
   Arrivals arrivals_;
   LiveFlexRay flexray_;
   std::vector<std::unique_ptr<PacedCan>> cans_;         // by CAN, null where the node is not on it
   std::vector<std::optional<std::size_t>> sensor_can_;  // by sensor, the CAN of its lines
-  std::unique_ptr<nodes::Executive> executive_;
+  std::unique_ptr<host::Executive> executive_;
   Floor floor_;
   WakeUp wake_up_;
-  bus::HostTime powered_on_{std::numeric_limits<std::int64_t>::min()};
+  bus::ports::HostTime powered_on_{std::numeric_limits<std::int64_t>::min()};
   Microticks last_{};                                                 // what was done last
   bool listens_ = false;                                              // FlexRay lines are watched
   Microticks tries_again_{std::numeric_limits<std::int64_t>::max()};  // at a coldstart, if it still may only listen
-  bus::HostTime health_due_{};
-  std::function<void(const Health&)> on_health_;
+  bus::ports::HostTime health_due_{};
+  std::function<void(const ttf::nodes::runner::Health&)> on_health_;
 };
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 namespace {
 
 constexpr std::uint64_t kStackRoom = 8 << 20;  // as much as a stack grows to where nobody says otherwise
@@ -93,4 +93,4 @@ std::vector<std::string> ask_for_real_time(std::size_t place, std::size_t proces
   return refused;
 }
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
 // For the calling thread, and the process' memory: SCHED_FIFO, no timer slack, memory locked, one processor of its own
 // where there are enough for `processes` and one besides, taken by `place` (0, 1, ...). What the process takes later is
@@ -13,4 +13,4 @@ namespace ttf::runner {
 // granted, with what would help; all of them are done without.
 std::vector<std::string> ask_for_real_time(std::size_t place, std::size_t processes);
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -12,7 +12,7 @@
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
 struct TimingCounts {
   std::uint64_t late_wakeups = 0;  // something was due for longer than the arrival window allows
@@ -25,26 +25,26 @@ struct TimingCounts {
 class TimingAccount {
  public:
   // `stamp`: of an instant in the node's microticks.
-  TimingAccount(std::function<records::Stamp(Microticks)> stamp, records::Sink& sink)
+  TimingAccount(std::function<recording::records::Stamp(ttf::Microticks)> stamp, recording::records::Sink& sink)
       : stamp_(std::move(stamp)), sink_(sink) {}
 
   void late_wakeup(Microticks due, Duration late);
-  void slot_missed(Microticks due, Duration late, std::int64_t cycle, int slot, schedules::Channel channel);
-  void missed_window(Microticks due, Duration behind, std::int64_t cycle, int slot, schedules::Channel channel);
+  void slot_missed(Microticks due, Duration late, std::int64_t cycle, int slot, schedules::model::Channel channel);
+  void missed_window(Microticks due, Duration behind, std::int64_t cycle, int slot, schedules::model::Channel channel);
   // `late`: how much later than `noticed` it is.
-  void frames_lost(Microticks noticed, Duration late, std::int64_t cycle, int slot, schedules::Channel channel,
+  void frames_lost(Microticks noticed, Duration late, std::int64_t cycle, int slot, schedules::model::Channel channel,
                    std::uint32_t count);
 
-  records::BinnedDurations wake_ups, departures, arrivals, transits;
+  recording::records::BinnedDurations wake_ups, departures, arrivals, transits;
   const TimingCounts& counts() const { return counts_; }
   // The histograms and the medium's counts so far; `floor`: of the plain thread; `dropped`: in this process.
-  void record(Microticks now, const records::BinnedDurations& floor, const bus::LiveCounts& medium,
+  void record(Microticks now, const recording::records::BinnedDurations& floor, const bus::ports::LiveCounts& medium,
               std::uint64_t dropped);
 
  private:
-  std::function<records::Stamp(Microticks)> stamp_;
-  records::Sink& sink_;
+  std::function<recording::records::Stamp(ttf::Microticks)> stamp_;
+  recording::records::Sink& sink_;
   TimingCounts counts_;
 };
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -9,7 +9,7 @@
 
 #include "core/check.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
 WakeUp::WakeUp(std::size_t most) : timer_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK)) {
   if (timer_ < 0) throw std::system_error(errno, std::system_category(), "no timer");
@@ -27,7 +27,7 @@ void WakeUp::watch(int descriptor) {
 
 void WakeUp::clear() { watched_.resize(1); }
 
-void WakeUp::sleep_until(bus::HostTime until) {
+void WakeUp::sleep_until(bus::ports::HostTime until) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   // 0 would switch the timer off.
   const std::int64_t at = std::max<std::int64_t>(until.ns, 1);
@@ -37,4 +37,4 @@ void WakeUp::sleep_until(bus::HostTime until) {
   (void)poll(watched_.data(), watched_.size(), -1);
 }
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -9,7 +9,7 @@
 
 #include "bus/ports/live_medium.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 
 class WakeUp {
  public:
@@ -23,11 +23,11 @@ class WakeUp {
   void watch(int descriptor);
   void clear();
   // Returns at `until` or later; sooner where something is there to be read, or a signal came.
-  void sleep_until(bus::HostTime until);
+  void sleep_until(bus::ports::HostTime until);
 
  private:
   int timer_ = -1;
   std::vector<pollfd> watched_;  // the timer first
 };
 
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

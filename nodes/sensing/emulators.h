@@ -6,17 +6,17 @@
 #include <memory>
 #include <vector>
 
-#include "nodes/sensing/scene.h"
 #include "nodes/host/step.h"
+#include "nodes/sensing/scene.h"
 #include "schedules/model/cluster.h"
 #include "sim/world/camera.h"
 #include "sim/world/laser.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::sensing {
 
 struct EmulatorConfig {
-  const schedules::Cluster* cluster = nullptr;
-  const schedules::Task* task = nullptr;
+  const schedules::model::Cluster* cluster = nullptr;
+  const schedules::model::Task* task = nullptr;
   SensorId sensor{};
   std::shared_ptr<const Scene> scene;
   std::uint64_t seed = 0;
@@ -24,33 +24,33 @@ struct EmulatorConfig {
 };
 
 // Port `raw`: hit points as layer, azimuth [rad], range [m].
-class LaserEmulator final : public Step {
+class LaserEmulator final : public host::Step {
  public:
-  LaserEmulator(const EmulatorConfig& config, const world::LaserConfig& laser);
-  void run(StepContext& context) override;
+  LaserEmulator(const EmulatorConfig& config, const sim::world::LaserConfig& laser);
+  void run(host::StepContext& context) override;
 
  private:
   EmulatorConfig config_;
-  world::LaserConfig laser_;
+  sim::world::LaserConfig laser_;
   std::array<std::size_t, 3> signals_;
-  std::vector<world::ObjectState> states_;
-  std::vector<world::HitPoint> hits_;
+  std::vector<sim::world::ObjectState> states_;
+  std::vector<sim::world::HitPoint> hits_;
   std::vector<ObjectId> truth_;
 };
 
 // Port `raw`: detections as bearing [rad], disparity [px], width [px].
-class CameraEmulator final : public Step {
+class CameraEmulator final : public host::Step {
  public:
-  CameraEmulator(const EmulatorConfig& config, const world::CameraConfig& camera);
-  void run(StepContext& context) override;
+  CameraEmulator(const EmulatorConfig& config, const sim::world::CameraConfig& camera);
+  void run(host::StepContext& context) override;
 
  private:
   EmulatorConfig config_;
-  world::CameraConfig camera_;
+  sim::world::CameraConfig camera_;
   std::array<std::size_t, 3> signals_;
-  std::vector<world::ObjectState> states_;
-  std::vector<world::CameraDetection> detections_;
+  std::vector<sim::world::ObjectState> states_;
+  std::vector<sim::world::CameraDetection> detections_;
   std::vector<ObjectId> truth_;
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::sensing

@@ -5,7 +5,7 @@
 #include "nodes/host/signals.h"
 #include "nodes/host/step.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::sensing {
 namespace {
 
 // Half the code's step: what fixed-point coding adds to the uncertainty is far below any sensor's, but a sigma of zero
@@ -14,47 +14,49 @@ double at_least_resolution(double sigma, double resolution) { return std::max(si
 
 }  // namespace
 
-ObservationCodec::ObservationCodec(const schedules::Cluster& cluster, PduId pdu)
-    : layout_(&cluster.pdu(pdu)), form_(schedules::find_signal(layout_->element, "range")     ? Form::kRadar
-                                        : schedules::find_signal(layout_->element, "heading") ? Form::kLaser
-                                                                                              : Form::kPosition) {
+ObservationCodec::ObservationCodec(const schedules::model::Cluster& cluster, PduId pdu)
+    : layout_(&cluster.pdu(pdu)),
+      form_(schedules::model::find_signal(layout_->element, "range")     ? Form::kRadar
+            : schedules::model::find_signal(layout_->element, "heading") ? Form::kLaser
+                                                                         : Form::kPosition) {
   switch (form_) {
     case Form::kLaser:
-      signals_ = bind_elements<12>(cluster, *layout_,
-                                   {"x", "y", "sigma_x", "sigma_y", "correlation", "width", "sigma_width", "heading",
-                                    "sigma_heading", "length", "sigma_length", "valid"});
+      signals_ = host::bind_elements<12>(cluster, *layout_,
+                                         {"x", "y", "sigma_x", "sigma_y", "correlation", "width", "sigma_width",
+                                          "heading", "sigma_heading", "length", "sigma_length", "valid"});
       break;
     case Form::kPosition:
-      signals_ =
-          bind_elements<7>(cluster, *layout_, {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"});
+      signals_ = host::bind_elements<7>(cluster, *layout_,
+                                        {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"});
       break;
     case Form::kRadar:
-      signals_ = bind_elements<6>(
+      signals_ = host::bind_elements<6>(
           cluster, *layout_, {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"});
       break;
   }
 }
 
-void ObservationCodec::decode(const bus::ListView& list, std::vector<fusion::Observation>& out) const {
+void ObservationCodec::decode(const bus::cni::ListView& list,
+                              std::vector<ttf::fusion::sensors::Observation>& out) const {
   out.clear();
-  const int count = element_count(*layout_, list);
+  const int count = host::element_count(*layout_, list);
   for (int i = 0; i < count; ++i) {
-    const auto value = [&](std::size_t s) { return element_value(*layout_, list, i, signals_[s]); };
+    const auto value = [&](std::size_t s) { return host::element_value(*layout_, list, i, signals_[s]); };
     const auto sigma = [&](std::size_t s) {
       return at_least_resolution(value(s), layout_->element[signals_[s]].resolution);
     };
-    fusion::Observation observation{};
+    ttf::fusion::sensors::Observation observation{};
     observation.z.setZero();
     observation.r.setZero();
     if (form_ == Form::kRadar) {
-      observation.kind = fusion::ObservationKind::kRangeBearingRate;
+      observation.kind = ttf::fusion::sensors::ObservationKind::kRangeBearingRate;
       for (std::size_t k = 0; k < 3; ++k) {
         const auto row = static_cast<Eigen::Index>(k);
         observation.z(row) = value(k);
         observation.r(row, row) = sigma(3 + k) * sigma(3 + k);
       }
     } else {
-      observation.kind = fusion::ObservationKind::kPosition;
+      observation.kind = ttf::fusion::sensors::ObservationKind::kPosition;
       const double sigma_x = sigma(2), sigma_y = sigma(3);
       // The coded correlation saturates below one, so the covariance stays positive definite.
       const double covariance = std::clamp(value(4), -0.99, 0.99) * sigma_x * sigma_y;
@@ -84,4 +86,4 @@ void ObservationCodec::decode(const bus::ListView& list, std::vector<fusion::Obs
   }
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::sensing

@@ -8,21 +8,21 @@
 #include "fusion/sensors/observation.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::sensing {
 
 // Bound once to a PDU: positions (x, y, their covariance, and either heading and extent or the angle the outline spans)
 // or radar detections (range, bearing, range_rate and their sigmas), told apart by the signals the layout has.
 class ObservationCodec {
  public:
-  ObservationCodec(const schedules::Cluster& cluster, PduId pdu);
+  ObservationCodec(const schedules::model::Cluster& cluster, PduId pdu);
   // Replaces `out` by the list's observations.
-  void decode(const bus::ListView& list, std::vector<fusion::Observation>& out) const;
+  void decode(const bus::cni::ListView& list, std::vector<ttf::fusion::sensors::Observation>& out) const;
 
  private:
   enum class Form { kLaser, kPosition, kRadar };
-  const schedules::PduLayout* layout_;
+  const schedules::model::PduLayout* layout_;
   Form form_;
   std::vector<std::size_t> signals_;
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::sensing

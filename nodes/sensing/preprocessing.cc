@@ -5,12 +5,13 @@
 
 #include "nodes/host/signals.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::sensing {
 namespace {
 
-const schedules::PduLayout& layout_of(const schedules::Cluster& cluster,
-                                      const std::vector<schedules::PortBinding>& bindings, std::string_view port) {
-  return cluster.pdu(binding_of(bindings, port).pdu);
+const schedules::model::PduLayout& layout_of(const schedules::model::Cluster& cluster,
+                                             const std::vector<schedules::model::PortBinding>& bindings,
+                                             std::string_view port) {
+  return cluster.pdu(host::binding_of(bindings, port).pdu);
 }
 
 // Where there are more objects than the list holds, the nearest ones are kept, in a stable order.
@@ -27,34 +28,34 @@ double correlation(double sxx, double sxy, double syy) { return sxy / std::sqrt(
 
 }  // namespace
 
-LaserPreprocessing::LaserPreprocessing(const schedules::Cluster& cluster, const schedules::Task& task,
-                                       const LaserPreprocessingConfig& config)
+LaserPreprocessing::LaserPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                                       const laser::LaserPreprocessingConfig& config)
     : sensor_(layout_of(cluster, task.reads, "raw").sensor),
-      raw_(bind_element<3>(cluster, layout_of(cluster, task.reads, "raw"), {"layer", "azimuth", "range"})),
-      signals_(bind_element<12>(cluster, layout_of(cluster, task.writes, "objects"),
-                                {"x", "y", "heading", "length", "width", "sigma_x", "sigma_y", "correlation",
-                                 "sigma_heading", "sigma_length", "sigma_width", "valid"})),
+      raw_(host::bind_element<3>(cluster, layout_of(cluster, task.reads, "raw"), {"layer", "azimuth", "range"})),
+      signals_(host::bind_element<12>(cluster, layout_of(cluster, task.writes, "objects"),
+                                      {"x", "y", "heading", "length", "width", "sigma_x", "sigma_y", "correlation",
+                                       "sigma_heading", "sigma_length", "sigma_width", "valid"})),
       preprocessor_(config, static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements)) {
   points_.reserve(static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements));
   objects_.reserve(preprocessor_.most_objects());
 }
 
-void LaserPreprocessing::run(StepContext& context) {
+void LaserPreprocessing::run(host::StepContext& context) {
   const auto measurement = measurement_of(context, sensor_);
   if (!measurement) return;
-  const Input& raw = context.inputs[0];
+  const host::Input& raw = context.inputs[0];
   points_.clear();
-  const int count = element_count(*raw.layout, *raw.list);
+  const int count = host::element_count(*raw.layout, *raw.list);
   for (int i = 0; i < count; ++i)
-    points_.push_back({static_cast<int>(std::lround(element_value(*raw.layout, *raw.list, i, raw_[0]))),
-                       element_value(*raw.layout, *raw.list, i, raw_[1]),
-                       element_value(*raw.layout, *raw.list, i, raw_[2])});
+    points_.push_back({static_cast<int>(std::lround(host::element_value(*raw.layout, *raw.list, i, raw_[0]))),
+                       host::element_value(*raw.layout, *raw.list, i, raw_[1]),
+                       host::element_value(*raw.layout, *raw.list, i, raw_[2])});
   preprocessor_.process(points_, objects_);
-  Output& out = context.outputs[0];
+  host::Output& out = context.outputs[0];
   keep_nearest(objects_, out.layout().max_elements);
   out.begin(measurement->sequence, static_cast<int>(objects_.size()), measurement->at);
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
-    const LaserObject& object = objects_[static_cast<std::size_t>(i)];
+    const laser::LaserObject& object = objects_[static_cast<std::size_t>(i)];
     const double valid = (object.has_heading ? 1 : 0) + (object.has_length ? 2 : 0) + (object.has_width ? 4 : 0);
     const double values[] = {object.x,
                              object.y,
@@ -72,31 +73,31 @@ void LaserPreprocessing::run(StepContext& context) {
   }
 }
 
-CameraPreprocessing::CameraPreprocessing(const schedules::Cluster& cluster, const schedules::Task& task,
-                                         const CameraCalibration& calibration)
+CameraPreprocessing::CameraPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                                         const camera::CameraCalibration& calibration)
     : sensor_(layout_of(cluster, task.reads, "raw").sensor),
-      raw_(bind_element<3>(cluster, layout_of(cluster, task.reads, "raw"), {"bearing", "disparity", "width"})),
-      signals_(bind_element<7>(cluster, layout_of(cluster, task.writes, "objects"),
-                               {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"})),
+      raw_(host::bind_element<3>(cluster, layout_of(cluster, task.reads, "raw"), {"bearing", "disparity", "width"})),
+      signals_(host::bind_element<7>(cluster, layout_of(cluster, task.writes, "objects"),
+                                     {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"})),
       calibration_(calibration) {
   objects_.reserve(static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements));
 }
 
-void CameraPreprocessing::run(StepContext& context) {
+void CameraPreprocessing::run(host::StepContext& context) {
   const auto measurement = measurement_of(context, sensor_);
   if (!measurement) return;
-  const Input& raw = context.inputs[0];
+  const host::Input& raw = context.inputs[0];
   objects_.clear();
-  const int count = element_count(*raw.layout, *raw.list);
+  const int count = host::element_count(*raw.layout, *raw.list);
   for (int i = 0; i < count; ++i)
-    objects_.push_back(triangulate(calibration_, element_value(*raw.layout, *raw.list, i, raw_[0]),
-                                   element_value(*raw.layout, *raw.list, i, raw_[1]),
-                                   element_value(*raw.layout, *raw.list, i, raw_[2])));
-  Output& out = context.outputs[0];
+    objects_.push_back(triangulate(calibration_, host::element_value(*raw.layout, *raw.list, i, raw_[0]),
+                                   host::element_value(*raw.layout, *raw.list, i, raw_[1]),
+                                   host::element_value(*raw.layout, *raw.list, i, raw_[2])));
+  host::Output& out = context.outputs[0];
   keep_nearest(objects_, out.layout().max_elements);
   out.begin(measurement->sequence, static_cast<int>(objects_.size()), measurement->at);
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
-    const CameraObject& object = objects_[static_cast<std::size_t>(i)];
+    const camera::CameraObject& object = objects_[static_cast<std::size_t>(i)];
     const double values[] = {object.x,
                              object.y,
                              std::sqrt(object.sxx),
@@ -108,8 +109,8 @@ void CameraPreprocessing::run(StepContext& context) {
   }
 }
 
-void Gateway::run(StepContext& context) {
+void Gateway::run(host::StepContext& context) {
   if (context.inputs[0].fresh) context.outputs[0].copy(*context.inputs[0].list);
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::sensing

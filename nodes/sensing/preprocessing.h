@@ -6,47 +6,47 @@
 #include <vector>
 
 #include "nodes/camera/triangulation.h"
-#include "nodes/laser/laser_preprocessor.h"
 #include "nodes/host/step.h"
+#include "nodes/laser/laser_preprocessor.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::sensing {
 
 // Ports: `raw` (layer, azimuth, range) -> `objects` (position, heading, extent and their uncertainty).
-class LaserPreprocessing final : public Step {
+class LaserPreprocessing final : public host::Step {
  public:
-  LaserPreprocessing(const schedules::Cluster& cluster, const schedules::Task& task,
-                     const LaserPreprocessingConfig& config);
-  void run(StepContext& context) override;
+  LaserPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                     const laser::LaserPreprocessingConfig& config);
+  void run(host::StepContext& context) override;
 
  private:
   SensorId sensor_;
   std::array<std::size_t, 3> raw_;
   std::array<std::size_t, 12> signals_;
-  LaserPreprocessor preprocessor_;
-  std::vector<ScanPoint> points_;
-  std::vector<LaserObject> objects_;
+  laser::LaserPreprocessor preprocessor_;
+  std::vector<laser::ScanPoint> points_;
+  std::vector<laser::LaserObject> objects_;
 };
 
 // Ports: `raw` (bearing, disparity, width) -> `objects` (position and its covariance, span of the silhouette).
-class CameraPreprocessing final : public Step {
+class CameraPreprocessing final : public host::Step {
  public:
-  CameraPreprocessing(const schedules::Cluster& cluster, const schedules::Task& task,
-                      const CameraCalibration& calibration);
-  void run(StepContext& context) override;
+  CameraPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                      const camera::CameraCalibration& calibration);
+  void run(host::StepContext& context) override;
 
  private:
   SensorId sensor_;
   std::array<std::size_t, 3> raw_;
   std::array<std::size_t, 7> signals_;
-  CameraCalibration calibration_;
-  std::vector<CameraObject> objects_;
+  camera::CameraCalibration calibration_;
+  std::vector<camera::CameraObject> objects_;
 };
 
 // Ports: `in` -> `out`, the list unchanged: fragments of the CAN are fragments of the FlexRay.
-class Gateway final : public Step {
+class Gateway final : public host::Step {
  public:
-  void run(StepContext& context) override;
+  void run(host::StepContext& context) override;
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::sensing

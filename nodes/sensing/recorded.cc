@@ -6,23 +6,23 @@
 #include "core/check.h"
 #include "nodes/host/signals.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::sensing {
 namespace {
 
 // The recording's tracked vehicle has no size of its own; a passenger car's (the paper's Touran: 4.39 m x 1.79 m).
 constexpr double kCarLength = 4.39, kCarWidth = 1.79;
 
-bool is_radar(const schedules::PduLayout& layout) {
-  return schedules::find_signal(layout.element, "range").has_value();
+bool is_radar(const schedules::model::PduLayout& layout) {
+  return schedules::model::find_signal(layout.element, "range").has_value();
 }
 
-std::vector<std::size_t> bind_raw(const schedules::Cluster& cluster, const schedules::PduLayout& layout) {
-  return is_radar(layout) ? bind_elements<3>(cluster, layout, {"range", "bearing", "range_rate"})
-                          : bind_elements<2>(cluster, layout, {"x", "y"});
+std::vector<std::size_t> bind_raw(const schedules::model::Cluster& cluster, const schedules::model::PduLayout& layout) {
+  return is_radar(layout) ? host::bind_elements<3>(cluster, layout, {"range", "bearing", "range_rate"})
+                          : host::bind_elements<2>(cluster, layout, {"x", "y"});
 }
 
-std::size_t signals_of(const recording::RecordedObservation& row) {
-  return row.kind == recording::RecordedObservation::Kind::kRangeBearingRate ? 3 : 2;
+std::size_t signals_of(const recording::rows::RecordedObservation& row) {
+  return row.kind == recording::rows::RecordedObservation::Kind::kRangeBearingRate ? 3 : 2;
 }
 
 }  // namespace
@@ -36,17 +36,17 @@ RecordedNoise load_recorded_noise(YamlMap& yaml) {
   return noise;
 }
 
-RecordedTrack::RecordedTrack(const recording::RecordedInput& input, std::string_view sensor) {
-  for (const recording::RecordedObservation& row : input.observations)
+RecordedTrack::RecordedTrack(const recording::rows::RecordedInput& input, std::string_view sensor) {
+  for (const recording::rows::RecordedObservation& row : input.observations)
     if (row.sensor == sensor) rows_.push_back(row);
 }
 
-RecordedScene::RecordedScene(const recording::RecordedInput& input, TrueTime start)
+RecordedScene::RecordedScene(const recording::rows::RecordedInput& input, TrueTime start)
     : rows_(input.truth), start_(start) {
   TTF_CHECK(!rows_.empty(), "a recording without ground truth");
 }
 
-void RecordedScene::states_at(TrueTime at, std::vector<world::ObjectState>& out) const {
+void RecordedScene::states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const {
   const double t = static_cast<double>((at - start_).ns) * 1e-3;  // microseconds into the recording
   const auto after = std::upper_bound(rows_.begin(), rows_.end(), t, [](double time, const auto& row) {
     return time < static_cast<double>(row.time_us_from_start);
@@ -69,7 +69,7 @@ void RecordedScene::states_at(TrueTime at, std::vector<world::ObjectState>& out)
     vx = a.vx + s * (b.vx - a.vx);
     vy = a.vy + s * (b.vy - a.vy);
   }
-  world::ObjectState state{};
+  sim::world::ObjectState state{};
   state.id = ObjectId{0};
   state.x = x;
   state.y = y;
@@ -81,63 +81,63 @@ void RecordedScene::states_at(TrueTime at, std::vector<world::ObjectState>& out)
   out.push_back(state);
 }
 
-RecordedSource::RecordedSource(const schedules::Cluster& cluster, const schedules::Task& task, SensorId sensor,
-                               std::shared_ptr<const recording::RecordedInput> input)
+RecordedSource::RecordedSource(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                               SensorId sensor, std::shared_ptr<const recording::rows::RecordedInput> input)
     : sensor_(sensor), track_(*input, cluster.sensor(sensor).name),
-      signals_(bind_raw(cluster, cluster.pdu(binding_of(task.writes, "raw").pdu))) {
+      signals_(bind_raw(cluster, cluster.pdu(host::binding_of(task.writes, "raw").pdu))) {
   if (track_.size() == 0)
     throw InputError({cluster.file, cluster.sensor(sensor).line, "sensors." + cluster.sensor(sensor).name, "",
                       "the recording has no row of this sensor"});
   for (std::size_t i = 0; i < track_.size(); ++i)
     if (signals_of(track_.row(i)) != signals_.size()) {
-      const schedules::PduLayout& raw = cluster.pdu(binding_of(task.writes, "raw").pdu);
+      const schedules::model::PduLayout& raw = cluster.pdu(host::binding_of(task.writes, "raw").pdu);
       throw InputError({cluster.file, raw.line, "pdus." + raw.name, "",
                         "must have the signals of the recording's rows of this sensor: x and y of a laser, range, "
                         "bearing and range_rate of a radar"});
     }
 }
 
-void RecordedSource::run(StepContext& context) {
+void RecordedSource::run(host::StepContext& context) {
   if (context.measurement >= track_.size()) return;  // the recording is over: the device falls silent
-  const recording::RecordedObservation& row = track_.row(context.measurement);
-  Output& raw = context.outputs[0];
+  const recording::rows::RecordedObservation& row = track_.row(context.measurement);
+  host::Output& raw = context.outputs[0];
   raw.begin(context.measurement, 1, GlobalTime{});
   const bool radar = signals_of(row) == 3;
   const double radar_values[] = {row.range, row.bearing, row.range_rate};
   const double position[] = {row.x, row.y};
   for (std::size_t s = 0; s < signals_.size(); ++s) raw.set(0, signals_[s], radar ? radar_values[s] : position[s]);
   const ObjectId truth[] = {ObjectId{0}};
-  records::Measured measured;
+  recording::records::Measured measured;
   measured.stamp = context.stamp;
   measured.id = {sensor_, context.measurement};
   measured.truth_ids = truth;
   context.sink->on(measured);
 }
 
-RecordedPreprocessing::RecordedPreprocessing(const schedules::Cluster& cluster, const schedules::Task& task,
-                                             const RecordedNoise& noise)
-    : sensor_(cluster.pdu(binding_of(task.reads, "raw").pdu).sensor), noise_(noise) {
-  const schedules::PduLayout& raw = cluster.pdu(binding_of(task.reads, "raw").pdu);
-  const schedules::PduLayout& objects = cluster.pdu(binding_of(task.writes, "objects").pdu);
+RecordedPreprocessing::RecordedPreprocessing(const schedules::model::Cluster& cluster,
+                                             const schedules::model::Task& task, const RecordedNoise& noise)
+    : sensor_(cluster.pdu(host::binding_of(task.reads, "raw").pdu).sensor), noise_(noise) {
+  const schedules::model::PduLayout& raw = cluster.pdu(host::binding_of(task.reads, "raw").pdu);
+  const schedules::model::PduLayout& objects = cluster.pdu(host::binding_of(task.writes, "objects").pdu);
   radar_ = is_radar(raw);
   raw_ = bind_raw(cluster, raw);
-  signals_ =
-      radar_ ? bind_elements<6>(cluster, objects,
-                                {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"})
-             : bind_elements<12>(cluster, objects,
-                                 {"x", "y", "sigma_x", "sigma_y", "heading", "length", "width", "correlation",
-                                  "sigma_heading", "sigma_length", "sigma_width", "valid"});
+  signals_ = radar_ ? host::bind_elements<6>(
+                          cluster, objects,
+                          {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"})
+                    : host::bind_elements<12>(cluster, objects,
+                                              {"x", "y", "sigma_x", "sigma_y", "heading", "length", "width",
+                                               "correlation", "sigma_heading", "sigma_length", "sigma_width", "valid"});
 }
 
-void RecordedPreprocessing::run(StepContext& context) {
+void RecordedPreprocessing::run(host::StepContext& context) {
   const auto measurement = measurement_of(context, sensor_);
   if (!measurement) return;
-  const Input& raw = context.inputs[0];
-  Output& out = context.outputs[0];
-  const int count = std::min(element_count(*raw.layout, *raw.list), out.layout().max_elements);
+  const host::Input& raw = context.inputs[0];
+  host::Output& out = context.outputs[0];
+  const int count = std::min(host::element_count(*raw.layout, *raw.list), out.layout().max_elements);
   out.begin(measurement->sequence, count, measurement->at);
   for (int i = 0; i < count; ++i) {
-    const auto value = [&](std::size_t s) { return element_value(*raw.layout, *raw.list, i, raw_[s]); };
+    const auto value = [&](std::size_t s) { return host::element_value(*raw.layout, *raw.list, i, raw_[s]); };
     const auto set = [&](std::size_t s, double physical) { out.set(i, signals_[s], physical); };
     for (std::size_t s = 0; s < raw_.size(); ++s) set(s, value(s));
     if (radar_) {
@@ -153,4 +153,4 @@ void RecordedPreprocessing::run(StepContext& context) {
   }
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::sensing

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/strict_yaml.h"
-#include "nodes/sensing/scene.h"
 #include "nodes/host/step.h"
+#include "nodes/sensing/scene.h"
 #include "recording/rows/laser_radar_file.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::sensing {
 
 // Standard deviations of the recorded sensors. Defaults: the laser and radar of the public recording the loader knows.
 struct RecordedNoise {
@@ -29,12 +29,12 @@ RecordedNoise load_recorded_noise(YamlMap& yaml);
 // The rows of one sensor, in time order.
 class RecordedTrack {
  public:
-  RecordedTrack(const recording::RecordedInput& input, std::string_view sensor);
+  RecordedTrack(const recording::rows::RecordedInput& input, std::string_view sensor);
   std::size_t size() const { return rows_.size(); }
-  const recording::RecordedObservation& row(std::size_t index) const { return rows_[index]; }
+  const recording::rows::RecordedObservation& row(std::size_t index) const { return rows_[index]; }
 
  private:
-  std::vector<recording::RecordedObservation> rows_;
+  std::vector<recording::rows::RecordedObservation> rows_;
 };
 
 // The recording's ground truth as the scene: cubic Hermite interpolation between its rows (position and velocity).
@@ -43,21 +43,21 @@ class RecordedTrack {
 class RecordedScene final : public Scene {
  public:
   // Recorded time 0 is at true time `start`.
-  RecordedScene(const recording::RecordedInput& input, TrueTime start);
-  void states_at(TrueTime at, std::vector<world::ObjectState>& out) const override;
+  RecordedScene(const recording::rows::RecordedInput& input, TrueTime start);
+  void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const override;
   std::size_t objects() const override { return 1; }
 
  private:
-  std::vector<recording::RecordedTruth> rows_;
+  std::vector<recording::rows::RecordedTruth> rows_;
   TrueTime start_;
 };
 
 // Port `raw`.
-class RecordedSource final : public Step {
+class RecordedSource final : public host::Step {
  public:
-  RecordedSource(const schedules::Cluster& cluster, const schedules::Task& task, SensorId sensor,
-                 std::shared_ptr<const recording::RecordedInput> input);
-  void run(StepContext& context) override;
+  RecordedSource(const schedules::model::Cluster& cluster, const schedules::model::Task& task, SensorId sensor,
+                 std::shared_ptr<const recording::rows::RecordedInput> input);
+  void run(host::StepContext& context) override;
 
  private:
   SensorId sensor_;
@@ -66,10 +66,11 @@ class RecordedSource final : public Step {
 };
 
 // Ports: `raw` -> `objects`.
-class RecordedPreprocessing final : public Step {
+class RecordedPreprocessing final : public host::Step {
  public:
-  RecordedPreprocessing(const schedules::Cluster& cluster, const schedules::Task& task, const RecordedNoise& noise);
-  void run(StepContext& context) override;
+  RecordedPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                        const RecordedNoise& noise);
+  void run(host::StepContext& context) override;
 
  private:
   SensorId sensor_;
@@ -79,4 +80,4 @@ class RecordedPreprocessing final : public Step {
   bool radar_;
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::sensing

@@ -8,13 +8,13 @@
 #include "core/time.h"
 #include "sim/world/world.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::sensing {
 
 class Scene {
  public:
   virtual ~Scene() = default;
   // States of all objects at `at`, into `out` (which keeps its capacity).
-  virtual void states_at(TrueTime at, std::vector<world::ObjectState>& out) const = 0;
+  virtual void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const = 0;
   // How many there are.
   virtual std::size_t objects() const = 0;
 };
@@ -22,17 +22,17 @@ class Scene {
 // The scenario's simulated world; drives start at `start`.
 class WorldScene final : public Scene {
  public:
-  WorldScene(const world::WorldConfig& config, std::uint64_t seed, std::uint32_t replication, TrueTime start)
+  WorldScene(const sim::world::WorldConfig& config, std::uint64_t seed, std::uint32_t replication, TrueTime start)
       : world_(config, seed, replication), start_(start) {}
-  void states_at(TrueTime at, std::vector<world::ObjectState>& out) const override {
+  void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const override {
     world_.states_at(TrueTime{} + (at - start_), out);
   }
   std::size_t objects() const override { return world_.size(); }
-  const world::World& world() const { return world_; }
+  const sim::world::World& world() const { return world_; }
 
  private:
-  world::World world_;
+  sim::world::World world_;
   TrueTime start_;
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::sensing

@@ -6,11 +6,11 @@
 
 #include "nodes/host/signals.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::service {
 namespace {
 
 // From the origin to the outline of a rectangle, towards its centre; zero within it.
-double clearance(const records::ImageObject& object, double range) {
+double clearance(const recording::records::ImageObject& object, double range) {
   const double aspect = object.heading - std::atan2(object.y, object.x);
   // Half the chord along the line of sight: it leaves the rectangle through the sides or through the ends.
   constexpr double kAlongTheSides = 1e-9;
@@ -31,11 +31,11 @@ FeatureConfig load_feature(YamlMap& yaml) {
   return config;
 }
 
-records::FeatureObject judge(const records::ImageObject& object, const FeatureConfig& config) {
+recording::records::FeatureObject judge(const recording::records::ImageObject& object, const FeatureConfig& config) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   // Closing slower than walking pace is no collision course: the sign of a speed near zero is noise.
   constexpr double kSlowestClosing_mps = 0.5;
-  records::FeatureObject result;
+  recording::records::FeatureObject result;
   result.image = object;
   const double range = std::hypot(object.x, object.y), distance = clearance(object, range);
   const double vx = object.speed * std::cos(object.heading), vy = object.speed * std::sin(object.heading);
@@ -47,25 +47,25 @@ records::FeatureObject judge(const records::ImageObject& object, const FeatureCo
   return result;
 }
 
-FeatureService::FeatureService(const schedules::Cluster& cluster, const schedules::Task& task,
+FeatureService::FeatureService(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                                const FeatureConfig& config)
     : config_(config), round_(cluster.round()) {
-  const schedules::PduLayout& layout = cluster.pdu(binding_of(task.reads, "image").pdu);
-  signals_ = bind_image(cluster, layout);
+  const schedules::model::PduLayout& layout = cluster.pdu(host::binding_of(task.reads, "image").pdu);
+  signals_ = fusion::bind_image(cluster, layout);
   objects_.reserve(static_cast<std::size_t>(layout.max_elements));
 }
 
-void FeatureService::run(StepContext& context) {
-  const Input& image = context.inputs[0];
+void FeatureService::run(host::StepContext& context) {
+  const host::Input& image = context.inputs[0];
   if (!image.list) return;  // no image has arrived yet: nothing is made up
-  if (image.fresh) valid_at_ = time_stamp(*image.layout, *image.list, context.stamp.global, round_);
+  if (image.fresh) valid_at_ = host::time_stamp(*image.layout, *image.list, context.stamp.global, round_);
   const Duration age = context.stamp.global - valid_at_;
   const bool stale = age > config_.max_image_age || -age > config_.max_image_age;
   objects_.clear();
-  const int count = stale ? 0 : element_count(*image.layout, *image.list);
+  const int count = stale ? 0 : host::element_count(*image.layout, *image.list);
   for (int i = 0; i < count; ++i)
-    objects_.push_back(judge(decode_image_object(*image.layout, *image.list, i, signals_), config_));
-  records::FeatureUsed used;
+    objects_.push_back(judge(fusion::decode_image_object(*image.layout, *image.list, i, signals_), config_));
+  recording::records::FeatureUsed used;
   used.stamp = context.stamp;
   used.image_sequence = image.list->sequence;
   used.image_valid_at = valid_at_;
@@ -75,4 +75,4 @@ void FeatureService::run(StepContext& context) {
   context.sink->on(used);
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::service

@@ -9,7 +9,7 @@
 #include "nodes/host/step.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::service {
 
 struct FeatureConfig {
   double own_speed_mps = 0.0;          // of the sensor car along x, over ground; it stands in the paper's drives
@@ -30,22 +30,23 @@ FeatureConfig load_feature(YamlMap& yaml);
 //   sensor car is where the
 //                      object's near edge is now
 // Infinite where the denominator is not positive (time to collision: not above what noise makes of zero).
-records::FeatureObject judge(const records::ImageObject& object, const FeatureConfig& config);
+recording::records::FeatureObject judge(const recording::records::ImageObject& object, const FeatureConfig& config);
 
 // Port `image`. Where the newest image is older than max_image_age (its fusion node is dead, or starting anew and not
-// yet believed, bus/cni/list_buffer.h L3), or that far from the future, it is refused: recorded as stale, its objects are
-// not judged, and nothing is put in their place.
-class FeatureService final : public Step {
+// yet believed, bus/cni/list_buffer.h L3), or that far from the future, it is refused: recorded as stale, its objects
+// are not judged, and nothing is put in their place.
+class FeatureService final : public host::Step {
  public:
-  FeatureService(const schedules::Cluster& cluster, const schedules::Task& task, const FeatureConfig& config);
-  void run(StepContext& context) override;
+  FeatureService(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                 const FeatureConfig& config);
+  void run(host::StepContext& context) override;
 
  private:
   FeatureConfig config_;
   Duration round_;
-  ImageSignals signals_;
+  fusion::ImageSignals signals_;
   GlobalTime valid_at_{};  // of the newest image, told when it came: later, its wrapped stamp could mean another round
-  std::vector<records::FeatureObject> objects_;
+  std::vector<recording::records::FeatureObject> objects_;
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::service

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 
 enum class BlockType : std::uint32_t {
   kInterface = 1,
@@ -30,4 +30,4 @@ inline constexpr std::uint32_t kMostPacketBytes = 262144;  // what libpcap takes
 // Blocks, options and data are padded to whole 32-bit words.
 constexpr std::size_t padded(std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

@@ -12,10 +12,10 @@
 #include "recording/capture/packet.h"
 #include "recording/capture/wrong_slots.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 struct Frame {
   std::uint64_t number = 0;
@@ -30,7 +30,7 @@ struct Frame {
 
 class CaptureChecker {
  public:
-  CaptureChecker(const schedules::Cluster& cluster, const CaptureCheckOptions& options)
+  CaptureChecker(const schedules::model::Cluster& cluster, const CaptureCheckOptions& options)
       : cluster_(cluster), options_(options), cycles_(cluster.flexray),
         coverage_(cluster, options.channels, [this](std::uint64_t packet, std::uint64_t count, std::string text) {
           report(Contradiction::kMissing, packet, std::move(text), count);
@@ -113,7 +113,7 @@ class CaptureChecker {
                                 letter(packet.channel), packet.errors));
     if (packet.kind != FlexRayPacket::Kind::kFrame || !packet.whole_header)
       return report(Contradiction::kMalformed, frame.number, "holds neither a symbol nor a whole frame header");
-    const wire::FrameHeader& header = packet.header;
+    const bus::wire::FrameHeader& header = packet.header;
     const auto say = [&](Contradiction kind, const std::string& what) {
       report(kind, frame.number,
              fmt::format("slot {} on {}, cycle {}: {}", header.frame_id, letter(packet.channel), header.cycle, what));
@@ -147,9 +147,9 @@ class CaptureChecker {
   }
 
   template <class Say>
-  void check_owner(const wire::FrameHeader& header, Channel channel, int counter, const Say& say) const {
+  void check_owner(const bus::wire::FrameHeader& header, Channel channel, int counter, const Say& say) const {
     bool slot = false, on_channel = false;
-    for (const schedules::FrameSlot& frame : cluster_.frames) {
+    for (const schedules::model::FrameSlot& frame : cluster_.frames) {
       if (frame.slot != header.frame_id) continue;
       slot = true;
       if (!includes(frame.channels, channel)) continue;
@@ -181,7 +181,7 @@ class CaptureChecker {
     if (verdict_.findings.size() < kMostFindings) verdict_.findings.push_back({kind, packet, std::move(text)});
   }
 
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   const CaptureCheckOptions& options_;
   CycleTracker cycles_;
   CaptureCoverage coverage_;
@@ -200,9 +200,9 @@ std::uint64_t CaptureVerdict::contradictions() const {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
-CaptureVerdict check_capture(const Capture& capture, const std::string& name, const schedules::Cluster& cluster,
+CaptureVerdict check_capture(const Capture& capture, const std::string& name, const schedules::model::Cluster& cluster,
                              const CaptureCheckOptions& options) {
   return CaptureChecker(cluster, options).check(capture, name);
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

@@ -15,7 +15,7 @@
 #include "recording/capture/reader.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 
 enum class Contradiction : std::uint8_t {
   kMalformed,           // a FlexRay packet that is neither symbol nor has a whole frame header
@@ -55,14 +55,16 @@ struct CaptureVerdict {
 inline constexpr std::size_t kMostFindings = 1000;
 
 struct CaptureCheckOptions {
-  schedules::Channels channels = schedules::Channels::kAB;  // a capture of one channel lacks the other's frames
-  std::int64_t from_ns = 0;                                 // since the first FlexRay packet
+  schedules::model::Channels channels =
+      schedules::model::Channels::kAB;  // a capture of one channel lacks the other's frames
+  std::int64_t from_ns = 0;             // since the first FlexRay packet
   std::optional<std::int64_t> to_ns;
 };
 
-// The cluster must be consistent (schedules/check/checker.h). Throws InputError if nothing can be said: no FlexRay frame with
-// a sound header in the window, or a window of a capture without time stamps. `name` is the capture's, for messages.
-CaptureVerdict check_capture(const Capture& capture, const std::string& name, const schedules::Cluster& cluster,
+// The cluster must be consistent (schedules/check/checker.h). Throws InputError if nothing can be said: no FlexRay
+// frame with a sound header in the window, or a window of a capture without time stamps. `name` is the capture's, for
+// messages.
+CaptureVerdict check_capture(const Capture& capture, const std::string& name, const schedules::model::Cluster& cluster,
                              const CaptureCheckOptions& options);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

@@ -5,20 +5,21 @@
 #include <algorithm>
 #include <utility>
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 constexpr int kSlots = 2048;  // frame ids are 11 bits
 
 }  // namespace
 
-CaptureCoverage::CaptureCoverage(const schedules::Cluster& cluster, schedules::Channels channels, Missing missing)
+CaptureCoverage::CaptureCoverage(const schedules::model::Cluster& cluster, schedules::model::Channels channels,
+                                 Missing missing)
     : missing_(std::move(missing)), counters_(cluster.flexray.gCycleCountMax + 1),
       owned_(static_cast<std::size_t>(counters_)), packets_(kSlots * 2) {
   for (int counter = 0; counter < counters_; ++counter)
-    for (const schedules::FrameSlot& frame : cluster.frames)
-      for (const Channel channel : schedules::kBothChannels)
+    for (const schedules::model::FrameSlot& frame : cluster.frames)
+      for (const Channel channel : schedules::model::kBothChannels)
         if (includes(frame.channels, channel) && includes(channels, channel) &&
             frame.slot <= cluster.flexray.gNumberOfStaticSlots && in_cycle(frame, counter))
           owned_[static_cast<std::size_t>(counter)].push_back({frame.slot, channel});
@@ -66,7 +67,7 @@ void CaptureCoverage::close_cycle(int before_slot) {
   int slot = 0;
   for (const Owned& owned : owned_[static_cast<std::size_t>(counter_)]) {
     for (; slot < owned.slot; ++slot)
-      for (const Channel channel : schedules::kBothChannels) after = std::max(after, packet_of(slot, channel));
+      for (const Channel channel : schedules::model::kBothChannels) after = std::max(after, packet_of(slot, channel));
     if (owned.slot <= after_slot_ || owned.slot >= before_slot || packet_of(owned.slot, owned.channel) != 0 ||
         was_damaged(owned))
       continue;
@@ -94,4 +95,4 @@ void CaptureCoverage::finish() {
   if (cycle_ >= 0) close_cycle(last_slot_);
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

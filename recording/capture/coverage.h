@@ -8,19 +8,19 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 
 class CaptureCoverage {
  public:
   // `count` frames are missing after a packet.
   using Missing = std::function<void(std::uint64_t packet, std::uint64_t count, std::string text)>;
-  CaptureCoverage(const schedules::Cluster& cluster, schedules::Channels channels, Missing missing);
+  CaptureCoverage(const schedules::model::Cluster& cluster, schedules::model::Channels channels, Missing missing);
 
   // The next frame was sent `advance` cycles after the one before, in a cycle with this counter. Whether it is the
   // first one of its slot and channel there.
-  bool frame(std::int64_t advance, int counter, int slot, schedules::Channel channel, std::uint64_t packet);
+  bool frame(std::int64_t advance, int counter, int slot, schedules::model::Channel channel, std::uint64_t packet);
   // A frame that claims this place, but with a header that fails its CRC: it is damaged, not missing.
-  void damaged(int counter, int slot, schedules::Channel channel);
+  void damaged(int counter, int slot, schedules::model::Channel channel);
   // After the last frame.
   void finish();
   std::int64_t cycles() const { return cycle_ + 1; }
@@ -28,14 +28,14 @@ class CaptureCoverage {
  private:
   struct Owned {
     int slot = 0;
-    schedules::Channel channel{};
+    schedules::model::Channel channel{};
   };
   struct Claim {
     std::int64_t cycle = 0;  // the running one when it came
     int counter = 0;
     Owned place;
   };
-  std::uint64_t& packet_of(int slot, schedules::Channel channel);
+  std::uint64_t& packet_of(int slot, schedules::model::Channel channel);
   bool was_damaged(const Owned& owned) const;
   void close_cycle(int before_slot);
   void silent_cycles(std::int64_t count);
@@ -52,4 +52,4 @@ class CaptureCoverage {
   std::uint64_t last_packet_ = 0, last_before_cycle_ = 0;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

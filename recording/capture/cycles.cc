@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
 // In cycles. Where stamps are not good enough to tell (capture_slots.h), a frame in a wrong slot may be off by the
@@ -14,7 +14,7 @@ constexpr int kMostAstray = 4;
 
 }  // namespace
 
-CycleTracker::CycleTracker(const schedules::GlobalParameters& flexray)
+CycleTracker::CycleTracker(const schedules::model::GlobalParameters& flexray)
     : flexray_(flexray), cycle_ns_(flexray.cycle_ps() / 1000), counters_(flexray.gCycleCountMax + 1) {}
 
 std::int64_t CycleTracker::offset_ns(int slot) const {
@@ -75,4 +75,4 @@ CycleTracker::Place CycleTracker::place(int slot, int counter, std::optional<std
   return place;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

@@ -11,22 +11,22 @@
 
 #include "schedules/model/flexray_parameters.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 
 // What two clocks' rates may differ by: 1500 ppm to either side (cClockDeviationMax).
 inline constexpr double kClockDeviation = 0.003;
 
 // When a static slot begins in its cycle, and how long it lasts [ns].
-inline std::int64_t static_slot_offset_ns(const schedules::GlobalParameters& flexray, int slot) {
+inline std::int64_t static_slot_offset_ns(const schedules::model::GlobalParameters& flexray, int slot) {
   return std::int64_t{slot - 1} * flexray.gdStaticSlot * flexray.gdMacrotick_ps / 1000;
 }
-inline std::int64_t slot_length_ns(const schedules::GlobalParameters& flexray) {
+inline std::int64_t slot_length_ns(const schedules::model::GlobalParameters& flexray) {
   return static_slot_offset_ns(flexray, 2);
 }
 
 class CycleTracker {
  public:
-  explicit CycleTracker(const schedules::GlobalParameters& flexray);
+  explicit CycleTracker(const schedules::model::GlobalParameters& flexray);
 
   struct Place {
     std::int64_t advance = 0;  // cycles from the frame before to this one; never negative
@@ -44,7 +44,7 @@ class CycleTracker {
   Place place_by_counter(int counter);
   bool disagrees_for_a_cycle(int by, std::int64_t advance);
 
-  schedules::GlobalParameters flexray_;
+  schedules::model::GlobalParameters flexray_;
   std::int64_t cycle_ns_;
   int counters_;  // gCycleCountMax + 1
   bool started_ = false;
@@ -55,4 +55,4 @@ class CycleTracker {
   std::int64_t disagreed_cycles_ = 0;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

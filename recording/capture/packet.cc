@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
 constexpr std::uint8_t kChannelB = 0x80, kTypeMask = 0x7f;
@@ -11,8 +11,8 @@ constexpr std::size_t kFlexRayPrefix = 2;
 
 void put_byte(std::string& out, std::uint32_t value) { out.push_back(static_cast<char>(value & 0xff)); }
 
-void put_prefix(std::string& out, schedules::Channel channel, FlexRayPacket::Kind kind) {
-  put_byte(out, (channel == schedules::Channel::kB ? kChannelB : 0u) | static_cast<unsigned>(kind));
+void put_prefix(std::string& out, schedules::model::Channel channel, FlexRayPacket::Kind kind) {
+  put_byte(out, (channel == schedules::model::Channel::kB ? kChannelB : 0u) | static_cast<unsigned>(kind));
 }
 
 void put_bytes(std::string& out, std::span<const std::byte> bytes) {
@@ -21,41 +21,41 @@ void put_bytes(std::string& out, std::span<const std::byte> bytes) {
 
 }  // namespace
 
-CheckedFlexRayFrame check_flexray_frame(schedules::Channel channel, std::span<const std::byte> bytes) {
+CheckedFlexRayFrame check_flexray_frame(schedules::model::Channel channel, std::span<const std::byte> bytes) {
   CheckedFlexRayFrame frame;
-  const wire::FrameCrcs crcs = wire::check_crcs(channel, bytes);
+  const bus::wire::FrameCrcs crcs = bus::wire::check_crcs(channel, bytes);
   if (!crcs.header_holds) frame.errors |= kHeaderCrcError;
   if (!crcs.frame_holds) frame.errors |= kFrameCrcError;
-  frame.header = wire::header_of(bytes).value_or(wire::FrameHeader{});
-  const bool trailer = bytes.size() >= wire::kHeaderBytes + wire::kTrailerBytes;
-  frame.header_and_payload =
-      trailer ? bytes.first(std::min(bytes.size() - wire::kTrailerBytes, wire::kHeaderBytes + wire::kMaxPayloadBytes))
-              : bytes.first(std::min(bytes.size(), wire::kHeaderBytes));
+  frame.header = bus::wire::header_of(bytes).value_or(bus::wire::FrameHeader{});
+  const bool trailer = bytes.size() >= bus::wire::kHeaderBytes + bus::wire::kTrailerBytes;
+  frame.header_and_payload = trailer ? bytes.first(std::min(bytes.size() - bus::wire::kTrailerBytes,
+                                                            bus::wire::kHeaderBytes + bus::wire::kMaxPayloadBytes))
+                                     : bytes.first(std::min(bytes.size(), bus::wire::kHeaderBytes));
   return frame;
 }
 
-CheckedFlexRayFrame check_broken_frame(schedules::Channel channel, std::span<const std::byte> bytes) {
+CheckedFlexRayFrame check_broken_frame(schedules::model::Channel channel, std::span<const std::byte> bytes) {
   CheckedFlexRayFrame frame;
-  frame.header_and_payload = bytes.first(std::min(bytes.size(), wire::kHeaderBytes + wire::kMaxPayloadBytes));
-  const std::optional<wire::FrameHeader> header = wire::header_of(bytes);
+  frame.header_and_payload = bytes.first(std::min(bytes.size(), bus::wire::kHeaderBytes + bus::wire::kMaxPayloadBytes));
+  const std::optional<bus::wire::FrameHeader> header = bus::wire::header_of(bytes);
   if (!header) return frame;
   frame.header = *header;
-  const wire::FrameCrcs crcs = wire::check_crcs(channel, bytes);
+  const bus::wire::FrameCrcs crcs = bus::wire::check_crcs(channel, bytes);
   if (!crcs.header_holds) frame.errors |= kHeaderCrcError;
-  const std::size_t until_trailer = wire::kHeaderBytes + std::size_t{2} * header->payload_words;
-  if (bytes.size() == until_trailer + wire::kTrailerBytes && !crcs.frame_holds) frame.errors |= kFrameCrcError;
+  const std::size_t until_trailer = bus::wire::kHeaderBytes + std::size_t{2} * header->payload_words;
+  if (bytes.size() == until_trailer + bus::wire::kTrailerBytes && !crcs.frame_holds) frame.errors |= kFrameCrcError;
   // Without a sound header nobody knows where the payload ends.
   if (crcs.header_holds) frame.header_and_payload = bytes.first(std::min(bytes.size(), until_trailer));
   return frame;
 }
 
-void put_flexray_packet(std::string& out, schedules::Channel channel, const CheckedFlexRayFrame& frame) {
+void put_flexray_packet(std::string& out, schedules::model::Channel channel, const CheckedFlexRayFrame& frame) {
   put_prefix(out, channel, FlexRayPacket::Kind::kFrame);
   put_byte(out, frame.errors);
   put_bytes(out, frame.header_and_payload);
 }
 
-void put_symbol_packet(std::string& out, schedules::Channel channel, std::int64_t bits) {
+void put_symbol_packet(std::string& out, schedules::model::Channel channel, std::int64_t bits) {
   put_prefix(out, channel, FlexRayPacket::Kind::kSymbol);
   put_byte(out, static_cast<std::uint32_t>(std::clamp<std::int64_t>(bits, 0, kLongestSymbolBits)));
 }
@@ -64,7 +64,7 @@ FlexRayPacket parse_flexray_packet(std::span<const std::byte> data) {
   FlexRayPacket packet;
   if (data.size() < kFlexRayPrefix) return packet;
   const auto first = static_cast<std::uint8_t>(data[0]);
-  packet.channel = (first & kChannelB) != 0 ? schedules::Channel::kB : schedules::Channel::kA;
+  packet.channel = (first & kChannelB) != 0 ? schedules::model::Channel::kB : schedules::model::Channel::kA;
   switch (first & kTypeMask) {
     case static_cast<int>(FlexRayPacket::Kind::kFrame): packet.kind = FlexRayPacket::Kind::kFrame; break;
     case static_cast<int>(FlexRayPacket::Kind::kSymbol):
@@ -75,12 +75,12 @@ FlexRayPacket parse_flexray_packet(std::span<const std::byte> data) {
   }
   packet.errors = static_cast<std::uint8_t>(data[1]) & 0x1f;
   const std::span<const std::byte> frame = data.subspan(kFlexRayPrefix);
-  const std::optional<wire::FrameHeader> header = wire::header_of(frame);
+  const std::optional<bus::wire::FrameHeader> header = bus::wire::header_of(frame);
   if (!header) return packet;
   packet.whole_header = true;
   packet.header = *header;
-  packet.header_crc_holds = wire::header_crc_holds(*header);
-  packet.payload = frame.subspan(wire::kHeaderBytes);
+  packet.header_crc_holds = bus::wire::header_crc_holds(*header);
+  packet.payload = frame.subspan(bus::wire::kHeaderBytes);
   return packet;
 }
 
@@ -96,4 +96,4 @@ void put_can_packet(std::string& out, std::uint32_t identifier, bool flexible_da
   put_bytes(out, kept);
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

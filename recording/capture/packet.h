@@ -15,7 +15,7 @@
 #include "bus/wire/flexray_frame.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 
 enum class LinkType : std::uint16_t { kFlexRay = 210, kCan = 227 };
 
@@ -32,24 +32,24 @@ enum FlexRayErrors : std::uint8_t {
 // checks say of it.
 struct CheckedFlexRayFrame {
   std::uint8_t errors = 0;  // FlexRayErrors
-  wire::FrameHeader header;
+  bus::wire::FrameHeader header;
   std::span<const std::byte> header_and_payload;
 };
 
 // Computes both CRCs anew from `bytes` (header, payload, trailer). Bytes that are too few for a header and a trailer,
 // or not as many as the header says, fail the frame CRC, too few for a header also the header CRC.
-CheckedFlexRayFrame check_flexray_frame(schedules::Channel channel, std::span<const std::byte> bytes);
+CheckedFlexRayFrame check_flexray_frame(schedules::model::Channel channel, std::span<const std::byte> bytes);
 
 // The same of what is left of a frame that could not be made out to its end: `bytes`, as many as were there as a whole,
 // with the trailer, if that was there, too. Whatever can be checked of it is.
-CheckedFlexRayFrame check_broken_frame(schedules::Channel channel, std::span<const std::byte> bytes);
+CheckedFlexRayFrame check_broken_frame(schedules::model::Channel channel, std::span<const std::byte> bytes);
 
 // Appends a packet of link type 210.
-void put_flexray_packet(std::string& out, schedules::Channel channel, const CheckedFlexRayFrame& frame);
+void put_flexray_packet(std::string& out, schedules::model::Channel channel, const CheckedFlexRayFrame& frame);
 
 // Appends a symbol's packet of link type 210: how long it was low, in bits. Its 7 bits end at kLongestSymbolBits, which
 // is that and all that is longer, as a wake-up pattern.
-void put_symbol_packet(std::string& out, schedules::Channel channel, std::int64_t bits);
+void put_symbol_packet(std::string& out, schedules::model::Channel channel, std::int64_t bits);
 inline constexpr std::int64_t kLongestSymbolBits = 127;
 
 // A packet of link type 210 as somebody captured it. Nothing in it is believed: the header may be cut short, the
@@ -57,11 +57,11 @@ inline constexpr std::int64_t kLongestSymbolBits = 127;
 struct FlexRayPacket {
   enum class Kind : std::uint8_t { kFrame = 1, kSymbol = 2, kUnknown = 0 };
   Kind kind = Kind::kUnknown;
-  schedules::Channel channel{};
+  schedules::model::Channel channel{};
   std::uint8_t errors = 0;    // FlexRayErrors, of a frame
   int symbol_bits = 0;        // of a symbol
   bool whole_header = false;  // of a frame; without it the fields below are zero
-  wire::FrameHeader header;
+  bus::wire::FrameHeader header;
   bool header_crc_holds = false;  // recomputed
   std::span<const std::byte> payload;
 };
@@ -78,4 +78,4 @@ inline constexpr std::uint32_t kLargestBaseIdentifier = 0x7ff;
 inline constexpr std::uint32_t kExtendedIdentifier = 0x80000000u;
 inline constexpr std::uint8_t kBitRateSwitch = 1, kFlexibleDataRate = 4;
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

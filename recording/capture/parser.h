@@ -10,7 +10,7 @@
 #include "recording/capture/blocks.h"
 #include "recording/capture/reader.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
@@ -53,4 +53,4 @@ class CaptureParser {
 void parse_pcap(Capture& capture, const std::string& name);
 void parse_pcapng(Capture& capture, const std::string& name);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

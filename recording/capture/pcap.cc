@@ -5,7 +5,7 @@
 
 #include "recording/capture/parser.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
 constexpr std::size_t kFileHeader = 24, kPacketHeader = 16;
@@ -57,4 +57,4 @@ class PcapParser : CaptureParser {
 
 void parse_pcap(Capture& capture, const std::string& name) { PcapParser(capture, name).parse(); }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

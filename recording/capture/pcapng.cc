@@ -7,7 +7,7 @@
 #include "core/int128.h"
 #include "recording/capture/parser.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
 // Differences of stamps stay within 64 bits, with room to spare.
@@ -185,4 +185,4 @@ class PcapngParser : CaptureParser {
 
 void parse_pcapng(Capture& capture, const std::string& name) { PcapngParser(capture, name).parse(); }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

@@ -3,7 +3,7 @@
 #include "core/file_bytes.h"
 #include "recording/capture/parser.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
 bool is_pcap(std::uint32_t magic) { return magic == kPcapMicroseconds || magic == kPcapNanoseconds; }
@@ -26,4 +26,4 @@ Capture parse_capture(std::string bytes, const std::string& name) {
 
 Capture read_capture(const std::string& path) { return parse_capture(read_file(path), path); }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

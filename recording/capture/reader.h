@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 
 // Of one interface; in a pcap file there is one, without a name.
 struct CaptureSource {
@@ -48,4 +48,4 @@ struct Capture {
 Capture read_capture(const std::string& path);
 Capture parse_capture(std::string bytes, const std::string& name);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

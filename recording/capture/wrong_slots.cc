@@ -6,7 +6,7 @@
 
 #include "recording/capture/cycles.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
 constexpr std::size_t kFrameIds = 2048;  // 11 bits
@@ -22,7 +22,7 @@ template <class Number> Number median(std::vector<Number>& values) {
 
 class SlotJudge {
  public:
-  SlotJudge(const schedules::GlobalParameters& flexray, std::span<const StampedFrame> frames)
+  SlotJudge(const schedules::model::GlobalParameters& flexray, std::span<const StampedFrame> frames)
       : flexray_(flexray), frames_(frames) {
     const std::int64_t nominal = flexray.cycle_ps() / 1000;
     stretch_ = stretch(nominal);
@@ -121,7 +121,7 @@ class SlotJudge {
     return start;
   }
 
-  const schedules::GlobalParameters& flexray_;
+  const schedules::model::GlobalParameters& flexray_;
   std::span<const StampedFrame> frames_;
   double stretch_ = 1.0;
   std::int64_t cycle_ = 0, slot_ = 0;           // by the capture's clock [ns]
@@ -131,7 +131,7 @@ class SlotJudge {
 
 }  // namespace
 
-std::vector<std::optional<int>> frames_in_wrong_slots(const schedules::GlobalParameters& flexray,
+std::vector<std::optional<int>> frames_in_wrong_slots(const schedules::model::GlobalParameters& flexray,
                                                       std::span<const StampedFrame> frames) {
   SlotJudge judge(flexray, frames);
   std::vector<std::optional<int>> found;
@@ -140,4 +140,4 @@ std::vector<std::optional<int>> frames_in_wrong_slots(const schedules::GlobalPar
   return found;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

@@ -13,13 +13,13 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 
 // By its stamp and by its header.
 struct StampedFrame {
   std::int64_t time_ns = 0;
   int slot = 0;
-  schedules::Channel channel{};
+  schedules::model::Channel channel{};
 };
 
 // For every frame, in the order of time, where it was if not in its slot: a static slot, or gNumberOfStaticSlots + 1,
@@ -34,8 +34,8 @@ struct StampedFrame {
 //   S3  Of the frames of other slots that are next to it, up to kWitnesses before and as many after, not more than two
 //       cycles away, there are kLeastWitnesses at least, and three in four agree to a tenth of a slot. Those are of two
 //       slots at least: of two senders alone, either may be in the wrong.
-std::vector<std::optional<int>> frames_in_wrong_slots(const schedules::GlobalParameters& flexray,
+std::vector<std::optional<int>> frames_in_wrong_slots(const schedules::model::GlobalParameters& flexray,
                                                       std::span<const StampedFrame> frames);
 inline constexpr std::size_t kWitnesses = 16, kLeastWitnesses = 8;
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

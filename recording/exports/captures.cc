@@ -8,7 +8,7 @@
 #include "recording/capture/packet.h"
 #include "recording/exports/pcapng_writer.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
 constexpr char kFlexRayName[] = "FlexRay";
@@ -18,7 +18,9 @@ constexpr std::int64_t kCandumpStart_s = 1'000'000'000;
 
 constexpr std::int64_t kUsualBit_ps = 100'000;  // 10 Mbit/s
 
-schedules::Channel channel_of(const LoggedFrame& frame) { return static_cast<schedules::Channel>(frame.channel); }
+schedules::model::Channel channel_of(const LoggedFrame& frame) {
+  return static_cast<schedules::model::Channel>(frame.channel);
+}
 
 void put_hex(std::string& out, std::span<const std::byte> bytes) {
   constexpr char kDigits[] = "0123456789ABCDEF";
@@ -29,11 +31,11 @@ void put_hex(std::string& out, std::span<const std::byte> bytes) {
 }
 
 // What our own checks say of a frame's bytes, and the decoder of what is not there.
-CheckedFlexRayFrame checked(const LoggedFrame& frame, std::span<const std::byte> bytes) {
-  if ((frame.state & records::kChannelCoding) == 0) return check_flexray_frame(channel_of(frame), bytes);
-  CheckedFlexRayFrame broken = check_broken_frame(channel_of(frame), bytes);
-  broken.errors |= kCodingError;
-  if ((frame.state & records::kChannelCut) != 0) broken.errors |= kFrameEndError;
+capture::CheckedFlexRayFrame checked(const LoggedFrame& frame, std::span<const std::byte> bytes) {
+  if ((frame.state & records::kChannelCoding) == 0) return capture::check_flexray_frame(channel_of(frame), bytes);
+  capture::CheckedFlexRayFrame broken = capture::check_broken_frame(channel_of(frame), bytes);
+  broken.errors |= capture::kCodingError;
+  if ((frame.state & records::kChannelCut) != 0) broken.errors |= capture::kFrameEndError;
   return broken;
 }
 
@@ -56,7 +58,7 @@ std::string list_of(const LoggedFrame& frame, const LogNames& names) {
 std::int64_t bits_of(const LoggedFrame& symbol, const LogNames& names) {
   const std::int64_t bit = names.manifest().bit_ps > 0 ? names.manifest().bit_ps : kUsualBit_ps;
   const double bits = static_cast<double>(symbol.duration_ns) * 1e3 / static_cast<double>(bit);
-  return std::llround(std::clamp(bits, 0.0, static_cast<double>(kLongestSymbolBits)));
+  return std::llround(std::clamp(bits, 0.0, static_cast<double>(capture::kLongestSymbolBits)));
 }
 
 std::string comment_of(const LoggedFrame& frame, const LogNames& names) {
@@ -85,14 +87,14 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-std::string flexray_flags(const CheckedFlexRayFrame& frame) {
+std::string flexray_flags(const capture::CheckedFlexRayFrame& frame) {
   const std::pair<bool, const char*> flags[] = {{frame.header.sync, "sync"},
                                                 {frame.header.startup, "startup"},
                                                 {frame.header.payload_preamble, "preamble"},
-                                                {(frame.errors & kHeaderCrcError) != 0, "header_crc_error"},
-                                                {(frame.errors & kFrameCrcError) != 0, "frame_crc_error"},
-                                                {(frame.errors & kCodingError) != 0, "coding_error"},
-                                                {(frame.errors & kFrameEndError) != 0, "frame_end_error"}};
+                                                {(frame.errors & capture::kHeaderCrcError) != 0, "header_crc_error"},
+                                                {(frame.errors & capture::kFrameCrcError) != 0, "frame_crc_error"},
+                                                {(frame.errors & capture::kCodingError) != 0, "coding_error"},
+                                                {(frame.errors & capture::kFrameEndError) != 0, "frame_end_error"}};
   std::string text;
   for (const auto& [set, name] : flags)
     if (set) text += (text.empty() ? "" : "+") + std::string(name);
@@ -105,7 +107,7 @@ std::string flexray_kind(const LoggedFrame& frame) {
 }
 
 std::string can_flags(const LoggedFrame& frame) {
-  std::string text = frame.id > kLargestBaseIdentifier ? "extended" : "";
+  std::string text = frame.id > capture::kLargestBaseIdentifier ? "extended" : "";
   if (frame.flexible_data_rate) text += text.empty() ? "brs" : "+brs";
   return text;
 }
@@ -117,9 +119,9 @@ std::string export_pcapng(const FrameCollector& collector, const std::vector<Log
   std::size_t buses = names.can_buses();
   for (const LoggedFrame& frame : frames)
     if (!frame.flexray) buses = std::max<std::size_t>(buses, frame.channel + std::size_t{1});
-  std::vector<CaptureInterface> interfaces{{LinkType::kFlexRay, kFlexRayName}};
-  for (std::size_t b = 0; b < buses; ++b) interfaces.push_back({LinkType::kCan, names.can_bus(b)});
-  const LogManifest& run = names.manifest();
+  std::vector<CaptureInterface> interfaces{{capture::LinkType::kFlexRay, kFlexRayName}};
+  for (std::size_t b = 0; b < buses; ++b) interfaces.push_back({capture::LinkType::kCan, names.can_bus(b)});
+  const log::LogManifest& run = names.manifest();
   std::string out;
   CaptureWriter writer(out, interfaces,
                        fmt::format("{} with {} on {}, seed {}; time 0 is the start of the run", run.scenario_name,
@@ -128,11 +130,11 @@ std::string export_pcapng(const FrameCollector& collector, const std::vector<Log
   for (const LoggedFrame& frame : frames) {
     packet.clear();
     if (frame.symbol != 0)
-      put_symbol_packet(packet, channel_of(frame), bits_of(frame, names));
+      capture::put_symbol_packet(packet, channel_of(frame), bits_of(frame, names));
     else if (frame.flexray)
       put_flexray_packet(packet, channel_of(frame), checked(frame, collector.data(frame)));
     else
-      put_can_packet(packet, frame.id, frame.flexible_data_rate, collector.data(frame));
+      capture::put_can_packet(packet, frame.id, frame.flexible_data_rate, collector.data(frame));
     writer.packet(frame.flexray ? 0 : frame.channel + std::size_t{1}, frame.time_ns, packet, comment_of(frame, names));
   }
   return out;
@@ -147,8 +149,9 @@ std::string export_candump(const FrameCollector& collector, const std::vector<Lo
     const std::string bus = names.can_bus(frame.channel);
     out += fmt::format("({}.{:06}) {} ", kCandumpStart_s + time / kSecond, time % kSecond / kMicrosecond,
                        can_be_a_device(bus) ? bus : fmt::format("can{}", frame.channel));
-    out += frame.id > kLargestBaseIdentifier ? fmt::format("{:08X}", frame.id) : fmt::format("{:03X}", frame.id);
-    out += frame.flexible_data_rate ? fmt::format("##{:X}", kBitRateSwitch) : "#";
+    out +=
+        frame.id > capture::kLargestBaseIdentifier ? fmt::format("{:08X}", frame.id) : fmt::format("{:03X}", frame.id);
+    out += frame.flexible_data_rate ? fmt::format("##{:X}", capture::kBitRateSwitch) : "#";
     put_hex(out, collector.data(frame));
     out += '\n';
   }
@@ -167,10 +170,10 @@ std::string export_csv(const FrameCollector& collector, const std::vector<Logged
     std::string flags;
     std::span<const std::byte> payload = collector.data(frame);
     if (frame.flexray) {
-      const CheckedFlexRayFrame there = checked(frame, payload);
+      const capture::CheckedFlexRayFrame there = checked(frame, payload);
       flags = flexray_flags(there);
       payload = there.header_and_payload;
-      payload = payload.subspan(std::min(payload.size(), wire::kHeaderBytes));
+      payload = payload.subspan(std::min(payload.size(), bus::wire::kHeaderBytes));
       out += fmt::format("{},{},{},{},", frame.time_ns, kFlexRayName, letter(channel_of(frame)),
                          frame.of_controller ? std::to_string(frame.cycle) : "");
     } else {
@@ -188,4 +191,4 @@ std::string export_csv(const FrameCollector& collector, const std::vector<Logged
   return out;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -17,7 +17,7 @@
 
 #include "recording/exports/frames.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 // id: slot or CAN identifier, decimal. kind: frame, null, noise, symbol (FlexRay), can, can_fd. flags: names joined by
 // '+': sync, startup, preamble, header_crc_error, frame_crc_error, coding_error, frame_end_error (FlexRay), extended,
@@ -33,4 +33,4 @@ std::string export_candump(const FrameCollector& collector, const std::vector<Lo
                            const LogNames& names);
 std::string export_csv(const FrameCollector& collector, const std::vector<LoggedFrame>& frames, const LogNames& names);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -8,7 +8,7 @@
 
 #include "bus/wire/flexray_frame.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
 std::string name_or_number(const std::vector<std::string>& names, std::size_t index, const char* what) {
@@ -82,7 +82,7 @@ void FrameCollector::on(const records::ChannelFrame& record) {
   frame.channel = record.channel == 0 ? 0 : 1;
   frame.sender = record.sender;
   frame.state = record.state;
-  if (const auto header = wire::header_of(record.bytes)) {
+  if (const auto header = bus::wire::header_of(record.bytes)) {
     frame.id = header->frame_id;
     frame.null_frame = header->null_frame;
   }
@@ -142,4 +142,4 @@ std::vector<LoggedFrame> FrameCollector::in_order() const {
   return frames;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -12,7 +12,7 @@
 #include "recording/log/manifest.h"
 #include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 struct LoggedFrame {
   std::int64_t time_ns = 0;  // true time: a FlexRay frame's start, a CAN frame's end, as the log's own stamps
@@ -38,7 +38,7 @@ struct LoggedFrame {
 // The names that a log's numbers stand for; numbers without one are written out.
 class LogNames {
  public:
-  explicit LogNames(LogManifest manifest) : manifest_(std::move(manifest)) {}
+  explicit LogNames(log::LogManifest manifest) : manifest_(std::move(manifest)) {}
 
   std::string node(NodeId id) const;
   std::string task(NodeId node, std::uint8_t task) const;
@@ -48,10 +48,10 @@ class LogNames {
   std::string sensor(SensorId id) const;
   // "laser 12"; empty for a frame that carries nothing of a single measurement.
   std::string measurement(const LoggedFrame& frame) const;
-  const LogManifest& manifest() const { return manifest_; }
+  const log::LogManifest& manifest() const { return manifest_; }
 
  private:
-  LogManifest manifest_;
+  log::LogManifest manifest_;
 };
 
 struct SymbolName {
@@ -92,4 +92,4 @@ class FrameCollector final : public records::Sink {
   std::vector<std::byte> bytes_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

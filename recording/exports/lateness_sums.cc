@@ -1,6 +1,6 @@
 #include "recording/exports/lateness_sums.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
 bool is_of_another_process(const records::BinnedDurations& newer, const records::BinnedDurations& older) {
@@ -37,4 +37,4 @@ std::map<NodeId, NodeLateness> LatenessSums::nodes() const {
   return nodes;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

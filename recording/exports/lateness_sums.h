@@ -13,7 +13,7 @@
 #include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 // In real time.
 struct NodeLateness {
@@ -42,4 +42,4 @@ class LatenessSums final : public records::Sink {
   std::map<NodeId, std::array<Told, kKinds>> told_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -2,11 +2,11 @@
 
 #include "bus/wire/flexray_frame.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 bool is_startup_frame(const records::SlotFrameSent& frame) {
-  const auto header = wire::header_of(frame.bytes);
+  const auto header = bus::wire::header_of(frame.bytes);
   return header && header->startup;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

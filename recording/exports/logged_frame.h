@@ -4,9 +4,9 @@
 
 #include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 // Whether the header has the startup frame indicator; not where the log has less of the frame than its header.
 bool is_startup_frame(const records::SlotFrameSent& frame);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

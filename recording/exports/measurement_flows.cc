@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 bool MeasurementFlows::Carried::takes(std::uint8_t on_channel, std::uint8_t fragment) {
   if (!channel) channel = on_channel;
@@ -143,4 +143,4 @@ std::vector<TraceFlow> MeasurementFlows::take(const TraceMark& mark) {
   return flows;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

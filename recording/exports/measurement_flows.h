@@ -18,10 +18,10 @@
 #include <utility>
 #include <vector>
 
-#include "recording/records/records.h"
 #include "recording/exports/trace_timeline.h"
+#include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 class MeasurementFlows {
  public:
@@ -106,4 +106,4 @@ class MeasurementFlows {
   std::uint64_t flow_ids_ = 0;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

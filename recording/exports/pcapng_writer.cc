@@ -7,7 +7,7 @@
 #include "recording/capture/blocks.h"
 #include "recording/mcap/bytes.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
 constexpr std::size_t kLongestText = 1000;
@@ -23,27 +23,27 @@ std::string printable(std::string_view text) {
   return out;
 }
 
-void pad(std::string& out, std::size_t bytes) { out.append(padded(bytes) - bytes, '\0'); }
+void pad(std::string& out, std::size_t bytes) { out.append(capture::padded(bytes) - bytes, '\0'); }
 
 // A block from its type to the second copy of its length.
 class Block {
  public:
-  Block(std::string& out, BlockType type) : out_(out), start_(out.size()) {
-    put(out_, static_cast<std::uint32_t>(type));
-    put(out_, std::uint32_t{0});
+  Block(std::string& out, capture::BlockType type) : out_(out), start_(out.size()) {
+    mcap::put(out_, static_cast<std::uint32_t>(type));
+    mcap::put(out_, std::uint32_t{0});
   }
-  void option(BlockOption code, std::string_view value) {
-    put(out_, static_cast<std::uint16_t>(code));
-    put(out_, static_cast<std::uint16_t>(value.size()));
+  void option(capture::BlockOption code, std::string_view value) {
+    mcap::put(out_, static_cast<std::uint16_t>(code));
+    mcap::put(out_, static_cast<std::uint16_t>(value.size()));
     out_.append(value);
     pad(out_, value.size());
     any_option_ = true;
   }
   void close() {
-    if (any_option_) put(out_, std::uint32_t{0});  // end of options
+    if (any_option_) mcap::put(out_, std::uint32_t{0});  // end of options
     const auto length = static_cast<std::uint32_t>(out_.size() - start_ + sizeof(std::uint32_t));
     std::memcpy(out_.data() + start_ + sizeof(std::uint32_t), &length, sizeof length);
-    put(out_, length);
+    mcap::put(out_, length);
   }
 
  private:
@@ -56,39 +56,39 @@ class Block {
 
 CaptureWriter::CaptureWriter(std::string& out, std::span<const CaptureInterface> interfaces, std::string_view comment)
     : out_(out), interfaces_(interfaces.size()) {
-  Block section(out_, BlockType::kSection);
-  put(out_, kByteOrderMagic);
-  put(out_, std::uint16_t{1});  // version 1.0
-  put(out_, std::uint16_t{0});
-  put(out_, std::int64_t{-1});  // length of the section: not said
-  if (!comment.empty()) section.option(BlockOption::kComment, printable(comment));
+  Block section(out_, capture::BlockType::kSection);
+  mcap::put(out_, capture::kByteOrderMagic);
+  mcap::put(out_, std::uint16_t{1});  // version 1.0
+  mcap::put(out_, std::uint16_t{0});
+  mcap::put(out_, std::int64_t{-1});  // length of the section: not said
+  if (!comment.empty()) section.option(capture::BlockOption::kComment, printable(comment));
   section.close();
   for (const CaptureInterface& interface : interfaces) {
-    Block block(out_, BlockType::kInterface);
-    put(out_, static_cast<std::uint16_t>(interface.link_type));
-    put(out_, std::uint16_t{0});
-    put(out_, std::uint32_t{0});  // packets of any length
-    block.option(BlockOption::kInterfaceName, printable(interface.name));
-    block.option(BlockOption::kTimeResolution, std::string(1, static_cast<char>(kNanoseconds)));
+    Block block(out_, capture::BlockType::kInterface);
+    mcap::put(out_, static_cast<std::uint16_t>(interface.link_type));
+    mcap::put(out_, std::uint16_t{0});
+    mcap::put(out_, std::uint32_t{0});  // packets of any length
+    block.option(capture::BlockOption::kInterfaceName, printable(interface.name));
+    block.option(capture::BlockOption::kTimeResolution, std::string(1, static_cast<char>(kNanoseconds)));
     block.close();
   }
 }
 
 void CaptureWriter::packet(std::size_t interface, std::int64_t time_ns, std::string_view data,
                            std::string_view comment) {
-  TTF_CHECK(interface < interfaces_ && data.size() <= kMostPacketBytes, "interface {} of {}, {} bytes", interface,
-            interfaces_, data.size());
+  TTF_CHECK(interface < interfaces_ && data.size() <= capture::kMostPacketBytes, "interface {} of {}, {} bytes",
+            interface, interfaces_, data.size());
   const auto stamp = static_cast<std::uint64_t>(std::max<std::int64_t>(time_ns, 0));
-  Block block(out_, BlockType::kEnhancedPacket);
-  put(out_, static_cast<std::uint32_t>(interface));
-  put(out_, static_cast<std::uint32_t>(stamp >> 32));
-  put(out_, static_cast<std::uint32_t>(stamp));
-  put(out_, static_cast<std::uint32_t>(data.size()));
-  put(out_, static_cast<std::uint32_t>(data.size()));
+  Block block(out_, capture::BlockType::kEnhancedPacket);
+  mcap::put(out_, static_cast<std::uint32_t>(interface));
+  mcap::put(out_, static_cast<std::uint32_t>(stamp >> 32));
+  mcap::put(out_, static_cast<std::uint32_t>(stamp));
+  mcap::put(out_, static_cast<std::uint32_t>(data.size()));
+  mcap::put(out_, static_cast<std::uint32_t>(data.size()));
   out_.append(data);
   pad(out_, data.size());
-  if (!comment.empty()) block.option(BlockOption::kComment, printable(comment));
+  if (!comment.empty()) block.option(capture::BlockOption::kComment, printable(comment));
   block.close();
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -11,10 +11,10 @@
 
 #include "recording/capture/packet.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 struct CaptureInterface {
-  LinkType link_type{};
+  capture::LinkType link_type{};
   std::string name;
 };
 
@@ -32,4 +32,4 @@ class CaptureWriter {
   std::size_t interfaces_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

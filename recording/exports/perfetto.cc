@@ -8,7 +8,7 @@
 
 #include "recording/exports/slot_status.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
 constexpr const char *kFlexRayGroup = "FlexRay", *kCanGroup = "CAN", *kFaultGroup = "faults";
@@ -303,4 +303,4 @@ void PerfettoExport::on(const records::TimingProblem& r) {
   node_instant(r.stamp.node, "timing problems", r.stamp.true_time, words_of_problem(r.what), std::move(notes));
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

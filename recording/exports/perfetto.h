@@ -21,10 +21,10 @@
 
 #include "recording/exports/frames.h"
 #include "recording/exports/measurement_flows.h"
-#include "recording/records/records.h"
 #include "recording/exports/trace_timeline.h"
+#include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 // Wants records in the order of MergedLogs::read(). Bytes go to `write` as they come; call finish() at the end.
 class PerfettoExport final : public records::Sink {
@@ -70,4 +70,4 @@ class PerfettoExport final : public records::Sink {
   std::deque<Image> images_;  // the last few
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <iterator>
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 std::string slot_status_words(std::uint8_t status) {
   static constexpr const char* kWords[] = {"syntax error", "content error", "boundary violation",
@@ -14,4 +14,4 @@ std::string slot_status_words(std::uint8_t status) {
   return words.empty() ? "status " + std::to_string(status) : words;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -7,7 +7,7 @@
 
 #include "recording/exports/perfetto.pb.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
 namespace pb = ttfusion::perfetto;
@@ -17,7 +17,7 @@ constexpr std::size_t kMostLanesBeside = 8;
 constexpr std::uint32_t kOnlySequence = 1, kSequenceBegins = 1;
 
 // As a packet of a trace: the field's key, the length, the packet.
-std::string as_packet(pb::TracePacket& packet) {
+std::string as_packet(ttfusion::perfetto::TracePacket& packet) {
   packet.set_trusted_packet_sequence_id(kOnlySequence);
   std::string bytes(1, '\x0a');
   std::size_t size = packet.ByteSizeLong();
@@ -32,7 +32,7 @@ std::string as_packet(pb::TracePacket& packet) {
 std::uint64_t TraceTimeline::group_track(const std::string& group) {
   const auto [entry, first] = groups_.try_emplace(group, tracks_ + 1);
   if (first) {
-    pb::TracePacket packet;
+    ttfusion::perfetto::TracePacket packet;
     if (tracks_ == 0) packet.set_sequence_flags(kSequenceBegins);
     auto& track = *packet.mutable_track_descriptor();
     track.set_uuid(++tracks_);
@@ -49,7 +49,7 @@ TraceTimeline::Lane& TraceTimeline::lane_of(const std::string& group, const std:
   const auto [entry, first] = lanes_.try_emplace({group, lane, beside});
   if (first) {
     entry->second.track = ++tracks_;
-    pb::TracePacket packet;
+    ttfusion::perfetto::TracePacket packet;
     auto& track = *packet.mutable_track_descriptor();
     track.set_uuid(tracks_);
     track.set_parent_uuid(parent);
@@ -135,18 +135,18 @@ void TraceTimeline::finish() {
 
 void TraceTimeline::write(const Place& place, const Event& event) {
   const auto [at, what, serial] = place;
-  pb::TracePacket packet;
+  ttfusion::perfetto::TracePacket packet;
   packet.set_timestamp(static_cast<std::uint64_t>(at.ns));
   auto& out = *packet.mutable_track_event();
   out.set_track_uuid(event.track);
   switch (what) {
-    case What::kEnd: out.set_type(pb::TrackEvent::TYPE_SLICE_END); break;
+    case What::kEnd: out.set_type(ttfusion::perfetto::TrackEvent::TYPE_SLICE_END); break;
     case What::kCounter:
-      out.set_type(pb::TrackEvent::TYPE_COUNTER);
+      out.set_type(ttfusion::perfetto::TrackEvent::TYPE_COUNTER);
       out.set_double_counter_value(event.value);
       break;
-    case What::kInstant: out.set_type(pb::TrackEvent::TYPE_INSTANT); break;
-    case What::kBegin: out.set_type(pb::TrackEvent::TYPE_SLICE_BEGIN); break;
+    case What::kInstant: out.set_type(ttfusion::perfetto::TrackEvent::TYPE_INSTANT); break;
+    case What::kBegin: out.set_type(ttfusion::perfetto::TrackEvent::TYPE_SLICE_BEGIN); break;
   }
   if (what == What::kInstant || what == What::kBegin) {
     out.set_name(event.name);
@@ -168,4 +168,4 @@ void TraceTimeline::write(const Place& place, const Event& event) {
   write_(as_packet(packet));
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

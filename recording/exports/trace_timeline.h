@@ -18,7 +18,7 @@
 
 #include "core/time.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 // A property that a slice or an instant shows when it is selected.
 struct TraceNote {
@@ -48,7 +48,7 @@ class TraceTimeline {
   // Bytes of the trace, in order.
   using Write = std::function<void(std::string_view)>;
   // What flows through a mark; asked once, when it is written.
-  using FlowsOf = std::function<std::vector<TraceFlow>(const TraceMark&)>;
+  using FlowsOf = std::function<std::vector<TraceFlow>(const ttf::recording::exports::TraceMark&)>;
 
   TraceTimeline(Write write, FlowsOf flows_of) : write_(std::move(write)), flows_of_(std::move(flows_of)) {}
 
@@ -102,4 +102,4 @@ class TraceTimeline {
   TraceCounts counts_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstring>
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 namespace {
 
 constexpr std::size_t kRoom = 4 << 20;  // bytes: some seconds of a busy node
@@ -17,7 +17,7 @@ struct Head {
 
 }  // namespace
 
-LogBehind::LogBehind(std::function<void(const LogMessage&)> write) : write_(std::move(write)) {
+LogBehind::LogBehind(std::function<void(const ttf::recording::log::LogMessage&)> write) : write_(std::move(write)) {
   for (std::string* buffer : {&filling_, &between_, &writing_}) buffer->reserve(kRoom);
   thread_ = std::thread([this] { run(); });
 }
@@ -81,4 +81,4 @@ void LogBehind::close() {
   write_all(filling_);
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

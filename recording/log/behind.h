@@ -17,7 +17,7 @@
 #include <string_view>
 #include <thread>
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 
 struct LogMessage {
   std::uint8_t kind = 0;
@@ -28,7 +28,7 @@ struct LogMessage {
 class LogBehind {
  public:
   // `write` is called from the other thread, and from close() when that has ended. It must not throw.
-  explicit LogBehind(std::function<void(const LogMessage&)> write);
+  explicit LogBehind(std::function<void(const ttf::recording::log::LogMessage&)> write);
   ~LogBehind();  // close()
   LogBehind(const LogBehind&) = delete;
   LogBehind& operator=(const LogBehind&) = delete;
@@ -43,7 +43,7 @@ class LogBehind {
   void write_handed_over();
   void write_all(std::string& kept);  // and empties it
 
-  const std::function<void(const LogMessage&)> write_;
+  const std::function<void(const ttf::recording::log::LogMessage&)> write_;
   std::string filling_;            // of the thread that adds
   std::string between_;            // of that one while it is empty, of the writer while it is full
   std::string writing_;            // of the writer
@@ -54,4 +54,4 @@ class LogBehind {
   std::thread thread_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -12,7 +12,7 @@
 #include "recording/log/manifest.h"
 #include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 
 // The two stamps MCAP keeps per message, before they are clamped to be non-negative.
 struct LogTimes {
@@ -100,4 +100,4 @@ class Decoder {
   std::vector<std::uint64_t> counts_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -3,8 +3,8 @@
 // Each record hashes to 64 bits from (log time, kind, payload bytes); a log's hash is the sum of these modulo 2^64,
 // mixed with their number. A record's time, kind, node and sequence numbers are in its payload, and the sum is the same
 // in any order: the logs of separate processes agree with the log of one process, in whatever order things were written
-// (recording/merge/merge.h puts them into one). Equal records count as often as they occur. Not cryptographic: it detects
-// change, not malice.
+// (recording/merge/merge.h puts them into one). Equal records count as often as they occur. Not cryptographic: it
+// detects change, not malice.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 #include "recording/log/manifest.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 
 class ContentHash {
  public:
@@ -60,4 +60,4 @@ class ContentHash {
   std::uint64_t records_ = 0;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -5,7 +5,7 @@
 #include "recording/log/codec.h"
 #include "recording/records/lateness_bins.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 namespace {
 
 // Narrows numbers to what a record holds, remembering whether all of them fitted.
@@ -287,4 +287,4 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
   return false;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -1,6 +1,6 @@
 #include "recording/log/codec.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 namespace {
 
 template <class Enum> constexpr std::uint32_t number(Enum value) { return static_cast<std::uint32_t>(value); }
@@ -369,4 +369,4 @@ Encoded encode(const records::MediumCounts& in, Payloads& payloads) {
   return {RecordKind::kMedium, &out, times_of(in.stamp)};
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -12,7 +12,7 @@
 
 #include "core/ids.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 
 // `hashes` are (what, hex digits) pairs, e.g. ("cluster", "6f0c..."); names are unique. The name lists are
 // indexed by NodeId, (NodeId, task), PduId, SensorId and the index in Cluster::can_buses.
@@ -92,4 +92,4 @@ inline constexpr std::array<std::string_view, kRecordKinds> kTopics{
 
 constexpr std::string_view topic_of(RecordKind kind) { return kTopics[static_cast<std::size_t>(kind) - 1]; }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

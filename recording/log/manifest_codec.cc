@@ -6,7 +6,7 @@
 #include <charconv>
 #include <optional>
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 namespace {
 
 std::string checksum(const ManifestEntries& entries) {
@@ -138,4 +138,4 @@ bool read_manifest(const ManifestEntries& entries, LogManifest& manifest) {
   return sound && readable;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -8,7 +8,7 @@
 
 #include "recording/log/manifest.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 
 inline constexpr std::string_view kLogProfile = "ttfusion";
 inline constexpr std::string_view kManifestName = "ttfusion.manifest";
@@ -25,4 +25,4 @@ ManifestEntries manifest_entries(const LogManifest& manifest);
 // broken.
 bool read_manifest(const ManifestEntries& entries, LogManifest& manifest);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -11,10 +11,10 @@
 #include "recording/mcap/bytes.h"
 #include "recording/mcap/reader.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 namespace {
 
-class Collector final : public McapHandler {
+class Collector final : public mcap::McapHandler {
  public:
   Collector(LogInfo& info, records::Sink& sink, const ChunkListener& on_chunk)
       : info_(info), sink_(sink), on_chunk_(on_chunk) {}
@@ -58,11 +58,11 @@ class Collector final : public McapHandler {
 };
 
 void check_is_log(std::string_view bytes, const std::string& name) {
-  if (!bytes.starts_with(kMcapMagic))
+  if (!bytes.starts_with(mcap::kMcapMagic))
     throw InputError({name, 0, "", "", "is not a log: it does not begin as an MCAP file does"});
   // A damaged header is no reason to give up a log whose manifest is there; a sound one of another program
   // is.
-  const std::string_view profile = mcap_profile(bytes);
+  const std::string_view profile = mcap::mcap_profile(bytes);
   if (!profile.empty() && profile != kLogProfile && bytes.find(kManifestName) == std::string_view::npos)
     throw InputError({name, 0, "profile", std::string(profile), "is an MCAP file, but its profile must be ttfusion"});
 }
@@ -74,7 +74,7 @@ LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records:
   check_is_log(bytes, name);
   LogInfo info;
   Collector collector(info, sink, on_chunk);
-  McapReport report = walk_mcap(bytes, collector);
+  mcap::McapReport report = walk_mcap(bytes, collector);
   info.truncated = report.truncated;
   info.chunks_read = report.chunks_read;
   info.chunks_lost = report.chunks_lost;
@@ -98,4 +98,4 @@ LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records:
 
 LogInfo read_log(const std::string& path, records::Sink& sink) { return read_log_bytes(read_file(path), path, sink); }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

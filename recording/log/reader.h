@@ -18,7 +18,7 @@
 #include "recording/log/manifest.h"
 #include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 
 struct Attachment {
   std::string name, media_type, bytes;
@@ -52,4 +52,4 @@ using ChunkListener = std::function<void(std::string_view content)>;
 LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records::Sink& sink,
                        const ChunkListener& on_chunk = {});
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

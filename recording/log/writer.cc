@@ -8,13 +8,13 @@
 #include <set>
 
 #include "core/check.h"
-#include "recording/log/content_hash.h"
 #include "recording/log/behind.h"
 #include "recording/log/codec.h"
+#include "recording/log/content_hash.h"
 #include "recording/log/manifest_codec.h"
 #include "recording/mcap/writer.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 namespace {
 
 // The schema of one message: a FileDescriptorSet with the message and what it refers to, in the file's order.
@@ -55,7 +55,7 @@ struct LogWriter::Impl {
     ++records;
   }
 
-  McapWriter mcap;
+  mcap::McapWriter mcap;
   Payloads payloads;
   std::string bytes;
   ContentHash hash;
@@ -66,7 +66,7 @@ struct LogWriter::Impl {
 
 LogWriter::LogWriter(const std::string& path, const LogManifest& manifest, Writing writing)
     : impl_(std::make_unique<Impl>(path)) {
-  McapWriter& mcap = impl_->mcap;
+  mcap::McapWriter& mcap = impl_->mcap;
   mcap.add_metadata(kManifestName, manifest_entries(manifest));
   for (std::size_t i = 1; i <= kRecordKinds; ++i) {
     const auto kind = static_cast<RecordKind>(i);
@@ -144,4 +144,4 @@ void LogWriter::on(const records::TimingProblem& record) { write(record); }
 void LogWriter::on(const records::LatenessHistogram& record) { write(record); }
 void LogWriter::on(const records::MediumCounts& record) { write(record); }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -14,7 +14,7 @@
 #include "recording/log/manifest.h"
 #include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 
 class LogWriter final : public records::Sink {
  public:
@@ -76,4 +76,4 @@ class LogWriter final : public records::Sink {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

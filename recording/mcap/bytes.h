@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace ttf::recording {
+namespace ttf::recording::mcap {
 
 static_assert(std::endian::native == std::endian::little, "fields are copied as they are in memory");
 
@@ -94,4 +94,4 @@ class FieldReader {
   bool ok_ = true;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::mcap

@@ -1,6 +1,6 @@
 #include "recording/mcap/chunk.h"
 
-namespace ttf::recording {
+namespace ttf::recording::mcap {
 namespace {
 
 constexpr std::uint64_t kMaxChunkBytes = 64 * 1024 * 1024;  // far above any writer's chunks; bounds memory
@@ -43,4 +43,4 @@ std::optional<std::string_view> ChunkOpener::open(std::string_view content, std:
   return records;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::mcap

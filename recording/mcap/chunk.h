@@ -14,7 +14,7 @@
 
 #include "recording/mcap/bytes.h"
 
-namespace ttf::recording {
+namespace ttf::recording::mcap {
 
 inline constexpr std::size_t kRecordHead = 9;  // opcode and length
 
@@ -65,4 +65,4 @@ template <class Message> std::uint64_t for_each_message(std::string_view records
   return unreadable;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::mcap

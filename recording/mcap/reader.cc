@@ -8,7 +8,7 @@
 #include "recording/mcap/bytes.h"
 #include "recording/mcap/chunk.h"
 
-namespace ttf::recording {
+namespace ttf::recording::mcap {
 namespace {
 
 constexpr std::size_t kMaxWarnings = 20;
@@ -259,4 +259,4 @@ std::string_view mcap_profile(std::string_view bytes) {
 
 McapReport walk_mcap(std::string_view bytes, McapHandler& handler) { return Walk(bytes, handler).run(); }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::mcap

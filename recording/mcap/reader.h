@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace ttf::recording {
+namespace ttf::recording::mcap {
 
 // What a walk finds, in file order. Views are valid during the call only.
 class McapHandler {
@@ -39,4 +39,4 @@ std::string_view mcap_profile(std::string_view bytes);
 // Precondition: `bytes` begins with the magic, or is a beginning of it.
 McapReport walk_mcap(std::string_view bytes, McapHandler& handler);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::mcap

@@ -11,7 +11,7 @@
 #include "core/check.h"
 #include "recording/mcap/bytes.h"
 
-namespace ttf::recording {
+namespace ttf::recording::mcap {
 namespace {
 
 constexpr int kCompressionLevel = 1;  // most of the gain at a small part of the time
@@ -311,4 +311,4 @@ void McapWriter::close() {
   if (!s.error.empty()) throw std::runtime_error(s.path + ": cannot be written: " + s.error);
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::mcap

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace ttf::recording {
+namespace ttf::recording::mcap {
 
 class McapWriter {
  public:
@@ -48,4 +48,4 @@ class McapWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::mcap

@@ -11,7 +11,7 @@
 #include "recording/merge/stored_log.h"
 #include "schedules/model/round.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 namespace {
 
 constexpr std::int64_t kLongestCycle_ns = 16'000'000;  // cCycleMax
@@ -69,9 +69,9 @@ std::vector<CommonTime> common_times(const std::vector<StoredLog>& logs, std::ve
   std::map<std::string, std::map<NodeId, Stamps>> hosts;
   std::int64_t round_ns = 0;
   for (const StoredLog& log : logs) {
-    if (log.info().manifest.clock != kWallClock) continue;
+    if (log.info().manifest.clock != log::kWallClock) continue;
     if (log.info().manifest.cycle_ns > 0 && log.info().manifest.cycle_ns <= kLongestCycle_ns)
-      round_ns = log.info().manifest.cycle_ns * schedules::kCycles;
+      round_ns = log.info().manifest.cycle_ns * schedules::model::kCycles;
     auto& nodes = hosts[log.info().manifest.host];
     for (const SyncStamp& stamp : log.sync_stamps()) nodes[stamp.node].push_back(stamp);
   }
@@ -93,7 +93,7 @@ std::vector<CommonTime> common_times(const std::vector<StoredLog>& logs, std::ve
       by_host[host] = CommonTime(points_of(of_host, reference->at.ns - reference->global.ns, round_ns));
   }
   for (std::size_t i = 0; i < logs.size(); ++i)
-    if (logs[i].info().manifest.clock == kWallClock) times[i] = by_host[logs[i].info().manifest.host];
+    if (logs[i].info().manifest.clock == log::kWallClock) times[i] = by_host[logs[i].info().manifest.host];
   return times;
 }
 
@@ -142,4 +142,4 @@ void OnCommonTime::on(const records::TimingProblem& r) { pass(r, &records::Timin
 void OnCommonTime::on(const records::LatenessHistogram& r) { pass(r, &records::LatenessHistogram::stamp); }
 void OnCommonTime::on(const records::MediumCounts& r) { pass(r, &records::MediumCounts::stamp); }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

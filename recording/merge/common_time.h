@@ -24,7 +24,7 @@
 #include "core/time.h"
 #include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 
 class StoredLog;
 
@@ -95,4 +95,4 @@ class OnCommonTime final : public records::Sink {
   records::Sink& out_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

@@ -11,11 +11,11 @@
 
 #include "core/errors.h"
 #include "recording/log/codec.h"
-#include "recording/log/writer.h"
 #include "recording/log/manifest_codec.h"
+#include "recording/log/writer.h"
 #include "recording/merge/walk.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 namespace {
 
 std::map<std::string, std::string> keys_of(const StoredLog& log) {
@@ -55,7 +55,7 @@ bool is_copy(const StoredLog& log, const StoredLog& other) {
 
 // One of them that holds what the others, two or more, hold together; end() where there is none.
 std::vector<StoredLog>::iterator whole_among(std::vector<StoredLog>& logs) {
-  ContentHash all;
+  log::ContentHash all;
   std::size_t with_records = 0;
   for (const StoredLog& log : logs) {
     all.add(log.info().records);
@@ -63,7 +63,7 @@ std::vector<StoredLog>::iterator whole_among(std::vector<StoredLog>& logs) {
   }
   if (with_records < 3) return logs.end();
   return std::find_if(logs.begin(), logs.end(), [&](const StoredLog& log) {
-    ContentHash twice = log.info().records;
+    log::ContentHash twice = log.info().records;
     twice.add(log.info().records);
     return twice.value() == all.value();
   });
@@ -110,30 +110,30 @@ MergedLogs::MergedLogs(std::vector<StoredLog> logs) : logs_(std::move(logs)) {
   };
   if (std::any_of(logs_.begin(), logs_.end(), elsewhere)) manifest_.host.clear();
   const auto put_on_scale = [](const CommonTime& time) { return !time.changes_nothing(); };
-  if (std::any_of(times_.begin(), times_.end(), put_on_scale)) manifest_.clock = kCommonClock;
+  if (std::any_of(times_.begin(), times_.end(), put_on_scale)) manifest_.clock = log::kCommonClock;
 }
 
-std::vector<Attachment> MergedLogs::attachments() const {
+std::vector<log::Attachment> MergedLogs::attachments() const {
   // By what they are, the first place in any log.
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const StoredLog& log : logs_) {
-    const std::vector<Attachment>& own = log.info().attachments;
+    const std::vector<log::Attachment>& own = log.info().attachments;
     for (std::size_t i = 0; i < own.size(); ++i) {
       const auto [known, added] = places.try_emplace({own[i].name, own[i].bytes, own[i].media_type}, i);
       if (!added) known->second = std::min(known->second, i);
     }
   }
-  std::vector<std::pair<std::size_t, Attachment>> all;
+  std::vector<std::pair<std::size_t, log::Attachment>> all;
   for (const auto& [what, place] : places)
     all.push_back({place, {std::get<0>(what), std::get<2>(what), std::get<1>(what)}});
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Attachment> attachments;
+  std::vector<log::Attachment> attachments;
   for (auto& [place, attachment] : all) attachments.push_back(std::move(attachment));
   return attachments;
 }
 
-ContentHash MergedLogs::content_hash() const {
-  ContentHash hash;
+log::ContentHash MergedLogs::content_hash() const {
+  log::ContentHash hash;
   for (const StoredLog& log : logs_) hash.add(log.info().records);
   return hash;
 }
@@ -148,7 +148,7 @@ std::vector<std::string> MergedLogs::warnings() const {
 
 void MergedLogs::read(records::Sink& sink) const {
   MergeWalk walk(logs_, times_);
-  Decoder decoder;
+  log::Decoder decoder;
   std::vector<OnCommonTime> sinks;
   for (const CommonTime& time : times_) sinks.emplace_back(time, sink);
   while (true) {
@@ -201,9 +201,9 @@ void write_merged(const MergedLogs& merged, const std::string& path) {
       throw InputError({path, 0, "", "", "must be another file than the logs that are merged"});
   bool created = false;
   try {
-    LogWriter writer(path, merged.manifest());
+    log::LogWriter writer(path, merged.manifest());
     created = true;
-    for (const Attachment& one : merged.attachments()) writer.attach(one.name, one.media_type, one.bytes);
+    for (const log::Attachment& one : merged.attachments()) writer.attach(one.name, one.media_type, one.bytes);
     merged.read(writer);
     writer.close();
   } catch (const std::exception&) {
@@ -212,4 +212,4 @@ void write_merged(const MergedLogs& merged, const std::string& path) {
   }
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

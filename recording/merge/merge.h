@@ -2,7 +2,8 @@
 //
 // The processes of a node set write a log each, of their own nodes' records. Merged they are the log of the run: the
 // same sequence of records comes out whether the run was one process with one log, or many in whatever order their logs
-// are given; the one merge is applied to both. What that order is: recording/merge/record_place.h and docs/log_format.md.
+// are given; the one merge is applied to both. What that order is: recording/merge/record_place.h and
+// docs/log_format.md.
 //
 // The true times of different hosts' clocks are put on one scale: recording/merge/common_time.h.
 //
@@ -20,13 +21,13 @@
 #include <string>
 #include <vector>
 
-#include "recording/merge/common_time.h"
 #include "recording/log/manifest.h"
 #include "recording/log/reader.h"
-#include "recording/records/records.h"
+#include "recording/merge/common_time.h"
 #include "recording/merge/stored_log.h"
+#include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 
 class MergedLogs {
  public:
@@ -38,10 +39,10 @@ class MergedLogs {
   explicit MergedLogs(const std::vector<std::string>& paths);
 
   const std::vector<StoredLog>& logs() const { return logs_; }  // as given, but for one passed over
-  const LogManifest& manifest() const { return manifest_; }
-  std::vector<Attachment> attachments() const;  // each once, in the order of the logs, then by name and bytes
-  ContentHash content_hash() const;             // of all records, as they are in the logs
-  std::vector<std::string> warnings() const;    // of all logs, as given, and of what they are together
+  const log::LogManifest& manifest() const { return manifest_; }
+  std::vector<log::Attachment> attachments() const;  // each once, in the order of the logs, then by name and bytes
+  log::ContentHash content_hash() const;             // of all records, as they are in the logs
+  std::vector<std::string> warnings() const;         // of all logs, as given, and of what they are together
 
   // Drives the sink with every record, as often as it is called. Throws InputError where two logs hold the same record
   // of a node: one is a part of the other.
@@ -49,7 +50,7 @@ class MergedLogs {
 
  private:
   std::vector<StoredLog> logs_;
-  LogManifest manifest_;
+  log::LogManifest manifest_;
   std::vector<CommonTime> times_;      // by log
   std::vector<std::string> warnings_;  // of all together
 };
@@ -62,4 +63,4 @@ std::vector<MergedLogs> merge_by_run(std::vector<StoredLog> logs);
 // the logs, and std::runtime_error where it cannot be written; then there is no such file.
 void write_merged(const MergedLogs& merged, const std::string& path);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

@@ -18,7 +18,7 @@
 #include "recording/log/manifest.h"
 #include "recording/records/records.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 
 struct RecordPlace {
   TrueTime at{};
@@ -60,8 +60,8 @@ class Placing : public records::Sink {
   void on(const records::MediumCounts&) override;
 
  private:
-  void of_node(RecordKind kind, TrueTime at, NodeId node);
-  void of_run(RecordKind kind, TrueTime at, std::uint64_t about);
+  void of_node(log::RecordKind kind, TrueTime at, NodeId node);
+  void of_run(log::RecordKind kind, TrueTime at, std::uint64_t about);
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

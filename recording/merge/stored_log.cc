@@ -8,7 +8,7 @@
 #include "core/file_bytes.h"
 #include "recording/merge/record_place.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 namespace {
 
 class ChunkTimes final : public Placing {
@@ -60,10 +60,10 @@ StoredLog::StoredLog(const std::string& path) : StoredLog(read_file(path), path)
 
 StoredLog::StoredLog(std::string bytes, std::string name) : name_(std::move(name)), bytes_(std::move(bytes)) {
   ChunkTimes times(chunks_, sync_stamps_);
-  info_ = read_log_bytes(bytes_, name_, times, [&](std::string_view content) {
+  info_ = log::read_log_bytes(bytes_, name_, times, [&](std::string_view content) {
     times.begin(static_cast<std::size_t>(content.data() - bytes_.data()), content.size());
   });
-  if (info_.manifest.clock != kWallClock) sync_stamps_ = {};
+  if (info_.manifest.clock != log::kWallClock) sync_stamps_ = {};
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

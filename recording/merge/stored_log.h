@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/time.h"
-#include "recording/merge/common_time.h"
 #include "recording/log/reader.h"
+#include "recording/merge/common_time.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 
 // The logs (*.mcap) of a folder, by their names; none where it cannot be read.
 std::vector<std::string> logs_in(const std::string& folder);
@@ -24,7 +24,7 @@ class StoredLog {
   StoredLog& operator=(StoredLog&&) = default;
 
   const std::string& name() const { return name_; }
-  const LogInfo& info() const { return info_; }
+  const log::LogInfo& info() const { return info_; }
 
   // From the first to the last of its records' true times.
   struct Chunk {
@@ -41,9 +41,9 @@ class StoredLog {
  private:
   std::string name_;
   std::string bytes_;
-  LogInfo info_;
+  log::LogInfo info_;
   std::vector<Chunk> chunks_;
   std::vector<SyncStamp> sync_stamps_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 namespace {
 
 // The decoder calls it once for a readable payload, and not at all for any other.
@@ -61,9 +61,9 @@ void MergeWalk::open(const Upcoming& upcoming) {
   if (!records) return;  // it was sound when the log was read through
   PlaceOfOne placing;
   std::uint64_t in_log = std::uint64_t{upcoming.chunk} << 32;
-  for_each_message(*records, [&](std::uint16_t channel, std::uint64_t, std::string_view payload) {
-    if (channel < 1 || channel > kRecordKinds) return false;
-    const auto kind = static_cast<RecordKind>(channel);
+  mcap::for_each_message(*records, [&](std::uint16_t channel, std::uint64_t, std::string_view payload) {
+    if (channel < 1 || channel > log::kRecordKinds) return false;
+    const auto kind = static_cast<log::RecordKind>(channel);
     if (!decoder_.decode(kind, payload, placing)) return false;
     placing.place.at = times_[upcoming.log](placing.place.at);
     chunk->messages.push_back({placing.place, kind, upcoming.log, 0, in_log++, payload});
@@ -103,4 +103,4 @@ const std::vector<MergeWalk::Message>& MergeWalk::next() {
   return instant_;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

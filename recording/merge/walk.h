@@ -7,20 +7,20 @@
 #include <string_view>
 #include <vector>
 
-#include "recording/merge/common_time.h"
 #include "recording/log/codec.h"
 #include "recording/mcap/chunk.h"
+#include "recording/merge/common_time.h"
 #include "recording/merge/record_place.h"
 #include "recording/merge/stored_log.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 
 class MergeWalk {
  public:
   // A record in an open chunk.
   struct Message {
     RecordPlace place;
-    RecordKind kind{};
+    log::RecordKind kind{};
     std::uint32_t log = 0;
     std::uint32_t repetition = 0;  // how many of its node, kind and instant its log has before it
     std::uint64_t in_log = 0;      // place in its log
@@ -56,8 +56,8 @@ class MergeWalk {
   std::vector<std::unique_ptr<Open>> used_;  // what has been read to its end: for the next instant's call, then again
   std::vector<std::unique_ptr<Open>> free_;
   std::vector<Message> instant_;
-  ChunkOpener opener_;
-  Decoder decoder_;
+  mcap::ChunkOpener opener_;
+  log::Decoder decoder_;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

@@ -19,7 +19,7 @@
 #include "core/time.h"
 #include "recording/records/lateness_bins.h"
 
-namespace ttf::records {
+namespace ttf::recording::records {
 
 class BinnedDurations {
  public:
@@ -83,4 +83,4 @@ class BinnedDurations {
   bool empty_ = true;
 };
 
-}  // namespace ttf::records
+}  // namespace ttf::recording::records

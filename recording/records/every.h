@@ -9,7 +9,7 @@
 
 #include "recording/records/records.h"
 
-namespace ttf::records {
+namespace ttf::recording::records {
 
 template <class Derived> class Every : public Sink {
  public:
@@ -44,4 +44,4 @@ template <class Derived> class Every : public Sink {
   template <class Record> void pass(const Record& record) { static_cast<Derived&>(*this).each(record); }
 };
 
-}  // namespace ttf::records
+}  // namespace ttf::recording::records

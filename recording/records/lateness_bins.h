@@ -8,7 +8,7 @@
 
 #include "core/time.h"
 
-namespace ttf::records {
+namespace ttf::recording::records {
 
 inline constexpr std::size_t kLatenessBins = 64 + 20 * 32;
 
@@ -29,4 +29,4 @@ constexpr Duration lateness_from(std::size_t bin) {
   return Duration::microseconds(static_cast<std::int64_t>((32 + step) << (octave + 1)));
 }
 
-}  // namespace ttf::records
+}  // namespace ttf::recording::records

@@ -13,7 +13,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 
-namespace ttf::records {
+namespace ttf::recording::records {
 
 // When and where something happened: on all three clocks. `global` is what the node's own clock of the cluster
 // showed; where it has none (off FlexRay, or while its controller is not in normal operation: starting up,
@@ -398,4 +398,4 @@ class Sink {
   virtual void on(const MediumCounts&) {}
 };
 
-}  // namespace ttf::records
+}  // namespace ttf::recording::records

@@ -7,7 +7,7 @@
 
 #include "recording/records/every.h"
 
-namespace ttf::records {
+namespace ttf::recording::records {
 
 class Tee final : public Every<Tee> {
  public:
@@ -23,4 +23,4 @@ class Tee final : public Every<Tee> {
   std::vector<Sink*> sinks_;
 };
 
-}  // namespace ttf::records
+}  // namespace ttf::recording::records

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
@@ -88,4 +88,4 @@ std::string csv_field(std::string_view text) {
   return quoted + '"';
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

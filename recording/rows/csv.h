@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 
 class CsvLines {
  public:
@@ -35,4 +35,4 @@ class CsvLines {
 // A field as it is written: in quotes where it would not be read again without.
 std::string csv_field(std::string_view text);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

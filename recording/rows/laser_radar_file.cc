@@ -14,7 +14,7 @@
 #include "core/file_bytes.h"
 #include "recording/mcap/bytes.h"
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r";
@@ -202,7 +202,7 @@ RecordingFormat sniff_recording(const std::string& path) {
 }
 
 RecordingFormat sniff_recording(std::string_view text, const std::string& name) {
-  if (text.substr(0, kMcapMagic.size()) == kMcapMagic) return RecordingFormat::kLog;
+  if (text.substr(0, mcap::kMcapMagic.size()) == mcap::kMcapMagic) return RecordingFormat::kLog;
   std::optional<RecordingFormat> format;
   bool decided = false;
   for_each_line(text, [&](int, std::string_view raw) {
@@ -223,4 +223,4 @@ RecordingFormat sniff_recording(std::string_view text, const std::string& name) 
   return *format;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 
 // What one sensor saw at one instant. Position: x, y in metres. Range-bearing-rate: range in metres, bearing
 // in radians (0 ahead, positive left), range rate in m/s (positive: going away). The sensor stands at the
@@ -64,4 +64,4 @@ enum class RecordingFormat : std::uint8_t { kLog = 1, kLaserRadar = 2, kLidarSca
 RecordingFormat sniff_recording(const std::string& path);
 RecordingFormat sniff_recording(std::string_view bytes, const std::string& name);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

@@ -12,7 +12,7 @@
 #include "core/file_bytes.h"
 #include "recording/rows/csv.h"
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 namespace {
 
 struct NumberColumn {
@@ -330,4 +330,4 @@ std::vector<ObservationRow> observation_rows_of(const RecordedInput& input, cons
   return rows;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

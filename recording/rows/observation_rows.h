@@ -30,7 +30,7 @@
 #include "core/errors.h"
 #include "recording/rows/laser_radar_file.h"
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 
 struct ObservationRow {
   enum class Kind : std::uint8_t { kPosition = 1, kRangeBearing = 2, kRangeBearingRate = 3 };
@@ -60,4 +60,4 @@ std::vector<ObservationRow> parse_observation_rows(const std::string& text, cons
 // range is beyond what such rows may have.
 std::vector<ObservationRow> observation_rows_of(const RecordedInput& input, const std::string& name);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

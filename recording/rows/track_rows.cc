@@ -5,7 +5,7 @@
 #include "core/decimal.h"
 #include "recording/rows/csv.h"
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 namespace {
 
 std::string six_decimals(double value) {
@@ -37,4 +37,4 @@ std::string track_line(const TrackRow& row) {
   return line;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 
 struct TrackRow {
   std::int64_t time_ns = 0;   // the state is of this instant
@@ -29,4 +29,4 @@ struct TrackRow {
 std::string_view track_heading();
 std::string track_line(const TrackRow& row);
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 namespace {
 
 constexpr double kLegendRow = 18, kLegendSample = 26, kLegendGap = 18, kLegendText = 11;
@@ -188,4 +188,4 @@ std::string empty_picture(std::string_view title, std::string_view reason) {
   return svg.str();
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

@@ -13,7 +13,7 @@
 
 #include "report/drawing/svg.h"
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 
 // M. Okabe, K. Ito: Color Universal Design (2008).
 inline constexpr std::string_view kBlack = "#000000", kOrange = "#e69f00", kSkyBlue = "#56b4e9", kGreen = "#009e73",
@@ -104,4 +104,4 @@ void draw_legend(Svg& svg, Point top_left, double width, std::span<const LegendE
 // A picture that says why it shows nothing.
 std::string empty_picture(std::string_view title, std::string_view reason);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 
 std::string brief(double value) {
   if (!std::isfinite(value)) return "-";
@@ -28,4 +28,4 @@ std::string_view verdict(double mean, double half_width) {
   return mean + half_width < 0.0 ? "less" : mean - half_width > 0.0 ? "more" : "undecided";
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

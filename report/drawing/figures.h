@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 
 // Three significant digits, "-" for what is not finite.
 std::string brief(double value);
@@ -13,4 +13,4 @@ std::string with_interval(double mean, double half_width, bool sign = false);
 // How a difference with an interval stands to 0: "less", "more" or "undecided".
 std::string_view verdict(double mean, double half_width);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

@@ -6,7 +6,7 @@
 
 #include "core/time.h"
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 
 inline constexpr std::int64_t kMostCycleLines = 2000;                  // in a picture: more are no grid any more
 inline constexpr Duration kLongestCycle = Duration::milliseconds(16);  // cCycleMax
@@ -24,4 +24,4 @@ constexpr bool possible_cycle(std::int64_t cycle) {
   return cycle >= -kMostCycles && cycle <= kMostCycles;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

@@ -8,7 +8,7 @@
 
 #include "report/drawing/axes.h"
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 namespace {
 
 std::string at(const std::vector<std::string>& list, std::size_t i, const char* what) {
@@ -40,7 +40,7 @@ SensorId Names::sensor_of(PduId id) const {
   return kNoSensor;
 }
 
-Names names_of(const schedules::Cluster& cluster) {
+Names names_of(const schedules::model::Cluster& cluster) {
   Names names;
   for (const auto& node : cluster.nodes) {
     names.nodes.push_back(node.name);
@@ -56,7 +56,7 @@ Names names_of(const schedules::Cluster& cluster) {
   return names;
 }
 
-Names names_of(const recording::LogManifest& manifest) {
+Names names_of(const recording::log::LogManifest& manifest) {
   Names names;
   names.run = fmt::format("{}, {}", manifest.scenario_name, manifest.strategy);
   names.nodes = manifest.node_names;
@@ -97,4 +97,4 @@ std::string pdu_colour(const Names& names, PduId pdu) {
   return tint(rest[nth % rest.size()], nth >= rest.size() ? 0.4 : 0.0);
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

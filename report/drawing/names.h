@@ -8,7 +8,7 @@
 #include "recording/log/manifest.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 
 // Index = the id's value (tasks: node, then task). Pictures of ids beyond a list show the number.
 struct Names {
@@ -27,8 +27,8 @@ struct Names {
   SensorId sensor_of(PduId id) const;
 };
 
-Names names_of(const schedules::Cluster& cluster);
-Names names_of(const recording::LogManifest& manifest);
+Names names_of(const schedules::model::Cluster& cluster);
+Names names_of(const recording::log::LogManifest& manifest);
 
 // What a sensor's name says about its kind, for colours and markers that stay the same in every picture.
 enum class SensorLook : std::uint8_t { kLaser, kCamera, kRadar, kOther };
@@ -39,4 +39,4 @@ std::string sensor_colour(const Names& names, SensorId sensor);
 // Of a PDU: its sensor's colour if it descends from one; grey for status frames.
 std::string pdu_colour(const Names& names, PduId pdu);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

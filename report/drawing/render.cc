@@ -10,7 +10,7 @@
 
 #include "core/errors.h"
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 namespace {
 
 constexpr double kPngSharpWidth = 2600;   // SVG units up to which a PNG gets two pixels per unit
@@ -117,4 +117,4 @@ void write_picture(const std::string& svg, const std::string& path) {
   draw(handle.get(), surface.get(), kPointsPerPixel, width, height, path);
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

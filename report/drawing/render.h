@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 
 // The extension of `path` chooses the format. PNG has two pixels per SVG unit up to 2600 units' width and one
 // beyond; PDF has one CSS pixel (1/96 inch) per SVG unit. Equal input gives equal bytes. Throws InputError
@@ -13,4 +13,4 @@ void write_picture(const std::string& svg, const std::string& path);
 // Throws InputError now rather than after a long computation if `path` names no known format.
 void check_picture_path(const std::string& path);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

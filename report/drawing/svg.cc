@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 namespace {
 
 // Advance widths of DejaVu Sans in thousandths of the font size, U+0020 to U+007E (from the font's hmtx
@@ -211,4 +211,4 @@ std::string Svg::str() const {
       number(width_), number(height_), escape(title_), defs_, body_);
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

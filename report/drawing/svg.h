@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 
 struct Point {
   double x = 0, y = 0;
@@ -94,4 +94,4 @@ class Svg {
   int clips_ = 0;
 };
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

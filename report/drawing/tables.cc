@@ -8,7 +8,7 @@
 
 #include "core/check.h"
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 namespace {
 
 std::size_t shown_width(std::string_view s) {
@@ -71,4 +71,4 @@ std::string cell(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

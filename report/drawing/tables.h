@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 
 // Columns whose cells are all numbers (or empty or "-") are aligned right, others left. Widths count UTF-8
 // characters. A row with fewer cells than the header is filled with empty ones; one with more is our bug.
@@ -27,4 +27,4 @@ class Table {
 // A value with `decimals` decimals, "-" for what is not finite.
 std::string cell(double value, int decimals);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

@@ -11,12 +11,12 @@
 #include "experiments/results/statistics.h"
 #include "experiments/results/store.h"
 
-namespace ttf::report {
+namespace ttf::report::experiment {
 
 // Of one paradigm and measure at one point; without a difference: the baseline.
 struct Estimate {
-  results::Interval mean;
-  std::optional<results::Interval> difference;
+  experiments::results::Interval mean;
+  std::optional<experiments::results::Interval> difference;
 };
 
 struct ExperimentPoint {
@@ -52,7 +52,7 @@ struct ExperimentFolder {
   std::vector<ExperimentPoint> points;
   std::vector<ExperimentCrossing> crossings;
   std::vector<ExperimentExpectation> expectations;
-  std::optional<results::Store> store;  // none where there is no results.sqlite
+  std::optional<experiments::results::Store> store;  // none where there is no results.sqlite
 };
 
 // Throws InputError: the file, the key and what it must be.
@@ -63,4 +63,4 @@ ExperimentFolder parse_answer(std::string_view text, const std::string& file);
 // The runs that the answer is of, where there is such a file. Throws InputError.
 void read_store(const std::string& path, ExperimentFolder& folder);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::experiment

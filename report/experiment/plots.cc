@@ -12,7 +12,7 @@
 #include "core/counted.h"
 #include "report/run/plots.h"
 
-namespace ttf::report {
+namespace ttf::report::experiment {
 namespace {
 
 constexpr std::size_t kMostViews = 150;  // of a plot
@@ -68,15 +68,15 @@ std::string others_of(const ExperimentFolder& folder, const ExperimentPoint& poi
   return joined(others);
 }
 
-Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
+page::Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
   const XAxis x = x_axis(folder);
-  Plot plot{
+  page::Plot plot{
       differences ? "Differences from " + folder.baseline : "Means",
       fmt::format(
           "With {:g} % intervals{}.", 100.0 * folder.confidence,
           differences ? "; differences are paired, replication by replication: below 0 is less than the baseline" : ""),
       x.name,
-      x.axis ? Plot::Kind::kLines : Plot::Kind::kPoints,
+      x.axis ? page::Plot::Kind::kLines : page::Plot::Kind::kPoints,
       x.logarithmic,
       differences,
       {}};
@@ -95,14 +95,14 @@ Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
   for (std::size_t m = 0; m < folder.measures.size(); ++m)
     for (const std::string& others : combinations) {
       if (plot.views.size() >= kMostViews) return plot;
-      PlotView view{
+      page::PlotView view{
           folder.measures[m].name + (others.empty() ? "" : ", " + others), folder.measures[m].with_unit(), {}};
       for (std::size_t p = 0; p < folder.paradigms.size(); ++p) {
-        Curve curve{folder.paradigms[p], static_cast<int>(p), {}, {}, {}, {}};
+        page::Curve curve{folder.paradigms[p], static_cast<int>(p), {}, {}, {}, {}};
         for (const ExperimentPoint* point : points.at(others)) {
           const Estimate& estimate = point->estimates[p][m];
           if (differences && !estimate.difference) continue;
-          const results::Interval& interval = differences ? *estimate.difference : estimate.mean;
+          const experiments::results::Interval& interval = differences ? *estimate.difference : estimate.mean;
           curve.x.push_back(x_of(point));
           curve.y.push_back(interval.mean);
           curve.low.push_back(interval.low());
@@ -117,24 +117,24 @@ Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
 
 }  // namespace
 
-Plot means_plot(const ExperimentFolder& folder) { return plot_over_axis(folder, false); }
-Plot differences_plot(const ExperimentFolder& folder) { return plot_over_axis(folder, true); }
+page::Plot means_plot(const ExperimentFolder& folder) { return plot_over_axis(folder, false); }
+page::Plot differences_plot(const ExperimentFolder& folder) { return plot_over_axis(folder, true); }
 
-Plot replications_plot(const ExperimentFolder& folder) {
-  Plot plot{"Distributions over the replications",
-            "Shares of a point's runs, a drive each.",
-            "value",
-            Plot::Kind::kSteps,
-            false,
-            false,
-            {}};
+page::Plot replications_plot(const ExperimentFolder& folder) {
+  page::Plot plot{"Distributions over the replications",
+                  "Shares of a point's runs, a drive each.",
+                  "value",
+                  page::Plot::Kind::kSteps,
+                  false,
+                  false,
+                  {}};
   if (!folder.store) return plot;
   // Of many points some, evenly.
   const std::size_t shown = std::clamp(kMostViews / folder.measures.size(), std::size_t{1}, folder.points.size());
   if (shown < folder.points.size())
     plot.caption += fmt::format(" Of {} points {} are here.", folder.points.size(), shown);
   const std::vector<std::string>& columns = folder.store->head().measures;
-  std::vector<std::vector<results::Run>> runs;
+  std::vector<std::vector<experiments::results::Run>> runs;
   std::vector<const ExperimentPoint*> points;
   for (std::size_t s = 0; s < shown; ++s) {
     points.push_back(&folder.points[s * folder.points.size() / shown]);
@@ -143,16 +143,16 @@ Plot replications_plot(const ExperimentFolder& folder) {
   for (const ExperimentMeasure& measure : folder.measures) {
     const auto column = static_cast<std::size_t>(std::ranges::find(columns, measure.name) - columns.begin());
     for (std::size_t s = 0; s < shown; ++s) {
-      std::vector<NamedValues> values;
+      std::vector<run::NamedValues> values;
       for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
         values.push_back({folder.paradigms[p], static_cast<int>(p), {}});
-      for (const results::Run& run : runs[s])
-        if (run.status == results::kDone && run.key.paradigm < values.size())
+      for (const experiments::results::Run& run : runs[s])
+        if (run.status == experiments::results::kDone && run.key.paradigm < values.size())
           values[run.key.paradigm].values.push_back(run.values[column]);
       std::vector<std::string> settings;
       for (std::size_t a = 0; a < folder.axes.size(); ++a)
         settings.push_back(folder.axes[a] + " " + points[s]->settings[a]);
-      std::vector<Curve> curves = histogram(values, 30);
+      std::vector<page::Curve> curves = histogram(values, 30);
       if (curves.empty()) continue;
       plot.views.push_back({measure.with_unit() + (settings.empty() ? "" : ", " + joined(settings)),
                             "share of runs [%]", std::move(curves)});
@@ -161,4 +161,4 @@ Plot replications_plot(const ExperimentFolder& folder) {
   return plot;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::experiment

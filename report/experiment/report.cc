@@ -8,25 +8,25 @@
 #include <optional>
 
 #include "core/counted.h"
-#include "report/experiment/plots.h"
 #include "report/drawing/figures.h"
+#include "report/experiment/plots.h"
 #include "report/page/page.h"
 
-namespace ttf::report {
+namespace ttf::report::experiment {
 namespace {
 
 constexpr std::size_t kMostFailures = 50;
 
 // The first measure's paired difference of two paradigms at a point, by the runs themselves.
-results::Interval paired(const std::vector<results::Run>& runs, std::size_t column, std::size_t paradigm,
-                         std::size_t against, double confidence) {
+experiments::results::Interval paired(const std::vector<experiments::results::Run>& runs, std::size_t column,
+                                      std::size_t paradigm, std::size_t against, double confidence) {
   std::map<std::uint32_t, std::pair<std::optional<double>, std::optional<double>>> by_replication;
-  for (const results::Run& run : runs) {
-    if (run.status != results::kDone) continue;
+  for (const experiments::results::Run& run : runs) {
+    if (run.status != experiments::results::kDone) continue;
     if (run.key.paradigm == paradigm) by_replication[run.key.replication].first = run.values[column];
     if (run.key.paradigm == against) by_replication[run.key.replication].second = run.values[column];
   }
-  results::Moments moments;
+  experiments::results::Moments moments;
   for (const auto& [replication, both] : by_replication)
     if (both.first && both.second) moments.add(*both.first - *both.second);
   return interval_of(moments, confidence);
@@ -47,7 +47,7 @@ std::optional<Least> least_at(const ExperimentFolder& folder, const ExperimentPo
   if (!least || !folder.store || folder.paradigms.size() == 1) return least;
   const auto& columns = folder.store->head().measures;
   const auto column = static_cast<std::size_t>(std::ranges::find(columns, folder.measures[0].name) - columns.begin());
-  const std::vector<results::Run> runs = folder.store->of_point(point.point);
+  const std::vector<experiments::results::Run> runs = folder.store->of_point(point.point);
   least->certain = true;
   for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
     if (p != least->paradigm)
@@ -63,12 +63,12 @@ std::vector<std::string> settings_of(const ExperimentPoint& point) {
   return point.settings.empty() ? std::vector<std::string>{std::to_string(point.point)} : point.settings;
 }
 
-PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
+page::PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
   const ExperimentMeasure& measure = folder.measures[m];
-  PageTable table{fmt::format("{}{}; mean of the replications, {:g} % intervals", measure.with_unit(),
-                              measure.meaning.empty() ? "" : ": " + measure.meaning, 100.0 * folder.confidence),
-                  axes_of(folder),
-                  {}};
+  page::PageTable table{fmt::format("{}{}; mean of the replications, {:g} % intervals", measure.with_unit(),
+                                    measure.meaning.empty() ? "" : ": " + measure.meaning, 100.0 * folder.confidence),
+                        axes_of(folder),
+                        {}};
   table.header.push_back("runs");
   for (const std::string& paradigm : folder.paradigms) table.header.push_back(paradigm);
   for (const ExperimentPoint& point : folder.points) {
@@ -77,17 +77,17 @@ PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
     for (const auto& estimates : point.estimates) runs = std::max(runs, estimates[m].mean.count);
     row.push_back(std::to_string(runs));
     for (const auto& estimates : point.estimates)
-      row.push_back(with_interval(estimates[m].mean.mean, estimates[m].mean.half_width));
+      row.push_back(drawing::with_interval(estimates[m].mean.mean, estimates[m].mean.half_width));
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
-PageTable differences_table(const ExperimentFolder& folder, std::size_t m) {
-  PageTable table{fmt::format("{} less that of {}, paired by replication: whether it is less or more for certain",
-                              folder.measures[m].with_unit(), folder.baseline),
-                  axes_of(folder),
-                  {}};
+page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m) {
+  page::PageTable table{fmt::format("{} less that of {}, paired by replication: whether it is less or more for certain",
+                                    folder.measures[m].with_unit(), folder.baseline),
+                        axes_of(folder),
+                        {}};
   for (const std::string& paradigm : folder.paradigms)
     if (paradigm != folder.baseline) table.header.push_back(fmt::format("{} − {}", paradigm, folder.baseline));
   for (const ExperimentPoint& point : folder.points) {
@@ -95,9 +95,10 @@ PageTable differences_table(const ExperimentFolder& folder, std::size_t m) {
     for (std::size_t p = 0; p < folder.paradigms.size(); ++p) {
       if (folder.paradigms[p] == folder.baseline) continue;
       const auto& difference = point.estimates[p][m].difference;
-      row.push_back(difference ? fmt::format("{} {}", with_interval(difference->mean, difference->half_width, true),
-                                             verdict(difference->mean, difference->half_width))
-                               : "-");
+      row.push_back(difference
+                        ? fmt::format("{} {}", drawing::with_interval(difference->mean, difference->half_width, true),
+                                      drawing::verdict(difference->mean, difference->half_width))
+                        : "-");
     }
     table.rows.push_back(std::move(row));
   }
@@ -116,7 +117,7 @@ std::vector<std::string> sentences(const ExperimentFolder& folder) {
     certain = certain || crossing.certain;
     if (!crossing.certain)
       all.push_back(fmt::format("{} and {} may cross at {} {}{}: that is not certain.", crossing.paradigm,
-                                folder.baseline, crossing.axis, brief(crossing.at),
+                                folder.baseline, crossing.axis, drawing::brief(crossing.at),
                                 crossing.others.empty() ? "" : ", with " + crossing.others));
   }
   if (!certain && !folder.axes.empty() && folder.paradigms.size() > 1)
@@ -128,15 +129,15 @@ std::vector<std::string> sentences(const ExperimentFolder& folder) {
   return all;
 }
 
-void failures(Page& page, const ExperimentFolder& folder) {
+void failures(page::Page& page, const ExperimentFolder& folder) {
   if (!folder.store || folder.failed == 0) return;
-  PageTable table{
+  page::PageTable table{
       "Each is driven again, alone, by `ttfusion experiment FILE --replay` with what stands in the first column",
       {"point/paradigm/replication", "what went wrong"},
       {}};
   std::uint64_t more = 0;
-  folder.store->for_each([&](const results::Run& run) {
-    if (run.status == results::kDone) return;
+  folder.store->for_each([&](const experiments::results::Run& run) {
+    if (run.status == experiments::results::kDone) return;
     if (table.rows.size() >= kMostFailures) {
       ++more;
       return;
@@ -150,14 +151,14 @@ void failures(Page& page, const ExperimentFolder& folder) {
   if (more > 0) page.paragraph(fmt::format("And {} more, in runs.csv.", more));
 }
 
-void how_made(Page& page, const ExperimentFolder& folder) {
+void how_made(page::Page& page, const ExperimentFolder& folder) {
   page.section("How it was made");
-  const std::string file = shell_word(folder.file.empty() ? "experiments/" + folder.name + ".yaml" : folder.file);
+  const std::string file = page::shell_word(folder.file.empty() ? "experiments/" + folder.name + ".yaml" : folder.file);
   if (!folder.store) {
     page.paragraph("There is no results.sqlite: what the runs are of is not known.");
     return;
   }
-  const results::StoreHead& head = folder.store->head();
+  const experiments::results::StoreHead& head = folder.store->head();
   page.facts({{"version", head.version},
               {"identity of all inputs", head.identity},
               {"seed", std::to_string(folder.seed)},
@@ -169,13 +170,13 @@ void how_made(Page& page, const ExperimentFolder& folder) {
   page.command(
       fmt::format("ttfusion experiment {0} --out again\nttfusion experiment {0} --replay {1} --out one\n"
                   "ttfusion report one -o one.html\n",
-                  file, shell_word(fmt::format("0/{}/0", folder.paradigms.front()))));
+                  file, page::shell_word(fmt::format("0/{}/0", folder.paradigms.front()))));
   page.preformatted("The experiment's file", head.text);
 }
 
 // The sections of a run's page, of one run of every paradigm.
-void one_of_each(Page& page, const ExperimentFolder& folder, const ExperimentDrives& drives,
-                 const DiagramWindow& window) {
+void one_of_each(page::Page& page, const ExperimentFolder& folder, const ExperimentDrives& drives,
+                 const run::DiagramWindow& window) {
   if (drives.drives.empty() && drives.why_none.empty()) return;
   page.section("One drive of each paradigm");
   if (drives.drives.empty()) {
@@ -190,8 +191,8 @@ void one_of_each(Page& page, const ExperimentFolder& folder, const ExperimentDri
       "The runs of point {}{}, replication {}, driven again for their logs: they came to the very figures in "
       "results.sqlite. All paradigms had the same draws; it is one replication of many, and nothing is certain by it.",
       drives.point, settings.empty() ? "" : " (" + joined(settings) + ")", drives.replication));
-  std::vector<ToldDrive> all;
-  for (const Drive& drive : drives.drives) all.push_back(told_of(drive));
+  std::vector<run::ToldDrive> all;
+  for (const run::Drive& drive : drives.drives) all.push_back(told_of(drive));
   errors_section(page, all);
   timing_section(page, all, window);
   time_base_section(page, all, window.most);
@@ -232,16 +233,16 @@ std::string experiment_answer(const ExperimentFolder& folder) {
                 : fmt::format("; {}{}{}", folder.paradigms[p], points, sure);
   }
   if (folder.points.size() == 1) {
-    const results::Interval& mean = folder.points[0].estimates[order[0]][0].mean;
-    text += fmt::format("{}{}{}", alone ? "; it is " : ": ", with_interval(mean.mean, mean.half_width),
+    const experiments::results::Interval& mean = folder.points[0].estimates[order[0]][0].mean;
+    text += fmt::format("{}{}{}", alone ? "; it is " : ": ", drawing::with_interval(mean.mean, mean.half_width),
                         folder.measures[0].unit.empty() ? "" : " " + folder.measures[0].unit);
   }
   return text + ".";
 }
 
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
-                                   const DiagramWindow& window) {
-  Page page(folder.name, "Report of an experiment");
+                                   const run::DiagramWindow& window) {
+  page::Page page(folder.name, "Report of an experiment");
   page.section("What was asked");
   page.lead(folder.question);
   std::vector<std::string> axes;
@@ -279,4 +280,4 @@ std::string experiment_report_html(const ExperimentFolder& folder, const Experim
   return page.html();
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::experiment

@@ -5,24 +5,24 @@
 #include <string>
 #include <vector>
 
-#include "report/run/drive_sections.h"
 #include "report/experiment/folder.h"
+#include "report/run/drive_sections.h"
 #include "report/run/results_folder.h"
 
-namespace ttf::report {
+namespace ttf::report::experiment {
 
 // One run of every paradigm, driven again for its log.
 struct ExperimentDrives {
   std::uint32_t point = 0, replication = 0;
-  std::vector<Drive> drives;  // with logs, in the order of the folder's paradigms; or none
-  std::string why_none;       // a sentence; empty where they were not asked for
+  std::vector<run::Drive> drives;  // with logs, in the order of the folder's paradigms; or none
+  std::string why_none;            // a sentence; empty where they were not asked for
 };
 
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
-                                   const DiagramWindow& window);
+                                   const run::DiagramWindow& window);
 
 // Who has the least of the first measure, at how many points, and where for certain: against each of the others, paired
 // by replication, by the runs in the store (without one nothing is certain).
 std::string experiment_answer(const ExperimentFolder& folder);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::experiment

@@ -10,7 +10,7 @@
 #include "core/errors.h"
 #include "recording/rows/csv.h"
 
-namespace ttf::report {
+namespace ttf::report::experiment {
 namespace {
 
 constexpr std::size_t kValueColumns = 7;
@@ -38,7 +38,7 @@ std::size_t NameList::place_of(const std::string& name) {
 ExperimentSummary read_summary(std::string_view text, const std::string& file) {
   const std::vector<std::string> values{
       "paradigm", "measure", "count", "mean", "half_width", "difference", "difference_half_width"};
-  recording::CsvLines lines(text);
+  recording::rows::CsvLines lines(text);
   const auto refuse = [&](const std::string& why) -> InputError {
     return InputError({file, lines.line(), "", "", why});
   };
@@ -85,4 +85,4 @@ ExperimentSummary read_summary(std::string_view text, const std::string& file) {
   return summary;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::experiment

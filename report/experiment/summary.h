@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace ttf::report {
+namespace ttf::report::experiment {
 
 inline constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
@@ -45,4 +45,4 @@ class NameList {
   std::map<std::string, std::size_t> places_;
 };
 
-}  // namespace ttf::report
+}  // namespace ttf::report::experiment

@@ -3,11 +3,11 @@
 
 #include <string_view>
 
-namespace ttf::report::assets {
+namespace ttf::report::page {
 
 extern const std::string_view kStyle;
 extern const std::string_view kPlotsScript;                         // plots, with uPlot
 extern const std::string_view kTimingDrawingScript, kTimingScript;  // timing diagrams, in this order
 extern const std::string_view kUplot, kUplotStyle, kUplotLicence;
 
-}  // namespace ttf::report::assets
+}  // namespace ttf::report::page

@@ -1,5 +1,5 @@
 # cmake -DPAGE=report/page -DUPLOT=FOLDER -DOUT=FILE.cc -P embed.cmake: the page's parts as string literals.
-set(text "#include \"report/page_assets.h\"\n\nnamespace ttf::report::assets {\n")
+set(text "#include \"report/page/assets.h\"\n\nnamespace ttf::report::page {\n")
 function(embed name file)
   if(NOT EXISTS ${file})
     message(FATAL_ERROR "${file}, which is a part of the report, is not there")
@@ -20,4 +20,4 @@ embed(kTimingScript ${PAGE}/timing.js)
 embed(kUplot ${UPLOT}/dist/uPlot.iife.min.js)
 embed(kUplotStyle ${UPLOT}/dist/uPlot.min.css)
 embed(kUplotLicence ${UPLOT}/LICENSE)
-file(WRITE ${OUT} "${text}}  // namespace ttf::report::assets\n")
+file(WRITE ${OUT} "${text}}  // namespace ttf::report::page\n")

@@ -6,7 +6,7 @@
 
 #include "report/drawing/svg.h"
 
-namespace ttf::report {
+namespace ttf::report::page {
 namespace {
 
 constexpr std::string_view kStyle =
@@ -35,18 +35,18 @@ std::string index_html(std::string_view title, std::span<const IndexEntry> entri
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
       "charset=\"utf-8\"/><title>{0}</title><style>{1}</style></head>\n"
       "<body><h1>{0}</h1>\n",
-      escape(title), kStyle);
+      drawing::escape(title), kStyle);
   for (const IndexEntry& e : entries) {
-    if (!e.heading.empty()) out += fmt::format("<h2>{}</h2>\n", escape(e.heading));
+    if (!e.heading.empty()) out += fmt::format("<h2>{}</h2>\n", drawing::escape(e.heading));
     if (!e.picture.empty())
       out += fmt::format("<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"/></a>\n", url(e.picture),
-                         escape(e.heading.empty() ? e.picture : e.heading));
-    if (!e.caption.empty()) out += fmt::format("<p class=\"caption\">{}</p>\n", escape(e.caption));
-    if (!e.preformatted.empty()) out += fmt::format("<pre>{}</pre>\n", escape(e.preformatted));
+                         drawing::escape(e.heading.empty() ? e.picture : e.heading));
+    if (!e.caption.empty()) out += fmt::format("<p class=\"caption\">{}</p>\n", drawing::escape(e.caption));
+    if (!e.preformatted.empty()) out += fmt::format("<pre>{}</pre>\n", drawing::escape(e.preformatted));
     if (!e.more.empty()) {
       out += "<p>";
       for (std::size_t i = 0; i < e.more.size(); ++i)
-        out += fmt::format("{}<a href=\"{}\">{}</a>", i > 0 ? " · " : "", url(e.more[i]), escape(e.more[i]));
+        out += fmt::format("{}<a href=\"{}\">{}</a>", i > 0 ? " · " : "", url(e.more[i]), drawing::escape(e.more[i]));
       out += "</p>\n";
     }
   }
@@ -62,4 +62,4 @@ void write_index(const std::string& dir, std::string_view title, std::span<const
   if (!out) throw std::runtime_error(path + ": cannot be written");
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::page

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ttf::report {
+namespace ttf::report::page {
 
 // One section. Every part may be empty. `picture` and `more` are file names inside the folder (more: the same
 // picture in other formats, the log, ...).
@@ -23,4 +23,4 @@ void write_index(const std::string& dir, std::string_view title, std::span<const
 // The same page as a string.
 std::string index_html(std::string_view title, std::span<const IndexEntry> entries);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::page

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "report/page/assets.h"
 #include "report/drawing/svg.h"
+#include "report/page/assets.h"
 
-namespace ttf::report {
+namespace ttf::report::page {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -88,22 +88,23 @@ void Page::section(std::string_view heading) {
   if (!contents_.empty()) body_ += "</section>\n";
   contents_.push_back({fmt::format("section-{}", contents_.size() + 1), std::string(heading)});
   body_ += fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-h\"><h2 id=\"{0}-h\">{1}</h2>\n", contents_.back().id,
-                       escape(heading));
+                       drawing::escape(heading));
 }
 
-void Page::lead(std::string_view text) { body_ += fmt::format("<p class=\"lead\">{}</p>\n", escape(text)); }
-void Page::paragraph(std::string_view text) { body_ += fmt::format("<p>{}</p>\n", escape(text)); }
+void Page::lead(std::string_view text) { body_ += fmt::format("<p class=\"lead\">{}</p>\n", drawing::escape(text)); }
+void Page::paragraph(std::string_view text) { body_ += fmt::format("<p>{}</p>\n", drawing::escape(text)); }
 
 void Page::points(const std::vector<std::string>& sentences) {
   if (sentences.empty()) return;
   body_ += "<ul>\n";
-  for (const std::string& sentence : sentences) body_ += fmt::format("<li>{}</li>\n", escape(sentence));
+  for (const std::string& sentence : sentences) body_ += fmt::format("<li>{}</li>\n", drawing::escape(sentence));
   body_ += "</ul>\n";
 }
 
 void Page::facts(const std::vector<std::pair<std::string, std::string>>& facts) {
   body_ += "<dl class=\"facts\">\n";
-  for (const auto& [name, value] : facts) body_ += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escape(name), escape(value));
+  for (const auto& [name, value] : facts)
+    body_ += fmt::format("<dt>{}</dt><dd>{}</dd>\n", drawing::escape(name), drawing::escape(value));
   body_ += "</dl>\n";
 }
 
@@ -112,17 +113,17 @@ void Page::table(const PageTable& table) {
   for (const auto& row : table.rows)
     for (std::size_t c = 1; c < row.size() && c < figures.size(); ++c) figures[c] = figures[c] && is_figure(row[c]);
   body_ += "<div class=\"table\" tabindex=\"0\" role=\"group\"";
-  body_ += fmt::format(" aria-label=\"{}\"><table>", escape(table.caption));
-  if (!table.caption.empty()) body_ += fmt::format("<caption>{}</caption>", escape(table.caption));
+  body_ += fmt::format(" aria-label=\"{}\"><table>", drawing::escape(table.caption));
+  if (!table.caption.empty()) body_ += fmt::format("<caption>{}</caption>", drawing::escape(table.caption));
   body_ += "<thead><tr>";
   for (std::size_t c = 0; c < table.header.size(); ++c)
-    body_ +=
-        fmt::format("<th scope=\"col\"{}>{}</th>", c > 0 && figures[c] ? " class=\"n\"" : "", escape(table.header[c]));
+    body_ += fmt::format("<th scope=\"col\"{}>{}</th>", c > 0 && figures[c] ? " class=\"n\"" : "",
+                         drawing::escape(table.header[c]));
   body_ += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     body_ += "<tr>";
     for (std::size_t c = 0; c < table.header.size(); ++c) {
-      const std::string text = c < row.size() ? escape(row[c]) : "";
+      const std::string text = c < row.size() ? drawing::escape(row[c]) : "";
       // What is set in is a part of what stands above it.
       if (c == 0)
         body_ += fmt::format("<th scope=\"row\"{}>{}</th>", text.starts_with("  ") ? " class=\"part\"" : "", text);
@@ -148,7 +149,7 @@ void Page::plot(const Plot& plot) {
   body_ += fmt::format(
       "<figure class=\"plot\" data-plot=\"{}\"><figcaption><strong>{}</strong> {}</figcaption>"
       "<noscript><p>Plots need JavaScript, which is in this page.</p></noscript></figure>\n",
-      plots_.size(), escape(plot.heading), escape(plot.caption));
+      plots_.size(), drawing::escape(plot.heading), drawing::escape(plot.caption));
   plots_.push_back(std::move(json));
 }
 
@@ -156,29 +157,29 @@ void Page::picture(std::string_view svg, std::string_view caption) {
   body_ += fmt::format(
       "<figure class=\"picture\"><div class=\"paper\" tabindex=\"0\" role=\"img\" aria-label=\"{0}\">{1}"
       "</div><figcaption>{0}</figcaption></figure>\n",
-      escape(caption), inlined(svg, fmt::format("p{}-", pictures_++)));
+      drawing::escape(caption), inlined(svg, fmt::format("p{}-", pictures_++)));
 }
 
 void Page::diagrams(const std::vector<PageDiagram>& diagrams, std::string_view caption) {
   if (diagrams.empty()) return;
-  body_ += fmt::format("<figure class=\"timing\"><figcaption>{}</figcaption>\n", escape(caption));
+  body_ += fmt::format("<figure class=\"timing\"><figcaption>{}</figcaption>\n", drawing::escape(caption));
   for (const PageDiagram& diagram : diagrams)
     body_ += fmt::format("<div class=\"diagram\" data-label=\"{}\"><div class=\"paper\">{}</div></div>\n",
-                         escape(diagram.label), inlined(diagram.svg, fmt::format("d{}-", diagrams_++)));
+                         drawing::escape(diagram.label), inlined(diagram.svg, fmt::format("d{}-", diagrams_++)));
   body_ += "</figure>\n";
 }
 
 void Page::command(std::string_view words) {
-  body_ += fmt::format("<pre class=\"command\" tabindex=\"0\"><code>{}</code></pre>\n", escape(words));
+  body_ += fmt::format("<pre class=\"command\" tabindex=\"0\"><code>{}</code></pre>\n", drawing::escape(words));
 }
 
 void Page::preformatted(std::string_view summary, std::string_view text) {
-  body_ += fmt::format("<details><summary>{}</summary><pre tabindex=\"0\">{}</pre></details>\n", escape(summary),
-                       escape(text));
+  body_ += fmt::format("<details><summary>{}</summary><pre tabindex=\"0\">{}</pre></details>\n",
+                       drawing::escape(summary), drawing::escape(text));
 }
 
 void Page::open_details(std::string_view summary) {
-  body_ += fmt::format("<details><summary>{}</summary>\n", escape(summary));
+  body_ += fmt::format("<details><summary>{}</summary>\n", drawing::escape(summary));
 }
 void Page::close_details() { body_ += "</details>\n"; }
 
@@ -190,21 +191,20 @@ std::string Page::html() const {
       "script-src 'unsafe-inline'; img-src data:\">"
       "<meta name=\"color-scheme\" content=\"light dark\"><link rel=\"icon\" "
       "href=\"data:,\"><title>{}</title>\n<style>",
-      escape(title_));
-  out += assets::kUplotStyle;
-  out += assets::kStyle;
+      drawing::escape(title_));
+  out += kUplotStyle;
+  out += kStyle;
   out += fmt::format(
       "</style></head>\n<body>\n<a class=\"skip\" href=\"#main\">To the report</a>\n"
       "<header><p class=\"kind\">{}</p><h1>{}</h1></header>\n<nav aria-label=\"Contents\"><ol>",
-      escape(kind_), escape(title_));
+      drawing::escape(kind_), drawing::escape(title_));
   for (const Entry& entry : contents_)
-    out += fmt::format("<li><a href=\"#{}\">{}</a></li>", entry.id, escape(entry.heading));
+    out += fmt::format("<li><a href=\"#{}\">{}</a></li>", entry.id, drawing::escape(entry.heading));
   out += "</ol></nav>\n<main id=\"main\">\n" + body_ + (contents_.empty() ? "" : "</section>\n") + "</main>\n<footer>";
   out += fmt::format("<details><summary>Plots: uPlot, MIT licence</summary><pre>{}</pre></details></footer>\n",
-                     escape(assets::kUplotLicence));
+                     drawing::escape(kUplotLicence));
   out += "<script type=\"application/json\" id=\"plots\">" + script_data(plots_) + "</script>\n";
-  for (const std::string_view script :
-       {assets::kUplot, assets::kPlotsScript, assets::kTimingDrawingScript, assets::kTimingScript}) {
+  for (const std::string_view script : {kUplot, kPlotsScript, kTimingDrawingScript, kTimingScript}) {
     out += "<script>";
     out += script;
     out += "</script>\n";
@@ -212,4 +212,4 @@ std::string Page::html() const {
   return out + "</body></html>\n";
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::page

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace ttf::report {
+namespace ttf::report::page {
 
 struct PageTable {
   std::string caption;
@@ -81,4 +81,4 @@ class Page {
 // The word as a shell takes it back.
 std::string shell_word(const std::string& word);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::page

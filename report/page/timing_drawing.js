@@ -1,5 +1,5 @@
 // Of timing diagrams: what stands in time is put anew for the window that is seen, so that texts, arrow heads and line
-// widths stay as they are. What the attributes mean: report/timing_tags.h. The window stands in data-from and data-to.
+// widths stay as they are. What the attributes mean: report/timing/tags.h. The window stands in data-from and data-to.
 "use strict";
 const TimingDrawing = (() => {
   const SVG = "http://www.w3.org/2000/svg";

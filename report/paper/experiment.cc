@@ -12,7 +12,7 @@
 #include "recording/rows/csv.h"
 #include "report/experiment/summary.h"
 
-namespace ttf::report {
+namespace ttf::report::paper {
 namespace {
 
 constexpr double kWideRange = 20.0;  // from here on an axis that is above 0 is drawn by its logarithm
@@ -25,16 +25,16 @@ struct AcrossAxis {
   double least = 0.0, most = 0.0;
 };
 
-AcrossAxis across(const ExperimentSummary& summary) {
+AcrossAxis across(const experiment::ExperimentSummary& summary) {
   AcrossAxis found;
   for (std::size_t a = 0; a < summary.axes.size() && !found.by_number; ++a) {
-    NameList labels;
+    experiment::NameList labels;
     bool numbers = true;
     double least = std::numeric_limits<double>::infinity(), most = -least;
     std::optional<std::string> unit;
-    for (const SummaryPoint& point : summary.points) {
+    for (const experiment::SummaryPoint& point : summary.points) {
       labels.place_of(point.labels[a]);
-      const auto number = number_with_unit(point.labels[a]);
+      const auto number = experiment::number_with_unit(point.labels[a]);
       numbers = numbers && number && (!unit || *unit == number->second);
       if (!number) continue;
       least = std::min(least, number->first), most = std::max(most, number->first);
@@ -61,9 +61,9 @@ std::string unit_text(std::string unit) {
 // One picture's worth of one measure.
 class MeasureFigure {
  public:
-  MeasureFigure(const ExperimentSummary& summary, std::size_t measure)
+  MeasureFigure(const experiment::ExperimentSummary& summary, std::size_t measure)
       : summary_(summary), measure_(measure), x_(across(summary)) {
-    for (const SummaryPoint& point : summary_.points) cases_.place_of(others(point));
+    for (const experiment::SummaryPoint& point : summary_.points) cases_.place_of(others(point));
   }
 
   // Whether a measure has any value: some runs have none of it.
@@ -76,21 +76,22 @@ class MeasureFigure {
 
   std::string table() const {
     std::string text = "case";
-    for (const std::string& axis : summary_.axes) text += ',' + recording::csv_field(axis);
+    for (const std::string& axis : summary_.axes) text += ',' + recording::rows::csv_field(axis);
     text += ",x";
     for (const std::string& paradigm : summary_.paradigms)
       for (const char* what : {"mean", "half_width", "difference", "difference_half_width"})
-        text += ',' + recording::csv_field(paradigm + "_" + what);
+        text += ',' + recording::rows::csv_field(paradigm + "_" + what);
     text += '\n';
     for (std::size_t k = 0; k < cases_.size(); ++k) {
       std::size_t nth = 0;
-      for (const SummaryPoint& point : summary_.points) {
+      for (const experiment::SummaryPoint& point : summary_.points) {
         if (others(point) != cases_.names()[k]) continue;
         text += std::to_string(k);
-        for (const std::string& label : point.labels) text += ',' + recording::csv_field(label);
-        const double x = x_.by_number ? number_with_unit(point.labels[*x_.axis])->first : static_cast<double>(nth++);
+        for (const std::string& label : point.labels) text += ',' + recording::rows::csv_field(label);
+        const double x =
+            x_.by_number ? experiment::number_with_unit(point.labels[*x_.axis])->first : static_cast<double>(nth++);
         text += ',' + table_number(x);
-        for (const SummaryCell& cell : point.cells[measure_])
+        for (const experiment::SummaryCell& cell : point.cells[measure_])
           for (const double value : {cell.mean, cell.half_width, cell.difference, cell.difference_half_width})
             text += ',' + table_number(value);
         text += '\n';
@@ -120,17 +121,19 @@ class MeasureFigure {
 
  private:
   // What the other axes say of a point: those that go along x alone are one case.
-  std::string others(const SummaryPoint& point) const {
+  std::string others(const experiment::SummaryPoint& point) const {
     std::string text;
     for (std::size_t a = 0; a < summary_.axes.size(); ++a)
       if (a != x_.axis) text += (text.empty() ? "" : ", ") + summary_.axes[a] + " " + point.labels[a];
     return text;
   }
 
-  static double value_of(const SummaryCell& cell, int column) { return column == 0 ? cell.mean : cell.difference; }
+  static double value_of(const experiment::SummaryCell& cell, int column) {
+    return column == 0 ? cell.mean : cell.difference;
+  }
   // Whether there is something to draw of a paradigm in a case.
   bool any(std::size_t k, std::size_t paradigm, int column) const {
-    return std::any_of(summary_.points.begin(), summary_.points.end(), [&](const SummaryPoint& point) {
+    return std::any_of(summary_.points.begin(), summary_.points.end(), [&](const experiment::SummaryPoint& point) {
       return others(point) == cases_.names()[k] && std::isfinite(value_of(point.cells[measure_][paradigm], column));
     });
   }
@@ -138,8 +141,8 @@ class MeasureFigure {
   // It has values and no difference from itself.
   bool may_be_baseline(std::size_t paradigm) const {
     bool values = false, differences = false;
-    for (const SummaryPoint& point : summary_.points) {
-      const SummaryCell& cell = point.cells[measure_][paradigm];
+    for (const experiment::SummaryPoint& point : summary_.points) {
+      const experiment::SummaryCell& cell = point.cells[measure_][paradigm];
       values = values || std::isfinite(cell.mean);
       differences = differences || !std::isnan(cell.difference);
     }
@@ -169,15 +172,15 @@ class MeasureFigure {
   double most_in_a_case() const {
     std::map<std::string, double> there;
     double most = 0.0;
-    for (const SummaryPoint& point : summary_.points) most = std::max(most, ++there[others(point)]);
+    for (const experiment::SummaryPoint& point : summary_.points) most = std::max(most, ++there[others(point)]);
     return most;
   }
 
   // Means that lie further apart than a picture can show are drawn by their logarithm, where they have one.
   bool logarithmic_means() const {
     double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (const SummaryPoint& point : summary_.points)
-      for (const SummaryCell& cell : point.cells[measure_])
+    for (const experiment::SummaryPoint& point : summary_.points)
+      for (const experiment::SummaryCell& cell : point.cells[measure_])
         if (!std::isnan(cell.mean)) least = std::min(least, cell.mean), most = std::max(most, cell.mean);
     return least > 0.0 && most > kWideRange * least;
   }
@@ -185,8 +188,8 @@ class MeasureFigure {
   // What lies in one line has no range of its own.
   std::string range_of(std::size_t k, int column) const {
     double least = column == 2 ? 0.0 : std::numeric_limits<double>::infinity(), most = column == 2 ? 0.0 : -least;
-    for (const SummaryPoint& point : summary_.points)
-      for (const SummaryCell& cell : point.cells[measure_]) {
+    for (const experiment::SummaryPoint& point : summary_.points)
+      for (const experiment::SummaryCell& cell : point.cells[measure_]) {
         const double value = value_of(cell, column), width = column == 0 ? cell.half_width : cell.difference_half_width;
         if (others(point) != cases_.names()[k] || !std::isfinite(value)) continue;
         least = std::min(least, value - (std::isfinite(width) ? width : 0.0));
@@ -201,7 +204,7 @@ class MeasureFigure {
   std::string label_tics(std::size_t k) const {
     std::string names;
     std::size_t nth = 0;
-    for (const SummaryPoint& point : summary_.points)
+    for (const experiment::SummaryPoint& point : summary_.points)
       if (x_.axis && others(point) == cases_.names()[k])
         names += fmt::format("{}{} {}", nth == 0 ? "" : ", ", gnuplot_text(point.labels[*x_.axis]), nth), ++nth;
     return names.empty() ? "unset xtics\n" : "set xtics (" + names + ")\n";
@@ -238,17 +241,17 @@ class MeasureFigure {
     return text + "plot " + curves + "\n";
   }
 
-  const ExperimentSummary& summary_;
+  const experiment::ExperimentSummary& summary_;
   std::size_t measure_;
   AcrossAxis x_;
-  NameList cases_;
+  experiment::NameList cases_;
 };
 
 }  // namespace
 
 std::vector<PaperFile> paper_of_experiment(std::string_view summary, const std::string& file, const std::string& name,
                                            const std::function<MeasureWords(std::string_view measure)>& words) {
-  const ExperimentSummary read = read_summary(summary, file);
+  const experiment::ExperimentSummary read = experiment::read_summary(summary, file);
   std::vector<PaperFile> files;
   for (std::size_t m = 0; m < read.measures.size(); ++m) {
     const MeasureFigure figure(read, m);
@@ -259,4 +262,4 @@ std::vector<PaperFile> paper_of_experiment(std::string_view summary, const std::
   return files;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::paper

@@ -9,7 +9,7 @@
 
 #include "report/paper/gnuplot.h"
 
-namespace ttf::report {
+namespace ttf::report::paper {
 
 // What is known of a measure: its unit (empty: none) and what it means.
 struct MeasureWords {
@@ -20,4 +20,4 @@ struct MeasureWords {
 std::vector<PaperFile> paper_of_experiment(std::string_view summary, const std::string& file, const std::string& name,
                                            const std::function<MeasureWords(std::string_view measure)>& words);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::paper

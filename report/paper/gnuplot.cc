@@ -8,7 +8,7 @@
 
 #include "report/drawing/axes.h"
 
-namespace ttf::report {
+namespace ttf::report::paper {
 namespace {
 
 // A line that ends in a backslash would go on in the next one.
@@ -31,7 +31,8 @@ std::string gnuplot_text(std::string_view text) {
 }
 
 std::string gnuplot_colour(std::size_t n) {
-  constexpr std::array<std::string_view, 6> kColours{"#000000", kVermilion, kBlue, kGreen, kPurple, kOrange};
+  constexpr std::array<std::string_view, 6> kColours{"#000000",       drawing::kVermilion, drawing::kBlue,
+                                                     drawing::kGreen, drawing::kPurple,    drawing::kOrange};
   return fmt::format(" linecolor rgb \"{}\"", kColours[n % kColours.size()]);
 }
 
@@ -74,4 +75,4 @@ PaperFile gnuplot_script(const GnuplotFigure& figure) {
   return {figure.name + ".gp", text};
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::paper

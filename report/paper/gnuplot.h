@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ttf::report {
+namespace ttf::report::paper {
 
 struct PaperFile {
   std::string name, text;
@@ -37,4 +37,4 @@ std::string gnuplot_curve(std::size_t n);
 // A number as tables have it: so that it is read as the same; empty where it is none.
 std::string table_number(double value);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::paper

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string_view>
 
-namespace ttf::report {
+namespace ttf::report::paper {
 namespace {
 
 // One curve after the other, as a plot command has them.
@@ -188,4 +188,4 @@ std::vector<PaperFile> scripts_of_runs(const std::vector<PaperRun>& runs) {
   return files;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::paper

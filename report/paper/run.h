@@ -13,7 +13,7 @@
 
 #include "report/paper/gnuplot.h"
 
-namespace ttf::report {
+namespace ttf::report::paper {
 
 inline constexpr const char kPositionsHead[] = "kind,time_s,x_m,y_m\n";
 inline constexpr const char kErrorsHead[] =
@@ -38,4 +38,4 @@ struct PaperRun {
 
 std::vector<PaperFile> scripts_of_runs(const std::vector<PaperRun>& runs);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::paper

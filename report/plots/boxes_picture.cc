@@ -6,27 +6,29 @@
 
 #include "report/drawing/axes.h"
 
-namespace ttf::report {
+namespace ttf::report::plots {
 namespace {
 
-std::array<Point, 4> corners(const Box& b) {
+std::array<drawing::Point, 4> corners(const Box& b) {
   const double c = std::cos(b.heading), s = std::sin(b.heading);
   const auto at = [&](double u, double v) {
-    return Point{b.x + c * u * b.length / 2 - s * v * b.width / 2, b.y + s * u * b.length / 2 + c * v * b.width / 2};
+    return drawing::Point{b.x + c * u * b.length / 2 - s * v * b.width / 2,
+                          b.y + s * u * b.length / 2 + c * v * b.width / 2};
   };
   return {at(1, 1), at(-1, 1), at(-1, -1), at(1, -1)};
 }
 
-bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+bool finite(drawing::Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 }  // namespace
 
-std::string boxes_svg(std::span<const Point> points, std::span<const Box> boxes, std::string_view title) {
-  if (points.empty() && boxes.empty()) return empty_picture(title, "There are no points and no boxes to show.");
-  Extent x, y;
-  for (const Point& p : points) x.add(p.x), y.add(p.y);
+std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Box> boxes, std::string_view title) {
+  if (points.empty() && boxes.empty())
+    return drawing::empty_picture(title, "There are no points and no boxes to show.");
+  drawing::Extent x, y;
+  for (const drawing::Point& p : points) x.add(p.x), y.add(p.y);
   for (const Box& b : boxes)
-    for (const Point& p : corners(b)) x.add(p.x), y.add(p.y);
+    for (const drawing::Point& p : corners(b)) x.add(p.x), y.add(p.y);
   x = x.padded(0.04, 4);
   y = y.padded(0.06, 4);
   // One scale for both axes: the wider extent fills its side of at most 1100 x 760.
@@ -35,40 +37,41 @@ std::string boxes_svg(std::span<const Point> points, std::span<const Box> boxes,
   x = x.padded(0, width / scale);
   y = y.padded(0, height / scale);
 
-  const std::vector<LegendEntry> legend{
-      {LegendEntry::Kind::kMarker, "scan point", std::string(kBlue), Marker::kCircle, true},
-      {LegendEntry::Kind::kBox, "fitted box, arrow along its heading", std::string(kVermilion)},
-      {LegendEntry::Kind::kMarker, "sensor", std::string(kBlack), Marker::kTriangle, true}};
+  const std::vector<drawing::LegendEntry> legend{
+      {drawing::LegendEntry::Kind::kMarker, "scan point", std::string(drawing::kBlue), drawing::Marker::kCircle, true},
+      {drawing::LegendEntry::Kind::kBox, "fitted box, arrow along its heading", std::string(drawing::kVermilion)},
+      {drawing::LegendEntry::Kind::kMarker, "sensor", std::string(drawing::kBlack), drawing::Marker::kTriangle, true}};
   const double top = 34 + legend_height(legend, width) + 8;
-  Svg svg(width + 90, top + height + 62, title);
-  svg.text({70 + width / 2, 22}, title, {.size = 14, .anchor = Anchor::kMiddle, .bold = true});
+  drawing::Svg svg(width + 90, top + height + 62, title);
+  svg.text({70 + width / 2, 22}, title, {.size = 14, .anchor = drawing::Anchor::kMiddle, .bold = true});
   draw_legend(svg, {70, 34}, width, legend);
-  const PlotFrame frame({70, top, width, height}, x, y);
+  const drawing::PlotFrame frame({70, top, width, height}, x, y);
   frame.draw(svg, "x, forward [m]", "y, left [m]");
   svg.open_group("points", frame.area());
-  for (const Point& p : points)
-    if (finite(p)) svg.marker(Marker::kCircle, frame.at(p.x, p.y), 2.4, {.fill = kBlue}, {}, "point");
+  for (const drawing::Point& p : points)
+    if (finite(p)) svg.marker(drawing::Marker::kCircle, frame.at(p.x, p.y), 2.4, {.fill = drawing::kBlue}, {}, "point");
   if (x.low <= 0 && x.high >= 0 && y.low <= 0 && y.high >= 0)
-    svg.marker(Marker::kTriangle, frame.at(0, 0), 10, {.fill = kBlack}, "sensor");
+    svg.marker(drawing::Marker::kTriangle, frame.at(0, 0), 10, {.fill = drawing::kBlack}, "sensor");
   svg.close_group();
-  LabelSpace labels;
+  drawing::LabelSpace labels;
   svg.open_group("boxes", frame.area());
   for (const Box& b : boxes) {
-    std::vector<Point> outline;
-    for (const Point& p : corners(b)) outline.push_back(frame.at(p.x, p.y));
-    svg.polyline(outline, {.stroke = kVermilion, .width = 1.4}, true, b.label, "box");
-    const Point centre = frame.at(b.x, b.y);
+    std::vector<drawing::Point> outline;
+    for (const drawing::Point& p : corners(b)) outline.push_back(frame.at(p.x, p.y));
+    svg.polyline(outline, {.stroke = drawing::kVermilion, .width = 1.4}, true, b.label, "box");
+    const drawing::Point centre = frame.at(b.x, b.y);
     const double reach = std::max(b.length / 2, 9.0 / scale);
     svg.arrow(centre, frame.at(b.x + std::cos(b.heading) * reach, b.y + std::sin(b.heading) * reach),
-              {.stroke = kVermilion, .width = 1.0}, {}, "heading");
+              {.stroke = drawing::kVermilion, .width = 1.0}, {}, "heading");
     if (b.label.empty()) continue;
     double above = centre.y, below = centre.y, right = centre.x;
-    for (const Point& p : outline)
+    for (const drawing::Point& p : outline)
       above = std::min(above, p.y), below = std::max(below, p.y), right = std::max(right, p.x);
-    const TextStyle style{.size = 10, .anchor = Anchor::kMiddle, .halo = true};
-    const double half = text_width(b.label, 10) / 2;
-    const std::array<Point, 3> candidates{Point{centre.x, above - 4}, Point{centre.x, below + 12},
-                                          Point{right + 6 + half, centre.y + 4}};
+    const drawing::TextStyle style{.size = 10, .anchor = drawing::Anchor::kMiddle, .halo = true};
+    const double half = drawing::text_width(b.label, 10) / 2;
+    const std::array<drawing::Point, 3> candidates{drawing::Point{centre.x, above - 4},
+                                                   drawing::Point{centre.x, below + 12},
+                                                   drawing::Point{right + 6 + half, centre.y + 4}};
     if (const auto p = labels.place(b.label, style, candidates, frame.area())) svg.text(*p, b.label, style);
   }
   svg.close_group();
@@ -78,4 +81,4 @@ std::string boxes_svg(std::span<const Point> points, std::span<const Box> boxes,
   return svg.str();
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::plots

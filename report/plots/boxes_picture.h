@@ -7,7 +7,7 @@
 
 #include "report/drawing/svg.h"
 
-namespace ttf::report {
+namespace ttf::report::plots {
 
 // A rectangle centred at (x, y), `length` along `heading` (radians from x to y).
 struct Box {
@@ -16,6 +16,6 @@ struct Box {
 };
 
 // Both axes in the same scale. The sensor stands at the origin if that lies in the picture.
-std::string boxes_svg(std::span<const Point> points, std::span<const Box> boxes, std::string_view title);
+std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Box> boxes, std::string_view title);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::plots

@@ -8,12 +8,12 @@
 
 #include "report/drawing/axes.h"
 
-namespace ttf::report {
+namespace ttf::report::plots {
 namespace {
 
-using records::BinnedDurations;
+using recording::records::BinnedDurations;
 
-constexpr Area kPlot{112, 0, 860, 420};  // its top is below the legend
+constexpr drawing::Area kPlot{112, 0, 860, 420};  // its top is below the legend
 constexpr std::string_view kFloorDash = "6 3";
 
 // One distribution of wake-ups.
@@ -27,12 +27,12 @@ struct Curve {
   }
   // Microseconds, and the share of wake-ups that were as late: logarithms of base 10. Where the share changes; none
   // where nothing was late by a microsecond.
-  std::vector<Point> points() const {
-    std::vector<Point> points;
+  std::vector<drawing::Point> points() const {
+    std::vector<drawing::Point> points;
     const auto counts = late.counts();
     for (std::size_t bin = 1; bin < counts.size(); ++bin)
       if (bin == 1 || counts[bin - 1] > 0 || counts[bin] > 0)
-        points.push_back({std::log10(in_us(records::lateness_from(bin))), std::log10(share_from(bin))});
+        points.push_back({std::log10(in_us(recording::records::lateness_from(bin))), std::log10(share_from(bin))});
     if (!points.empty())
       points.push_back({std::max(points.back().x, std::log10(std::max(1.0, in_us(late.longest())))),
                         -std::log10(static_cast<double>(late.count()))});
@@ -40,17 +40,20 @@ struct Curve {
   }
   std::string words() const {
     return fmt::format("{}: {} wake-ups, half of them later than {} us, one in 1000 than {} us, the latest by {} us",
-                       name, late.count(), number(in_us(late.quantile(500))), number(in_us(late.quantile(999))),
-                       number(in_us(late.longest())));
+                       name, late.count(), drawing::number(in_us(late.quantile(500))),
+                       drawing::number(in_us(late.quantile(999))), drawing::number(in_us(late.longest())));
   }
 };
 
-std::vector<Curve> curves_of(const std::map<NodeId, recording::NodeLateness>& nodes, const Names& names) {
+std::vector<Curve> curves_of(const std::map<NodeId, recording::exports::NodeLateness>& nodes,
+                             const drawing::Names& names) {
   std::vector<Curve> curves;
-  Curve floor{"the machine's floor: a plain periodic thread", std::string(kBlack), std::string(kFloorDash), 2.0, {}};
+  Curve floor{
+      "the machine's floor: a plain periodic thread", std::string(drawing::kBlack), std::string(kFloorDash), 2.0, {}};
   for (const auto& [node, late] : nodes) {
     floor.late.add(late.floor);
-    if (!late.wake_ups.empty()) curves.push_back({names.node(node), palette(curves.size()), "", 1.4, late.wake_ups});
+    if (!late.wake_ups.empty())
+      curves.push_back({names.node(node), drawing::palette(curves.size()), "", 1.4, late.wake_ups});
   }
   if (!floor.late.empty()) curves.push_back(std::move(floor));
   return curves;
@@ -62,35 +65,36 @@ std::string power_of_ten(int exponent) {
 
 // Decades: of microseconds from 1 to the right, of shares from all downwards.
 struct LogFrame {
-  Area area;
+  drawing::Area area;
   int decades_x = 3, decades_y = 3;
 
-  Point at(Point log) const {
+  drawing::Point at(drawing::Point log) const {
     return {area.x + log.x / decades_x * area.width, area.y - log.y / decades_y * area.height};
   }
-  void draw(Svg& svg) const {
+  void draw(drawing::Svg& svg) const {
     const double bottom = area.y + area.height;
     svg.open_group("axes");
     svg.rect(area, {.fill = "#ffffff"});
     for (int d = 0; d <= decades_x; ++d) {
       const double x = at({static_cast<double>(d), 0}).x;
       svg.line({x, area.y}, {x, bottom + 4}, {.stroke = "#dddddd", .width = 0.8}, "decade");
-      svg.text({x, bottom + 17}, power_of_ten(d), {.size = 11, .anchor = Anchor::kMiddle});
+      svg.text({x, bottom + 17}, power_of_ten(d), {.size = 11, .anchor = drawing::Anchor::kMiddle});
       for (int step = 2; d < decades_x && step < 10; ++step) {
         const double minor = at({d + std::log10(step), 0}).x;
-        svg.line({minor, bottom}, {minor, bottom + 2.5}, {.stroke = kBlack, .width = 0.5});
+        svg.line({minor, bottom}, {minor, bottom + 2.5}, {.stroke = drawing::kBlack, .width = 0.5});
       }
     }
     for (int d = 0; d <= decades_y; ++d) {
       const double y = at({0, -static_cast<double>(d)}).y;
       svg.line({area.x - 4, y}, {area.x + area.width, y}, {.stroke = "#dddddd", .width = 0.8}, "decade");
-      svg.text({area.x - 7, y + 4}, d == 0 ? "all" : "1 in " + power_of_ten(d), {.size = 11, .anchor = Anchor::kEnd});
+      svg.text({area.x - 7, y + 4}, d == 0 ? "all" : "1 in " + power_of_ten(d),
+               {.size = 11, .anchor = drawing::Anchor::kEnd});
     }
-    svg.rect(area, {.stroke = kBlack, .width = 0.8});
+    svg.rect(area, {.stroke = drawing::kBlack, .width = 0.8});
     svg.text({area.x + area.width / 2, bottom + 36}, "late by this or more, in real time [us]",
-             {.size = 12, .anchor = Anchor::kMiddle});
+             {.size = 12, .anchor = drawing::Anchor::kMiddle});
     svg.text({22, area.y + area.height / 2}, "share of the wake-ups",
-             {.size = 12, .anchor = Anchor::kMiddle, .rotate = -90});
+             {.size = 12, .anchor = drawing::Anchor::kMiddle, .rotate = -90});
     svg.close_group();
   }
 };
@@ -98,7 +102,7 @@ struct LogFrame {
 LogFrame frame_around(const std::vector<Curve>& curves, double top) {
   LogFrame frame{{kPlot.x, top, kPlot.width, kPlot.height}};
   for (const Curve& curve : curves)
-    for (const Point& p : curve.points()) {
+    for (const drawing::Point& p : curve.points()) {
       frame.decades_x = std::max(frame.decades_x, static_cast<int>(std::ceil(p.x - 1e-9)));
       frame.decades_y = std::max(frame.decades_y, static_cast<int>(std::ceil(-p.y - 1e-9)));
     }
@@ -107,32 +111,33 @@ LogFrame frame_around(const std::vector<Curve>& curves, double top) {
 
 }  // namespace
 
-std::string lateness_svg(const std::map<NodeId, recording::NodeLateness>& nodes, const Names& names) {
+std::string lateness_svg(const std::map<NodeId, recording::exports::NodeLateness>& nodes, const drawing::Names& names) {
   const std::string title = names.run.empty() ? "Lateness of wake-ups" : names.run + ": lateness of wake-ups";
   const std::vector<Curve> curves = curves_of(nodes, names);
-  if (curves.empty()) return empty_picture(title, "No node told how late it was: this run was not in real time.");
-  std::vector<LegendEntry> legend;
+  if (curves.empty())
+    return drawing::empty_picture(title, "No node told how late it was: this run was not in real time.");
+  std::vector<drawing::LegendEntry> legend;
   for (const Curve& curve : curves) {
     const std::string never = curve.points().empty() ? ", never late by 1 us" : "";
-    legend.push_back({LegendEntry::Kind::kLine, curve.name + never, curve.colour, {}, false, curve.dash});
+    legend.push_back({drawing::LegendEntry::Kind::kLine, curve.name + never, curve.colour, {}, false, curve.dash});
   }
   const double legend_width = kPlot.width + kPlot.x - 48;
   const LogFrame frame = frame_around(curves, 34 + legend_height(legend, legend_width) + 10);
-  Svg svg(kPlot.x + kPlot.width + 28, frame.area.y + frame.area.height + 50, title);
+  drawing::Svg svg(kPlot.x + kPlot.width + 28, frame.area.y + frame.area.height + 50, title);
   svg.text({24, 22}, title, {.size = 14, .bold = true});
   draw_legend(svg, {24, 34}, legend_width, legend);
   frame.draw(svg);
   svg.open_group("curves", frame.area);
   for (const Curve& curve : curves) {
-    std::vector<Point> drawn;
-    for (const Point& p : curve.points()) drawn.push_back(frame.at(p));
+    std::vector<drawing::Point> drawn;
+    for (const drawing::Point& p : curve.points()) drawn.push_back(frame.at(p));
     if (drawn.empty()) continue;
     const std::string words = curve.words();
     svg.polyline(drawn, {.stroke = curve.colour, .width = curve.width, .dash = curve.dash}, false, words, "curve");
-    svg.marker(Marker::kCircle, drawn.back(), 6, {.fill = curve.colour}, words, "longest");
+    svg.marker(drawing::Marker::kCircle, drawn.back(), 6, {.fill = curve.colour}, words, "longest");
   }
   svg.close_group();
   return svg.str();
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::plots

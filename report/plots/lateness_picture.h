@@ -10,9 +10,9 @@
 #include "recording/exports/lateness_sums.h"
 #include "report/drawing/names.h"
 
-namespace ttf::report {
+namespace ttf::report::plots {
 
 // The floors of all nodes are one curve. A picture that says so where no node told of any wake-up.
-std::string lateness_svg(const std::map<NodeId, recording::NodeLateness>& nodes, const Names& names);
+std::string lateness_svg(const std::map<NodeId, recording::exports::NodeLateness>& nodes, const drawing::Names& names);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::plots

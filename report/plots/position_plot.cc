@@ -4,14 +4,14 @@
 #include <cmath>
 #include <map>
 
-namespace ttf::report {
+namespace ttf::report::plots {
 namespace {
 
 double seconds(TrueTime t) { return static_cast<double>(t.ns) * 1e-9; }
 
 // True time of a global instant, as the clock that stamped the record shows. A recording without true time
 // (all zero) keeps global time.
-double seconds(GlobalTime t, const records::Stamp& stamp) {
+double seconds(GlobalTime t, const recording::records::Stamp& stamp) {
   // In doubles: exact for runs of up to 100 days, and without overflow for whatever a damaged log says.
   const auto ns = [](std::int64_t count) { return static_cast<double>(count); };
   const double offset = stamp.true_time.ns != 0 ? ns(stamp.true_time.ns) - ns(stamp.global.ns) : 0.0;
@@ -36,28 +36,29 @@ std::optional<PositionPlots::Sample> interpolate(const std::vector<PositionPlots
 
 }  // namespace
 
-PositionPlots::PositionPlots(Names names, PositionOptions options)
+PositionPlots::PositionPlots(drawing::Names names, PositionOptions options)
     : names_(std::move(names)), options_(std::move(options)) {}
 
-void PositionPlots::on(const records::ObservationSeen& r) {
+void PositionPlots::on(const recording::records::ObservationSeen& r) {
   observations_.push_back({seconds(r.measured, r.stamp), r.x, r.y, r.id});
 }
-void PositionPlots::on(const records::ListFused& r) {
-  using records::Disposition;
+void PositionPlots::on(const recording::records::ListFused& r) {
+  using recording::records::Disposition;
   if (r.disposition == Disposition::kFused || r.disposition == Disposition::kFusedLate)
     fused_.push_back({r.step, r.id, r.disposition == Disposition::kFusedLate, seconds(r.measured, r.stamp)});
 }
-void PositionPlots::on(const records::FusionStep& r) {
+void PositionPlots::on(const recording::records::FusionStep& r) {
   steps_.push_back({r.step, r.stamp.true_time.ns != 0 ? seconds(r.stamp.true_time) : seconds(r.stamp.global, r.stamp)});
 }
-void PositionPlots::on(const records::TrackState& r) {
+void PositionPlots::on(const recording::records::TrackState& r) {
   if (!r.predicted_for_image) tracks_.push_back({{seconds(r.valid_at, r.stamp), r.state[0], r.state[1], {}}, r.step});
 }
-void PositionPlots::on(const records::ImageWritten& r) {
+void PositionPlots::on(const recording::records::ImageWritten& r) {
   Image& image = images_.emplace_back(Image{r.sequence, seconds(r.stamp.global, r.stamp), {}});
-  for (const records::ImageObject& o : r.objects) image.objects.push_back({seconds(r.valid_at, r.stamp), o.x, o.y, {}});
+  for (const recording::records::ImageObject& o : r.objects)
+    image.objects.push_back({seconds(r.valid_at, r.stamp), o.x, o.y, {}});
 }
-void PositionPlots::on(const records::FeatureUsed& r) {
+void PositionPlots::on(const recording::records::FeatureUsed& r) {
   if (!r.stale) uses_.push_back({r.image_sequence, seconds(r.stamp.global, r.stamp)});
 }
 // A fusion node that restarts counts its images anew: a use belongs to an image of just before.
@@ -66,12 +67,12 @@ bool PositionPlots::is_used(const Image& image) const {
     return use.image == image.sequence && use.t >= image.written && use.t < image.written + kLongestUse;
   });
 }
-void PositionPlots::on(const records::ReferenceFix& r) {
+void PositionPlots::on(const recording::records::ReferenceFix& r) {
   if (r.object == options_.object)
     fixes_.push_back(
         {r.measured_true.ns != 0 ? seconds(r.measured_true) : static_cast<double>(r.measured.ns) * 1e-9, r.x, r.y, {}});
 }
-void PositionPlots::on(const records::TruthState& r) {
+void PositionPlots::on(const recording::records::TruthState& r) {
   // Several nodes may have recorded it at one instant.
   if (r.object != options_.object || (!truth_.empty() && truth_.back().t == seconds(r.at))) return;
   truth_.push_back({seconds(r.at), r.x, r.y, {}});
@@ -156,7 +157,7 @@ PositionPlots::Selection PositionPlots::select() const {
   for (const FusedList& f : fused_) {
     const auto t = step_time.find(f.step);
     if (t == step_time.end() || !inside(t->second)) continue;
-    const bool laser = look_of(names_.sensor(f.id.sensor)) == SensorLook::kLaser;
+    const bool laser = drawing::look_of(names_.sensor(f.id.sensor)) == drawing::SensorLook::kLaser;
     const Sample* measured = nullptr;
     for (const Sample& s : chosen)
       if (s.id == f.id && std::abs(s.t - f.measured) < 1e-3) measured = &s;
@@ -174,4 +175,4 @@ PositionPlots::Selection PositionPlots::select() const {
   return out;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::plots

@@ -17,7 +17,7 @@
 #include "recording/records/records.h"
 #include "report/drawing/names.h"
 
-namespace ttf::report {
+namespace ttf::report::plots {
 
 struct PositionOptions {
   std::string title{};
@@ -31,19 +31,19 @@ struct PositionOptions {
 
 enum class PositionView : std::uint8_t { kXOverTime, kYOverTime, kPlane };
 
-class PositionPlots : public records::Sink {
+class PositionPlots : public recording::records::Sink {
  public:
-  PositionPlots(Names names, PositionOptions options);
+  PositionPlots(drawing::Names names, PositionOptions options);
 
-  using Sink::on;  // the kinds of record that are not shown
-  void on(const records::ObservationSeen& r) override;
-  void on(const records::ListFused& r) override;
-  void on(const records::FusionStep& r) override;
-  void on(const records::TrackState& r) override;
-  void on(const records::ImageWritten& r) override;
-  void on(const records::FeatureUsed& r) override;
-  void on(const records::ReferenceFix& r) override;
-  void on(const records::TruthState& r) override;
+  using recording::records::Sink::on;  // the kinds of record that are not shown
+  void on(const recording::records::ObservationSeen& r) override;
+  void on(const recording::records::ListFused& r) override;
+  void on(const recording::records::FusionStep& r) override;
+  void on(const recording::records::TrackState& r) override;
+  void on(const recording::records::ImageWritten& r) override;
+  void on(const recording::records::FeatureUsed& r) override;
+  void on(const recording::records::ReferenceFix& r) override;
+  void on(const recording::records::TruthState& r) override;
 
   std::string over_time_svg() const;  // x above y over a common time axis
   std::string plane_svg() const;      // y over x
@@ -72,7 +72,7 @@ class PositionPlots : public records::Sink {
     bool empty() const;
   };
   Selection select() const;
-  const Names& names() const { return names_; }
+  const drawing::Names& names() const { return names_; }
   const PositionOptions& options() const { return options_; }
 
  private:
@@ -101,7 +101,7 @@ class PositionPlots : public records::Sink {
     std::uint32_t step;
   };
 
-  Names names_;
+  drawing::Names names_;
   PositionOptions options_;
   std::vector<Sample> truth_, fixes_, observations_;  // truth and fixes of the chosen object
   std::vector<Image> images_;
@@ -115,4 +115,4 @@ class PositionPlots : public records::Sink {
 std::string comparison_svg(std::span<const PositionPlots* const> plots, std::span<const std::string> titles,
                            PositionView view = PositionView::kPlane, std::string_view title = {});
 
-}  // namespace ttf::report
+}  // namespace ttf::report::plots

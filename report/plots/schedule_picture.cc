@@ -12,19 +12,19 @@
 #include "schedules/analysis/dynamic_load.h"
 #include "schedules/analysis/minislots.h"
 
-namespace ttf::report {
+namespace ttf::report::plots {
 namespace {
 
-using schedules::Channel;
-using schedules::Cluster;
-using schedules::FrameSlot;
+using schedules::model::Channel;
+using schedules::model::Cluster;
+using schedules::model::FrameSlot;
 
 constexpr double kPlot = 1300, kSlotLane = 110, kTaskLane = 26;
 constexpr std::string_view kSymbolWindowFill = "#f5eeda";
 
 class SchedulePainter {
  public:
-  explicit SchedulePainter(const Cluster& cluster) : c_(cluster), names_(names_of(cluster)) {
+  explicit SchedulePainter(const Cluster& cluster) : c_(cluster), names_(drawing::names_of(cluster)) {
     for (const FrameSlot& f : c_.frames) {
       repetition_ = std::max(repetition_, f.repetition);
       frames_[f.slot].push_back(&f);
@@ -33,9 +33,9 @@ class SchedulePainter {
   }
 
   std::string picture() {
-    const std::vector<LegendEntry> legend = make_legend();
+    const std::vector<drawing::LegendEntry> legend = make_legend();
     const std::vector<TaskLane> lanes = task_lanes();
-    for (const TaskLane& lane : lanes) left_ = std::clamp(text_width(lane.label, 10) + 24, left_, 320.0);
+    for (const TaskLane& lane : lanes) left_ = std::clamp(drawing::text_width(lane.label, 10) + 24, left_, 320.0);
     const double matrix_cell = std::clamp(kPlot / std::max<double>(1.0, static_cast<double>(used_.size())), 16.0, 90.0);
     const double width = left_ + std::max(kPlot, matrix_cell * static_cast<double>(used_.size())) + 30;
     const double legend_y = 40, strip = legend_y + legend_height(legend, kPlot) + 34;
@@ -46,18 +46,18 @@ class SchedulePainter {
     const double matrix = notes + 14 * static_cast<double>(notes_text.size()) + 48;
     const double row = 24;
     const double height = matrix + row * static_cast<double>(rows()) + 40;
-    Svg svg(width, height, "Schedule of " + c_.name);
+    drawing::Svg svg(width, height, "Schedule of " + c_.name);
     svg_ = &svg;
     const auto& g = c_.flexray;
     svg.text({20, 24},
              fmt::format("Schedule of {}: cycle {} ms, {} static slots of {} MT, {} minislots{}, NIT {} MT", c_.name,
-                         number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots, g.gdStaticSlot,
-                         g.gNumberOfMinislots,
+                         drawing::number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots,
+                         g.gdStaticSlot, g.gNumberOfMinislots,
                          g.gdSymbolWindow > 0 ? fmt::format(", symbol window {} MT", g.gdSymbolWindow) : "", g.gdNIT),
              {.size = 14, .bold = true});
     draw_legend(svg, {left_, legend_y}, kPlot, legend);
     draw_axis(strip - 6, axis);
-    for (const Channel channel : schedules::kBothChannels)
+    for (const Channel channel : schedules::model::kBothChannels)
       draw_channel(channel, strip + (channel == Channel::kA ? 0 : kSlotLane + 6));
     draw_tasks(lanes, tasks);
     for (std::size_t i = 0; i < notes_text.size(); ++i)
@@ -84,28 +84,28 @@ class SchedulePainter {
   int rows() const { return std::min(repetition_, c_.flexray.gCycleCountMax + 1); }
 
   // Pale, for the text in the boxes.
-  std::string colour(PduId pdu) const { return tint(pdu_colour(names_, pdu), pdu == kNoPdu ? 0.55 : 0.35); }
+  std::string colour(PduId pdu) const { return drawing::tint(pdu_colour(names_, pdu), pdu == kNoPdu ? 0.55 : 0.35); }
 
-  std::vector<LegendEntry> make_legend() const {
+  std::vector<drawing::LegendEntry> make_legend() const {
     std::map<std::pair<PduId, NodeId>, int> frames_of;
     for (const FrameSlot& f : c_.frames) ++frames_of[{f.pdu, f.sender}];
-    std::vector<LegendEntry> legend;
+    std::vector<drawing::LegendEntry> legend;
     bool status = false;
     for (const auto& [key, n] : frames_of) {
       if (key.first == kNoPdu)
         status = true;
       else
-        legend.push_back({LegendEntry::Kind::kBox,
+        legend.push_back({drawing::LegendEntry::Kind::kBox,
                           names_.pdu(key.first) + ", sent by " + names_.node(key.second),
                           colour(key.first),
                           {},
                           true});
     }
-    if (status) legend.push_back({LegendEntry::Kind::kBox, "status frame", colour(kNoPdu), {}, true});
-    legend.push_back({LegendEntry::Kind::kBox, "slot without owner", "#bbbbbb", {}, false});
+    if (status) legend.push_back({drawing::LegendEntry::Kind::kBox, "status frame", colour(kNoPdu), {}, true});
+    legend.push_back({drawing::LegendEntry::Kind::kBox, "slot without owner", "#bbbbbb", {}, false});
     // Mostly too narrow for its name.
     if (c_.flexray.gdSymbolWindow > 0)
-      legend.push_back({LegendEntry::Kind::kBox, "symbol window", std::string(kSymbolWindowFill), {}, true});
+      legend.push_back({drawing::LegendEntry::Kind::kBox, "symbol window", std::string(kSymbolWindowFill), {}, true});
     return legend;
   }
 
@@ -117,16 +117,16 @@ class SchedulePainter {
 
   // The longest beginning of a text that fits.
   static std::string fitted(const std::string& text, double size, double room) {
-    if (text_width(text, size) <= room) return text;
+    if (drawing::text_width(text, size) <= room) return text;
     std::string cut = text;
-    while (!cut.empty() && text_width(cut + "…", size) > room) cut.pop_back();
+    while (!cut.empty() && drawing::text_width(cut + "…", size) > room) cut.pop_back();
     return cut.empty() ? "" : cut + "…";
   }
 
   void draw_channel(Channel channel, double top) {
     const auto& g = c_.flexray;
     svg_->text({left_ - 12, top + kSlotLane / 2 + 4}, channel == Channel::kA ? "channel A" : "channel B",
-               {.size = 11.5, .anchor = Anchor::kEnd});
+               {.size = 11.5, .anchor = drawing::Anchor::kEnd});
     for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
       const double left = x((slot - 1.0) * g.gdStaticSlot),
                    width = x(static_cast<double>(slot) * g.gdStaticSlot) - left;
@@ -147,9 +147,9 @@ class SchedulePainter {
           svg_->rect({left, top + part * static_cast<double>(i), width, part},
                      {.fill = colour(here[i]->pdu), .stroke = "#444444", .width = 0.5}, hover, "slot");
       }
-      if (width >= 7 * std::max<double>(1.0, text_width(fmt::format("{}", slot), 1.0)) + 1)
+      if (width >= 7 * std::max<double>(1.0, drawing::text_width(fmt::format("{}", slot), 1.0)) + 1)
         svg_->text({left + width / 2, top + kSlotLane - 4}, fmt::format("{}", slot),
-                   {.size = 7, .anchor = Anchor::kMiddle});
+                   {.size = 7, .anchor = drawing::Anchor::kMiddle});
       if (width >= 10 && !here.empty()) {
         // The owner above the PDU where two lines have room, else the PDU; the hover text has it all.
         const FrameSlot& f = *here.front();
@@ -172,13 +172,13 @@ class SchedulePainter {
       if (length <= 0) return;
       const double left = x(at), width = x(at + length) - left;
       svg_->rect({left, top, width, kSlotLane}, {.fill = fill, .stroke = "#666666", .width = 0.5},
-                 fmt::format("{}: {} MT", name, number(length)), "segment");
+                 fmt::format("{}: {} MT", name, drawing::number(length)), "segment");
       const double free = x(at + taken), room = left + width - free;
-      if (room > text_width(name, 10) + 6)
-        svg_->text({free + room / 2, top + kSlotLane / 2 + 4}, name, {.size = 10, .anchor = Anchor::kMiddle});
+      if (room > drawing::text_width(name, 10) + 6)
+        svg_->text({free + room / 2, top + kSlotLane / 2 + 4}, name, {.size = 10, .anchor = drawing::Anchor::kMiddle});
       else if (room > 11)
         svg_->text({free + room / 2 + 4, top + kSlotLane / 2}, name,
-                   {.size = 9, .anchor = Anchor::kMiddle, .rotate = -90});
+                   {.size = 9, .anchor = drawing::Anchor::kMiddle, .rotate = -90});
       at += length;
     };
     segment(static_cast<double>(g.gNumberOfMinislots) * g.gdMinislot, "dynamic segment", "#e6f0f7",
@@ -189,7 +189,7 @@ class SchedulePainter {
   }
 
   std::int64_t taken_minislots(Channel channel) const {
-    for (const schedules::DynamicLoad& load : schedules::dynamic_load(c_))
+    for (const schedules::analysis::DynamicLoad& load : schedules::analysis::dynamic_load(c_))
       if (load.channel == channel) return std::min<std::int64_t>(load.minislots, c_.flexray.gNumberOfMinislots);
     return 0;
   }
@@ -203,11 +203,12 @@ class SchedulePainter {
     const double part = kSlotLane / std::max<double>(1.0, static_cast<double>(here.size()));
     for (std::size_t i = 0; i < here.size(); ++i) {
       const FrameSlot& f = *here[i];
-      const std::int64_t over =
-          schedules::latest_turn(c_, f) + schedules::minislots_of(g, schedules::dynamic_words(c_, f));
-      const double left = x(static_cast<double>(schedules::minislot_start(g, schedules::earliest_turn(g, f)).value));
+      const std::int64_t over = schedules::analysis::latest_turn(c_, f) +
+                                schedules::analysis::minislots_of(g, schedules::analysis::dynamic_words(c_, f));
+      const double left = x(
+          static_cast<double>(schedules::analysis::minislot_start(g, schedules::analysis::earliest_turn(g, f)).value));
       const double right = x(static_cast<double>(
-          schedules::minislot_start(g, std::min<std::int64_t>(over, g.gNumberOfMinislots + 1)).value));
+          schedules::analysis::minislot_start(g, std::min<std::int64_t>(over, g.gNumberOfMinislots + 1)).value));
       svg_->rect({left, top + part * static_cast<double>(i), right - left, part},
                  {.fill = colour(f.pdu), .stroke = "#444444", .width = 0.5},
                  fmt::format("slot {}; {} in cycles {} mod {}, when there is a list", f.slot, frame_text(f),
@@ -224,13 +225,14 @@ class SchedulePainter {
     std::vector<TaskLane> lanes;
     for (const auto& node : c_.nodes)
       for (const auto& task : node.tasks) {
-        if (task.activation.kind != schedules::ActivationKind::kTime) continue;
+        if (task.activation.kind != schedules::model::ActivationKind::kTime) continue;
         const auto& at = task.activation.at;
         const std::string when = at.repetition > 1 ? fmt::format(" ({} mod {})", at.base_cycle, at.repetition) : "";
-        lanes.push_back({node.name + ": " + task.name + when,
-                         {{static_cast<double>(at.offset.value), macroticks(task.worst_case),
-                           fmt::format("{}, at {} MT of cycles {} mod {}, at most {} us", task.name, at.offset.value,
-                                       at.base_cycle, at.repetition, number(task.worst_case.seconds() * 1e6))}}});
+        lanes.push_back(
+            {node.name + ": " + task.name + when,
+             {{static_cast<double>(at.offset.value), macroticks(task.worst_case),
+               fmt::format("{}, at {} MT of cycles {} mod {}, at most {} us", task.name, at.offset.value, at.base_cycle,
+                           at.repetition, drawing::number(task.worst_case.seconds() * 1e6))}}});
       }
     for (const auto& sensor : c_.sensors)
       if (sensor.scheduled)
@@ -248,10 +250,11 @@ class SchedulePainter {
       const double centre = top + kTaskLane * (static_cast<double>(i) + 0.5);
       svg_->line({left_, centre}, {left_ + kPlot, centre}, {.stroke = "#e0e0e0", .width = 0.7});
       svg_->text({left_ - 12, centre + 4}, fitted(lanes[i].label, 10, left_ - 20),
-                 {.size = 10, .anchor = Anchor::kEnd});
+                 {.size = 10, .anchor = drawing::Anchor::kEnd});
       for (const TaskBox& box : lanes[i].boxes) {
         if (box.length_mt <= 0) {
-          svg_->marker(Marker::kDownTriangle, {x(box.offset_mt), centre}, 11, {.fill = kBlack}, box.text, "instant");
+          svg_->marker(drawing::Marker::kDownTriangle, {x(box.offset_mt), centre}, 11, {.fill = drawing::kBlack},
+                       box.text, "instant");
           continue;
         }
         // What runs on into the next cycle ends in an arrow at the cycle's end.
@@ -261,27 +264,30 @@ class SchedulePainter {
         if (box.offset_mt + box.length_mt > cycle)
           svg_->arrow({x(end) - 1, centre}, {x(end) + 14, centre}, {.stroke = "#5b7083", .width = 1.6},
                       "runs on into the next cycle", "overrun");
-        const std::string length =
-            fmt::format("{} us", number(box.length_mt * static_cast<double>(c_.flexray.gdMacrotick_ps) * 1e-6));
-        if (x(end) - x(box.offset_mt) > text_width(length, 9) + 6)
-          svg_->text({(x(box.offset_mt) + x(end)) / 2, centre + 3.5}, length, {.size = 9, .anchor = Anchor::kMiddle});
+        const std::string length = fmt::format(
+            "{} us", drawing::number(box.length_mt * static_cast<double>(c_.flexray.gdMacrotick_ps) * 1e-6));
+        if (x(end) - x(box.offset_mt) > drawing::text_width(length, 9) + 6)
+          svg_->text({(x(box.offset_mt) + x(end)) / 2, centre + 3.5}, length,
+                     {.size = 9, .anchor = drawing::Anchor::kMiddle});
       }
     }
   }
 
   void draw_axis(double top, double bottom) {
     const double ms = static_cast<double>(c_.flexray.cycle_ps()) * 1e-9;
-    const Ticks ticks = nice_ticks({0, ms}, 12);
-    svg_->line({left_, bottom}, {left_ + kPlot, bottom}, {.stroke = kBlack, .width = 0.8});
+    const drawing::Ticks ticks = drawing::nice_ticks({0, ms}, 12);
+    svg_->line({left_, bottom}, {left_ + kPlot, bottom}, {.stroke = drawing::kBlack, .width = 0.8});
     for (const double t : ticks.at) {
       const double px = left_ + t / ms * kPlot;
       svg_->line({px, top}, {px, bottom + 4}, {.stroke = "#888888", .width = 0.5, .dash = "2 3"});
-      svg_->text({px, bottom + 16}, tick_label(t, ticks.step), {.size = 10.5, .anchor = Anchor::kMiddle});
+      svg_->text({px, bottom + 16}, drawing::tick_label(t, ticks.step),
+                 {.size = 10.5, .anchor = drawing::Anchor::kMiddle});
     }
-    svg_->text({left_ + kPlot / 2, bottom + 33}, "time in the cycle [ms]", {.size = 11.5, .anchor = Anchor::kMiddle});
+    svg_->text({left_ + kPlot / 2, bottom + 33}, "time in the cycle [ms]",
+               {.size = 11.5, .anchor = drawing::Anchor::kMiddle});
   }
 
-  std::string list_of(const schedules::Task& task) const {
+  std::string list_of(const schedules::model::Task& task) const {
     for (const auto& binding : task.reads)
       if (binding.port == task.activation.port) return "a list of " + names_.pdu(binding.pdu);
     return "a list at " + task.activation.port;
@@ -289,7 +295,7 @@ class SchedulePainter {
 
   // Tasks without a place in the cycle, in words.
   std::vector<std::string> other_tasks() const {
-    using schedules::ActivationKind;
+    using schedules::model::ActivationKind;
     std::vector<std::string> lines;
     for (const auto& node : c_.nodes)
       for (const auto& task : node.tasks) {
@@ -301,7 +307,8 @@ class SchedulePainter {
           case ActivationKind::kCompletion: when = "when " + task.activation.after + " ends"; break;
         }
         lines.push_back(fmt::format("{}: {} runs {}, {} to {} us", node.name, task.name, when,
-                                    number(task.best_case.seconds() * 1e6), number(task.worst_case.seconds() * 1e6)));
+                                    drawing::number(task.best_case.seconds() * 1e6),
+                                    drawing::number(task.worst_case.seconds() * 1e6)));
       }
     return lines;
   }
@@ -316,11 +323,12 @@ class SchedulePainter {
                {.size = 11.5, .bold = true});
     for (std::size_t s = 0; s < used_.size(); ++s)
       svg_->text({left_ + cell * (static_cast<double>(s) + 0.5), top - 6}, fmt::format("{}", used_[s]),
-                 {.size = cell < 22 ? 7.5 : 9.5, .anchor = Anchor::kMiddle});
-    svg_->text({left_ - 12, top - 6}, "slot", {.size = 10, .anchor = Anchor::kEnd});
+                 {.size = cell < 22 ? 7.5 : 9.5, .anchor = drawing::Anchor::kMiddle});
+    svg_->text({left_ - 12, top - 6}, "slot", {.size = 10, .anchor = drawing::Anchor::kEnd});
     for (int cycle = 0; cycle < rows(); ++cycle) {
       const double y = top + row * cycle;
-      svg_->text({left_ - 12, y + row / 2 + 4}, fmt::format("cycle {}", cycle), {.size = 10, .anchor = Anchor::kEnd});
+      svg_->text({left_ - 12, y + row / 2 + 4}, fmt::format("cycle {}", cycle),
+                 {.size = 10, .anchor = drawing::Anchor::kEnd});
       for (std::size_t s = 0; s < used_.size(); ++s) {
         const double left = left_ + cell * static_cast<double>(s);
         svg_->rect({left, y, cell, row}, {.fill = "#ffffff"});
@@ -332,8 +340,8 @@ class SchedulePainter {
           const std::string text =
               f->pdu == kNoPdu ? "status" : fmt::format("{}/{}", f->fragment + 1, c_.pdu(f->pdu).max_fragments());
           const double middle = a && b ? y + row / 2 : a ? y + row / 4 : y + row * 3 / 4;
-          if (text_width(text, 8) <= cell - 2)
-            svg_->text({left + cell / 2, middle + 3}, text, {.size = 8, .anchor = Anchor::kMiddle});
+          if (drawing::text_width(text, 8) <= cell - 2)
+            svg_->text({left + cell / 2, middle + 3}, text, {.size = 8, .anchor = drawing::Anchor::kMiddle});
         }
         svg_->rect({left, y, cell, row}, {.stroke = "#bbbbbb", .width = 0.5});
       }
@@ -344,20 +352,20 @@ class SchedulePainter {
   }
 
   const Cluster& c_;
-  Names names_;
+  drawing::Names names_;
   double left_ = 110;  // of the plot: what the lane labels need
   int repetition_ = 1;
   std::map<int, std::vector<const FrameSlot*>> frames_;
   std::vector<int> used_;
-  Svg* svg_ = nullptr;
+  drawing::Svg* svg_ = nullptr;
 };
 
 }  // namespace
 
 std::string schedule_svg(const Cluster& cluster) {
   if (cluster.frames.empty() && cluster.nodes.empty())
-    return empty_picture("Schedule of " + cluster.name, "The cluster has no nodes and no frames.");
+    return drawing::empty_picture("Schedule of " + cluster.name, "The cluster has no nodes and no frames.");
   return SchedulePainter(cluster).picture();
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::plots

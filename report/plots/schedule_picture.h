@@ -7,8 +7,8 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::report {
+namespace ttf::report::plots {
 
-std::string schedule_svg(const schedules::Cluster& cluster);
+std::string schedule_svg(const schedules::model::Cluster& cluster);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::plots

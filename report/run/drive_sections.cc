@@ -10,7 +10,7 @@
 #include "report/run/scenario_words.h"
 #include "report/timing/diagram.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 namespace {
 
 constexpr Duration kLongestDiagram = Duration::milliseconds(2000);
@@ -23,28 +23,28 @@ ToldDrive told_of(const Drive& drive) {
   return {&drive, sink.finish()};
 }
 
-void errors_section(Page& page, const std::vector<ToldDrive>& drives) {
-  const Plot plots[] = {error_plot(drives), age_histogram(drives), age_plot(drives)};
-  if (std::ranges::all_of(plots, [](const Plot& plot) { return plot.views.empty(); })) return;
+void errors_section(page::Page& page, const std::vector<ToldDrive>& drives) {
+  const page::Plot plots[] = {error_plot(drives), age_histogram(drives), age_plot(drives)};
+  if (std::ranges::all_of(plots, [](const page::Plot& plot) { return plot.views.empty(); })) return;
   page.section("Errors and ages");
-  for (const Plot& plot : plots) page.plot(plot);
+  for (const page::Plot& plot : plots) page.plot(plot);
 }
 
-void timing_section(Page& page, const std::vector<ToldDrive>& drives, const DiagramWindow& window) {
-  std::vector<PageDiagram> diagrams;
+void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, const DiagramWindow& window) {
+  std::vector<page::PageDiagram> diagrams;
   std::vector<std::string> windows;
   std::size_t logs = 0;
   double longest_s = 0.0;
   for (const ToldDrive& told : drives) {
     if (!told.drive->log || ++logs > window.most) continue;
-    const recording::LogManifest& manifest = told.drive->log->manifest();
+    const recording::log::LogManifest& manifest = told.drive->log->manifest();
     TrueTime from = window.from.value_or(scenario_in(*told.drive->log).judged_from);
     // An end alone may lie before that: then it is the end that counts.
     if (!window.from && window.to && *window.to <= from) from = std::max(TrueTime{}, *window.to - window.length);
     const TrueTime to = std::min(window.to.value_or(from + window.length), from + kLongestDiagram);
-    TimingDiagram diagram(names_of(manifest), {manifest.cycle_ns}, from, to);
+    timing::TimingDiagram diagram(drawing::names_of(manifest), {manifest.cycle_ns}, from, to);
     told.drive->log->read(diagram);
-    diagrams.push_back({told.drive->label, diagram.svg(TimingUse::kPage)});
+    diagrams.push_back({told.drive->label, diagram.svg(timing::TimingUse::kPage)});
     windows.push_back(
         fmt::format("{:g} ms are drawn, from {:g} s on", in_ms(to - from), static_cast<double>(from.ns) * 1e-9));
     longest_s = std::max(longest_s, told.series.end_s);
@@ -63,12 +63,12 @@ void timing_section(Page& page, const std::vector<ToldDrive>& drives, const Diag
                               "its times and ages.");
 }
 
-void time_base_section(Page& page, const std::vector<ToldDrive>& drives, std::size_t most) {
-  const Plot precision = precision_plot(drives);
-  std::vector<Plot> corrections;
+void time_base_section(page::Page& page, const std::vector<ToldDrive>& drives, std::size_t most) {
+  const page::Plot precision = precision_plot(drives);
+  std::vector<page::Plot> corrections;
   for (const ToldDrive& told : drives)
     if (told.drive->log && !told.series.offset_corrections.empty() && corrections.size() < most)
-      corrections.push_back(corrections_plot(told, names_of(told.drive->log->manifest())));
+      corrections.push_back(corrections_plot(told, drawing::names_of(told.drive->log->manifest())));
   if (precision.views.empty() && corrections.empty()) return;
   page.section("The time base");
   if (precision.views.empty())
@@ -76,11 +76,11 @@ void time_base_section(Page& page, const std::vector<ToldDrive>& drives, std::si
   page.plot(precision);
   if (corrections.empty()) return;
   page.open_details("Clock corrections, node by node");
-  for (const Plot& plot : corrections) page.plot(plot);
+  for (const page::Plot& plot : corrections) page.plot(plot);
   page.close_details();
 }
 
-void troubles_section(Page& page, const std::vector<ToldDrive>& drives) {
+void troubles_section(page::Page& page, const std::vector<ToldDrive>& drives) {
   page.section("Faults and problems");
   std::vector<std::string> without;
   for (const ToldDrive& told : drives)
@@ -93,7 +93,7 @@ void troubles_section(Page& page, const std::vector<ToldDrive>& drives) {
   }
   bool any = false;
   for (const ToldDrive& told : drives)
-    for (const PageTable& table : trouble_tables(told)) {
+    for (const page::PageTable& table : trouble_tables(told)) {
       page.table(table);
       any = true;
     }
@@ -103,4 +103,4 @@ void troubles_section(Page& page, const std::vector<ToldDrive>& drives) {
   if (!without.empty()) page.paragraph(fmt::format("Of {} there is no log: {}", joined(without), elsewhere));
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

@@ -10,7 +10,7 @@
 #include "report/run/results_folder.h"
 #include "report/run/tables.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 
 // What is drawn as timing diagrams, half a megabyte for 160 ms of a drive.
 struct DiagramWindow {
@@ -24,9 +24,10 @@ struct DiagramWindow {
 ToldDrive told_of(const Drive& drive);
 
 // Each is left out where there is nothing to show, but for the faults: that there were none is worth a sentence.
-void errors_section(Page& page, const std::vector<ToldDrive>& drives);
-void timing_section(Page& page, const std::vector<ToldDrive>& drives, const DiagramWindow& window);
-void time_base_section(Page& page, const std::vector<ToldDrive>& drives, std::size_t most);  // corrections of so many
-void troubles_section(Page& page, const std::vector<ToldDrive>& drives);
+void errors_section(page::Page& page, const std::vector<ToldDrive>& drives);
+void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, const DiagramWindow& window);
+void time_base_section(page::Page& page, const std::vector<ToldDrive>& drives,
+                       std::size_t most);  // corrections of so many
+void troubles_section(page::Page& page, const std::vector<ToldDrive>& drives);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

@@ -6,7 +6,7 @@
 
 #include "report/drawing/axes.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 namespace {
 
 constexpr std::size_t kMostPoints = 3000;  // of a curve; of a longer one the largest of neighbours
@@ -15,10 +15,10 @@ constexpr std::string_view kTimeAxis = "true time [s]";
 
 using Series = std::vector<TimedValue> RunSeries::*;
 
-std::vector<Curve> curves_of(const std::vector<ToldDrive>& drives, Series series) {
-  std::vector<Curve> curves;
+std::vector<page::Curve> curves_of(const std::vector<ToldDrive>& drives, Series series) {
+  std::vector<page::Curve> curves;
   for (std::size_t d = 0; d < drives.size(); ++d) {
-    Curve curve{drives[d].drive->label, static_cast<int>(d), {}, {}, {}, {}};
+    page::Curve curve{drives[d].drive->label, static_cast<int>(d), {}, {}, {}, {}};
     for (const TimedValue& one : thinned(drives[d].series.*series, kMostPoints)) {
       curve.x.push_back(one.t_s);
       curve.y.push_back(one.value);
@@ -28,7 +28,7 @@ std::vector<Curve> curves_of(const std::vector<ToldDrive>& drives, Series series
   return curves;
 }
 
-void add_view(Plot& plot, std::string label, std::string y, std::vector<Curve> curves) {
+void add_view(page::Plot& plot, std::string label, std::string y, std::vector<page::Curve> curves) {
   if (!curves.empty()) plot.views.push_back({std::move(label), std::move(y), std::move(curves)});
 }
 
@@ -42,7 +42,7 @@ std::string sensor_name(const std::vector<ToldDrive>& drives, SensorId sensor) {
 using Ages = std::map<SensorId, std::vector<double>> RunSeries::*;
 
 // Of all sensors together, and of each where there are several.
-void add_age_views(Plot& plot, const std::vector<ToldDrive>& drives, Ages ages, const std::string& when) {
+void add_age_views(page::Plot& plot, const std::vector<ToldDrive>& drives, Ages ages, const std::string& when) {
   std::set<SensorId> sensors;
   std::vector<NamedValues> all;
   for (std::size_t d = 0; d < drives.size(); ++d) {
@@ -65,8 +65,8 @@ void add_age_views(Plot& plot, const std::vector<ToldDrive>& drives, Ages ages, 
 
 }  // namespace
 
-std::vector<Curve> histogram(const std::vector<NamedValues>& all, int bins) {
-  Extent extent;
+std::vector<page::Curve> histogram(const std::vector<NamedValues>& all, int bins) {
+  drawing::Extent extent;
   for (const NamedValues& one : all)
     for (const double value : one.values) extent.add(value);
   if (extent.empty()) return {};
@@ -79,7 +79,7 @@ std::vector<Curve> histogram(const std::vector<NamedValues>& all, int bins) {
     const double bin = (value - first) / step;
     return bin > 0.0 ? static_cast<std::size_t>(std::min(bin, static_cast<double>(count - 1))) : 0;
   };
-  std::vector<Curve> curves;
+  std::vector<page::Curve> curves;
   for (const NamedValues& one : all) {
     std::vector<double> shares(count, 0.0);
     double finite = 0.0;
@@ -89,7 +89,7 @@ std::vector<Curve> histogram(const std::vector<NamedValues>& all, int bins) {
       shares[bin_of(value)] += 1.0;
     }
     if (finite == 0.0) continue;
-    Curve curve{one.label, one.colour, {}, {}, {}, {}};
+    page::Curve curve{one.label, one.colour, {}, {}, {}, {}};
     for (std::size_t b = 0; b <= count; ++b) {
       curve.x.push_back(first + static_cast<double>(b) * step);
       curve.y.push_back(b < count ? 100.0 * shares[b] / finite : 0.0);
@@ -99,69 +99,70 @@ std::vector<Curve> histogram(const std::vector<NamedValues>& all, int bins) {
   return curves;
 }
 
-Plot error_plot(const std::vector<ToldDrive>& drives) {
-  Plot plot{"Error over time",
-            "At each use of an image, against the truth: the root mean square over the objects that were matched.",
-            std::string(kTimeAxis),
-            Plot::Kind::kLines,
-            false,
-            false,
-            {}};
+page::Plot error_plot(const std::vector<ToldDrive>& drives) {
+  page::Plot plot{
+      "Error over time",
+      "At each use of an image, against the truth: the root mean square over the objects that were matched.",
+      std::string(kTimeAxis),
+      page::Plot::Kind::kLines,
+      false,
+      false,
+      {}};
   add_view(plot, "position", "position error [m]", curves_of(drives, &RunSeries::position_error));
   add_view(plot, "velocity", "velocity error [m/s]", curves_of(drives, &RunSeries::velocity_error));
   return plot;
 }
 
-Plot age_plot(const std::vector<ToldDrive>& drives) {
-  Plot plot{"Age over time",
-            "Of the newest measurement of each sensor in an image, at the instant the image is used.",
-            std::string(kTimeAxis),
-            Plot::Kind::kLines,
-            false,
-            false,
-            {}};
+page::Plot age_plot(const std::vector<ToldDrive>& drives) {
+  page::Plot plot{"Age over time",
+                  "Of the newest measurement of each sensor in an image, at the instant the image is used.",
+                  std::string(kTimeAxis),
+                  page::Plot::Kind::kLines,
+                  false,
+                  false,
+                  {}};
   add_view(plot, "newest of the sensors", "age [ms]", curves_of(drives, &RunSeries::newest_age));
   add_view(plot, "oldest of the sensors", "age [ms]", curves_of(drives, &RunSeries::oldest_age));
   return plot;
 }
 
-Plot age_histogram(const std::vector<ToldDrive>& drives) {
-  Plot plot{"How old measurements are",
-            "Latency from the instant of measuring, as shares of all.",
-            "age [ms]",
-            Plot::Kind::kSteps,
-            false,
-            false,
-            {}};
+page::Plot age_histogram(const std::vector<ToldDrive>& drives) {
+  page::Plot plot{"How old measurements are",
+                  "Latency from the instant of measuring, as shares of all.",
+                  "age [ms]",
+                  page::Plot::Kind::kSteps,
+                  false,
+                  false,
+                  {}};
   add_age_views(plot, drives, &RunSeries::age_used, "used");
   add_age_views(plot, drives, &RunSeries::age_fused, "fused");
   return plot;
 }
 
-Plot precision_plot(const std::vector<ToldDrive>& drives) {
-  Plot plot{"Precision",
-            "Largest difference between any two nodes' global times, double cycle by double cycle.",
-            std::string(kTimeAxis),
-            Plot::Kind::kLines,
-            false,
-            false,
-            {}};
+page::Plot precision_plot(const std::vector<ToldDrive>& drives) {
+  page::Plot plot{"Precision",
+                  "Largest difference between any two nodes' global times, double cycle by double cycle.",
+                  std::string(kTimeAxis),
+                  page::Plot::Kind::kLines,
+                  false,
+                  false,
+                  {}};
   add_view(plot, "precision", "clocks apart [us]", curves_of(drives, &RunSeries::precision));
   return plot;
 }
 
-Plot corrections_plot(const ToldDrive& told, const Names& names) {
-  Plot plot{told.drive->label + ": offset corrections",
-            "What each node corrects its clock by in a double cycle.",
-            std::string(kTimeAxis),
-            Plot::Kind::kLines,
-            false,
-            true,
-            {}};
-  std::vector<Curve> curves;
+page::Plot corrections_plot(const ToldDrive& told, const drawing::Names& names) {
+  page::Plot plot{told.drive->label + ": offset corrections",
+                  "What each node corrects its clock by in a double cycle.",
+                  std::string(kTimeAxis),
+                  page::Plot::Kind::kLines,
+                  false,
+                  true,
+                  {}};
+  std::vector<page::Curve> curves;
   int colour = 0;
   for (const auto& [node, values] : told.series.offset_corrections) {
-    Curve curve{names.node(node), colour++, {}, {}, {}, {}};
+    page::Curve curve{names.node(node), colour++, {}, {}, {}, {}};
     for (const TimedValue& one : thinned(values, kMostPoints)) {
       curve.x.push_back(one.t_s);
       curve.y.push_back(one.value);
@@ -172,4 +173,4 @@ Plot corrections_plot(const ToldDrive& told, const Names& names) {
   return plot;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

@@ -8,13 +8,13 @@
 #include "report/page/page.h"
 #include "report/run/tables.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 
-Plot error_plot(const std::vector<ToldDrive>& drives);
-Plot age_plot(const std::vector<ToldDrive>& drives);  // over time
-Plot age_histogram(const std::vector<ToldDrive>& drives);
-Plot precision_plot(const std::vector<ToldDrive>& drives);
-Plot corrections_plot(const ToldDrive& drive, const Names& names);  // a curve a node
+page::Plot error_plot(const std::vector<ToldDrive>& drives);
+page::Plot age_plot(const std::vector<ToldDrive>& drives);  // over time
+page::Plot age_histogram(const std::vector<ToldDrive>& drives);
+page::Plot precision_plot(const std::vector<ToldDrive>& drives);
+page::Plot corrections_plot(const ToldDrive& drive, const drawing::Names& names);  // a curve a node
 
 // Shares of the values in bins of one width over all of them, as curves of Plot::Kind::kSteps: x is where a bin begins,
 // with one more of height 0 behind the last.
@@ -23,6 +23,6 @@ struct NamedValues {
   int colour = 0;
   std::vector<double> values;
 };
-std::vector<Curve> histogram(const std::vector<NamedValues>& all, int bins);
+std::vector<page::Curve> histogram(const std::vector<NamedValues>& all, int bins);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

@@ -10,14 +10,14 @@
 #include "core/counted.h"
 #include "recording/exports/lateness_sums.h"
 #include "recording/records/tee.h"
-#include "report/plots/lateness_picture.h"
 #include "report/page/page.h"
+#include "report/plots/lateness_picture.h"
 #include "report/plots/position_plot.h"
-#include "report/run/tables.h"
 #include "report/run/scenario_words.h"
+#include "report/run/tables.h"
 #include "report/startup/diagram.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 namespace {
 
 constexpr std::size_t kMostPictures = 6;  // drives
@@ -35,7 +35,7 @@ void label_drives(std::vector<RunFolder>& folders) {
   }
 }
 
-void asked(Page& page, const std::vector<RunFolder>& folders, const std::vector<ToldDrive>& drives) {
+void asked(page::Page& page, const std::vector<RunFolder>& folders, const std::vector<ToldDrive>& drives) {
   page.section("What was asked");
   std::set<std::string> described;
   for (const ToldDrive& told : drives)
@@ -58,20 +58,20 @@ void asked(Page& page, const std::vector<RunFolder>& folders, const std::vector<
   }
 }
 
-void answered(Page& page, const std::vector<RunFolder>& folders, const std::vector<ToldDrive>& drives) {
+void answered(page::Page& page, const std::vector<RunFolder>& folders, const std::vector<ToldDrive>& drives) {
   const RunAnswer answer = run_answer(drives);
   page.section("What came out");
   page.lead(answer.answer);
   page.points(answer.more);
-  for (const PageTable& table : repeated_tables(drives)) page.table(table);
-  PageTable table = measure_table(drives);
+  for (const page::PageTable& table : repeated_tables(drives)) page.table(table);
+  page::PageTable table = measure_table(drives);
   table.caption = "Errors are root mean squares at the instants an image is used";
   if (!table.rows.empty()) page.table(table);
   for (const RunFolder& folder : folders)
     for (const std::string& remark : folder.remarks) page.paragraph(folder.path + ": " + remark);
 }
 
-void pictures(Page& page, const std::vector<ToldDrive>& drives) {
+void pictures(page::Page& page, const std::vector<ToldDrive>& drives) {
   std::size_t shown = 0;
   bool any = false;
   const auto add = [&](std::string_view svg, const std::string& caption) {
@@ -82,51 +82,51 @@ void pictures(Page& page, const std::vector<ToldDrive>& drives) {
   for (const ToldDrive& told : drives) {
     if (!told.drive->log || shown >= kMostPictures) continue;
     ++shown;
-    const recording::LogManifest& manifest = told.drive->log->manifest();
-    const Names names = names_of(manifest);
-    PositionOptions options;
+    const recording::log::LogManifest& manifest = told.drive->log->manifest();
+    const drawing::Names names = drawing::names_of(manifest);
+    plots::PositionOptions options;
     options.title = fmt::format("{}, {}", told.drive->scenario, told.drive->label);
     options.from = scenario_in(*told.drive->log).judged_from;
-    PositionPlots plots(names, options);
-    StartupExtent extent;
-    recording::LatenessSums lateness;
-    records::Tee tee({&plots, &extent, &lateness});
+    plots::PositionPlots plots(names, options);
+    startup::StartupExtent extent;
+    recording::exports::LatenessSums lateness;
+    recording::records::Tee tee({&plots, &extent, &lateness});
     told.drive->log->read(tee);
     if (!plots.select().empty())
       add(plots.plane_svg(), told.drive->label + ": y over x, as truth, sensors, DGPS and the image have it");
     if (const auto window = extent.window({manifest.cycle_ns})) {
-      StartupDiagram startup(names, {manifest.cycle_ns}, window->first, window->second);
+      startup::StartupDiagram startup(names, {manifest.cycle_ns}, window->first, window->second);
       told.drive->log->read(startup);
       add(startup.svg(), told.drive->label + ": start-up, every node's states and what it sent");
     }
     if (const auto nodes = lateness.nodes(); !nodes.empty())
-      add(lateness_svg(nodes, names), told.drive->label + ": how late processes were woken up, in real time");
+      add(plots::lateness_svg(nodes, names), told.drive->label + ": how late processes were woken up, in real time");
   }
 }
 
-void made(Page& page, const std::vector<ToldDrive>& drives) {
+void made(page::Page& page, const std::vector<ToldDrive>& drives) {
   if (std::ranges::none_of(drives, [](const ToldDrive& told) { return told.drive->log != nullptr; })) return;
   page.section("How it was made");
-  PageTable table{"What each log says of itself",
-                  {"", "version", "seed", "strategy", "cluster", "content hash", "hashes of its inputs"},
-                  {}};
+  page::PageTable table{"What each log says of itself",
+                        {"", "version", "seed", "strategy", "cluster", "content hash", "hashes of its inputs"},
+                        {}};
   std::set<std::string> commands, texts;
   std::vector<std::string> order;
   for (const ToldDrive& told : drives) {
     if (!told.drive->log) continue;
-    const recording::LogManifest& manifest = told.drive->log->manifest();
+    const recording::log::LogManifest& manifest = told.drive->log->manifest();
     std::string hashes;
     for (const auto& [what, hash] : manifest.hashes)
       hashes += fmt::format("{}{} {}", hashes.empty() ? "" : ", ", what, hash);
     table.rows.push_back({told.drive->label, manifest.version, std::to_string(manifest.seed), manifest.strategy,
-                          manifest.cluster_name, recording::ContentHash::text(told.drive->log->content_hash().value()),
-                          hashes});
+                          manifest.cluster_name,
+                          recording::log::ContentHash::text(told.drive->log->content_hash().value()), hashes});
     const ScenarioWords words = scenario_in(*told.drive->log);
-    std::string command =
-        fmt::format("ttfusion {} {} --strategy {} --seed {}", manifest.clock.empty() ? "run" : "launch",
-                    shell_word("scenarios/" + (words.file.empty() ? manifest.scenario_name + ".yaml" : words.file)),
-                    shell_word(manifest.strategy), manifest.seed);
-    if (!manifest.recording_name.empty()) command += " --input " + shell_word(manifest.recording_name);
+    std::string command = fmt::format(
+        "ttfusion {} {} --strategy {} --seed {}", manifest.clock.empty() ? "run" : "launch",
+        page::shell_word("scenarios/" + (words.file.empty() ? manifest.scenario_name + ".yaml" : words.file)),
+        page::shell_word(manifest.strategy), manifest.seed);
+    if (!manifest.recording_name.empty()) command += " --input " + page::shell_word(manifest.recording_name);
     if (commands.insert(command).second) order.push_back(command);
   }
   if (!table.rows.empty()) page.table(table);
@@ -140,7 +140,7 @@ void made(Page& page, const std::vector<ToldDrive>& drives) {
   }
   for (const ToldDrive& told : drives)
     if (told.drive->log)
-      for (const recording::Attachment& attachment : told.drive->log->attachments())
+      for (const recording::log::Attachment& attachment : told.drive->log->attachments())
         if (texts.insert(attachment.name + '\n' + attachment.bytes).second)
           page.preformatted(attachment.name, attachment.bytes);
 }
@@ -156,8 +156,8 @@ std::string run_report_html(std::vector<RunFolder> folders, const DiagramWindow&
       drives.push_back(told_of(drive));
       scenarios.insert(drive.scenario);
     }
-  Page page(joined({scenarios.begin(), scenarios.end()}),
-            folders.size() == 1 ? "Report of a run" : fmt::format("Report of {} runs", folders.size()));
+  page::Page page(joined({scenarios.begin(), scenarios.end()}),
+                  folders.size() == 1 ? "Report of a run" : fmt::format("Report of {} runs", folders.size()));
   asked(page, folders, drives);
   answered(page, folders, drives);
   errors_section(page, drives);
@@ -169,4 +169,4 @@ std::string run_report_html(std::vector<RunFolder> folders, const DiagramWindow&
   return page.html();
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

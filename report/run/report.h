@@ -7,8 +7,8 @@
 #include "report/run/drive_sections.h"
 #include "report/run/results_folder.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 
 std::string run_report_html(std::vector<RunFolder> folders, const DiagramWindow& window);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

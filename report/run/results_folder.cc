@@ -11,18 +11,18 @@
 #include "core/file_bytes.h"
 #include "recording/merge/stored_log.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string word_at(const Json& object, const char* key) {
+std::string word_at(const page::Json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-std::uint64_t count_at(const Json& object, const char* key) {
+std::uint64_t count_at(const page::Json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
@@ -39,20 +39,20 @@ void find_logs(RunFolder& folder) {
       folder.remarks.push_back(fmt::format("The log of {}, {}, is not there: what is drawn from it is not here.",
                                            drive.strategy, drive.log_name));
     else
-      drive.log = std::make_shared<const recording::MergedLogs>(std::vector<std::string>{log});
+      drive.log = std::make_shared<const recording::merge::MergedLogs>(std::vector<std::string>{log});
   }
 }
 
 }  // namespace
 
-Json parse_json(std::string_view text, const std::string& file) {
+page::Json parse_json(std::string_view text, const std::string& file) {
   try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
+    return page::Json::parse(text);
+  } catch (const page::Json::parse_error& error) {
     const std::string_view before = text.substr(0, error.byte > 0 ? error.byte - 1 : 0);
     const auto line = 1 + static_cast<int>(std::ranges::count(before, '\n'));
     throw InputError({file, line, "", "", "must be JSON: it is damaged here, or cut off"});
-  } catch (const Json::exception&) {  // 1e999
+  } catch (const page::Json::exception&) {  // 1e999
     throw InputError({file, 0, "", "", "must be JSON: a number in it is none"});
   }
 }
@@ -67,7 +67,7 @@ RunFolder parse_run_summary(std::string_view text, const std::string& file) {
   const auto strategies = folder.summary.find("strategies");
   if (strategies == folder.summary.end() || !strategies->is_array() || strategies->empty())
     bad("strategies", "must be the run's strategies, at least one");
-  for (const Json& one : *strategies) {
+  for (const page::Json& one : *strategies) {
     if (!one.is_object() || word_at(one, "strategy").empty()) bad("strategies", "must name a strategy each");
     Drive drive;
     drive.scenario = word_at(folder.summary, "scenario");
@@ -84,7 +84,7 @@ FolderKind kind_of_folder(const std::string& path) {
   std::error_code none;
   if (!fs::is_directory(path, none)) throw InputError({path, 0, "", "", "must be a folder of results"});
   if (fs::exists(path + "/answer.json", none)) return FolderKind::kExperiment;
-  if (fs::exists(path + "/summary.json", none) || !recording::logs_in(path).empty()) return FolderKind::kRun;
+  if (fs::exists(path + "/summary.json", none) || !recording::merge::logs_in(path).empty()) return FolderKind::kRun;
   throw InputError(
       {path, 0, "", "", "is neither a run (no summary.json, no *.mcap) nor an experiment (no answer.json)"});
 }
@@ -98,16 +98,16 @@ RunFolder read_run_folder(const std::string& path) {
     find_logs(folder);
   } else {
     folder.path = path;
-    std::vector<recording::StoredLog> logs;
-    for (const std::string& log : recording::logs_in(path)) logs.emplace_back(log);
-    for (recording::MergedLogs& run : recording::merge_by_run(std::move(logs))) {
-      const recording::LogManifest manifest = run.manifest();
+    std::vector<recording::merge::StoredLog> logs;
+    for (const std::string& log : recording::merge::logs_in(path)) logs.emplace_back(log);
+    for (recording::merge::MergedLogs& run : recording::merge::merge_by_run(std::move(logs))) {
+      const recording::log::LogManifest manifest = run.manifest();
       Drive drive;
       drive.folder = path;
       drive.scenario = manifest.scenario_name;
       drive.strategy = manifest.strategy;
       drive.seed = manifest.seed;
-      drive.log = std::make_shared<const recording::MergedLogs>(std::move(run));
+      drive.log = std::make_shared<const recording::merge::MergedLogs>(std::move(run));
       folder.drives.push_back(std::move(drive));
     }
     folder.remarks.push_back("There is no summary.json: figures are the log's, over the whole drive.");
@@ -118,4 +118,4 @@ RunFolder read_run_folder(const std::string& path) {
   return folder;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

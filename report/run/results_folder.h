@@ -10,7 +10,7 @@
 
 #include "recording/merge/merge.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 
 enum class FolderKind : std::uint8_t { kRun, kExperiment };
 // Throws InputError where the folder is neither.
@@ -22,8 +22,8 @@ struct Drive {
   std::string log_name;  // the log's in the folder; "" where none was kept
   std::string label;     // tells it from the others of the page
   std::uint64_t seed = 0;
-  nlohmann::ordered_json summary;                    // its part of summary.json; null without one
-  std::shared_ptr<const recording::MergedLogs> log;  // none: the run kept none
+  nlohmann::ordered_json summary;                           // its part of summary.json; null without one
+  std::shared_ptr<const recording::merge::MergedLogs> log;  // none: the run kept none
 };
 
 struct RunFolder {
@@ -40,4 +40,4 @@ RunFolder parse_run_summary(std::string_view text, const std::string& file);
 // Throws InputError with the file and what is wrong.
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& file);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

@@ -3,11 +3,11 @@
 #include "core/errors.h"
 #include "core/strict_yaml.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 
-ScenarioWords scenario_in(const recording::MergedLogs& log) {
+ScenarioWords scenario_in(const recording::merge::MergedLogs& log) {
   ScenarioWords words;
-  for (const recording::Attachment& attachment : log.attachments()) {
+  for (const recording::log::Attachment& attachment : log.attachments()) {
     if (attachment.media_type != "application/yaml") continue;
     try {
       Findings findings;
@@ -27,4 +27,4 @@ ScenarioWords scenario_in(const recording::MergedLogs& log) {
   return words;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

@@ -6,7 +6,7 @@
 #include "core/time.h"
 #include "recording/merge/merge.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 
 struct ScenarioWords {
   std::string description, file, text;
@@ -14,6 +14,6 @@ struct ScenarioWords {
 };
 
 // Empty where the log has none, or a damaged one.
-ScenarioWords scenario_in(const recording::MergedLogs& log);
+ScenarioWords scenario_in(const recording::merge::MergedLogs& log);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

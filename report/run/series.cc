@@ -6,7 +6,7 @@
 
 #include "report/drawing/log_limits.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 namespace {
 
 constexpr std::size_t kImagesKept = 8;
@@ -15,16 +15,19 @@ double seconds_of(TrueTime t) { return static_cast<double>(t.ns) * 1e-9; }
 
 }  // namespace
 
-void RunSeriesSink::on(const records::ListFused& r) {
-  const bool fused = r.disposition == records::Disposition::kFused || r.disposition == records::Disposition::kFusedLate;
-  if (!fused || !possible(r.stamp.global.ns) || !possible(r.measured.ns) || !possible(r.stamp.true_time)) return;
+void RunSeriesSink::on(const recording::records::ListFused& r) {
+  const bool fused = r.disposition == recording::records::Disposition::kFused ||
+                     r.disposition == recording::records::Disposition::kFusedLate;
+  if (!fused || !drawing::possible(r.stamp.global.ns) || !drawing::possible(r.measured.ns) ||
+      !drawing::possible(r.stamp.true_time))
+    return;
   series_.age_fused[r.id.sensor].push_back(in_ms(r.stamp.global - r.measured));
-  const TrueTime measured = records::true_time_of(r.stamp, r.measured);
+  const TrueTime measured = recording::records::true_time_of(r.stamp, r.measured);
   const auto [newest, first] = newest_fused_.try_emplace(r.id.sensor, Fused{r.id, measured});
   if (!first && measured > newest->second.measured) newest->second = {r.id, measured};
 }
 
-void RunSeriesSink::on(const records::ImageWritten& r) {
+void RunSeriesSink::on(const recording::records::ImageWritten& r) {
   Image& image = images_.emplace_back();
   image.sequence = r.sequence;
   for (const MeasurementId& id : r.newest)
@@ -33,14 +36,14 @@ void RunSeriesSink::on(const records::ImageWritten& r) {
   while (images_.size() > kImagesKept) images_.pop_front();
 }
 
-void RunSeriesSink::on(const records::FeatureUsed& r) {
+void RunSeriesSink::on(const recording::records::FeatureUsed& r) {
   if (pending_) judge(*pending_);
   pending_.reset();
-  if (r.stale || !possible(r.stamp.true_time)) return;
+  if (r.stale || !drawing::possible(r.stamp.true_time)) return;
   judge_age(r.image_sequence, r.stamp.true_time);
   pending_ = Use{r.stamp.true_time, {}};
-  for (const records::FeatureObject& object : r.objects) {
-    const records::ImageObject& image = object.image;
+  for (const recording::records::FeatureObject& object : r.objects) {
+    const recording::records::ImageObject& image = object.image;
     pending_->objects.push_back(
         {image.x, image.y, image.speed * std::cos(image.heading), image.speed * std::sin(image.heading)});
   }
@@ -61,7 +64,7 @@ void RunSeriesSink::judge_age(std::uint32_t sequence, TrueTime used) {
   series_.oldest_age.push_back({seconds_of(used), in_ms(oldest)});
 }
 
-void RunSeriesSink::on(const records::TruthState& r) {
+void RunSeriesSink::on(const recording::records::TruthState& r) {
   if (!truth_.empty() && truth_at_ != r.at) {
     if (pending_ && truth_at_ == pending_->at) {
       judge(*pending_);
@@ -108,24 +111,24 @@ void RunSeriesSink::judge(const Use& use) {
   series_.velocity_error.push_back({t, std::sqrt(velocity / n)});
 }
 
-void RunSeriesSink::on(const records::PrecisionSample& r) {
-  if (possible(r.at)) series_.precision.push_back({seconds_of(r.at), in_us(r.precision)});
+void RunSeriesSink::on(const recording::records::PrecisionSample& r) {
+  if (drawing::possible(r.at)) series_.precision.push_back({seconds_of(r.at), in_us(r.precision)});
 }
 
-void RunSeriesSink::on(const records::ClockCorrected& r) {
-  if (possible(r.stamp.true_time) && !r.offset_missing)
+void RunSeriesSink::on(const recording::records::ClockCorrected& r) {
+  if (drawing::possible(r.stamp.true_time) && !r.offset_missing)
     series_.offset_corrections[r.stamp.node].push_back(
         {seconds_of(r.stamp.true_time), static_cast<double>(r.offset_microticks)});
 }
 
-void RunSeriesSink::on(const records::SlotProblem& r) { ++series_.slot_problems[r.stamp.node][r.status]; }
+void RunSeriesSink::on(const recording::records::SlotProblem& r) { ++series_.slot_problems[r.stamp.node][r.status]; }
 
-void RunSeriesSink::on(const records::TaskRun& r) {
-  if (possible(r.end.true_time)) series_.end_s = std::max(series_.end_s, seconds_of(r.end.true_time));
+void RunSeriesSink::on(const recording::records::TaskRun& r) {
+  if (drawing::possible(r.end.true_time)) series_.end_s = std::max(series_.end_s, seconds_of(r.end.true_time));
   if (!r.deadline_met) ++series_.deadlines_missed[{r.start.node, r.task}];
 }
 
-void RunSeriesSink::on(const records::FaultActivity& r) {
+void RunSeriesSink::on(const recording::records::FaultActivity& r) {
   const auto [entry, first] = series_.faults.try_emplace(r.fault);
   FaultTold& fault = entry->second;
   if (first) {
@@ -134,15 +137,15 @@ void RunSeriesSink::on(const records::FaultActivity& r) {
     fault.text = r.text;
   }
   const double at = seconds_of(r.at);
-  if (r.what == records::kFaultBegins) fault.begins_s = at;
-  if (r.what == records::kFaultEnds) fault.ends_s = at;
-  if (r.what != records::kFaultActs) return;
+  if (r.what == recording::records::kFaultBegins) fault.begins_s = at;
+  if (r.what == recording::records::kFaultEnds) fault.ends_s = at;
+  if (r.what != recording::records::kFaultActs) return;
   if (fault.acts++ > 0) return;
   fault.first_act_s = at;
   fault.text = r.text;
 }
 
-void RunSeriesSink::on(const records::GuardianIntervention& r) {
+void RunSeriesSink::on(const recording::records::GuardianIntervention& r) {
   ++series_.guardian[std::string(r.why) + (r.cut ? ": cut" : ": blocked")];
 }
 
@@ -165,4 +168,4 @@ std::vector<TimedValue> thinned(const std::vector<TimedValue>& all, std::size_t 
   return some;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

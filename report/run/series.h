@@ -1,8 +1,8 @@
 // What a drive's records come to over time and as distributions, for the report's plots and tables: errors where the
 // feature service used an image, ages of measurements, precision, corrections, problems, faults.
 //
-// A sink; uses and truths are put together as evaluation/accuracy/drive_measures.h does it: an image's objects and true ones no
-// further apart than the gate, the closest pair first.
+// A sink; uses and truths are put together as evaluation/accuracy/drive_measures.h does it: an image's objects and true
+// ones no further apart than the gate, the closest pair first.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 #include "recording/records/records.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 
 struct TimedValue {
   double t_s = 0.0, value = 0.0;
@@ -44,22 +44,22 @@ struct RunSeries {
   double end_s = 0.0;  // of the last task
 };
 
-class RunSeriesSink final : public records::Sink {
+class RunSeriesSink final : public recording::records::Sink {
  public:
   explicit RunSeriesSink(double gate_m = 4.0) : gate_m_(gate_m) {}
   RunSeries finish();
 
-  using records::Sink::on;
-  void on(const records::ListFused& r) override;
-  void on(const records::ImageWritten& r) override;
-  void on(const records::FeatureUsed& r) override;
-  void on(const records::TruthState& r) override;
-  void on(const records::PrecisionSample& r) override;
-  void on(const records::ClockCorrected& r) override;
-  void on(const records::SlotProblem& r) override;
-  void on(const records::TaskRun& r) override;
-  void on(const records::FaultActivity& r) override;
-  void on(const records::GuardianIntervention& r) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::ListFused& r) override;
+  void on(const recording::records::ImageWritten& r) override;
+  void on(const recording::records::FeatureUsed& r) override;
+  void on(const recording::records::TruthState& r) override;
+  void on(const recording::records::PrecisionSample& r) override;
+  void on(const recording::records::ClockCorrected& r) override;
+  void on(const recording::records::SlotProblem& r) override;
+  void on(const recording::records::TaskRun& r) override;
+  void on(const recording::records::FaultActivity& r) override;
+  void on(const recording::records::GuardianIntervention& r) override;
 
  private:
   struct State {
@@ -93,4 +93,4 @@ class RunSeriesSink final : public records::Sink {
 // Of every so many neighbours the largest, where there are more than `most`: extremes stay.
 std::vector<TimedValue> thinned(const std::vector<TimedValue>& all, std::size_t most);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

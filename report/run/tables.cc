@@ -12,7 +12,7 @@
 #include "report/drawing/figures.h"
 #include "report/drawing/tables.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -91,15 +91,15 @@ std::map<std::string, Repeated> repeated(const std::vector<ToldDrive>& drives) {
   return all;
 }
 
-results::Interval interval(const Repeated& repeated, const char* pointer, std::size_t strategy,
-                           std::optional<std::size_t> against) {
-  results::Moments moments;
+experiments::results::Interval interval(const Repeated& repeated, const char* pointer, std::size_t strategy,
+                                        std::optional<std::size_t> against) {
+  experiments::results::Moments moments;
   for (const std::vector<const Drive*>& run : repeated.runs) {
     const auto value = measure_at(*run[strategy], pointer);
     const auto other = against ? measure_at(*run[*against], pointer) : 0.0;
     if (value && other) moments.add(*value - *other);
   }
-  return results::interval_of(moments, kConfidence);
+  return experiments::results::interval_of(moments, kConfidence);
 }
 
 std::string percent_more(double value, double least) {
@@ -122,13 +122,13 @@ std::string single_answer(const std::vector<ToldDrive>& drives) {
   std::ranges::stable_sort(ranked, {}, &Ranked::error);
   if (ranked.size() == 1)
     return fmt::format("{} is off by {} m in position (root mean square against the truth, when the image is used).",
-                       ranked[0].label, brief(ranked[0].error));
+                       ranked[0].label, drawing::brief(ranked[0].error));
   std::string text = fmt::format(
       "{} has the smallest position error here: {} m (root mean square against the truth, when "
       "the image is used); ",
-      ranked[0].label, brief(ranked[0].error));
+      ranked[0].label, drawing::brief(ranked[0].error));
   for (std::size_t i = 1; i < ranked.size(); ++i)
-    text += fmt::format("{}{} {} m{}", i > 1 ? ", " : "", ranked[i].label, brief(ranked[i].error),
+    text += fmt::format("{}{} {} m{}", i > 1 ? ", " : "", ranked[i].label, drawing::brief(ranked[i].error),
                         percent_more(ranked[i].error, ranked[0].error));
   return text + ".";
 }
@@ -143,19 +143,20 @@ std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
   }
   if (!std::isfinite(means[best]))
     return fmt::format("Over {} runs of {}: No position was compared with the truth.", runs.runs.size(), scenario);
-  const results::Interval least = interval(runs, pointer, best, std::nullopt);
+  const experiments::results::Interval least = interval(runs, pointer, best, std::nullopt);
   std::string text =
       fmt::format("Over {} runs of {}, {} has the smallest position error on average: {} m (95 %)", runs.runs.size(),
-                  scenario, runs.strategies[best], with_interval(least.mean, least.half_width));
+                  scenario, runs.strategies[best], drawing::with_interval(least.mean, least.half_width));
   for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
     if (s == best) continue;
-    const results::Interval more = interval(runs, pointer, s, best);
+    const experiments::results::Interval more = interval(runs, pointer, s, best);
     if (!std::isfinite(more.mean)) {
       text += fmt::format("; of {} there is no figure", runs.strategies[s]);
       continue;
     }
-    text += fmt::format("; {} {} m, {}", runs.strategies[s], with_interval(more.mean, more.half_width, true),
-                        verdict(more.mean, more.half_width) == "more" ? "for certain" : "which is not certain");
+    text +=
+        fmt::format("; {} {} m, {}", runs.strategies[s], drawing::with_interval(more.mean, more.half_width, true),
+                    drawing::verdict(more.mean, more.half_width) == "more" ? "for certain" : "which is not certain");
   }
   return text + ".";
 }
@@ -208,15 +209,15 @@ double position_rmse(const ToldDrive& told) {
   return std::sqrt(squares / static_cast<double>(told.series.position_error.size()));
 }
 
-PageTable measure_table(const std::vector<ToldDrive>& drives) {
-  PageTable table{"", {"measure"}, {}};
+page::PageTable measure_table(const std::vector<ToldDrive>& drives) {
+  page::PageTable table{"", {"measure"}, {}};
   for (const ToldDrive& told : drives) table.header.push_back(told.drive->label);
   for (const MeasureRow& row : kMeasureRows) {
     std::vector<std::string> cells{row.name};
     bool any = false;
     for (const ToldDrive& told : drives) {
       const auto value = measure_at(*told.drive, row.pointer);
-      cells.push_back(value ? cell(*value * row.factor, row.decimals) : "-");
+      cells.push_back(value ? drawing::cell(*value * row.factor, row.decimals) : "-");
       any = any || (value && (*value != 0.0 || !row.rare));
     }
     if (any) table.rows.push_back(std::move(cells));
@@ -224,13 +225,13 @@ PageTable measure_table(const std::vector<ToldDrive>& drives) {
   return table;
 }
 
-std::vector<PageTable> repeated_tables(const std::vector<ToldDrive>& drives) {
-  std::vector<PageTable> tables;
+std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drives) {
+  std::vector<page::PageTable> tables;
   for (const auto& [scenario, runs] : repeated(drives)) {
-    PageTable table{fmt::format("{}: means of {} runs, 95 % intervals; differences are paired, run by run", scenario,
-                                runs.runs.size()),
-                    {"measure"},
-                    {}};
+    page::PageTable table{fmt::format("{}: means of {} runs, 95 % intervals; differences are paired, run by run",
+                                      scenario, runs.runs.size()),
+                          {"measure"},
+                          {}};
     for (const std::string& strategy : runs.strategies) table.header.push_back(strategy);
     for (std::size_t s = 1; s < runs.strategies.size(); ++s)
       table.header.push_back(fmt::format("{} − {}", runs.strategies[s], runs.strategies[0]));
@@ -238,13 +239,13 @@ std::vector<PageTable> repeated_tables(const std::vector<ToldDrive>& drives) {
       const MeasureRow& row = kMeasureRows[index];
       std::vector<std::string> cells{row.name};
       for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
-        const results::Interval mean = interval(runs, row.pointer, s, std::nullopt);
-        cells.push_back(with_interval(mean.mean, mean.half_width));
+        const experiments::results::Interval mean = interval(runs, row.pointer, s, std::nullopt);
+        cells.push_back(drawing::with_interval(mean.mean, mean.half_width));
       }
       for (std::size_t s = 1; s < runs.strategies.size(); ++s) {
-        const results::Interval difference = interval(runs, row.pointer, s, 0);
-        cells.push_back(fmt::format("{} {}", with_interval(difference.mean, difference.half_width, true),
-                                    verdict(difference.mean, difference.half_width)));
+        const experiments::results::Interval difference = interval(runs, row.pointer, s, 0);
+        cells.push_back(fmt::format("{} {}", drawing::with_interval(difference.mean, difference.half_width, true),
+                                    drawing::verdict(difference.mean, difference.half_width)));
       }
       table.rows.push_back(std::move(cells));
     }
@@ -277,4 +278,4 @@ RunAnswer run_answer(const std::vector<ToldDrive>& drives) {
   return answer;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

@@ -9,7 +9,7 @@
 #include "report/run/results_folder.h"
 #include "report/run/series.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 
 struct ToldDrive {
   const Drive* drive = nullptr;
@@ -22,10 +22,10 @@ std::optional<double> measure_at(const Drive& drive, const char* pointer);
 double position_rmse(const ToldDrive& told);
 
 // A column a drive; rows that say nothing in any of them are left out.
-PageTable measure_table(const std::vector<ToldDrive>& drives);
+page::PageTable measure_table(const std::vector<ToldDrive>& drives);
 // Several runs of one scenario with other seeds: by strategy the mean of each measure with its 95 % interval, and the
 // paired difference from the first strategy's. Nothing where no two runs have the same strategies.
-std::vector<PageTable> repeated_tables(const std::vector<ToldDrive>& drives);
+std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drives);
 
 // What came out: first the answer, then what else is worth knowing.
 struct RunAnswer {
@@ -35,6 +35,6 @@ struct RunAnswer {
 RunAnswer run_answer(const std::vector<ToldDrive>& drives);
 
 // Faults, what receivers saw, deadlines: tables with a row at least.
-std::vector<PageTable> trouble_tables(const ToldDrive& told);
+std::vector<page::PageTable> trouble_tables(const ToldDrive& told);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

@@ -7,40 +7,40 @@
 #include "report/drawing/names.h"
 #include "report/run/tables.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 namespace {
 
 std::string seconds_cell(const std::optional<double>& t) { return t ? fmt::format("{:.6f}", *t) : "-"; }
 
 }  // namespace
 
-std::vector<PageTable> trouble_tables(const ToldDrive& told) {
-  const Names names = told.drive->log ? names_of(told.drive->log->manifest()) : Names{};
+std::vector<page::PageTable> trouble_tables(const ToldDrive& told) {
+  const drawing::Names names = told.drive->log ? drawing::names_of(told.drive->log->manifest()) : drawing::Names{};
   const std::string& label = told.drive->label;
   const RunSeries& series = told.series;
-  PageTable faults{label + ": faults that were injected",
-                   {"fault", "node", "begins [s]", "first acts [s]", "acts", "ends [s]", "what it did first"},
-                   {}};
+  page::PageTable faults{label + ": faults that were injected",
+                         {"fault", "node", "begins [s]", "first acts [s]", "acts", "ends [s]", "what it did first"},
+                         {}};
   for (const auto& [index, fault] : series.faults)
     faults.rows.push_back({fmt::format("{} {}", index, fault.kind),
                            fault.node == kNoNode ? "-" : names.node(fault.node), seconds_cell(fault.begins_s),
                            seconds_cell(fault.first_act_s), std::to_string(fault.acts), seconds_cell(fault.ends_s),
                            fault.text});
-  PageTable slots{
+  page::PageTable slots{
       label + ": slots that did not bring one valid frame, as receivers saw them", {"receiver", "status", "times"}, {}};
   for (const auto& [node, by_status] : series.slot_problems)
     for (const auto& [status, times] : by_status)
-      slots.rows.push_back({names.node(node), recording::slot_status_words(status), std::to_string(times)});
-  PageTable guardian{label + ": what central guardians kept from the others", {"why", "times"}, {}};
+      slots.rows.push_back({names.node(node), recording::exports::slot_status_words(status), std::to_string(times)});
+  page::PageTable guardian{label + ": what central guardians kept from the others", {"why", "times"}, {}};
   for (const auto& [why, times] : series.guardian) guardian.rows.push_back({why, std::to_string(times)});
-  PageTable deadlines{label + ": deadlines missed", {"task", "times"}, {}};
+  page::PageTable deadlines{label + ": deadlines missed", {"task", "times"}, {}};
   for (const auto& [task, times] : series.deadlines_missed)
     deadlines.rows.push_back(
         {names.node(task.first) + ": " + names.task(task.first, task.second), std::to_string(times)});
-  std::vector<PageTable> tables;
-  for (PageTable* table : {&faults, &slots, &guardian, &deadlines})
+  std::vector<page::PageTable> tables;
+  for (page::PageTable* table : {&faults, &slots, &guardian, &deadlines})
     if (!table->rows.empty()) tables.push_back(std::move(*table));
   return tables;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::run

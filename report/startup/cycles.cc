@@ -5,14 +5,14 @@
 #include "recording/records/records.h"
 #include "report/drawing/log_limits.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 namespace {
 
 // The node's last symbol that ended before it led anybody.
 std::optional<TrueTime> last_cas(const StartupData& data, std::optional<NodeId> node, TrueTime before) {
   std::optional<TrueTime> end;
   for (const auto& s : data.symbols)
-    if (s.kind == records::kSymbolCas && (!node || s.node == *node) && s.end <= before)
+    if (s.kind == recording::records::kSymbolCas && (!node || s.node == *node) && s.end <= before)
       end = end ? std::max(*end, s.end) : s.end;
   return end;
 }
@@ -25,14 +25,14 @@ std::optional<LeadingNode> leading_node(const StartupData& data) {
       if (const auto cas = last_cas(data, c.node, c.at)) return LeadingNode{c.node, *cas};
   std::optional<LeadingNode> last;
   for (const auto& s : data.symbols)
-    if (s.kind == records::kSymbolCas && (!last || s.end > last->cas)) last = LeadingNode{s.node, s.end};
+    if (s.kind == recording::records::kSymbolCas && (!last || s.end > last->cas)) last = LeadingNode{s.node, s.end};
   return last;
 }
 
 std::map<std::int64_t, TrueTime> cycles_of(const StartupData& data, const LeadingNode& leader, Duration cycle,
                                            TrueTime end) {
   std::map<std::int64_t, TrueTime> starts;
-  if (cycle.ns <= 0 || end < leader.cas || (end - leader.cas).ns / cycle.ns > kMostCycleLines) return starts;
+  if (cycle.ns <= 0 || end < leader.cas || (end - leader.cas).ns / cycle.ns > drawing::kMostCycleLines) return starts;
   // Its frames in the slot of the first one: the key slot.
   std::map<std::int64_t, TrueTime> sent;
   std::optional<std::uint16_t> key_slot;
@@ -58,4 +58,4 @@ std::map<std::int64_t, TrueTime> cycles_of(const StartupData& data, const Leadin
   return starts;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

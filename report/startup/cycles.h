@@ -7,7 +7,7 @@
 #include "core/time.h"
 #include "report/startup/data.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 
 struct LeadingNode {
   NodeId node{};
@@ -24,4 +24,4 @@ std::optional<LeadingNode> leading_node(const StartupData& data);
 std::map<std::int64_t, TrueTime> cycles_of(const StartupData& data, const LeadingNode& leader, Duration cycle,
                                            TrueTime end);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

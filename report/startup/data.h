@@ -8,7 +8,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 
 struct StartupData {
   struct Change {
@@ -59,4 +59,4 @@ inline constexpr std::uint8_t kStateDefaultConfig = 0x00, kStateReady = 0x01, kS
                               kStateIntegrationColdstartCheck = 0x26, kStateIntegrationListen = 0x27,
                               kStateIntegrationConsistencyCheck = 0x28, kStateInitialiseSchedule = 0x29;
 
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

@@ -8,64 +8,65 @@
 #include "report/drawing/log_limits.h"
 #include "report/startup/painter.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 
-StartupDiagram::StartupDiagram(Names names, Duration cycle, TrueTime from, TrueTime to)
-    : names_(std::move(names)), cycle_(cycle <= kLongestCycle ? cycle : Duration{}), from_(from), to_(to) {}
+StartupDiagram::StartupDiagram(drawing::Names names, Duration cycle, TrueTime from, TrueTime to)
+    : names_(std::move(names)), cycle_(cycle <= drawing::kLongestCycle ? cycle : Duration{}), from_(from), to_(to) {}
 
-void StartupDiagram::on(const records::StateChanged& r) {
-  if (possible(r.stamp.true_time))
+void StartupDiagram::on(const recording::records::StateChanged& r) {
+  if (drawing::possible(r.stamp.true_time))
     data_.changes.push_back({r.stamp.true_time, r.stamp.node, r.from, r.to, std::string(r.from_name),
                              std::string(r.to_name), std::string(r.why), std::string(r.consequence)});
 }
-void StartupDiagram::on(const records::PowerChanged& r) {
-  if (possible(r.stamp.true_time)) data_.power.push_back({r.stamp.true_time, r.stamp.node, r.on});
+void StartupDiagram::on(const recording::records::PowerChanged& r) {
+  if (drawing::possible(r.stamp.true_time)) data_.power.push_back({r.stamp.true_time, r.stamp.node, r.on});
 }
-void StartupDiagram::on(const records::SymbolSent& r) {
+void StartupDiagram::on(const recording::records::SymbolSent& r) {
   const TrueTime start = r.stamp.true_time, end = r.end.true_time;
-  if (possible(start) && possible(end) && start <= to_)
+  if (drawing::possible(start) && drawing::possible(end) && start <= to_)
     data_.symbols.push_back({start, end, r.stamp.node, r.channel, r.kind});
 }
-void StartupDiagram::on(const records::SlotFrameSent& r) {
+void StartupDiagram::on(const recording::records::SlotFrameSent& r) {
   const TrueTime start = r.stamp.true_time, end = r.end.true_time;
-  if (possible(start) && possible(end) && start <= to_ && possible_cycle(r.cycle))
+  if (drawing::possible(start) && drawing::possible(end) && start <= to_ && drawing::possible_cycle(r.cycle))
     data_.frames.push_back(
-        {start, end, r.stamp.node, r.cycle, r.slot, r.channel, r.null_frame, recording::is_startup_frame(r)});
+        {start, end, r.stamp.node, r.cycle, r.slot, r.channel, r.null_frame, recording::exports::is_startup_frame(r)});
 }
-void StartupDiagram::on(const records::FaultActivity& r) {
-  if (possible(r.at)) data_.faults.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
+void StartupDiagram::on(const recording::records::FaultActivity& r) {
+  if (drawing::possible(r.at))
+    data_.faults.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
 }
 
 std::string StartupDiagram::svg() const {
   if (data_.changes.empty() && data_.power.empty())
-    return empty_picture("Start-up",
-                         "No node changed its state: the run began with all nodes integrated, and so they stayed.");
-  if (from_ >= to_) return empty_picture("Start-up", "The window is empty.");
+    return drawing::empty_picture(
+        "Start-up", "No node changed its state: the run began with all nodes integrated, and so they stayed.");
+  if (from_ >= to_) return drawing::empty_picture("Start-up", "The window is empty.");
   return paint_startup(names_, data_, cycle_, from_, to_);
 }
 
 void StartupExtent::see(TrueTime at, bool starts) {
-  if (!possible(at)) return;
+  if (!drawing::possible(at)) return;
   if (starts) first_start_ = first_start_ ? std::min(*first_start_, at) : at;
   first_ = first_ ? std::min(*first_, at) : at;
   last_ = last_ ? std::max(*last_, at) : at;
 }
-void StartupExtent::on(const records::StateChanged& r) {
+void StartupExtent::on(const recording::records::StateChanged& r) {
   see(r.stamp.true_time, r.from == kStateDefaultConfig);
   const std::size_t node = index_of(r.stamp.node);
-  if (r.to != kStateNormalActive || active_[node] || !possible(r.stamp.true_time)) return;
+  if (r.to != kStateNormalActive || active_[node] || !drawing::possible(r.stamp.true_time)) return;
   active_[node] = true;
   last_active_ = last_active_ ? std::max(*last_active_, r.stamp.true_time) : r.stamp.true_time;
 }
-void StartupExtent::on(const records::PowerChanged& r) { see(r.stamp.true_time, r.on); }
+void StartupExtent::on(const recording::records::PowerChanged& r) { see(r.stamp.true_time, r.on); }
 
 std::optional<std::pair<TrueTime, TrueTime>> StartupExtent::window(Duration cycle) const {
   if (!first_) return std::nullopt;
   const Duration a_little = Duration::milliseconds(1);
-  const Duration after = std::clamp(cycle, Duration{}, kLongestCycle) * 2;
+  const Duration after = std::clamp(cycle, Duration{}, drawing::kLongestCycle) * 2;
   const TrueTime first = first_start_.value_or(*first_);
   const TrueTime last = std::max(first, last_active_.value_or(*last_));
   return std::pair(std::max(TrueTime{}, first - a_little), last + a_little + after);
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

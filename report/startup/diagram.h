@@ -17,26 +17,26 @@
 #include "report/drawing/names.h"
 #include "report/startup/data.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 
-class StartupDiagram : public records::Sink {
+class StartupDiagram : public recording::records::Sink {
  public:
   // `cycle`: nominal length of the communication cycle, 0 for no grid. Frames and symbols after the window are passed
   // over.
-  StartupDiagram(Names names, Duration cycle, TrueTime from, TrueTime to);
+  StartupDiagram(drawing::Names names, Duration cycle, TrueTime from, TrueTime to);
 
-  using Sink::on;  // the kinds of record that are not shown
-  void on(const records::StateChanged& r) override;
-  void on(const records::PowerChanged& r) override;
-  void on(const records::SymbolSent& r) override;
-  void on(const records::SlotFrameSent& r) override;
-  void on(const records::FaultActivity& r) override;
+  using recording::records::Sink::on;  // the kinds of record that are not shown
+  void on(const recording::records::StateChanged& r) override;
+  void on(const recording::records::PowerChanged& r) override;
+  void on(const recording::records::SymbolSent& r) override;
+  void on(const recording::records::SlotFrameSent& r) override;
+  void on(const recording::records::FaultActivity& r) override;
 
   // The picture; one that says so if no node changed its state or lost its supply.
   std::string svg() const;
 
  private:
-  Names names_;
+  drawing::Names names_;
   Duration cycle_;
   TrueTime from_, to_;
   StartupData data_;
@@ -45,10 +45,10 @@ class StartupDiagram : public records::Sink {
 // When the start-up in a log happened: from the first record of it to the last of the nodes' first entries into normal
 // active. Of a run that began integrated: from the first return of a node, or, if none came back, from the first loss
 // on.
-struct StartupExtent final : records::Sink {
-  using records::Sink::on;
-  void on(const records::StateChanged& r) override;
-  void on(const records::PowerChanged& r) override;
+struct StartupExtent final : recording::records::Sink {
+  using recording::records::Sink::on;
+  void on(const recording::records::StateChanged& r) override;
+  void on(const recording::records::PowerChanged& r) override;
 
   // All of it: a little before, and two cycles after. Nothing where no node was powered on or changed its state.
   std::optional<std::pair<TrueTime, TrueTime>> window(Duration cycle) const;
@@ -59,4 +59,4 @@ struct StartupExtent final : records::Sink {
   std::vector<bool> active_ = std::vector<bool>(256);
 };
 
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

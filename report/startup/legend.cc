@@ -4,13 +4,13 @@
 #include "recording/records/records.h"
 #include "report/startup/painter.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 
-std::vector<LegendEntry> startup_legend(const StartupData& data, const std::vector<StateSpan>& spans, TrueTime from,
-                                        TrueTime to) {
-  using K = LegendEntry::Kind;
+std::vector<drawing::LegendEntry> startup_legend(const StartupData& data, const std::vector<StateSpan>& spans,
+                                                 TrueTime from, TrueTime to) {
+  using K = drawing::LegendEntry::Kind;
   const auto visible = [&](TrueTime start, TrueTime end) { return start < to && end >= from; };
-  std::vector<LegendEntry> legend;
+  std::vector<drawing::LegendEntry> legend;
   std::set<std::string_view> phases;
   for (const StateSpan& span : spans)
     if (const StatePhase phase = phase_of(span.state);
@@ -22,21 +22,24 @@ std::vector<LegendEntry> startup_legend(const StartupData& data, const std::vect
     (f.startup ? startup : f.null_frame ? null : other) = true;
   }
   if (startup) legend.push_back({K::kBox, "startup frame", std::string(kStartupFrameFill), {}, true});
-  if (null) legend.push_back({K::kBox, "null frame", std::string(kGrey), {}, false});
+  if (null) legend.push_back({K::kBox, "null frame", std::string(drawing::kGrey), {}, false});
   if (other) legend.push_back({K::kBox, "other frame", std::string(kOtherFrameFill), {}, true});
   if (std::ranges::any_of(data.symbols, [&](const auto& s) { return visible(s.start, s.end); }))
-    legend.push_back({K::kBox, "symbol", std::string(kBlack), {}, true});
+    legend.push_back({K::kBox, "symbol", std::string(drawing::kBlack), {}, true});
   const auto power = [&](bool on) {
     return std::ranges::any_of(data.power, [&](const auto& p) { return p.on == on && visible(p.at, p.at); });
   };
-  if (power(true)) legend.push_back({K::kMarker, "power on", std::string(kGreen), Marker::kTriangle, true});
-  if (power(false)) legend.push_back({K::kMarker, "power off", std::string(kVermilion), Marker::kDownTriangle, true});
+  if (power(true))
+    legend.push_back({K::kMarker, "power on", std::string(drawing::kGreen), drawing::Marker::kTriangle, true});
+  if (power(false))
+    legend.push_back({K::kMarker, "power off", std::string(drawing::kVermilion), drawing::Marker::kDownTriangle, true});
   if (const auto faults = faults_within(data.faults, from, to); !faults.empty()) {
     legend.push_back({K::kBox, "fault, from its begin to its end", std::string(kFaultFill), {}, true});
-    const auto acts = [&](const auto& f) { return f.what == records::kFaultActs && visible(f.at, f.at); };
-    if (std::ranges::any_of(faults, acts)) legend.push_back({K::kLine, "the fault acts", std::string(kVermilion)});
+    const auto acts = [&](const auto& f) { return f.what == recording::records::kFaultActs && visible(f.at, f.at); };
+    if (std::ranges::any_of(faults, acts))
+      legend.push_back({K::kLine, "the fault acts", std::string(drawing::kVermilion)});
   }
   return legend;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

@@ -11,11 +11,13 @@
 #include "recording/records/records.h"
 #include "report/startup/cycles.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 namespace {
 
 std::string_view symbol_name(std::uint8_t kind) {
-  return kind == records::kSymbolCas ? "CAS" : kind == records::kSymbolWakeup ? "wake-up pattern" : "media test symbol";
+  return kind == recording::records::kSymbolCas      ? "CAS"
+         : kind == recording::records::kSymbolWakeup ? "wake-up pattern"
+                                                     : "media test symbol";
 }
 
 // Everything needed to draw one picture; lives for one call of svg().
@@ -27,7 +29,7 @@ class StartupPainter {
   static constexpr double kNotes = 10, kBar = 14, kBarHeight = 16, kChannels[] = {38, 49}, kRowHeight = 8;
 
  public:
-  StartupPainter(const Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to)
+  StartupPainter(const drawing::Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to)
       : names_(names), data_(data), from_(from), to_(to), spans_(state_spans(data, from, to)),
         faults_(faults_within(data.faults, from, to)), leader_(leading_node(data)),
         legend_(startup_legend(data, spans_, from, to)) {
@@ -43,12 +45,12 @@ class StartupPainter {
     for (const auto& f : faults_) {
       if (!fault_top_.try_emplace(f.fault, y).second) continue;
       y += kFaultLane;
-      plot_.x = std::max(plot_.x, text_width(fault_label(f), 11) + 24);
+      plot_.x = std::max(plot_.x, drawing::text_width(fault_label(f), 11) + 24);
     }
     for (const NodeId node : nodes) {
       node_top_[node] = y;
       y += on_flexray_.count(node) != 0 ? kNodeLane : kLaneOffFlexRay;
-      plot_.x = std::max(plot_.x, text_width(names.node(node), 11) + 24);
+      plot_.x = std::max(plot_.x, drawing::text_width(names.node(node), 11) + 24);
     }
     plot_.height = y - kTop;
     const double ms = (to - from).seconds() * 1e3;
@@ -61,10 +63,10 @@ class StartupPainter {
     const double legend_top = plot_.y + plot_.height + 46;
     // Nobody starts a cluster up that began integrated.
     const bool integrated = !leader_ && !active_from_the_start(data_).empty();
-    const std::string title =
-        fmt::format("{}: {}, {} ms to {} ms", names_.run.empty() ? "Run" : names_.run,
-                    integrated ? "changes of state" : "start-up", number(in_ms(from_)), number(in_ms(to_)));
-    Svg svg(plot_.x + plot_.width + 24, legend_top + legend_height(legend_, legend_width) + 12, title);
+    const std::string title = fmt::format("{}: {}, {} ms to {} ms", names_.run.empty() ? "Run" : names_.run,
+                                          integrated ? "changes of state" : "start-up", drawing::number(in_ms(from_)),
+                                          drawing::number(in_ms(to_)));
+    drawing::Svg svg(plot_.x + plot_.width + 24, legend_top + legend_height(legend_, legend_width) + 12, title);
     svg_ = &svg;
     svg.text({24, 22}, title, {.size = 14, .bold = true});
     if (leader_)
@@ -82,7 +84,7 @@ class StartupPainter {
     power();
     svg.close_group();
     labels();
-    svg.rect(plot_, {.stroke = kBlack, .width = 0.8});
+    svg.rect(plot_, {.stroke = drawing::kBlack, .width = 0.8});
     draw_time_axis(svg, plot_, {in_ms(from_), in_ms(to_)});
     draw_legend(svg, {24, legend_top}, legend_width, legend_);
     return svg.str();
@@ -102,7 +104,7 @@ class StartupPainter {
   // A cycle's number stands in its middle, where there is room.
   void grid() {
     svg_->open_group("grid");
-    LabelSpace above;
+    drawing::LabelSpace above;
     for (auto it = cycles_.begin(); it != cycles_.end(); ++it) {
       const auto next = std::next(it);
       if (next == cycles_.end() && it->second >= to_) break;
@@ -113,15 +115,16 @@ class StartupPainter {
       if (it->second >= from_)
         svg_->line({left, plot_.y - 4}, {left, plot_.y + plot_.height}, {.stroke = "#b8b8b8", .width = 0.7}, "cycle");
       const std::string label = fmt::format("{}", it->first);
-      const TextStyle style{.size = 10, .anchor = Anchor::kMiddle, .fill = "#444444"};
-      const Point at{(left + right) / 2, plot_.y - 7};
-      Area area = text_area(at, label, style);
+      const drawing::TextStyle style{.size = 10, .anchor = drawing::Anchor::kMiddle, .fill = "#444444"};
+      const drawing::Point at{(left + right) / 2, plot_.y - 7};
+      drawing::Area area = text_area(at, label, style);
       area.x -= 4, area.width += 8;
       if (area.x >= plot_.x && area.x + area.width <= plot_.x + plot_.width && above.claim(area))
         svg_->text(at, label, style);
     }
     if (!cycles_.empty())
-      svg_->text({plot_.x - 10, plot_.y - 7}, "cycle", {.size = 10, .anchor = Anchor::kEnd, .fill = "#444444"});
+      svg_->text({plot_.x - 10, plot_.y - 7}, "cycle",
+                 {.size = 10, .anchor = drawing::Anchor::kEnd, .fill = "#444444"});
     svg_->close_group();
   }
 
@@ -133,16 +136,17 @@ class StartupPainter {
     std::set<std::uint32_t> labelled;
     for (const auto& f : faults_)
       if (labelled.insert(f.fault).second)
-        svg_->text({plot_.x - 10, fault_top_.at(f.fault) + 15}, fault_label(f), {.size = 11, .anchor = Anchor::kEnd});
+        svg_->text({plot_.x - 10, fault_top_.at(f.fault) + 15}, fault_label(f),
+                   {.size = 11, .anchor = drawing::Anchor::kEnd});
     for (const auto& [node, y] : node_top_) {
       if (y > plot_.y) line_at(y);
-      svg_->text({plot_.x - 10, y + kBar + 12}, names_.node(node), {.size = 11, .anchor = Anchor::kEnd});
+      svg_->text({plot_.x - 10, y + kBar + 12}, names_.node(node), {.size = 11, .anchor = drawing::Anchor::kEnd});
       if (on_flexray_.count(node) == 0) continue;
       for (int c = 0; c < 2; ++c) {
         const double centre = y + kChannels[c];
         svg_->line({plot_.x, centre}, {plot_.x + plot_.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
         svg_->text({plot_.x - 10, centre + 3}, c == 0 ? "A" : "B",
-                   {.size = 8.5, .anchor = Anchor::kEnd, .fill = "#444444"});
+                   {.size = 8.5, .anchor = drawing::Anchor::kEnd, .fill = "#444444"});
       }
     }
     svg_->close_group();
@@ -154,12 +158,12 @@ class StartupPainter {
       const double left = stay_inside(x(start)), right = stay_inside(x(end));
       if (visible(start, end))
         svg_->rect({left, fault_top_.at(f.fault) + 4, std::max(1.5, right - left), 14},
-                   {.fill = kFaultFill, .stroke = kVermilion, .width = 0.7}, f.text, "fault");
+                   {.fill = kFaultFill, .stroke = drawing::kVermilion, .width = 0.7}, f.text, "fault");
     };
     std::map<std::uint32_t, const StartupData::Fault*> open;
     for (const auto& f : faults_) {
-      if (f.what == records::kFaultBegins) open[f.fault] = &f;
-      if (f.what != records::kFaultEnds) continue;
+      if (f.what == recording::records::kFaultBegins) open[f.fault] = &f;
+      if (f.what != recording::records::kFaultEnds) continue;
       if (const auto o = open.find(f.fault); o != open.end()) {
         bar(*o->second, o->second->at, f.at);
         open.erase(o);
@@ -167,8 +171,8 @@ class StartupPainter {
     }
     for (const auto& [fault, begin] : open) bar(*begin, begin->at, to_);
     for (const auto& f : faults_)
-      if (f.what == records::kFaultActs && visible(f.at, f.at))
-        svg_->rect({x(f.at) - 0.7, fault_top_.at(f.fault) + 4, 1.4, 14}, {.fill = kVermilion}, f.text, "acts");
+      if (f.what == recording::records::kFaultActs && visible(f.at, f.at))
+        svg_->rect({x(f.at) - 0.7, fault_top_.at(f.fault) + 4, 1.4, 14}, {.fill = drawing::kVermilion}, f.text, "acts");
   }
 
   void states() {
@@ -176,13 +180,13 @@ class StartupPainter {
       if (!visible(s.start, s.end)) continue;
       const double left = stay_inside(x(s.start)), right = stay_inside(x(s.end));
       const std::string hover =
-          s.why.empty() ? s.name : fmt::format("{} from {} ms on: {}", s.name, number(in_ms(s.start)), s.why);
+          s.why.empty() ? s.name : fmt::format("{} from {} ms on: {}", s.name, drawing::number(in_ms(s.start)), s.why);
       svg_->rect({left, top(s.node) + kBar, right - left, kBarHeight},
                  {.fill = phase_of(s.state).colour, .stroke = "#444444", .width = 0.6}, hover, "state");
     }
   }
 
-  Area row(NodeId node, std::uint8_t channel, TrueTime start, TrueTime end, double least) const {
+  drawing::Area row(NodeId node, std::uint8_t channel, TrueTime start, TrueTime end, double least) const {
     const double centre = top(node) + kChannels[channel == 0 ? 0 : 1];
     return {x(start), centre - kRowHeight / 2, std::max(least, x(end) - x(start)), kRowHeight};
   }
@@ -192,10 +196,10 @@ class StartupPainter {
       if (!visible(f.start, f.end)) continue;
       const std::string hover =
           fmt::format("{}{}slot {}, cycle {}, {} ms", f.startup ? "startup frame, " : "",
-                      f.null_frame ? "null frame, " : "", f.slot, f.cycle, number(in_ms(f.start)));
+                      f.null_frame ? "null frame, " : "", f.slot, f.cycle, drawing::number(in_ms(f.start)));
       if (f.null_frame && !f.startup)
-        svg_->rect(row(f.node, f.channel, f.start, f.end, 1.5), {.fill = "#ffffff", .stroke = kGrey, .width = 0.5},
-                   hover, "null");
+        svg_->rect(row(f.node, f.channel, f.start, f.end, 1.5),
+                   {.fill = "#ffffff", .stroke = drawing::kGrey, .width = 0.5}, hover, "null");
       else
         svg_->rect(row(f.node, f.channel, f.start, f.end, f.startup ? 2.0 : 1.2),
                    {.fill = f.startup ? kStartupFrameFill : kOtherFrameFill}, hover, f.startup ? "startup" : "frame");
@@ -206,20 +210,21 @@ class StartupPainter {
   void symbols() {
     for (const auto& s : data_.symbols) {
       if (!visible(s.start, s.end)) continue;
-      Area area = row(s.node, s.channel, s.start, s.end, 2.5);
+      drawing::Area area = row(s.node, s.channel, s.start, s.end, 2.5);
       area.x = x(s.end) - area.width;
-      svg_->rect(area, {.fill = kBlack}, fmt::format("{}, {} ms", symbol_name(s.kind), number(in_ms(s.start))),
-                 "symbol");
+      svg_->rect(area, {.fill = drawing::kBlack},
+                 fmt::format("{}, {} ms", symbol_name(s.kind), drawing::number(in_ms(s.start))), "symbol");
     }
   }
 
   void power() {
     for (const auto& p : data_.power)
       if (visible(p.at, p.at))
-        svg_->marker(p.on ? Marker::kTriangle : Marker::kDownTriangle, {x(p.at), top(p.node) + kNotes - 2}, 9,
-                     {.fill = p.on ? kGreen : kVermilion, .stroke = "#ffffff", .width = 0.6},
+        svg_->marker(p.on ? drawing::Marker::kTriangle : drawing::Marker::kDownTriangle,
+                     {x(p.at), top(p.node) + kNotes - 2}, 9,
+                     {.fill = p.on ? drawing::kGreen : drawing::kVermilion, .stroke = "#ffffff", .width = 0.6},
                      fmt::format("{} {} at {} ms", names_.node(p.node), p.on ? "powered on" : "powered off",
-                                 number(in_ms(p.at))),
+                                 drawing::number(in_ms(p.at))),
                      "power");
   }
 
@@ -231,8 +236,8 @@ class StartupPainter {
       const double left = stay_inside(x(s.start)), right = stay_inside(x(s.end));
       const std::string colour = phase_of(s.state).colour;
       for (const std::string_view text : {std::string_view(s.name), short_name(s.state)}) {
-        if (text.empty() || right - left < text_width(text, kText) + 5) continue;
-        note(text, {.size = kText, .anchor = Anchor::kMiddle, .fill = text_colour_on(colour)},
+        if (text.empty() || right - left < drawing::text_width(text, kText) + 5) continue;
+        note(text, {.size = kText, .anchor = drawing::Anchor::kMiddle, .fill = drawing::text_colour_on(colour)},
              {(left + right) / 2, top(s.node) + kBar + 11.5});
         break;
       }
@@ -248,31 +253,32 @@ class StartupPainter {
     svg_->close_group();
   }
 
-  void note(std::string_view text, const TextStyle& style, Point at) {
-    const std::array<Point, 1> candidates{at};
+  void note(std::string_view text, const drawing::TextStyle& style, drawing::Point at) {
+    const std::array<drawing::Point, 1> candidates{at};
     if (const auto p = space_.place(text, style, candidates, plot_)) svg_->text(*p, text, style);
   }
 
-  const Names& names_;
+  const drawing::Names& names_;
   const StartupData& data_;
   TrueTime from_, to_;
   std::vector<StateSpan> spans_;
   std::vector<StartupData::Fault> faults_;
   std::optional<LeadingNode> leader_;
-  std::vector<LegendEntry> legend_;
+  std::vector<drawing::LegendEntry> legend_;
   std::map<std::int64_t, TrueTime> cycles_;
   std::map<std::uint32_t, double> fault_top_;
   std::map<NodeId, double> node_top_;
   std::set<NodeId> on_flexray_;
-  Area plot_;
-  LabelSpace space_;
-  Svg* svg_ = nullptr;
+  drawing::Area plot_;
+  drawing::LabelSpace space_;
+  drawing::Svg* svg_ = nullptr;
 };
 
 }  // namespace
 
-std::string paint_startup(const Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to) {
+std::string paint_startup(const drawing::Names& names, const StartupData& data, Duration cycle, TrueTime from,
+                          TrueTime to) {
   return StartupPainter(names, data, cycle, from, to).picture();
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

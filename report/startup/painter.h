@@ -9,14 +9,16 @@
 #include "report/startup/data.h"
 #include "report/startup/states.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 
-inline constexpr std::string_view kStartupFrameFill = kBlue, kOtherFrameFill = kStatusFrame, kFaultFill = "#f2b8a0";
+inline constexpr std::string_view kStartupFrameFill = drawing::kBlue, kOtherFrameFill = drawing::kStatusFrame,
+                                  kFaultFill = "#f2b8a0";
 
-std::string paint_startup(const Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to);
+std::string paint_startup(const drawing::Names& names, const StartupData& data, Duration cycle, TrueTime from,
+                          TrueTime to);
 
 // What the picture explains: only what occurs in the window.
-std::vector<LegendEntry> startup_legend(const StartupData& data, const std::vector<StateSpan>& spans, TrueTime from,
-                                        TrueTime to);
+std::vector<drawing::LegendEntry> startup_legend(const StartupData& data, const std::vector<StateSpan>& spans,
+                                                 TrueTime from, TrueTime to);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

@@ -8,7 +8,7 @@
 #include "recording/records/records.h"
 #include "report/drawing/axes.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 namespace {
 
 std::string sentence(const StartupData::Change& c) {
@@ -74,19 +74,19 @@ StatePhase phase_of(std::uint8_t state) {
     case kStateReady: return {"is configured", "#e2e2e2"};
     case kStateWakeupListen:
     case kStateWakeupSend:
-    case kStateWakeupDetect: return {"wakes the cluster", tint(kPurple, 0.35)};
+    case kStateWakeupDetect: return {"wakes the cluster", drawing::tint(drawing::kPurple, 0.35)};
     case kStateColdstartListen:
-    case kStateIntegrationListen: return {"listens", tint(kSkyBlue, 0.6)};
+    case kStateIntegrationListen: return {"listens", drawing::tint(drawing::kSkyBlue, 0.6)};
     case kStateCollisionResolution:
     case kStateConsistencyCheck:
-    case kStateColdstartGap: return {"leads", tint(kOrange, 0.35)};
+    case kStateColdstartGap: return {"leads", drawing::tint(drawing::kOrange, 0.35)};
     case kStateInitialiseSchedule:
     case kStateIntegrationColdstartCheck:
     case kStateColdstartJoin:
-    case kStateIntegrationConsistencyCheck: return {"joins", tint(kYellow, 0.35)};
-    case kStateNormalActive: return {"normal active", tint(kGreen, 0.45)};
-    case kStateNormalPassive: return {"normal passive", tint(kBlue, 0.45)};
-    case kStateHalt: return {"halt", tint(kVermilion, 0.25)};
+    case kStateIntegrationConsistencyCheck: return {"joins", drawing::tint(drawing::kYellow, 0.35)};
+    case kStateNormalActive: return {"normal active", drawing::tint(drawing::kGreen, 0.45)};
+    case kStateNormalPassive: return {"normal passive", drawing::tint(drawing::kBlue, 0.45)};
+    case kStateHalt: return {"halt", drawing::tint(drawing::kVermilion, 0.25)};
     default: return {"other state", "#ffffff"};
   }
 }
@@ -115,7 +115,7 @@ std::vector<StartupData::Fault> faults_within(const std::vector<StartupData::Fau
   for (const StartupData::Fault& f : faults) {
     auto& [begin, end] = spans.try_emplace(f.fault, f.at, to).first->second;
     begin = std::min(begin, f.at);
-    if (f.what == records::kFaultEnds) end = f.at;
+    if (f.what == recording::records::kFaultEnds) end = f.at;
   }
   std::vector<StartupData::Fault> there;
   std::copy_if(faults.begin(), faults.end(), std::back_inserter(there), [&](const StartupData::Fault& f) {
@@ -125,4 +125,4 @@ std::vector<StartupData::Fault> faults_within(const std::vector<StartupData::Fau
   return there;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

@@ -9,7 +9,7 @@
 #include "core/time.h"
 #include "report/startup/data.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 
 struct StateSpan {
   NodeId node{};
@@ -42,4 +42,4 @@ std::string_view short_name(std::uint8_t state);
 std::vector<StartupData::Fault> faults_within(const std::vector<StartupData::Fault>& faults, TrueTime from,
                                               TrueTime to);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

@@ -3,7 +3,7 @@
 #include "report/drawing/axes.h"
 #include "report/timing/canvas.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
 double lane_height(const Lane& lane) {
   switch (lane.key.kind) {
@@ -16,13 +16,13 @@ double lane_height(const Lane& lane) {
 }
 
 std::string TimingCanvas::times(TrueTime start, TrueTime end) const {
-  return tags.on() ? "" : fmt::format(", {} ms to {} ms", number(in_ms(start)), number(in_ms(end)));
+  return tags.on() ? "" : fmt::format(", {} ms to {} ms", drawing::number(in_ms(start)), drawing::number(in_ms(end)));
 }
 
-void draw_way(Svg& svg, const TimingCanvas& canvas, const Way& way) {
+void draw_way(drawing::Svg& svg, const TimingCanvas& canvas, const Way& way) {
   constexpr double kBox = TimingCanvas::kBox;
   const bool image = way.id.sensor == kNoSensor;
-  const std::string colour = image ? std::string(kBlack) : sensor_colour(canvas.names, way.id.sensor);
+  const std::string colour = image ? std::string(drawing::kBlack) : sensor_colour(canvas.names, way.id.sensor);
   const std::string hover = image ? fmt::format("image #{}", way.id.sequence)
                                   : fmt::format("{} #{}{}", canvas.names.sensor(way.id.sensor), way.id.sequence,
                                                 way.out_of_sequence ? ", out of sequence" : "");
@@ -39,8 +39,10 @@ void draw_way(Svg& svg, const TimingCanvas& canvas, const Way& way) {
     const double a = canvas.y(leg.from.lane), b = canvas.y(leg.to.lane), down = same ? 0 : b > a ? 1 : -1;
     const auto edge = [&](const LaneKey& lane) { return lane.kind == LaneKey::Kind::kSensor ? 5.0 : kBox / 2; };
     const auto shift = [](const LaneKey& lane) { return lane.kind == LaneKey::Kind::kChannel ? 4.0 : 0.0; };
-    const Point p{canvas.x(leg.from.at), a + shift(leg.from.lane) + (same ? kBox / 2 + 3 : down * edge(leg.from.lane))};
-    const Point q{canvas.x(leg.to.at), b + shift(leg.to.lane) + (same ? kBox / 2 + 3 : -down * edge(leg.to.lane))};
+    const drawing::Point p{canvas.x(leg.from.at),
+                           a + shift(leg.from.lane) + (same ? kBox / 2 + 3 : down * edge(leg.from.lane))};
+    const drawing::Point q{canvas.x(leg.to.at),
+                           b + shift(leg.to.lane) + (same ? kBox / 2 + 3 : -down * edge(leg.to.lane))};
     svg.arrow(p, q,
               {.stroke = colour,
                .width = way.out_of_sequence ? 2.0
@@ -56,4 +58,4 @@ void draw_way(Svg& svg, const TimingCanvas& canvas, const Way& way) {
   }
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

@@ -12,14 +12,14 @@
 #include "report/timing/tags.h"
 #include "report/timing/ways.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
 struct TimingCanvas {
-  const Names& names;
+  const drawing::Names& names;
   const TimingData& data;
   TrueTime from, to;
   TimingTags tags;
-  Area plot;
+  drawing::Area plot;
   std::map<LaneKey, double> centres;
 
   static constexpr double kBox = 14, kText = 9.5;  // height of slots and tasks, size of what is written in them
@@ -37,6 +37,6 @@ struct TimingCanvas {
 double lane_height(const Lane& lane);
 
 // A measurement's arrows, or an image's.
-void draw_way(Svg& svg, const TimingCanvas& canvas, const Way& way);
+void draw_way(drawing::Svg& svg, const TimingCanvas& canvas, const Way& way);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

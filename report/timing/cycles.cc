@@ -9,7 +9,7 @@
 #include "report/drawing/log_limits.h"
 #include "schedules/model/round.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 namespace {
 
 std::int64_t rounded(std::int64_t a, std::int64_t b) {
@@ -39,7 +39,7 @@ std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, TrueT
   const auto usual =
       std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   // In a window clocks drift from true time by far less than a cycle, and by nothing like a round.
-  for (Told& told : all) told.rounds = rounded(told.count - usual->first, schedules::kCycles);
+  for (Told& told : all) told.rounds = rounded(told.count - usual->first, schedules::model::kCycles);
   return all;
 }
 
@@ -62,7 +62,7 @@ std::int64_t oldest_count(const std::vector<Told>& all) {
 
 std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration cycle, TrueTime from, TrueTime to) {
   std::map<std::int64_t, TrueTime> known, all;
-  if (cycle.ns <= 0 || (to - from).ns / cycle.ns > kMostCycleLines) return all;
+  if (cycle.ns <= 0 || (to - from).ns / cycle.ns > drawing::kMostCycleLines) return all;
   const std::vector<Told> told = what_frames_tell(data, cycle, from);
   if (!told.empty()) {
     const std::int64_t oldest = oldest_count(told);
@@ -70,7 +70,7 @@ std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration c
     for (const bool same : {true, false})
       for (const Told& one : told)
         if ((one.rounds == oldest) == same)
-          known.try_emplace(one.cycle + (oldest - one.rounds) * schedules::kCycles, one.start);
+          known.try_emplace(one.cycle + (oldest - one.rounds) * schedules::model::kCycles, one.start);
   }
   const auto [number, start] =
       known.empty() ? std::pair<std::int64_t, TrueTime>{} : std::pair<std::int64_t, TrueTime>(*known.begin());
@@ -86,4 +86,4 @@ std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration c
   return all;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

@@ -10,11 +10,11 @@
 
 #include "report/timing/data.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
 // All cycles that touch the window and one on either side; those before cycle 0 have negative numbers. Empty without a
 // cycle length or where there are too many lines to be a grid. A count that a single cycle's frames tell of, where
 // others have more, is a mistake of the log.
 std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration cycle, TrueTime from, TrueTime to);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

@@ -7,7 +7,7 @@
 
 #include "recording/records/records.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
 struct TimingData {
   struct Measurement {
@@ -36,7 +36,7 @@ struct TimingData {
   struct HopAt {
     TrueTime at;
     NodeId node;
-    records::Hop hop;
+    recording::records::Hop hop;
     PduId pdu;
     std::uint32_t sequence;
   };
@@ -52,7 +52,7 @@ struct TimingData {
     std::uint32_t step;
     MeasurementId id;
     GlobalTime measured;
-    records::Disposition what;
+    recording::records::Disposition what;
   };
   struct Step {
     TrueTime at;
@@ -112,4 +112,4 @@ struct TimingData {
   std::vector<Problem> problems;
 };
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

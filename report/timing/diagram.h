@@ -17,31 +17,31 @@
 #include "report/drawing/names.h"
 #include "report/timing/data.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
 // A picture by itself, or part of a page whose script zooms and explains it: what moves then has its times with it,
 // in attributes (report/timing/tags.h).
 enum class TimingUse : std::uint8_t { kPicture, kPage };
 
-class TimingDiagram : public records::Sink {
+class TimingDiagram : public recording::records::Sink {
  public:
   // `cycle`: length of the communication cycle, 0 for no grid. Records outside the window (with a margin for
   // ways that lead into it) are passed over, so memory does not grow with the log.
-  TimingDiagram(Names names, Duration cycle, TrueTime from, TrueTime to);
+  TimingDiagram(drawing::Names names, Duration cycle, TrueTime from, TrueTime to);
 
-  using Sink::on;  // the kinds of record that are not shown
-  void on(const records::Measured& r) override;
-  void on(const records::CanFrameSent& r) override;
-  void on(const records::SlotFrameSent& r) override;
-  void on(const records::ListHop& r) override;
-  void on(const records::TaskRun& r) override;
-  void on(const records::ListFused& r) override;
-  void on(const records::FusionStep& r) override;
-  void on(const records::ImageWritten& r) override;
-  void on(const records::FeatureUsed& r) override;
-  void on(const records::FaultActivity& r) override;
-  void on(const records::ChannelFrame& r) override;
-  void on(const records::TimingProblem& r) override;
+  using recording::records::Sink::on;  // the kinds of record that are not shown
+  void on(const recording::records::Measured& r) override;
+  void on(const recording::records::CanFrameSent& r) override;
+  void on(const recording::records::SlotFrameSent& r) override;
+  void on(const recording::records::ListHop& r) override;
+  void on(const recording::records::TaskRun& r) override;
+  void on(const recording::records::ListFused& r) override;
+  void on(const recording::records::FusionStep& r) override;
+  void on(const recording::records::ImageWritten& r) override;
+  void on(const recording::records::FeatureUsed& r) override;
+  void on(const recording::records::FaultActivity& r) override;
+  void on(const recording::records::ChannelFrame& r) override;
+  void on(const recording::records::TimingProblem& r) override;
 
   // The picture; one that says so if the window holds no records.
   std::string svg() const { return svg(TimingUse::kPicture); }
@@ -50,10 +50,10 @@ class TimingDiagram : public records::Sink {
  private:
   bool near(TrueTime start, TrueTime end) const;
 
-  Names names_;
+  drawing::Names names_;
   Duration cycle_;
   TrueTime from_, to_;
   TimingData data_;
 };
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

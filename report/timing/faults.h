@@ -13,7 +13,7 @@
 #include "report/timing/data.h"
 #include "report/timing/tags.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
 inline constexpr std::string_view kFaultSpan = "#f2b8a0";  // as in start-up diagrams
 
@@ -23,14 +23,15 @@ class FaultLanes {
   static constexpr double kHeight = 22;
 
   // Those that last into the window, or act in it.
-  FaultLanes(const TimingData& data, const Names& names, TrueTime from, TrueTime to);
+  FaultLanes(const TimingData& data, const drawing::Names& names, TrueTime from, TrueTime to);
 
   double height() const { return static_cast<double>(lanes_.size()) * kHeight; }
   double label_width() const;
   // `plot`: the lanes begin at its top; `x`: where an instant stands.
-  void draw_labels(Svg& svg, const Area& plot) const;
-  void draw(Svg& svg, const Area& plot, const std::function<double(TrueTime)>& x, const TimingTags& tags) const;
-  void add_to(std::vector<LegendEntry>& legend) const;
+  void draw_labels(drawing::Svg& svg, const drawing::Area& plot) const;
+  void draw(drawing::Svg& svg, const drawing::Area& plot, const std::function<double(ttf::TrueTime)>& x,
+            const TimingTags& tags) const;
+  void add_to(std::vector<drawing::LegendEntry>& legend) const;
 
  private:
   struct Lane {
@@ -50,9 +51,9 @@ struct ChannelMark {
   bool missing = false;  // nothing of it reached anybody
   std::string words;
 };
-ChannelMark channel_mark(const TimingData::OnChannel& r, const Names& names);
+ChannelMark channel_mark(const TimingData::OnChannel& r, const drawing::Names& names);
 
 inline constexpr std::string_view kChangedFrameWords = "frame damaged, displaced or sent by no controller",
                                   kMissingFrameWords = "frame that reached nobody";
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

@@ -10,12 +10,12 @@
 
 #include "report/drawing/axes.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 namespace {
 
 class LabelPainter {
  public:
-  LabelPainter(Svg& svg, const TimingCanvas& canvas) : svg_(svg), canvas_(canvas) {}
+  LabelPainter(drawing::Svg& svg, const TimingCanvas& canvas) : svg_(svg), canvas_(canvas) {}
 
   void draw(const std::vector<Transfer>& transfers) {
     svg_.open_group("labels");
@@ -23,7 +23,8 @@ class LabelPainter {
       if (!canvas_.visible(m.at, m.at)) continue;
       const double px = canvas_.x(m.at), py = canvas_.y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0});
       const std::string text = fmt::format("{}", m.id.sequence);
-      const std::array<Point, 2> at{Point{px + 7, py + 4}, Point{px - 7 - text_width(text, kText), py + 4}};
+      const std::array<drawing::Point, 2> at{drawing::Point{px + 7, py + 4},
+                                             drawing::Point{px - 7 - drawing::text_width(text, kText), py + 4}};
       label(text, {.size = kText, .halo = true}, at, m.at);
     }
     for (const auto& s : canvas_.data.steps) {
@@ -41,7 +42,7 @@ class LabelPainter {
       const std::string full = fmt::format("{} {}", canvas_.names.pdu(t.pdu), t.sequence),
                         brief = fmt::format("{}", t.sequence);
       if (t.lane.kind == LaneKey::Kind::kCan) {
-        const std::string behind = tint(pdu_colour(canvas_.names, t.pdu), 0.55);
+        const std::string behind = drawing::tint(pdu_colour(canvas_.names, t.pdu), 0.55);
         if (!in_box(full, t.start, t.end, canvas_.y(t.lane), behind) && !canvas_.tags.on())
           in_box(brief, t.start, t.end, canvas_.y(t.lane), behind);
         continue;
@@ -53,8 +54,8 @@ class LabelPainter {
           }))
         continue;
       const double baseline = canvas_.y(t.lane) + 4 - kBox / 2 - 4;
-      const std::array<Point, 1> at{Point{canvas_.inside(canvas_.x(t.start)), baseline}};
-      const TextStyle style{.size = 9, .halo = true};
+      const std::array<drawing::Point, 1> at{drawing::Point{canvas_.inside(canvas_.x(t.start)), baseline}};
+      const drawing::TextStyle style{.size = 9, .halo = true};
       if (canvas_.tags.on())
         label(full, style, at, t.start);
       else if (const auto p = space_.place(full, style, at, canvas_.plot))
@@ -68,35 +69,37 @@ class LabelPainter {
  private:
   static constexpr double kBox = TimingCanvas::kBox, kText = TimingCanvas::kText;
 
-  void label(const std::string& text, const TextStyle& style, std::span<const Point> candidates, TrueTime at) {
+  void label(const std::string& text, const drawing::TextStyle& style, std::span<const drawing::Point> candidates,
+             TrueTime at) {
     const auto p = space_.place(text, style, candidates, canvas_.plot);
     if (!p && !canvas_.tags.on()) return;
-    svg_.tag_next(canvas_.tags.at(at) + canvas_.tags.label(text_width(text, style.size), p.has_value()));
+    svg_.tag_next(canvas_.tags.at(at) + canvas_.tags.label(drawing::text_width(text, style.size), p.has_value()));
     svg_.text(p.value_or(candidates.front()), text, style);
   }
 
   bool in_box(const std::string& text, TrueTime start, TrueTime end, double centre, std::string_view behind) {
     const double left = canvas_.inside(canvas_.x(start)), right = canvas_.inside(canvas_.x(end));
-    const bool fits = right - left >= text_width(text, kText) + 5;
+    const bool fits = right - left >= drawing::text_width(text, kText) + 5;
     if (!fits && !canvas_.tags.on()) return false;
-    const TextStyle style{.size = kText, .anchor = Anchor::kMiddle, .fill = text_colour_on(behind)};
-    const std::array<Point, 1> at{Point{(left + right) / 2, centre + 3.5}};
+    const drawing::TextStyle style{
+        .size = kText, .anchor = drawing::Anchor::kMiddle, .fill = drawing::text_colour_on(behind)};
+    const std::array<drawing::Point, 1> at{drawing::Point{(left + right) / 2, centre + 3.5}};
     const auto p = fits ? space_.place(text, style, at, canvas_.plot) : std::nullopt;
     if (!p && !canvas_.tags.on()) return false;
-    svg_.tag_next(canvas_.tags.span(start, end) + canvas_.tags.label(text_width(text, kText), p.has_value()));
+    svg_.tag_next(canvas_.tags.span(start, end) + canvas_.tags.label(drawing::text_width(text, kText), p.has_value()));
     svg_.text(at.front(), text, style);
     return p.has_value();
   }
 
-  Svg& svg_;
+  drawing::Svg& svg_;
   const TimingCanvas& canvas_;
-  LabelSpace space_;
+  drawing::LabelSpace space_;
 };
 
 }  // namespace
 
-void draw_labels(Svg& svg, const TimingCanvas& canvas, const std::vector<Transfer>& transfers) {
+void draw_labels(drawing::Svg& svg, const TimingCanvas& canvas, const std::vector<Transfer>& transfers) {
   LabelPainter(svg, canvas).draw(transfers);
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

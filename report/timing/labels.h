@@ -6,9 +6,9 @@
 #include "report/drawing/svg.h"
 #include "report/timing/canvas.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
 // Last, and only where nothing is in the way.
-void draw_labels(Svg& svg, const TimingCanvas& canvas, const std::vector<Transfer>& transfers);
+void draw_labels(drawing::Svg& svg, const TimingCanvas& canvas, const std::vector<Transfer>& transfers);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

@@ -4,13 +4,13 @@
 
 #include "report/timing/painter.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
-std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& names, const std::vector<Way>& ways,
-                                       bool images, TrueTime from, TrueTime to) {
+std::vector<drawing::LegendEntry> timing_legend(const TimingData& data, const drawing::Names& names,
+                                                const std::vector<Way>& ways, bool images, TrueTime from, TrueTime to) {
   const auto visible = [&](TrueTime start, TrueTime end) { return start < to && end >= from; };
-  std::vector<LegendEntry> legend;
-  using K = LegendEntry::Kind;
+  std::vector<drawing::LegendEntry> legend;
+  using K = drawing::LegendEntry::Kind;
   bool any_late = false, any_waiting = false, any_dropped = false;
   for (const Way& way : ways) {
     if (way.legs.empty() || !visible(way.legs.front().from.at, way.last.at)) continue;
@@ -22,7 +22,7 @@ std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& name
   for (const auto& m : data.measurements) sensors.insert(m.id.sensor);
   for (const SensorId sensor : sensors)
     legend.push_back({K::kMarker, names.sensor(sensor) + " measures, its lists and their way",
-                      sensor_colour(names, sensor), Marker::kDownTriangle, true});
+                      sensor_colour(names, sensor), drawing::Marker::kDownTriangle, true});
   std::map<PduId, bool> pdus;
   bool null_frames = false, status = false;
   for (const auto& f : data.slot_frames) {
@@ -35,12 +35,12 @@ std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& name
       pdus[f.pdu] = true;
   }
   for (const auto& [pdu, used] : pdus) legend.push_back({K::kBox, names.pdu(pdu), pdu_colour(names, pdu), {}, true});
-  if (images) legend.push_back({K::kArrow, "way of the real-time image", std::string(kBlack)});
-  if (status) legend.push_back({K::kBox, "status frame", std::string(kStatusFrame), {}, true});
-  if (null_frames) legend.push_back({K::kBox, "null frame", std::string(kGrey), {}, false});
+  if (images) legend.push_back({K::kArrow, "way of the real-time image", std::string(drawing::kBlack)});
+  if (status) legend.push_back({K::kBox, "status frame", std::string(drawing::kStatusFrame), {}, true});
+  if (null_frames) legend.push_back({K::kBox, "null frame", std::string(drawing::kGrey), {}, false});
   if (any_late) legend.push_back({K::kArrow, "out of sequence", "#444444", {}, false, "5 3"});
   if (any_waiting) legend.push_back({K::kArrow, "held back", "#444444", {}, false, "1.5 2.5"});
-  if (any_dropped) legend.push_back({K::kMarker, "dropped", std::string(kBlack), Marker::kCross});
+  if (any_dropped) legend.push_back({K::kMarker, "dropped", std::string(drawing::kBlack), drawing::Marker::kCross});
   if (std::ranges::any_of(data.runs, [&](const auto& r) { return visible(r.activated, r.end); })) {
     legend.push_back({K::kBox, "task", std::string(kTaskFill), {}, true});
     legend.push_back({K::kLine, "activated, waiting", "#666666"});
@@ -50,4 +50,4 @@ std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& name
   return legend;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

@@ -15,7 +15,7 @@
 #include "report/timing/problems.h"
 #include "report/timing/ways.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 namespace {
 
 // Everything needed to draw one picture; lives for one call of svg().
@@ -33,7 +33,7 @@ class TimingPainter : TimingCanvas {
     lanes_ = lanes_of(data, names, all);
     const double ms = (to - from).seconds() * 1e3;
     plot.x = faults_.label_width() > 0 ? faults_.label_width() + 24 : 24;
-    for (const Lane& lane : lanes_) plot.x = std::max(plot.x, text_width(lane.label, 11) + 24);
+    for (const Lane& lane : lanes_) plot.x = std::max(plot.x, drawing::text_width(lane.label, 11) + 24);
     // A page's script makes it as wide as there is room.
     plot.width = tags.on() ? kLeastPlot : std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot);
     plot.y = tags.on() ? kTopInPage : kTop;
@@ -58,8 +58,8 @@ class TimingPainter : TimingCanvas {
     const double legend_top = plot.y + plot.height + 46;
     const double height = legend_top + legend_height(legend_, legend_width) + 12;
     const std::string title = fmt::format("{}: {} ms to {} ms", names.run.empty() ? "Timing diagram" : names.run,
-                                          number(in_ms(from)), number(in_ms(to)));
-    Svg svg(plot.x + plot.width + 24, height, title);
+                                          drawing::number(in_ms(from)), drawing::number(in_ms(to)));
+    drawing::Svg svg(plot.x + plot.width + 24, height, title);
     svg_ = &svg;
     if (!tags.on()) svg.text({24, 22}, title, {.size = 14, .bold = true});
     grid();
@@ -81,13 +81,13 @@ class TimingPainter : TimingCanvas {
     problems_->draw(
         svg,
         [&](const LaneKey& lane, TrueTime at) {
-          return Point{x(at), y(lane)};
+          return drawing::Point{x(at), y(lane)};
         },
         tags);
     svg.close_group();
     draw_labels(svg, *this, transfers_);
     svg.tag_next(tags.span(from, to));
-    svg.rect(plot, {.stroke = kBlack, .width = 0.8}, {}, tags.on() ? "plot" : "");
+    svg.rect(plot, {.stroke = drawing::kBlack, .width = 0.8}, {}, tags.on() ? "plot" : "");
     draw_legend(svg, {24, legend_top}, legend_width, legend_);
     return svg.str();
   }
@@ -96,7 +96,7 @@ class TimingPainter : TimingCanvas {
   void grid() {
     svg_->open_group("grid");
     const auto starts = cycle_starts(data, cycle_, from, to);
-    LabelSpace above;
+    drawing::LabelSpace above;
     for (auto it = starts.begin(); it != starts.end(); ++it) {
       const auto next = std::next(it);
       const TrueTime end = next != starts.end() ? next->second : it->second + cycle_;
@@ -111,8 +111,8 @@ class TimingPainter : TimingCanvas {
         svg_->line({left, plot.y - 4}, {left, plot.y + plot.height}, {.stroke = "#b8b8b8", .width = 0.7}, "cycle");
       }
       const std::string label = fmt::format("{}", it->first);
-      const TextStyle style{.size = 10, .anchor = Anchor::kMiddle, .fill = "#444444"};
-      Area area = text_area({(left + right) / 2, plot.y - 7}, label, style);
+      const drawing::TextStyle style{.size = 10, .anchor = drawing::Anchor::kMiddle, .fill = "#444444"};
+      drawing::Area area = text_area({(left + right) / 2, plot.y - 7}, label, style);
       area.x -= 4, area.width += 8;
       if (it->first < 0) continue;
       const bool room = area.x >= plot.x && area.x + area.width <= plot.x + plot.width && above.claim(area);
@@ -121,7 +121,7 @@ class TimingPainter : TimingCanvas {
       svg_->text({(left + right) / 2, plot.y - 7}, label, style);
     }
     if (!starts.empty())
-      svg_->text({plot.x - 10, plot.y - 7}, "cycle", {.size = 10, .anchor = Anchor::kEnd, .fill = "#444444"});
+      svg_->text({plot.x - 10, plot.y - 7}, "cycle", {.size = 10, .anchor = drawing::Anchor::kEnd, .fill = "#444444"});
     int section = lanes_.front().section;
     for (const Lane& lane : lanes_) {
       const double centre = y(lane.key), half = lane_height(lane) / 2;
@@ -131,7 +131,7 @@ class TimingPainter : TimingCanvas {
                    {.stroke = "#999999", .width = 0.8});
       }
       svg_->line({plot.x, centre}, {plot.x + plot.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
-      svg_->text({plot.x - 10, centre + 4}, lane.label, {.size = 11, .anchor = Anchor::kEnd});
+      svg_->text({plot.x - 10, centre + 4}, lane.label, {.size = 11, .anchor = drawing::Anchor::kEnd});
     }
     if (tags.on()) {  // of its own: the script draws another
       svg_->close_group();
@@ -150,18 +150,18 @@ class TimingPainter : TimingCanvas {
       const std::string hover =
           fmt::format("slot {}, cycle {}, {}{} #{} fragment {}, from {}", f.slot, f.cycle,
                       f.null_frame ? "null frame, " : "", names.pdu(f.pdu), f.sequence, f.fragment, names.node(f.node));
-      const Area area{x(f.start), centre - kBox / 2, width, kBox};
+      const drawing::Area area{x(f.start), centre - kBox / 2, width, kBox};
       svg_->tag_next(tags.span(f.start, f.end) +
                      (f.pdu == kNoPdu ? "" : tags.list(names.sensor_of(f.pdu), f.sequence)));
       if (f.null_frame && tags.on()) {
-        svg_->rect(area, {.fill = "#ffffff", .stroke = kGrey, .width = 0.3}, hover, "null");
+        svg_->rect(area, {.fill = "#ffffff", .stroke = drawing::kGrey, .width = 0.3}, hover, "null");
       } else if (f.null_frame && width > 3) {
-        svg_->rect(area, {.fill = "#ffffff", .stroke = kGrey, .width = 0.5}, hover, "null");
+        svg_->rect(area, {.fill = "#ffffff", .stroke = drawing::kGrey, .width = 0.5}, hover, "null");
       } else if (f.null_frame) {
         // Side walls of neighbours would fill a narrow box: only its top and bottom then.
         svg_->rect(area, {.fill = "#ffffff"}, hover, "null");
         for (const double edge : {area.y, area.y + kBox})
-          svg_->line({area.x, edge}, {area.x + width, edge}, {.stroke = kGrey, .width = 0.6});
+          svg_->line({area.x, edge}, {area.x + width, edge}, {.stroke = drawing::kGrey, .width = 0.6});
       } else {
         svg_->rect(area, {.fill = colour, .stroke = width > 4 ? "#444444" : "none", .width = 0.5}, hover,
                    f.pdu == kNoPdu ? "status" : "frame");
@@ -176,23 +176,25 @@ class TimingPainter : TimingCanvas {
       const double width = std::max(2.0, x(mark.end) - x(mark.start));
       svg_->tag_next(mark.missing ? tags.at(mark.start) : tags.span(mark.start, mark.end));
       if (mark.missing)
-        svg_->marker(Marker::kCross, {x(mark.start) + width / 2, centre}, 9, {.stroke = kVermilion, .width = 1.6},
-                     mark.words, "missing");
+        svg_->marker(drawing::Marker::kCross, {x(mark.start) + width / 2, centre}, 9,
+                     {.stroke = drawing::kVermilion, .width = 1.6}, mark.words, "missing");
       else
         svg_->rect({x(mark.start), centre - kBox / 2 - 1.5, width, kBox + 3},
-                   {.fill = "none", .stroke = kVermilion, .width = 1.4}, mark.words, "changed");
+                   {.fill = "none", .stroke = drawing::kVermilion, .width = 1.4}, mark.words, "changed");
     }
   }
 
   void mark_legend() {
-    using K = LegendEntry::Kind;
+    using K = drawing::LegendEntry::Kind;
     faults_.add_to(legend_);
     const auto any = [&](bool missing) {
       return std::ranges::any_of(marks_, [&](const ChannelMark& mark) { return mark.missing == missing; });
     };
-    if (any(false)) legend_.push_back({K::kBox, std::string(kChangedFrameWords), std::string(kVermilion), {}, false});
+    if (any(false))
+      legend_.push_back({K::kBox, std::string(kChangedFrameWords), std::string(drawing::kVermilion), {}, false});
     if (any(true))
-      legend_.push_back({K::kMarker, std::string(kMissingFrameWords), std::string(kVermilion), Marker::kCross});
+      legend_.push_back(
+          {K::kMarker, std::string(kMissingFrameWords), std::string(drawing::kVermilion), drawing::Marker::kCross});
     problems_->add_to(legend_);
   }
 
@@ -202,7 +204,7 @@ class TimingPainter : TimingCanvas {
       const std::string colour = pdu_colour(names, t.pdu);
       svg_->tag_next(tags.span(t.start, t.end) + tags.list(names.sensor_of(t.pdu), t.sequence));
       svg_->rect({x(t.start), y(t.lane) - kBox / 2, std::max(1.5, x(t.end) - x(t.start)), kBox},
-                 {.fill = tint(colour, 0.55), .stroke = colour, .width = 0.9},
+                 {.fill = drawing::tint(colour, 0.55), .stroke = colour, .width = 0.9},
                  fmt::format("{} #{}{}", names.pdu(t.pdu), t.sequence, times(t.start, t.end)), "transfer");
     }
   }
@@ -221,7 +223,7 @@ class TimingPainter : TimingCanvas {
       svg_->tag_next(tags.span(r.start, r.end));
       svg_->rect({x(r.start), centre - kBox / 2, width, kBox},
                  {.fill = r.deadline_met ? "#c9d7e6" : kDeadlineMissed,
-                  .stroke = r.deadline_met ? "#5b7083" : kBlack,
+                  .stroke = r.deadline_met ? "#5b7083" : drawing::kBlack,
                   .width = r.deadline_met ? 0.6 : 1.6},
                  fmt::format("{}: {}{}{}", names.node(r.node), names.task(r.node, r.task), times(r.start, r.end),
                              r.deadline_met ? "" : ", deadline missed"),
@@ -233,17 +235,17 @@ class TimingPainter : TimingCanvas {
     for (const auto& m : data.measurements) {
       if (!visible(m.at, m.at)) continue;
       svg_->tag_next(tags.at(m.at) + tags.list(m.id.sensor, m.id.sequence));
-      svg_->marker(Marker::kDownTriangle, {x(m.at), y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0})}, 10,
+      svg_->marker(drawing::Marker::kDownTriangle, {x(m.at), y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0})}, 10,
                    {.fill = sensor_colour(names, m.id.sensor), .stroke = "#ffffff", .width = 0.8},
                    fmt::format("{} #{}{}", names.sensor(m.id.sensor), m.id.sequence,
-                               tags.on() ? " is measured" : fmt::format(" at {} ms", number(in_ms(m.at)))),
+                               tags.on() ? " is measured" : fmt::format(" at {} ms", drawing::number(in_ms(m.at)))),
                    "measured");
     }
     for (const Way& way : ways_) {
       if (!way.dropped || !visible(way.last.at, way.last.at)) continue;
       svg_->tag_next(tags.at(way.last.at) + tags.list(way.id.sensor, way.id.sequence));
-      svg_->marker(Marker::kCross, {x(way.last.at), y(way.last.lane)}, 11, {.stroke = kBlack, .width = 2.2}, "dropped",
-                   "dropped");
+      svg_->marker(drawing::Marker::kCross, {x(way.last.at), y(way.last.lane)}, 11,
+                   {.stroke = drawing::kBlack, .width = 2.2}, "dropped", "dropped");
     }
   }
 
@@ -254,15 +256,15 @@ class TimingPainter : TimingCanvas {
   std::vector<ChannelMark> marks_;
   std::optional<ProblemMarks> problems_;  // when the lanes are known
   std::vector<Lane> lanes_;
-  std::vector<LegendEntry> legend_;
-  Svg* svg_ = nullptr;
+  std::vector<drawing::LegendEntry> legend_;
+  drawing::Svg* svg_ = nullptr;
 };
 
 }  // namespace
 
-std::string paint_timing(const Names& names, const TimingData& data, Duration cycle, TrueTime from, TrueTime to,
-                         TimingUse use) {
+std::string paint_timing(const drawing::Names& names, const TimingData& data, Duration cycle, TrueTime from,
+                         TrueTime to, TimingUse use) {
   return TimingPainter({names, data, from, to, TimingTags(use), {}, {}}, cycle).picture();
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

@@ -11,15 +11,15 @@
 #include "report/timing/diagram.h"
 #include "report/timing/ways.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
-inline constexpr std::string_view kDeadlineMissed = kYellow, kTaskFill = "#c9d7e6";
+inline constexpr std::string_view kDeadlineMissed = drawing::kYellow, kTaskFill = "#c9d7e6";
 
-std::string paint_timing(const Names& names, const TimingData& data, Duration cycle, TrueTime from, TrueTime to,
-                         TimingUse use);
+std::string paint_timing(const drawing::Names& names, const TimingData& data, Duration cycle, TrueTime from,
+                         TrueTime to, TimingUse use);
 
 // What the picture explains: only what occurs in the window.
-std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& names, const std::vector<Way>& ways,
-                                       bool images, TrueTime from, TrueTime to);
+std::vector<drawing::LegendEntry> timing_legend(const TimingData& data, const drawing::Names& names,
+                                                const std::vector<Way>& ways, bool images, TrueTime from, TrueTime to);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

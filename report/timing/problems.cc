@@ -7,7 +7,7 @@
 
 #include "recording/records/records.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 namespace {
 
 std::optional<LaneKey> lane_of(const TimingData::Problem& p, const std::vector<Lane>& lanes) {
@@ -18,17 +18,19 @@ std::optional<LaneKey> lane_of(const TimingData::Problem& p, const std::vector<L
   return found == lanes.end() ? std::nullopt : std::optional(found->key);
 }
 
-std::string words_of(const TimingData::Problem& p, const Names& names) {
-  const std::string by = number(static_cast<double>(p.late.ns) * 1e-3);
+std::string words_of(const TimingData::Problem& p, const drawing::Names& names) {
+  const std::string by = drawing::number(static_cast<double>(p.late.ns) * 1e-3);
   const std::string slot = fmt::format("slot {} of cycle {}", p.slot, p.cycle);
   switch (p.what) {
-    case records::kLateWakeUp: return fmt::format("{}: woken up {} us late", names.node(p.node), by);
-    case records::kSlotMissed: return fmt::format("{}: missed its {}, {} us late", names.node(p.node), slot, by);
-    case records::kLateFrame: return fmt::format("{}: the frame of {} came {} us late", names.node(p.node), slot, by);
-    case records::kEarlyFrame:
+    case recording::records::kLateWakeUp: return fmt::format("{}: woken up {} us late", names.node(p.node), by);
+    case recording::records::kSlotMissed:
+      return fmt::format("{}: missed its {}, {} us late", names.node(p.node), slot, by);
+    case recording::records::kLateFrame:
+      return fmt::format("{}: the frame of {} came {} us late", names.node(p.node), slot, by);
+    case recording::records::kEarlyFrame:
       return fmt::format("{}: the frame of {} came {} us early", names.node(p.node), slot,
-                         number(static_cast<double>(p.late.ns) * -1e-3));
-    case records::kFramesLost:
+                         drawing::number(static_cast<double>(p.late.ns) * -1e-3));
+    case recording::records::kFramesLost:
       return fmt::format("{}: {} of slot {} never came", names.node(p.node),
                          p.count == 1 ? "a frame" : fmt::format("{} frames", p.count), p.slot);
   }
@@ -37,27 +39,28 @@ std::string words_of(const TimingData::Problem& p, const Names& names) {
 
 }  // namespace
 
-ProblemMarks::ProblemMarks(const TimingData& data, const Names& names, const std::vector<Lane>& lanes, TrueTime from,
-                           TrueTime to) {
+ProblemMarks::ProblemMarks(const TimingData& data, const drawing::Names& names, const std::vector<Lane>& lanes,
+                           TrueTime from, TrueTime to) {
   for (const TimingData::Problem& p : data.problems) {
     if (p.at < from || p.at >= to) continue;
     if (const auto lane = lane_of(p, lanes)) marks_.push_back({*lane, p.at, words_of(p, names)});
   }
 }
 
-void ProblemMarks::draw(Svg& svg, const std::function<Point(const LaneKey&, TrueTime)>& place,
+void ProblemMarks::draw(drawing::Svg& svg,
+                        const std::function<drawing::Point(const ttf::report::timing::LaneKey&, ttf::TrueTime)>& place,
                         const TimingTags& tags) const {
   for (const Mark& mark : marks_) {
     svg.tag_next(tags.at(mark.at));
-    svg.marker(Marker::kDiamond, place(mark.lane, mark.at), 9, {.fill = kVermilion, .stroke = "#ffffff", .width = 0.8},
-               mark.words, "problem");
+    svg.marker(drawing::Marker::kDiamond, place(mark.lane, mark.at), 9,
+               {.fill = drawing::kVermilion, .stroke = "#ffffff", .width = 0.8}, mark.words, "problem");
   }
 }
 
-void ProblemMarks::add_to(std::vector<LegendEntry>& legend) const {
+void ProblemMarks::add_to(std::vector<drawing::LegendEntry>& legend) const {
   if (!marks_.empty())
-    legend.push_back({LegendEntry::Kind::kMarker, "late, early or lost in real time", std::string(kVermilion),
-                      Marker::kDiamond, true});
+    legend.push_back({drawing::LegendEntry::Kind::kMarker, "late, early or lost in real time",
+                      std::string(drawing::kVermilion), drawing::Marker::kDiamond, true});
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

@@ -13,15 +13,18 @@
 #include "report/timing/tags.h"
 #include "report/timing/ways.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
 class ProblemMarks {
  public:
   // Those in the window.
-  ProblemMarks(const TimingData& data, const Names& names, const std::vector<Lane>& lanes, TrueTime from, TrueTime to);
+  ProblemMarks(const TimingData& data, const drawing::Names& names, const std::vector<Lane>& lanes, TrueTime from,
+               TrueTime to);
 
-  void draw(Svg& svg, const std::function<Point(const LaneKey&, TrueTime)>& place, const TimingTags& tags) const;
-  void add_to(std::vector<LegendEntry>& legend) const;
+  void draw(drawing::Svg& svg,
+            const std::function<drawing::Point(const ttf::report::timing::LaneKey&, ttf::TrueTime)>& place,
+            const TimingTags& tags) const;
+  void add_to(std::vector<drawing::LegendEntry>& legend) const;
 
  private:
   struct Mark {
@@ -32,4 +35,4 @@ class ProblemMarks {
   std::vector<Mark> marks_;
 };
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

@@ -19,7 +19,7 @@
 #include "report/drawing/svg.h"
 #include "report/timing/diagram.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
 class TimingTags {
  public:
@@ -39,7 +39,7 @@ class TimingTags {
   std::string beyond() const { return on_ ? " data-beyond=\"\"" : ""; }
   // A text that there is no room for as yet is there all the same.
   std::string label(double width, bool shown) const {
-    return on_ ? fmt::format(" data-label=\"{}\"{}", number(width), shown ? "" : " display=\"none\"") : "";
+    return on_ ? fmt::format(" data-label=\"{}\"{}", drawing::number(width), shown ? "" : " display=\"none\"") : "";
   }
 
  private:
@@ -53,4 +53,4 @@ class TimingTags {
   bool on_;
 };
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

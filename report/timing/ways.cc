@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-namespace ttf::report {
+namespace ttf::report::timing {
 namespace {
 
 constexpr Duration kSameList = Duration::milliseconds(100);    // largest gap between two frames of one list
@@ -44,7 +44,7 @@ struct Segment {
   TrueTime in, out;
 };
 
-bool belongs(const MeasurementId& id, TrueTime measured, const Names& names, PduId pdu, std::uint32_t sequence,
+bool belongs(const MeasurementId& id, TrueTime measured, const drawing::Names& names, PduId pdu, std::uint32_t sequence,
              TrueTime at) {
   return same_sequence(sequence, id.sequence) && at >= measured && at < measured + kLongestWay &&
          names.sensor_of(pdu) == id.sensor;
@@ -84,9 +84,11 @@ std::set<std::pair<MeasurementId, TrueTime>> out_of_sequence(const TimingData& d
     for (; i < data.fused.size() && data.fused[i].at == at; ++i) {
       const auto& f = data.fused[i];
       const auto [entry, first] = seen.try_emplace(f.id, f.at);
-      if (!first && f.at - entry->second < kLongestWay && f.what != records::Disposition::kFusedLate) continue;
+      if (!first && f.at - entry->second < kLongestWay && f.what != recording::records::Disposition::kFusedLate)
+        continue;
       entry->second = f.at;
-      if ((newest && f.measured < *newest) || f.what == records::Disposition::kFusedLate) late.insert({f.id, f.at});
+      if ((newest && f.measured < *newest) || f.what == recording::records::Disposition::kFusedLate)
+        late.insert({f.id, f.at});
       if (!newest_here || f.measured > *newest_here) newest_here = f.measured;
     }
     newest = newest_here;
@@ -145,7 +147,8 @@ std::vector<Transfer> transfers_of(const TimingData& data) {
   return transfers;
 }
 
-std::vector<Way> measurement_ways(const TimingData& data, const Names& names, const std::vector<Transfer>& transfers) {
+std::vector<Way> measurement_ways(const TimingData& data, const drawing::Names& names,
+                                  const std::vector<Transfer>& transfers) {
   const std::set<NodeId> fusion = fusion_nodes(data);
   const auto late = out_of_sequence(data);
   std::vector<Way> ways;
@@ -156,9 +159,10 @@ std::vector<Way> measurement_ways(const TimingData& data, const Names& names, co
     bool lost = false;
     for (const auto& h : data.hops) {
       if (!belongs(m.id, m.at, names, h.pdu, h.sequence, h.at)) continue;
-      if (h.hop == records::Hop::kTorn || h.hop == records::Hop::kOverwritten || h.hop == records::Hop::kDiscarded)
+      if (h.hop == recording::records::Hop::kTorn || h.hop == recording::records::Hop::kOverwritten ||
+          h.hop == recording::records::Hop::kDiscarded)
         lost = true;
-      const bool passes = h.hop == records::Hop::kRead || h.hop == records::Hop::kWritten;
+      const bool passes = h.hop == recording::records::Hop::kRead || h.hop == recording::records::Hop::kWritten;
       if (!passes || fusion.contains(h.node)) continue;
       const TimingData::Run* run = run_at(data, h.node, h.at);
       if (run != nullptr && run->start >= m.at) segments.push_back({task_lane(h.node, run), run->start, run->end});
@@ -183,8 +187,9 @@ std::vector<Way> measurement_ways(const TimingData& data, const Names& names, co
       way.last = step;
       reached = true;
       if (late.contains({f.id, f.at})) way.out_of_sequence = true;
-      lost = f.what == records::Disposition::kDroppedTooOld || f.what == records::Disposition::kDuplicate;
-      if (f.what != records::Disposition::kHeld) break;
+      lost = f.what == recording::records::Disposition::kDroppedTooOld ||
+             f.what == recording::records::Disposition::kDuplicate;
+      if (f.what != recording::records::Disposition::kHeld) break;
     }
     way.dropped = lost;
     if (reached && !lost) lead_to_image(data, way);
@@ -193,7 +198,8 @@ std::vector<Way> measurement_ways(const TimingData& data, const Names& names, co
   return ways;
 }
 
-std::vector<Way> image_ways(const TimingData& data, const Names& names, const std::vector<Transfer>& transfers) {
+std::vector<Way> image_ways(const TimingData& data, const drawing::Names& names,
+                            const std::vector<Transfer>& transfers) {
   std::vector<Way> ways;
   for (const auto& image : data.images) {
     const TimingData::Run* writer = run_at(data, image.node, image.at);
@@ -232,7 +238,7 @@ std::vector<Way> image_ways(const TimingData& data, const Names& names, const st
   return ways;
 }
 
-std::vector<Lane> lanes_of(const TimingData& data, const Names& names, const std::vector<Way>& ways) {
+std::vector<Lane> lanes_of(const TimingData& data, const drawing::Names& names, const std::vector<Way>& ways) {
   using Kind = LaneKey::Kind;
   const std::set<NodeId> fusion = fusion_nodes(data);
   std::set<NodeId> features;
@@ -292,4 +298,4 @@ std::vector<Lane> lanes_of(const TimingData& data, const Names& names, const std
   return lanes;
 }
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

@@ -12,7 +12,7 @@
 #include "report/drawing/names.h"
 #include "report/timing/data.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 
 // Where something happens: index is a sensor, a CAN bus, a node (with its task) or a channel.
 struct LaneKey {
@@ -54,9 +54,11 @@ struct Way {
 };
 
 // One way per measurement, in the order of the records; from its instant to the fusion step that used it.
-std::vector<Way> measurement_ways(const TimingData& data, const Names& names, const std::vector<Transfer>& transfers);
+std::vector<Way> measurement_ways(const TimingData& data, const drawing::Names& names,
+                                  const std::vector<Transfer>& transfers);
 // One way per image: from the task that wrote it to the use by the feature service.
-std::vector<Way> image_ways(const TimingData& data, const Names& names, const std::vector<Transfer>& transfers);
+std::vector<Way> image_ways(const TimingData& data, const drawing::Names& names,
+                            const std::vector<Transfer>& transfers);
 
 struct Lane {
   LaneKey key;
@@ -64,6 +66,6 @@ struct Lane {
   int section = 0;  // 0 sensors, 1 up to the gateway, 2 FlexRay, 3 fusion, 4 features
 };
 // From top to bottom; section 1 in the order in which measurements pass.
-std::vector<Lane> lanes_of(const TimingData& data, const Names& names, const std::vector<Way>& ways);
+std::vector<Lane> lanes_of(const TimingData& data, const drawing::Names& names, const std::vector<Way>& ways);
 
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

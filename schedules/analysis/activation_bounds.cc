@@ -6,21 +6,21 @@
 #include "schedules/analysis/can_load.h"
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/analysis/responses.h"
-#include "schedules/model/round.h"
 #include "schedules/analysis/sensor_loop.h"
 #include "schedules/analysis/slot_groups.h"
+#include "schedules/model/round.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 class ArrivalFinder {
  public:
-  ArrivalFinder(const Cluster& cluster, WritersOfLists writers)
+  ArrivalFinder(const model::Cluster& cluster, WritersOfLists writers)
       : cluster_(cluster), clocks_(clock_bounds(cluster)), writers_(writers) {}
 
-  ArrivalBounds of(const Task& task) {
-    if (task.activation.kind == ActivationKind::kSensor) measurements(task.activation.sensor);
-    for (const PortBinding& binding : task.reads) {
+  ArrivalBounds of(const model::Task& task) {
+    if (task.activation.kind == model::ActivationKind::kSensor) measurements(task.activation.sensor);
+    for (const model::PortBinding& binding : task.reads) {
       if (!activates(task, binding)) continue;
       if (binding.can_bus)
         over_can(cluster_.can_buses[*binding.can_bus], binding.pdu);
@@ -34,29 +34,29 @@ class ArrivalFinder {
  private:
   // A time between events elsewhere in the node's own, at its shortest.
   std::int64_t own(std::int64_t ns) const {
-    return std::max<std::int64_t>(1, ns - clocks_.drift_ns(ns) - kGranularity_ns);
+    return std::max<std::int64_t>(1, ns - clocks_.drift_ns(ns) - model::kGranularity_ns);
   }
 
   void measurements(SensorId id) {
-    const Sensor& sensor = cluster_.sensor(id);
+    const model::Sensor& sensor = cluster_.sensor(id);
     if (sensor.scheduled) return found_.all.push_back({own(sensor.period.ns), clocks_.apart_ns});
     // A device that is not triggered counts its period on the very oscillator.
-    std::int64_t period = std::max<std::int64_t>(1, sensor.period.ns - kGranularity_ns);
+    std::int64_t period = std::max<std::int64_t>(1, sensor.period.ns - model::kGranularity_ns);
     if (const auto loop = loop_of(cluster_, id)) period = std::max(period, shortest_round(cluster_, *loop).ns);
     found_.all.push_back({period, 0});
   }
 
-  void over_can(const CanBus& bus, PduId pdu) {
-    for (const CanMessage& other : bus.messages)
+  void over_can(const model::CanBus& bus, PduId pdu) {
+    for (const model::CanMessage& other : bus.messages)
       if (!can_data_length(bus.flexible_data_rate, cluster_.pdu(other.pdu).fragment_bytes)) return;
     if (can_worst_load(cluster_, bus) > kCanLoadLimit) return;
-    for (const CanMessage& message : bus.messages) {
+    for (const model::CanMessage& message : bus.messages) {
       if (message.pdu != pdu) continue;
       const auto worst = can_worst_response(cluster_, bus, message);
       if (!worst) return;
       const Duration best = can_best_case(bus, cluster_.pdu(pdu).fragment_bytes);
       return found_.all.push_back(
-          {own(message.shortest_period.ns), std::max<std::int64_t>(0, (*worst - best).ns) + kGranularity_ns});
+          {own(message.shortest_period.ns), std::max<std::int64_t>(0, (*worst - best).ns) + model::kGranularity_ns});
     }
   }
 
@@ -67,15 +67,16 @@ class ArrivalFinder {
     if (writers_ == WritersOfLists::kUnknown) return;
     const std::int64_t sent = slots->longest.ns + slots->spread.ns;
     if (const auto written = shortest_written(pdu))
-      found_.all.push_back({own(written->ns), sent + clocks_.drift_ns(sent) + 2 * clocks_.apart_ns + kGranularity_ns});
+      found_.all.push_back(
+          {own(written->ns), sent + clocks_.drift_ns(sent) + 2 * clocks_.apart_ns + model::kGranularity_ns});
   }
 
   // Between two lists where they are written, on the writer's clock.
   std::optional<Duration> shortest_written(PduId pdu) const {
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
-      const std::vector<Task>& tasks = cluster_.nodes[n].tasks;
+      const std::vector<model::Task>& tasks = cluster_.nodes[n].tasks;
       for (std::size_t t = 0; t < tasks.size(); ++t)
-        for (const PortBinding& binding : tasks[t].writes) {
+        for (const model::PortBinding& binding : tasks[t].writes) {
           if (binding.can_bus || binding.pdu != pdu) continue;
           const auto responses = worst_responses(cluster_, static_cast<NodeId>(n), WritersOfLists::kUnknown);
           return responses ? (*responses)[t].written : std::nullopt;
@@ -84,7 +85,7 @@ class ArrivalFinder {
     return std::nullopt;
   }
 
-  const Cluster& cluster_;
+  const model::Cluster& cluster_;
   ClockBounds clocks_;
   WritersOfLists writers_;
   ArrivalBounds found_;
@@ -107,8 +108,8 @@ std::optional<std::int64_t> ArrivalBounds::gap() const {
   return longest;
 }
 
-ArrivalBounds arrivals_of(const Cluster& cluster, const Task& task, WritersOfLists writers) {
+ArrivalBounds arrivals_of(const model::Cluster& cluster, const model::Task& task, WritersOfLists writers) {
   return ArrivalFinder(cluster, writers).of(task);
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -10,8 +10,8 @@
 //               two ends of its task, J the longest from one on until the list is complete: a list that has just missed
 //               its slots is sent in the next ones
 // A writer that waits for lists over FlexRay itself is taken to wait for their slots alone, as two might wait for each
-// other. All in a node's own time. Nothing fails (schedules/analysis/ages.h, A1): a list that was lost in its static slots comes
-// with the next ones, later than J says, though never closer to another than their slots.
+// other. All in a node's own time. Nothing fails (schedules/analysis/ages.h, A1): a list that was lost in its static
+// slots comes with the next ones, later than J says, though never closer to another than their slots.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@
 #include "core/ids.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 struct Arrivals {
   std::int64_t period = 0;  // T, 1 at least; nanoseconds
@@ -41,6 +41,6 @@ struct ArrivalBounds {
 enum class WritersOfLists : bool { kUnknown, kKnown };
 
 // Of a task that messages or a sensor activate.
-ArrivalBounds arrivals_of(const Cluster& cluster, const Task& task, WritersOfLists writers);
+ArrivalBounds arrivals_of(const model::Cluster& cluster, const model::Task& task, WritersOfLists writers);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -8,28 +8,29 @@
 #include "core/check.h"
 #include "schedules/analysis/can_load.h"
 #include "schedules/analysis/responses.h"
-#include "schedules/model/round.h"
 #include "schedules/analysis/sensor_loop.h"
 #include "schedules/analysis/slot_groups.h"
+#include "schedules/model/round.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 // Until when a list must have been written to be taken for a cycle, certainly or possibly.
-CycleInstant latch(const SlotGroup& group, bool latest) {
+model::CycleInstant latch(const SlotGroup& group, bool latest) {
   return {group.base_cycle, group.repetition, latest ? group.taken_from : group.taken_by};
 }
 
 // Of a frame's bits, from its action point at one node to its end at another; at the least.
-std::int64_t shortest_frame(const GlobalParameters& g, int words) {
+std::int64_t shortest_frame(const model::GlobalParameters& g, int words) {
   return (frame_bits(g, words) * g.gdBit_ps + g.gdMinPropagationDelay_ps) / 1000;
 }
 
-std::int64_t transmitted(const Cluster& cluster, const std::vector<SlotGroup>& groups, std::int64_t from, bool latest) {
-  const GlobalParameters& g = cluster.flexray;
+std::int64_t transmitted(const model::Cluster& cluster, const std::vector<SlotGroup>& groups, std::int64_t from,
+                         bool latest) {
+  const model::GlobalParameters& g = cluster.flexray;
   std::int64_t end = INT64_MAX;
   for (const SlotGroup& group : groups) {
-    const Occurrence sent = next_occurrence(g, latch(group, latest), GlobalTime{from});
+    const model::Occurrence sent = next_occurrence(g, latch(group, latest), GlobalTime{from});
     // A full list to the end of its last slot; or a list of one fragment to the end of its frame.
     const std::int64_t done =
         latest ? time_of(g, sent.cycle, group.complete_by).ns
@@ -42,17 +43,17 @@ std::int64_t transmitted(const Cluster& cluster, const std::vector<SlotGroup>& g
 
 class Builder {
  public:
-  explicit Builder(const Cluster& cluster) : cluster_(cluster), clocks_(clock_bounds(cluster)) {}
+  explicit Builder(const model::Cluster& cluster) : cluster_(cluster), clocks_(clock_bounds(cluster)) {}
 
   Path build(SensorId sensor) {
     Path path;
     NodeId node = cluster_.sensor(sensor).device;
-    const Task* task = measuring_task(node, sensor);
+    const model::Task* task = measuring_task(node, sensor);
     std::size_t hops = 0, tasks = 0;
-    for (const Node& any : cluster_.nodes) tasks += any.tasks.size();
+    for (const model::Node& any : cluster_.nodes) tasks += any.tasks.size();
     while (task != nullptr) {
       TTF_CHECK(++hops <= tasks, "the lists of {} go round in a ring", cluster_.sensor(sensor).name);
-      const PortBinding* out = written(*task, sensor);
+      const model::PortBinding* out = written(*task, sensor);
       if (out == nullptr) break;
       execution(path, node, *task);
       transfer(path, *out);
@@ -72,30 +73,30 @@ class Builder {
   void span(Path& path, std::string name, Duration best, Duration worst) {
     Stage stage;
     stage.name = std::move(name);
-    stage.best = {std::max<std::int64_t>(0, best.ns - clocks_.drift_ns(best.ns) - kGranularity_ns)};
-    stage.worst = {worst.ns + clocks_.drift_ns(worst.ns) + kGranularity_ns};
+    stage.best = {std::max<std::int64_t>(0, best.ns - clocks_.drift_ns(best.ns) - model::kGranularity_ns)};
+    stage.worst = {worst.ns + clocks_.drift_ns(worst.ns) + model::kGranularity_ns};
     path.stages.push_back(std::move(stage));
   }
 
-  const Task* measuring_task(NodeId node, SensorId sensor) const {
-    for (const Task& task : cluster_.node(node).tasks)
-      if (task.activation.kind == ActivationKind::kSensor && task.activation.sensor == sensor) return &task;
+  const model::Task* measuring_task(NodeId node, SensorId sensor) const {
+    for (const model::Task& task : cluster_.node(node).tasks)
+      if (task.activation.kind == model::ActivationKind::kSensor && task.activation.sensor == sensor) return &task;
     return nullptr;
   }
 
-  const PortBinding* written(const Task& task, SensorId sensor) const {
-    for (const PortBinding& binding : task.writes)
+  const model::PortBinding* written(const model::Task& task, SensorId sensor) const {
+    for (const model::PortBinding& binding : task.writes)
       if (cluster_.pdu(binding.pdu).sensor == sensor) return &binding;
     return nullptr;
   }
 
-  void execution(Path& path, NodeId node, const Task& task) {
+  void execution(Path& path, NodeId node, const model::Task& task) {
     span(path, fmt::format("{}.{} executes", cluster_.node(node).name, task.name), shortest_execution(task),
          task.worst_case);
   }
 
-  void transfer(Path& path, const PortBinding& binding) {
-    const PduLayout& layout = cluster_.pdu(binding.pdu);
+  void transfer(Path& path, const model::PortBinding& binding) {
+    const model::PduLayout& layout = cluster_.pdu(binding.pdu);
     if (!binding.can_bus) {
       Stage stage;
       stage.name = fmt::format("{} waits for its slots and is sent", layout.name);
@@ -103,27 +104,27 @@ class Builder {
       stage.slots = slot_groups(cluster_, binding.pdu);
       TTF_CHECK(!stage.slots.empty(), "{} has no slots", layout.name);
       const std::int64_t shortest = shortest_frame(cluster_.flexray, (layout.fragment_bytes + 1) / 2);
-      stage.shortest = {std::max<std::int64_t>(0, shortest - clocks_.drift_ns(shortest) - kGranularity_ns)};
+      stage.shortest = {std::max<std::int64_t>(0, shortest - clocks_.drift_ns(shortest) - model::kGranularity_ns)};
       path.stages.push_back(std::move(stage));
       return;
     }
-    const CanBus& bus = cluster_.can_buses[*binding.can_bus];
+    const model::CanBus& bus = cluster_.can_buses[*binding.can_bus];
     const auto worst = can_worst_response(cluster_, bus, *message_of(bus, binding.pdu));
     TTF_CHECK(worst.has_value(), "{} is overloaded", bus.name);
     span(path, fmt::format("{} on {}", layout.name, bus.name), can_soonest_arrival(bus, layout.fragment_bytes), *worst);
   }
 
-  const CanMessage* message_of(const CanBus& bus, PduId pdu) const {
-    const auto message =
-        std::find_if(bus.messages.begin(), bus.messages.end(), [&](const CanMessage& m) { return m.pdu == pdu; });
+  const model::CanMessage* message_of(const model::CanBus& bus, PduId pdu) const {
+    const auto message = std::find_if(bus.messages.begin(), bus.messages.end(),
+                                      [&](const model::CanMessage& m) { return m.pdu == pdu; });
     TTF_CHECK(message != bus.messages.end(), "{} is no message on {}", cluster_.pdu(pdu).name, bus.name);
     return &*message;
   }
 
-  const Task* reader(const PortBinding& out, NodeId& node) const {
+  const model::Task* reader(const model::PortBinding& out, NodeId& node) const {
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
-      for (const Task& task : cluster_.nodes[n].tasks)
-        for (const PortBinding& in : task.reads)
+      for (const model::Task& task : cluster_.nodes[n].tasks)
+        for (const model::PortBinding& in : task.reads)
           if (in.pdu == out.pdu && in.can_bus == out.can_bus) {
             node = static_cast<NodeId>(n);
             return &task;
@@ -131,23 +132,23 @@ class Builder {
     return nullptr;
   }
 
-  const Task* task_called(const Node& node, const std::string& name) const {
-    for (const Task& task : node.tasks)
+  const model::Task* task_called(const model::Node& node, const std::string& name) const {
+    for (const model::Task& task : node.tasks)
       if (task.name == name) return &task;
     return nullptr;
   }
 
   // From the list's arrival to the task's start.
-  void activation(Path& path, NodeId id, const Task& task, const PortBinding& list) {
-    const Node& node = cluster_.node(id);
+  void activation(Path& path, NodeId id, const model::Task& task, const model::PortBinding& list) {
+    const model::Node& node = cluster_.node(id);
     const std::string who = fmt::format("{}.{}", node.name, task.name);
-    if (task.activation.kind == ActivationKind::kTime) {
+    if (task.activation.kind == model::ActivationKind::kTime) {
       instant(path, who, task.activation.at);
-    } else if (task.activation.kind == ActivationKind::kCompletion) {
+    } else if (task.activation.kind == model::ActivationKind::kCompletion) {
       // It reads at its own start, whatever set off its chain: up to a period of the first task and all responses.
       Duration worst{};
-      const Task* before = task_called(node, task.activation.after);
-      for (; before->activation.kind == ActivationKind::kCompletion;
+      const model::Task* before = task_called(node, task.activation.after);
+      for (; before->activation.kind == model::ActivationKind::kCompletion;
            before = task_called(node, before->activation.after))
         worst += response(id, *before);
       worst += response(id, *before) + longest_period(*before);
@@ -163,17 +164,17 @@ class Builder {
   // behind lists that have to wait for every frame of `in`, all of it. Of a shorter list the lead is shorter, but it
   // was there as much earlier, so that the longest is the worst.
   struct Before {
-    std::vector<const Task*> tasks;
+    std::vector<const model::Task*> tasks;
     Duration lead{};
   };
-  Before lists_before(const Node& node, const PortBinding& in) const {
+  Before lists_before(const model::Node& node, const model::PortBinding& in) const {
     Before before;
     if (!in.can_bus) return before;
-    const CanBus& bus = cluster_.can_buses[*in.can_bus];
-    const CanMessage& own = *message_of(bus, in.pdu);
-    for (const Task& other : node.tasks) {
-      if (other.activation.kind != ActivationKind::kMessage) continue;
-      for (const PortBinding& binding : other.reads) {
+    const model::CanBus& bus = cluster_.can_buses[*in.can_bus];
+    const model::CanMessage& own = *message_of(bus, in.pdu);
+    for (const model::Task& other : node.tasks) {
+      if (other.activation.kind != model::ActivationKind::kMessage) continue;
+      for (const model::PortBinding& binding : other.reads) {
         if (binding.port != other.activation.port || binding.can_bus != in.can_bus || binding.pdu == in.pdu) continue;
         const Duration lead = message_of(bus, binding.pdu)->identifier > own.identifier
                                   ? can_list_worst_case(bus, cluster_.pdu(in.pdu))
@@ -186,22 +187,22 @@ class Builder {
   }
 
   // Does this list's arrival set the task off, rather than another list's?
-  bool activates(const PortBinding& list, const Task& task) const {
-    return std::any_of(task.reads.begin(), task.reads.end(), [&](const PortBinding& in) {
+  bool activates(const model::PortBinding& list, const model::Task& task) const {
+    return std::any_of(task.reads.begin(), task.reads.end(), [&](const model::PortBinding& in) {
       return in.port == task.activation.port && in.pdu == list.pdu && in.can_bus == list.can_bus;
     });
   }
 
   // What is not activated by time is activated by lists of some sensor, each of which comes (A1): at the latest when
   // the next period is over too.
-  Duration longest_period(const Task& task) const {
+  Duration longest_period(const model::Task& task) const {
     Duration longest{};
-    if (task.activation.kind == ActivationKind::kTime) return cluster_.cycle() * task.activation.at.repetition;
-    for (const Sensor& sensor : cluster_.sensors) longest = std::max(longest, sensor.longest_period());
+    if (task.activation.kind == model::ActivationKind::kTime) return cluster_.cycle() * task.activation.at.repetition;
+    for (const model::Sensor& sensor : cluster_.sensors) longest = std::max(longest, sensor.longest_period());
     return longest * 2;
   }
 
-  void instant(Path& path, const std::string& who, const CycleInstant& at) {
+  void instant(Path& path, const std::string& who, const model::CycleInstant& at) {
     Stage stage;
     stage.name = who + " is waited for";
     stage.kind = Stage::Kind::kActivation;
@@ -210,70 +211,70 @@ class Builder {
   }
 
   // First come, first served: what the bound on its response leaves besides its own execution.
-  void queue(Path& path, NodeId id, const Task& task, const Before& before) {
+  void queue(Path& path, NodeId id, const model::Task& task, const Before& before) {
     const Duration others = response(id, task, before) - task.worst_case;
     if (others > Duration{})
       span(path, fmt::format("{}.{} waits for other tasks", cluster_.node(id).name, task.name), {}, others);
   }
 
-  Duration response(NodeId id, const Task& task) const { return response(id, task, Before{}); }
-  Duration response(NodeId id, const Task& task, const Before& before) const {
-    const Node& node = cluster_.node(id);
+  Duration response(NodeId id, const model::Task& task) const { return response(id, task, Before{}); }
+  Duration response(NodeId id, const model::Task& task, const Before& before) const {
+    const model::Node& node = cluster_.node(id);
     // The lead is true time; the processor's may be slower.
     std::vector<Duration> ahead(node.tasks.size());
-    for (const Task* other : before.tasks)
+    for (const model::Task* other : before.tasks)
       ahead[index_in(node, *other)] = {std::max<std::int64_t>(0, before.lead.ns - clocks_.drift_ns(before.lead.ns))};
     const auto worst = worst_response(cluster_, id, index_in(node, task), ahead);
     TTF_CHECK(worst.has_value(), "{} may be busy without end", node.name);
     return *worst;
   }
 
-  static std::size_t index_in(const Node& node, const Task& task) {
+  static std::size_t index_in(const model::Node& node, const model::Task& task) {
     return static_cast<std::size_t>(&task - node.tasks.data());
   }
 
   // From the fusing task's start to the start of the image's reader.
-  void publish(Path& path, NodeId id, const Task& fusing) {
-    const Node& node = cluster_.node(id);
-    const Task* publisher = nullptr;
-    const PortBinding* image = nullptr;
-    for (const Task& task : node.tasks)
-      for (const PortBinding& binding : task.writes)
+  void publish(Path& path, NodeId id, const model::Task& fusing) {
+    const model::Node& node = cluster_.node(id);
+    const model::Task* publisher = nullptr;
+    const model::PortBinding* image = nullptr;
+    for (const model::Task& task : node.tasks)
+      for (const model::PortBinding& binding : task.writes)
         if (publisher == nullptr && cluster_.pdu(binding.pdu).sensor == kNoSensor) {
           publisher = &task;
           image = &binding;
         }
     if (publisher == nullptr) return;
     if (publisher != &fusing) {
-      const bool follows =
-          publisher->activation.kind == ActivationKind::kCompletion && publisher->activation.after == fusing.name;
-      if (!follows && publisher->activation.kind != ActivationKind::kTime) return;
+      const bool follows = publisher->activation.kind == model::ActivationKind::kCompletion &&
+                           publisher->activation.after == fusing.name;
+      if (!follows && publisher->activation.kind != model::ActivationKind::kTime) return;
       execution(path, id, fusing);
       // The image's instant may come while this list is being fused: its task then runs right behind, and fusing adds
       // nothing to the least age.
-      if (!follows && fusing.activation.kind == ActivationKind::kMessage) path.stages.back().best = {};
+      if (!follows && fusing.activation.kind == model::ActivationKind::kMessage) path.stages.back().best = {};
       if (!follows) instant(path, fmt::format("{}.{}", node.name, publisher->name), publisher->activation.at);
       queue(path, id, *publisher, {});
     }
     execution(path, id, *publisher);
     transfer(path, *image);
     NodeId at = id;
-    const Task* user = reader(*image, at);
+    const model::Task* user = reader(*image, at);
     if (user == nullptr) return;
     activation(path, at, *user, *image);
     path.used = path.stages.size();
-    if (user->activation.kind == ActivationKind::kTime) path.use = user->activation.at;
+    if (user->activation.kind == model::ActivationKind::kTime) path.use = user->activation.at;
   }
 
-  const Cluster& cluster_;
+  const model::Cluster& cluster_;
   ClockBounds clocks_;
 };
 
 }  // namespace
 
-Path path_of(const Cluster& cluster, SensorId sensor) { return Builder(cluster).build(sensor); }
+Path path_of(const model::Cluster& cluster, SensorId sensor) { return Builder(cluster).build(sensor); }
 
-std::vector<std::int64_t> walk(const Cluster& cluster, const Path& path, std::size_t first, std::size_t last,
+std::vector<std::int64_t> walk(const model::Cluster& cluster, const Path& path, std::size_t first, std::size_t last,
                                std::int64_t start, bool latest, bool first_is_exact) {
   const std::int64_t apart = clock_bounds(cluster).apart_ns;
   std::vector<std::int64_t> instants;
@@ -296,16 +297,17 @@ std::vector<std::int64_t> walk(const Cluster& cluster, const Path& path, std::si
   return instants;
 }
 
-std::vector<std::int64_t> entries(const Cluster& cluster, const Stage& stage, std::int64_t from_cycle, bool latest) {
-  std::vector<CycleInstant> gates;
+std::vector<std::int64_t> entries(const model::Cluster& cluster, const Stage& stage, std::int64_t from_cycle,
+                                  bool latest) {
+  std::vector<model::CycleInstant> gates;
   if (stage.kind == Stage::Kind::kActivation) gates.push_back(stage.at);
   if (stage.kind == Stage::Kind::kSlots)
     for (const SlotGroup& group : stage.slots) gates.push_back(latch(group, latest));
   std::vector<std::int64_t> instants;
-  for (const CycleInstant& gate : gates)
-    for (std::int64_t cycle = from_cycle; cycle < from_cycle + kCycles; ++cycle)
+  for (const model::CycleInstant& gate : gates)
+    for (std::int64_t cycle = from_cycle; cycle < from_cycle + model::kCycles; ++cycle)
       if (in_cycle(gate, cycle)) instants.push_back(time_of(cluster.flexray, cycle, gate.offset).ns + (latest ? 1 : 0));
   return instants;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

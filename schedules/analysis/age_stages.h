@@ -6,17 +6,17 @@
 #include <vector>
 
 #include "schedules/analysis/clock_bounds.h"
-#include "schedules/model/cluster.h"
 #include "schedules/analysis/slot_groups.h"
+#include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 struct Stage {
   enum class Kind : std::uint8_t { kSpan, kActivation, kSlots };
   std::string name;
   Kind kind = Kind::kSpan;
   Duration best{}, worst{};      // kSpan, drift included
-  CycleInstant at{};             // kActivation
+  model::CycleInstant at{};      // kActivation
   std::vector<SlotGroup> slots;  // kSlots
   Duration shortest{};           // kSlots in the dynamic segment: from a write to the arrival, drift included
 
@@ -29,24 +29,25 @@ struct Stage {
 
 struct Path {
   std::vector<Stage> stages;
-  std::size_t available = 0;   // stages until the list is in the fusion node's CNI
-  std::size_t fused = 0;       // until the fusing task starts
-  std::size_t used = 0;        // until the image's reader starts; 0: there is none
-  bool on_arrival = false;     // the fusing task is activated by this very list
-  CycleInstant use{0, 0, {}};  // of that reader; repetition 0 where time does not activate it
+  std::size_t available = 0;          // stages until the list is in the fusion node's CNI
+  std::size_t fused = 0;              // until the fusing task starts
+  std::size_t used = 0;               // until the image's reader starts; 0: there is none
+  bool on_arrival = false;            // the fusing task is activated by this very list
+  model::CycleInstant use{0, 0, {}};  // of that reader; repetition 0 where time does not activate it
 };
 
 // Nothing of a path for a sensor whose lists reach no fusing task: stages is empty. The cluster must have passed
 // check().
-Path path_of(const Cluster& cluster, SensorId sensor);
+Path path_of(const model::Cluster& cluster, SensorId sensor);
 
 // Instants after stages first..last-1 of the path, entered at `start` (nanoseconds of global time): the latest
 // possible, or the earliest. The clocks' distance is taken into account except at the first stage if it is on the grid.
-std::vector<std::int64_t> walk(const Cluster& cluster, const Path& path, std::size_t first, std::size_t last,
+std::vector<std::int64_t> walk(const model::Cluster& cluster, const Path& path, std::size_t first, std::size_t last,
                                std::int64_t start, bool latest, bool first_is_exact);
 
 // Instants within 64 cycles from `from_cycle` at which entering a stage on the grid just works (earliest) or, one
 // nanosecond later, may fail (latest).
-std::vector<std::int64_t> entries(const Cluster& cluster, const Stage& stage, std::int64_t from_cycle, bool latest);
+std::vector<std::int64_t> entries(const model::Cluster& cluster, const Stage& stage, std::int64_t from_cycle,
+                                  bool latest);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

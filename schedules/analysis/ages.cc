@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "schedules/analysis/age_stages.h"
-#include "schedules/model/round.h"
 #include "schedules/analysis/settled.h"
+#include "schedules/model/round.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 // One extreme walk from the measurement on: the share of each stage, and their sum.
@@ -21,7 +21,7 @@ struct Extreme {
 
 class Ages {
  public:
-  explicit Ages(const Cluster& cluster) : cluster_(cluster), clocks_(clock_bounds(cluster)) {}
+  explicit Ages(const model::Cluster& cluster) : cluster_(cluster), clocks_(clock_bounds(cluster)) {}
 
   std::optional<AgePath> of(SensorId id) {
     const Path path = path_of(cluster_, id);
@@ -103,14 +103,14 @@ class Ages {
     std::size_t gate = path.fused;
     for (; gate < path.used && !path.stages[gate].on_grid(true); ++gate) spans += path.stages[gate].worst.ns;
     if (gate == path.used) return {spans};
-    for (const std::int64_t start : entries(cluster_, path.stages[gate], kFromCycle, true))
+    for (const std::int64_t start : entries(cluster_, path.stages[gate], model::kFromCycle, true))
       rest = std::max(rest, walk(cluster_, path, gate, path.used, start, true, true).back() - start);
     return {spans + rest};
   }
 
   // Two measurements of a sensor, in global time.
   Duration longest_between(SensorId id) const {
-    const Sensor& sensor = cluster_.sensor(id);
+    const model::Sensor& sensor = cluster_.sensor(id);
     const Duration period = sensor.longest_period();
     return period + Duration{sensor.scheduled ? 0 : clocks_.drift_ns(period.ns)};
   }
@@ -123,7 +123,7 @@ class Ages {
     return {std::max<std::int64_t>(0, longest_between(id).ns - between_uses)};
   }
 
-  Extreme extreme(const Path& path, const Sensor& sensor, std::size_t last, bool latest) const {
+  Extreme extreme(const Path& path, const model::Sensor& sensor, std::size_t last, bool latest) const {
     Extreme found;
     std::vector<std::int64_t> before;
     const auto consider = [&](const std::vector<std::int64_t>& shares) {
@@ -144,10 +144,10 @@ class Ages {
       }
     std::vector<std::int64_t> starts;
     if (sensor.scheduled) {
-      for (std::int64_t cycle = kFromCycle; cycle < kFromCycle + kCycles; ++cycle)
+      for (std::int64_t cycle = model::kFromCycle; cycle < model::kFromCycle + model::kCycles; ++cycle)
         if (in_cycle(sensor.at, cycle)) starts.push_back(time_of(cluster_.flexray, cycle, sensor.at.offset).ns);
     } else if (gate < last) {
-      starts = entries(cluster_, path.stages[gate], kFromCycle, latest);
+      starts = entries(cluster_, path.stages[gate], model::kFromCycle, latest);
     } else {
       starts.push_back(0);
     }
@@ -165,7 +165,7 @@ class Ages {
 
   void bounds(const Path& path, SensorId id, std::size_t last, Duration& best, Duration& worst,
               std::vector<Contribution>* contributions) const {
-    const Sensor& sensor = cluster_.sensor(id);
+    const model::Sensor& sensor = cluster_.sensor(id);
     const Extreme low = extreme(path, sensor, last, false), high = extreme(path, sensor, last, true);
     // Spans before the grid have their drift against any clock in them already.
     const std::int64_t clocks_low = std::min(low.sum, clocks_.apart_ns + clocks_.drift_ns(low.on_grid));
@@ -178,13 +178,13 @@ class Ages {
     contributions->push_back({"clocks differ", {-clocks_low}, {clocks_high}});
   }
 
-  const Cluster& cluster_;
+  const model::Cluster& cluster_;
   ClockBounds clocks_;
 };
 
 }  // namespace
 
-std::vector<AgePath> measurement_ages(const Cluster& cluster) {
+std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
   Ages ages(cluster);
   std::vector<AgePath> paths;
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
@@ -196,7 +196,7 @@ std::vector<AgePath> measurement_ages(const Cluster& cluster) {
   return paths;
 }
 
-std::string ages_text(const Cluster& cluster) {
+std::string ages_text(const model::Cluster& cluster) {
   std::string text = fmt::format("{:<52}{:>10}{:>10}\n", "age of a measurement [ms]", "best", "worst");
   const auto row = [&](const std::string& name, Duration best, Duration worst) {
     text += fmt::format("{:<52}{:>10.3f}{:>10.3f}\n", name, in_ms(best), in_ms(worst));
@@ -219,4 +219,4 @@ std::string ages_text(const Cluster& cluster) {
   return text;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -22,9 +22,9 @@
 //   that
 //       drift as far as the nodes may, and so does global time against true time. So the bounds hold on any clock.
 //   A3  a measurement is fused as soon as the fusion node has it (ADVA, TT); BUFF's waiting is bounded separately
-//   A4  one processor per node without preemption, first come first served: schedules/analysis/responses.h bounds the wait
-//   A5  a sensor that runs freely, or follows its host, has any phase against the cycle, so the wait at the first stage
-//   on
+//   A4  one processor per node without preemption, first come first served: schedules/analysis/responses.h bounds the
+//   wait A5  a sensor that runs freely, or follows its host, has any phase against the cycle, so the wait at the first
+//   stage on
 //       the cycle's grid is anything up to its period; from there on the grid is fixed and waits are exact. A scheduled
 //       sensor is on the grid from the start. All 64 cycles are gone through.
 // The bounds are safe: simulated ages lie between them.
@@ -37,7 +37,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 // One stage's share. `best` belongs to the path of the smallest sum, `worst` to that of the largest: a single stage may
 // well last longer than its `worst` says, where another one is shorter.
@@ -57,8 +57,8 @@ struct AgePath {
   // The newest measurement of the sensor that an image has in it, at any use of an image, not only the first: until the
   // use before the one at which the next measurement comes in.
   Duration newest_worst{};
-  // With BUFF: held until no older measurement of any sensor can still arrive (schedules/analysis/settled.h), and, where lists
-  // activate the fusing task, the next list comes.
+  // With BUFF: held until no older measurement of any sensor can still arrive (schedules/analysis/settled.h), and,
+  // where lists activate the fusing task, the next list comes.
   Duration buffered_fused_worst{}, buffered_use_worst{};
   Duration buffered_newest_worst{};  // the newest one at any use, as newest_worst
   bool reaches_use = false;          // else everything about use is zero
@@ -66,9 +66,9 @@ struct AgePath {
 
 // In the order of Cluster::sensors; sensors whose lists reach no fusing task are left out. The cluster must have
 // passed check().
-std::vector<AgePath> measurement_ages(const Cluster& cluster);
+std::vector<AgePath> measurement_ages(const model::Cluster& cluster);
 
 // A table of the above in milliseconds, for people.
-std::string ages_text(const Cluster& cluster);
+std::string ages_text(const model::Cluster& cluster);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

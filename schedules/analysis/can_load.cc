@@ -7,7 +7,7 @@
 #include "core/check.h"
 #include "core/int128.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 constexpr int kStuffedClassic = 34;        // SOF to the end of the CRC, without data
@@ -26,7 +26,7 @@ std::optional<int> can_data_length(bool flexible_data_rate, int bytes) {
   return *std::lower_bound(kLong.begin(), kLong.end(), bytes);
 }
 
-CanBits can_unstuffed_bits(const CanBus& bus, int bytes) {
+CanBits can_unstuffed_bits(const model::CanBus& bus, int bytes) {
   const auto length = can_data_length(bus.flexible_data_rate, bytes);
   TTF_CHECK(length.has_value(), "{} bytes in a frame on {}", bytes, bus.name);
   const int payload = 8 * *length;
@@ -35,7 +35,7 @@ CanBits can_unstuffed_bits(const CanBus& bus, int bytes) {
   return {kArbitrationFd + kUnstuffed, kControlFd + payload + check};
 }
 
-Duration can_duration(const CanBus& bus, CanBits bits) {
+Duration can_duration(const model::CanBus& bus, CanBits bits) {
   const Int128 rates = static_cast<Int128>(bus.nominal_bit_rate) * bus.data_bit_rate;
   const Int128 work =
       (static_cast<Int128>(bits.nominal) * bus.data_bit_rate + static_cast<Int128>(bits.data) * bus.nominal_bit_rate) *
@@ -43,7 +43,7 @@ Duration can_duration(const CanBus& bus, CanBits bits) {
   return {static_cast<std::int64_t>((work + rates - 1) / rates)};
 }
 
-Duration can_worst_case(const CanBus& bus, int bytes) {
+Duration can_worst_case(const model::CanBus& bus, int bytes) {
   CanBits bits = can_unstuffed_bits(bus, bytes);
   const int payload = 8 * *can_data_length(bus.flexible_data_rate, bytes);
   // After the first bit, every fourth can need a stuff bit.
@@ -56,28 +56,31 @@ Duration can_worst_case(const CanBus& bus, int bytes) {
   return can_duration(bus, bits);
 }
 
-Duration can_best_case(const CanBus& bus, int bytes) { return can_duration(bus, can_unstuffed_bits(bus, bytes)); }
+Duration can_best_case(const model::CanBus& bus, int bytes) {
+  return can_duration(bus, can_unstuffed_bits(bus, bytes));
+}
 
-Duration can_soonest_arrival(const CanBus& bus, int bytes) {
+Duration can_soonest_arrival(const model::CanBus& bus, int bytes) {
   return can_best_case(bus, bytes) - Duration{kIntermission * 1'000'000'000 / bus.nominal_bit_rate};
 }
 
-Duration can_list_worst_case(const CanBus& bus, const PduLayout& layout) {
+Duration can_list_worst_case(const model::CanBus& bus, const model::PduLayout& layout) {
   return can_worst_case(bus, layout.fragment_bytes) * layout.max_fragments();
 }
 
-double can_worst_load(const Cluster& cluster, const CanBus& bus) {
+double can_worst_load(const model::Cluster& cluster, const model::CanBus& bus) {
   double load = bus.other_load;
-  for (const CanMessage& message : bus.messages)
+  for (const model::CanMessage& message : bus.messages)
     load += can_list_worst_case(bus, cluster.pdu(message.pdu)).seconds() / message.shortest_period.seconds();
   return load;
 }
 
-std::optional<Duration> can_worst_response(const Cluster& cluster, const CanBus& bus, const CanMessage& message) {
+std::optional<Duration> can_worst_response(const model::Cluster& cluster, const model::CanBus& bus,
+                                           const model::CanMessage& message) {
   if (can_worst_load(cluster, bus) >= 1.0) return std::nullopt;
   Duration fixed = can_list_worst_case(bus, cluster.pdu(message.pdu));
   Duration blocking{};
-  for (const CanMessage& other : bus.messages)
+  for (const model::CanMessage& other : bus.messages)
     if (other.identifier > message.identifier)
       blocking = std::max(blocking, can_worst_case(bus, cluster.pdu(other.pdu).fragment_bytes));
   // Traffic that is not described may be of any priority: as if it had the highest.
@@ -87,7 +90,7 @@ std::optional<Duration> can_worst_response(const Cluster& cluster, const CanBus&
   Duration response = fixed;
   while (true) {
     Duration next = fixed;
-    for (const CanMessage& other : bus.messages)
+    for (const model::CanMessage& other : bus.messages)
       if (other.identifier < message.identifier)
         next += can_list_worst_case(bus, cluster.pdu(other.pdu)) * (response.ns / other.shortest_period.ns + 1);
     next.ns = static_cast<std::int64_t>(std::ceil(static_cast<double>(next.ns) / (1.0 - bus.other_load)));
@@ -96,4 +99,4 @@ std::optional<Duration> can_worst_response(const Cluster& cluster, const CanBus&
   }
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -20,7 +20,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 // A private CAN loaded more than this at worst is refused: the rest is for repeated frames after errors.
 inline constexpr double kCanLoadLimit = 0.8;
@@ -35,27 +35,28 @@ struct CanBits {
   std::int64_t data = 0;
 };
 // Without stuff bits but CAN FD's fixed ones; `bytes` must fit a frame.
-CanBits can_unstuffed_bits(const CanBus& bus, int bytes);
+CanBits can_unstuffed_bits(const model::CanBus& bus, int bytes);
 // Rounded up to whole nanoseconds.
-Duration can_duration(const CanBus& bus, CanBits bits);
+Duration can_duration(const model::CanBus& bus, CanBits bits);
 
 // From start of frame to the end of the intermission; `bytes` must fit a frame.
-Duration can_worst_case(const CanBus& bus, int bytes);  // any data
-Duration can_best_case(const CanBus& bus, int bytes);   // no stuff bits but the fixed ones
+Duration can_worst_case(const model::CanBus& bus, int bytes);  // any data
+Duration can_best_case(const model::CanBus& bus, int bytes);   // no stuff bits but the fixed ones
 
 // From start of frame to when its receivers have it: can_best_case() without the intermission.
-Duration can_soonest_arrival(const CanBus& bus, int bytes);
+Duration can_soonest_arrival(const model::CanBus& bus, int bytes);
 
 // All fragments of a full list of this message.
-Duration can_list_worst_case(const CanBus& bus, const PduLayout& layout);
+Duration can_list_worst_case(const model::CanBus& bus, const model::PduLayout& layout);
 
 // Share of time the messages take when every list is full and comes at its shortest period, other load included.
-double can_worst_load(const Cluster& cluster, const CanBus& bus);
+double can_worst_load(const model::Cluster& cluster, const model::CanBus& bus);
 
 // From the instant a full list of `message` is queued to the end of its last frame: one frame of lower priority that
 // has just begun, and every list of higher priority (lower identifier) at its shortest period; the bus' other load
 // stretches it as if it had the highest priority, and a longest frame of it comes beyond its share. Nothing where that
 // never ends.
-std::optional<Duration> can_worst_response(const Cluster& cluster, const CanBus& bus, const CanMessage& message);
+std::optional<Duration> can_worst_response(const model::Cluster& cluster, const model::CanBus& bus,
+                                           const model::CanMessage& message);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -5,7 +5,7 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 struct ClockBounds {
   std::int64_t apart_ns = 0;   // any two nodes' global times: the assumed precision and a macrotick
@@ -14,9 +14,9 @@ struct ClockBounds {
   // What two oscillators can make of a time, the one it runs on and the one it is judged by; rounded up.
   std::int64_t drift_ns(std::int64_t ns) const;
 };
-ClockBounds clock_bounds(const Cluster& cluster);
+ClockBounds clock_bounds(const model::Cluster& cluster);
 
 // What one node's oscillator may be off by: its drift if that is given, else the most it may have.
-std::int64_t worst_drift_ppb(const Node& node);
+std::int64_t worst_drift_ppb(const model::Node& node);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -6,17 +6,17 @@
 
 #include "schedules/analysis/minislots.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
-std::vector<DynamicLoad> dynamic_load(const Cluster& cluster) {
-  const GlobalParameters& g = cluster.flexray;
+std::vector<DynamicLoad> dynamic_load(const model::Cluster& cluster) {
+  const model::GlobalParameters& g = cluster.flexray;
   std::vector<DynamicLoad> loads;
-  for (const Channel channel : kBothChannels) {
+  for (const model::Channel channel : model::kBothChannels) {
     DynamicLoad load;
     load.channel = channel;
-    for (FrameSlot frame : cluster.frames) {
+    for (model::FrameSlot frame : cluster.frames) {
       if (!is_dynamic(g, frame) || !includes(frame.channels, channel)) continue;
-      frame.channels = channel == Channel::kA ? Channels::kA : Channels::kB;
+      frame.channels = channel == model::Channel::kA ? model::Channels::kA : model::Channels::kB;
       const std::int64_t end = latest_turn(cluster, frame) - 1 + minislots_of(g, dynamic_words(cluster, frame));
       load.minislots = std::max(load.minislots, end);
     }
@@ -26,11 +26,11 @@ std::vector<DynamicLoad> dynamic_load(const Cluster& cluster) {
   return loads;
 }
 
-std::vector<DynamicList> dynamic_lists(const Cluster& cluster) {
-  const GlobalParameters& g = cluster.flexray;
+std::vector<DynamicList> dynamic_lists(const model::Cluster& cluster) {
+  const model::GlobalParameters& g = cluster.flexray;
   std::vector<DynamicList> lists;
   for (std::size_t i = 0; i < cluster.frames.size(); ++i) {
-    const FrameSlot& frame = cluster.frames[i];
+    const model::FrameSlot& frame = cluster.frames[i];
     if (!is_dynamic(g, frame)) continue;
     if (i == 0 || !is_dynamic(g, cluster.frames[i - 1]) || !continues(cluster.frames[i - 1], frame)) {
       DynamicList& fresh = lists.emplace_back();
@@ -53,15 +53,15 @@ std::vector<DynamicList> dynamic_lists(const Cluster& cluster) {
   return lists;
 }
 
-std::string dynamic_text(const Cluster& cluster) {
+std::string dynamic_text(const model::Cluster& cluster) {
   const auto lists = dynamic_lists(cluster);
   if (lists.empty()) return "";
-  const GlobalParameters& g = cluster.flexray;
+  const model::GlobalParameters& g = cluster.flexray;
   std::string text = fmt::format("dynamic segment: {} minislots of {} macroticks; with every slot in use",
                                  g.gNumberOfMinislots, g.gdMinislot);
   for (const DynamicLoad& load : dynamic_load(cluster))
-    text += fmt::format("{} {} takes {} ({:.1f} %)", load.channel == Channel::kA ? "" : ",", letter(load.channel),
-                        load.minislots, 100.0 * load.share);
+    text += fmt::format("{} {} takes {} ({:.1f} %)", load.channel == model::Channel::kA ? "" : ",",
+                        letter(load.channel), load.minislots, 100.0 * load.share);
   text += fmt::format("\n{:>9}  {:<2}  {:<12}{:<24}{:>15}  {}\n", "slot", "ch", "sender", "list", "minislots each",
                       "turn in minislot");
   for (const DynamicList& list : lists) {
@@ -77,4 +77,4 @@ std::string dynamic_text(const Cluster& cluster) {
   return text;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

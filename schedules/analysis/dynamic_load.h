@@ -9,11 +9,11 @@
 #include "core/ids.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 // The fullest cycle of one channel.
 struct DynamicLoad {
-  Channel channel{};
+  model::Channel channel{};
   std::int64_t minislots =
       0;               // to the end of the last frame, idle phase and unused slots before it included; 0: no frames
   double share = 0.0;  // of gNumberOfMinislots; above one: not all of them fit
@@ -23,7 +23,7 @@ struct DynamicLoad {
 struct DynamicList {
   PduId pdu{};
   NodeId sender{};
-  Channels channels = Channels::kAB;
+  model::Channels channels = model::Channels::kAB;
   int first_slot = 0, last_slot = 0;
   int first_fragment = 0, last_fragment = 0;
   int base_cycle = 0, repetition = 1;
@@ -34,10 +34,10 @@ struct DynamicList {
 };
 
 // Both channels; in slot order. The cluster must have passed check().
-std::vector<DynamicLoad> dynamic_load(const Cluster& cluster);
-std::vector<DynamicList> dynamic_lists(const Cluster& cluster);
+std::vector<DynamicLoad> dynamic_load(const model::Cluster& cluster);
+std::vector<DynamicList> dynamic_lists(const model::Cluster& cluster);
 
 // Both as a table for people; empty where nothing is sent in the dynamic segment.
-std::string dynamic_text(const Cluster& cluster);
+std::string dynamic_text(const model::Cluster& cluster);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -23,28 +23,28 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 // Begins at 1; gNumberOfMinislots + 1 is the segment's end.
-Macroticks minislot_start(const GlobalParameters& flexray, std::int64_t minislot);
+Macroticks minislot_start(const model::GlobalParameters& flexray, std::int64_t minislot);
 
 // Of a dynamic frame, which is as long as what it carries.
-int dynamic_words(const Cluster& cluster, const FrameSlot& frame);
+int dynamic_words(const model::Cluster& cluster, const model::FrameSlot& frame);
 
 // pPayloadLengthDynMax: of the longest one a node sends, 0 if it sends none.
-int longest_dynamic_words(const Cluster& cluster, NodeId sender);
+int longest_dynamic_words(const model::Cluster& cluster, NodeId sender);
 
 // The minislots of a slot in which a frame of so many words is sent, idle phase included.
-std::int64_t minislots_of(const GlobalParameters& flexray, int words);
+std::int64_t minislots_of(const model::GlobalParameters& flexray, int words);
 
 // pLatestTx at the most, for a frame of so many words; below 1: it never fits.
-std::int64_t last_start(const GlobalParameters& flexray, int words);
+std::int64_t last_start(const model::GlobalParameters& flexray, int words);
 
 // The minislot in which the turn of a dynamic frame comes, over all its cycles and channels.
-int earliest_turn(const GlobalParameters& flexray, const FrameSlot& frame);
-std::int64_t latest_turn(const Cluster& cluster, const FrameSlot& frame);
+int earliest_turn(const model::GlobalParameters& flexray, const model::FrameSlot& frame);
+std::int64_t latest_turn(const model::Cluster& cluster, const model::FrameSlot& frame);
 
 // Whether the frame's turn never comes too late for its sender.
-bool always_in_time(const Cluster& cluster, const FrameSlot& frame);
+bool always_in_time(const model::Cluster& cluster, const model::FrameSlot& frame);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

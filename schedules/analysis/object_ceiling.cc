@@ -6,35 +6,35 @@
 
 #include "schedules/model/limits.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
-int largest_of(const PduLayout& layout, const char* signal, int otherwise) {
+int largest_of(const model::PduLayout& layout, const char* signal, int otherwise) {
   const auto index = find_signal(layout.header, signal);
   if (!index) return otherwise;
   const int bits = std::min(layout.header[*index].bits, 30);
   return (1 << bits) - 1;
 }
 
-ListRoom room_of(const Cluster& cluster, PduId pdu) {
-  const PduLayout& layout = cluster.pdu(pdu);
+ListRoom room_of(const model::Cluster& cluster, PduId pdu) {
+  const model::PduLayout& layout = cluster.pdu(pdu);
   std::set<int> fragments;
-  for (const FrameSlot& frame : cluster.frames)
+  for (const model::FrameSlot& frame : cluster.frames)
     if (frame.pdu == pdu) fragments.insert(frame.fragment);
   ListRoom room{.pdu = pdu};
   room.slots = static_cast<int>(fragments.size());
   room.objects = std::min(layout.max_elements, room.slots * layout.elements_per_fragment);
-  const int numbered = std::min(largest_of(layout, "fragment", kMostFragments - 1) + 1, kMostFragments);
+  const int numbered = std::min(largest_of(layout, "fragment", model::kMostFragments - 1) + 1, model::kMostFragments);
   room.countable = std::min(largest_of(layout, "count", layout.max_elements), numbered * layout.elements_per_fragment);
   return room;
 }
 
 }  // namespace
 
-ObjectCeiling object_ceiling(const Cluster& cluster) {
+ObjectCeiling object_ceiling(const model::Cluster& cluster) {
   ObjectCeiling ceiling;
   std::set<int> status;
-  for (const FrameSlot& frame : cluster.frames) {
+  for (const model::FrameSlot& frame : cluster.frames) {
     if (frame.pdu == kNoPdu) {
       if (!is_dynamic(cluster.flexray, frame)) status.insert(frame.slot);
       continue;
@@ -64,4 +64,4 @@ ObjectCeiling object_ceiling(const Cluster& cluster) {
   return ceiling;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -6,7 +6,7 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 // A list on FlexRay: what it has room for.
 struct ListRoom {
@@ -29,6 +29,6 @@ struct ObjectCeiling {
 };
 
 // Of a cluster with lists of any number of objects on FlexRay; all zero without.
-ObjectCeiling object_ceiling(const Cluster& cluster);
+ObjectCeiling object_ceiling(const model::Cluster& cluster);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

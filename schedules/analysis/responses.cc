@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "core/int128.h"
-#include "schedules/model/round.h"
 #include "schedules/analysis/sensor_loop.h"
+#include "schedules/model/round.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 constexpr std::int64_t kLongest_ns = 20'000'000'000;  // twice the longest deadline a file can ask for
@@ -32,19 +32,20 @@ struct Load {
 
 class NodeTasks {
  public:
-  NodeTasks(const Cluster& cluster, NodeId id, WritersOfLists writers) : cluster_(cluster), node_(cluster.node(id)) {
+  NodeTasks(const model::Cluster& cluster, NodeId id, WritersOfLists writers)
+      : cluster_(cluster), node_(cluster.node(id)) {
     const std::size_t count = node_.tasks.size();
     before_.resize(count);
     ahead_.resize(count);
     for (std::size_t t = 0; t < count; ++t)
-      if (node_.tasks[t].activation.kind == ActivationKind::kCompletion)
+      if (node_.tasks[t].activation.kind == model::ActivationKind::kCompletion)
         for (std::size_t other = 0; other < count; ++other)
           if (node_.tasks[other].name == node_.tasks[t].activation.after) before_[t] = other;
     whole_.resize(count);
     arrivals_.resize(count);
     following_.resize(count);
     for (std::size_t t = 0; t < count; ++t) {
-      const Task& task = node_.tasks[t];
+      const model::Task& task = node_.tasks[t];
       whole_[root(t)] += task.worst_case.ns;
       if (before_[t] || by_time(t)) continue;
       if (const auto loop = loop_through(cluster_, id, task))
@@ -53,10 +54,10 @@ class NodeTasks {
       else
         arrivals_[t] = arrivals_of(cluster_, task, writers);
     }
-    round_ = time_of(cluster.flexray, kCycles, Macroticks{0}).ns;
+    round_ = time_of(cluster.flexray, model::kCycles, Macroticks{0}).ns;
     for (std::size_t t = 0; t < count; ++t)
       if (by_time(t))
-        for (std::int64_t cycle = node_.tasks[t].activation.at.base_cycle; cycle < kCycles;
+        for (std::int64_t cycle = node_.tasks[t].activation.at.base_cycle; cycle < model::kCycles;
              cycle += node_.tasks[t].activation.at.repetition)
           instants_.emplace_back(time_of(cluster.flexray, cycle, node_.tasks[t].activation.at.offset).ns, t);
     std::sort(instants_.begin(), instants_.end());
@@ -108,7 +109,7 @@ class NodeTasks {
     steps_.erase(std::unique(steps_.begin(), steps_.end()), steps_.end());
   }
 
-  bool by_time(std::size_t task) const { return node_.tasks[task].activation.kind == ActivationKind::kTime; }
+  bool by_time(std::size_t task) const { return node_.tasks[task].activation.kind == model::ActivationKind::kTime; }
 
   std::size_t root(std::size_t task) const {
     for (std::size_t steps = 0; before_[task] && steps < before_.size(); ++steps) task = *before_[task];
@@ -128,14 +129,14 @@ class NodeTasks {
   // an offset correction, external terms included.
   std::int64_t shrunk(std::int64_t global_ns) const {
     if (global_ns == 0 || !node_.flexray) return global_ns;
-    const NodeParameters& p = *node_.flexray;
+    const model::NodeParameters& p = *node_.flexray;
     const std::int64_t rate =
         static_cast<std::int64_t>(static_cast<Int128>(global_ns) * (p.pRateCorrectionOut + p.pExternRateCorrection) /
                                   std::max(p.pMicroPerCycle, 1)) +
         1;
     const std::int64_t offset = (p.pOffsetCorrectionOut + p.pExternOffsetCorrection) * p.pdMicrotick_ps / 1000 + 1;
     const std::int64_t corrections = global_ns / (2 * std::max<std::int64_t>(1, cluster_.cycle().ns)) + 1;
-    return std::max<std::int64_t>(0, global_ns - rate - offset * corrections - kGranularity_ns);
+    return std::max<std::int64_t>(0, global_ns - rate - offset * corrections - model::kGranularity_ns);
   }
 
   // The k-th instant from the given one on, forward or backward, as its distance in global time and its task.
@@ -234,7 +235,7 @@ class NodeTasks {
   }
 
   void set_written(std::size_t task, TaskResponse& response) const {
-    const Task& what = node_.tasks[task];
+    const model::Task& what = node_.tasks[task];
     const Duration best = shortest_execution(what);
     if (const auto& following = following_[task])
       response.written = Duration{following->round()};
@@ -279,8 +280,8 @@ class NodeTasks {
     return false;
   }
 
-  const Cluster& cluster_;
-  const Node& node_;
+  const model::Cluster& cluster_;
+  const model::Node& node_;
   std::vector<std::optional<std::size_t>> before_;              // the task whose end activates it
   std::vector<std::int64_t> ahead_;                             // how long ago its newest activation was, at least
   std::vector<std::int64_t> whole_;                             // of a chain, at its first task
@@ -294,17 +295,18 @@ class NodeTasks {
 
 }  // namespace
 
-Duration longest_busy_time(const Cluster& cluster, const Node& node) {
-  for (const Task& task : node.tasks)
-    if (task.activation.kind == ActivationKind::kTime) return cluster.cycle() * kCycles;
+Duration longest_busy_time(const model::Cluster& cluster, const model::Node& node) {
+  for (const model::Task& task : node.tasks)
+    if (task.activation.kind == model::ActivationKind::kTime) return cluster.cycle() * model::kCycles;
   return {kLongest_ns};
 }
 
-std::optional<std::vector<TaskResponse>> worst_responses(const Cluster& cluster, NodeId node, WritersOfLists writers) {
+std::optional<std::vector<TaskResponse>> worst_responses(const model::Cluster& cluster, NodeId node,
+                                                         WritersOfLists writers) {
   return NodeTasks(cluster, node, writers).responses();
 }
 
-std::optional<Duration> worst_response(const Cluster& cluster, NodeId node, std::size_t task,
+std::optional<Duration> worst_response(const model::Cluster& cluster, NodeId node, std::size_t task,
                                        std::span<const Duration> ahead) {
   NodeTasks tasks(cluster, node, WritersOfLists::kKnown);
   if (std::any_of(ahead.begin(), ahead.end(), [](Duration lead) { return lead > Duration{}; }))
@@ -314,4 +316,4 @@ std::optional<Duration> worst_response(const Cluster& cluster, NodeId node, std:
   return (*all)[task].worst;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

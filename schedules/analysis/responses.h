@@ -10,10 +10,11 @@
 // the largest over all a up to the longest busy time, the smallest A with W(A) <= A. In W:
 //   by time      the exact instants of 64 cycles, at the distances that the node's corrections can shrink them to
 //   by messages  at most floor((a + J) / T) + 1 in a window, T the shortest time between two lists where they are sent
-//   and J and sensors  by how much their way may differ from one to the next (schedules/analysis/activation_bounds.h) by a sensor  that
-//   waits for the task's end (schedules/analysis/sensor_loop.h): the next comes R after that end at the soonest, so that follows
-//   the executions between activations in a window are at most a C / (C + R), and one C more; C the worst case after
-//   other  with the task they follow: a chain's work comes at its beginning at the earliest
+//   and J and sensors  by how much their way may differ from one to the next (schedules/analysis/activation_bounds.h)
+//   by a sensor  that waits for the task's end (schedules/analysis/sensor_loop.h): the next comes R after that end at
+//   the soonest, so that follows the executions between activations in a window are at most a C / (C + R), and one C
+//   more; C the worst case after other  with the task they follow: a chain's work comes at its beginning at the
+//   earliest
 // A task that follows another starts its own account when that one ends. What may then be before it was activated since
 // the other's activation; of every task at most one activation is pending, which is what the checker demands of all (an
 // end before the next activation) and what makes these bounds hold one after the other. Durations are the node's own
@@ -29,7 +30,7 @@
 #include "schedules/analysis/activation_bounds.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 struct TaskResponse {
   Duration worst{};  // from activation to end
@@ -41,15 +42,15 @@ struct TaskResponse {
 
 // By task, in file order; nothing for a node that may be busy without end, or whose chains lead back to no beginning.
 // No two tasks that time activates may overlap, as the checker demands first.
-std::optional<std::vector<TaskResponse>> worst_responses(const Cluster& cluster, NodeId node,
+std::optional<std::vector<TaskResponse>> worst_responses(const model::Cluster& cluster, NodeId node,
                                                          WritersOfLists writers = WritersOfLists::kKnown);
 
 // The same of one task, where of some others more is known: `ahead`, by task, is how long before this task's activation
 // the newest activation of the other was at the latest (zero: nothing is known). For a task that messages activate.
-std::optional<Duration> worst_response(const Cluster& cluster, NodeId node, std::size_t task,
+std::optional<Duration> worst_response(const model::Cluster& cluster, NodeId node, std::size_t task,
                                        std::span<const Duration> ahead);
 
 // The longest time a node may be busy without a break that worst_responses() looks into.
-Duration longest_busy_time(const Cluster& cluster, const Node& node);
+Duration longest_busy_time(const model::Cluster& cluster, const model::Node& node);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

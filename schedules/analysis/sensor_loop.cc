@@ -7,33 +7,33 @@
 #include "schedules/analysis/responses.h"
 #include "schedules/model/round.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
-Duration at_least(const Cluster& cluster, Duration time) {
-  return {std::max<std::int64_t>(0, time.ns - clock_bounds(cluster).drift_ns(time.ns) - kGranularity_ns)};
+Duration at_least(const model::Cluster& cluster, Duration time) {
+  return {std::max<std::int64_t>(0, time.ns - clock_bounds(cluster).drift_ns(time.ns) - model::kGranularity_ns)};
 }
-Duration at_most(const Cluster& cluster, Duration time) {
-  return {time.ns + clock_bounds(cluster).drift_ns(time.ns) + kGranularity_ns};
+Duration at_most(const model::Cluster& cluster, Duration time) {
+  return {time.ns + clock_bounds(cluster).drift_ns(time.ns) + model::kGranularity_ns};
 }
 
 // Over FlexRay nothing is counted on.
-Duration shortest_transfer(const Cluster& cluster, const PortBinding& raw) {
+Duration shortest_transfer(const model::Cluster& cluster, const model::PortBinding& raw) {
   if (!raw.can_bus) return {};
-  const CanBus& bus = cluster.can_buses[*raw.can_bus];
+  const model::CanBus& bus = cluster.can_buses[*raw.can_bus];
   const int bytes = cluster.pdu(raw.pdu).fragment_bytes;
   if (!can_data_length(bus.flexible_data_rate, bytes)) return {};
   return can_soonest_arrival(bus, bytes);
 }
 
-std::optional<Duration> worst_of(const Cluster& cluster, NodeId id, const Task& task) {
+std::optional<Duration> worst_of(const model::Cluster& cluster, NodeId id, const model::Task& task) {
   return worst_response(cluster, id, static_cast<std::size_t>(&task - cluster.node(id).tasks.data()), {});
 }
 
-std::optional<Duration> longest_transfer(const Cluster& cluster, const PortBinding& raw) {
+std::optional<Duration> longest_transfer(const model::Cluster& cluster, const model::PortBinding& raw) {
   if (!raw.can_bus) return std::nullopt;
-  const CanBus& bus = cluster.can_buses[*raw.can_bus];
-  for (const CanMessage& message : bus.messages)
+  const model::CanBus& bus = cluster.can_buses[*raw.can_bus];
+  for (const model::CanMessage& message : bus.messages)
     if (message.pdu == raw.pdu && can_data_length(bus.flexible_data_rate, cluster.pdu(raw.pdu).fragment_bytes))
       return can_worst_response(cluster, bus, message);
   return std::nullopt;
@@ -41,18 +41,18 @@ std::optional<Duration> longest_transfer(const Cluster& cluster, const PortBindi
 
 }  // namespace
 
-std::optional<SensorLoop> loop_of(const Cluster& cluster, SensorId id) {
-  const Sensor& sensor = cluster.sensor(id);
+std::optional<SensorLoop> loop_of(const model::Cluster& cluster, SensorId id) {
+  const model::Sensor& sensor = cluster.sensor(id);
   if (!sensor.follows()) return std::nullopt;
-  for (const Task& task : cluster.node(sensor.host).tasks)
-    if (task.activation.kind == ActivationKind::kCompletion && task.activation.after == sensor.after)
+  for (const model::Task& task : cluster.node(sensor.host).tasks)
+    if (task.activation.kind == model::ActivationKind::kCompletion && task.activation.after == sensor.after)
       return std::nullopt;
-  for (const Task& measuring : cluster.node(sensor.device).tasks) {
-    if (measuring.activation.kind != ActivationKind::kSensor || measuring.activation.sensor != id) continue;
-    for (const Task& after : cluster.node(sensor.host).tasks) {
+  for (const model::Task& measuring : cluster.node(sensor.device).tasks) {
+    if (measuring.activation.kind != model::ActivationKind::kSensor || measuring.activation.sensor != id) continue;
+    for (const model::Task& after : cluster.node(sensor.host).tasks) {
       if (after.name != sensor.after) continue;
-      for (const PortBinding& in : after.reads)
-        for (const PortBinding& out : measuring.writes)
+      for (const model::PortBinding& in : after.reads)
+        for (const model::PortBinding& out : measuring.writes)
           if (activates(after, in) && in.pdu == out.pdu && in.can_bus == out.can_bus)
             return SensorLoop{id, &measuring, &out, &after};
     }
@@ -60,7 +60,7 @@ std::optional<SensorLoop> loop_of(const Cluster& cluster, SensorId id) {
   return std::nullopt;
 }
 
-std::optional<SensorLoop> loop_through(const Cluster& cluster, NodeId node, const Task& task) {
+std::optional<SensorLoop> loop_through(const model::Cluster& cluster, NodeId node, const model::Task& task) {
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
     if (cluster.sensors[s].host != node || cluster.sensors[s].after != task.name) continue;
     if (const auto loop = loop_of(cluster, static_cast<SensorId>(s)); loop && loop->after == &task) return loop;
@@ -68,16 +68,16 @@ std::optional<SensorLoop> loop_through(const Cluster& cluster, NodeId node, cons
   return std::nullopt;
 }
 
-Duration shortest_return(const Cluster& cluster, const SensorLoop& loop) {
+Duration shortest_return(const model::Cluster& cluster, const SensorLoop& loop) {
   return at_least(cluster, shortest_execution(*loop.measuring) + shortest_transfer(cluster, *loop.raw));
 }
 
-Duration shortest_round(const Cluster& cluster, const SensorLoop& loop) {
+Duration shortest_round(const model::Cluster& cluster, const SensorLoop& loop) {
   return shortest_return(cluster, loop) + at_least(cluster, shortest_execution(*loop.after));
 }
 
-std::optional<Duration> longest_round(const Cluster& cluster, const SensorLoop& loop) {
-  const Sensor& sensor = cluster.sensor(loop.sensor);
+std::optional<Duration> longest_round(const model::Cluster& cluster, const SensorLoop& loop) {
+  const model::Sensor& sensor = cluster.sensor(loop.sensor);
   const auto measuring = worst_of(cluster, sensor.device, *loop.measuring);
   const auto sent = longest_transfer(cluster, *loop.raw);
   const auto after = worst_of(cluster, sensor.host, *loop.after);
@@ -85,4 +85,4 @@ std::optional<Duration> longest_round(const Cluster& cluster, const SensorLoop& 
   return std::max(at_most(cluster, *measuring + *sent + *after), at_most(cluster, sensor.period));
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

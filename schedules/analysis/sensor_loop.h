@@ -17,30 +17,30 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 struct SensorLoop {
   SensorId sensor{};
-  const Task* measuring = nullptr;   // of the device
-  const PortBinding* raw = nullptr;  // what that writes and `after` reads
-  const Task* after = nullptr;       // of the host
+  const model::Task* measuring = nullptr;   // of the device
+  const model::PortBinding* raw = nullptr;  // what that writes and `after` reads
+  const model::Task* after = nullptr;       // of the host
 };
 
 // Nothing for a sensor that does not follow, or whose loop is not closed, which check_loops() says.
-std::optional<SensorLoop> loop_of(const Cluster& cluster, SensorId sensor);
+std::optional<SensorLoop> loop_of(const model::Cluster& cluster, SensorId sensor);
 // The loop that activates this task of the node, if one does.
-std::optional<SensorLoop> loop_through(const Cluster& cluster, NodeId node, const Task& task);
+std::optional<SensorLoop> loop_through(const model::Cluster& cluster, NodeId node, const model::Task& task);
 
 // Of a task's execution times.
-inline Duration shortest_execution(const Task& task) {
-  return task.draw == ExecutionDraw::kWorst ? task.worst_case : task.best_case;
+inline Duration shortest_execution(const model::Task& task) {
+  return task.draw == model::ExecutionDraw::kWorst ? task.worst_case : task.best_case;
 }
 
 // From the end of `after` to its next activation at the least, on any clock.
-Duration shortest_return(const Cluster& cluster, const SensorLoop& loop);
+Duration shortest_return(const model::Cluster& cluster, const SensorLoop& loop);
 // From one measurement to the next at the least, on any clock, `period` left out; and at the most, all included:
 // nothing where nodes or media may be busy without end.
-Duration shortest_round(const Cluster& cluster, const SensorLoop& loop);
-std::optional<Duration> longest_round(const Cluster& cluster, const SensorLoop& loop);
+Duration shortest_round(const model::Cluster& cluster, const SensorLoop& loop);
+std::optional<Duration> longest_round(const model::Cluster& cluster, const SensorLoop& loop);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -6,7 +6,7 @@
 #include "schedules/analysis/age_stages.h"
 #include "schedules/model/round.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 // Stamps are rounded to the nearest microsecond.
@@ -14,7 +14,7 @@ constexpr std::int64_t kStampRounding_ns = 500;
 
 }  // namespace
 
-std::optional<SettledRound> settled_round(const Cluster& cluster, SensorId sensor) {
+std::optional<SettledRound> settled_round(const model::Cluster& cluster, SensorId sensor) {
   const Path path = path_of(cluster, sensor);
   const std::size_t fusing = path.available;
   if (fusing >= path.stages.size() || path.stages[fusing].kind != Stage::Kind::kActivation) return std::nullopt;
@@ -24,11 +24,11 @@ std::optional<SettledRound> settled_round(const Cluster& cluster, SensorId senso
   std::size_t gate = 0;
   for (; !path.stages[gate].on_grid(true); ++gate) before += path.stages[gate].worst.ns;
 
-  const std::int64_t round_ps = kCycles * cluster.flexray.cycle_ps();
+  const std::int64_t round_ps = model::kCycles * cluster.flexray.cycle_ps();
   const std::int64_t rounds = 1000 / std::gcd<std::int64_t>(1000, round_ps);
   std::vector<std::int64_t> gates;
   for (std::int64_t r = 0; r < rounds; ++r)
-    for (const std::int64_t missed : entries(cluster, path.stages[gate], kFromCycle + r * kCycles, true))
+    for (const std::int64_t missed : entries(cluster, path.stages[gate], model::kFromCycle + r * model::kCycles, true))
       gates.push_back(missed - 1);
   std::sort(gates.begin(), gates.end());
 
@@ -48,4 +48,4 @@ std::optional<SettledRound> settled_round(const Cluster& cluster, SensorId senso
   return result;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -8,9 +8,9 @@
 // is read at the fusion instant a(g) at the latest, what enters behind it may be read an instant later. So at a(g), and
 // not before, everything that is stamped
 //   m(g) = g - W - (clocks apart) - (stamp)
-// or earlier has arrived or never will. Stages, worst cases and the clocks' distance are those of schedules/analysis/ages.h, its
-// assumptions A1, A2 and A4 included. A stamp is the reading of a clock, at most a macrotick old, rounded to a
-// microsecond: the last term.
+// or earlier has arrived or never will. Stages, worst cases and the clocks' distance are those of
+// schedules/analysis/ages.h, its assumptions A1, A2 and A4 included. A stamp is the reading of a clock, at most a
+// macrotick old, rounded to a microsecond: the last term.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 // At the fusion instant `at` and after it, all lists of measurements stamped `measured` or earlier have arrived.
 struct Settled {
@@ -37,6 +37,6 @@ struct SettledRound {
 
 // Nothing for a sensor whose lists reach no fusing task, or one that time does not activate. The cluster must have
 // passed check().
-std::optional<SettledRound> settled_round(const Cluster& cluster, SensorId sensor);
+std::optional<SettledRound> settled_round(const model::Cluster& cluster, SensorId sensor);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -7,20 +7,20 @@
 #include "schedules/analysis/minislots.h"
 #include "schedules/model/round.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
-void set_static_times(const GlobalParameters& g, SlotGroup& group) {
+void set_static_times(const model::GlobalParameters& g, SlotGroup& group) {
   group.taken_from = slot_start(g, group.first);
   group.taken_by = group.taken_from + Macroticks{g.gdActionPointOffset};
   group.complete_by = slot_start(g, group.last + 1);
 }
 
 // On whichever channel it goes out first, and has gone out last.
-void set_dynamic_times(const Cluster& cluster, PduId pdu, SlotGroup& group) {
-  const GlobalParameters& g = cluster.flexray;
+void set_dynamic_times(const model::Cluster& cluster, PduId pdu, SlotGroup& group) {
+  const model::GlobalParameters& g = cluster.flexray;
   std::int64_t taken_by = 0, over = 0;
-  for (const FrameSlot& frame : cluster.frames) {
+  for (const model::FrameSlot& frame : cluster.frames) {
     if (frame.pdu != pdu || frame.base_cycle != group.base_cycle || frame.repetition != group.repetition) continue;
     const std::int64_t turn = latest_turn(cluster, frame);
     if (frame.slot == group.first) taken_by = std::max(taken_by, turn);
@@ -34,9 +34,9 @@ void set_dynamic_times(const Cluster& cluster, PduId pdu, SlotGroup& group) {
 
 }  // namespace
 
-std::vector<SlotGroup> slot_groups(const Cluster& cluster, PduId pdu) {
+std::vector<SlotGroup> slot_groups(const model::Cluster& cluster, PduId pdu) {
   std::map<std::pair<int, int>, SlotGroup> groups;
-  for (const FrameSlot& frame : cluster.frames) {
+  for (const model::FrameSlot& frame : cluster.frames) {
     if (frame.pdu != pdu) continue;
     SlotGroup fresh;
     fresh.base_cycle = frame.base_cycle;
@@ -59,23 +59,23 @@ std::vector<SlotGroup> slot_groups(const Cluster& cluster, PduId pdu) {
   return list;
 }
 
-Macroticks slot_start(const GlobalParameters& g, int slot) {
+Macroticks slot_start(const model::GlobalParameters& g, int slot) {
   return {static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot};
 }
 
-std::optional<SlotGap> shortest_slot_gap(const Cluster& cluster, PduId pdu) {
-  const GlobalParameters& g = cluster.flexray;
+std::optional<SlotGap> shortest_slot_gap(const model::Cluster& cluster, PduId pdu) {
+  const model::GlobalParameters& g = cluster.flexray;
   std::vector<std::int64_t> starts;
   SlotGap result;
   for (const SlotGroup& group : slot_groups(cluster, pdu)) {
     if (!group.bounded) return std::nullopt;
-    for (std::int64_t cycle = group.base_cycle; cycle < kCycles; cycle += group.repetition)
+    for (std::int64_t cycle = group.base_cycle; cycle < model::kCycles; cycle += group.repetition)
       starts.push_back(time_of(g, cycle, group.taken_from).ns);
     result.spread = std::max(result.spread, time_of(g, 0, group.complete_by) - time_of(g, 0, group.taken_from));
   }
   if (starts.empty()) return std::nullopt;
   std::sort(starts.begin(), starts.end());
-  result.gap = result.longest = {starts.front() + time_of(g, kCycles, Macroticks{0}).ns - starts.back()};
+  result.gap = result.longest = {starts.front() + time_of(g, model::kCycles, Macroticks{0}).ns - starts.back()};
   for (std::size_t i = 1; i < starts.size(); ++i) {
     const Duration next{starts[i] - starts[i - 1]};
     result.gap = std::min(result.gap, next);
@@ -84,4 +84,4 @@ std::optional<SlotGap> shortest_slot_gap(const Cluster& cluster, PduId pdu) {
   return result;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -8,7 +8,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 
 // The slots of one list in the cycles of one base and repetition, and when in a cycle a list goes out.
 struct SlotGroup {
@@ -26,10 +26,10 @@ struct SlotGroup {
 };
 
 // By base cycle and repetition; empty for a PDU that is not on FlexRay.
-std::vector<SlotGroup> slot_groups(const Cluster& cluster, PduId pdu);
+std::vector<SlotGroup> slot_groups(const model::Cluster& cluster, PduId pdu);
 
 // Macrotick at which a static slot (1..) begins.
-Macroticks slot_start(const GlobalParameters& flexray, int slot);
+Macroticks slot_start(const model::GlobalParameters& flexray, int slot);
 
 // The shortest and the longest time between the beginnings of two sendings of a PDU that follow each other, over all 64
 // cycles, and how much later than its beginning one can be complete. Nothing if it has no slots, or if some sending has
@@ -39,6 +39,6 @@ struct SlotGap {
   Duration longest{};
   Duration spread{};
 };
-std::optional<SlotGap> shortest_slot_gap(const Cluster& cluster, PduId pdu);
+std::optional<SlotGap> shortest_slot_gap(const model::Cluster& cluster, PduId pdu);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

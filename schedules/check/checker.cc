@@ -11,7 +11,7 @@
 #include "schedules/model/limits.h"
 #include "schedules/model/wire_times.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 // FlexRay 2.1A, annex B: cdCAS in gdBit; and a bus driver's longest reaction from idle to activity (electrical physical
@@ -19,15 +19,15 @@ namespace {
 constexpr std::int64_t kDriverReaction_ps = 400'000;
 
 // 2 gdActionPointOffset + ceil((bits gdBitMax + delays) / (gdMacrotick (1 - cClockDeviationMax))).
-std::int64_t around_action_points(const GlobalParameters& g, std::int64_t bits, std::int64_t extra_ps) {
+std::int64_t around_action_points(const model::GlobalParameters& g, std::int64_t bits, std::int64_t extra_ps) {
   const Int128 time =
-      longest_bits(g, bits) + scaled(g.gdMinPropagationDelay_ps + g.gdMaxPropagationDelay_ps + extra_ps);
-  return 2 * g.gdActionPointOffset + ceil_div(time, shortest_macroticks(g, 1));
+      longest_bits(g, bits) + model::scaled(g.gdMinPropagationDelay_ps + g.gdMaxPropagationDelay_ps + extra_ps);
+  return 2 * g.gdActionPointOffset + model::ceil_div(time, shortest_macroticks(g, 1));
 }
 
 // What an offset correction can take from the macroticks behind gOffsetCorrectionStart, in the shortest cycle that rate
 // correction makes, and still leave each of them a microtick. The external terms come on top of both corrections.
-std::int64_t offset_correction_room(const GlobalParameters& g, const NodeParameters& p) {
+std::int64_t offset_correction_room(const model::GlobalParameters& g, const model::NodeParameters& p) {
   const std::int64_t macroticks = g.gMacroPerCycle - g.gOffsetCorrectionStart;
   return macroticks * (p.pMicroPerCycle - p.pRateCorrectionOut - p.pExternRateCorrection) / g.gMacroPerCycle -
          macroticks - p.pExternOffsetCorrection;
@@ -56,25 +56,27 @@ void ClusterFindings::at(int line, const std::string& key, const std::string& va
   list_.push_back({cluster_.file, line, key, value, expected});
 }
 
-std::string task_path(const Node& node, const Task& task) {
+std::string task_path(const model::Node& node, const model::Task& task) {
   return fmt::format("nodes.{}.tasks.{}", node.name, task.name);
 }
 
 std::string ms(Duration duration) { return fmt::format("{} ms", static_cast<double>(duration.ns) / 1e6); }
 
-std::int64_t assumed_precision_ps(const GlobalParameters& g) {
+std::int64_t assumed_precision_ps(const model::GlobalParameters& g) {
   return (34 + 20 * static_cast<std::int64_t>(g.gClusterDriftDamping)) * g.gdMaxMicrotick_ps +
          2 * g.gdMaxPropagationDelay_ps;
 }
 
-Duration assumed_precision(const GlobalParameters& g) { return {ceil_div(assumed_precision_ps(g), 1000)}; }
-
-std::int64_t shortest_static_slot(const GlobalParameters& g) {
-  return around_action_points(g, frame_bits(g, g.gPayloadLengthStatic) + kIdleDelimiterBits, 0);
+Duration assumed_precision(const model::GlobalParameters& g) {
+  return {model::ceil_div(assumed_precision_ps(g), 1000)};
 }
 
-void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
-  const GlobalParameters& g = cluster.flexray;
+std::int64_t shortest_static_slot(const model::GlobalParameters& g) {
+  return around_action_points(g, frame_bits(g, g.gPayloadLengthStatic) + model::kIdleDelimiterBits, 0);
+}
+
+void check_cycle(const model::Cluster& cluster, ClusterFindings& findings) {
+  const model::GlobalParameters& g = cluster.flexray;
   const auto wrong = [&](const char* name, std::int64_t value, const std::string& expected) {
     findings.parameter(fmt::format("flexray.{}", name), fmt::format("{}", value), expected);
   };
@@ -102,18 +104,18 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
                       g.gPayloadLengthStatic));
   const std::int64_t precision = assumed_precision_ps(g);
   const std::int64_t action_point =
-      ceil_div(std::max<std::int64_t>(precision - g.gdMinPropagationDelay_ps, 0), g.gdMacrotick_ps);
+      model::ceil_div(std::max<std::int64_t>(precision - g.gdMinPropagationDelay_ps, 0), g.gdMacrotick_ps);
   if (g.gdActionPointOffset < action_point)
     wrong("gdActionPointOffset", g.gdActionPointOffset,
           fmt::format("must be at least {} macroticks: the assumed precision is {}", action_point, us(precision)));
   if (g.gdSymbolWindow > 0) {
     const std::int64_t needed =
-        around_action_points(g, g.gdTSSTransmitter + kCasBits + kIdleDelimiterBits, kDriverReaction_ps);
+        around_action_points(g, g.gdTSSTransmitter + model::kCasBits + model::kIdleDelimiterBits, kDriverReaction_ps);
     if (g.gdSymbolWindow < needed)
       wrong("gdSymbolWindow", g.gdSymbolWindow,
             fmt::format("must be 0 (none) or at least {} macroticks (constraint 16)", needed));
   }
-  if (cluster.guardian && cluster.topology != Topology::kStar)
+  if (cluster.guardian && cluster.topology != model::Topology::kStar)
     findings.parameter("guardian", "true", "needs topology: star, in whose middle it sits");
   if (g.gOffsetCorrectionStart < g.gMacroPerCycle - g.gdNIT || g.gOffsetCorrectionStart >= g.gMacroPerCycle)
     wrong("gOffsetCorrectionStart", g.gOffsetCorrectionStart,
@@ -121,9 +123,10 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
                       g.gMacroPerCycle - 1));
   if (static_cast<Int128>(g.gdBit_ps) * g.baudrate != 1'000'000'000'000)
     wrong("baudrate", g.baudrate, fmt::format("must be 1 / gdBit, with gdBit = {}", us(g.gdBit_ps)));
-  if (g.gNumberOfStaticSlots + g.gNumberOfMinislots > kLastSlot)
+  if (g.gNumberOfStaticSlots + g.gNumberOfMinislots > model::kLastSlot)
     wrong("gNumberOfMinislots", g.gNumberOfMinislots,
-          fmt::format("must be at most {}: frame ids end at {}", kLastSlot - g.gNumberOfStaticSlots, kLastSlot));
+          fmt::format("must be at most {}: frame ids end at {}", model::kLastSlot - g.gNumberOfStaticSlots,
+                      model::kLastSlot));
   if (g.gMaxWithoutClockCorrectionFatal < g.gMaxWithoutClockCorrectionPassive)
     wrong("gMaxWithoutClockCorrectionFatal", g.gMaxWithoutClockCorrectionFatal,
           fmt::format("must be {}..15: not below gMaxWithoutClockCorrectionPassive",
@@ -138,12 +141,12 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
 
 // The key slot is the node's own, static, on all its channels, in every cycle. Where the node sends in nothing else
 // until its host commands ALL_SLOTS, it must have nothing else to send: no host gives that command on its own.
-void check_key_slot(const Cluster& cluster, NodeId id, ClusterFindings& findings) {
-  const Node& node = cluster.node(id);
-  const NodeParameters& p = *node.flexray;
-  const FrameSlot* other = nullptr;
+void check_key_slot(const model::Cluster& cluster, NodeId id, ClusterFindings& findings) {
+  const model::Node& node = cluster.node(id);
+  const model::NodeParameters& p = *node.flexray;
+  const model::FrameSlot* other = nullptr;
   bool owns = false;
-  for (const FrameSlot& frame : cluster.frames) {
+  for (const model::FrameSlot& frame : cluster.frames) {
     if (frame.sender != id) continue;
     owns |= frame.slot == p.pKeySlotId && frame.repetition == 1 && frame.channels == p.pChannels &&
             !is_dynamic(cluster.flexray, frame);
@@ -152,7 +155,7 @@ void check_key_slot(const Cluster& cluster, NodeId id, ClusterFindings& findings
   if (!owns)
     findings.parameter(fmt::format("nodes.{}.flexray.pKeySlotId", node.name), fmt::format("{}", p.pKeySlotId),
                        fmt::format("must be a static slot that {} owns on {} in every cycle", node.name,
-                                   p.pChannels == Channels::kAB ? "both channels" : "its channel"));
+                                   p.pChannels == model::Channels::kAB ? "both channels" : "its channel"));
   if (p.pKeySlotOnlyEnabled && other != nullptr)
     findings.parameter(
         fmt::format("nodes.{}.flexray.pKeySlotOnlyEnabled", node.name), "true",
@@ -161,25 +164,25 @@ void check_key_slot(const Cluster& cluster, NodeId id, ClusterFindings& findings
                     node.name, other->slot, other->line));
 }
 
-void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
-  const GlobalParameters& g = cluster.flexray;
+void check_clocks(const model::Cluster& cluster, ClusterFindings& findings) {
+  const model::GlobalParameters& g = cluster.flexray;
   std::int64_t worst_drift = 0;
   int sync = 0, startup = 0, controllers = 0;
-  for (const Node& node : cluster.nodes)
+  for (const model::Node& node : cluster.nodes)
     if (node.flexray) {
-      worst_drift = std::max(worst_drift, worst_drift_ppb(node));
+      worst_drift = std::max(worst_drift, analysis::worst_drift_ppb(node));
       ++controllers;
       sync += node.flexray->pKeySlotUsedForSync ? 1 : 0;
       startup += node.flexray->pKeySlotUsedForStartup ? 1 : 0;
     }
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
-    const Node& node = cluster.nodes[n];
+    const model::Node& node = cluster.nodes[n];
     if (node.drift_ppb && std::abs(*node.drift_ppb) > node.max_drift_ppb)
       findings.parameter(
           fmt::format("nodes.{}.drift_ppm", node.name), fmt::format("{}", static_cast<double>(*node.drift_ppb) / 1e3),
           fmt::format("must be within +-max_drift_ppm = {}", static_cast<double>(node.max_drift_ppb) / 1e3));
     if (!node.flexray) continue;
-    const NodeParameters& p = *node.flexray;
+    const model::NodeParameters& p = *node.flexray;
     const auto wrong = [&](const char* name, const std::string& value, const std::string& expected) {
       findings.parameter(fmt::format("nodes.{}.flexray.{}", node.name, name), value, expected);
     };
@@ -199,12 +202,13 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
             fmt::format("must be as many samples of gdBit / 8 = {} as make pdMicrotick = {}", ns(g.gdBit_ps / 8),
                         ns(p.pdMicrotick_ps)));
     // Against the node that is farthest off to the other side, counted in own microticks.
-    const std::int64_t rate = ceil_div(static_cast<Int128>(p.pMicroPerCycle) * (worst_drift_ppb(node) + worst_drift),
-                                       1'000'000'000 - worst_drift);
+    const std::int64_t rate =
+        model::ceil_div(static_cast<Int128>(p.pMicroPerCycle) * (analysis::worst_drift_ppb(node) + worst_drift),
+                        1'000'000'000 - worst_drift);
     if (p.pRateCorrectionOut < rate)
       wrong("pRateCorrectionOut", text(p.pRateCorrectionOut),
             fmt::format("must be at least {} microticks to follow the worst drift between two nodes", rate));
-    const std::int64_t offset = ceil_div(assumed_precision_ps(g), p.pdMicrotick_ps);
+    const std::int64_t offset = model::ceil_div(assumed_precision_ps(g), p.pdMicrotick_ps);
     const std::int64_t room = offset_correction_room(g, p);
     if (p.pOffsetCorrectionOut < offset || p.pOffsetCorrectionOut > room)
       wrong("pOffsetCorrectionOut", text(p.pOffsetCorrectionOut),
@@ -221,7 +225,7 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
     if (p.pKeySlotUsedForStartup && !p.pKeySlotUsedForSync)
       wrong("pKeySlotUsedForStartup", "true", "needs pKeySlotUsedForSync: a startup frame is a sync frame");
     if (!includes(p.pChannels, p.pWakeupChannel))
-      wrong("pWakeupChannel", p.pWakeupChannel == Channel::kA ? "A" : "B",
+      wrong("pWakeupChannel", p.pWakeupChannel == model::Channel::kA ? "A" : "B",
             fmt::format("must be a channel that {} is attached to (pChannels = {})", node.name,
                         channels_text(p.pChannels)));
     check_key_slot(cluster, static_cast<NodeId>(n), findings);
@@ -238,7 +242,7 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
                        fmt::format("must have at least {} nodes with pKeySlotUsedForStartup", std::max(needed, 2)));
 }
 
-std::vector<Finding> check(const Cluster& cluster) {
+std::vector<Finding> check(const model::Cluster& cluster) {
   ClusterFindings findings(cluster);
   check_cycle(cluster, findings);
   check_clocks(cluster, findings);
@@ -251,4 +255,4 @@ std::vector<Finding> check(const Cluster& cluster) {
   return findings.take();
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -9,9 +9,10 @@
 //   slots        nobody owns a slot another owns in the same cycle and channel; a sender is attached to the
 //                frame's channels; payload fits, behind the network management vector where the frame carries it; a
 //                PDU's fragments complete
-//   dynamic      minislots that all clocks count alike, frames that end within the segment (schedules/analysis/minislots.h)
-//   CAN          frames fit, identifiers are unique, worst-case load, responses within periods (schedules/analysis/can_load.h)
-//   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
+//   dynamic      minislots that all clocks count alike, frames that end within the segment
+//   (schedules/analysis/minislots.h) CAN          frames fit, identifiers are unique, worst-case load, responses within
+//   periods (schedules/analysis/can_load.h) tasks        no overlap, deadlines with every wait for other tasks, an end
+//   before the next activation
 //                (schedules/analysis/responses.h)
 //   loops        a sensor that follows its host does so in a closed loop (schedules/analysis/sensor_loop.h)
 //   flow         every reader has a writer and the other way round, sensors have their tasks, no list goes in a ring
@@ -28,15 +29,15 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 
 // Everything that is wrong, in a fixed order; empty for a cluster that may run.
-std::vector<Finding> check(const Cluster& cluster);
+std::vector<Finding> check(const model::Cluster& cluster);
 
 // Collects findings about one cluster; shared by the checker's parts (checker_*.cc).
 class ClusterFindings {
  public:
-  explicit ClusterFindings(const Cluster& cluster) : cluster_(cluster) {}
+  explicit ClusterFindings(const model::Cluster& cluster) : cluster_(cluster) {}
   // About a parameter of the file, by its path ("flexray.gdNIT"): its line is looked up.
   void parameter(const std::string& path, const std::string& value, const std::string& expected);
   void at(int line, const std::string& key, const std::string& value, const std::string& expected);
@@ -44,33 +45,34 @@ class ClusterFindings {
   std::vector<Finding> take() { return std::move(list_); }
 
  private:
-  const Cluster& cluster_;
+  const model::Cluster& cluster_;
   std::vector<Finding> list_;
 };
 
 // "nodes.fusion.tasks.fuse"
-std::string task_path(const Node& node, const Task& task);
+std::string task_path(const model::Node& node, const model::Task& task);
 // "2.5 ms"
 std::string ms(Duration duration);
 
-void check_cycle(const Cluster& cluster, ClusterFindings& findings);
-void check_clocks(const Cluster& cluster, ClusterFindings& findings);
-void check_key_slot(const Cluster& cluster, NodeId node, ClusterFindings& findings);  // of a node with a controller
-void check_slots(const Cluster& cluster, ClusterFindings& findings);
-void check_dynamic(const Cluster& cluster, ClusterFindings& findings);  // after check_slots()
-void check_can(const Cluster& cluster, ClusterFindings& findings);
-void check_tasks(const Cluster& cluster, ClusterFindings& findings);
+void check_cycle(const model::Cluster& cluster, ClusterFindings& findings);
+void check_clocks(const model::Cluster& cluster, ClusterFindings& findings);
+void check_key_slot(const model::Cluster& cluster, NodeId node,
+                    ClusterFindings& findings);  // of a node with a controller
+void check_slots(const model::Cluster& cluster, ClusterFindings& findings);
+void check_dynamic(const model::Cluster& cluster, ClusterFindings& findings);  // after check_slots()
+void check_can(const model::Cluster& cluster, ClusterFindings& findings);
+void check_tasks(const model::Cluster& cluster, ClusterFindings& findings);
 // A node whose tasks passed check_tasks(): deadlines with other tasks' turns, and what its lists promise on CANs.
-void check_responses(const Cluster& cluster, NodeId node, ClusterFindings& findings);
-void check_flow(const Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
-void check_loops(const Cluster& cluster, ClusterFindings& findings);  // after all others
+void check_responses(const model::Cluster& cluster, NodeId node, ClusterFindings& findings);
+void check_flow(const model::Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
+void check_loops(const model::Cluster& cluster, ClusterFindings& findings);  // after all others
 
 // gAssumedPrecision = (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay, in picoseconds.
-std::int64_t assumed_precision_ps(const GlobalParameters& flexray);
+std::int64_t assumed_precision_ps(const model::GlobalParameters& flexray);
 // The same rounded up to whole nanoseconds: readings of two clocks that are further apart than this are so whichever
 // way they were rounded.
-Duration assumed_precision(const GlobalParameters& flexray);
+Duration assumed_precision(const model::GlobalParameters& flexray);
 // Shortest static slot that holds a frame of gPayloadLengthStatic words, in macroticks.
-std::int64_t shortest_static_slot(const GlobalParameters& flexray);
+std::int64_t shortest_static_slot(const model::GlobalParameters& flexray);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -6,40 +6,42 @@
 #include <set>
 #include <string>
 
-#include "schedules/check/checker.h"
 #include "schedules/analysis/minislots.h"
+#include "schedules/check/checker.h"
 #include "schedules/model/wire_times.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 // A transmission that begins or ends at a sender's action point begins or ends in the same minislot of every receiver's
 // clock, and the channel is seen idle before the next slot may begin (annex B: gdMinislotActionPointOffset, gdMinislot,
 // gdDynamicSlotIdlePhase).
-void check_grid(const Cluster& cluster, ClusterFindings& findings) {
-  const GlobalParameters& g = cluster.flexray;
+void check_grid(const model::Cluster& cluster, ClusterFindings& findings) {
+  const model::GlobalParameters& g = cluster.flexray;
   const auto wrong = [&](const char* name, std::int64_t value, const std::string& expected) {
     findings.parameter(fmt::format("flexray.{}", name), fmt::format("{}", value), expected);
   };
   const std::int64_t precision = assumed_precision_ps(g);
-  const std::int64_t offset =
-      ceil_div(scaled(std::max<std::int64_t>(precision - g.gdMinPropagationDelay_ps, 0)), shortest_macroticks(g, 1));
+  const std::int64_t offset = model::ceil_div(
+      model::scaled(std::max<std::int64_t>(precision - g.gdMinPropagationDelay_ps, 0)), shortest_macroticks(g, 1));
   if (g.gdMinislotActionPointOffset < offset)
     wrong("gdMinislotActionPointOffset", g.gdMinislotActionPointOffset,
           fmt::format(
               "must be at least {} macroticks where frames are sent in the dynamic segment: the assumed precision",
               offset));
-  const std::int64_t length = g.gdMinislotActionPointOffset +
-                              ceil_div(scaled(precision + g.gdMaxPropagationDelay_ps), shortest_macroticks(g, 1));
+  const std::int64_t length =
+      g.gdMinislotActionPointOffset +
+      model::ceil_div(model::scaled(precision + g.gdMaxPropagationDelay_ps), shortest_macroticks(g, 1));
   if (g.gdMinislot < length)
     wrong("gdMinislot", g.gdMinislot,
           fmt::format(
               "must be at least {} macroticks where frames are sent in the dynamic segment: its action point, the "
               "longest propagation delay and the assumed precision",
               length));
-  const Int128 idle = longest_bits(g, kIdleDelimiterBits) + scaled(precision + g.gdMaxPropagationDelay_ps) -
+  const Int128 idle = longest_bits(g, model::kIdleDelimiterBits) +
+                      model::scaled(precision + g.gdMaxPropagationDelay_ps) -
                       shortest_macroticks(g, g.gdMinislot - g.gdMinislotActionPointOffset);
-  const std::int64_t phase = idle <= 0 ? 0 : ceil_div(idle, shortest_macroticks(g, g.gdMinislot));
+  const std::int64_t phase = idle <= 0 ? 0 : model::ceil_div(idle, shortest_macroticks(g, g.gdMinislot));
   if (g.gdDynamicSlotIdlePhase < phase)
     wrong(
         "gdDynamicSlotIdlePhase", g.gdDynamicSlotIdlePhase,
@@ -50,44 +52,45 @@ void check_grid(const Cluster& cluster, ClusterFindings& findings) {
 
 // The longest frame of a node, begun in minislot pLatestTx, ends in the segment; its turns come before that minislot is
 // over.
-void check_sender(const Cluster& cluster, NodeId id, ClusterFindings& findings) {
-  const Node& node = cluster.node(id);
-  const GlobalParameters& g = cluster.flexray;
-  const FrameSlot* longest = nullptr;
-  for (const FrameSlot& frame : cluster.frames) {
+void check_sender(const model::Cluster& cluster, NodeId id, ClusterFindings& findings) {
+  const model::Node& node = cluster.node(id);
+  const model::GlobalParameters& g = cluster.flexray;
+  const model::FrameSlot* longest = nullptr;
+  for (const model::FrameSlot& frame : cluster.frames) {
     if (frame.sender != id || !is_dynamic(g, frame) || frame.pdu == kNoPdu) continue;
-    if (longest == nullptr || dynamic_words(cluster, frame) > dynamic_words(cluster, *longest)) longest = &frame;
-    if (earliest_turn(g, frame) > node.flexray->pLatestTx)
+    if (longest == nullptr || analysis::dynamic_words(cluster, frame) > analysis::dynamic_words(cluster, *longest))
+      longest = &frame;
+    if (analysis::earliest_turn(g, frame) > node.flexray->pLatestTx)
       findings.at(
           frame.line, fmt::format("frames.slot {}", frame.slot), fmt::format("{}", frame.slot),
           fmt::format("must be at most {}: its turn comes in minislot {} at the earliest, and {} sends nothing behind "
                       "its pLatestTx = {}",
-                      g.gNumberOfStaticSlots + node.flexray->pLatestTx, earliest_turn(g, frame), node.name,
+                      g.gNumberOfStaticSlots + node.flexray->pLatestTx, analysis::earliest_turn(g, frame), node.name,
                       node.flexray->pLatestTx));
   }
   if (longest == nullptr) return;
-  const int words = dynamic_words(cluster, *longest);
+  const int words = analysis::dynamic_words(cluster, *longest);
   const std::string frame = fmt::format("slot {} with {} words takes {} of {} minislots", longest->slot, words,
-                                        minislots_of(g, words), g.gNumberOfMinislots);
-  if (last_start(g, words) < 1)
+                                        analysis::minislots_of(g, words), g.gNumberOfMinislots);
+  if (analysis::last_start(g, words) < 1)
     findings.at(longest->line, fmt::format("frames.slot {}", longest->slot), cluster.pdu(longest->pdu).name,
                 fmt::format("must fit the dynamic segment: {}", frame));
-  else if (node.flexray->pLatestTx > last_start(g, words))
+  else if (node.flexray->pLatestTx > analysis::last_start(g, words))
     findings.parameter(
         fmt::format("nodes.{}.flexray.pLatestTx", node.name), fmt::format("{}", node.flexray->pLatestTx),
-        fmt::format("must be at most {}: {}, which must not end behind them", last_start(g, words), frame));
+        fmt::format("must be at most {}: {}, which must not end behind them", analysis::last_start(g, words), frame));
 }
 
 // Who counts on when the list arrives; empty: nobody does.
-std::string counted_on(const Cluster& cluster, const FrameSlot& frame) {
+std::string counted_on(const model::Cluster& cluster, const model::FrameSlot& frame) {
   if (const SensorId sensor = cluster.pdu(frame.pdu).sensor; sensor != kNoSensor)
     return fmt::format("the age of measurements of {} would have no bound", cluster.sensor(sensor).name);
   bool fuses = false;
-  for (const Node& node : cluster.nodes)
-    for (const Task& task : node.tasks)
-      for (const PortBinding& in : task.reads) {
+  for (const model::Node& node : cluster.nodes)
+    for (const model::Task& task : node.tasks)
+      for (const model::PortBinding& in : task.reads) {
         if (&node == &cluster.node(frame.sender)) fuses |= cluster.pdu(in.pdu).sensor != kNoSensor;
-        if (in.pdu == frame.pdu && !in.can_bus && task.activation.kind == ActivationKind::kMessage &&
+        if (in.pdu == frame.pdu && !in.can_bus && task.activation.kind == model::ActivationKind::kMessage &&
             task.activation.port == in.port)
           return fmt::format("{} is activated by it", task_path(node, task));
       }
@@ -96,8 +99,8 @@ std::string counted_on(const Cluster& cluster, const FrameSlot& frame) {
                : "";
 }
 
-void check_bounds(const Cluster& cluster, const FrameSlot& frame, ClusterFindings& findings) {
-  if (always_in_time(cluster, frame)) return;
+void check_bounds(const model::Cluster& cluster, const model::FrameSlot& frame, ClusterFindings& findings) {
+  if (analysis::always_in_time(cluster, frame)) return;
   const std::string why = counted_on(cluster, frame);
   if (why.empty()) return;
   findings.at(
@@ -105,21 +108,21 @@ void check_bounds(const Cluster& cluster, const FrameSlot& frame, ClusterFinding
       fmt::format("must have its turn by minislot {} (pLatestTx of {}) in every cycle, but may have it in minislot {} "
                   "where all slots before it are used: {}",
                   cluster.node(frame.sender).flexray->pLatestTx, cluster.node(frame.sender).name,
-                  latest_turn(cluster, frame), why));
+                  analysis::latest_turn(cluster, frame), why));
 }
 
 }  // namespace
 
-void check_dynamic(const Cluster& cluster, ClusterFindings& findings) {
-  const GlobalParameters& g = cluster.flexray;
+void check_dynamic(const model::Cluster& cluster, ClusterFindings& findings) {
+  const model::GlobalParameters& g = cluster.flexray;
   std::set<NodeId> senders;
-  for (const FrameSlot& frame : cluster.frames)
+  for (const model::FrameSlot& frame : cluster.frames)
     if (is_dynamic(g, frame) && frame.pdu != kNoPdu && cluster.node(frame.sender).flexray) senders.insert(frame.sender);
   if (senders.empty()) return;
   check_grid(cluster, findings);
   for (const NodeId sender : senders) check_sender(cluster, sender, findings);
   std::set<PduId> unbounded;  // said once of a list
-  for (const FrameSlot& frame : cluster.frames) {
+  for (const model::FrameSlot& frame : cluster.frames) {
     if (!is_dynamic(g, frame) || !senders.contains(frame.sender) || frame.pdu == kNoPdu) continue;
     const std::size_t before = findings.size();
     if (!unbounded.contains(frame.pdu)) check_bounds(cluster, frame, findings);
@@ -127,4 +130,4 @@ void check_dynamic(const Cluster& cluster, ClusterFindings& findings) {
   }
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

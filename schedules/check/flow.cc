@@ -11,47 +11,47 @@
 
 #include "schedules/check/checker.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 using Medium = std::pair<PduId, std::ptrdiff_t>;  // CAN index, -1 for FlexRay
-Medium medium_of(const PortBinding& binding) {
+Medium medium_of(const model::PortBinding& binding) {
   return {binding.pdu, binding.can_bus ? static_cast<std::ptrdiff_t>(*binding.can_bus) : -1};
 }
 
 struct End {
   NodeId node;
-  const Task* task;
-  const PortBinding* binding;
+  const model::Task* task;
+  const model::PortBinding* binding;
 };
 
-std::string end_path(const Cluster& cluster, const End& end, std::string_view direction) {
+std::string end_path(const model::Cluster& cluster, const End& end, std::string_view direction) {
   return fmt::format("{}.{}.{}", task_path(cluster.node(end.node), *end.task), direction, end.binding->port);
 }
 
-std::string medium_name(const Cluster& cluster, const Medium& medium) {
+std::string medium_name(const model::Cluster& cluster, const Medium& medium) {
   return fmt::format("{} on {}", cluster.pdu(medium.first).name,
                      medium.second < 0 ? "flexray" : cluster.can_buses[static_cast<std::size_t>(medium.second)].name);
 }
 
 // Who may send the list on its medium: the message's sender, or the owner of its slots.
-std::optional<NodeId> sender_of(const Cluster& cluster, const Medium& medium) {
+std::optional<NodeId> sender_of(const model::Cluster& cluster, const Medium& medium) {
   if (medium.second >= 0) {
-    for (const CanMessage& message : cluster.can_buses[static_cast<std::size_t>(medium.second)].messages)
+    for (const model::CanMessage& message : cluster.can_buses[static_cast<std::size_t>(medium.second)].messages)
       if (message.pdu == medium.first) return message.sender;
   } else {
-    for (const FrameSlot& frame : cluster.frames)
+    for (const model::FrameSlot& frame : cluster.frames)
       if (frame.pdu == medium.first) return frame.sender;
   }
   return std::nullopt;
 }
 
 // A reader on FlexRay is attached to a channel of every frame of the list.
-void check_hears(const Cluster& cluster, const End& end, const std::string& name, ClusterFindings& findings) {
-  const Node& node = cluster.node(end.node);
+void check_hears(const model::Cluster& cluster, const End& end, const std::string& name, ClusterFindings& findings) {
+  const model::Node& node = cluster.node(end.node);
   if (!node.flexray)
     return findings.at(end.binding->line, end_path(cluster, end, "reads"), name, "needs a node on FlexRay");
-  for (const FrameSlot& frame : cluster.frames) {
+  for (const model::FrameSlot& frame : cluster.frames) {
     if (frame.pdu != end.binding->pdu || share_a_channel(frame.channels, node.flexray->pChannels)) continue;
     return findings.at(
         end.binding->line, end_path(cluster, end, "reads"), name,
@@ -62,18 +62,18 @@ void check_hears(const Cluster& cluster, const End& end, const std::string& name
   }
 }
 
-void check_sensor(const Cluster& cluster, SensorId id, ClusterFindings& findings) {
-  const Sensor& sensor = cluster.sensor(id);
+void check_sensor(const model::Cluster& cluster, SensorId id, ClusterFindings& findings) {
+  const model::Sensor& sensor = cluster.sensor(id);
   const std::string path = "sensors." + sensor.name;
   int measuring = 0;
   bool writes = false, host_reads = false;
-  for (const Task& task : cluster.node(sensor.device).tasks) {
-    if (task.activation.kind != ActivationKind::kSensor || task.activation.sensor != id) continue;
+  for (const model::Task& task : cluster.node(sensor.device).tasks) {
+    if (task.activation.kind != model::ActivationKind::kSensor || task.activation.sensor != id) continue;
     ++measuring;
-    for (const PortBinding& binding : task.writes) writes |= cluster.pdu(binding.pdu).sensor == id;
+    for (const model::PortBinding& binding : task.writes) writes |= cluster.pdu(binding.pdu).sensor == id;
   }
-  for (const Task& task : cluster.node(sensor.host).tasks)
-    for (const PortBinding& binding : task.reads) host_reads |= cluster.pdu(binding.pdu).sensor == id;
+  for (const model::Task& task : cluster.node(sensor.host).tasks)
+    for (const model::PortBinding& binding : task.reads) host_reads |= cluster.pdu(binding.pdu).sensor == id;
   if (measuring != 1)
     findings.at(sensor.line, path + ".device", cluster.node(sensor.device).name,
                 fmt::format("must have exactly one task that {} activates; it has {}", sensor.name, measuring));
@@ -91,28 +91,28 @@ void check_sensor(const Cluster& cluster, SensorId id, ClusterFindings& findings
 // A sensor's lists go one way: followed from any task over what it writes, they never come back to it.
 class RingFinder {
  public:
-  RingFinder(const Cluster& cluster, const std::map<Medium, std::vector<End>>& readers, SensorId sensor,
+  RingFinder(const model::Cluster& cluster, const std::map<Medium, std::vector<End>>& readers, SensorId sensor,
              ClusterFindings& findings)
       : cluster_(cluster), readers_(readers), sensor_(sensor), findings_(findings) {
-    for (const Node& node : cluster.nodes) state_.emplace_back(node.tasks.size(), State::kNew);
+    for (const model::Node& node : cluster.nodes) state_.emplace_back(node.tasks.size(), State::kNew);
   }
 
   void run() {
     for (std::size_t n = 0; n < state_.size(); ++n)
-      for (const Task& task : cluster_.nodes[n].tasks) visit(static_cast<NodeId>(n), task);
+      for (const model::Task& task : cluster_.nodes[n].tasks) visit(static_cast<NodeId>(n), task);
   }
 
  private:
   enum class State : std::uint8_t { kNew, kOnTheWay, kDone };
 
-  State& state(NodeId node, const Task& task) {
+  State& state(NodeId node, const model::Task& task) {
     return state_[index_of(node)][static_cast<std::size_t>(&task - cluster_.node(node).tasks.data())];
   }
 
-  void visit(NodeId node, const Task& task) {
+  void visit(NodeId node, const model::Task& task) {
     if (state(node, task) != State::kNew) return;
     state(node, task) = State::kOnTheWay;
-    for (const PortBinding& binding : task.writes) {
+    for (const model::PortBinding& binding : task.writes) {
       const auto ends = readers_.find(medium_of(binding));
       if (cluster_.pdu(binding.pdu).sensor != sensor_ || ends == readers_.end()) continue;
       for (const End& end : ends->second) {
@@ -127,7 +127,7 @@ class RingFinder {
     state(node, task) = State::kDone;
   }
 
-  const Cluster& cluster_;
+  const model::Cluster& cluster_;
   const std::map<Medium, std::vector<End>>& readers_;
   SensorId sensor_;
   ClusterFindings& findings_;
@@ -136,12 +136,14 @@ class RingFinder {
 
 }  // namespace
 
-void check_flow(const Cluster& cluster, ClusterFindings& findings) {
+void check_flow(const model::Cluster& cluster, ClusterFindings& findings) {
   std::map<Medium, std::vector<End>> writers, readers;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
-    for (const Task& task : cluster.nodes[n].tasks) {
-      for (const PortBinding& b : task.reads) readers[medium_of(b)].push_back({static_cast<NodeId>(n), &task, &b});
-      for (const PortBinding& b : task.writes) writers[medium_of(b)].push_back({static_cast<NodeId>(n), &task, &b});
+    for (const model::Task& task : cluster.nodes[n].tasks) {
+      for (const model::PortBinding& b : task.reads)
+        readers[medium_of(b)].push_back({static_cast<NodeId>(n), &task, &b});
+      for (const model::PortBinding& b : task.writes)
+        writers[medium_of(b)].push_back({static_cast<NodeId>(n), &task, &b});
     }
   for (const auto& [medium, ends] : readers)
     for (const End& end : ends) {
@@ -168,12 +170,12 @@ void check_flow(const Cluster& cluster, ClusterFindings& findings) {
                                     : fmt::format("must be a message that {} sends", cluster.node(ends[0].node).name));
   }
   std::set<Medium> sent;
-  for (const FrameSlot& frame : cluster.frames)
+  for (const model::FrameSlot& frame : cluster.frames)
     if (frame.pdu != kNoPdu && sent.insert({frame.pdu, -1}).second && !writers.contains({frame.pdu, -1}))
       findings.at(frame.line, fmt::format("frames.slot {}", frame.slot), cluster.pdu(frame.pdu).name,
                   "has slots, but no task writes it");
   for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
-    for (const CanMessage& message : cluster.can_buses[b].messages)
+    for (const model::CanMessage& message : cluster.can_buses[b].messages)
       if (!writers.contains({message.pdu, static_cast<std::ptrdiff_t>(b)}))
         findings.at(message.line,
                     fmt::format("can.{}.messages.{}", cluster.can_buses[b].name, cluster.pdu(message.pdu).name), "",
@@ -184,4 +186,4 @@ void check_flow(const Cluster& cluster, ClusterFindings& findings) {
   }
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -1,18 +1,18 @@
 // The checker's rules about sensors that follow their hosts: the loop is closed, and `longest` is longer than it.
 #include <fmt/format.h>
 
-#include "schedules/check/checker.h"
 #include "schedules/analysis/sensor_loop.h"
+#include "schedules/check/checker.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 
-void check_loops(const Cluster& cluster, ClusterFindings& findings) {
+void check_loops(const model::Cluster& cluster, ClusterFindings& findings) {
   const bool sound = findings.size() == 0;  // rounds are known of what passed all other rules
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
-    const Sensor& sensor = cluster.sensors[s];
+    const model::Sensor& sensor = cluster.sensors[s];
     if (!sensor.follows()) continue;
     const std::string path = "sensors." + sensor.name;
-    const auto loop = loop_of(cluster, static_cast<SensorId>(s));
+    const auto loop = analysis::loop_of(cluster, static_cast<SensorId>(s));
     if (!loop || !loop->raw->can_bus) {
       findings.parameter(
           path + ".after", sensor.after,
@@ -31,4 +31,4 @@ void check_loops(const Cluster& cluster, ClusterFindings& findings) {
   }
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -9,11 +9,11 @@
 #include "schedules/check/checker.h"
 #include "schedules/model/sensor_lines.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
-std::int64_t room_ps(const Cluster& cluster) {
-  const GlobalParameters& g = cluster.flexray;
+std::int64_t room_ps(const model::Cluster& cluster) {
+  const model::GlobalParameters& g = cluster.flexray;
   const std::int64_t slots = g.gNumberOfStaticSlots - std::max(last_static_slot(cluster), 1) + 1;
   return (slots * g.gdStaticSlot - g.gdActionPointOffset) * g.gdMacrotick_ps;
 }
@@ -24,15 +24,15 @@ Int128 scaled_ps(Duration duration) { return static_cast<Int128>(duration.ns) * 
 std::string us_text(Duration duration) { return scaled_text(duration.ns, 1'000) + " us"; }
 
 // "; --time-scale 1.2 and more would do"
-std::string remedy(const Cluster& cluster) {
+std::string remedy(const model::Cluster& cluster) {
   const std::int64_t needed = smallest_time_scale(cluster, *cluster.arrival_window);
   if (needed > kLargestTimeScale)
     return fmt::format("; no --time-scale up to {} would do", time_scale_text(kLargestTimeScale));
   return fmt::format("; --time-scale {} or more would do", time_scale_text(needed));
 }
 
-void check_window(const Cluster& cluster, std::int64_t time_scale_ppm, ClusterFindings& findings) {
-  const ArrivalWindow& window = *cluster.arrival_window;
+void check_window(const model::Cluster& cluster, std::int64_t time_scale_ppm, ClusterFindings& findings) {
+  const model::ArrivalWindow& window = *cluster.arrival_window;
   if (const Duration room = arrival_room(cluster, time_scale_ppm); window.late > room)
     findings.parameter(
         "real_time.late", us_text(window.late),
@@ -47,7 +47,7 @@ void check_window(const Cluster& cluster, std::int64_t time_scale_ppm, ClusterFi
                                    time_scale_text(time_scale_ppm), remedy(cluster)));
 }
 
-void check_sensor_lines(const Cluster& cluster, ClusterFindings& findings) {
+void check_sensor_lines(const model::Cluster& cluster, ClusterFindings& findings) {
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
     const auto sensor = static_cast<SensorId>(s);
     const auto can = can_of_lines(cluster, sensor);
@@ -60,15 +60,16 @@ void check_sensor_lines(const Cluster& cluster, ClusterFindings& findings) {
                       device));
       continue;
     }
-    const CanBus& bus = cluster.can_buses[*can];
-    for (const CanMessage& message : bus.messages) {
-      const bool strobe = message.identifier == strobe_identifier(sensor);
-      if (!strobe && message.identifier != trigger_identifier(sensor)) continue;
+    const model::CanBus& bus = cluster.can_buses[*can];
+    for (const model::CanMessage& message : bus.messages) {
+      const bool strobe = message.identifier == model::strobe_identifier(sensor);
+      if (!strobe && message.identifier != model::trigger_identifier(sensor)) continue;
       findings.at(
           message.line, fmt::format("can.{}.messages.{}", bus.name, cluster.pdu(message.pdu).name),
           fmt::format("identifier {}", message.identifier),
           fmt::format("must be another one in real time: {0} has {1} for its strobe and {2} for its trigger there",
-                      cluster.sensor(sensor).name, strobe_identifier(sensor), trigger_identifier(sensor)));
+                      cluster.sensor(sensor).name, model::strobe_identifier(sensor),
+                      model::trigger_identifier(sensor)));
     }
   }
 }
@@ -81,33 +82,33 @@ Duration stretched(Duration scheduled, std::int64_t time_scale_ppm) {
   return {static_cast<std::int64_t>(static_cast<Int128>(scheduled.ns) * time_scale_ppm / kTimeScaleOne)};
 }
 
-int last_static_slot(const Cluster& cluster) {
+int last_static_slot(const model::Cluster& cluster) {
   int last = 0;
-  for (const FrameSlot& frame : cluster.frames)
+  for (const model::FrameSlot& frame : cluster.frames)
     if (!is_dynamic(cluster.flexray, frame)) last = std::max(last, frame.slot);
   return last;
 }
 
-Duration arrival_room(const Cluster& cluster, std::int64_t time_scale_ppm) {
+Duration arrival_room(const model::Cluster& cluster, std::int64_t time_scale_ppm) {
   return {static_cast<std::int64_t>(static_cast<Int128>(room_ps(cluster)) * time_scale_ppm / (1'000 * kTimeScaleOne))};
 }
 
-std::int64_t smallest_time_scale(const Cluster& cluster, const ArrivalWindow& window) {
+std::int64_t smallest_time_scale(const model::Cluster& cluster, const model::ArrivalWindow& window) {
   const Int128 room = room_ps(cluster), cycle = cluster.flexray.cycle_ps();
   const Int128 for_late = (scaled_ps(window.late) + room - 1) / room;
   const Int128 for_both = scaled_ps(window.early + window.late) / cycle + 1;
   return static_cast<std::int64_t>(std::max({for_late, for_both, static_cast<Int128>(kSmallestTimeScale)}));
 }
 
-std::vector<Finding> check_real_time(const Cluster& cluster, std::int64_t time_scale_ppm) {
+std::vector<Finding> check_real_time(const model::Cluster& cluster, std::int64_t time_scale_ppm) {
   ClusterFindings findings(cluster);
   if (!cluster.arrival_window)
     findings.parameter("real_time", "",
                        "is missing: without an arrival window {early, late} a cluster is for virtual time only");
   else
     check_window(cluster, time_scale_ppm, findings);
-  const auto dynamic =
-      std::ranges::find_if(cluster.frames, [&](const FrameSlot& frame) { return is_dynamic(cluster.flexray, frame); });
+  const auto dynamic = std::ranges::find_if(
+      cluster.frames, [&](const model::FrameSlot& frame) { return is_dynamic(cluster.flexray, frame); });
   if (dynamic != cluster.frames.end())
     findings.at(
         dynamic->line, fmt::format("frames.slot {}", dynamic->slot), cluster.node(dynamic->sender).name,
@@ -115,11 +116,11 @@ std::vector<Finding> check_real_time(const Cluster& cluster, std::int64_t time_s
                     "only, as its minislots of {} pass between two wake-ups",
                     cluster.flexray.gNumberOfStaticSlots,
                     us_text({cluster.flexray.gdMinislot * cluster.flexray.gdMacrotick_ps / 1'000})));
-  if (cluster.topology != Topology::kBus)
+  if (cluster.topology != model::Topology::kBus)
     findings.parameter("topology", "star",
                        "must be bus in real time: stars, and guardians in them, are simulated in virtual time only");
   check_sensor_lines(cluster, findings);
   return findings.take();
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -27,7 +27,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 
 inline constexpr std::int64_t kTimeScaleOne = 1'000'000;                // ppm: as the schedule says
 inline constexpr std::int64_t kSmallestTimeScale = kTimeScaleOne / 10;  // what --time-scale takes
@@ -40,17 +40,17 @@ std::string time_scale_text(std::int64_t time_scale_ppm);
 Duration stretched(Duration scheduled, std::int64_t time_scale_ppm);
 
 // The last static slot that anybody sends in, 0 if there is none.
-int last_static_slot(const Cluster& cluster);
+int last_static_slot(const model::Cluster& cluster);
 
 // W2: the room at this time scale, rounded down to nanoseconds; all of the static segment behind slot 1's
 // action point where nobody sends.
-Duration arrival_room(const Cluster& cluster, std::int64_t time_scale_ppm);
+Duration arrival_room(const model::Cluster& cluster, std::int64_t time_scale_ppm);
 
 // The smallest time scale at which W2 and W3 hold for this window; it may be beyond kLargestTimeScale.
-std::int64_t smallest_time_scale(const Cluster& cluster, const ArrivalWindow& window);
+std::int64_t smallest_time_scale(const model::Cluster& cluster, const model::ArrivalWindow& window);
 
 // What is in the way of running this cluster in real time at this time scale, rule by rule; empty where
 // nothing is. The cluster must have passed check().
-std::vector<Finding> check_real_time(const Cluster& cluster, std::int64_t time_scale_ppm);
+std::vector<Finding> check_real_time(const model::Cluster& cluster, std::int64_t time_scale_ppm);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -5,14 +5,15 @@
 #include <algorithm>
 
 #include "core/int128.h"
-#include "schedules/check/checker.h"
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/analysis/responses.h"
+#include "schedules/check/checker.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
-void check_task(const Node& node, const Task& task, const TaskResponse& response, ClusterFindings& findings) {
+void check_task(const model::Node& node, const model::Task& task, const analysis::TaskResponse& response,
+                ClusterFindings& findings) {
   const std::string path = task_path(node, task);
   if (response.worst > task.deadline)
     findings.parameter(path + ".deadline", ms(task.deadline),
@@ -27,14 +28,14 @@ void check_task(const Node& node, const Task& task, const TaskResponse& response
 }
 
 // In true time: the node's clock may be slow.
-void check_written(const Cluster& cluster, const Node& node, const Task& task, Duration written,
+void check_written(const model::Cluster& cluster, const model::Node& node, const model::Task& task, Duration written,
                    ClusterFindings& findings) {
   const Duration shortest{static_cast<std::int64_t>(static_cast<Int128>(written.ns) *
-                                                    (1'000'000'000 - worst_drift_ppb(node)) / 1'000'000'000)};
-  for (const PortBinding& binding : task.writes) {
+                                                    (1'000'000'000 - analysis::worst_drift_ppb(node)) / 1'000'000'000)};
+  for (const model::PortBinding& binding : task.writes) {
     if (!binding.can_bus) continue;
-    const CanBus& bus = cluster.can_buses[*binding.can_bus];
-    for (const CanMessage& message : bus.messages)
+    const model::CanBus& bus = cluster.can_buses[*binding.can_bus];
+    for (const model::CanMessage& message : bus.messages)
       if (message.pdu == binding.pdu && message.shortest_period > shortest)
         findings.at(message.line,
                     fmt::format("can.{}.messages.{}.shortest_period", bus.name, cluster.pdu(message.pdu).name),
@@ -46,20 +47,20 @@ void check_written(const Cluster& cluster, const Node& node, const Task& task, D
 
 }  // namespace
 
-void check_responses(const Cluster& cluster, NodeId id, ClusterFindings& findings) {
-  const Node& node = cluster.node(id);
-  const auto responses = worst_responses(cluster, id);
+void check_responses(const model::Cluster& cluster, NodeId id, ClusterFindings& findings) {
+  const model::Node& node = cluster.node(id);
+  const auto responses = analysis::worst_responses(cluster, id);
   if (!responses) {
     findings.at(node.line, fmt::format("nodes.{}.tasks", node.name), "",
                 fmt::format("must leave the node idle at least once in {}: its tasks may take more time than there is",
-                            ms(longest_busy_time(cluster, node))));
+                            ms(analysis::longest_busy_time(cluster, node))));
     return;
   }
   for (std::size_t t = 0; t < node.tasks.size(); ++t) {
-    const TaskResponse& response = (*responses)[t];
+    const analysis::TaskResponse& response = (*responses)[t];
     check_task(node, node.tasks[t], response, findings);
     if (response.written) check_written(cluster, node, node.tasks[t], *response.written, findings);
   }
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -12,28 +12,28 @@
 #include "schedules/check/checker.h"
 #include "schedules/model/limits.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 // The frames of one list in the cycles of one base and repetition, by slot.
-using Group = std::vector<const FrameSlot*>;
+using Group = std::vector<const model::FrameSlot*>;
 using Groups = std::map<std::pair<int, int>, Group>;
 
-std::string cycles_text(const FrameSlot& frame) {
+std::string cycles_text(const model::FrameSlot& frame) {
   return fmt::format("base cycle {}, repetition {}", frame.base_cycle, frame.repetition);
 }
 
 // Each fragment once, in ascending order, and a list once in a cycle: so the last fragment is the last to leave. A slot
 // may carry the same one on both channels, or two of them, the smaller first: a list that is dealt out to both.
-void check_order(const PduLayout& layout, const Groups& groups, ClusterFindings& findings) {
-  const auto wrong = [&](const FrameSlot& frame, const std::string& expected) {
+void check_order(const model::PduLayout& layout, const Groups& groups, ClusterFindings& findings) {
+  const auto wrong = [&](const model::FrameSlot& frame, const std::string& expected) {
     findings.at(frame.line, fmt::format("frames.slot {}", frame.slot),
                 fmt::format("{}, fragment {}", layout.name, frame.fragment), expected);
   };
   for (auto group = groups.begin(); group != groups.end(); ++group) {
     const Group& frames = group->second;
     for (std::size_t i = 1; i < frames.size(); ++i) {
-      const FrameSlot &before = *frames[i - 1], &frame = *frames[i];
+      const model::FrameSlot &before = *frames[i - 1], &frame = *frames[i];
       // One slot may be given channel by channel.
       const bool repeated = frame.slot == before.slot && frame.fragment == before.fragment;
       if (repeated || frame.fragment > before.fragment) continue;
@@ -44,7 +44,7 @@ void check_order(const PduLayout& layout, const Groups& groups, ClusterFindings&
       break;
     }
     for (auto other = groups.begin(); other != group; ++other) {
-      const FrameSlot &frame = *frames.front(), &earlier = *other->second.front();
+      const model::FrameSlot &frame = *frames.front(), &earlier = *other->second.front();
       if (!share_a_cycle(earlier, frame)) continue;
       wrong(frame, fmt::format("is sent twice in some of the same cycles: slot {} begins the list too ({}; line {})",
                                earlier.slot, cycles_text(earlier), earlier.line));
@@ -53,13 +53,13 @@ void check_order(const PduLayout& layout, const Groups& groups, ClusterFindings&
   }
 }
 
-void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
-  const PduLayout& layout = cluster.pdu(pdu);
+void check_list(const model::Cluster& cluster, PduId pdu, ClusterFindings& findings) {
+  const model::PduLayout& layout = cluster.pdu(pdu);
   Groups groups;
   int line = 0;
   const NodeId* sender = nullptr;
-  const FrameSlot* first = nullptr;
-  for (const FrameSlot& frame : cluster.frames) {
+  const model::FrameSlot* first = nullptr;
+  for (const model::FrameSlot& frame : cluster.frames) {
     if (frame.pdu != pdu) continue;
     line = line == 0 ? frame.line : line;
     const std::string key = fmt::format("frames.slot {}", frame.slot);
@@ -82,7 +82,7 @@ void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
   check_order(layout, groups, findings);
   for (const auto& [cycles, frames] : groups) {
     std::set<int> fragments;
-    for (const FrameSlot* frame : frames) fragments.insert(frame->fragment);
+    for (const model::FrameSlot* frame : frames) fragments.insert(frame->fragment);
     for (int f = 0; f < layout.max_fragments(); ++f)
       if (!fragments.contains(f)) {
         findings.at(
@@ -96,8 +96,9 @@ void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
 }
 
 // A slot there is, and what its segment asks for.
-void check_segment(const Cluster& cluster, const FrameSlot& frame, const std::string& key, ClusterFindings& findings) {
-  const GlobalParameters& g = cluster.flexray;
+void check_segment(const model::Cluster& cluster, const model::FrameSlot& frame, const std::string& key,
+                   ClusterFindings& findings) {
+  const model::GlobalParameters& g = cluster.flexray;
   if (frame.slot > g.gNumberOfStaticSlots + g.gNumberOfMinislots)
     findings.at(frame.line, key, fmt::format("{}", frame.slot),
                 g.gNumberOfMinislots == 0
@@ -112,13 +113,14 @@ void check_segment(const Cluster& cluster, const FrameSlot& frame, const std::st
 }
 
 // What the frame carries fits its payload: the fragment, behind the network management vector where there is one.
-void check_payload(const Cluster& cluster, const FrameSlot& frame, const std::string& key, ClusterFindings& findings) {
-  const GlobalParameters& g = cluster.flexray;
+void check_payload(const model::Cluster& cluster, const model::FrameSlot& frame, const std::string& key,
+                   ClusterFindings& findings) {
+  const model::GlobalParameters& g = cluster.flexray;
   if (is_dynamic(g, frame)) {
     if (frame.network_management)
       findings.at(frame.line, key, "network_management: true",
                   fmt::format("needs a static slot, 1..{} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots));
-    const int most = kMostFragmentBytes - (frame.message_id ? kMessageIdBytes : 0);
+    const int most = model::kMostFragmentBytes - (frame.message_id ? model::kMessageIdBytes : 0);
     if (frame.pdu != kNoPdu && cluster.pdu(frame.pdu).fragment_bytes > most)
       findings.at(frame.line, key,
                   fmt::format("{} ({} bytes)", cluster.pdu(frame.pdu).name, cluster.pdu(frame.pdu).fragment_bytes),
@@ -129,7 +131,7 @@ void check_payload(const Cluster& cluster, const FrameSlot& frame, const std::st
     findings.at(frame.line, key, fmt::format("message_id: {}", *frame.message_id),
                 fmt::format("needs a dynamic slot, above {} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots));
   const int payload = 2 * g.gPayloadLengthStatic;
-  const PduLayout* layout = frame.pdu != kNoPdu ? &cluster.pdu(frame.pdu) : nullptr;
+  const model::PduLayout* layout = frame.pdu != kNoPdu ? &cluster.pdu(frame.pdu) : nullptr;
   const int fragment = layout != nullptr ? layout->fragment_bytes : 0;
   if (fragment > payload)
     findings.at(frame.line, key, fmt::format("{} ({} bytes)", layout->name, fragment),
@@ -148,12 +150,12 @@ void check_payload(const Cluster& cluster, const FrameSlot& frame, const std::st
 
 }  // namespace
 
-void check_slots(const Cluster& cluster, ClusterFindings& findings) {
+void check_slots(const model::Cluster& cluster, ClusterFindings& findings) {
   std::set<PduId> lists;
   for (std::size_t i = 0; i < cluster.frames.size(); ++i) {
-    const FrameSlot& frame = cluster.frames[i];
+    const model::FrameSlot& frame = cluster.frames[i];
     const std::string key = fmt::format("frames.slot {}", frame.slot);
-    const Node& sender = cluster.node(frame.sender);
+    const model::Node& sender = cluster.node(frame.sender);
     check_segment(cluster, frame, key, findings);
     if (!sender.flexray)
       findings.at(frame.line, key, sender.name, "must be a node with a FlexRay controller");
@@ -165,7 +167,7 @@ void check_slots(const Cluster& cluster, ClusterFindings& findings) {
     check_payload(cluster, frame, key, findings);
     // Frames are ordered by slot, so the others of this one stand right before it. One owner too many is enough to say.
     for (std::size_t j = i; j-- > 0 && cluster.frames[j].slot == frame.slot;) {
-      const FrameSlot& other = cluster.frames[j];
+      const model::FrameSlot& other = cluster.frames[j];
       if (!share_a_channel(other.channels, frame.channels) || !share_a_cycle(other, frame)) continue;
       findings.at(
           frame.line, key, fmt::format("{} on {}", sender.name, channels_text(frame.channels)),
@@ -179,16 +181,16 @@ void check_slots(const Cluster& cluster, ClusterFindings& findings) {
   for (const PduId pdu : lists) check_list(cluster, pdu, findings);
 }
 
-void check_can(const Cluster& cluster, ClusterFindings& findings) {
-  for (const CanBus& bus : cluster.can_buses) {
+void check_can(const model::Cluster& cluster, ClusterFindings& findings) {
+  for (const model::CanBus& bus : cluster.can_buses) {
     const std::string path = "can." + bus.name;
     bool all_fit = true;
     std::set<std::uint32_t> identifiers;
     std::set<PduId> pdus;
-    for (const CanMessage& message : bus.messages) {
-      const PduLayout& layout = cluster.pdu(message.pdu);
+    for (const model::CanMessage& message : bus.messages) {
+      const model::PduLayout& layout = cluster.pdu(message.pdu);
       const std::string key = fmt::format("{}.messages.{}", path, layout.name);
-      if (!can_data_length(bus.flexible_data_rate, layout.fragment_bytes)) {
+      if (!analysis::can_data_length(bus.flexible_data_rate, layout.fragment_bytes)) {
         all_fit = false;
         findings.at(message.line, key, fmt::format("{} bytes", layout.fragment_bytes),
                     fmt::format("must fit a frame of this CAN, at most {} bytes", bus.flexible_data_rate ? 64 : 8));
@@ -200,15 +202,15 @@ void check_can(const Cluster& cluster, ClusterFindings& findings) {
         findings.at(message.line, key, layout.name, "must be sent by one message of its CAN only");
     }
     if (!all_fit) continue;  // no load without lengths
-    const double load = can_worst_load(cluster, bus);
-    if (load > kCanLoadLimit) {
+    const double load = analysis::can_worst_load(cluster, bus);
+    if (load > analysis::kCanLoadLimit) {
       findings.at(bus.line, path, fmt::format("worst-case load {:.1f} %", 100.0 * load),
-                  fmt::format("must be at most {:.0f} %, other_load included", 100.0 * kCanLoadLimit));
+                  fmt::format("must be at most {:.0f} %, other_load included", 100.0 * analysis::kCanLoadLimit));
       continue;  // responses may have no bound
     }
-    for (const CanMessage& message : bus.messages) {
+    for (const model::CanMessage& message : bus.messages) {
       // What makes the response a bound: no second list of the message while the first is on its way.
-      const auto response = can_worst_response(cluster, bus, message);
+      const auto response = analysis::can_worst_response(cluster, bus, message);
       if (response && *response > message.shortest_period)
         findings.at(
             message.line, fmt::format("{}.messages.{}.shortest_period", path, cluster.pdu(message.pdu).name),
@@ -218,4 +220,4 @@ void check_can(const Cluster& cluster, ClusterFindings& findings) {
   }
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

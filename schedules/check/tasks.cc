@@ -7,17 +7,17 @@
 #include <utility>
 
 #include "schedules/analysis/activation_bounds.h"
-#include "schedules/check/checker.h"
 #include "schedules/analysis/sensor_loop.h"
 #include "schedules/analysis/slot_groups.h"
+#include "schedules/check/checker.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 // Do two periodic intervals, each shorter than its period, meet? Their starts differ by `distance` modulo the shorter
 // period: repetitions are powers of two.
-bool meet(const GlobalParameters& flexray, const Task& a, const Task& b) {
-  const CycleInstant &x = a.activation.at, &y = b.activation.at;
+bool meet(const model::GlobalParameters& flexray, const model::Task& a, const model::Task& b) {
+  const model::CycleInstant &x = a.activation.at, &y = b.activation.at;
   const std::int64_t cycle_ns = flexray.cycle_ps() / 1000;
   const std::int64_t period = cycle_ns * std::min(x.repetition, y.repetition);
   const std::int64_t start_a = time_of(flexray, x.base_cycle, x.offset).ns;
@@ -28,25 +28,25 @@ bool meet(const GlobalParameters& flexray, const Task& a, const Task& b) {
 
 // The shortest time between two lists that activate the task, where they are sent, or written if that is less often;
 // zero where nothing is known.
-Duration shortest_period(const Cluster& cluster, const Task& task, const PortBinding& binding) {
+Duration shortest_period(const model::Cluster& cluster, const model::Task& task, const model::PortBinding& binding) {
   if (binding.can_bus) {
-    for (const CanMessage& message : cluster.can_buses[*binding.can_bus].messages)
+    for (const model::CanMessage& message : cluster.can_buses[*binding.can_bus].messages)
       if (message.pdu == binding.pdu) return message.shortest_period;
     return {};
   }
-  const auto slots = shortest_slot_gap(cluster, binding.pdu);
+  const auto slots = analysis::shortest_slot_gap(cluster, binding.pdu);
   if (!slots) return {};
   Duration shortest = slots->gap;
-  for (const Arrivals& one : arrivals_of(cluster, task, WritersOfLists::kKnown).all)
+  for (const analysis::Arrivals& one : arrivals_of(cluster, task, analysis::WritersOfLists::kKnown).all)
     shortest = std::max(shortest, Duration{one.period});
   return shortest;
 }
 
-void check_activation(const Cluster& cluster, NodeId id, const Task& task, ClusterFindings& findings) {
-  const Node& node = cluster.node(id);
+void check_activation(const model::Cluster& cluster, NodeId id, const model::Task& task, ClusterFindings& findings) {
+  const model::Node& node = cluster.node(id);
   const std::string path = task_path(node, task);
   switch (task.activation.kind) {
-    case ActivationKind::kTime: {
+    case model::ActivationKind::kTime: {
       if (!node.flexray)
         findings.parameter(path + ".activation", "time", "needs a node on FlexRay: there is no global time elsewhere");
       const Duration period = cluster.cycle() * task.activation.at.repetition;
@@ -58,24 +58,24 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
                            fmt::format("must be at most the task's period, {}: it overlaps itself", ms(period)));
       break;
     }
-    case ActivationKind::kMessage: {
+    case model::ActivationKind::kMessage: {
       const auto read = std::find_if(task.reads.begin(), task.reads.end(),
-                                     [&](const PortBinding& binding) { return activates(task, binding); });
+                                     [&](const model::PortBinding& binding) { return activates(task, binding); });
       if (read == task.reads.end()) {
         findings.parameter(path + ".activation.port", task.activation.port, "must be one of the ports the task reads");
         break;
       }
       const Duration period = shortest_period(cluster, task, *read);
       // A sensor that waits for the task's end sends nothing before.
-      const bool waited_for = loop_through(cluster, id, task).has_value();
+      const bool waited_for = analysis::loop_through(cluster, id, task).has_value();
       if (period > Duration{} && task.worst_case > period && !waited_for)
         findings.parameter(
             path + ".worst_case", ms(task.worst_case),
             fmt::format("must be at most the shortest period of {}, {}", cluster.pdu(read->pdu).name, ms(period)));
       break;
     }
-    case ActivationKind::kSensor: {
-      const Sensor& sensor = cluster.sensor(task.activation.sensor);
+    case model::ActivationKind::kSensor: {
+      const model::Sensor& sensor = cluster.sensor(task.activation.sensor);
       if (task.worst_case > sensor.period)
         findings.parameter(
             path + ".worst_case", ms(task.worst_case),
@@ -85,12 +85,13 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
                            fmt::format("must be a sensor whose device is {}", node.name));
       break;
     }
-    case ActivationKind::kCompletion: {
+    case model::ActivationKind::kCompletion: {
       // Followed to its beginning, a chain of completions must end at another kind of activation.
-      const Task* at = &task;
-      for (std::size_t steps = 0; at && at->activation.kind == ActivationKind::kCompletion; ++steps) {
-        const auto before = std::find_if(node.tasks.begin(), node.tasks.end(),
-                                         [&](const Task& candidate) { return candidate.name == at->activation.after; });
+      const model::Task* at = &task;
+      for (std::size_t steps = 0; at && at->activation.kind == model::ActivationKind::kCompletion; ++steps) {
+        const auto before = std::find_if(node.tasks.begin(), node.tasks.end(), [&](const model::Task& candidate) {
+          return candidate.name == at->activation.after;
+        });
         if (before == node.tasks.end() || steps > node.tasks.size()) {
           findings.parameter(path + ".activation.after", task.activation.after,
                              "must lead back to a task of this node that time, a message or a sensor activates");
@@ -105,12 +106,12 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
 
 }  // namespace
 
-void check_tasks(const Cluster& cluster, ClusterFindings& findings) {
+void check_tasks(const model::Cluster& cluster, ClusterFindings& findings) {
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
-    const Node& node = cluster.nodes[n];
+    const model::Node& node = cluster.nodes[n];
     const std::size_t before = findings.size();
     for (std::size_t t = 0; t < node.tasks.size(); ++t) {
-      const Task& task = node.tasks[t];
+      const model::Task& task = node.tasks[t];
       const std::string path = task_path(node, task);
       if (task.worst_case > task.deadline)
         findings.parameter(path + ".worst_case", ms(task.worst_case),
@@ -118,12 +119,12 @@ void check_tasks(const Cluster& cluster, ClusterFindings& findings) {
       check_activation(cluster, static_cast<NodeId>(n), task, findings);
       std::set<std::string> ports;
       for (const auto* bindings : {&task.reads, &task.writes})
-        for (const PortBinding& binding : *bindings)
+        for (const model::PortBinding& binding : *bindings)
           if (!ports.insert(binding.port).second)
             findings.at(binding.line, path, binding.port, "is a port bound twice");
-      if (task.activation.kind != ActivationKind::kTime) continue;
+      if (task.activation.kind != model::ActivationKind::kTime) continue;
       for (std::size_t other = 0; other < t; ++other)
-        if (node.tasks[other].activation.kind == ActivationKind::kTime &&
+        if (node.tasks[other].activation.kind == model::ActivationKind::kTime &&
             meet(cluster.flexray, node.tasks[other], task))
           findings.parameter(
               path + ".activation", task.name,
@@ -133,4 +134,4 @@ void check_tasks(const Cluster& cluster, ClusterFindings& findings) {
   }
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

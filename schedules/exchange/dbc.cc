@@ -12,7 +12,7 @@
 #include "schedules/analysis/can_load.h"
 #include "schedules/model/sensor_lines.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange {
 namespace {
 
 // A C identifier that none of `taken` is, as much like `name` as can be.
@@ -60,14 +60,14 @@ constexpr int kOnChannelBytes = 12;
 
 class DbcWriter {
  public:
-  DbcWriter(const Cluster& cluster, const std::string& can) : cluster_(cluster) {
-    for (const CanBus& bus : cluster.can_buses)
+  DbcWriter(const model::Cluster& cluster, const std::string& can) : cluster_(cluster) {
+    for (const model::CanBus& bus : cluster.can_buses)
       if (can.empty() || bus.name == can) buses_.push_back(&bus);
     if (buses_.empty()) refuse(can);
-    for (const Node& node : cluster.nodes) nodes_.push_back(identifier_like(node.name, node_names_));
+    for (const model::Node& node : cluster.nodes) nodes_.push_back(identifier_like(node.name, node_names_));
     std::set<std::uint32_t> identifiers;
-    for (const CanBus* bus : buses_)
-      for (const CanMessage& message : bus->messages) {
+    for (const model::CanBus* bus : buses_)
+      for (const model::CanMessage& message : bus->messages) {
         if (!identifiers.insert(message.identifier).second)
           throw InputError(Finding{cluster.file, message.line, "identifier", fmt::format("{}", message.identifier),
                                    "is on two CANs, and a DBC file has one message per identifier: --can NAME writes "
@@ -102,13 +102,13 @@ class DbcWriter {
 
  private:
   struct Message {
-    const CanBus* bus;
-    const CanMessage* message;
+    const model::CanBus* bus;
+    const model::CanMessage* message;
     std::string name;
   };
 
   struct Line {
-    const CanBus* bus;
+    const model::CanBus* bus;
     SensorId sensor;
     bool strobe;
     std::uint32_t identifier;
@@ -123,24 +123,24 @@ class DbcWriter {
         lines_.push_back({&cluster_.can_buses[*can], sensor, strobe, identifier,
                           identifier_like(cluster_.sensor(sensor).name + what, message_names_)});
     };
-    add(true, strobe_identifier(sensor), "_strobe");
-    add(false, trigger_identifier(sensor), "_trigger");
+    add(true, model::strobe_identifier(sensor), "_strobe");
+    add(false, model::trigger_identifier(sensor), "_trigger");
   }
 
   [[noreturn]] void refuse(const std::string& can) const {
     if (cluster_.can_buses.empty())
       throw InputError(Finding{cluster_.file, 0, "", "", "has no private CAN to write a DBC file of"});
     std::string names;
-    for (const CanBus& bus : cluster_.can_buses) names += (names.empty() ? "" : ", ") + bus.name;
+    for (const model::CanBus& bus : cluster_.can_buses) names += (names.empty() ? "" : ", ") + bus.name;
     throw InputError(Finding{cluster_.file, 0, "--can", can, "must be one of " + names});
   }
 
   std::string receivers(const Message& message) const {
     std::string text;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
-      const std::vector<Task>& tasks = cluster_.nodes[n].tasks;
-      const bool reads = std::any_of(tasks.begin(), tasks.end(), [&](const Task& task) {
-        return std::any_of(task.reads.begin(), task.reads.end(), [&](const PortBinding& port) {
+      const std::vector<model::Task>& tasks = cluster_.nodes[n].tasks;
+      const bool reads = std::any_of(tasks.begin(), tasks.end(), [&](const model::Task& task) {
+        return std::any_of(task.reads.begin(), task.reads.end(), [&](const model::PortBinding& port) {
           return port.pdu == message.message->pdu && port.can_bus && &cluster_.can_buses[*port.can_bus] == message.bus;
         });
       });
@@ -150,35 +150,35 @@ class DbcWriter {
   }
 
   // A big-endian signal is named by its most significant bit; bits count up from each byte's least significant one.
-  void put_signal(const Signal& signal, int first_bit, const std::string& name, const std::string& receivers) {
+  void put_signal(const model::Signal& signal, int first_bit, const std::string& name, const std::string& receivers) {
     text_ += fmt::format(" SG_ {} : {}|{}@0+ ({},{}) [{}|{}] {} {}\n", name, first_bit / 8 * 8 + 7 - first_bit % 8,
                          signal.bits, signal.resolution, signal.low, signal.low, signal.high, in_quotes(signal.unit),
                          receivers);
   }
 
   void put_message(const Message& message) {
-    const PduLayout& layout = cluster_.pdu(message.message->pdu);
-    const auto length = can_data_length(message.bus->flexible_data_rate, layout.fragment_bytes);
+    const model::PduLayout& layout = cluster_.pdu(message.message->pdu);
+    const auto length = analysis::can_data_length(message.bus->flexible_data_rate, layout.fragment_bytes);
     TTF_CHECK(length.has_value(), "{} bytes on {}", layout.fragment_bytes, message.bus->name);
     text_ += fmt::format("\nBO_ {} {}: {} {}\n", message.message->identifier, message.name, *length,
                          nodes_[index_of(message.message->sender)]);
     const std::string heard_by = receivers(message);
     std::set<std::string> names;
-    for (const Signal& signal : layout.header)
+    for (const model::Signal& signal : layout.header)
       put_signal(signal, signal.bit_offset, identifier_like(signal.name, names), heard_by);
     for (int e = 0; e < layout.elements_per_fragment; ++e)
-      for (const Signal& signal : layout.element)
+      for (const model::Signal& signal : layout.element)
         put_signal(signal, layout.header_bits + e * layout.element_bits + signal.bit_offset,
                    identifier_like(fmt::format("{}_{}", signal.name, e), names), heard_by);
   }
 
   void put_line(const Line& line) {
-    const Sensor& sensor = cluster_.sensor(line.sensor);
+    const model::Sensor& sensor = cluster_.sensor(line.sensor);
     const std::string &device = nodes_[index_of(sensor.device)], &host = nodes_[index_of(sensor.host)];
-    text_ += fmt::format("\nBO_ {} {}: {} {}\n", line.identifier, line.name, line.strobe ? kStrobeBytes : 0,
+    text_ += fmt::format("\nBO_ {} {}: {} {}\n", line.identifier, line.name, line.strobe ? model::kStrobeBytes : 0,
                          line.strobe ? device : host);
     if (line.strobe)
-      text_ += fmt::format(" SG_ sequence : 7|{}@0+ (1,0) [0|{}] \"\" {}\n", 8 * kStrobeBytes, kAny32, host);
+      text_ += fmt::format(" SG_ sequence : 7|{}@0+ (1,0) [0|{}] \"\" {}\n", 8 * model::kStrobeBytes, kAny32, host);
   }
 
   void put_channels() {
@@ -190,7 +190,7 @@ class DbcWriter {
   }
 
   void put_comment(const Message& message) {
-    const PduLayout& layout = cluster_.pdu(message.message->pdu);
+    const model::PduLayout& layout = cluster_.pdu(message.message->pdu);
     const std::string elements =
         layout.max_fragments() == 1
             ? "One frame is a list: the elements below count are valid."
@@ -222,8 +222,8 @@ class DbcWriter {
     if (!channels_.empty()) text_ += "BA_ \"CAN\" BO_ 0 \"FlexRay\";\nBA_ \"VFrameFormat\" BO_ 0 14;\n";
   }
 
-  const Cluster& cluster_;
-  std::vector<const CanBus*> buses_;
+  const model::Cluster& cluster_;
+  std::vector<const model::CanBus*> buses_;
   std::vector<std::string> nodes_;  // by node
   std::vector<Message> messages_;
   std::vector<Line> lines_;
@@ -234,6 +234,6 @@ class DbcWriter {
 
 }  // namespace
 
-std::string dbc_text(const Cluster& cluster, const std::string& can) { return DbcWriter(cluster, can).write(); }
+std::string dbc_text(const model::Cluster& cluster, const std::string& can) { return DbcWriter(cluster, can).write(); }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange

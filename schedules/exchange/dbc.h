@@ -22,11 +22,11 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange {
 
 // The same bytes for the same cluster. A DBC file has one message per identifier: without `can`, the name of one of
 // its CANs, all of them are written, and two with messages of one identifier end in an InputError, as does a name
 // that no CAN has.
-std::string dbc_text(const Cluster& cluster, const std::string& can = "");
+std::string dbc_text(const model::Cluster& cluster, const std::string& can = "");
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange

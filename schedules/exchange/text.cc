@@ -10,10 +10,10 @@
 #include "schedules/analysis/dynamic_load.h"
 #include "schedules/analysis/minislots.h"
 #include "schedules/analysis/object_ceiling.h"
-#include "schedules/check/real_time_rules.h"
 #include "schedules/analysis/slot_groups.h"
+#include "schedules/check/real_time_rules.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange {
 namespace {
 
 std::string cycles_text(int base_cycle, int repetition) {
@@ -23,13 +23,13 @@ std::string cycles_text(int base_cycle, int repetition) {
 
 // The cycle to scale: S static slots in use, s free ones, D what dynamic frames can take at most, d the rest of their
 // segment, w symbol window (a column at least), n network idle time.
-std::string bar(const Cluster& cluster) {
+std::string bar(const model::Cluster& cluster) {
   constexpr int kWidth = 96;
-  const GlobalParameters& g = cluster.flexray;
+  const model::GlobalParameters& g = cluster.flexray;
   const int idle = g.gMacroPerCycle - g.gdNIT, window = idle - g.gdSymbolWindow;
   std::int64_t taken = 0;
-  for (const DynamicLoad& load : dynamic_load(cluster)) taken = std::max(taken, load.minislots);
-  const std::int64_t free = taken == 0 ? 0 : minislot_start(g, taken + 1).value;
+  for (const analysis::DynamicLoad& load : analysis::dynamic_load(cluster)) taken = std::max(taken, load.minislots);
+  const std::int64_t free = taken == 0 ? 0 : analysis::minislot_start(g, taken + 1).value;
   std::string text;
   for (int column = 0; column < kWidth; ++column) {
     const auto macrotick = [&](int half_columns) {
@@ -38,7 +38,7 @@ std::string bar(const Cluster& cluster) {
     const int at = macrotick(2 * column + 1);
     const int slot = at / g.gdStaticSlot + 1;
     const bool used = std::any_of(cluster.frames.begin(), cluster.frames.end(),
-                                  [&](const FrameSlot& frame) { return frame.slot == slot; });
+                                  [&](const model::FrameSlot& frame) { return frame.slot == slot; });
     if (slot <= g.gNumberOfStaticSlots)
       text += used ? 'S' : 's';
     else if (g.gdSymbolWindow > 0 && window >= macrotick(2 * column) && window < macrotick(2 * column + 2))
@@ -51,28 +51,30 @@ std::string bar(const Cluster& cluster) {
 
 // From the beginning of its slot to the end of the last of a row; of a dynamic one, at the earliest and at the latest,
 // but never beyond the segment.
-std::pair<std::int64_t, std::int64_t> macroticks(const Cluster& cluster, const FrameSlot& first,
-                                                 const FrameSlot& last) {
-  const GlobalParameters& g = cluster.flexray;
-  if (!is_dynamic(g, first)) return {slot_start(g, first.slot).value, slot_start(g, last.slot + 1).value};
-  const std::int64_t over = latest_turn(cluster, last) + minislots_of(g, dynamic_words(cluster, last));
-  return {minislot_start(g, earliest_turn(g, first)).value,
-          minislot_start(g, std::min<std::int64_t>(over, g.gNumberOfMinislots + 1)).value};
+std::pair<std::int64_t, std::int64_t> macroticks(const model::Cluster& cluster, const model::FrameSlot& first,
+                                                 const model::FrameSlot& last) {
+  const model::GlobalParameters& g = cluster.flexray;
+  if (!is_dynamic(g, first))
+    return {analysis::slot_start(g, first.slot).value, analysis::slot_start(g, last.slot + 1).value};
+  const std::int64_t over =
+      analysis::latest_turn(cluster, last) + analysis::minislots_of(g, analysis::dynamic_words(cluster, last));
+  return {analysis::minislot_start(g, analysis::earliest_turn(g, first)).value,
+          analysis::minislot_start(g, std::min<std::int64_t>(over, g.gNumberOfMinislots + 1)).value};
 }
 
-std::string activation_text(const Cluster& cluster, const Task& task) {
-  const GlobalParameters& g = cluster.flexray;
-  const Activation& activation = task.activation;
+std::string activation_text(const model::Cluster& cluster, const model::Task& task) {
+  const model::GlobalParameters& g = cluster.flexray;
+  const model::Activation& activation = task.activation;
   switch (activation.kind) {
-    case ActivationKind::kTime: {
+    case model::ActivationKind::kTime: {
       const GlobalTime start = time_of(g, activation.at.base_cycle, activation.at.offset);
       return fmt::format("at {:.3f} ms + n*{:g} ms (macrotick {} of {})", in_ms(start - GlobalTime{}),
                          in_ms(cluster.cycle() * activation.at.repetition), activation.at.offset.value,
                          cycles_text(activation.at.base_cycle, activation.at.repetition));
     }
-    case ActivationKind::kMessage: return fmt::format("when {} arrives", activation.port);
-    case ActivationKind::kSensor: return fmt::format("when {} measures", cluster.sensor(activation.sensor).name);
-    case ActivationKind::kCompletion: return fmt::format("after {}", activation.after);
+    case model::ActivationKind::kMessage: return fmt::format("when {} arrives", activation.port);
+    case model::ActivationKind::kSensor: return fmt::format("when {} measures", cluster.sensor(activation.sensor).name);
+    case model::ActivationKind::kCompletion: return fmt::format("after {}", activation.after);
   }
   return {};
 }
@@ -80,13 +82,13 @@ std::string activation_text(const Cluster& cluster, const Task& task) {
 // Fragments of one list in slots one behind the other. Others may stand between them in the file's order: those of
 // other cycles, and of a list that is dealt out to both channels those on the other one.
 struct FrameRun {
-  const FrameSlot* last = nullptr;
+  const model::FrameSlot* last = nullptr;
   int step = 1;
 };
-FrameRun run_from(const Cluster& cluster, std::size_t first, std::vector<char>& shown) {
+FrameRun run_from(const model::Cluster& cluster, std::size_t first, std::vector<char>& shown) {
   FrameRun run{&cluster.frames[first], 1};
   for (std::size_t i = first + 1; i < cluster.frames.size() && cluster.frames[i].slot <= run.last->slot + 1; ++i) {
-    const FrameSlot& frame = cluster.frames[i];
+    const model::FrameSlot& frame = cluster.frames[i];
     if (shown[i]) continue;
     if (run.last == &cluster.frames[first] && continues(*run.last, frame, 2)) run.step = 2;
     if (!continues(*run.last, frame, run.step)) continue;
@@ -96,23 +98,24 @@ FrameRun run_from(const Cluster& cluster, std::size_t first, std::vector<char>& 
   return run;
 }
 
-void show_slots(const Cluster& cluster, std::string& text) {
-  const GlobalParameters& g = cluster.flexray;
+void show_slots(const model::Cluster& cluster, std::string& text) {
+  const model::GlobalParameters& g = cluster.flexray;
   text +=
       fmt::format("{:>9}  {:>15}  {:<2}  {:<12}{:<34}{}\n", "slot", "macroticks", "ch", "sender", "frame", "cycles");
   std::vector<char> shown(cluster.frames.size());
   for (std::size_t i = 0; i < cluster.frames.size(); ++i) {
     if (shown[i]) continue;
-    const FrameSlot& first = cluster.frames[i];
+    const model::FrameSlot& first = cluster.frames[i];
     const FrameRun run = run_from(cluster, i, shown);
-    const FrameSlot& last = *run.last;
+    const model::FrameSlot& last = *run.last;
     const bool alone = &first == &last;
     const std::string slots = alone ? fmt::format("{}", first.slot) : fmt::format("{}-{}", first.slot, last.slot);
     std::string frame = "status";
     if (first.pdu != kNoPdu)
       frame = fmt::format("{} {}{}{}", cluster.pdu(first.pdu).name, first.fragment,
                           alone ? "" : fmt::format("-{}", last.fragment), run.step == 2 ? ", every other" : "");
-    const NodeParameters* sender = cluster.node(first.sender).flexray ? &*cluster.node(first.sender).flexray : nullptr;
+    const model::NodeParameters* sender =
+        cluster.node(first.sender).flexray ? &*cluster.node(first.sender).flexray : nullptr;
     if (sender != nullptr && sender->pKeySlotId == first.slot)
       frame +=
           sender->pKeySlotUsedForSync ? (sender->pKeySlotUsedForStartup ? " (sync, startup)" : " (sync)") : " (key)";
@@ -130,22 +133,23 @@ void show_slots(const Cluster& cluster, std::string& text) {
   }
 }
 
-void show_real_time(const Cluster& cluster, std::string& text) {
+void show_real_time(const model::Cluster& cluster, std::string& text) {
   text += "\nreal time\n";
   if (const auto& window = cluster.arrival_window)
     text += fmt::format(
         "  frames come {:g} us before to {:g} us after their action point; at time scale 1 there is room for {:g} us\n",
-        1e3 * in_ms(window->early), 1e3 * in_ms(window->late), 1e3 * in_ms(arrival_room(cluster, kTimeScaleOne)));
-  for (const Finding& finding : check_real_time(cluster, kTimeScaleOne))
+        1e3 * in_ms(window->early), 1e3 * in_ms(window->late),
+        1e3 * in_ms(check::arrival_room(cluster, check::kTimeScaleOne)));
+  for (const Finding& finding : check::check_real_time(cluster, check::kTimeScaleOne))
     text += fmt::format("  not at time scale 1: {}{}{} {}\n", finding.key, finding.value.empty() ? "" : " = ",
                         finding.value, finding.expected);
 }
 
-void show_objects(const Cluster& cluster, std::string& text) {
-  const ObjectCeiling ceiling = object_ceiling(cluster);
+void show_objects(const model::Cluster& cluster, std::string& text) {
+  const analysis::ObjectCeiling ceiling = analysis::object_ceiling(cluster);
   if (ceiling.lists.empty()) return;
   text += "\nobjects\n";
-  for (const ListRoom& room : ceiling.lists)
+  for (const analysis::ListRoom& room : ceiling.lists)
     text +=
         fmt::format("  {:<16}{:>4} in {} slots, {} to a slot; its header counts to {}\n", cluster.pdu(room.pdu).name,
                     room.objects, room.slots, cluster.pdu(room.pdu).elements_per_fragment, room.countable);
@@ -155,21 +159,21 @@ void show_objects(const Cluster& cluster, std::string& text) {
 
 }  // namespace
 
-std::string show_text(const Cluster& cluster) {
-  const GlobalParameters& g = cluster.flexray;
+std::string show_text(const model::Cluster& cluster) {
+  const model::GlobalParameters& g = cluster.flexray;
   const int dynamic = g.gMacroPerCycle - g.gdNIT - g.gdSymbolWindow - g.gNumberOfStaticSlots * g.gdStaticSlot;
-  const bool sent = !dynamic_lists(cluster).empty();
+  const bool sent = !analysis::dynamic_lists(cluster).empty();
   std::string text = fmt::format(
       "{}: cycle of {:g} ms, {} macroticks: static {} x {}, dynamic {}, symbol window {}, idle {}\n\n{}\n"
       "S static slot in use, s free, {}d dynamic segment, w symbol window, n network idle time\n\n",
       cluster.name, in_ms(cluster.cycle()), g.gMacroPerCycle, g.gNumberOfStaticSlots, g.gdStaticSlot, dynamic,
       g.gdSymbolWindow, g.gdNIT, bar(cluster), sent ? "D dynamic frames at most, " : "");
   show_slots(cluster, text);
-  if (sent) text += "\n" + dynamic_text(cluster);
+  if (sent) text += "\n" + analysis::dynamic_text(cluster);
   show_objects(cluster, text);
   show_real_time(cluster, text);
   text += "\nsensors\n";
-  for (const Sensor& sensor : cluster.sensors) {
+  for (const model::Sensor& sensor : cluster.sensors) {
     std::string when = fmt::format("runs freely, every {:g} ms", in_ms(sensor.period));
     if (sensor.scheduled)
       when =
@@ -182,15 +186,15 @@ std::string show_text(const Cluster& cluster) {
                         cluster.node(sensor.host).name, when);
   }
   text += "\ntasks\n";
-  for (const Node& node : cluster.nodes)
-    for (const Task& task : node.tasks)
+  for (const model::Node& node : cluster.nodes)
+    for (const model::Task& task : node.tasks)
       text +=
           fmt::format("  {:<12}{:<16}{:g}-{:g} ms, deadline {:g} ms, {}\n", node.name, task.name, in_ms(task.best_case),
                       in_ms(task.worst_case), in_ms(task.deadline), activation_text(cluster, task));
   text += "\nCAN, worst-case load\n";
-  for (const CanBus& bus : cluster.can_buses)
-    text += fmt::format("  {:<20}{:>5.1f} %\n", bus.name, 100.0 * can_worst_load(cluster, bus));
+  for (const model::CanBus& bus : cluster.can_buses)
+    text += fmt::format("  {:<20}{:>5.1f} %\n", bus.name, 100.0 * analysis::can_worst_load(cluster, bus));
   return text;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange

@@ -5,10 +5,10 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange {
 
 // Several lines, at most about 100 columns. Consecutive slots with the fragments of one list share a line. The cluster
 // must have passed check().
-std::string show_text(const Cluster& cluster);
+std::string show_text(const model::Cluster& cluster);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange

@@ -10,17 +10,18 @@
 
 #include "core/strict_yaml.h"
 #include "schedules/check/checker.h"
-#include "schedules/model/limits.h"
 #include "schedules/file/parameter_table.h"
+#include "schedules/model/limits.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::file {
 namespace {
 
 constexpr Duration kLongest = Duration::milliseconds(10'000);
 constexpr Duration kWidestArrival = Duration::milliseconds(1'000);  // before or after an action point
 constexpr Range<Duration> kExecution{Duration::microseconds(1), kLongest};
 
-const Choices<Channels> kChannels{{"A", Channels::kA}, {"B", Channels::kB}, {"AB", Channels::kAB}};
+const Choices<model::Channels> kChannels{
+    {"A", model::Channels::kA}, {"B", model::Channels::kB}, {"AB", model::Channels::kAB}};
 
 class Loader {
  public:
@@ -29,11 +30,11 @@ class Loader {
     cluster_.text = file.text();
   }
 
-  Cluster load() {
+  model::Cluster load() {
     cluster_.name = root_.text("name");
     cluster_.synchronisation = root_.boolean("synchronisation");
-    cluster_.topology =
-        root_.choice_or("topology", Topology::kBus, {{"bus", Topology::kBus}, {"star", Topology::kStar}});
+    cluster_.topology = root_.choice_or("topology", model::Topology::kBus,
+                                        {{"bus", model::Topology::kBus}, {"star", model::Topology::kStar}});
     cluster_.guardian = root_.boolean_or("guardian", false);
     for (const char* key : {"topology", "guardian", "real_time"}) remember(root_, key);
     if (auto window = root_.map_if("real_time")) load_arrival_window(*window);
@@ -44,10 +45,10 @@ class Loader {
     auto sensors = root_.named_maps("sensors");
     auto pdus = root_.named_maps("pdus");
     auto cans = root_.named_maps("can");
-    limit("nodes", nodes.size(), kMostNamed);
-    limit("sensors", sensors.size(), kMostNamed);
-    limit("pdus", pdus.size(), kMostNamed);
-    limit("can", cans.size(), kMostCans);
+    limit("nodes", nodes.size(), model::kMostNamed);
+    limit("sensors", sensors.size(), model::kMostNamed);
+    limit("pdus", pdus.size(), model::kMostNamed);
+    limit("can", cans.size(), model::kMostCans);
     remember(root_, "nodes");
     // Names first: everything may refer to everything.
     for (auto& [name, map] : nodes) cluster_.nodes.emplace_back().name = name;
@@ -60,9 +61,10 @@ class Loader {
     for (std::size_t i = 0; i < nodes.size(); ++i) load_node(nodes[i].second, shared, cluster_.nodes[i]);
     shared.finish();
     for (YamlMap& map : root_.maps("frames")) load_frame(map);
-    std::stable_sort(cluster_.frames.begin(), cluster_.frames.end(), [](const FrameSlot& a, const FrameSlot& b) {
-      return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
-    });
+    std::stable_sort(cluster_.frames.begin(), cluster_.frames.end(),
+                     [](const model::FrameSlot& a, const model::FrameSlot& b) {
+                       return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
+                     });
     root_.finish();
     return std::move(cluster_);
   }
@@ -86,7 +88,7 @@ class Loader {
   }
 
   void load_globals(YamlMap& map) {
-    GlobalParameters& global = cluster_.flexray;
+    model::GlobalParameters& global = cluster_.flexray;
     for (const auto& p : kGlobalIntegers) {
       global.*p.member = static_cast<int>(map.integer(p.name, {p.low, p.high}, p.unit));
       remember(map, p.name);
@@ -99,7 +101,7 @@ class Loader {
   }
 
   void load_arrival_window(YamlMap& map) {
-    ArrivalWindow& window = cluster_.arrival_window.emplace();
+    model::ArrivalWindow& window = cluster_.arrival_window.emplace();
     window.early = map.duration("early", {Duration{}, kWidestArrival});
     window.late = map.duration("late", {Duration{1}, kWidestArrival});
     remember(map, "early");
@@ -113,8 +115,8 @@ class Loader {
   }
 
   // A node's own value, or else the one shared by all nodes.
-  NodeParameters load_node_parameters(YamlMap& own, YamlMap& shared) {
-    NodeParameters local;
+  model::NodeParameters load_node_parameters(YamlMap& own, YamlMap& shared) {
+    model::NodeParameters local;
     const auto from = [&](std::string_view key) -> YamlMap& {
       const bool in_shared = shared.has(key);  // asked in any case: it is a known key there
       YamlMap& map = own.has(key) || !in_shared ? own : shared;
@@ -128,25 +130,25 @@ class Loader {
     }
     for (const auto& p : kNodeScaled) local.*p.member = from(p.name).scaled(p.name, p.scale, {p.low, p.high}, p.unit);
     local.pChannels = from("pChannels").choice_or("pChannels", local.pChannels, kChannels);
-    local.pWakeupChannel =
-        from("pWakeupChannel")
-            .choice_or("pWakeupChannel", default_wakeup(local.pChannels), {{"A", Channel::kA}, {"B", Channel::kB}});
+    local.pWakeupChannel = from("pWakeupChannel")
+                               .choice_or("pWakeupChannel", default_wakeup(local.pChannels),
+                                          {{"A", model::Channel::kA}, {"B", model::Channel::kB}});
     for (const auto& p : kNodeFlags) local.*p.member = from(p.name).boolean(p.name);
     own.finish();
     return local;
   }
 
-  void load_signals(YamlMap& map, std::string_view key, std::vector<Signal>& signals, int& total_bits) {
+  void load_signals(YamlMap& map, std::string_view key, std::vector<model::Signal>& signals, int& total_bits) {
     int offset = 0;
     for (YamlMap& entry : map.maps(key)) {
-      Signal signal;
+      model::Signal signal;
       signal.name = entry.text("name");
       signal.unit = entry.text_or("unit", "");
-      signal.bits = static_cast<int>(entry.integer("bits", {1, kMostSignalBits}));
-      signal.resolution = entry.number_or("resolution", 1.0, {kFinestResolution, kCoarsestResolution});
-      signal.low = entry.number_or("low", 0.0, {-kLargestLow, kLargestLow});
+      signal.bits = static_cast<int>(entry.integer("bits", {1, model::kMostSignalBits}));
+      signal.resolution = entry.number_or("resolution", 1.0, {model::kFinestResolution, model::kCoarsestResolution});
+      signal.low = entry.number_or("low", 0.0, {-model::kLargestLow, model::kLargestLow});
       const double top = signal.low + (std::ldexp(1.0, signal.bits) - 1.0) * signal.resolution;
-      signal.high = entry.number_or("high", top, {-kLargestLow, kLargestHigh});
+      signal.high = entry.number_or("high", top, {-model::kLargestLow, model::kLargestHigh});
       if (signal.high <= signal.low || signal.high > top + 0.5 * signal.resolution)
         entry.fail("high", fmt::format("must be above {} and at most {}: more does not fit {} bits", signal.low, top,
                                        signal.bits));
@@ -160,12 +162,13 @@ class Loader {
     total_bits = offset;
   }
 
-  void load_pdu(YamlMap& map, PduLayout& layout) {
+  void load_pdu(YamlMap& map, model::PduLayout& layout) {
     layout.line = map.line();
     if (map.has("sensor")) layout.sensor = sensor(map, "sensor");
-    layout.fragment_bytes = static_cast<int>(map.integer("fragment_bytes", {1, kMostFragmentBytes}, "bytes"));
+    layout.fragment_bytes = static_cast<int>(map.integer("fragment_bytes", {1, model::kMostFragmentBytes}, "bytes"));
     layout.max_elements = static_cast<int>(map.integer("max_elements", {1, 65535}));
-    layout.elements_per_fragment = static_cast<int>(map.integer("elements_per_fragment", {1, 8 * kMostFragmentBytes}));
+    layout.elements_per_fragment =
+        static_cast<int>(map.integer("elements_per_fragment", {1, 8 * model::kMostFragmentBytes}));
     load_signals(map, "header", layout.header, layout.header_bits);
     load_signals(map, "element", layout.element, layout.element_bits);
     layout.header_bits = (layout.header_bits + 7) / 8 * 8;
@@ -177,9 +180,9 @@ class Loader {
       else if (largest >= std::int64_t{1} << layout.header[*found].bits)
         map.fail("header", fmt::format("must give {} enough bits for {}", name, largest));
     };
-    if (layout.max_fragments() > kMostFragments)
+    if (layout.max_fragments() > model::kMostFragments)
       map.fail("max_elements", fmt::format("must be at most {}: {} fragments of {} elements",
-                                           kMostFragments * layout.elements_per_fragment, kMostFragments,
+                                           model::kMostFragments * layout.elements_per_fragment, model::kMostFragments,
                                            layout.elements_per_fragment));
     // Two sequence numbers must differ by less than half the range to be told apart.
     needs("sequence", 4);
@@ -192,8 +195,8 @@ class Loader {
     map.finish();
   }
 
-  CycleInstant load_instant(YamlMap& map) {
-    CycleInstant at;
+  model::CycleInstant load_instant(YamlMap& map) {
+    model::CycleInstant at;
     load_multiplexing(map, at.base_cycle, at.repetition);
     at.offset = {map.integer("offset", {0, std::max(cluster_.flexray.gMacroPerCycle - 1, 0)}, "macroticks")};
     return at;
@@ -214,10 +217,11 @@ class Loader {
     if (!usable) base_cycle = 0, repetition = 1;
   }
 
-  void load_sensor(YamlMap& map, Sensor& item) {
+  void load_sensor(YamlMap& map, model::Sensor& item) {
     item.line = map.line();
-    item.kind = map.choice<SensorKind>(
-        "kind", {{"laser", SensorKind::kLaser}, {"camera", SensorKind::kCamera}, {"radar", SensorKind::kRadar}});
+    item.kind = map.choice<model::SensorKind>("kind", {{"laser", model::SensorKind::kLaser},
+                                                       {"camera", model::SensorKind::kCamera},
+                                                       {"radar", model::SensorKind::kRadar}});
     item.device = node(map, "device");
     item.host = node(map, "host");
     enum class Measures : std::uint8_t { kFreely, kScheduled, kFollowing };
@@ -241,16 +245,16 @@ class Loader {
     map.finish();
   }
 
-  void load_can(YamlMap& map, CanBus& bus) {
+  void load_can(YamlMap& map, model::CanBus& bus) {
     bus.line = map.line();
     bus.flexible_data_rate = map.boolean("flexible_data_rate");
-    bus.nominal_bit_rate = map.integer("nominal_bit_rate", {kSlowestCan, kFastestNominal}, "bit/s");
+    bus.nominal_bit_rate = map.integer("nominal_bit_rate", {model::kSlowestCan, model::kFastestNominal}, "bit/s");
     bus.data_bit_rate = bus.nominal_bit_rate;
     if (bus.flexible_data_rate)
-      bus.data_bit_rate = map.integer("data_bit_rate", {bus.nominal_bit_rate, kFastestData}, "bit/s");
+      bus.data_bit_rate = map.integer("data_bit_rate", {bus.nominal_bit_rate, model::kFastestData}, "bit/s");
     bus.other_load = map.number("other_load", {0.0, 0.95});
     for (YamlMap& entry : map.maps("messages")) {
-      CanMessage message;
+      model::CanMessage message;
       message.line = entry.line();
       message.pdu = pdu(entry, "pdu");
       message.identifier = static_cast<std::uint32_t>(entry.integer("identifier", {0, 2047}));
@@ -262,20 +266,20 @@ class Loader {
     map.finish();
   }
 
-  std::vector<PortBinding> load_ports(YamlMap& task, std::string_view key) {
-    std::vector<PortBinding> bindings;
+  std::vector<model::PortBinding> load_ports(YamlMap& task, std::string_view key) {
+    std::vector<model::PortBinding> bindings;
     if (!task.has(key)) return bindings;
     auto texts = task.named_texts(key);
     YamlMap lines = *task.map_if(key);
     for (auto& [port, text] : texts) {
-      PortBinding binding;
+      model::PortBinding binding;
       binding.port = port;
       binding.line = lines.line(port);
       const auto on = text.find(" on ");
       const auto found = cluster_.find_pdu(std::string_view(text).substr(0, on));
       const std::string medium = on == std::string::npos ? "" : text.substr(on + 4);
       const auto bus = std::find_if(cluster_.can_buses.begin(), cluster_.can_buses.end(),
-                                    [&](const CanBus& candidate) { return candidate.name == medium; });
+                                    [&](const model::CanBus& candidate) { return candidate.name == medium; });
       if (bus != cluster_.can_buses.end()) binding.can_bus = static_cast<std::size_t>(bus - cluster_.can_buses.begin());
       if (!found || (medium != "flexray" && bus == cluster_.can_buses.end())) {
         lines.fail(port, "must be PDU on flexray or PDU on CAN, with the names of a PDU and a CAN of this file");
@@ -287,32 +291,32 @@ class Loader {
     return bindings;
   }
 
-  Activation load_activation(YamlMap map) {
-    Activation activation;
-    activation.kind = map.choice<ActivationKind>("kind", {{"time", ActivationKind::kTime},
-                                                          {"message", ActivationKind::kMessage},
-                                                          {"sensor", ActivationKind::kSensor},
-                                                          {"completion", ActivationKind::kCompletion}});
+  model::Activation load_activation(YamlMap map) {
+    model::Activation activation;
+    activation.kind = map.choice<model::ActivationKind>("kind", {{"time", model::ActivationKind::kTime},
+                                                                 {"message", model::ActivationKind::kMessage},
+                                                                 {"sensor", model::ActivationKind::kSensor},
+                                                                 {"completion", model::ActivationKind::kCompletion}});
     switch (activation.kind) {
-      case ActivationKind::kTime: activation.at = load_instant(map); break;
-      case ActivationKind::kMessage: activation.port = map.text("port"); break;
-      case ActivationKind::kSensor: activation.sensor = sensor(map, "sensor"); break;
-      case ActivationKind::kCompletion: activation.after = map.text("after"); break;
+      case model::ActivationKind::kTime: activation.at = load_instant(map); break;
+      case model::ActivationKind::kMessage: activation.port = map.text("port"); break;
+      case model::ActivationKind::kSensor: activation.sensor = sensor(map, "sensor"); break;
+      case model::ActivationKind::kCompletion: activation.after = map.text("after"); break;
     }
     for (const char* key : {"port", "sensor", "after"}) remember(map, key);
     map.finish();
     return activation;
   }
 
-  void load_task(YamlMap& map, Task& task) {
+  void load_task(YamlMap& map, model::Task& task) {
     task.line = map.line();
     task.step = map.text("step");
     task.activation = load_activation(map.map("activation"));
     task.best_case = map.duration("best_case", kExecution);
     task.worst_case = map.duration("worst_case", kExecution);
     if (task.worst_case < task.best_case) map.fail("worst_case", "must not be below best_case");
-    task.draw =
-        map.choice<ExecutionDraw>("draw", {{"uniform", ExecutionDraw::kUniform}, {"worst", ExecutionDraw::kWorst}});
+    task.draw = map.choice<model::ExecutionDraw>(
+        "draw", {{"uniform", model::ExecutionDraw::kUniform}, {"worst", model::ExecutionDraw::kWorst}});
     task.deadline = map.duration("deadline", kExecution);
     task.reads = load_ports(map, "reads");
     task.writes = load_ports(map, "writes");
@@ -320,7 +324,7 @@ class Loader {
     map.finish();
   }
 
-  void load_node(YamlMap& map, YamlMap& shared, Node& item) {
+  void load_node(YamlMap& map, YamlMap& shared, model::Node& item) {
     item.line = map.line();
     if (auto own = map.map_if("flexray")) {
       item.flexray = load_node_parameters(*own, shared);
@@ -333,7 +337,8 @@ class Loader {
     if (map.has("drift_ppm")) item.drift_ppb = map.scaled("drift_ppm", 1'000, {-kMostDrift, kMostDrift}, "ppm");
     remember(map, "drift_ppm");
     auto tasks = map.named_maps("tasks");
-    if (tasks.size() > kMostTasks) map.fail("tasks", fmt::format("must have at most {} entries", kMostTasks));
+    if (tasks.size() > model::kMostTasks)
+      map.fail("tasks", fmt::format("must have at most {} entries", model::kMostTasks));
     for (auto& [name, entry] : tasks) {
       item.tasks.emplace_back().name = name;
       load_task(entry, item.tasks.back());
@@ -342,9 +347,9 @@ class Loader {
   }
 
   void load_frame(YamlMap& map) {
-    FrameSlot frame;
+    model::FrameSlot frame;
     frame.line = map.line();
-    frame.slot = static_cast<int>(map.integer("slot", {1, kLastSlot}));
+    frame.slot = static_cast<int>(map.integer("slot", {1, model::kLastSlot}));
     frame.channels = map.choice("channels", kChannels);
     frame.sender = node(map, "sender");
     load_multiplexing(map, frame.base_cycle, frame.repetition);
@@ -352,14 +357,14 @@ class Loader {
     int step = 1;
     if (map.has("pdu")) {
       frame.pdu = pdu(map, "pdu");
-      fragments = map.integer("fragments", {1, kLastStaticSlot});
-      frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, kLastStaticSlot - 1}));
+      fragments = map.integer("fragments", {1, model::kLastStaticSlot});
+      frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, model::kLastStaticSlot - 1}));
       step = static_cast<int>(map.integer_or("fragment_step", step, {1, 2}));
     }
     frame.network_management = map.boolean_or("network_management", false);
     if (map.has("message_id")) frame.message_id = static_cast<std::uint16_t>(map.integer("message_id", {0, 65535}));
     const bool dynamic = is_dynamic(cluster_.flexray, frame);
-    if (const int last = dynamic ? kLastSlot : kLastStaticSlot; frame.slot + fragments - 1 > last) {
+    if (const int last = dynamic ? model::kLastSlot : model::kLastStaticSlot; frame.slot + fragments - 1 > last) {
       map.fail("fragments", fmt::format("must be at most {}: {} slots end at {}", last - frame.slot + 1,
                                         dynamic ? "dynamic" : "static", last));
       fragments = 1;
@@ -373,12 +378,12 @@ class Loader {
   }
 
   YamlMap root_;
-  Cluster cluster_;
+  model::Cluster cluster_;
 };
 
-Cluster load(const StrictYaml& file) {
+model::Cluster load(const StrictYaml& file) {
   Findings met;
-  Cluster cluster = Loader(file, met).load();
+  model::Cluster cluster = Loader(file, met).load();
   // What nodes share is read once per node; a mistake in it is one mistake.
   Findings findings;
   std::set<std::pair<int, std::string>> known;
@@ -390,16 +395,16 @@ Cluster load(const StrictYaml& file) {
 
 }  // namespace
 
-Cluster parse_cluster(std::string text, std::string name) {
+model::Cluster parse_cluster(std::string text, std::string name) {
   return load(StrictYaml::parse(std::move(text), std::move(name)));
 }
 
-Cluster load_cluster(const std::string& path) { return load(StrictYaml::load(path)); }
+model::Cluster load_cluster(const std::string& path) { return load(StrictYaml::load(path)); }
 
-Cluster load_checked_cluster(const std::string& path) {
-  Cluster cluster = load_cluster(path);
-  if (auto findings = check(cluster); !findings.empty()) throw InputError(std::move(findings));
+model::Cluster load_checked_cluster(const std::string& path) {
+  model::Cluster cluster = load_cluster(path);
+  if (auto findings = check::check(cluster); !findings.empty()) throw InputError(std::move(findings));
   return cluster;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::file

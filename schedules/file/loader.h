@@ -38,13 +38,13 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::file {
 
 // Both throw InputError. The result is complete, but not yet proved consistent: that is check()'s part.
-Cluster load_cluster(const std::string& path);
-Cluster parse_cluster(std::string text, std::string name);
+model::Cluster load_cluster(const std::string& path);
+model::Cluster parse_cluster(std::string text, std::string name);
 
 // Loads and checks (schedules/check/checker.h): throws InputError with the findings of either.
-Cluster load_checked_cluster(const std::string& path);
+model::Cluster load_checked_cluster(const std::string& path);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::file

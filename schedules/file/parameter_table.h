@@ -8,7 +8,7 @@
 
 #include "schedules/model/flexray_parameters.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::file {
 
 template <class Struct> struct IntegerParameter {
   std::string_view name;
@@ -34,8 +34,8 @@ template <class Struct> struct FlagParameter {
   bool Struct::*member;
 };
 
-using Global = GlobalParameters;
-using Local = NodeParameters;
+using Global = model::GlobalParameters;
+using Local = model::NodeParameters;
 
 inline constexpr IntegerParameter<Global> kGlobalIntegers[] = {
     {"gColdStartAttempts", 2, 31, "", &Global::gColdStartAttempts},
@@ -111,4 +111,4 @@ inline constexpr FlagParameter<Local> kNodeFlags[] = {
     {"pAllowHaltDueToClock", &Local::pAllowHaltDueToClock},
 };
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::file

@@ -5,7 +5,7 @@
 #include "core/check.h"
 #include "core/int128.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 namespace {
 
@@ -80,4 +80,4 @@ Occurrence next_occurrence(const GlobalParameters& flexray, const CycleInstant& 
   return {cycle, time_of(flexray, cycle, at.offset)};
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

@@ -18,7 +18,7 @@
 #include "schedules/model/pdu.h"
 #include "schedules/model/round.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 std::string_view channels_text(Channels channels);  // "A", "B", "AB"
 
@@ -231,4 +231,4 @@ struct Occurrence {
 };
 Occurrence next_occurrence(const GlobalParameters& flexray, const CycleInstant& at, GlobalTime from);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

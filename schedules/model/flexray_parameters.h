@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 enum class Channel : std::uint8_t { kA = 0, kB = 1 };
 inline constexpr std::array kBothChannels = {Channel::kA, Channel::kB};
@@ -105,4 +105,4 @@ struct NodeParameters {
   int pExternRateCorrection = 0;    // [uT] ... may change the rate by
 };
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

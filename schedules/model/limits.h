@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 inline constexpr std::size_t kMostNamed = 200;  // nodes, sensors, PDUs: ids are bytes, one value means none
 inline constexpr std::size_t kMostCans = 127;   // a record's bus is a signed byte, below zero for FlexRay
@@ -22,4 +22,4 @@ inline constexpr int kMostSignalBits = 32;
 inline constexpr double kFinestResolution = 1e-9, kCoarsestResolution = 1e9;
 inline constexpr double kLargestLow = 1e9, kLargestHigh = 1e10;  // magnitudes
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

@@ -1,6 +1,6 @@
 #include "schedules/model/pdu.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 std::optional<std::size_t> find_signal(const std::vector<Signal>& signals, std::string_view name) {
   for (std::size_t i = 0; i < signals.size(); ++i)
@@ -8,4 +8,4 @@ std::optional<std::size_t> find_signal(const std::vector<Signal>& signals, std::
   return std::nullopt;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

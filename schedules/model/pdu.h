@@ -17,7 +17,7 @@
 
 #include "core/ids.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 // physical = low + raw * resolution, raw an unsigned number of `bits` bits; high = the largest value in use.
 struct Signal {
@@ -52,4 +52,4 @@ struct PduLayout {
 // Index of a signal in a header or element, or nothing.
 std::optional<std::size_t> find_signal(const std::vector<Signal>& signals, std::string_view name);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

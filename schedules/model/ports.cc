@@ -7,7 +7,7 @@
 
 #include "core/errors.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 namespace {
 
 struct Direction {
@@ -64,4 +64,4 @@ void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {
   findings.throw_if_any();
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

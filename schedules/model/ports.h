@@ -8,7 +8,7 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 // What the code of one step reads and writes.
 struct StepPorts {
@@ -22,4 +22,4 @@ struct StepPorts {
 // Throws InputError with every mismatch.
 void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

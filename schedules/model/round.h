@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 // The cycle counter runs from 0 to gCycleCountMax = 63, and every repetition divides 64: all that the schedule does
 // repeats after as many cycles.
@@ -15,4 +15,4 @@ inline constexpr std::int64_t kFromCycle = 4 * kCycles;
 // Oscillators count whole microticks of at most 50 ns, and a span begins and ends at one.
 inline constexpr std::int64_t kGranularity_ns = 2 * 50;
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

@@ -1,6 +1,6 @@
 #include "schedules/model/sensor_lines.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 std::optional<std::size_t> can_of_lines(const Cluster& cluster, SensorId sensor) {
   for (const Task& task : cluster.node(cluster.sensor(sensor).device).tasks) {
@@ -11,4 +11,4 @@ std::optional<std::size_t> can_of_lines(const Cluster& cluster, SensorId sensor)
   return std::nullopt;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

@@ -17,7 +17,7 @@
 #include "schedules/model/cluster.h"
 #include "schedules/model/limits.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 inline constexpr std::size_t kStrobeBytes = 4;
 
@@ -28,4 +28,4 @@ static_assert(trigger_identifier(static_cast<SensorId>(kMostNamed - 1)) < 0x7FF,
 // The CAN that its device sends raw data on; nothing where it sends none.
 std::optional<std::size_t> can_of_lines(const Cluster& cluster, SensorId sensor);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

@@ -8,7 +8,7 @@
 #include "core/int128.h"
 #include "schedules/model/flexray_parameters.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 
 // cClockDeviationMax = 0.0015, in parts of 10000; cChannelIdleDelimiter in gdBit.
 inline constexpr std::int64_t kDeviation = 15, kWhole = 10'000;
@@ -33,4 +33,4 @@ constexpr int action_point_difference(const GlobalParameters& flexray) {
              : std::max(0, flexray.gdActionPointOffset - flexray.gdMinislotActionPointOffset);
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

@@ -5,10 +5,10 @@
 #include "core/check.h"
 #include "sim/crank/clock_spread.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 
-BusSimulation::BusSimulation(const schedules::Cluster& cluster, std::vector<BusNode> nodes,
-                             std::vector<bus::ControllerEvents*> events,
+BusSimulation::BusSimulation(const schedules::model::Cluster& cluster, std::vector<BusNode> nodes,
+                             std::vector<bus::controller::ControllerEvents*> events,
                              const std::vector<timebase::Oscillator>& guardians)
     : Crank(cluster, 0), events_(std::move(events)) {
   TTF_CHECK(nodes.size() == cluster.nodes.size() && events_.size() == nodes.size(), "{} nodes, {} events for {}",
@@ -30,19 +30,19 @@ BusSimulation::BusSimulation(const schedules::Cluster& cluster, std::vector<BusN
 BusSimulation::~BusSimulation() = default;
 
 void BusSimulation::make_controller(std::size_t node) {
-  controllers_[node] =
-      std::make_unique<bus::FlexRayController>(*views_[node], static_cast<NodeId>(node), *ports_[node], *events_[node]);
+  controllers_[node] = std::make_unique<bus::controller::FlexRayController>(*views_[node], static_cast<NodeId>(node),
+                                                                            *ports_[node], *events_[node]);
 }
 
 void BusSimulation::make_guardians(const std::vector<BusNode>& nodes,
                                    const std::vector<timebase::Oscillator>& oscillators) {
   const auto integrated =
       std::find_if(nodes.begin(), nodes.end(), [](const BusNode& node) { return node.clock.has_value(); });
-  for (const schedules::Channel channel : {schedules::Channel::kA, schedules::Channel::kB}) {
-    if (!StarCoupler::needed(cluster_, channel)) continue;
+  for (const schedules::model::Channel channel : {schedules::model::Channel::kA, schedules::model::Channel::kB}) {
+    if (!medium::StarCoupler::needed(cluster_, channel)) continue;
     seat_guardian(channel, index_of(channel) < oscillators.size()
                                ? oscillators[index_of(channel)]
-                               : timebase::Oscillator(StarCoupler::microtick_ps(cluster_, channel), 0, 0));
+                               : timebase::Oscillator(medium::StarCoupler::microtick_ps(cluster_, channel), 0, 0));
     if (integrated == nodes.end()) continue;
     // On that node's clock.
     const auto& p = *cluster_.nodes[static_cast<std::size_t>(integrated - nodes.begin())].flexray;
@@ -57,13 +57,13 @@ void BusSimulation::start(std::size_t node, Microticks now) { controllers_[node]
 void BusSimulation::stop(std::size_t node) { make_controller(node); }
 Microticks BusSimulation::next_event(std::size_t node) const { return controllers_[node]->next_event(); }
 void BusSimulation::advance(std::size_t node, Microticks now) { controllers_[node]->advance(now); }
-void BusSimulation::receive(std::size_t node, const bus::Reception& reception) {
+void BusSimulation::receive(std::size_t node, const bus::ports::Reception& reception) {
   controllers_[node]->receive(reception);
 }
-bool BusSimulation::receive_on_both(std::size_t node, const bus::Reception& reception) {
+bool BusSimulation::receive_on_both(std::size_t node, const bus::ports::Reception& reception) {
   return controllers_[node]->receive_on_both(reception);
 }
-void BusSimulation::happen(const MediumEvent& event) {
+void BusSimulation::happen(const medium::MediumEvent& event) {
   TTF_CHECK(false, "an event of kind {} without hosts", static_cast<int>(event.kind));
 }
 
@@ -74,4 +74,4 @@ Duration BusSimulation::precision(NodeId first) const {
   return spread.width();
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

@@ -14,28 +14,29 @@
 #include "sim/crank/crank.h"
 #include "timebase/oscillator.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 
 // One entry per node of the cluster; all must be on FlexRay.
 struct BusNode {
   timebase::Oscillator oscillator;
   TrueTime power_on{};
   // A node that begins integrated, with its supply from the start; `power_on` is not read then.
-  std::optional<bus::InitialClock> clock{};
+  std::optional<bus::controller::InitialClock> clock{};
   // The schedule that this node believes in, with the same nodes and PDUs; null: the cluster's.
-  const schedules::Cluster* view = nullptr;
+  const schedules::model::Cluster* view = nullptr;
 };
 
 class BusSimulation final : public Crank {
  public:
   // `events`: one per node, told what its controller tells a host. `guardians`: the oscillators of a star's two, else
   // without drift. They begin integrated if some node does.
-  BusSimulation(const schedules::Cluster& cluster, std::vector<BusNode> nodes,
-                std::vector<bus::ControllerEvents*> events, const std::vector<timebase::Oscillator>& guardians = {});
+  BusSimulation(const schedules::model::Cluster& cluster, std::vector<BusNode> nodes,
+                std::vector<bus::controller::ControllerEvents*> events,
+                const std::vector<timebase::Oscillator>& guardians = {});
   ~BusSimulation() override;
 
   // Of a node without supply: in default config.
-  bus::FlexRayController& controller(NodeId node) { return *controllers_[index_of(node)]; }
+  bus::controller::FlexRayController& controller(NodeId node) { return *controllers_[index_of(node)]; }
   // The largest difference between the global times of the nodes that are synchronised, now, from node `first` on.
   // Their cycle numbers may differ by whole rounds of the cycle counter; only the rest counts.
   Duration precision(NodeId first = NodeId{0}) const;
@@ -45,22 +46,22 @@ class BusSimulation final : public Crank {
   void stop(std::size_t node) override;
   Microticks next_event(std::size_t node) const override;
   void advance(std::size_t node, Microticks now) override;
-  void receive(std::size_t node, const bus::Reception& reception) override;
-  bool receive_on_both(std::size_t node, const bus::Reception& reception) override;
-  bool knows(std::size_t node, const bus::Reception& reception) override {
+  void receive(std::size_t node, const bus::ports::Reception& reception) override;
+  bool receive_on_both(std::size_t node, const bus::ports::Reception& reception) override;
+  bool knows(std::size_t node, const bus::ports::Reception& reception) override {
     return controllers_[node]->knows(reception);
   }
-  void hear_known(std::size_t node, const bus::Reception& reception) override {
+  void hear_known(std::size_t node, const bus::ports::Reception& reception) override {
     controllers_[node]->hear_known(reception);
   }
-  void happen(const MediumEvent& event) override;
+  void happen(const medium::MediumEvent& event) override;
   void make_controller(std::size_t node);
   void make_guardians(const std::vector<BusNode>& nodes, const std::vector<timebase::Oscillator>& oscillators);
 
-  std::vector<const schedules::Cluster*> views_;  // these all by NodeId
-  std::vector<bus::ControllerEvents*> events_;
+  std::vector<const schedules::model::Cluster*> views_;  // these all by NodeId
+  std::vector<bus::controller::ControllerEvents*> events_;
   std::vector<std::unique_ptr<CrankPort>> ports_;
-  std::vector<std::unique_ptr<bus::FlexRayController>> controllers_;
+  std::vector<std::unique_ptr<bus::controller::FlexRayController>> controllers_;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

@@ -7,13 +7,13 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 
 // A node that joined a running cluster knows its cycle only modulo gCycleCountMax + 1 and counts on from there, so two
 // clocks that agree may differ by whole rounds of the cycle counter; only the rest counts.
 class ClockSpread {
  public:
-  explicit ClockSpread(const schedules::Cluster& cluster)
+  explicit ClockSpread(const schedules::model::Cluster& cluster)
       : round_(cluster.flexray.cycle_ps() * (cluster.flexray.gCycleCountMax + 1) / 1000), half_(round_ / 2) {}
 
   void add(GlobalTime time) {
@@ -37,4 +37,4 @@ class ClockSpread {
   std::int64_t low_ = 0, high_ = 0;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

@@ -7,23 +7,23 @@
 #include "core/check.h"
 #include "nodes/host/node_clock.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 namespace {
 
 constexpr std::size_t kPendingEvents = 4096;  // on the private CANs, beside observations and strobes
 
-std::uint8_t signal_of(bus::Signal signal) {
+std::uint8_t signal_of(bus::ports::Signal signal) {
   switch (signal) {
-    case bus::Signal::kFrame: return records::kSignalFrame;
-    case bus::Signal::kCas: return records::kSignalCas;
-    case bus::Signal::kWakeup: return records::kSignalWakeup;
-    case bus::Signal::kUndecodable: return records::kSignalUndecodable;
+    case bus::ports::Signal::kFrame: return recording::records::kSignalFrame;
+    case bus::ports::Signal::kCas: return recording::records::kSignalCas;
+    case bus::ports::Signal::kWakeup: return recording::records::kSignalWakeup;
+    case bus::ports::Signal::kUndecodable: return recording::records::kSignalUndecodable;
   }
   TTF_CHECK(false, "signal {}", static_cast<int>(signal));
 }
 
-records::GuardianIntervention record_of(const StarCoupler::Intervention& one) {
-  const bool cut = one.reason == bus::GuardianReason::kForwarded;
+recording::records::GuardianIntervention record_of(const medium::StarCoupler::Intervention& one) {
+  const bool cut = one.reason == bus::guardian::GuardianReason::kForwarded;
   return {one.at,
           one.branch,
           static_cast<std::uint8_t>(one.channel),
@@ -31,10 +31,10 @@ records::GuardianIntervention record_of(const StarCoupler::Intervention& one) {
           static_cast<std::uint8_t>(one.reason),
           cut,
           one.until,
-          cut ? "longer than one of its kind may last" : bus::to_text(one.reason)};
+          cut ? "longer than one of its kind may last" : bus::guardian::to_text(one.reason)};
 }
 
-void add(nodes::ExecutiveCounts& sum, const nodes::ExecutiveCounts& one) {
+void add(nodes::host::ExecutiveCounts& sum, const nodes::host::ExecutiveCounts& one) {
   sum.overruns += one.overruns;
   sum.deadlines_missed += one.deadlines_missed;
   sum.torn_lists += one.torn_lists;
@@ -52,82 +52,82 @@ void add(nodes::ExecutiveCounts& sum, const nodes::ExecutiveCounts& one) {
 struct ClusterSimulation::FlexRayTap final : CrankPort {
   ClusterSimulation& simulation;
   FlexRayTap(ClusterSimulation& s, NodeId n) : CrankPort(s, n), simulation(s) {}
-  void transmit(const bus::Transmission& transmission) override {
+  void transmit(const bus::ports::Transmission& transmission) override {
     if (simulation.others_ != nullptr) simulation.others_->does(transmission);
     happens(transmission);
   }
-  void transmit_on_both(const bus::Transmission& transmission) override {
-    if (simulation.others_ != nullptr) return FlexRayPort::transmit_on_both(transmission);
+  void transmit_on_both(const bus::ports::Transmission& transmission) override {
+    if (simulation.others_ != nullptr) return bus::ports::FlexRayPort::transmit_on_both(transmission);
     simulation.frames_sent_ += 2;
     CrankPort::transmit_on_both(transmission);
   }
-  void happens(const bus::Transmission& transmission) {
-    simulation.frames_sent_ += transmission.signal == bus::Signal::kFrame ? 1 : 0;
+  void happens(const bus::ports::Transmission& transmission) {
+    simulation.frames_sent_ += transmission.signal == bus::ports::Signal::kFrame ? 1 : 0;
     CrankPort::transmit(transmission);
   }
 };
 
-struct ClusterSimulation::CanTap final : bus::CanPort {
+struct ClusterSimulation::CanTap final : bus::ports::CanPort {
   ClusterSimulation& simulation;
   NodeId node;
   std::size_t bus;
   CanTap(ClusterSimulation& s, NodeId n, std::size_t b) : simulation(s), node(n), bus(b) {}
-  void send(const bus::CanFrame& frame) override {
-    if (simulation.others_ != nullptr) simulation.others_->does(CanAct{bus, frame});
+  void send(const bus::ports::CanFrame& frame) override {
+    if (simulation.others_ != nullptr) simulation.others_->does(processes::CanAct{bus, frame});
     simulation.send_can(bus, node, frame);
   }
 };
 
 // The medium says that a frame began; its sender reports it when it has left. Both instants are looked up on the
 // sender's clocks when they come: nobody knows beforehand what a clock will show after its next correction.
-struct ClusterSimulation::CanLog final : records::Sink {
+struct ClusterSimulation::CanLog final : recording::records::Sink {
   struct InFlight {
-    records::CanFrameSent frame;
+    recording::records::CanFrameSent frame;
     std::array<std::byte, 64> bytes{};
   };
   ClusterSimulation& simulation;
   std::vector<InFlight> in_flight;  // by bus
   CanLog(ClusterSimulation& s, std::size_t buses) : simulation(s), in_flight(buses) {}
 
-  using records::Sink::on;
-  void on(const records::CanFrameSent& began) override {
+  using recording::records::Sink::on;
+  void on(const recording::records::CanFrameSent& began) override {
     const NodeId sender = began.start.node;
     if (!simulation.is_here(index_of(sender))) return;
-    const nodes::Executive& executive = *simulation.nodes_[index_of(sender)];
+    const nodes::host::Executive& executive = *simulation.nodes_[index_of(sender)];
     InFlight& entry = in_flight[began.bus];
     entry.frame = began;
     std::copy(began.data.begin(), began.data.end(), entry.bytes.begin());
     entry.frame.data = std::span<const std::byte>(entry.bytes).first(began.data.size());
     entry.frame.start = executive.stamp(executive.oscillator().ticks_at(began.start.true_time));
     entry.frame.start.true_time = began.start.true_time;
-    MediumEvent event;
-    event.kind = MediumEvent::Kind::kCanSent;
+    medium::MediumEvent event;
+    event.kind = medium::MediumEvent::Kind::kCanSent;
     event.node = static_cast<std::uint8_t>(sender);
     event.sender = event.node;
     event.channel_or_bus = began.bus;
     event.start = began.start.true_time;
-    simulation.queue_.schedule(began.end.true_time, Phase::kArrival, event.node, event);
+    simulation.queue_.schedule(began.end.true_time, medium::Phase::kArrival, event.node, event);
   }
 };
 
-ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Sink& sink)
+ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::records::Sink& sink)
     : Crank(*config.cluster, kPendingEvents), config_(config), others_(config.others), sink_(sink),
-      can_ports_(cluster_.nodes.size(), std::vector<bus::CanPort*>(cluster_.can_buses.size())),
+      can_ports_(cluster_.nodes.size(), std::vector<bus::ports::CanPort*>(cluster_.can_buses.size())),
       can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())), nodes_(cluster_.nodes.size()),
       watches_(cluster_.nodes.size()), no_spread_(cluster_) {
   if (sink.wants_frames())
-    medium_.set_log(&channel_log_.emplace(cluster_.flexray, FlexRayMedium::kMostLogged, sink));
+    medium_.set_log(&channel_log_.emplace(cluster_.flexray, medium::FlexRayMedium::kMostLogged, sink));
   else
     medium_.set_transparent(true);
   for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b) {
     std::vector<NodeId> members;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
       if (is_on_can(cluster_.nodes[n], b)) members.push_back(static_cast<NodeId>(n));
-    cans_.push_back(
-        std::make_unique<CanMedium>(cluster_, b, members, queue_, pool_, *can_log_, config_.seed, config_.replication));
+    cans_.push_back(std::make_unique<medium::CanMedium>(cluster_, b, members, queue_, pool_, *can_log_, config_.seed,
+                                                        config_.replication));
   }
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
-    const schedules::Node& node = cluster_.nodes[n];
+    const schedules::model::Node& node = cluster_.nodes[n];
     const auto id = static_cast<NodeId>(n);
     flexray_taps_.push_back(node.flexray ? std::make_unique<FlexRayTap>(*this, id) : nullptr);
     for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b)
@@ -136,27 +136,28 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
         can_ports_[n][b] = can_taps_.back().get();
       }
     const std::optional<TrueTime> power_on = config_.power_on ? config_.power_on(id) : std::nullopt;
-    const timebase::Oscillator crystal = nodes::drawn_oscillator(node, n, config.seed, config.replication);
+    const timebase::Oscillator crystal = nodes::host::drawn_oscillator(node, n, config.seed, config.replication);
     seat(crystal, power_on);
     if (power_on) continue;
     if (others_ != nullptr) others_->outlook(n).begins(crystal.ticks_at(TrueTime{}));
     if (is_here(n))
-      make_node(
-          n, node.flexray ? std::optional(nodes::integrated_clock(crystal, cluster_, node, kFirstCycle)) : std::nullopt,
-          crystal.ticks_at(kFirstCycle), {});
+      make_node(n,
+                node.flexray ? std::optional(nodes::host::integrated_clock(crystal, cluster_, node, kFirstCycle))
+                             : std::nullopt,
+                crystal.ticks_at(kFirstCycle), {});
     refresh(n);
   }
-  for (const schedules::Channel channel : {schedules::Channel::kA, schedules::Channel::kB})
-    if (StarCoupler::needed(cluster_, channel)) make_guardian(channel);
+  for (const schedules::model::Channel channel : {schedules::model::Channel::kA, schedules::model::Channel::kB})
+    if (medium::StarCoupler::needed(cluster_, channel)) make_guardian(channel);
 }
 
 // Its clock is drawn behind the nodes'.
-void ClusterSimulation::make_guardian(schedules::Channel channel) {
-  schedules::Node crystal;
-  crystal.microtick_ps = StarCoupler::microtick_ps(cluster_, channel);
-  seat_guardian(channel, nodes::drawn_oscillator(crystal, cluster_.nodes.size() + index_of(channel), config_.seed,
-                                                 config_.replication));
-  coupler(channel)->on_intervention([this](const StarCoupler::Intervention& one) { sink_.on(record_of(one)); });
+void ClusterSimulation::make_guardian(schedules::model::Channel channel) {
+  schedules::model::Node crystal;
+  crystal.microtick_ps = medium::StarCoupler::microtick_ps(cluster_, channel);
+  seat_guardian(channel, nodes::host::drawn_oscillator(crystal, cluster_.nodes.size() + index_of(channel), config_.seed,
+                                                       config_.replication));
+  coupler(channel)->on_intervention([this](const medium::StarCoupler::Intervention& one) { sink_.on(record_of(one)); });
   bool integrated = false;
   for (std::size_t n = 0; n < nodes_.size(); ++n) integrated |= cluster_.nodes[n].flexray && is_powered(n);
   if (integrated) coupler(channel)->start_integrated(kFirstCycle, cluster_.cycle());
@@ -164,21 +165,22 @@ void ClusterSimulation::make_guardian(schedules::Channel channel) {
 
 ClusterSimulation::~ClusterSimulation() = default;
 
-void ClusterSimulation::make_node(std::size_t node, std::optional<bus::InitialClock> clock, Microticks power_on,
-                                  const nodes::NodeStart& cold) {
+void ClusterSimulation::make_node(std::size_t node, std::optional<bus::controller::InitialClock> clock,
+                                  Microticks power_on, const nodes::host::NodeStart& cold) {
   const auto id = static_cast<NodeId>(node);
-  const schedules::Cluster* view = config_.view ? config_.view(id) : nullptr;
-  const nodes::ExecutiveConfig executive{view != nullptr ? view : &cluster_,
-                                         id,
-                                         oscillator(id),
-                                         clock,
-                                         config_.seed,
-                                         config_.replication,
-                                         power_on,
-                                         cold.how,
-                                         cold.after};
-  nodes_[node] = std::make_unique<nodes::Executive>(executive, config_.make_steps(id), flexray_taps_[node].get(),
-                                                    can_ports_[node], static_cast<nodes::SensorLines&>(*this), sink_);
+  const schedules::model::Cluster* view = config_.view ? config_.view(id) : nullptr;
+  const nodes::host::ExecutiveConfig executive{view != nullptr ? view : &cluster_,
+                                               id,
+                                               oscillator(id),
+                                               clock,
+                                               config_.seed,
+                                               config_.replication,
+                                               power_on,
+                                               cold.how,
+                                               cold.after};
+  nodes_[node] =
+      std::make_unique<nodes::host::Executive>(executive, config_.make_steps(id), flexray_taps_[node].get(),
+                                               can_ports_[node], static_cast<nodes::host::SensorLines&>(*this), sink_);
   watches_[node] = {nodes_[node]->controller(), &oscillator(id)};
 }
 
@@ -188,10 +190,10 @@ void ClusterSimulation::start(std::size_t node, Microticks now) {
   const auto id = static_cast<NodeId>(node);
   // Whoever comes back finds the others awake.
   const bool first = powered_since(node) < TrueTime{};
-  const nodes::NodeStart cold = first && config_.cold ? config_.cold(id) : nodes::NodeStart{};
-  if (cold.how != nodes::ColdStart::kSleeps) {
+  const nodes::host::NodeStart cold = first && config_.cold ? config_.cold(id) : nodes::host::NodeStart{};
+  if (cold.how != nodes::host::ColdStart::kSleeps) {
     const LocalTime local = oscillator(id).local_time(now);
-    sink_.on(records::PowerChanged{{oscillator(id).time_of(now), local, GlobalTime{local.ns}, id}, true});
+    sink_.on(recording::records::PowerChanged{{oscillator(id).time_of(now), local, GlobalTime{local.ns}, id}, true});
   }
   make_node(node, std::nullopt, now, cold);
 }
@@ -201,7 +203,7 @@ void ClusterSimulation::stop(std::size_t node) {
   for (auto& can : cans_) can->power_off(static_cast<NodeId>(node));
   if (!is_here(node)) return;
   // Nobody was told that a sleeper has its supply.
-  if (!nodes_[node]->asleep()) sink_.on(records::PowerChanged{nodes_[node]->stamp(ticks(node)), false});
+  if (!nodes_[node]->asleep()) sink_.on(recording::records::PowerChanged{nodes_[node]->stamp(ticks(node)), false});
   add(gone_, nodes_[node]->counts());
   nodes_[node].reset();
   watches_[node] = {};
@@ -221,19 +223,19 @@ void ClusterSimulation::advance(std::size_t node, Microticks now) {
   if (clock != nullptr && clock->cycle() != watches_[node].cycle) watch_cycle(node, *clock);
 }
 
-void ClusterSimulation::transmit(std::size_t node, const bus::Transmission& transmission) {
+void ClusterSimulation::transmit(std::size_t node, const bus::ports::Transmission& transmission) {
   if (flexray_taps_[node]) flexray_taps_[node]->happens(transmission);
 }
 
-void ClusterSimulation::receive(std::size_t node, const bus::Reception& reception) {
+void ClusterSimulation::receive(std::size_t node, const bus::ports::Reception& reception) {
   if (is_here(node)) nodes_[node]->receive(reception);
   if (others_ != nullptr) others_->outlook(node).hears_flexray(ticks(node));
 }
 
-bool ClusterSimulation::receive_on_both(std::size_t node, const bus::Reception& reception) {
+bool ClusterSimulation::receive_on_both(std::size_t node, const bus::ports::Reception& reception) {
   if (others_ == nullptr) return nodes_[node]->receive_on_both(reception);
   receive(node, reception);
-  receive(node, bus::on_b(reception));
+  receive(node, bus::ports::on_b(reception));
   return true;
 }
 
@@ -241,48 +243,49 @@ void ClusterSimulation::drifts(std::size_t node) {
   if (is_here(node)) nodes_[node]->drift(oscillator(static_cast<NodeId>(node)));
 }
 
-const nodes::Executive& ClusterSimulation::node(NodeId id) const {
+const nodes::host::Executive& ClusterSimulation::node(NodeId id) const {
   TTF_CHECK(powered(id) && is_here(index_of(id)), "{} is without supply or elsewhere", cluster_.node(id).name);
   return *nodes_[index_of(id)];
 }
 
 // Whether those it needs have been there all the time.
-bool ClusterSimulation::arrives(const MediumEvent& event) const {
-  const bool on_can = event.kind == MediumEvent::Kind::kCanArrival || event.kind == MediumEvent::Kind::kCanSent;
+bool ClusterSimulation::arrives(const medium::MediumEvent& event) const {
+  const bool on_can =
+      event.kind == medium::MediumEvent::Kind::kCanArrival || event.kind == medium::MediumEvent::Kind::kCanSent;
   if (!is_powered(event.node)) return false;
   if (!on_can) return true;
   return is_powered(event.sender) && powered_since(event.sender) <= event.start &&
          powered_since(event.node) <= event.start;
 }
 
-void ClusterSimulation::happen(const MediumEvent& event) {
+void ClusterSimulation::happen(const medium::MediumEvent& event) {
   // These two are not at a node.
-  if (event.kind == MediumEvent::Kind::kCanArbitration) return cans_[event.channel_or_bus]->arbitrate(now());
-  if (event.kind == MediumEvent::Kind::kObservation) return observe();
+  if (event.kind == medium::MediumEvent::Kind::kCanArbitration) return cans_[event.channel_or_bus]->arbitrate(now());
+  if (event.kind == medium::MediumEvent::Kind::kObservation) return observe();
   const std::size_t node = event.node;
   const bool arrives = this->arrives(event);
   switch (event.kind) {
-    case MediumEvent::Kind::kCanArrival:
+    case medium::MediumEvent::Kind::kCanArrival:
       if (arrives && is_here(node))
         nodes_[node]->receive_can(event.channel_or_bus,
                                   {event.identifier, event.flexible_data_rate, pool_.bytes(event.frame)}, ticks(node));
       if (arrives && others_ != nullptr) others_->outlook(node).hears_can(ticks(node));
       pool_.release(event.frame);
       break;
-    case MediumEvent::Kind::kStrobe:
+    case medium::MediumEvent::Kind::kStrobe:
       if (arrives && is_here(node))
         nodes_[node]->strobe(static_cast<SensorId>(event.sensor), event.identifier, ticks(node));
       break;
-    case MediumEvent::Kind::kTrigger:
+    case medium::MediumEvent::Kind::kTrigger:
       if (arrives && is_here(node)) nodes_[node]->trigger(static_cast<SensorId>(event.sensor), ticks(node));
       if (arrives && others_ != nullptr) others_->outlook(node).hears_trigger(ticks(node));
       break;
-    case MediumEvent::Kind::kCanSent:
+    case medium::MediumEvent::Kind::kCanSent:
       if (arrives) nodes_[node]->can_frame_sent(can_log_->in_flight[event.channel_or_bus].frame, ticks(node));
       return;
-    case MediumEvent::Kind::kFlexRayArrival:
-    case MediumEvent::Kind::kCanArbitration:
-    case MediumEvent::Kind::kObservation: return;
+    case medium::MediumEvent::Kind::kFlexRayArrival:
+    case medium::MediumEvent::Kind::kCanArbitration:
+    case medium::MediumEvent::Kind::kObservation: return;
   }
   refresh(node);
 }
@@ -297,9 +300,9 @@ void ClusterSimulation::watch_cycle(std::size_t node, const timebase::CycleClock
 }
 
 void ClusterSimulation::schedule_observation(std::size_t node, TrueTime at) {
-  MediumEvent event;
-  event.kind = MediumEvent::Kind::kObservation;
-  queue_.schedule(at, Phase::kObserver, static_cast<std::uint8_t>(node), event);
+  medium::MediumEvent event;
+  event.kind = medium::MediumEvent::Kind::kObservation;
+  queue_.schedule(at, medium::Phase::kObserver, static_cast<std::uint8_t>(node), event);
 }
 
 void ClusterSimulation::observe() {
@@ -329,16 +332,16 @@ void ClusterSimulation::observe() {
   precision_ = std::max(precision_, precision_of_pair_);
   // Once the cluster has been started anew, its cycles count from 0 again.
   if (cycle / 2 == reported_pair_) return;
-  sink_.on(records::PrecisionSample{now(), cycle, precision_of_pair_});
+  sink_.on(recording::records::PrecisionSample{now(), cycle, precision_of_pair_});
   reported_pair_ = cycle / 2;
   precision_of_pair_ = {};
 }
 
-nodes::ExecutiveCounts ClusterSimulation::counts() const {
-  nodes::ExecutiveCounts sum = gone_;
+nodes::host::ExecutiveCounts ClusterSimulation::counts() const {
+  nodes::host::ExecutiveCounts sum = gone_;
   for (const auto& node : nodes_)
     if (node) add(sum, node->counts());
   return sum;
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

@@ -7,7 +7,7 @@
 #include "core/check.h"
 #include "sim/crank/cluster_simulation.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 
 // The own node may have something to do before its turn; nobody else notices it.
 void ClusterSimulation::take_turn(std::size_t node, Microticks now) {
@@ -23,50 +23,50 @@ void ClusterSimulation::take_turn(std::size_t node, Microticks now) {
   if (now < others_->outlook(node).turn()) return;
   const auto acts = others_->listen(id, now);
   if (!acts) return power_off(id);
-  for (const Act& one : *acts) act(node, one);
+  for (const processes::Act& one : *acts) act(node, one);
 }
 
-void ClusterSimulation::act(std::size_t node, const Act& act) {
+void ClusterSimulation::act(std::size_t node, const processes::Act& act) {
   const auto id = static_cast<NodeId>(node);
-  if (const auto* sent = std::get_if<bus::Transmission>(&act)) {
+  if (const auto* sent = std::get_if<bus::ports::Transmission>(&act)) {
     transmit(node, *sent);
-  } else if (const auto* can = std::get_if<CanAct>(&act)) {
+  } else if (const auto* can = std::get_if<processes::CanAct>(&act)) {
     if (can_ports_[node][can->bus] == nullptr)
       throw std::runtime_error(
           fmt::format("{} sends on {}, which it is not on", cluster_.node(id).name, cluster_.can_buses[can->bus].name));
     send_can(can->bus, id, can->frame);
-  } else if (const auto* trigger = std::get_if<TriggerAct>(&act)) {
+  } else if (const auto* trigger = std::get_if<processes::TriggerAct>(&act)) {
     pull_trigger(trigger->sensor);
-  } else if (const auto* strobe = std::get_if<StrobeAct>(&act)) {
+  } else if (const auto* strobe = std::get_if<processes::StrobeAct>(&act)) {
     pull_strobe(strobe->sensor, strobe->sequence);
   }
 }
 
 void ClusterSimulation::trigger(SensorId sensor) {
-  if (others_ != nullptr) others_->does(TriggerAct{sensor});
+  if (others_ != nullptr) others_->does(processes::TriggerAct{sensor});
   pull_trigger(sensor);
 }
 
 void ClusterSimulation::strobe(SensorId sensor, std::uint32_t sequence) {
-  if (others_ != nullptr) others_->does(StrobeAct{sensor, sequence});
+  if (others_ != nullptr) others_->does(processes::StrobeAct{sensor, sequence});
   pull_strobe(sensor, sequence);
 }
 
 void ClusterSimulation::pull_trigger(SensorId sensor) {
-  MediumEvent event;
-  event.kind = MediumEvent::Kind::kTrigger;
+  medium::MediumEvent event;
+  event.kind = medium::MediumEvent::Kind::kTrigger;
   event.node = static_cast<std::uint8_t>(cluster_.sensor(sensor).device);
   event.sensor = static_cast<std::uint8_t>(sensor);
-  queue_.schedule(now(), Phase::kArrival, event.node, event);
+  queue_.schedule(now(), medium::Phase::kArrival, event.node, event);
 }
 
 void ClusterSimulation::pull_strobe(SensorId sensor, std::uint32_t sequence) {
-  MediumEvent event;
-  event.kind = MediumEvent::Kind::kStrobe;
+  medium::MediumEvent event;
+  event.kind = medium::MediumEvent::Kind::kStrobe;
   event.node = static_cast<std::uint8_t>(cluster_.sensor(sensor).host);
   event.sensor = static_cast<std::uint8_t>(sensor);
   event.identifier = sequence;
-  queue_.schedule(now(), Phase::kArrival, event.node, event);
+  queue_.schedule(now(), medium::Phase::kArrival, event.node, event);
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

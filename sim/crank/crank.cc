@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 namespace {
 
 constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
@@ -13,9 +13,9 @@ constexpr Microticks kUnknown{std::numeric_limits<std::int64_t>::min()};
 
 }  // namespace
 
-Crank::Crank(const schedules::Cluster& cluster, std::size_t others)
-    : cluster_(cluster), queue_(FlexRayMedium::kMostPending + others), pool_(FlexRayMedium::kMostPending + others),
-      medium_(cluster, queue_, pool_) {
+Crank::Crank(const schedules::model::Cluster& cluster, std::size_t others)
+    : cluster_(cluster), queue_(medium::FlexRayMedium::kMostPending + others),
+      pool_(medium::FlexRayMedium::kMostPending + others), medium_(cluster, queue_, pool_) {
   seats_.reserve(cluster.nodes.size());
   next_.reserve(cluster.nodes.size());
 }
@@ -28,14 +28,15 @@ void Crank::seat(const timebase::Oscillator& oscillator, std::optional<TrueTime>
   if (power_on) set_next(seats_.size() - 1, *power_on);
 }
 
-void Crank::seat_guardian(schedules::Channel channel, const timebase::Oscillator& oscillator) {
-  TTF_CHECK(cluster_.guardian && cluster_.topology == schedules::Topology::kStar, "a guardian for {}", cluster_.name);
+void Crank::seat_guardian(schedules::model::Channel channel, const timebase::Oscillator& oscillator) {
+  TTF_CHECK(cluster_.guardian && cluster_.topology == schedules::model::Topology::kStar, "a guardian for {}",
+            cluster_.name);
   auto& coupler = couplers_[index_of(channel)];
-  coupler = std::make_unique<StarCoupler>(cluster_, channel, oscillator);
+  coupler = std::make_unique<medium::StarCoupler>(cluster_, channel, oscillator);
   medium_.set_coupler(channel, coupler.get());
 }
 
-void Crank::set_disturbance(Disturbance* disturbance) {
+void Crank::set_disturbance(medium::Disturbance* disturbance) {
   disturbance_ = disturbance;
   medium_.set_disturbance(disturbance);
 }
@@ -68,7 +69,7 @@ void Crank::change_drift(NodeId node, std::int64_t ppb) {
   refresh(n);
 }
 
-void Crank::emit(const Leaving& signal, std::optional<NodeId> source) { medium_.emit(signal, source); }
+void Crank::emit(const medium::Leaving& signal, std::optional<NodeId> source) { medium_.emit(signal, source); }
 
 void Crank::refresh(std::size_t node) {
   Seat& seat = seats_[node];
@@ -117,8 +118,8 @@ void Crank::run_until(TrueTime end) {
     if (node_is_due) {
       step(earliest_);
     } else {
-      const MediumEvent event = queue_.pop();
-      if (event.kind == MediumEvent::Kind::kFlexRayArrival)
+      const medium::MediumEvent event = queue_.pop();
+      if (event.kind == medium::MediumEvent::Kind::kFlexRayArrival)
         arrive(event, end);
       else
         happen(event);
@@ -141,14 +142,15 @@ void Crank::step(std::size_t node) {
     advance(node, at);
     seat.next = next_event(node);
     const TrueTime next = next_time(seat);
-    if (!comes_next({next, Phase::kNode, static_cast<std::uint8_t>(node), 0, 0}, until_)) return set_next(node, next);
+    if (!comes_next({next, medium::Phase::kNode, static_cast<std::uint8_t>(node), 0, 0}, until_))
+      return set_next(node, next);
     at = next > now_ ? seat.next : seat.oscillator.ticks_at(next);
     now_ = next;
   }
 }
 
 // Goes along with a signal from receiver to receiver, as long as nothing else comes between.
-void Crank::arrive(MediumEvent event, TrueTime end) {
+void Crank::arrive(medium::MediumEvent event, TrueTime end) {
   while (true) {
     if (medium_.passes_on_both(event) && comes_next(medium_.last_arrival(event), end)) {
       if (!pass_on_both(event, end)) return;
@@ -160,7 +162,7 @@ void Crank::arrive(MediumEvent event, TrueTime end) {
       medium_.release(*arrival);
     }
     if (!goes_on) return;
-    const EventOrder next = medium_.next_arrival(event);
+    const medium::EventOrder next = medium_.next_arrival(event);
     if (!comes_next(next, end)) return queue_.go_on(next, event);
     now_ = next.time;
   }
@@ -168,9 +170,9 @@ void Crank::arrive(MediumEvent event, TrueTime end) {
 
 // What comes before everything else until its last stop on both channels, as nearly everything does, makes its stops on
 // both at once. True: a node has something to do before that now, and `event` is the next stop, which is due.
-bool Crank::pass_on_both(MediumEvent& event, TrueTime end) {
+bool Crank::pass_on_both(medium::MediumEvent& event, TrueTime end) {
   while (true) {
-    const FlexRayMedium::Passage passage = medium_.pass_on_both(event);
+    const medium::FlexRayMedium::Passage passage = medium_.pass_on_both(event);
     now_ = passage.on_a.end;
     const std::size_t node = index_of(passage.receiver);
     const TrueTime earliest = next_[earliest_];
@@ -178,7 +180,7 @@ bool Crank::pass_on_both(MediumEvent& event, TrueTime end) {
     medium_.release_on_both(passage.on_a);
     if (!passage.goes_on) return false;
     if (next_[earliest_] == earliest) continue;
-    const EventOrder next = medium_.next_arrival(event);
+    const medium::EventOrder next = medium_.next_arrival(event);
     if (comes_next(next, end)) {
       now_ = next.time;
       return true;
@@ -188,38 +190,39 @@ bool Crank::pass_on_both(MediumEvent& event, TrueTime end) {
   }
 }
 
-bus::Reception Crank::reception_of(Seat& seat, const FlexRayMedium::Arrival& arrival) {
+bus::ports::Reception Crank::reception_of(Seat& seat, const medium::FlexRayMedium::Arrival& arrival) {
   if (arrival.start != seat.started || arrival.end != seat.ended) {
     seat.started = arrival.start;
     seat.ended = arrival.end;
     seat.start = seat.oscillator.ticks_at(arrival.start);
     seat.end = seat.oscillator.ticks_at(arrival.end);
   }
-  const bool is_frame = arrival.signal == bus::Signal::kFrame;
-  bus::Reception reception{arrival.channel, arrival.signal, seat.start, seat.end,
-                           is_frame ? medium_.frame(arrival) : wire::DecodedFrame{}};
+  const bool is_frame = arrival.signal == bus::ports::Signal::kFrame;
+  bus::ports::Reception reception{arrival.channel, arrival.signal, seat.start, seat.end,
+                                  is_frame ? medium_.frame(arrival) : bus::wire::DecodedFrame{}};
   if (arrival.start < seat.since) {
-    reception.signal = bus::Signal::kUndecodable;
+    reception.signal = bus::ports::Signal::kUndecodable;
     reception.start = seat.oscillator.ticks_at(seat.since);
     reception.frame = {};
   }
   return reception;
 }
 
-void Crank::deliver(std::size_t node, const FlexRayMedium::Arrival& arrival) {
+void Crank::deliver(std::size_t node, const medium::FlexRayMedium::Arrival& arrival) {
   Seat& seat = seats_[node];
   receive(node, reception_of(seat, arrival));
   if (next_event(node) != seat.next) refresh(node);
 }
 
-void Crank::deliver_on_both(std::size_t node, const FlexRayMedium::Arrival& arrival) {
+void Crank::deliver_on_both(std::size_t node, const medium::FlexRayMedium::Arrival& arrival) {
   if (receive_on_both(node, reception_of(seats_[node], arrival))) refresh(node);
 }
 
-void Crank::transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
-  bus::Reception reception{transmission.channel, transmission.signal, {}, {}, transmission.content};
+void Crank::transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start,
+                             TrueTime end) {
+  bus::ports::Reception reception{transmission.channel, transmission.signal, {}, {}, transmission.content};
   if (!is_known(sender, reception, start, end)) return medium_.transmit_on_both(sender, transmission, start, end);
-  for (const FlexRayMedium::Leg& leg : medium_.way_from(sender)) {
+  for (const medium::FlexRayMedium::Leg& leg : medium_.way_from(sender)) {
     const std::size_t node = index_of(leg.receiver);
     reception.start = seats_[node].start;
     reception.end = seats_[node].end;
@@ -230,11 +233,11 @@ void Crank::transmit_on_both(NodeId sender, const bus::Transmission& transmissio
 
 // Whether it tells nobody anything new; so nothing has to arrive. It leaves now, and until it is there nobody sends and
 // nothing else happens to those who hear it, but for tasks and CANs.
-bool Crank::is_known(NodeId sender, bus::Reception& reception, TrueTime start, TrueTime end) {
+bool Crank::is_known(NodeId sender, bus::ports::Reception& reception, TrueTime start, TrueTime end) {
   if (start != now_ || !medium_.is_clear()) return false;
-  const std::span<const FlexRayMedium::Leg> way = medium_.way_from(sender);
+  const std::span<const medium::FlexRayMedium::Leg> way = medium_.way_from(sender);
   if (way.empty() || end + way.back().delay > until_) return false;  // the last leg is the longest
-  for (const FlexRayMedium::Leg& leg : way) {
+  for (const medium::FlexRayMedium::Leg& leg : way) {
     const std::size_t node = index_of(leg.receiver);
     Seat& seat = seats_[node];
     if (!seat.powered) return false;
@@ -247,22 +250,24 @@ bool Crank::is_known(NodeId sender, bus::Reception& reception, TrueTime start, T
   return true;
 }
 
-void CrankPort::transmit_on_both(const bus::Transmission& transmission) {
+void CrankPort::transmit_on_both(const bus::ports::Transmission& transmission) {
   const timebase::Oscillator& oscillator = crank_.oscillator(node_);
   crank_.transmit_on_both(node_, transmission, oscillator.time_of(transmission.start),
                           oscillator.time_of(transmission.end));
 }
 
-void CrankPort::transmit(const bus::Transmission& transmission) {
+void CrankPort::transmit(const bus::ports::Transmission& transmission) {
   const timebase::Oscillator& oscillator = crank_.oscillator(node_);
   crank_.medium().transmit(node_, transmission, oscillator.time_of(transmission.start),
                            oscillator.time_of(transmission.end));
 }
 
-bool CrankPort::wants_bytes(schedules::Channel channel) const { return crank_.medium().wants_bytes(node_, channel); }
+bool CrankPort::wants_bytes(schedules::model::Channel channel) const {
+  return crank_.medium().wants_bytes(node_, channel);
+}
 
-bool CrankPort::carrier(schedules::Channel channel) const {
+bool CrankPort::carrier(schedules::model::Channel channel) const {
   return crank_.medium().carrier(node_, channel, crank_.now());
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

@@ -1,9 +1,9 @@
 // The crank in virtual time: the nodes' oscillators and supplies, the queue of what is to happen, and FlexRay between
-// the nodes. What a node is made of is the business of who derives from it: controllers alone (sim/crank/bus_simulation.h) or
-// whole executives (sim/crank/cluster_simulation.h).
+// the nodes. What a node is made of is the business of who derives from it: controllers alone
+// (sim/crank/bus_simulation.h) or whole executives (sim/crank/cluster_simulation.h).
 //
-// Single-threaded; everything that happens is ordered by sim/medium/event_queue.h, a disturbance's own acts coming after all
-// else of their instant, so a run is a pure function of its configuration.
+// Single-threaded; everything that happens is ordered by sim/medium/event_queue.h, a disturbance's own acts coming
+// after all else of their instant, so a run is a pure function of its configuration.
 //
 // A node that is powered on while signals are on their way to it hears the rest of them as activity that it cannot make
 // out, from the instant of its power-on.
@@ -19,12 +19,12 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "schedules/model/cluster.h"
-#include "sim/medium/flexray_medium.h"
 #include "sim/crank/plant.h"
+#include "sim/medium/flexray_medium.h"
 #include "sim/medium/star_coupler.h"
 #include "timebase/oscillator.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 
 class Crank : public Plant {
  public:
@@ -35,27 +35,27 @@ class Crank : public Plant {
   void power_off(NodeId node) final;
   void power_on(NodeId node, TrueTime at) final;
   void change_drift(NodeId node, std::int64_t ppb) final;
-  void emit(const Leaving& signal, std::optional<NodeId> source) final;
+  void emit(const medium::Leaving& signal, std::optional<NodeId> source) final;
 
   bool powered(NodeId node) const final { return seats_[index_of(node)].powered; }
   const timebase::Oscillator& oscillator(NodeId node) const { return seats_[index_of(node)].oscillator; }
-  FlexRayMedium& medium() { return medium_; }
+  medium::FlexRayMedium& medium() { return medium_; }
   // What a node sends on both channels at once, without bytes: over the medium, unless it tells nobody anything new.
-  void transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
+  void transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start, TrueTime end);
   // The guardian of a star's channel; null where the cluster has none.
-  StarCoupler* coupler(schedules::Channel channel) { return couplers_[index_of(channel)].get(); }
+  medium::StarCoupler* coupler(schedules::model::Channel channel) { return couplers_[index_of(channel)].get(); }
   // Null: nothing goes wrong.
-  void set_disturbance(Disturbance* disturbance);
+  void set_disturbance(medium::Disturbance* disturbance);
 
  protected:
   // `others`: frames and events that are pending beside FlexRay's, at most.
-  Crank(const schedules::Cluster& cluster, std::size_t others);
+  Crank(const schedules::model::Cluster& cluster, std::size_t others);
 
   // The next node's clock, to be called once per node in the order of their ids. Nothing: it has its supply already,
   // and start() has been or will be called by who derives; refresh() when it can say what is next.
   void seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on);
   // Of a cluster with guardians, the one of a channel somebody is on: powered on at once, to integrate like the nodes.
-  void seat_guardian(schedules::Channel channel, const timebase::Oscillator& oscillator);
+  void seat_guardian(schedules::model::Channel channel, const timebase::Oscillator& oscillator);
   // The node's next event may be another one now.
   void refresh(std::size_t node);
   bool is_powered(std::size_t node) const { return seats_[node].powered; }
@@ -68,20 +68,20 @@ class Crank : public Plant {
   virtual void stop(std::size_t node) = 0;                   // nothing of it is left
   virtual Microticks next_event(std::size_t node) const = 0;
   virtual void advance(std::size_t node, Microticks now) = 0;
-  virtual void receive(std::size_t node, const bus::Reception& reception) = 0;
+  virtual void receive(std::size_t node, const bus::ports::Reception& reception) = 0;
   // The same on both channels at once; `reception` says channel A. False: the node's next event is what it was.
-  virtual bool receive_on_both(std::size_t node, const bus::Reception& reception) = 0;
+  virtual bool receive_on_both(std::size_t node, const bus::ports::Reception& reception) = 0;
   // bus/controller/controller.h
-  virtual bool knows(std::size_t node, const bus::Reception& reception) = 0;
-  virtual void hear_known(std::size_t node, const bus::Reception& reception) = 0;
+  virtual bool knows(std::size_t node, const bus::ports::Reception& reception) = 0;
+  virtual void hear_known(std::size_t node, const bus::ports::Reception& reception) = 0;
   virtual void drifts(std::size_t node) { (void)node; }  // its oscillator is another one now
   // What is no arrival on FlexRay.
-  virtual void happen(const MediumEvent& event) = 0;
+  virtual void happen(const medium::MediumEvent& event) = 0;
 
-  const schedules::Cluster& cluster_;
-  MediumQueue queue_;
-  FramePool pool_;
-  FlexRayMedium medium_;
+  const schedules::model::Cluster& cluster_;
+  medium::MediumQueue queue_;
+  medium::FramePool pool_;
+  medium::FlexRayMedium medium_;
 
  private:
   struct Seat {
@@ -97,40 +97,40 @@ class Crank : public Plant {
   TrueTime next_time(const Seat& seat) const;
   void step(std::size_t node);
   // `reception`'s instants are each receiver's then.
-  bool is_known(NodeId sender, bus::Reception& reception, TrueTime start, TrueTime end);
-  void arrive(MediumEvent event, TrueTime end);
-  bool comes_next(const EventOrder& order, TrueTime end) const {
+  bool is_known(NodeId sender, bus::ports::Reception& reception, TrueTime start, TrueTime end);
+  void arrive(medium::MediumEvent event, TrueTime end);
+  bool comes_next(const medium::EventOrder& order, TrueTime end) const {
     return order.time <= end && order < next_of_nodes() && queue_.is_first(order) &&
            (disturbance_ == nullptr || disturbance_->next() >= order.time);
   }
-  bool pass_on_both(MediumEvent& event, TrueTime end);
-  void deliver(std::size_t node, const FlexRayMedium::Arrival& arrival);
-  void deliver_on_both(std::size_t node, const FlexRayMedium::Arrival& arrival);
-  bus::Reception reception_of(Seat& seat, const FlexRayMedium::Arrival& arrival);
-  EventOrder next_of_nodes() const {
-    return {next_[earliest_], Phase::kNode, static_cast<std::uint8_t>(earliest_), 0, 0};
+  bool pass_on_both(medium::MediumEvent& event, TrueTime end);
+  void deliver(std::size_t node, const medium::FlexRayMedium::Arrival& arrival);
+  void deliver_on_both(std::size_t node, const medium::FlexRayMedium::Arrival& arrival);
+  bus::ports::Reception reception_of(Seat& seat, const medium::FlexRayMedium::Arrival& arrival);
+  medium::EventOrder next_of_nodes() const {
+    return {next_[earliest_], medium::Phase::kNode, static_cast<std::uint8_t>(earliest_), 0, 0};
   }
 
-  std::array<std::unique_ptr<StarCoupler>, 2> couplers_;  // by channel
-  std::vector<Seat> seats_;                               // by NodeId
-  std::vector<TrueTime> next_;                            // by NodeId, its next own event; without supply its power-on
-  std::size_t earliest_ = 0;                              // in next_
-  Disturbance* disturbance_ = nullptr;
+  std::array<std::unique_ptr<medium::StarCoupler>, 2> couplers_;  // by channel
+  std::vector<Seat> seats_;                                       // by NodeId
+  std::vector<TrueTime> next_;  // by NodeId, its next own event; without supply its power-on
+  std::size_t earliest_ = 0;    // in next_
+  medium::Disturbance* disturbance_ = nullptr;
   TrueTime now_{}, until_{};  // until_: of the run_until() that is going on
 };
 
 // The port of a node's controller on the simulated FlexRay.
-class CrankPort : public bus::FlexRayPort {
+class CrankPort : public bus::ports::FlexRayPort {
  public:
   CrankPort(Crank& crank, NodeId node) : crank_(crank), node_(node) {}
-  void transmit(const bus::Transmission& transmission) override;
-  void transmit_on_both(const bus::Transmission& transmission) override;
-  bool carrier(schedules::Channel channel) const override;
-  bool wants_bytes(schedules::Channel channel) const override;
+  void transmit(const bus::ports::Transmission& transmission) override;
+  void transmit_on_both(const bus::ports::Transmission& transmission) override;
+  bool carrier(schedules::model::Channel channel) const override;
+  bool wants_bytes(schedules::model::Channel channel) const override;
 
  private:
   Crank& crank_;
   NodeId node_;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

@@ -1,5 +1,5 @@
-// What a fault may do to the machinery of a run, beside what it does to signals (sim/medium/disturbance.h). Every simulation
-// is one.
+// What a fault may do to the machinery of a run, beside what it does to signals (sim/medium/disturbance.h). Every
+// simulation is one.
 //
 // To be used from Disturbance::act() and while the simulation stands: never from within what a node does.
 #pragma once
@@ -11,7 +11,7 @@
 #include "core/time.h"
 #include "sim/medium/disturbance.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 
 class Plant {
  public:
@@ -30,7 +30,7 @@ class Plant {
   virtual void change_drift(NodeId node, std::int64_t ppb) = 0;
   // What comes out of nothing and reaches everybody on the channel at once; `source` is the sender where there is one.
   // Its start is not before now().
-  virtual void emit(const Leaving& signal, std::optional<NodeId> source) = 0;
+  virtual void emit(const medium::Leaving& signal, std::optional<NodeId> source) = 0;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

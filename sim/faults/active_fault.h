@@ -13,10 +13,10 @@
 #include "core/random.h"
 #include "faults/plan.h"
 #include "schedules/model/cluster.h"
-#include "sim/medium/disturbance.h"
 #include "sim/crank/plant.h"
+#include "sim/medium/disturbance.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 
 // What a fault leads to, to be counted and recorded; and the signals that it makes.
 class FaultLog {
@@ -26,15 +26,15 @@ class FaultLog {
   virtual ~FaultLog() = default;
   // `at`: now. Of what befalls a signal once the fault has begun, it may be before that.
   virtual void acted(std::uint32_t fault, TrueTime at, std::string_view text) = 0;
-  virtual void emit(const Leaving& signal, std::optional<NodeId> source) = 0;
+  virtual void emit(const medium::Leaving& signal, std::optional<NodeId> source) = 0;
 };
 
 // What every fault is given; all of it outlives the fault.
 struct FaultSetting {
-  const nodes::Fault& fault;  // resolved
-  std::uint32_t index = 0;    // in the plan
-  const schedules::Cluster& cluster;
-  Plant& plant;
+  const ttf::faults::Fault& fault;  // resolved
+  std::uint32_t index = 0;          // in the plan
+  const schedules::model::Cluster& cluster;
+  crank::Plant& plant;
   FaultLog& log;
   TrueTime from{}, until{};
   std::uint64_t seed = 0;
@@ -49,28 +49,30 @@ class ActiveFault {
   ActiveFault& operator=(const ActiveFault&) = delete;
 
   // As in Disturbance. `touches`: of what a controller sends; what faults emit has bytes anyway.
-  virtual bool touches(NodeId sender, schedules::Channel channel) const { return (void)sender, (void)channel, false; }
-  virtual bool leaving(Leaving& signal) { return (void)signal, true; }
-  virtual bool arriving(Arriving& signal) { return (void)signal, true; }
-  virtual TrueTime next() const { return Disturbance::kNever; }
+  virtual bool touches(NodeId sender, schedules::model::Channel channel) const {
+    return (void)sender, (void)channel, false;
+  }
+  virtual bool leaving(medium::Leaving& signal) { return (void)signal, true; }
+  virtual bool arriving(medium::Arriving& signal) { return (void)signal, true; }
+  virtual TrueTime next() const { return medium::Disturbance::kNever; }
   virtual void act(TrueTime now) { (void)now; }
 
  protected:
-  const nodes::Fault& fault() const { return setting_.fault; }
-  const schedules::Cluster& cluster() const { return setting_.cluster; }
-  const schedules::GlobalParameters& flexray() const { return setting_.cluster.flexray; }
-  Plant& plant() { return setting_.plant; }
+  const ttf::faults::Fault& fault() const { return setting_.fault; }
+  const schedules::model::Cluster& cluster() const { return setting_.cluster; }
+  const schedules::model::GlobalParameters& flexray() const { return setting_.cluster.flexray; }
+  crank::Plant& plant() { return setting_.plant; }
   TrueTime from() const { return setting_.from; }
   TrueTime until() const { return setting_.until; }
   bool active(TrueTime at) const { return at >= setting_.from && at < setting_.until; }
-  bool on(schedules::Channel channel) const { return includes(setting_.fault.channels, channel); }
+  bool on(schedules::model::Channel channel) const { return includes(setting_.fault.channels, channel); }
   // Whether anything the node sends by this fault comes onto the channel: it has its supply and a wire to there.
-  bool can_send(schedules::Channel channel) const {
+  bool can_send(schedules::model::Channel channel) const {
     const NodeId node = setting_.fault.node;
     return setting_.plant.powered(node) && includes(setting_.cluster.node(node).flexray->pChannels, channel);
   }
   std::string_view name(NodeId node) const { return setting_.cluster.node(node).name; }
-  void emit(const Leaving& signal, std::optional<NodeId> source) { setting_.log.emit(signal, source); }
+  void emit(const medium::Leaving& signal, std::optional<NodeId> source) { setting_.log.emit(signal, source); }
 
   // One of the fault's own streams, of the `index`-th draw; what one draws never depends on what another drew.
   RandomStream draws(std::uint32_t index) const {
@@ -90,6 +92,6 @@ class ActiveFault {
   FaultSetting setting_;
 };
 
-inline constexpr std::array kBothChannels = {schedules::Channel::kA, schedules::Channel::kB};
+inline constexpr std::array kBothChannels = {schedules::model::Channel::kA, schedules::model::Channel::kB};
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

@@ -5,10 +5,10 @@
 #include "sim/faults/families.h"
 #include "sim/faults/frame_fault.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using nodes::FaultKind;
+using ttf::faults::FaultKind;
 
 constexpr int kBitsOfAByte = 8;
 
@@ -16,10 +16,10 @@ class BitFlips final : public FrameFault {
  public:
   using FrameFault::FrameFault;
 
-  bool touches(NodeId sender, schedules::Channel channel) const override {
+  bool touches(NodeId sender, schedules::model::Channel channel) const override {
     return sender == fault().node && on(channel);
   }
-  bool leaving(Leaving& signal) override {
+  bool leaving(medium::Leaving& signal) override {
     if (!befalls(signal)) return true;
     Frame& frame = frames_[index_of(signal.channel)];
     std::copy(signal.bytes.begin(), signal.bytes.end(), frame.bytes.begin());
@@ -31,7 +31,7 @@ class BitFlips final : public FrameFault {
           letter(signal.channel), flips == 1 ? "is" : "are");
     return true;
   }
-  bool arriving(Arriving& signal) override {
+  bool arriving(medium::Arriving& signal) override {
     if (!fault().receivers.empty() && befallen(signal) && at_receiver(signal.receiver))
       signal.bytes = frames_[index_of(signal.channel)].whole();
     return true;
@@ -39,7 +39,7 @@ class BitFlips final : public FrameFault {
 
  private:
   struct Frame {
-    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+    std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
     std::size_t size = 0;
     std::span<const std::byte> whole() const { return std::span<const std::byte>(bytes).first(size); }
   };
@@ -48,8 +48,8 @@ class BitFlips final : public FrameFault {
     int first = 0, count = 0;
   };
   Region region(std::size_t bytes) const {
-    constexpr int kHeader = kBitsOfAByte * static_cast<int>(wire::kHeaderBytes);
-    constexpr int kTrailer = kBitsOfAByte * static_cast<int>(wire::kTrailerBytes);
+    constexpr int kHeader = kBitsOfAByte * static_cast<int>(bus::wire::kHeaderBytes);
+    constexpr int kTrailer = kBitsOfAByte * static_cast<int>(bus::wire::kTrailerBytes);
     const int bits = kBitsOfAByte * static_cast<int>(bytes);
     if (fault().kind == FaultKind::kBitFlipHeader) return {0, kHeader};
     if (fault().kind == FaultKind::kBitFlipTrailer) return {bits - kTrailer, kTrailer};
@@ -89,4 +89,4 @@ class BitFlips final : public FrameFault {
 
 std::unique_ptr<ActiveFault> make_bit_flips(const FaultSetting& setting) { return std::make_unique<BitFlips>(setting); }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

@@ -6,11 +6,11 @@
 #include "bus/wire/flexray_frame.h"
 #include "sim/faults/families.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using bus::Signal;
-using schedules::Channel;
+using bus::ports::Signal;
+using schedules::model::Channel;
 
 // Bursts of one kind, from the beginning of the fault to its end; none reaches into the next.
 class Bursts : public ActiveFault {
@@ -27,7 +27,7 @@ class Bursts : public ActiveFault {
     ++count_;
     // Time goes on, whatever there is to send.
     next_ = std::max({now + pause, end, now + Duration{1}});
-    if (next_ >= until()) next_ = Disturbance::kNever;
+    if (next_ >= until()) next_ = medium::Disturbance::kNever;
   }
 
  protected:
@@ -59,7 +59,7 @@ class NodeBursts : public Bursts {
   using Bursts::Bursts;
 
  protected:
-  const schedules::NodeParameters& parameters() const { return *cluster().node(fault().node).flexray; }
+  const schedules::model::NodeParameters& parameters() const { return *cluster().node(fault().node).flexray; }
   // It takes its time also where there is no wire, or no supply.
   TrueTime send(TrueTime now, Channel channel, Signal signal, TrueTime end, std::span<const std::byte> bytes) {
     if (!can_send(channel)) return end;
@@ -84,21 +84,21 @@ class NodeBursts : public Bursts {
 class BabblingIdiot final : public NodeBursts {
  public:
   explicit BabblingIdiot(const FaultSetting& setting) : NodeBursts(setting) {
-    wire::FrameHeader header;
+    bus::wire::FrameHeader header;
     header.null_frame = true;
     header.frame_id = static_cast<std::uint16_t>(parameters().pKeySlotId);
-    const std::array<std::byte, wire::kMaxPayloadBytes> nothing{};
+    const std::array<std::byte, bus::wire::kMaxPayloadBytes> nothing{};
     const auto payload =
         std::span<const std::byte>(nothing).first(2 * static_cast<std::size_t>(flexray().gPayloadLengthStatic));
     for (const Channel channel : kBothChannels) {
       Frame& frame = last_[index_of(channel)];
-      frame.size = wire::encode_frame(header, channel, payload, frame.bytes);
+      frame.size = bus::wire::encode_frame(header, channel, payload, frame.bytes);
     }
   }
 
   // The frame it sent last.
   bool touches(NodeId sender, Channel) const override { return sender == fault().node; }
-  bool leaving(Leaving& signal) override {
+  bool leaving(medium::Leaving& signal) override {
     if (signal.sender != fault().node || signal.signal != Signal::kFrame) return true;
     Frame& frame = last_[index_of(signal.channel)];
     std::copy(signal.bytes.begin(), signal.bytes.end(), frame.bytes.begin());
@@ -108,14 +108,15 @@ class BabblingIdiot final : public NodeBursts {
 
  private:
   struct Frame {
-    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+    std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
     std::size_t size = 0;
   };
   TrueTime burst(TrueTime now, Channel channel) override {
-    if (fault().signal == nodes::FaultSignal::kNoise)
+    if (fault().signal == ttf::faults::FaultSignal::kNoise)
       return send(now, channel, Signal::kUndecodable, noise_until(now), {});
     const Frame& frame = last_[index_of(channel)];
-    return send(now, channel, Signal::kFrame, now + wire::frame_duration(flexray(), wire::words_in_frame(frame.size)),
+    return send(now, channel, Signal::kFrame,
+                now + bus::wire::frame_duration(flexray(), bus::wire::words_in_frame(frame.size)),
                 std::span<const std::byte>(frame.bytes).first(frame.size));
   }
 
@@ -128,7 +129,7 @@ class RepeatedCas final : public NodeBursts {
 
  private:
   TrueTime burst(TrueTime now, Channel channel) override {
-    const std::int64_t ps = (flexray().gdTSSTransmitter + schedules::kCasBits) * flexray().gdBit_ps;
+    const std::int64_t ps = (flexray().gdTSSTransmitter + schedules::model::kCasBits) * flexray().gdBit_ps;
     return send(now, channel, Signal::kCas, now + Duration{(ps + 999) / 1000}, {});
   }
 };
@@ -140,18 +141,18 @@ class RogueStartup final : public ActiveFault {
 
   TrueTime next() const override { return next_; }
   void act(TrueTime now) override {
-    const schedules::NodeParameters& p = *cluster().node(fault().node).flexray;
-    wire::FrameHeader header;
+    const schedules::model::NodeParameters& p = *cluster().node(fault().node).flexray;
+    bus::wire::FrameHeader header;
     header.null_frame = header.sync = header.startup = true;
     header.frame_id = static_cast<std::uint16_t>(p.pKeySlotId);
     header.cycle = static_cast<std::uint8_t>(count_ % static_cast<std::uint32_t>(flexray().gCycleCountMax + 1));
-    const std::array<std::byte, wire::kMaxPayloadBytes> nothing{};
+    const std::array<std::byte, bus::wire::kMaxPayloadBytes> nothing{};
     const auto payload =
         std::span<const std::byte>(nothing).first(2 * static_cast<std::size_t>(flexray().gPayloadLengthStatic));
-    const TrueTime end = now + wire::frame_duration(flexray(), flexray().gPayloadLengthStatic);
+    const TrueTime end = now + bus::wire::frame_duration(flexray(), flexray().gPayloadLengthStatic);
     for (const Channel channel : kBothChannels) {
       if (!on(channel) || !can_send(channel)) continue;
-      const std::size_t size = wire::encode_frame(header, channel, payload, frame_);
+      const std::size_t size = bus::wire::encode_frame(header, channel, payload, frame_);
       acted("{} sends a startup frame of cycle {} on {}, on a grid of its own", name(fault().node), header.cycle,
             letter(channel));
       emit({fault().node, channel, Signal::kFrame, now, end, std::span<const std::byte>(frame_).first(size)},
@@ -159,13 +160,13 @@ class RogueStartup final : public ActiveFault {
     }
     ++count_;
     next_ = from() + cluster().cycle() * count_;
-    if (next_ >= until()) next_ = Disturbance::kNever;
+    if (next_ >= until()) next_ = medium::Disturbance::kNever;
   }
 
  private:
   TrueTime next_;
   std::uint32_t count_ = 0;
-  std::array<std::byte, wire::kMaxFrameBytes> frame_{};
+  std::array<std::byte, bus::wire::kMaxFrameBytes> frame_{};
 };
 
 }  // namespace
@@ -181,4 +182,4 @@ std::unique_ptr<ActiveFault> make_rogue_startup(const FaultSetting& setting) {
   return std::make_unique<RogueStartup>(setting);
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

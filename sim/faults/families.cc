@@ -2,9 +2,9 @@
 
 #include "core/check.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 
-using nodes::FaultKind;
+using ttf::faults::FaultKind;
 
 std::unique_ptr<ActiveFault> make_active_fault(const FaultSetting& setting) {
   switch (setting.fault.kind) {
@@ -23,9 +23,9 @@ std::unique_ptr<ActiveFault> make_active_fault(const FaultSetting& setting) {
     case FaultKind::kLoneColdstart: return make_lone_coldstart(setting);
     case FaultKind::kDuplicateColdstart:
       switch (setting.fault.duplicate) {
-        case nodes::DuplicateMode::kCas: return make_repeated_cas(setting);
-        case nodes::DuplicateMode::kStartupFrames: return make_rogue_startup(setting);
-        case nodes::DuplicateMode::kSameKeySlot: return make_wrong_schedule(setting);
+        case ttf::faults::DuplicateMode::kCas: return make_repeated_cas(setting);
+        case ttf::faults::DuplicateMode::kStartupFrames: return make_rogue_startup(setting);
+        case ttf::faults::DuplicateMode::kSameKeySlot: return make_wrong_schedule(setting);
       }
       break;
     case FaultKind::kWrongSchedule: return make_wrong_schedule(setting);
@@ -35,4 +35,4 @@ std::unique_ptr<ActiveFault> make_active_fault(const FaultSetting& setting) {
   TTF_CHECK(false, "fault kind {}", static_cast<int>(setting.fault.kind));
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

@@ -6,7 +6,7 @@
 
 #include "sim/faults/active_fault.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 
 // Supply and clock.
 std::unique_ptr<ActiveFault> make_crash(const FaultSetting& setting);
@@ -35,4 +35,4 @@ std::unique_ptr<ActiveFault> make_transient(const FaultSetting& setting);
 // The one of these that the fault's kind and mode ask for.
 std::unique_ptr<ActiveFault> make_active_fault(const FaultSetting& setting);
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

@@ -6,19 +6,19 @@
 #include "faults/believed_schedule.h"
 #include "sim/faults/families.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 
-Injector::Injector(nodes::FaultPlan plan, const schedules::Cluster& cluster, Plant& plant, std::uint64_t seed,
-                   std::uint32_t replication, records::Sink& sink, TrueTime origin)
+Injector::Injector(ttf::faults::FaultPlan plan, const schedules::model::Cluster& cluster, crank::Plant& plant,
+                   std::uint64_t seed, std::uint32_t replication, recording::records::Sink& sink, TrueTime origin)
     : plan_(std::move(plan)), cluster_(cluster), plant_(plant), sink_(sink), activations_(plan_.faults.size()) {
   foreseen_.reserve(kForeseen);
   for (std::size_t i = 0; i < plan_.faults.size(); ++i) {
-    const nodes::Fault& fault = plan_.faults[i];
-    TTF_CHECK(!nodes::has_node(fault.kind) || fault.node != kNoNode, "{} of a node that was not looked up: {}",
-              nodes::name_of(fault.kind), fault.node_name);
-    const bool always = nodes::changes_schedule(fault);  // what a node believes in, it always does
+    const ttf::faults::Fault& fault = plan_.faults[i];
+    TTF_CHECK(!ttf::faults::has_node(fault.kind) || fault.node != kNoNode, "{} of a node that was not looked up: {}",
+              ttf::faults::name_of(fault.kind), fault.node_name);
+    const bool always = ttf::faults::changes_schedule(fault);  // what a node believes in, it always does
     const TrueTime from = always ? origin : origin + fault.from;
-    const TrueTime until = always || fault.duration == nodes::Fault::kToTheEnd ? kNever : from + fault.duration;
+    const TrueTime until = always || fault.duration == ttf::faults::Fault::kToTheEnd ? kNever : from + fault.duration;
     entries_.push_back({make_active_fault({fault, static_cast<std::uint32_t>(i), cluster_, plant_, *this, from, until,
                                            seed, replication}),
                         from, until});
@@ -28,19 +28,19 @@ Injector::Injector(nodes::FaultPlan plan, const schedules::Cluster& cluster, Pla
 
 Injector::~Injector() = default;
 
-bool Injector::touches(NodeId sender, schedules::Channel channel) const {
+bool Injector::touches(NodeId sender, schedules::model::Channel channel) const {
   return std::any_of(entries_.begin(), entries_.end(),
                      [&](const Entry& entry) { return entry.fault->touches(sender, channel); });
 }
 
-bool Injector::leaving(Leaving& signal) {
+bool Injector::leaving(medium::Leaving& signal) {
   bool leaves = true;
   for (std::size_t i = 0; leaves && i < entries_.size(); ++i) leaves = entries_[i].fault->leaving(signal);
   plan_next();
   return leaves;
 }
 
-bool Injector::arriving(Arriving& signal) {
+bool Injector::arriving(medium::Arriving& signal) {
   for (Entry& entry : entries_)
     if (!entry.fault->arriving(signal)) return false;
   return true;
@@ -53,7 +53,7 @@ void Injector::act(TrueTime now) {
     if (entry.fault->next() <= now) entry.fault->act(now);
     if (entry.ends <= now) {
       entry.ends = kNever;
-      report(i, records::kFaultEnds, now, "it ends");
+      report(i, recording::records::kFaultEnds, now, "it ends");
     }
   }
   plan_next();
@@ -61,7 +61,7 @@ void Injector::act(TrueTime now) {
 
 void Injector::begin(std::size_t fault, TrueTime at) {
   entries_[fault].begins = kNever;
-  report(fault, records::kFaultBegins, at, "it begins");
+  report(fault, recording::records::kFaultBegins, at, "it begins");
   for (const Foreseen& one : foreseen_)
     if (one.fault == fault) acted(one.fault, at, {one.text.data(), one.size});
   std::erase_if(foreseen_, [&](const Foreseen& one) { return one.fault == fault; });
@@ -81,15 +81,15 @@ void Injector::acted(std::uint32_t fault, TrueTime at, std::string_view text) {
   Activation& activation = activations_[fault];
   if (activation.times++ == 0) activation.first = at;
   activation.last = at;
-  report(fault, records::kFaultActs, at, text);
+  report(fault, recording::records::kFaultActs, at, text);
 }
 
-void Injector::emit(const Leaving& signal, std::optional<NodeId> source) { plant_.emit(signal, source); }
+void Injector::emit(const medium::Leaving& signal, std::optional<NodeId> source) { plant_.emit(signal, source); }
 
 void Injector::report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text) {
-  const nodes::Fault& one = plan_.faults[fault];
-  sink_.on(
-      records::FaultActivity{at, static_cast<std::uint32_t>(fault), what, one.node, nodes::name_of(one.kind), text});
+  const ttf::faults::Fault& one = plan_.faults[fault];
+  sink_.on(recording::records::FaultActivity{at, static_cast<std::uint32_t>(fault), what, one.node,
+                                             ttf::faults::name_of(one.kind), text});
 }
 
 void Injector::plan_next() {
@@ -97,4 +97,4 @@ void Injector::plan_next() {
   for (const Entry& entry : entries_) next_ = std::min({next_, entry.begins, entry.ends, entry.fault->next()});
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

@@ -19,19 +19,19 @@
 #include "faults/plan.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
-#include "sim/medium/disturbance.h"
-#include "sim/faults/active_fault.h"
 #include "sim/crank/plant.h"
+#include "sim/faults/active_fault.h"
+#include "sim/medium/disturbance.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 
-class Injector final : public Disturbance, private FaultLog {
+class Injector final : public medium::Disturbance, private FaultLog {
  public:
   // `plan`: resolved for the cluster. `origin`: what its times count from. Everything but the plan must outlive the
   // injector; the simulation is told of it by set_disturbance(), and gets the schedules its nodes believe in where it
   // is made (faults/believed_schedule.h).
-  Injector(nodes::FaultPlan plan, const schedules::Cluster& cluster, Plant& plant, std::uint64_t seed,
-           std::uint32_t replication, records::Sink& sink, TrueTime origin = {});
+  Injector(ttf::faults::FaultPlan plan, const schedules::model::Cluster& cluster, crank::Plant& plant,
+           std::uint64_t seed, std::uint32_t replication, recording::records::Sink& sink, TrueTime origin = {});
   ~Injector() override;
 
   // How often a fault did something, by its index in the plan: a signal changed, made or withheld, a supply or a clock
@@ -42,9 +42,9 @@ class Injector final : public Disturbance, private FaultLog {
   };
   std::span<const Activation> activations() const { return activations_; }
 
-  bool touches(NodeId sender, schedules::Channel channel) const override;
-  bool leaving(Leaving& signal) override;
-  bool arriving(Arriving& signal) override;
+  bool touches(NodeId sender, schedules::model::Channel channel) const override;
+  bool leaving(medium::Leaving& signal) override;
+  bool arriving(medium::Arriving& signal) override;
   TrueTime next() const override { return next_; }
   void act(TrueTime now) override;
 
@@ -62,19 +62,19 @@ class Injector final : public Disturbance, private FaultLog {
   };
   static constexpr std::size_t kForeseen = 64;  // room for: some signals of one propagation delay
   void acted(std::uint32_t fault, TrueTime at, std::string_view text) override;
-  void emit(const Leaving& signal, std::optional<NodeId> source) override;
+  void emit(const medium::Leaving& signal, std::optional<NodeId> source) override;
   void report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text);
   void begin(std::size_t fault, TrueTime at);
   void plan_next();
 
-  nodes::FaultPlan plan_;
-  const schedules::Cluster& cluster_;
-  Plant& plant_;
-  records::Sink& sink_;
+  ttf::faults::FaultPlan plan_;
+  const schedules::model::Cluster& cluster_;
+  crank::Plant& plant_;
+  recording::records::Sink& sink_;
   std::vector<Entry> entries_;  // by index in the plan, as what follows
   std::vector<Activation> activations_;
   std::vector<Foreseen> foreseen_;
   TrueTime next_ = kNever;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

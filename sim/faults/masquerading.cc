@@ -5,11 +5,11 @@
 #include "sim/faults/families.h"
 #include "sim/faults/frame_fault.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using schedules::Channel;
-using schedules::FrameSlot;
+using schedules::model::Channel;
+using schedules::model::FrameSlot;
 
 // Its own static frames, with the other's frame id.
 class WrongFrameId final : public FrameFault {
@@ -17,23 +17,23 @@ class WrongFrameId final : public FrameFault {
   using FrameFault::FrameFault;
 
   bool touches(NodeId sender, Channel) const override { return sender == fault().node; }
-  bool leaving(Leaving& signal) override {
+  bool leaving(medium::Leaving& signal) override {
     if (!befalls(signal)) return true;
-    const wire::DecodedFrame decoded = wire::decode_frame(signal.channel, signal.bytes);
-    if (decoded.error != wire::FrameError::kNone || decoded.header.frame_id > flexray().gNumberOfStaticSlots ||
+    const bus::wire::DecodedFrame decoded = bus::wire::decode_frame(signal.channel, signal.bytes);
+    if (decoded.error != bus::wire::FrameError::kNone || decoded.header.frame_id > flexray().gNumberOfStaticSlots ||
         decoded.header.sync < decoded.header.startup)
       return true;
-    wire::FrameHeader header = decoded.header;
+    bus::wire::FrameHeader header = decoded.header;
     header.frame_id = static_cast<std::uint16_t>(fault().slot);
     acted("a frame of {} on {} says frame id {} in slot {}", name(signal.sender), letter(signal.channel), fault().slot,
           decoded.header.frame_id);
-    const std::size_t size = wire::encode_frame(header, signal.channel, decoded.payload, frame_);
+    const std::size_t size = bus::wire::encode_frame(header, signal.channel, decoded.payload, frame_);
     signal.bytes = std::span<const std::byte>(frame_).first(size);
     return true;
   }
 
  private:
-  std::array<std::byte, wire::kMaxFrameBytes> frame_{};
+  std::array<std::byte, bus::wire::kMaxFrameBytes> frame_{};
 };
 
 // A frame more, in the other's slot. The node knows when that is: its own key slot, and how long its cycles are.
@@ -44,14 +44,15 @@ class InAnothersSlot final : public FrameFault {
   TrueTime next() const override { return due_; }
   bool touches(NodeId sender, Channel) const override { return sender == fault().node; }
 
-  bool leaving(Leaving& signal) override {
-    const schedules::NodeParameters& p = *cluster().node(fault().node).flexray;
-    if (signal.sender != fault().node || signal.signal != bus::Signal::kFrame || signal.start == key_slot_) return true;
-    const wire::DecodedFrame decoded = wire::decode_frame(signal.channel, signal.bytes);
-    if (decoded.error != wire::FrameError::kNone || decoded.header.frame_id != p.pKeySlotId) return true;
+  bool leaving(medium::Leaving& signal) override {
+    const schedules::model::NodeParameters& p = *cluster().node(fault().node).flexray;
+    if (signal.sender != fault().node || signal.signal != bus::ports::Signal::kFrame || signal.start == key_slot_)
+      return true;
+    const bus::wire::DecodedFrame decoded = bus::wire::decode_frame(signal.channel, signal.bytes);
+    if (decoded.error != bus::wire::FrameError::kNone || decoded.header.frame_id != p.pKeySlotId) return true;
     const int counters = flexray().gCycleCountMax + 1;
     const int cycles = (decoded.header.cycle - counter_ + counters) % counters;
-    const bool paced = key_slot_ != Disturbance::kNever && cycles > 0;
+    const bool paced = key_slot_ != medium::Disturbance::kNever && cycles > 0;
     const Duration cycle = paced ? Duration{(signal.start - key_slot_).ns / cycles} : cluster().cycle();
     key_slot_ = signal.start;
     counter_ = decoded.header.cycle;
@@ -60,11 +61,11 @@ class InAnothersSlot final : public FrameFault {
   }
 
   void act(TrueTime now) override {
-    due_ = Disturbance::kNever;
+    due_ = medium::Disturbance::kNever;
     const FrameSlot* owner = nullptr;
     for (const FrameSlot& slot : cluster().frames)
-      if (slot.slot == fault().slot && bus::in_cycle(slot, due_counter_)) owner = &slot;
-    wire::FrameHeader header;
+      if (slot.slot == fault().slot && schedules::model::in_cycle(slot, due_counter_)) owner = &slot;
+    bus::wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>(fault().slot);
     header.cycle = static_cast<std::uint8_t>(due_counter_);
     if (owner != nullptr) {
@@ -78,10 +79,10 @@ class InAnothersSlot final : public FrameFault {
     for (std::byte& byte : payload) byte = static_cast<std::byte>(stream.bits() & 0xffU);
     for (const Channel channel : kBothChannels) {
       if (!on(channel) || !can_send(channel)) continue;
-      const std::size_t size = wire::encode_frame(header, channel, payload, frame_);
+      const std::size_t size = bus::wire::encode_frame(header, channel, payload, frame_);
       acted("{} sends a frame of slot {}, which is not its own, on {}", name(fault().node), fault().slot,
             letter(channel));
-      emit({fault().node, channel, bus::Signal::kFrame, now, now + wire::frame_duration(flexray(), words),
+      emit({fault().node, channel, bus::ports::Signal::kFrame, now, now + bus::wire::frame_duration(flexray(), words),
             std::span<const std::byte>(frame_).first(size)},
            fault().node);
     }
@@ -89,8 +90,8 @@ class InAnothersSlot final : public FrameFault {
 
  private:
   // The key slot's frame stands for the cycle, also where it is on the other channel.
-  bool befalls_any_channel(const Leaving& signal) {
-    Leaving any = signal;
+  bool befalls_any_channel(const medium::Leaving& signal) {
+    medium::Leaving any = signal;
     any.channel = on(signal.channel) ? signal.channel : (on(Channel::kA) ? Channel::kA : Channel::kB);
     return befalls(any);
   }
@@ -100,14 +101,14 @@ class InAnothersSlot final : public FrameFault {
     const Duration ahead{macroticks * cycle.ns / flexray().gMacroPerCycle};
     due_ = key_slot_ + (slots > 0 ? ahead : cycle + ahead);
     due_counter_ = (counter_ + (slots > 0 ? 0 : 1)) % (flexray().gCycleCountMax + 1);
-    if (due_ >= until()) due_ = Disturbance::kNever;
+    if (due_ >= until()) due_ = medium::Disturbance::kNever;
   }
 
-  TrueTime key_slot_ = Disturbance::kNever;  // start of its last frame there
-  TrueTime due_ = Disturbance::kNever;
+  TrueTime key_slot_ = medium::Disturbance::kNever;  // start of its last frame there
+  TrueTime due_ = medium::Disturbance::kNever;
   int counter_ = 0, due_counter_ = 0;
-  std::array<std::byte, wire::kMaxPayloadBytes> payload_{};
-  std::array<std::byte, wire::kMaxFrameBytes> frame_{};
+  std::array<std::byte, bus::wire::kMaxPayloadBytes> payload_{};
+  std::array<std::byte, bus::wire::kMaxFrameBytes> frame_{};
 };
 
 // The node's controller runs on the schedule that it believes in (faults/believed_schedule.h): what it sends is what
@@ -116,8 +117,8 @@ class WrongBelief final : public ActiveFault {
  public:
   using ActiveFault::ActiveFault;
 
-  bool leaving(Leaving& signal) override {
-    if (signal.sender == fault().node && signal.signal == bus::Signal::kFrame)
+  bool leaving(medium::Leaving& signal) override {
+    if (signal.sender == fault().node && signal.signal == bus::ports::Signal::kFrame)
       acted("{} sends a frame on {} by the schedule it believes in", name(signal.sender), letter(signal.channel));
     return true;
   }
@@ -126,11 +127,11 @@ class WrongBelief final : public ActiveFault {
 }  // namespace
 
 std::unique_ptr<ActiveFault> make_masquerading(const FaultSetting& setting) {
-  if (setting.fault.masquerade == nodes::MasqueradeMode::kOwnSlot) return std::make_unique<WrongFrameId>(setting);
+  if (setting.fault.masquerade == ttf::faults::MasqueradeMode::kOwnSlot) return std::make_unique<WrongFrameId>(setting);
   return std::make_unique<InAnothersSlot>(setting);
 }
 std::unique_ptr<ActiveFault> make_wrong_schedule(const FaultSetting& setting) {
   return std::make_unique<WrongBelief>(setting);
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

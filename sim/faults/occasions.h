@@ -8,7 +8,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 
 class Occasions {
  public:
@@ -35,4 +35,4 @@ class Occasions {
   bool chosen_ = false;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

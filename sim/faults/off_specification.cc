@@ -6,10 +6,10 @@
 #include "sim/faults/families.h"
 #include "sim/faults/frame_fault.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using nodes::ByzantinePattern;
+using ttf::faults::ByzantinePattern;
 
 // Nothing ends before it is sent.
 template <class Signal> void shift_by(Signal& signal, Duration shift, TrueTime now) {
@@ -18,7 +18,7 @@ template <class Signal> void shift_by(Signal& signal, Duration shift, TrueTime n
   signal.end += possible;
 }
 
-std::uint32_t part(const Arriving& signal) {
+std::uint32_t part(const medium::Arriving& signal) {
   return static_cast<std::uint32_t>(2 * index_of(signal.receiver) + index_of(signal.channel));
 }
 
@@ -26,7 +26,7 @@ class SosTiming final : public FrameFault {
  public:
   using FrameFault::FrameFault;
 
-  bool leaving(Leaving& signal) override {
+  bool leaving(medium::Leaving& signal) override {
     if (!befalls(signal)) return true;
     const std::int64_t shift = fault().shift.ns;
     acted("a frame of {} on {} is {} ns {}", name(signal.sender), letter(signal.channel), shift < 0 ? -shift : shift,
@@ -34,7 +34,7 @@ class SosTiming final : public FrameFault {
     if (fault().receivers.empty()) shift_by(signal, fault().shift, plant().now());
     return true;
   }
-  bool arriving(Arriving& signal) override {
+  bool arriving(medium::Arriving& signal) override {
     if (!fault().receivers.empty() && befallen_as_sent(signal) && at_receiver(signal.receiver))
       shift_by(signal, fault().shift, plant().now());
     return true;
@@ -45,16 +45,16 @@ class SosValue final : public FrameFault {
  public:
   using FrameFault::FrameFault;
 
-  bool leaving(Leaving& signal) override {
+  bool leaving(medium::Leaving& signal) override {
     if (befalls(signal))
       acted("a frame of {} on {} can be made out by some receivers only", name(signal.sender), letter(signal.channel));
     return true;
   }
-  bool arriving(Arriving& signal) override {
+  bool arriving(medium::Arriving& signal) override {
     if (!befallen_as_sent(signal)) return true;
     const bool lost =
         fault().receivers.empty() ? frame_draws(part(signal)).uniform() < 0.5 : at_receiver(signal.receiver);
-    if (lost) signal.signal = bus::Signal::kUndecodable;
+    if (lost) signal.signal = bus::ports::Signal::kUndecodable;
     return true;
   }
 };
@@ -64,21 +64,21 @@ class ByzantineClock final : public FrameFault {
   using FrameFault::FrameFault;
 
   // The cycle's counter.
-  bool touches(NodeId sender, schedules::Channel) const override { return sender == fault().node; }
-  bool leaving(Leaving& signal) override {
+  bool touches(NodeId sender, schedules::model::Channel) const override { return sender == fault().node; }
+  bool leaving(medium::Leaving& signal) override {
     if (!befalls(signal)) return true;
     // The cycle's counter is the frame's last six bits of header.
-    other_way_ = (static_cast<unsigned>(signal.bytes[wire::kHeaderBytes - 1]) & 1U) != 0;
+    other_way_ = (static_cast<unsigned>(signal.bytes[bus::wire::kHeaderBytes - 1]) & 1U) != 0;
     acted("a frame of {} on {} says another time to every receiver", name(signal.sender), letter(signal.channel));
     return true;
   }
-  bool arriving(Arriving& signal) override {
+  bool arriving(medium::Arriving& signal) override {
     if (befallen_as_sent(signal)) shift_by(signal, lie(signal), plant().now());
     return true;
   }
 
  private:
-  Duration lie(const Arriving& signal) const {
+  Duration lie(const medium::Arriving& signal) const {
     const Duration most = fault().shift;
     const Duration pull = index_of(signal.receiver) % 2 == 0 ? most : -most;
     switch (fault().pattern) {
@@ -102,4 +102,4 @@ std::unique_ptr<ActiveFault> make_byzantine_clock(const FaultSetting& setting) {
   return std::make_unique<ByzantineClock>(setting);
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

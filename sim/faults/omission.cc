@@ -2,24 +2,24 @@
 #include "sim/faults/families.h"
 #include "sim/faults/occasions.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using nodes::FaultDirection;
+using ttf::faults::FaultDirection;
 
 class Omission final : public ActiveFault {
  public:
   explicit Omission(const FaultSetting& setting)
       : ActiveFault(setting), occasions_(setting.fault.every, setting.fault.probability) {}
 
-  bool leaving(Leaving& signal) override {
+  bool leaving(medium::Leaving& signal) override {
     if (fault().direction == FaultDirection::kReceive || signal.sender != fault().node ||
         !befalls(signal.channel, signal.start, signal.sender))
       return true;
     acted("what {} sends on {} does not leave it", name(signal.sender), letter(signal.channel));
     return false;
   }
-  bool arriving(Arriving& signal) override {
+  bool arriving(medium::Arriving& signal) override {
     if (fault().direction == FaultDirection::kSend || signal.receiver != fault().node ||
         !befalls(signal.channel, signal.start, signal.sender))
       return true;
@@ -28,7 +28,7 @@ class Omission final : public ActiveFault {
   }
 
  private:
-  bool befalls(schedules::Channel channel, TrueTime start, NodeId sender) {
+  bool befalls(schedules::model::Channel channel, TrueTime start, NodeId sender) {
     return on(channel) && active(start) &&
            occasions_.chosen(plant().now(), sender, [this](std::uint32_t index) { return draws(index); });
   }
@@ -40,4 +40,4 @@ class Omission final : public ActiveFault {
 
 std::unique_ptr<ActiveFault> make_omission(const FaultSetting& setting) { return std::make_unique<Omission>(setting); }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

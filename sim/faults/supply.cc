@@ -3,7 +3,7 @@
 
 #include "sim/faults/families.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
 // Takes the supply of some nodes at `from`, and gives it back when the fault is over.
@@ -22,7 +22,7 @@ class Supply final : public ActiveFault {
         plant().power_off(node);
       acted("{} {}", name(node), back ? "has its supply back" : "loses its supply");
     }
-    next_ = back || fault().duration == nodes::Fault::kToTheEnd ? Disturbance::kNever : until();
+    next_ = back || fault().duration == ttf::faults::Fault::kToTheEnd ? medium::Disturbance::kNever : until();
     off_already_ = true;
   }
 
@@ -40,7 +40,7 @@ class Drift final : public ActiveFault {
   void act(TrueTime) override {
     plant().change_drift(fault().node, fault().drift_ppb);
     acted("{} drifts by {} ppm from now on", name(fault().node), static_cast<double>(fault().drift_ppb) / 1000.0);
-    next_ = Disturbance::kNever;
+    next_ = medium::Disturbance::kNever;
   }
 
  private:
@@ -65,4 +65,4 @@ std::unique_ptr<ActiveFault> make_lone_coldstart(const FaultSetting& setting) {
 
 std::unique_ptr<ActiveFault> make_drift(const FaultSetting& setting) { return std::make_unique<Drift>(setting); }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

@@ -2,10 +2,10 @@
 #include "sim/faults/families.h"
 #include "sim/faults/occasions.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 // What the node sends on A appears on B, and the other way round; the CRC says where it belongs. What it hears is in
 // order. Who has one wire only has nothing to swap.
@@ -16,7 +16,7 @@ class ChannelSwap final : public ActiveFault {
 
   // It changes the channel.
   bool touches(NodeId sender, Channel) const override { return sender == fault().node; }
-  bool leaving(Leaving& signal) override {
+  bool leaving(medium::Leaving& signal) override {
     const Channel other = signal.channel == Channel::kA ? Channel::kB : Channel::kA;
     if (signal.sender != fault().node || !active(signal.start) || !can_send(other) ||
         !occasions_.chosen(plant().now(), signal.sender, [this](std::uint32_t index) { return draws(index); }))
@@ -35,9 +35,9 @@ class Transient final : public ActiveFault {
  public:
   using ActiveFault::ActiveFault;
 
-  bool arriving(Arriving& signal) override {
+  bool arriving(medium::Arriving& signal) override {
     if (!on(signal.channel) || signal.start >= until() || signal.end <= from()) return true;
-    signal.signal = bus::Signal::kUndecodable;
+    signal.signal = bus::ports::Signal::kUndecodable;
     // Once for all its receivers.
     if (plant().now() == last_ && signal.sender == last_sender_ && signal.channel == last_channel_) return true;
     last_ = plant().now();
@@ -48,7 +48,7 @@ class Transient final : public ActiveFault {
   }
 
  private:
-  TrueTime last_{Disturbance::kNever};
+  TrueTime last_{medium::Disturbance::kNever};
   NodeId last_sender_ = kNoNode;
   Channel last_channel_{};
 };
@@ -62,4 +62,4 @@ std::unique_ptr<ActiveFault> make_transient(const FaultSetting& setting) {
   return std::make_unique<Transient>(setting);
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

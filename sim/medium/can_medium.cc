@@ -8,16 +8,16 @@
 #include "core/random.h"
 #include "schedules/analysis/can_load.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 
-CanMedium::CanMedium(const schedules::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,
-                     MediumQueue& queue, FramePool& pool, records::Sink& sink, std::uint64_t seed,
+CanMedium::CanMedium(const schedules::model::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,
+                     MediumQueue& queue, FramePool& pool, recording::records::Sink& sink, std::uint64_t seed,
                      std::uint32_t replication)
     : cluster_(cluster), bus_(bus), nodes_(nodes.begin(), nodes.end()), queue_(queue), pool_(pool), sink_(sink) {
   pending_.reserve(1024);
-  const schedules::CanBus& can = cluster.can_buses[bus];
+  const schedules::model::CanBus& can = cluster.can_buses[bus];
   if (can.other_load <= 0.0) return;
-  other_length_ = schedules::can_worst_case(can, can.flexible_data_rate ? 64 : 8);
+  other_length_ = schedules::analysis::can_worst_case(can, can.flexible_data_rate ? 64 : 8);
   constexpr double kSeldom_ns = 1e15;  // eleven days
   const double period = std::ceil(static_cast<double>(other_length_.ns) / can.other_load);
   other_period_ = {static_cast<std::int64_t>(std::min(period, kSeldom_ns))};
@@ -43,7 +43,7 @@ void CanMedium::arbitrate_at(TrueTime when) {
   queue_.schedule(when, Phase::kArbitration, event.node, event);
 }
 
-void CanMedium::send(NodeId sender, TrueTime now, const bus::CanFrame& frame) {
+void CanMedium::send(NodeId sender, TrueTime now, const bus::ports::CanFrame& frame) {
   TTF_CHECK(pending_.size() < pending_.capacity(), "{} frames wait on {}", pending_.size(),
             cluster_.can_buses[bus_].name);
   const int receivers = static_cast<int>(nodes_.size()) - 1;
@@ -69,7 +69,7 @@ void CanMedium::arbitrate(TrueTime now) {
   const Pending frame = *winner;
   pending_.erase(winner);
   const Duration length =
-      wire::can_frame_duration(cluster_.can_buses[bus_], frame.identifier, pool_.bytes(frame.frame));
+      bus::wire::can_frame_duration(cluster_.can_buses[bus_], frame.identifier, pool_.bytes(frame.frame));
   const TrueTime end = now + length;
   busy_ += length;
   idle_from_ = end;
@@ -100,7 +100,7 @@ void CanMedium::power_off(NodeId node) {
 }
 
 void CanMedium::report(const Pending& frame, TrueTime start, TrueTime end) {
-  records::CanFrameSent sent;
+  recording::records::CanFrameSent sent;
   sent.bus = static_cast<std::uint8_t>(bus_);
   sent.start.true_time = start;
   sent.end.true_time = end;
@@ -111,4 +111,4 @@ void CanMedium::report(const Pending& frame, TrueTime start, TrueTime end) {
   sink_.on(sent);
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -19,15 +19,16 @@
 #include "sim/medium/frame_pool.h"
 #include "sim/medium/medium_queue.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 
 class CanMedium {
  public:
   // `sink` hears of each frame when it begins: what the wire carries, in true time. The rest its sender knows.
   // Seed and replication are of the instant at which other traffic begins.
-  CanMedium(const schedules::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes, MediumQueue& queue,
-            FramePool& pool, records::Sink& sink, std::uint64_t seed, std::uint32_t replication);
-  void send(NodeId sender, TrueTime now, const bus::CanFrame& frame);
+  CanMedium(const schedules::model::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,
+            MediumQueue& queue, FramePool& pool, recording::records::Sink& sink, std::uint64_t seed,
+            std::uint32_t replication);
+  void send(NodeId sender, TrueTime now, const bus::ports::CanFrame& frame);
   // The node has lost its supply: what waits there is gone. A frame of its that is on the bus goes on to its end, and
   // it is for whoever takes arrivals from the queue to drop it.
   void power_off(NodeId node);
@@ -49,12 +50,12 @@ class CanMedium {
   void pass_others(TrueTime now);
   void arbitrate_at(TrueTime when);
 
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   std::size_t bus_;
   std::vector<NodeId> nodes_;
   MediumQueue& queue_;
   FramePool& pool_;
-  records::Sink& sink_;
+  recording::records::Sink& sink_;
   std::vector<Pending> pending_;
   std::uint64_t next_order_ = 0;
   TrueTime idle_from_{};
@@ -64,4 +65,4 @@ class CanMedium {
   Duration busy_{};
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -4,24 +4,25 @@
 
 #include "core/check.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 namespace {
 
-using bus::Signal;
+using bus::ports::Signal;
 
 // Every byte goes with the two bits of its byte start sequence, and the frame start sequence is one bit (FlexRay 2.1A,
 // 3.2.1.1).
 constexpr std::int64_t kBitsPerByte = 10;
 constexpr std::int64_t kFrameStartBits = 1;
 
-std::uint8_t crc_state(const wire::FrameCrcs& crcs) {
-  return static_cast<std::uint8_t>((crcs.header_holds ? 0 : records::kChannelHeaderCrc) |
-                                   (crcs.frame_holds ? 0 : records::kChannelFrameCrc));
+std::uint8_t crc_state(const bus::wire::FrameCrcs& crcs) {
+  return static_cast<std::uint8_t>((crcs.header_holds ? 0 : recording::records::kChannelHeaderCrc) |
+                                   (crcs.frame_holds ? 0 : recording::records::kChannelFrameCrc));
 }
 
 }  // namespace
 
-ChannelLog::ChannelLog(const schedules::GlobalParameters& flexray, std::size_t room, records::Sink& sink)
+ChannelLog::ChannelLog(const schedules::model::GlobalParameters& flexray, std::size_t room,
+                       recording::records::Sink& sink)
     : bit_ps_(flexray.gdBit_ps), bits_before_bytes_(flexray.gdTSSTransmitter + kFrameStartBits), sink_(sink) {
   add_ways(room);
 }
@@ -52,14 +53,15 @@ ChannelLog::Way& ChannelLog::take(Id& id) {
   return way;
 }
 
-ChannelLog::Id ChannelLog::sent(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
+ChannelLog::Id ChannelLog::sent(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start,
+                                TrueTime end) {
   if (transmission.signal != Signal::kFrame) return kNone;
   Id id = kNone;
   Way& way = take(id);
   way.frame = true;
   way.bytes.set(transmission.bytes);
   way.breaks_off = end;
-  records::ChannelFrame& record = way.record;
+  recording::records::ChannelFrame& record = way.record;
   record.start = record.sent = start;
   record.end = end;
   record.sender = sender;
@@ -87,7 +89,7 @@ ChannelLog::Id ChannelLog::appears(const Leaving& signal) {
 void ChannelLog::leaves(Id id, const Leaving& signal) {
   if (id == kNone) return;
   Way& way = ways_[id];
-  records::ChannelFrame& record = way.record;
+  recording::records::ChannelFrame& record = way.record;
   const auto channel = static_cast<std::uint8_t>(signal.channel);
   way.altered |= channel != record.channel || signal.start != record.start || signal.end != record.end;
   record.channel = channel;
@@ -138,7 +140,7 @@ void ChannelLog::changed(Id id, std::span<const std::byte> bytes) {
 void ChannelLog::withheld(Id id) {
   if (id == kNone) return;
   Way& way = ways_[id];
-  way.record.state = records::kChannelNothing;
+  way.record.state = recording::records::kChannelNothing;
   // What no controller sent, and nobody heard, was nowhere.
   if (way.record.slot != 0) sink_.on(way.record);
   way.used = false;
@@ -154,7 +156,7 @@ void ChannelLog::arrived(Id id) {
 }
 
 void ChannelLog::report(Way& way) {
-  records::ChannelFrame& record = way.record;
+  recording::records::ChannelFrame& record = way.record;
   if (way.changed > 0 && !way.unlike && way.changed + way.lost == way.receivers) {
     way.altered = true;
     way.bytes.set(way.other.all());
@@ -164,19 +166,20 @@ void ChannelLog::report(Way& way) {
   if (!way.altered && !broken_off && !out_of_reach) return;
   record.end = std::min(record.end, way.breaks_off);
   if (record.end <= record.start) {
-    record.state = records::kChannelNothing;
+    record.state = recording::records::kChannelNothing;
     record.end = record.start;
     if (record.slot == 0) return;
   } else if (out_of_reach) {
-    record.state = records::kChannelCoding;
+    record.state = recording::records::kChannelCoding;
   } else {
     record.bytes = way.bytes.all().first(broken_off ? bytes_until_break(way) : way.bytes.size);
-    wire::FrameCrcs crcs = wire::check_crcs(static_cast<schedules::Channel>(record.channel), record.bytes);
+    bus::wire::FrameCrcs crcs =
+        bus::wire::check_crcs(static_cast<schedules::model::Channel>(record.channel), record.bytes);
     // A CRC that has not come is not wrong.
-    crcs.header_holds |= broken_off && record.bytes.size() < wire::kHeaderBytes;
+    crcs.header_holds |= broken_off && record.bytes.size() < bus::wire::kHeaderBytes;
     crcs.frame_holds |= broken_off && record.bytes.size() < way.bytes.size;
     record.state = crc_state(crcs);
-    if (broken_off) record.state |= records::kChannelCoding | records::kChannelCut;
+    if (broken_off) record.state |= recording::records::kChannelCoding | recording::records::kChannelCut;
   }
   sink_.on(record);
 }
@@ -187,4 +190,4 @@ std::size_t ChannelLog::bytes_until_break(const Way& way) const {
   return std::min(way.bytes.size, static_cast<std::size_t>(whole));
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -24,7 +24,7 @@
 #include "schedules/model/flexray_parameters.h"
 #include "sim/medium/disturbance.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 
 class ChannelLog {
  public:
@@ -32,10 +32,10 @@ class ChannelLog {
   static constexpr Id kNone = std::numeric_limits<Id>::max();  // of what has no way here: told of, it is ignored
 
   // `room`: for signals on their way at once. Where there are more, it takes more; they are fewer than kNone.
-  ChannelLog(const schedules::GlobalParameters& flexray, std::size_t room, records::Sink& sink);
+  ChannelLog(const schedules::model::GlobalParameters& flexray, std::size_t room, recording::records::Sink& sink);
 
   // A way begins: with what a controller sends, and its true instants at the sender; or with no controller.
-  Id sent(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
+  Id sent(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start, TrueTime end);
   Id appears(const Leaving& signal);
 
   // So it is on the channel, from its sender on; no bytes: they are as they were.
@@ -57,16 +57,16 @@ class ChannelLog {
 
  private:
   struct Bytes {
-    std::array<std::byte, wire::kMaxFrameBytes> room{};
+    std::array<std::byte, bus::wire::kMaxFrameBytes> room{};
     std::size_t size = 0;
     std::span<const std::byte> all() const { return std::span<const std::byte>(room).first(size); }
     void set(std::span<const std::byte> bytes);
   };
   struct Way {
-    records::ChannelFrame record;  // without state and bytes
-    Bytes bytes;                   // as it left
-    Bytes other;                   // as receivers had it, where `changed` > 0
-    TrueTime breaks_off{};         // at or after its end: it does not
+    recording::records::ChannelFrame record;  // without state and bytes
+    Bytes bytes;                              // as it left
+    Bytes other;                              // as receivers had it, where `changed` > 0
+    TrueTime breaks_off{};                    // at or after its end: it does not
     int receivers = 0, lost = 0, changed = 0;
     bool used = false;
     bool frame = false;    // a decodable one, so far
@@ -80,9 +80,9 @@ class ChannelLog {
 
   const std::int64_t bit_ps_;
   const std::int64_t bits_before_bytes_;  // the transmission and frame start sequences
-  records::Sink& sink_;
+  recording::records::Sink& sink_;
   std::vector<Way> ways_;
   std::vector<Id> free_;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -2,10 +2,10 @@
 #include "core/check.h"
 #include "sim/medium/flexray_medium.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 Channel other(Channel channel) { return channel == Channel::kA ? Channel::kB : Channel::kA; }
 
@@ -52,16 +52,16 @@ void FlexRayMedium::join(Flight& on_a, const Arrival& left) {
   ++aloft_[c];
 }
 
-void FlexRayMedium::transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start,
+void FlexRayMedium::transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start,
                                      TrueTime end) {
   const Ways& ways = ways_[index_of(sender)];
   const int receivers = static_cast<int>(ways[0].size());
   if (!is_clear() || receivers == 0) {
     transmit(sender, transmission, start, end);
-    return transmit(sender, bus::on_b(transmission), start, end);
+    return transmit(sender, bus::ports::on_b(transmission), start, end);
   }
   const std::uint32_t frame = pool_.put_content(transmission.content, 2 * receivers);
-  Arrival left{start, end, frame, Channel::kA, bus::Signal::kFrame, ChannelLog::kNone};
+  Arrival left{start, end, frame, Channel::kA, bus::ports::Signal::kFrame, ChannelLog::kNone};
   Flight& flight = take_off_clear(sender, left, ways, kNoNode);
   left.channel = Channel::kB;
   join(flight, left);
@@ -149,4 +149,4 @@ void FlexRayMedium::lay_out(Flight& flight, std::span<const Leg> way, NodeId pas
     if (leg.receiver != passed_over) put(flight, leg.receiver, after(left, leg.delay));
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

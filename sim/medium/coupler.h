@@ -6,7 +6,7 @@
 #include "bus/wire/flexray_frame.h"
 #include "sim/medium/disturbance.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 
 class Coupler {
  public:
@@ -15,7 +15,7 @@ class Coupler {
   // False: it goes nowhere. It may be cut: then it ends earlier, and is undecodable. Or held: then it ends later, and
   // says what it said.
   // Called in the order of arrival.
-  virtual bool pass(Leaving& signal, const wire::DecodedFrame* frame) = 0;
+  virtual bool pass(Leaving& signal, const bus::wire::DecodedFrame* frame) = 0;
   // What comes out of nothing reaches everybody, and the coupler too.
   virtual void disturbed(const Leaving& signal) = 0;
   // The node has lost its supply: what it was sending ends at the coupler at `at`. When what the coupler sends on of it
@@ -23,4 +23,4 @@ class Coupler {
   virtual TrueTime fell_silent(NodeId branch, TrueTime at) = 0;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -10,13 +10,13 @@
 #include "core/ids.h"
 #include "core/time.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 
 // A signal as it leaves a node, to be changed.
 struct Leaving {
   NodeId sender{};
-  schedules::Channel channel{};
-  bus::Signal signal{};
+  schedules::model::Channel channel{};
+  bus::ports::Signal signal{};
   TrueTime start{}, end{};
   std::span<const std::byte> bytes;  // may be pointed elsewhere; used before the call returns to the sender
   bool emitted = false;              // no controller sent it, but a fault (FlexRayMedium::emit())
@@ -27,8 +27,8 @@ struct Leaving {
 // afresh.
 struct Arriving {
   NodeId sender{}, receiver{};
-  schedules::Channel channel{};
-  bus::Signal signal{};
+  schedules::model::Channel channel{};
+  bus::ports::Signal signal{};
   TrueTime start{}, end{};
   bool regenerated = false;          // by the coupler: no fault of the sender can make receivers disagree about it
   std::span<const std::byte> bytes;  // of a frame: may be pointed elsewhere, as above
@@ -42,7 +42,9 @@ class Disturbance {
   virtual ~Disturbance() = default;
   // Whether leaving() or arriving() may look at the bytes, or change bytes or channel, of what the node sends now.
   // Where a medium is transparent and this says no, they get no bytes.
-  virtual bool touches(NodeId sender, schedules::Channel channel) const { return (void)sender, (void)channel, true; }
+  virtual bool touches(NodeId sender, schedules::model::Channel channel) const {
+    return (void)sender, (void)channel, true;
+  }
   // False: it does not leave.
   virtual bool leaving(Leaving& signal) { return (void)signal, true; }
   // False: it does not arrive. A frame can be made undecodable or another frame here; nothing else can become a frame.
@@ -53,4 +55,4 @@ class Disturbance {
   virtual void act(TrueTime now) { (void)now; }
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -9,7 +9,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 
 // At one instant arrivals come first, then the nodes' own events, then the CANs decide who sends next, then observers.
 enum class Phase : std::uint8_t { kArrival = 0, kNode = 1, kArbitration = 2, kObserver = 3 };
@@ -73,4 +73,4 @@ template <class Payload> class EventQueue {
   std::uint64_t next_sequence_ = 0;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -5,19 +5,19 @@
 
 #include "core/check.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 namespace {
 
-using bus::Signal;
-using schedules::Channel;
+using bus::ports::Signal;
+using schedules::model::Channel;
 
 }  // namespace
 
-FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& queue, FramePool& pool)
+FlexRayMedium::FlexRayMedium(const schedules::model::Cluster& cluster, MediumQueue& queue, FramePool& pool)
     : queue_(queue), pool_(pool), position_(cluster.nodes.size(), -1), lanes_(2 * cluster.nodes.size()),
       ways_(cluster.nodes.size()), sent_until_(2 * cluster.nodes.size()), spoken_(2 * cluster.nodes.size()),
       min_delay_ps_(cluster.flexray.gdMinPropagationDelay_ps), max_delay_ps_(cluster.flexray.gdMaxPropagationDelay_ps),
-      star_(cluster.topology == schedules::Topology::kStar) {
+      star_(cluster.topology == schedules::model::Topology::kStar) {
   int on_bus = 0;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     if (!cluster.nodes[n].flexray) continue;
@@ -65,7 +65,8 @@ Duration FlexRayMedium::delay(NodeId from, NodeId to) const {
   return {(ps + 999) / 1000};
 }
 
-void FlexRayMedium::transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
+void FlexRayMedium::transmit(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start,
+                             TrueTime end) {
   Leaving signal{sender, transmission.channel, transmission.signal, start, end, {}};
   const bool in_bytes = carries_bytes(sender, transmission.channel);
   if (in_bytes) signal.bytes = transmission.bytes;
@@ -95,7 +96,7 @@ void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) {
 }
 
 void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated, ChannelLog::Id logged,
-                           const wire::DecodedFrame* content) {
+                           const bus::wire::DecodedFrame* content) {
   const auto c = index_of(signal.channel);
   const Ways& ways = regenerated ? from_coupler_ : sender ? ways_[index_of(*sender)] : from_nowhere_;
   const Way& way = ways[c];
@@ -295,4 +296,4 @@ bool FlexRayMedium::carrier(NodeId node, Channel channel, TrueTime now) const {
   return std::any_of(pending.begin(), pending.end(), [&](const Pending& one) { return one.arrival.start <= now; });
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

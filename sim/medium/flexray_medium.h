@@ -31,7 +31,7 @@
 #include "sim/medium/frame_pool.h"
 #include "sim/medium/medium_queue.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 
 class FlexRayMedium {
  public:
@@ -47,23 +47,23 @@ class FlexRayMedium {
   // What a channel log has to have room for.
   static constexpr std::size_t kMostLogged = kFlights + 128;
 
-  FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& queue, FramePool& pool);
+  FlexRayMedium(const schedules::model::Cluster& cluster, MediumQueue& queue, FramePool& pool);
 
   // Null: nothing goes wrong.
   void set_disturbance(Disturbance* disturbance) { disturbance_ = disturbance; }
   void set_transparent(bool transparent) { transparent_ = transparent; }
   // Null: nobody is told what becomes of frames on their way.
   void set_log(ChannelLog* log) { log_ = log; }
-  bool wants_bytes(NodeId sender, schedules::Channel channel) const {
+  bool wants_bytes(NodeId sender, schedules::model::Channel channel) const {
     return log_ != nullptr || carries_bytes(sender, channel);
   }
   // In the middle of a star; null: it forwards everything.
-  void set_coupler(schedules::Channel channel, Coupler* coupler) { coupler_[index_of(channel)] = coupler; }
+  void set_coupler(schedules::model::Channel channel, Coupler* coupler) { coupler_[index_of(channel)] = coupler; }
 
   // What a node sends: `start`, `end`: true times of the first and last bit at the sender.
-  void transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
+  void transmit(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start, TrueTime end);
   // The same frame on both channels at once, without bytes; `transmission` says channel A.
-  void transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
+  void transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start, TrueTime end);
   // Whether what a node sends on both channels at once now reaches everybody else on FlexRay as it leaves, as long as
   // nothing else is sent or changed until it is there; who they are and how far away; and that it was sent, when who
   // asks has told them.
@@ -83,20 +83,20 @@ class FlexRayMedium {
   // another signal stays in it), and what is on its way to it vanishes.
   void power_off(NodeId node, TrueTime now);
   // Whether something is arriving at the node at `now`.
-  bool carrier(NodeId node, schedules::Channel channel, TrueTime now) const;
+  bool carrier(NodeId node, schedules::model::Channel channel, TrueTime now) const;
   Duration delay(NodeId from, NodeId to) const;
   // Of a star: from the node to the coupler, or back.
   Duration branch(NodeId node) const;
   // How long the channel has been taken by what nodes sent so far.
-  Duration busy(schedules::Channel channel) const { return busy_[index_of(channel)]; }
+  Duration busy(schedules::model::Channel channel) const { return busy_[index_of(channel)]; }
 
   // What an arrival of the queue brings: nothing where it was drawn into another signal, or where it is one at a
   // coupler. The frame stays valid until release() is called with the same arrival.
   struct Arrival {
     TrueTime start{}, end{};
     std::uint32_t frame = 0;  // in the pool, of a frame
-    schedules::Channel channel{};
-    bus::Signal signal{};
+    schedules::model::Channel channel{};
+    bus::ports::Signal signal{};
     ChannelLog::Id logged = ChannelLog::kNone;  // while its receiver may still make it out
   };
   std::optional<Arrival> arrive(const MediumEvent& event, TrueTime now);
@@ -117,7 +117,7 @@ class FlexRayMedium {
   bool passes_on_both(const MediumEvent& event) const {
     const Flight& flight = flights_[event.frame];
     return !event.at_coupler && flight.ways != nullptr && flight.both_channels &&
-           flight.channel == schedules::Channel::kA && flight.left[0].signal == bus::Signal::kFrame &&
+           flight.channel == schedules::model::Channel::kA && flight.left[0].signal == bus::ports::Signal::kFrame &&
            flight.left[0].frame == flight.left[1].frame;
   }
   EventOrder last_arrival(const MediumEvent& event) const;
@@ -128,9 +128,9 @@ class FlexRayMedium {
   };
   Passage pass_on_both(const MediumEvent& event);
   void release_on_both(const Arrival& arrival) { pool_.release(arrival.frame, 2); }
-  const wire::DecodedFrame& frame(const Arrival& arrival) const { return pool_.decoded(arrival.frame); }
+  const bus::wire::DecodedFrame& frame(const Arrival& arrival) const { return pool_.decoded(arrival.frame); }
   void release(const Arrival& arrival) {
-    if (arrival.signal == bus::Signal::kFrame) pool_.release(arrival.frame);
+    if (arrival.signal == bus::ports::Signal::kFrame) pool_.release(arrival.frame);
   }
 
  private:
@@ -181,7 +181,7 @@ class FlexRayMedium {
     std::uint64_t sequence = 0;      // in the queue
     ChannelLog::Id logged = ChannelLog::kNone;
     NodeId sender{};
-    schedules::Channel channel{};  // of the next stop
+    schedules::model::Channel channel{};  // of the next stop
     // Of a clear flight:
     const Ways* ways = nullptr;    // null: it is none
     const Leg* leg = nullptr;      // to the next stop; on both channels the legs are the same
@@ -194,26 +194,26 @@ class FlexRayMedium {
   struct Spoken {
     TrueTime start{}, end{};
   };
-  bool carries_bytes(NodeId sender, schedules::Channel channel) const {
+  bool carries_bytes(NodeId sender, schedules::model::Channel channel) const {
     return !transparent_ || coupler_[index_of(channel)] != nullptr ||
            (disturbance_ != nullptr && disturbance_->touches(sender, channel));
   }
-  Way make_way(schedules::Channel channel, std::optional<NodeId> sender, bool from_coupler) const;
+  Way make_way(schedules::model::Channel channel, std::optional<NodeId> sender, bool from_coupler) const;
   std::int64_t branch_ps(NodeId node) const;
   // `content`: of a frame without bytes.
   void spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated, ChannelLog::Id logged,
-              const wire::DecodedFrame* content = nullptr);
+              const bus::wire::DecodedFrame* content = nullptr);
   void to_coupler(const Leaving& signal, NodeId sender, TrueTime now, ChannelLog::Id logged);
   void at_coupler(const MediumEvent& event);
   std::span<Stop> stops_of(const Flight& flight) {
     return std::span(stops_).subspan(static_cast<std::size_t>(&flight - flights_.data()) * most_stops_, most_stops_);
   }
   void add_flights(std::size_t count);
-  Flight& take_off(NodeId sender, schedules::Channel channel, ChannelLog::Id logged);
+  Flight& take_off(NodeId sender, schedules::model::Channel channel, ChannelLog::Id logged);
   void land(Flight& flight);
   ChannelLog::Id witness(ChannelLog::Id logged, const Leaving& signal, const Arriving& last, bool arrives);
   // Whether the receiver sends at the same time; for the log.
-  bool talks_over(const Arriving& last, schedules::Channel channel) const {
+  bool talks_over(const Arriving& last, schedules::model::Channel channel) const {
     const Spoken& own = spoken_[lane_of(last.receiver, channel)];
     return last.start < own.end && own.start < last.end;
   }
@@ -228,7 +228,7 @@ class FlexRayMedium {
   Flight& take_off_clear(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over);
   void join(Flight& on_a, const Arrival& left);
   static const Leg* first_leg(const Flight& flight);
-  static EventOrder order_of(const Flight& flight, schedules::Channel channel, const Leg& leg) {
+  static EventOrder order_of(const Flight& flight, schedules::model::Channel channel, const Leg& leg) {
     const auto rank = static_cast<std::uint16_t>((index_of(channel) << 8) | index_of(flight.sender));
     return {flight.left[index_of(channel)].end + leg.delay, Phase::kArrival, static_cast<std::uint8_t>(leg.receiver),
             rank, flight.sequence};
@@ -239,12 +239,14 @@ class FlexRayMedium {
   Stopover stop_over_clear(Flight& flight, TrueTime now);
   void stopped_on_a(Flight& flight);
   void land_clear(Flight& flight);
-  bool carrier_of_clear(const Flight& flight, NodeId node, schedules::Channel channel, TrueTime now) const;
+  bool carrier_of_clear(const Flight& flight, NodeId node, schedules::model::Channel channel, TrueTime now) const;
   // Something else comes onto the channel: what is clear there is so no longer.
-  void crowd(schedules::Channel channel);
+  void crowd(schedules::model::Channel channel);
   void lay_out(Flight& flight, std::span<const Leg> way, NodeId passed_over, const Arrival& left);
-  static std::size_t lane_of(NodeId node, schedules::Channel channel) { return 2 * index_of(node) + index_of(channel); }
-  Lane& lane(NodeId node, schedules::Channel channel) { return lanes_[lane_of(node, channel)]; }
+  static std::size_t lane_of(NodeId node, schedules::model::Channel channel) {
+    return 2 * index_of(node) + index_of(channel);
+  }
+  Lane& lane(NodeId node, schedules::model::Channel channel) { return lanes_[lane_of(node, channel)]; }
 
   MediumQueue& queue_;
   FramePool& pool_;
@@ -277,7 +279,7 @@ class FlexRayMedium {
 // --- what is done for every receiver
 
 inline FlexRayMedium::Stopover FlexRayMedium::stop_over_clear(Flight& flight, TrueTime now) {
-  using schedules::Channel;
+  using schedules::model::Channel;
   const Stopover here{after(flight.left[index_of(flight.channel)], flight.leg->delay), true};
   TTF_CHECK(here.arrival->end == now, "an arrival of {} ns at {} ns", here.arrival->end.ns, now.ns);
   if (flight.both_channels) {
@@ -306,4 +308,4 @@ inline EventOrder FlexRayMedium::next_arrival(MediumEvent& event) const {
   return {end, Phase::kArrival, event.node, rank, flight.sequence};
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -4,11 +4,11 @@
 
 #include "sim/medium/flexray_medium.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 namespace {
 
-using bus::Signal;
-using schedules::Channel;
+using bus::ports::Signal;
+using schedules::model::Channel;
 
 bool overlap(const FlexRayMedium::Arrival& a, const FlexRayMedium::Arrival& b) {
   return a.start < b.end && b.start < a.end;
@@ -108,4 +108,4 @@ void FlexRayMedium::schedule(Flight& flight) {
   flight.sequence = queue_.schedule(first.time, first.phase, first.node, event, first.rank);
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -12,7 +12,7 @@
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 
 class FramePool {
  public:
@@ -25,22 +25,23 @@ class FramePool {
   }
 
   // Stores a copy of a FlexRay frame for `uses` deliveries and makes out what it says, once for all receivers.
-  std::uint32_t put_frame(schedules::Channel channel, std::span<const std::byte> bytes, int uses) {
+  std::uint32_t put_frame(schedules::model::Channel channel, std::span<const std::byte> bytes, int uses) {
     const std::uint32_t index = put(bytes, uses);
-    frames_[index].decoded = wire::decode_frame(channel, this->bytes(index));
+    frames_[index].decoded = bus::wire::decode_frame(channel, this->bytes(index));
     return index;
   }
   // Stores a copy of what a frame says, as if it had been encoded and decoded. It has no bytes.
-  std::uint32_t put_content(const wire::DecodedFrame& content, int uses) {
+  std::uint32_t put_content(const bus::wire::DecodedFrame& content, int uses) {
     const std::uint32_t index = put(content.payload, uses);
-    wire::DecodedFrame& decoded = frames_[index].decoded;
+    bus::wire::DecodedFrame& decoded = frames_[index].decoded;
     decoded = content;
-    const wire::FrameHeader& header = content.header;
-    decoded.header.header_crc = wire::header_crc(header.sync, header.startup, header.frame_id, header.payload_words);
+    const bus::wire::FrameHeader& header = content.header;
+    decoded.header.header_crc =
+        bus::wire::header_crc(header.sync, header.startup, header.frame_id, header.payload_words);
     decoded.payload = this->bytes(index);
     return index;
   }
-  const wire::DecodedFrame& decoded(std::uint32_t index) const { return frames_[index].decoded; }
+  const bus::wire::DecodedFrame& decoded(std::uint32_t index) const { return frames_[index].decoded; }
   // Stores a copy for `uses` deliveries.
   std::uint32_t put(std::span<const std::byte> bytes, int uses) {
     TTF_CHECK(bytes.size() <= kMaxBytes && uses > 0, "{} bytes, {} uses", bytes.size(), uses);
@@ -69,10 +70,10 @@ class FramePool {
     std::array<std::byte, kMaxBytes> bytes;
     std::size_t size = 0;
     int uses = 0;
-    wire::DecodedFrame decoded;  // of a FlexRay frame
+    bus::wire::DecodedFrame decoded;  // of a FlexRay frame
   };
   std::vector<Frame> frames_;
   std::vector<std::uint32_t> free_;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -6,7 +6,7 @@
 #include "core/time.h"
 #include "sim/medium/event_queue.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 
 // What is still to come on a medium: on FlexRay an arrival; on a private CAN an arbitration, the end of a frame for its
 // sender and its arrival; and what reaches a host or device beside the buses: a trigger, a strobe, a recorded
@@ -34,4 +34,4 @@ struct MediumEvent {
 };
 using MediumQueue = EventQueue<MediumEvent>;
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

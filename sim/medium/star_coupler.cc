@@ -5,59 +5,61 @@
 
 #include "core/check.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 namespace {
 
-using bus::GuardianReason;
-using bus::PocKind;
-using bus::Signal;
+using bus::guardian::GuardianReason;
+using bus::poc::PocKind;
+using bus::ports::Signal;
 
 // One signal is forwarded; what comes out of nothing may be many. What is more than this is worked off at once.
 constexpr std::size_t kHearingRoom = 16;
 // A leading coldstart node is alone in its first cycles (bus/poc/poc.h).
 constexpr std::int64_t kLeaderAlone = 4;
 
-NodeId guardian_of(const schedules::Cluster& with_guardian) {
+NodeId guardian_of(const schedules::model::Cluster& with_guardian) {
   return static_cast<NodeId>(with_guardian.nodes.size() - 1);
 }
 
 }  // namespace
 
 // What the controller says, and the port it has no use for.
-struct StarCoupler::Watch final : bus::ControllerEvents, bus::FlexRayPort {
+struct StarCoupler::Watch final : bus::controller::ControllerEvents, bus::ports::FlexRayPort {
   StarCoupler& coupler;
   TrueTime now{};
   explicit Watch(StarCoupler& c) : coupler(c) {}
-  void transmit(const bus::Transmission& sent) override {
+  void transmit(const bus::ports::Transmission& sent) override {
     TTF_CHECK(false, "the guardian sends in slot {}", sent.slot);
   }
-  bool carrier(schedules::Channel channel) const override {
+  bool carrier(schedules::model::Channel channel) const override {
     return channel == coupler.channel_ && std::any_of(coupler.hearing_.begin(), coupler.hearing_.end(),
                                                       [&](const Hearing& heard) { return heard.start <= now; });
   }
-  void state_changed(PocKind from, const bus::PocStep& step, Microticks at) override {
+  void state_changed(PocKind from, const bus::poc::PocStep& step, Microticks at) override {
     if (from == PocKind::kIntegrationConsistencyCheck && step.next.kind == PocKind::kIntegrationListen)
       coupler.turns_.schedule_dropped(at);
     if (step.next.kind == PocKind::kNormalActive) coupler.turns_.synchronised();
   }
 };
 
-bool StarCoupler::needed(const schedules::Cluster& cluster, schedules::Channel channel) {
-  return cluster.guardian && std::any_of(cluster.nodes.begin(), cluster.nodes.end(), [&](const schedules::Node& node) {
+bool StarCoupler::needed(const schedules::model::Cluster& cluster, schedules::model::Channel channel) {
+  return cluster.guardian &&
+         std::any_of(cluster.nodes.begin(), cluster.nodes.end(), [&](const schedules::model::Node& node) {
            return node.flexray && includes(node.flexray->pChannels, channel);
          });
 }
 
-std::int64_t StarCoupler::microtick_ps(const schedules::Cluster& cluster, schedules::Channel channel) {
-  return bus::guardian_cluster(cluster, channel).nodes.back().microtick_ps;
+std::int64_t StarCoupler::microtick_ps(const schedules::model::Cluster& cluster, schedules::model::Channel channel) {
+  return bus::guardian::guardian_cluster(cluster, channel).nodes.back().microtick_ps;
 }
 
-StarCoupler::StarCoupler(const schedules::Cluster& cluster, schedules::Channel channel,
+StarCoupler::StarCoupler(const schedules::model::Cluster& cluster, schedules::model::Channel channel,
                          const timebase::Oscillator& oscillator, TrueTime on)
-    : cluster_(bus::guardian_cluster(cluster, channel)), channel_(channel), oscillator_(oscillator),
+    : cluster_(bus::guardian::guardian_cluster(cluster, channel)), channel_(channel), oscillator_(oscillator),
       guardian_(cluster_, channel, *cluster_.nodes.back().flexray),
       turns_(cluster_, channel, *cluster_.nodes.back().flexray), watch_(std::make_unique<Watch>(*this)),
-      controller_(std::make_unique<bus::FlexRayController>(cluster_, guardian_of(cluster_), *watch_, *watch_)),
+      controller_(
+          std::make_unique<bus::controller::FlexRayController>(cluster_, guardian_of(cluster_), *watch_, *watch_)),
       dynamic_(cluster_.flexray) {
   TTF_CHECK(oscillator.nominal_period_ps() == cluster_.nodes.back().microtick_ps, "microticks of {} and {} ps",
             oscillator.nominal_period_ps(), cluster_.nodes.back().microtick_ps);
@@ -82,7 +84,7 @@ void StarCoupler::start_integrated(TrueTime first, Duration cycle) {
   const Microticks begin = oscillator_.ticks_at(first);
   const std::int64_t ticks = (oscillator_.ticks_at(first + cycle * kCycles) - begin).value;
   const std::int64_t per_cycle = (ticks + kCycles / 2) / kCycles;
-  bus::InitialClock clock{begin + Microticks{1}, 0};
+  bus::controller::InitialClock clock{begin + Microticks{1}, 0};
   if (cluster_.synchronisation)
     clock.rate = static_cast<int>(per_cycle - cluster_.nodes.back().flexray->pMicroPerCycle);
   controller_->start_integrated(clock);
@@ -100,11 +102,11 @@ void StarCoupler::advance(Microticks to) {
 }
 
 void StarCoupler::deliver(const Hearing& heard) {
-  bus::Reception reception{
+  bus::ports::Reception reception{
       channel_, heard.signal, oscillator_.ticks_at(heard.start), oscillator_.ticks_at(heard.end), {}};
   if (heard.signal == Signal::kFrame) {
     reception.frame = heard.frame;
-    reception.frame.payload = std::span(heard.bytes).subspan(wire::kHeaderBytes, heard.frame.payload.size());
+    reception.frame.payload = std::span(heard.bytes).subspan(bus::wire::kHeaderBytes, heard.frame.payload.size());
   }
   // What the controller does at that very instant, it does with the reception (sim/medium/event_queue.h).
   advance(reception.end - Microticks{1});
@@ -128,7 +130,7 @@ void StarCoupler::catch_up(TrueTime now) {
 }
 
 // Like any receiver, it cannot make out what overlaps.
-void StarCoupler::hear(NodeId branch, const Leaving& signal, const wire::DecodedFrame* frame) {
+void StarCoupler::hear(NodeId branch, const Leaving& signal, const bus::wire::DecodedFrame* frame) {
   Hearing heard{branch, signal.start, signal.end, signal.signal, {}, {}};
   if (frame != nullptr && signal.signal == Signal::kFrame) {
     heard.frame = *frame;
@@ -151,7 +153,7 @@ void StarCoupler::hear(NodeId branch, const Leaving& signal, const wire::Decoded
   hearing_.push_back(heard);
 }
 
-bus::GuardianAnswer StarCoupler::judge(const bus::GuardianSignal& signal) const {
+bus::guardian::GuardianAnswer StarCoupler::judge(const bus::guardian::GuardianSignal& signal) const {
   const auto& clock = controller_->clock();
   if (!clock) return turns_.judge(signal);
   const bool alone = !controller_->synchronised() && clock->cycle() < kLeaderAlone;
@@ -172,17 +174,17 @@ TrueTime StarCoupler::end_of(TrueTime start, TrueTime end, Microticks until) con
 void StarCoupler::lead_begins() {
   if (controller_->state().kind != PocKind::kInitialiseSchedule) return;
   const Microticks now = oscillator_.ticks_at(watch_->now);
-  controller_->command(bus::PocEventKind::kReady, now);
-  controller_->command(bus::PocEventKind::kRun, now);
+  controller_->command(bus::poc::PocEventKind::kReady, now);
+  controller_->command(bus::poc::PocEventKind::kRun, now);
 }
 
-bool StarCoupler::pass(Leaving& signal, const wire::DecodedFrame* frame) {
+bool StarCoupler::pass(Leaving& signal, const bus::wire::DecodedFrame* frame) {
   if (failure_ == Failure::kSilent) return false;
   if (failure_ == Failure::kStuckOpen) return true;
   watch_->now = signal.start;
   catch_up(signal.start);
-  const bus::GuardianSignal asked{signal.sender, signal.signal, oscillator_.ticks_at(signal.start), frame};
-  bus::GuardianAnswer answer{GuardianReason::kOtherForwarded, {}};
+  const bus::guardian::GuardianSignal asked{signal.sender, signal.signal, oscillator_.ticks_at(signal.start), frame};
+  bus::guardian::GuardianAnswer answer{GuardianReason::kOtherForwarded, {}};
   if (signal.start >= taken_until_) answer = judge(asked);
   ++count_[static_cast<std::size_t>(answer.reason)];
   const TrueTime until = answer.forwards() ? end_of(signal.start, signal.end, answer.until) : signal.start;
@@ -225,4 +227,4 @@ TrueTime StarCoupler::fell_silent(NodeId branch, TrueTime at) {
   return ends;
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

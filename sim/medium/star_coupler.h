@@ -1,7 +1,7 @@
-// The star coupler of one channel with its central guardian (bus/guardian/guardian.h): an own oscillator, an own controller that
-// integrates into the cluster like any node without a key slot, and what they make of every signal that begins at the
-// coupler. The couplers of two channels know nothing of one another: one that fails takes its channel with it and
-// nothing else.
+// The star coupler of one channel with its central guardian (bus/guardian/guardian.h): an own oscillator, an own
+// controller that integrates into the cluster like any node without a key slot, and what they make of every signal that
+// begins at the coupler. The couplers of two channels know nothing of one another: one that fails takes its channel
+// with it and nothing else.
 //
 // It costs nothing between signals: the controller, which sends nothing, is brought up to date when a signal comes.
 // When it has lost the cluster (passive or halted), it begins anew, and start-up is open again.
@@ -20,7 +20,7 @@
 #include "sim/medium/coupler.h"
 #include "timebase/oscillator.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 
 class StarCoupler final : public Coupler {
  public:
@@ -34,22 +34,22 @@ class StarCoupler final : public Coupler {
   struct Intervention {
     TrueTime at{};
     NodeId branch{};
-    schedules::Channel channel{};
-    bus::Signal signal{};
-    bus::GuardianReason reason{};  // kForwarded: cut
+    schedules::model::Channel channel{};
+    bus::ports::Signal signal{};
+    bus::guardian::GuardianReason reason{};  // kForwarded: cut
     TrueTime until{};
   };
 
   // Powered on at `on`; the oscillator's nominal period is microtick_ps().
-  StarCoupler(const schedules::Cluster& cluster, schedules::Channel channel, const timebase::Oscillator& oscillator,
-              TrueTime on = {});
+  StarCoupler(const schedules::model::Cluster& cluster, schedules::model::Channel channel,
+              const timebase::Oscillator& oscillator, TrueTime on = {});
   ~StarCoupler() override;
   StarCoupler(const StarCoupler&) = delete;
   StarCoupler& operator=(const StarCoupler&) = delete;
 
   // Whether anybody is on the channel.
-  static bool needed(const schedules::Cluster& cluster, schedules::Channel channel);
-  static std::int64_t microtick_ps(const schedules::Cluster& cluster, schedules::Channel channel);
+  static bool needed(const schedules::model::Cluster& cluster, schedules::model::Channel channel);
+  static std::int64_t microtick_ps(const schedules::model::Cluster& cluster, schedules::model::Channel channel);
 
   // As if start-up were over, and cycle 0 of `cycle` each began at `first`.
   void start_integrated(TrueTime first, Duration cycle);
@@ -57,17 +57,17 @@ class StarCoupler final : public Coupler {
   // Null: nobody is told. Counted is always.
   void on_intervention(std::function<void(const Intervention&)> told) { told_ = std::move(told); }
 
-  bool pass(Leaving& signal, const wire::DecodedFrame* frame) override;
+  bool pass(Leaving& signal, const bus::wire::DecodedFrame* frame) override;
   void disturbed(const Leaving& signal) override;
   TrueTime fell_silent(NodeId branch, TrueTime at) override;
 
   std::uint64_t forwarded() const { return count_[0]; }  // also what was cut
-  std::uint64_t blocked(bus::GuardianReason reason) const { return count_[static_cast<std::size_t>(reason)]; }
+  std::uint64_t blocked(bus::guardian::GuardianReason reason) const { return count_[static_cast<std::size_t>(reason)]; }
   std::uint64_t blocked() const;  // for any reason
   std::uint64_t cut() const { return cut_; }
   std::uint64_t held() const { return held_; }  // to a minislot action point
   // As of the last signal, or of catch_up().
-  const bus::PocState& state() const { return controller_->state(); }
+  const bus::poc::PocState& state() const { return controller_->state(); }
   const std::optional<timebase::CycleClock>& clock() const { return controller_->clock(); }
   const timebase::Oscillator& oscillator() const { return oscillator_; }
   void catch_up(TrueTime now);
@@ -78,34 +78,34 @@ class StarCoupler final : public Coupler {
   struct Hearing {
     NodeId branch = kNoNode;  // kNoNode: of none, or of several
     TrueTime start{}, end{};
-    bus::Signal signal{};
-    wire::DecodedFrame frame;  // its payload in `bytes`
-    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+    bus::ports::Signal signal{};
+    bus::wire::DecodedFrame frame;  // its payload in `bytes`
+    std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
   };
 
-  bus::GuardianAnswer judge(const bus::GuardianSignal& signal) const;
+  bus::guardian::GuardianAnswer judge(const bus::guardian::GuardianSignal& signal) const;
   TrueTime end_of(TrueTime start, TrueTime end, Microticks until) const;
   void power_on(Microticks now);
   void advance(Microticks to);
   void deliver(const Hearing& heard);
-  void hear(NodeId branch, const Leaving& signal, const wire::DecodedFrame* frame);
+  void hear(NodeId branch, const Leaving& signal, const bus::wire::DecodedFrame* frame);
   void lead_begins();
 
-  const schedules::Cluster cluster_;  // with the guardian as a node
-  const schedules::Channel channel_;
+  const schedules::model::Cluster cluster_;  // with the guardian as a node
+  const schedules::model::Channel channel_;
   const timebase::Oscillator oscillator_;
-  const bus::Guardian guardian_;
-  bus::StartupTurns turns_;
+  const bus::guardian::Guardian guardian_;
+  bus::guardian::StartupTurns turns_;
   std::unique_ptr<Watch> watch_;
-  std::unique_ptr<bus::FlexRayController> controller_;
-  bus::DynamicSlotCounter dynamic_;
+  std::unique_ptr<bus::controller::FlexRayController> controller_;
+  bus::controller::DynamicSlotCounter dynamic_;
   std::int64_t counted_cycle_ = -1;  // dynamic_ is of
   TrueTime taken_until_{};           // by what is being forwarded
   std::vector<Hearing> hearing_;
   Failure failure_ = Failure::kNone;
-  std::array<std::uint64_t, bus::kAllGuardianReasons.size()> count_{};
+  std::array<std::uint64_t, bus::guardian::kAllGuardianReasons.size()> count_{};
   std::uint64_t cut_ = 0, held_ = 0;
   std::function<void(const Intervention&)> told_;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

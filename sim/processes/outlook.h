@@ -7,11 +7,11 @@
 #include "core/time.h"
 #include "nodes/host/promise.h"
 
-namespace ttf::sim {
+namespace ttf::sim::processes {
 
 class Outlook {
  public:
-  using Promise = nodes::Promise;
+  using Promise = nodes::host::Promise;
 
   // Its promise ends then: it has to say something, if only that it goes on being silent. Promise::kNever: it is off.
   Microticks turn() const { return turn_; }
@@ -36,4 +36,4 @@ class Outlook {
   Microticks turn_ = Promise::kNever;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::processes

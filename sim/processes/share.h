@@ -9,17 +9,17 @@
 #include "core/ids.h"
 #include "recording/records/every.h"
 
-namespace ttf::sim {
+namespace ttf::sim::processes {
 
-class Share final : public records::Every<Share> {
+class Share final : public recording::records::Every<Share> {
  public:
-  Share(NodeId self, records::Sink& out) : self_(self), out_(out) {}
+  Share(NodeId self, recording::records::Sink& out) : self_(self), out_(out) {}
   template <class Record> void each(const Record& record) {
-    if constexpr (std::is_same_v<Record, records::FaultActivity>) {
+    if constexpr (std::is_same_v<Record, recording::records::FaultActivity>) {
       if (!is_mine(record.node)) return;
-    } else if constexpr (std::is_same_v<Record, records::GuardianIntervention>) {
+    } else if constexpr (std::is_same_v<Record, recording::records::GuardianIntervention>) {
       if (!is_mine(record.branch)) return;
-    } else if constexpr (std::is_same_v<Record, records::ChannelFrame>) {
+    } else if constexpr (std::is_same_v<Record, recording::records::ChannelFrame>) {
       if (!is_mine(record.sender)) return;
     }
     out_.on(record);
@@ -29,7 +29,7 @@ class Share final : public records::Every<Share> {
   bool is_mine(NodeId node) const { return node == self_ || (node == kNoNode && self_ == NodeId{}); }
 
   NodeId self_;
-  records::Sink& out_;
+  recording::records::Sink& out_;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::processes

@@ -10,7 +10,7 @@
 #include "core/check.h"
 #include "schedules/model/limits.h"
 
-namespace ttf::sim {
+namespace ttf::sim::processes {
 namespace {
 
 enum class ActKind : std::uint8_t { kSignal = 1, kCanFrame = 2, kTrigger = 3, kStrobe = 4 };
@@ -54,9 +54,9 @@ class TurnBytes {
   Microticks instant_or_never(Microticks from, std::int64_t most, const char* what) {
     TurnBytes ahead = *this;
     if (ahead.take<std::uint64_t>(~std::uint64_t{0}, what) ==
-        static_cast<std::uint64_t>(nodes::Promise::kNever.value)) {
+        static_cast<std::uint64_t>(nodes::host::Promise::kNever.value)) {
       *this = ahead;
-      return nodes::Promise::kNever;
+      return nodes::host::Promise::kNever;
     }
     return instant(from, most, what);
   }
@@ -73,23 +73,23 @@ class TurnBytes {
   std::span<const std::byte> left_;
 };
 
-bus::Transmission read_signal(TurnBytes& in, const TurnHeader& turn) {
-  bus::Transmission sent;
-  sent.channel = static_cast<schedules::Channel>(in.take<std::uint8_t>(1, "channel"));
-  sent.signal =
-      static_cast<bus::Signal>(in.take<std::uint8_t>(static_cast<std::uint64_t>(bus::Signal::kUndecodable), "signal"));
+bus::ports::Transmission read_signal(TurnBytes& in, const TurnHeader& turn) {
+  bus::ports::Transmission sent;
+  sent.channel = static_cast<schedules::model::Channel>(in.take<std::uint8_t>(1, "channel"));
+  sent.signal = static_cast<bus::ports::Signal>(
+      in.take<std::uint8_t>(static_cast<std::uint64_t>(bus::ports::Signal::kUndecodable), "signal"));
   sent.start = in.instant(turn.at, kMostAhead, "start of a signal");
   sent.end = in.instant(sent.start, kMostAhead, "end of a signal");
-  sent.slot = in.take<std::uint16_t>(static_cast<std::uint64_t>(schedules::kLastSlot), "slot");
-  const auto size = in.take<std::uint16_t>(wire::kMaxFrameBytes, "size of a frame");
+  sent.slot = in.take<std::uint16_t>(static_cast<std::uint64_t>(schedules::model::kLastSlot), "slot");
+  const auto size = in.take<std::uint16_t>(bus::wire::kMaxFrameBytes, "size of a frame");
   sent.bytes = in.take_bytes(size, "frame");
-  if (sent.signal != bus::Signal::kFrame) return sent;
-  sent.content = wire::decode_frame(sent.channel, sent.bytes);
-  if (sent.content.error != wire::FrameError::kNone) throw std::runtime_error("a turn with a frame that is none");
+  if (sent.signal != bus::ports::Signal::kFrame) return sent;
+  sent.content = bus::wire::decode_frame(sent.channel, sent.bytes);
+  if (sent.content.error != bus::wire::FrameError::kNone) throw std::runtime_error("a turn with a frame that is none");
   return sent;
 }
 
-CanAct read_can(TurnBytes& in, const schedules::Cluster& cluster) {
+CanAct read_can(TurnBytes& in, const schedules::model::Cluster& cluster) {
   CanAct act;
   const std::size_t buses = cluster.can_buses.size();
   if (buses == 0) throw std::runtime_error("a turn with a frame on a CAN, of which there are none");
@@ -102,8 +102,8 @@ CanAct read_can(TurnBytes& in, const schedules::Cluster& cluster) {
 }
 
 // `end`: of the wire that the node must be at.
-SensorId read_sensor(TurnBytes& in, const TurnHeader& turn, const schedules::Cluster& cluster,
-                     NodeId schedules::Sensor::*end) {
+SensorId read_sensor(TurnBytes& in, const TurnHeader& turn, const schedules::model::Cluster& cluster,
+                     NodeId schedules::model::Sensor::*end) {
   const std::size_t sensors = cluster.sensors.size();
   if (sensors == 0) throw std::runtime_error("a turn with a sensor, of which there are none");
   const auto sensor = static_cast<SensorId>(in.take<std::uint8_t>(sensors - 1, "sensor"));
@@ -111,13 +111,13 @@ SensorId read_sensor(TurnBytes& in, const TurnHeader& turn, const schedules::Clu
   return sensor;
 }
 
-Act read_act(TurnBytes& in, const TurnHeader& turn, const schedules::Cluster& cluster) {
+Act read_act(TurnBytes& in, const TurnHeader& turn, const schedules::model::Cluster& cluster) {
   switch (static_cast<ActKind>(in.take<std::uint8_t>(0xFF, "act"))) {
     case ActKind::kSignal: return read_signal(in, turn);
     case ActKind::kCanFrame: return read_can(in, cluster);
-    case ActKind::kTrigger: return TriggerAct{read_sensor(in, turn, cluster, &schedules::Sensor::host)};
+    case ActKind::kTrigger: return TriggerAct{read_sensor(in, turn, cluster, &schedules::model::Sensor::host)};
     case ActKind::kStrobe: {
-      const SensorId sensor = read_sensor(in, turn, cluster, &schedules::Sensor::device);
+      const SensorId sensor = read_sensor(in, turn, cluster, &schedules::model::Sensor::device);
       return StrobeAct{sensor, in.take<std::uint32_t>(~std::uint32_t{0}, "sequence")};
     }
   }
@@ -138,7 +138,7 @@ void TurnWriter::clear() {
 
 void TurnWriter::add(const Act& act) {
   ++acts_;
-  if (const auto* sent = std::get_if<bus::Transmission>(&act)) {
+  if (const auto* sent = std::get_if<bus::ports::Transmission>(&act)) {
     put(bytes_, ActKind::kSignal);
     put(bytes_, static_cast<std::uint8_t>(sent->channel));
     put(bytes_, static_cast<std::uint8_t>(sent->signal));
@@ -179,7 +179,8 @@ std::span<const std::byte> TurnWriter::finish(const TurnHeader& header) {
   return bytes_;
 }
 
-TurnHeader read_turn(const schedules::Cluster& cluster, std::span<const std::byte> bytes, std::vector<Act>& acts) {
+TurnHeader read_turn(const schedules::model::Cluster& cluster, std::span<const std::byte> bytes,
+                     std::vector<Act>& acts) {
   TurnBytes in(bytes);
   TurnHeader header;
   header.node = static_cast<NodeId>(in.take<std::uint8_t>(cluster.nodes.size() - 1, "node"));
@@ -196,4 +197,4 @@ TurnHeader read_turn(const schedules::Cluster& cluster, std::span<const std::byt
   return header;
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::processes

@@ -1,5 +1,5 @@
-// What a node tells the others in its turn, where each runs in a process of its own (sim/processes/turn_taking.h): what it does
-// that they can notice, in the order in which it does it, and what it promises from then on.
+// What a node tells the others in its turn, where each runs in a process of its own (sim/processes/turn_taking.h): what
+// it does that they can notice, in the order in which it does it, and what it promises from then on.
 //
 // The message, everything little-endian:
 //   turn   u8 node, u32 number (counted from 0), i64 instant [uT of the node], i64 silent_until [uT],
@@ -24,11 +24,11 @@
 #include "nodes/host/promise.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::sim {
+namespace ttf::sim::processes {
 
 struct CanAct {
   std::size_t bus = 0;
-  bus::CanFrame frame;
+  bus::ports::CanFrame frame;
 };
 struct TriggerAct {
   SensorId sensor{};
@@ -38,13 +38,13 @@ struct StrobeAct {
   std::uint32_t sequence = 0;
 };
 // A transmission's content is decoded from its bytes.
-using Act = std::variant<bus::Transmission, CanAct, TriggerAct, StrobeAct>;
+using Act = std::variant<bus::ports::Transmission, CanAct, TriggerAct, StrobeAct>;
 
 struct TurnHeader {
   NodeId node{};
   std::uint32_t number = 0;
   Microticks at{};
-  nodes::Promise promise;
+  nodes::host::Promise promise;
 };
 
 // A turn in the making. Takes no more room than once what its longest turn needs.
@@ -65,6 +65,7 @@ class TurnWriter {
 // One turn of a node of `cluster`, checked as a whole: that the acts are its node's and none begins before the turn,
 // that the promise goes beyond it, that frames are sound. What is none throws std::runtime_error with a sentence.
 // `acts` refer into `bytes`.
-TurnHeader read_turn(const schedules::Cluster& cluster, std::span<const std::byte> bytes, std::vector<Act>& acts);
+TurnHeader read_turn(const schedules::model::Cluster& cluster, std::span<const std::byte> bytes,
+                     std::vector<Act>& acts);
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::processes

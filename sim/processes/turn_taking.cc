@@ -7,12 +7,12 @@
 
 #include "core/check.h"
 
-namespace ttf::sim {
+namespace ttf::sim::processes {
 
-TurnTaking::TurnTaking(const schedules::Cluster& cluster, NodeId self, bus::Exchange& exchange)
+TurnTaking::TurnTaking(const schedules::model::Cluster& cluster, NodeId self, bus::ports::Exchange& exchange)
     : cluster_(cluster), self_(self), exchange_(exchange), members_(cluster.nodes.size()) {}
 
-void TurnTaking::speak(Microticks now, const nodes::Promise& promise) {
+void TurnTaking::speak(Microticks now, const nodes::host::Promise& promise) {
   Member& own = members_[index_of(self_)];
   exchange_.send(own_.finish({self_, own.turns, now, promise}));
   own_.clear();
@@ -39,7 +39,7 @@ std::optional<std::span<const Act>> TurnTaking::listen(NodeId node, Microticks n
 }
 
 void TurnTaking::receive() {
-  const bus::Exchange::Heard heard = exchange_.receive();
+  const bus::ports::Exchange::Heard heard = exchange_.receive();
   if (index_of(heard.from) >= members_.size() || heard.from == self_)
     throw std::runtime_error(fmt::format("a message of node {}, which is none of the others", index_of(heard.from)));
   Member& member = members_[index_of(heard.from)];
@@ -56,4 +56,4 @@ void TurnTaking::receive() {
   member.unheard.push_back(std::move(room));
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::processes

@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "sim/world/shape.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 // What the pair matches of an object: the middle of its silhouette, at the mean depth of the outline that shows.
@@ -114,4 +114,4 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
   }
 }
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -16,7 +16,7 @@
 #include "sim/world/placement.h"
 #include "sim/world/world.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 
 struct CameraConfig {
   double baseline_m = 0.4;
@@ -51,4 +51,4 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
                     std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
                     std::vector<CameraDetection>& detections, std::vector<ObjectId>& truth);
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -5,7 +5,7 @@
 
 #include "sim/world/world.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 
 std::vector<ObjectConfig> placed(const FieldConfig& field) {
   std::vector<ObjectConfig> objects;
@@ -28,4 +28,4 @@ std::vector<ObjectConfig> placed(const FieldConfig& field) {
   return objects;
 }
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

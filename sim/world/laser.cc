@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "sim/world/shape.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 // A beam's own part of the scan's stream: in every layer a uniform number and a normal one.
@@ -110,4 +110,4 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
   }
 }
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -16,7 +16,7 @@
 #include "sim/world/placement.h"
 #include "sim/world/world.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 
 struct LaserConfig {
   static constexpr int kMostLayers = 4;  // as many have draws of their own
@@ -47,4 +47,4 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence, std::vector<HitPoint>& hits,
                    std::vector<ObjectId>& truth);
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

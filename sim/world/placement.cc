@@ -4,7 +4,7 @@
 
 #include "core/random.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 
 void see_from(const Placement& placement, std::vector<ObjectState>& objects) {
   if (placement.x == 0.0 && placement.y == 0.0 && placement.heading == 0.0) return;
@@ -41,4 +41,4 @@ TrueTime measured_at(TrueTime true_time, const Device& device) {
   return true_time + Duration{std::llround(1e9 * device.time.fixed)};
 }
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

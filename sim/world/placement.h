@@ -10,7 +10,7 @@
 #include "core/time.h"
 #include "sim/world/world.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 
 // In the vehicle's axes: [m], and [rad] from its x axis to the sensor's.
 struct Placement {
@@ -47,4 +47,4 @@ DriveError in_drive(const DriveError& error, ErrorOf what, const DriveKey& key);
 // A drive's instant of measuring, `true_time` being that of the stamp.
 TrueTime measured_at(TrueTime true_time, const Device& device);
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

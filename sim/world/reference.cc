@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 // Streams of one fix, of the excursion that may begin at it, and of the alignment before the drive.
@@ -67,4 +67,4 @@ Fix Reference::fix(std::uint32_t index, const World& world) const {
   return fix;
 }
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

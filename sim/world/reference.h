@@ -15,7 +15,7 @@
 #include "core/time.h"
 #include "sim/world/world.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 
 struct ReferenceConfig {
   Duration period = Duration::milliseconds(100);
@@ -56,4 +56,4 @@ class Reference {
   double alignment_ = 0;
 };
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ttf::world {
+namespace ttf::sim::world {
 
 std::array<Corner, 4> corners(const ObjectState& state) {
   const double c = std::cos(state.heading), s = std::sin(state.heading);
@@ -50,4 +50,4 @@ std::optional<AzimuthSpan> azimuth_span(const ObjectState& state) {
   return AzimuthSpan{middle + span.low, middle + span.high};
 }
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -6,7 +6,7 @@
 
 #include "sim/world/world.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 
 struct Corner {
   double x = 0, y = 0;
@@ -34,4 +34,4 @@ struct AzimuthSpan {
 };
 std::optional<AzimuthSpan> azimuth_span(const ObjectState& state);
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -8,7 +8,7 @@
 #include "core/check.h"
 #include "core/random.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 constexpr std::int64_t kStep_ns = 10'000'000;
@@ -158,4 +158,4 @@ WorldConfig load_world(YamlMap& yaml) {
   return config;
 }
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -13,7 +13,7 @@
 #include "core/strict_yaml.h"
 #include "core/time.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 
 // Centre [m], heading [rad] from x to y, speed [m/s] along it, acceleration [m/s^2] along it, yaw rate [rad/s], size
 // [m].
@@ -77,4 +77,4 @@ class World {
   std::vector<std::vector<ObjectState>> trajectories_;  // per object, a state per grid step
 };
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -21,7 +21,7 @@ constexpr double kDt = 0.05;
 sensors::Measurement<2> seen(std::size_t i, int turn) {
   const double to_and_fro = turn == 0 ? 0.2 : -0.3;
   return {{0.1 * static_cast<double>(i % 50) + to_and_fro, 0.05 * static_cast<double>(i % 31) - to_and_fro},
-          0.04 * Matrix<2>::Identity()};
+          0.04 * linear::Matrix<2>::Identity()};
 }
 
 void count(benchmark::State& state) {
@@ -31,9 +31,9 @@ void count(benchmark::State& state) {
 
 void OneAtATime(benchmark::State& state) {
   const auto filters_there = static_cast<std::size_t>(state.range(0));
-  Gaussian<4> prior;
+  linear::Gaussian<4> prior;
   prior.p.setIdentity();
-  std::vector<Gaussian<4>> tracks(filters_there, prior);
+  std::vector<linear::Gaussian<4>> tracks(filters_there, prior);
   std::vector<sensors::Measurement<2>> z[2];
   for (std::size_t i = 0; i < filters_there; ++i)
     for (int turn = 0; turn < 2; ++turn) z[turn].push_back(seen(i, turn));
@@ -54,7 +54,7 @@ void OneAtATime(benchmark::State& state) {
 
 template <template <class> class Form> void AtOnce(benchmark::State& state) {
   const auto filters_there = static_cast<std::size_t>(state.range(0));
-  Gaussian<4> prior;
+  linear::Gaussian<4> prior;
   prior.p.setIdentity();
   batch::Batch<Form> batch(filters_there);
   batch::Positions z[2] = {batch::Positions(filters_there), batch::Positions(filters_there)};

@@ -17,40 +17,44 @@ namespace ttf::sim {
 namespace {
 
 // All 64 static slots of a 5 ms cycle are owned, by the nodes in turn.
-schedules::Cluster full_cluster(int nodes) {
-  schedules::Cluster cluster = bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
+schedules::model::Cluster full_cluster(int nodes) {
+  schedules::model::Cluster cluster = crank::bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
   for (int slot = nodes + 1; slot <= cluster.flexray.gNumberOfStaticSlots; ++slot)
     cluster.frames.push_back(
-        {slot, schedules::Channels::kAB, 0, 1, static_cast<NodeId>((slot - 1) % nodes), kNoPdu, 0, 0});
+        {slot, schedules::model::Channels::kAB, 0, 1, static_cast<NodeId>((slot - 1) % nodes), kNoPdu, 0, 0});
   return cluster;
 }
 
-struct Problems final : bus::ControllerEvents {
+struct Problems final : bus::controller::ControllerEvents {
   int count = 0;
-  void slot_problem(std::int64_t, int, schedules::Channel, bus::SlotStatus, Microticks) override { ++count; }
+  void slot_problem(std::int64_t, int, schedules::model::Channel, bus::controller::SlotStatus, Microticks) override {
+    ++count;
+  }
   bool wants_bytes() const override { return false; }
 };
 
-void report(benchmark::State& state, const schedules::Cluster& cluster, int slots_per_cycle, std::int64_t cycles) {
+void report(benchmark::State& state, const schedules::model::Cluster& cluster, int slots_per_cycle,
+            std::int64_t cycles) {
   state.SetItemsProcessed(cycles * slots_per_cycle);
   state.counters["x real time"] =
       benchmark::Counter(static_cast<double>(cycles) * cluster.cycle().seconds(), benchmark::Counter::kIsRate);
 }
 
-void run(benchmark::State& state, const schedules::Cluster& cluster, int slots_per_cycle, bool transparent = false) {
-  std::vector<BusNode> nodes;
+void run(benchmark::State& state, const schedules::model::Cluster& cluster, int slots_per_cycle,
+         bool transparent = false) {
+  std::vector<crank::BusNode> nodes;
   std::vector<Problems> seen(cluster.nodes.size());
-  std::vector<bus::ControllerEvents*> events;
+  std::vector<bus::controller::ControllerEvents*> events;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     RandomStream draw({1, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
     const std::int64_t ppb = draw.integer(-100'000, 100'000);
-    BusNode node{timebase::Oscillator(25'000, ppb, draw.integer(0, 24'999))};
-    node.clock = bus::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}),
-                                   static_cast<int>(ppb * kMicroPerCycle / 1'000'000'000)};
+    crank::BusNode node{timebase::Oscillator(25'000, ppb, draw.integer(0, 24'999))};
+    node.clock = bus::controller::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}),
+                                               static_cast<int>(ppb * crank::kMicroPerCycle / 1'000'000'000)};
     nodes.push_back(node);
     events.push_back(&seen[n]);
   }
-  BusSimulation simulation(cluster, std::move(nodes), std::move(events));
+  crank::BusSimulation simulation(cluster, std::move(nodes), std::move(events));
   simulation.medium().set_transparent(transparent);
   simulation.run_until(TrueTime{1'000'000} + cluster.cycle() * 10);
   constexpr std::int64_t kCycles = 20;
@@ -61,7 +65,7 @@ void run(benchmark::State& state, const schedules::Cluster& cluster, int slots_p
 }
 
 void StaticSlots(benchmark::State& state) {
-  const schedules::Cluster cluster = full_cluster(static_cast<int>(state.range(0)));
+  const schedules::model::Cluster cluster = full_cluster(static_cast<int>(state.range(0)));
   run(state, cluster, cluster.flexray.gNumberOfStaticSlots, state.range(1) != 0);
 }
 BENCHMARK(StaticSlots)
@@ -72,7 +76,7 @@ BENCHMARK(StaticSlots)
 // One slot per node, as in start-up tests and fault campaigns: what nobody owns costs nothing.
 void OneSlotPerNode(benchmark::State& state) {
   const int nodes = static_cast<int>(state.range(0));
-  const schedules::Cluster cluster = bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
+  const schedules::model::Cluster cluster = crank::bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
   run(state, cluster, nodes, state.range(1) != 0);
 }
 BENCHMARK(OneSlotPerNode)

@@ -16,9 +16,11 @@ inline constexpr std::uint32_t kWarm = 40;  // cycles: 80 scans, more than the h
 // Laser and camera see all objects every 40 ms, the camera 20 ms later.
 struct Crowd {
   std::vector<OwnedScan> laser, camera;
-  const std::vector<SensorTiming> sensors{
-      {SensorId{0}, Settling::after(Duration::milliseconds(60)), true, at_ms(0), Duration::milliseconds(40)},
-      {SensorId{1}, Settling::after(Duration::milliseconds(35)), true, at_ms(20), Duration::milliseconds(40)}};
+  const std::vector<strategies::SensorTiming> sensors{
+      {SensorId{0}, strategies::Settling::after(Duration::milliseconds(60)), true, at_ms(0),
+       Duration::milliseconds(40)},
+      {SensorId{1}, strategies::Settling::after(Duration::milliseconds(35)), true, at_ms(20),
+       Duration::milliseconds(40)}};
 
   explicit Crowd(const Lanes& lanes, std::uint32_t cycles) {
     Lanes seen_by_laser = lanes, seen_by_camera = lanes;
@@ -30,7 +32,8 @@ struct Crowd {
       camera.push_back(scan(1, k, at_ms(40 * k + 20), seen_by_camera.see(at_ms(40 * k + 20), k)));
     }
   }
-  std::unique_ptr<Strategy> start(StrategyKind kind, std::uint32_t cycles, const TrackerConfig& config = {}) const {
+  std::unique_ptr<strategies::Strategy> start(strategies::StrategyKind kind, std::uint32_t cycles,
+                                              const config::TrackerConfig& config = {}) const {
     auto strategy = make_strategy(kind, config, sensors);
     for (std::uint32_t k = 0; k < cycles; ++k) {
       strategy->accept(laser[k].view());
@@ -51,8 +54,8 @@ inline const Crowd& thousand() {
   static const Crowd the_crowd({.objects = 1000, .across = 40}, kWarm + 40);
   return the_crowd;
 }
-inline TrackerConfig for_thousand() {
-  TrackerConfig config;
+inline config::TrackerConfig for_thousand() {
+  config::TrackerConfig config;
   config.max_objects = 1000;
   config.max_observations = 1000;
   config.history_scans = 16;

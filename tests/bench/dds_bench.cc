@@ -31,8 +31,8 @@ constexpr std::size_t kBytes = 100;
 constexpr std::uint32_t kDomain = 18;  // nobody else's
 using Message = std::array<std::byte, kBytes>;
 
-dds::Session session_of(const std::string& name, std::size_t members) {
-  dds::Session session;
+bus::dds::common::Session session_of(const std::string& name, std::size_t members) {
+  bus::dds::common::Session session;
   session.domain = kDomain;
   session.name = name;
   for (std::size_t i = 0; i < members; ++i) session.members.push_back(NodeId{static_cast<std::uint8_t>(i)});
@@ -42,7 +42,7 @@ dds::Session session_of(const std::string& name, std::size_t members) {
 // One round: says a message, and hears one of each other. False when somebody has gone.
 class RoundMember {
  public:
-  RoundMember(const dds::Session& session, NodeId self)
+  RoundMember(const bus::dds::common::Session& session, NodeId self)
       : exchange_(session, self), others_(session.members.size() - 1) {
     exchange_.wait_ready(30s);
   }
@@ -75,7 +75,7 @@ class RoundMember {
     }
   }
 
-  dds::Exchange exchange_;
+  bus::dds::exchange::Exchange exchange_;
   std::size_t others_;
   std::size_t ahead_ = 0;  // whose message of the next round has been heard
   std::uint64_t round_ = 0;
@@ -85,7 +85,7 @@ class RoundMember {
 
 // This program again, as a member that does rounds until somebody goes.
 int be_member(char** arguments) {
-  const dds::Session session = session_of(arguments[2], std::stoul(arguments[4]));
+  const bus::dds::common::Session session = session_of(arguments[2], std::stoul(arguments[4]));
   RoundMember member(session, NodeId{static_cast<std::uint8_t>(std::stoul(arguments[3]))});
   if (session.members.size() == 2) {
     while (member.round_in_turn()) {
@@ -97,7 +97,7 @@ int be_member(char** arguments) {
   return 0;
 }
 
-pid_t start_member(const dds::Session& session, std::size_t self) {
+pid_t start_member(const bus::dds::common::Session& session, std::size_t self) {
   std::vector<std::string> words{"/proc/self/exe", "--member", session.name, std::to_string(self),
                                  std::to_string(session.members.size())};
   std::vector<char*> arguments;
@@ -112,11 +112,12 @@ pid_t start_member(const dds::Session& session, std::size_t self) {
 void DdsRounds(benchmark::State& state) {
   static int made = 0;
   const auto members = static_cast<std::size_t>(state.range(0));
-  const dds::Session session = session_of("bench-" + std::to_string(getpid()) + "-" + std::to_string(made++), members);
+  const bus::dds::common::Session session =
+      session_of("bench-" + std::to_string(getpid()) + "-" + std::to_string(made++), members);
   std::vector<pid_t> processes;
   for (std::size_t i = 1; i < members; ++i) processes.push_back(start_member(session, i));
   {
-    dds::ExchangeSupervisor supervisor(session);
+    bus::dds::exchange::ExchangeSupervisor supervisor(session);
     std::optional<RoundMember> self(std::in_place, session, NodeId{0});
     for (auto _ : state)
       if (!self->round()) return state.SkipWithError("somebody has gone");
@@ -129,8 +130,9 @@ BENCHMARK(DdsRounds)->ArgName("processes")->Arg(2)->Arg(6)->UseRealTime()->Unit(
 
 void DdsThereAndBackBetweenThreads(benchmark::State& state) {
   static int made = 0;
-  const dds::Session session = session_of("bench-t-" + std::to_string(getpid()) + "-" + std::to_string(made++), 2);
-  dds::ExchangeSupervisor supervisor(session);
+  const bus::dds::common::Session session =
+      session_of("bench-t-" + std::to_string(getpid()) + "-" + std::to_string(made++), 2);
+  bus::dds::exchange::ExchangeSupervisor supervisor(session);
   std::thread other([&session] {
     RoundMember member(session, NodeId{1});
     while (member.round_in_turn()) {

@@ -13,7 +13,7 @@
 namespace ttf {
 namespace {
 
-using testing_support::Drive;
+using drives::Drive;
 
 // A folder of this program's own, gone with it.
 class ScratchFolder {
@@ -35,12 +35,12 @@ class ScratchFolder {
 
 // As an experiment drives: the paper's 1.5 s, measured, without a log.
 void PaperDriveMeasured(benchmark::State& state) {
-  Drive drive("scenarios/paper_scenario1.yaml", static_cast<fusion::StrategyKind>(state.range(0)));
+  Drive drive("scenarios/paper_scenario1.yaml", static_cast<fusion::strategies::StrategyKind>(state.range(0)));
   drive.scenario.duration = Duration::milliseconds(1500);
   drive.scenario.evaluate_from = Duration{};
   std::uint64_t seed = 0;
   for (auto _ : state) {
-    experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
+    evaluation::accuracy::DriveMeasures measures(drives::evaluation_start(drive.scenario));
     drive.run(measures, ++seed, false);
     benchmark::DoNotOptimize(measures.finish().position_rmse_truth);
   }
@@ -49,10 +49,10 @@ void PaperDriveMeasured(benchmark::State& state) {
 BENCHMARK(PaperDriveMeasured)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(benchmark::kMillisecond);
 
 void DriveWithoutLog(benchmark::State& state) {
-  const Drive drive("scenarios/paper_scenario1.yaml", static_cast<fusion::StrategyKind>(state.range(0)));
+  const Drive drive("scenarios/paper_scenario1.yaml", static_cast<fusion::strategies::StrategyKind>(state.range(0)));
   std::uint64_t seed = 0;
   for (auto _ : state) {
-    records::Sink nobody;
+    recording::records::Sink nobody;
     benchmark::DoNotOptimize(drive.run(nobody, ++seed).frames_sent);
   }
   state.counters["drives/s"] = benchmark::Counter(1, benchmark::Counter::kIsIterationInvariantRate);
@@ -62,11 +62,11 @@ void DriveWithoutLog(benchmark::State& state) {
 BENCHMARK(DriveWithoutLog)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(benchmark::kMillisecond);
 
 void DriveWithLog(benchmark::State& state) {
-  const Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kTt);
+  const Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kTt);
   const ScratchFolder scratch;
   const std::string path = scratch.file("drive.mcap");
   for (auto _ : state) {
-    recording::LogWriter log(path, {});
+    recording::log::LogWriter log(path, {});
     drive.run(log);
     log.close();
   }
@@ -74,10 +74,10 @@ void DriveWithLog(benchmark::State& state) {
 BENCHMARK(DriveWithLog)->Unit(benchmark::kMillisecond);
 
 void CrowdSecond(benchmark::State& state) {
-  Drive drive("scenarios/crowd_25.yaml", fusion::StrategyKind::kAdva);
+  Drive drive("scenarios/crowd_25.yaml", fusion::strategies::StrategyKind::kAdva);
   drive.scenario.duration = Duration::milliseconds(1000);
   for (auto _ : state) {
-    records::Sink nobody;
+    recording::records::Sink nobody;
     benchmark::DoNotOptimize(drive.run(nobody).frames_sent);
   }
 }

@@ -20,7 +20,7 @@ constexpr int kBatch = 100;  // steps between looks at the clock
 
 // Positions along a wavy line.
 struct Seen {
-  Vector<2> z[kBatch];
+  linear::Vector<2> z[kBatch];
   Seen() {
     for (int i = 0; i < kBatch; ++i) z[i] = {0.1 * i + 0.3 * ((i * 7) % 5), 0.05 * i - 0.2 * ((i * 3) % 4)};
   }
@@ -35,10 +35,10 @@ template <class F, class M> void Interface(benchmark::State& state) {
   const Seen seen;
   const M model(2.0);
   const F filter;
-  Gaussian<M::kStates> estimate;
+  linear::Gaussian<M::kStates> estimate;
   estimate.p.setIdentity();
   double dt = kDt;
-  sensors::Measurement<2> z{.r = 0.04 * Matrix<2>::Identity()};
+  sensors::Measurement<2> z{.r = 0.04 * linear::Matrix<2>::Identity()};
   for (auto _ : state) {
     bench::hide(dt);
     for (int i = 0; i < kBatch; ++i) {
@@ -52,8 +52,8 @@ template <class F, class M> void Interface(benchmark::State& state) {
 }
 
 // F and Q of the model, as matrices.
-template <int N> LinearStep<N> written_out(double dt) {
-  LinearStep<N> step;
+template <int N> linear::LinearStep<N> written_out(double dt) {
+  linear::LinearStep<N> step;
   const double q = 2.0;
   for (int a = 0; a < 2; ++a) {
     if constexpr (N == 4) {
@@ -81,30 +81,30 @@ enum class Form { kJoseph, kShort };
 // Short: P - K H P and the inverse of S in closed form, the fastest that is usually written.
 template <int N, Form form> void PlainEigen(benchmark::State& state) {
   const Seen seen;
-  Gaussian<N> estimate;
+  linear::Gaussian<N> estimate;
   estimate.p.setIdentity();
   double dt = kDt;
-  Matrix<2, N> h = Matrix<2, N>::Zero();
+  linear::Matrix<2, N> h = linear::Matrix<2, N>::Zero();
   h(0, 0) = h(1, 1) = 1.0;
-  const Matrix<2> r = 0.04 * Matrix<2>::Identity();
+  const linear::Matrix<2> r = 0.04 * linear::Matrix<2>::Identity();
   for (auto _ : state) {
     bench::hide(dt);
     for (int i = 0; i < kBatch; ++i) {
-      const LinearStep<N> step = written_out<N>(dt);
+      const linear::LinearStep<N> step = written_out<N>(dt);
       estimate.x = step.f * estimate.x;
       estimate.p = step.f * estimate.p * step.f.transpose() + step.q;
-      const Matrix<2, N> hp = h * estimate.p;
-      const Matrix<2> s = hp * h.transpose() + r;
+      const linear::Matrix<2, N> hp = h * estimate.p;
+      const linear::Matrix<2> s = hp * h.transpose() + r;
       if constexpr (form == Form::kJoseph) {
-        const Matrix<N, 2> k = s.ldlt().solve(hp).transpose();
+        const linear::Matrix<N, 2> k = s.ldlt().solve(hp).transpose();
         estimate.x += k * (seen.z[i] - h * estimate.x);
-        const Matrix<N> a = Matrix<N>::Identity() - k * h;
+        const linear::Matrix<N> a = linear::Matrix<N>::Identity() - k * h;
         estimate.p = a * estimate.p * a.transpose() + k * r * k.transpose();
       } else {
         const double determinant = s(0, 0) * s(1, 1) - s(0, 1) * s(1, 0);
-        Matrix<2> inverse;
+        linear::Matrix<2> inverse;
         inverse << s(1, 1) / determinant, -s(0, 1) / determinant, -s(1, 0) / determinant, s(0, 0) / determinant;
-        const Matrix<N, 2> k = hp.transpose() * inverse;
+        const linear::Matrix<N, 2> k = hp.transpose() * inverse;
         estimate.x += k * (seen.z[i] - h * estimate.x);
         estimate.p -= k * hp;
       }

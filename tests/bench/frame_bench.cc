@@ -11,12 +11,12 @@
 namespace ttf::wire {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 struct Sample {
-  std::array<std::byte, kMaxPayloadBytes> payload{};
-  std::array<std::byte, kMaxFrameBytes> frame{};
-  FrameHeader header;
+  std::array<std::byte, bus::wire::kMaxPayloadBytes> payload{};
+  std::array<std::byte, bus::wire::kMaxFrameBytes> frame{};
+  bus::wire::FrameHeader header;
   std::size_t size = 0;
 
   explicit Sample(std::int64_t words) {
@@ -29,7 +29,7 @@ struct Sample {
   std::span<const std::byte> bytes(std::int64_t words) const {
     return std::span(payload).first(2 * static_cast<std::size_t>(words));
   }
-  std::span<const std::byte> covered() const { return std::span(frame).first(size - kTrailerBytes); }
+  std::span<const std::byte> covered() const { return std::span(frame).first(size - bus::wire::kTrailerBytes); }
 };
 
 std::uint32_t bitwise_frame_crc(std::span<const std::byte> bytes) {
@@ -54,16 +54,16 @@ BENCHMARK(BitwiseFrameCrc)->Arg(8)->Arg(28)->Arg(127)->ArgName("words");
 
 void FrameCrc(benchmark::State& state) {
   const Sample sample(state.range(0));
-  if (frame_crc(Channel::kA, sample.covered()) != bitwise_frame_crc(sample.covered()))
+  if (bus::wire::frame_crc(Channel::kA, sample.covered()) != bitwise_frame_crc(sample.covered()))
     return state.SkipWithError("the two CRCs differ");
-  for (auto _ : state) benchmark::DoNotOptimize(frame_crc(Channel::kA, sample.covered()));
+  for (auto _ : state) benchmark::DoNotOptimize(bus::wire::frame_crc(Channel::kA, sample.covered()));
   report(state, sample.covered().size());
 }
 BENCHMARK(FrameCrc)->Arg(8)->Arg(28)->Arg(127)->ArgName("words");
 
 void HeaderCrc(benchmark::State& state) {
   std::uint16_t id = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(header_crc(true, false, ++id & 0x7FF, 28));
+  for (auto _ : state) benchmark::DoNotOptimize(bus::wire::header_crc(true, false, ++id & 0x7FF, 28));
 }
 BENCHMARK(HeaderCrc);
 
@@ -78,7 +78,7 @@ BENCHMARK(Encode)->Arg(8)->Arg(28)->Arg(127)->ArgName("words");
 void Decode(benchmark::State& state) {
   const Sample sample(state.range(0));
   for (auto _ : state)
-    benchmark::DoNotOptimize(decode_frame(Channel::kA, std::span(sample.frame).first(sample.size)).error);
+    benchmark::DoNotOptimize(bus::wire::decode_frame(Channel::kA, std::span(sample.frame).first(sample.size)).error);
   report(state, sample.size);
 }
 BENCHMARK(Decode)->Arg(8)->Arg(28)->Arg(127)->ArgName("words");

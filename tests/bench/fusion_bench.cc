@@ -22,13 +22,13 @@ void report_allocations(benchmark::State& state, std::int64_t allocations) {
 }
 
 // Two lists of all objects in, image out; where the laser's is late, it comes after the camera's, which is younger.
-void cycle(benchmark::State& state, const Crowd& crowd, StrategyKind kind, const TrackerConfig& config,
-           bool laser_is_late = false) {
+void cycle(benchmark::State& state, const Crowd& crowd, strategies::StrategyKind kind,
+           const config::TrackerConfig& config, bool laser_is_late = false) {
   const auto objects = static_cast<std::size_t>(config.max_objects);
   const std::size_t cycles = crowd.laser.size();
-  std::vector<TrackView> image;
+  std::vector<tracks::TrackView> image;
   image.reserve(objects);
-  std::unique_ptr<Strategy> strategy;
+  std::unique_ptr<strategies::Strategy> strategy;
   std::size_t k = cycles;
   std::int64_t allocations = 0;
   for (auto _ : state) {
@@ -55,13 +55,16 @@ void cycle(benchmark::State& state, const Crowd& crowd, StrategyKind kind, const
   if (image.size() != objects) state.SkipWithError("not all objects are tracked");
   report_allocations(state, allocations);
 }
-void Cycle(benchmark::State& state) { cycle(state, scene(), static_cast<StrategyKind>(state.range(0)), {}); }
+void Cycle(benchmark::State& state) {
+  cycle(state, scene(), static_cast<strategies::StrategyKind>(state.range(0)), {});
+}
 BENCHMARK(Cycle)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(benchmark::kMicrosecond);
 
 // The same, time-triggered, under every motion model (fusion/config/tracker_config.h) and filter.
 void CycleOf(benchmark::State& state) {
-  cycle(state, scene(), StrategyKind::kTt,
-        config_of(static_cast<MotionModel>(state.range(0)), 3.0, static_cast<FilterKind>(state.range(1))));
+  cycle(state, scene(), strategies::StrategyKind::kTt,
+        config_of(static_cast<config::MotionModel>(state.range(0)), 3.0,
+                  static_cast<config::FilterKind>(state.range(1))));
 }
 BENCHMARK(CycleOf)
     ->ArgsProduct({{0, 1, 2, 3, 4}, {0, 1}})
@@ -70,41 +73,43 @@ BENCHMARK(CycleOf)
 
 // The same, constant velocity or acceleration, where eight biases are considered (fusion/sensors/known_sensor.h).
 void CycleConsidering(benchmark::State& state) {
-  TrackerConfig config = config_of(static_cast<MotionModel>(state.range(0)));
-  config.systematic = SystematicErrorsAre::kConsidered;
+  config::TrackerConfig config = config_of(static_cast<config::MotionModel>(state.range(0)));
+  config.systematic = config::SystematicErrorsAre::kConsidered;
   config.sensors.resize(2);
   config.sensors[0].errors.sigma << 0.1, 0.005, 0.1, 0.005;
   config.sensors[1].errors.sigma << 0.2, 0.01, 0.1, 0.005;
   Crowd crowd = scene();
   for (std::vector<OwnedScan>* scans : {&crowd.laser, &crowd.camera})
     for (OwnedScan& scan : *scans)
-      for (Observation& z : scan.observations) z.sensor = scan.id.sensor;
-  cycle(state, crowd, StrategyKind::kTt, config);
+      for (sensors::Observation& z : scan.observations) z.sensor = scan.id.sensor;
+  cycle(state, crowd, strategies::StrategyKind::kTt, config);
 }
 BENCHMARK(CycleConsidering)->Arg(0)->Arg(1)->ArgName("motion")->Unit(benchmark::kMicrosecond);
 
 // ADVA with one late list in every cycle, by every method for late lists (fusion/oosm/kind.h).
 void CycleWithALateList(benchmark::State& state) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.late = oosm::kKinds[static_cast<std::size_t>(state.range(0))].kind;
   state.SetLabel(std::string(oosm::name_of(config.late)));
-  cycle(state, scene(), StrategyKind::kAdva, config, true);
+  cycle(state, scene(), strategies::StrategyKind::kAdva, config, true);
 }
 BENCHMARK(CycleWithALateList)->DenseRange(0, oosm::kKinds.size() - 1)->ArgName("late")->Unit(benchmark::kMicrosecond);
 
-void CycleOfThousand(benchmark::State& state) { cycle(state, thousand(), StrategyKind::kAdva, for_thousand()); }
+void CycleOfThousand(benchmark::State& state) {
+  cycle(state, thousand(), strategies::StrategyKind::kAdva, for_thousand());
+}
 BENCHMARK(CycleOfThousand)->Unit(benchmark::kMicrosecond);
 
 // One laser list of 25 observations that comes `scans` scans late.
-void late_scan(benchmark::State& state, const TrackerConfig& config) {
+void late_scan(benchmark::State& state, const config::TrackerConfig& config) {
   const auto scans = static_cast<std::uint32_t>(state.range(0));
-  std::unique_ptr<Strategy> strategy;
+  std::unique_ptr<strategies::Strategy> strategy;
   std::uint32_t k = kCycles;
   std::int64_t allocations = 0;
   for (auto _ : state) {
     state.PauseTiming();
     if (k + 1 >= kCycles) {
-      strategy = scene().start(StrategyKind::kAdva, kWarm, config);
+      strategy = scene().start(strategies::StrategyKind::kAdva, kWarm, config);
       k = kWarm;
     }
     // Laser and camera in turn: everything younger than the laser's list goes in before it.
@@ -123,7 +128,8 @@ void late_scan(benchmark::State& state, const TrackerConfig& config) {
     strategy->fuse(now);
     state.PauseTiming();
     allocations += support::allocations() - before_all;
-    if (strategy->last_fused()[0].disposition != Disposition::kFusedLate) state.SkipWithError("was not late");
+    if (strategy->last_fused()[0].disposition != strategies::Disposition::kFusedLate)
+      state.SkipWithError("was not late");
     k = late + scans / 2 + 2;
     if (k + scans >= kCycles) k = kCycles;
     state.ResumeTiming();
@@ -135,7 +141,7 @@ BENCHMARK(LateScan)->Arg(1)->Arg(2)->Arg(8)->ArgName("scans_late")->Unit(benchma
 
 // The same, by the methods that reach so far.
 void LateScanBy(benchmark::State& state) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.late = oosm::kKinds[static_cast<std::size_t>(state.range(1))].kind;
   state.SetLabel(std::string(oosm::name_of(config.late)));
   late_scan(state, config);
@@ -146,8 +152,8 @@ BENCHMARK(LateScanBy)
     ->Unit(benchmark::kMicrosecond);
 
 void Image(benchmark::State& state) {
-  const auto strategy = scene().start(StrategyKind::kAdva, kWarm);
-  std::vector<TrackView> image;
+  const auto strategy = scene().start(strategies::StrategyKind::kAdva, kWarm);
+  std::vector<tracks::TrackView> image;
   image.reserve(64);
   const std::int64_t before_all = support::allocations();
   for (auto _ : state) {

@@ -19,9 +19,9 @@
 #include "fusion/sensors/position.h"
 #include "sim/crank/bus_simulation.h"
 #include "tests/bench/crowd.h"
+#include "tests/drives/drive_fixture.h"
 #include "tests/fusion/oosm/timelines.h"
 #include "tests/sim/crank/bus_clusters.h"
-#include "tests/drives/drive_fixture.h"
 
 namespace ttf {
 namespace {
@@ -34,7 +34,7 @@ extern "C" [[gnu::noinline]] void counted(const std::function<void()>& path) { p
 template <class F, class M> void filter_pairs() {
   const F filter;
   const M model{};
-  fusion::Gaussian<M::kStates> state;
+  fusion::linear::Gaussian<M::kStates> state;
   state.p.setIdentity();
   fusion::sensors::Measurement<2> z;
   counted([&] {
@@ -50,7 +50,7 @@ template <class F, class M> void filter_pairs() {
 void batch_axes() {
   fusion::batch::Batch<fusion::batch::Axes> batch(1000);
   fusion::batch::Positions z(1000);
-  fusion::Gaussian<4> prior;
+  fusion::linear::Gaussian<4> prior;
   prior.p.setIdentity();
   for (std::size_t i = 0; i < 1000; ++i) batch.set(i, prior), z.set(i, {});
   counted([&] { batch.step({fusion::motion::ConstantVelocity(2.0), 0.05}, z); });
@@ -64,26 +64,26 @@ using Plane = fusion::oosm::ConstantVelocity<2>;
 template <class X, int lag> void late_by() {
   using namespace fusion::oosm;
   constexpr int kScans = 15;
-  fusion::LinearMeasurement<4, 2> seen;
+  fusion::linear::LinearMeasurement<4, 2> seen;
   seen.h(0, 0) = seen.h(1, 2) = 1.0;
-  const Stamp late = stamp_at(after_ms(40 * (kScans - lag) + 20), 1);
+  const fusion::oosm::Stamp late = fusion::oosm::stamp_at(fusion::oosm::after_ms(40 * (kScans - lag) + 20), 1);
   X method(Plane{});
-  method.start(GlobalTime{}, {fusion::Vector<4>::Zero(), fusion::Matrix<4>::Identity()});
+  method.start(GlobalTime{}, {fusion::linear::Vector<4>::Zero(), fusion::linear::Matrix<4>::Identity()});
   for (int i = 1; i <= kScans; ++i) {
     method.announce(late);
     seen.z = {static_cast<double>(i), static_cast<double>(-i)};
-    method.take(stamp_at(after_ms(40 * i)), seen);
+    method.take(fusion::oosm::stamp_at(fusion::oosm::after_ms(40 * i)), seen);
   }
   counted([&] { method.take(late, seen); });
 }
 
 // ---- many objects
 
-void cycle_of(const fusion::Crowd& crowd, const fusion::TrackerConfig& config) {
-  const auto strategy = crowd.start(fusion::StrategyKind::kAdva, fusion::kWarm, config);
+void cycle_of(const fusion::Crowd& crowd, const fusion::config::TrackerConfig& config) {
+  const auto strategy = crowd.start(fusion::strategies::StrategyKind::kAdva, fusion::kWarm, config);
   const auto& laser = crowd.laser[fusion::kWarm];
   const auto& camera = crowd.camera[fusion::kWarm];
-  std::vector<fusion::TrackView> image;
+  std::vector<fusion::tracks::TrackView> image;
   image.reserve(static_cast<std::size_t>(config.max_objects));
   counted([&] {
     strategy->accept(laser.view());
@@ -96,7 +96,7 @@ void fusion_cycle() { cycle_of(fusion::scene(), {}); }
 void fusion_cycle_of_thousand() { cycle_of(fusion::thousand(), fusion::for_thousand()); }
 
 void fusion_late_scan() {
-  const auto strategy = fusion::scene().start(fusion::StrategyKind::kAdva, fusion::kWarm);
+  const auto strategy = fusion::scene().start(fusion::strategies::StrategyKind::kAdva, fusion::kWarm);
   const auto& late = fusion::scene().laser[fusion::kWarm];
   const GlobalTime now = late.measured + Duration::milliseconds(1000);
   strategy->accept(fusion::scene().camera[fusion::kWarm].view());
@@ -112,10 +112,10 @@ void fusion_late_scan() {
 
 struct Frame {
   std::vector<std::byte> payload = std::vector<std::byte>(56, std::byte{0x5A});
-  std::vector<std::byte> bytes = std::vector<std::byte>(wire::kMaxFrameBytes);
-  wire::FrameHeader header;
+  std::vector<std::byte> bytes = std::vector<std::byte>(bus::wire::kMaxFrameBytes);
+  bus::wire::FrameHeader header;
   Frame() { header.frame_id = 9; }
-  std::size_t encode() { return wire::encode_frame(header, schedules::Channel::kA, payload, bytes); }
+  std::size_t encode() { return bus::wire::encode_frame(header, schedules::model::Channel::kA, payload, bytes); }
 };
 void frame_encode() {
   Frame frame;
@@ -127,33 +127,36 @@ void frame_decode() {
   Frame frame;
   const std::size_t size = frame.encode();
   counted([&] {
-    for (int i = 0; i < 100; ++i) wire::decode_frame(schedules::Channel::kA, std::span(frame.bytes).first(size));
+    for (int i = 0; i < 100; ++i)
+      bus::wire::decode_frame(schedules::model::Channel::kA, std::span(frame.bytes).first(size));
   });
 }
 
 // Four nodes, all 64 static slots in use on both channels, one cycle.
 void bus_cycle() {
-  schedules::Cluster cluster = sim::bus_cluster(4, 3, 4);
+  schedules::model::Cluster cluster = sim::crank::bus_cluster(4, 3, 4);
   for (int slot = 5; slot <= cluster.flexray.gNumberOfStaticSlots; ++slot)
-    cluster.frames.push_back({slot, schedules::Channels::kAB, 0, 1, static_cast<NodeId>((slot - 1) % 4), kNoPdu, 0, 0});
-  bus::ControllerEvents nobody;
-  std::vector<sim::BusNode> nodes;
+    cluster.frames.push_back(
+        {slot, schedules::model::Channels::kAB, 0, 1, static_cast<NodeId>((slot - 1) % 4), kNoPdu, 0, 0});
+  bus::controller::ControllerEvents nobody;
+  std::vector<sim::crank::BusNode> nodes;
   for (int n = 0; n < 4; ++n) {
-    sim::BusNode node{timebase::Oscillator(25'000, 10'000 * n, 0)};
-    node.clock = bus::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}), 0};
+    sim::crank::BusNode node{timebase::Oscillator(25'000, 10'000 * n, 0)};
+    node.clock = bus::controller::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}), 0};
     nodes.push_back(node);
   }
-  sim::BusSimulation simulation(cluster, std::move(nodes), std::vector<bus::ControllerEvents*>(4, &nobody));
+  sim::crank::BusSimulation simulation(cluster, std::move(nodes),
+                                       std::vector<bus::controller::ControllerEvents*>(4, &nobody));
   simulation.run_until(TrueTime{1'000'000} + cluster.cycle() * 10);
   counted([&] { simulation.run_until(simulation.now() + cluster.cycle()); });
 }
 
 // The paper's drive of 1.5 s as an experiment drives it: the whole cluster, measured, without a log.
 void paper_drive() {
-  testing_support::Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kAdva);
+  drives::Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
   drive.scenario.duration = Duration::milliseconds(1500);
   drive.scenario.evaluate_from = Duration{};
-  experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
+  evaluation::accuracy::DriveMeasures measures(drives::evaluation_start(drive.scenario));
   counted([&] { drive.run(measures, 1, false); });
 }
 

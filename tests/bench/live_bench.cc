@@ -50,9 +50,9 @@ struct Totals {
 };
 
 struct Job {
-  dds::Session session;
+  bus::dds::common::Session session;
   NodeId self{};
-  dds::Delivery delivery{};
+  bus::dds::live::Delivery delivery{};
   std::int64_t seconds = 0;
 };
 
@@ -63,7 +63,8 @@ Job job_of(char** words) {
   job.self = NodeId{static_cast<std::uint8_t>(std::stoul(words[3]))};
   for (std::size_t i = 0; i < std::stoul(words[4]); ++i)
     job.session.members.push_back(NodeId{static_cast<std::uint8_t>(i)});
-  job.delivery = std::string(words[5]) == "reliable" ? dds::Delivery::kReliable : dds::Delivery::kBestEffort;
+  job.delivery =
+      std::string(words[5]) == "reliable" ? bus::dds::live::Delivery::kReliable : bus::dds::live::Delivery::kBestEffort;
   job.seconds = std::stol(words[6]);
   return job;
 }
@@ -111,17 +112,18 @@ class Member {
     medium_.wait_ready(30s);
     ways_.reserve(static_cast<std::size_t>(2 * kFramesPerSecond * (job.seconds + 1)));
     sends_.reserve(ways_.capacity());
-    for (const bus::Line line : {0, 1}) medium_.watch(line, true);
+    for (const bus::ports::Line line : {0, 1}) medium_.watch(line, true);
   }
   // From `begin` on; hears for a while longer.
-  void work(bus::HostTime begin) {
+  void work(bus::ports::HostTime begin) {
     const std::int64_t cpu_before = cpu_us();
     const bool sends = index_of(job_.self) < kSenders;
-    bus::HostTime next = begin + Duration::nanoseconds(kPeriod * static_cast<std::int64_t>(index_of(job_.self)) / 5);
-    const bus::HostTime end = begin + Duration::nanoseconds(job_.seconds * kSecond);
-    const bus::HostTime silence = end + Duration::milliseconds(500);
-    for (bus::HostTime now = bus::host_now(); now < silence; now = bus::host_now()) {
-      while (const auto heard = medium_.receive()) ways_.push_back((bus::host_now() - heard->at).ns);
+    bus::ports::HostTime next =
+        begin + Duration::nanoseconds(kPeriod * static_cast<std::int64_t>(index_of(job_.self)) / 5);
+    const bus::ports::HostTime end = begin + Duration::nanoseconds(job_.seconds * kSecond);
+    const bus::ports::HostTime silence = end + Duration::milliseconds(500);
+    for (bus::ports::HostTime now = bus::ports::host_now(); now < silence; now = bus::ports::host_now()) {
+      while (const auto heard = medium_.receive()) ways_.push_back((bus::ports::host_now() - heard->at).ns);
       const bool more = sends && next < end;
       if (more && now >= next) {
         send(next);
@@ -130,7 +132,7 @@ class Member {
       }
       sleep((more ? next : silence) - now);
     }
-    const bus::LiveCounts counts = medium_.counts();
+    const bus::ports::LiveCounts counts = medium_.counts();
     const Totals totals{counts.sent, counts.received, counts.lost, cpu_us() - cpu_before};
     put(&totals, sizeof totals);
     put(ways_);
@@ -138,23 +140,24 @@ class Member {
   }
 
  private:
-  static std::vector<dds::LiveLinePlan> plans(const Job& job) {
-    return {{0, dds::live_topic(schedules::Channel::kA), job.session.members},
-            {1, dds::live_topic(schedules::Channel::kB), job.session.members}};
+  static std::vector<bus::dds::live::LiveLinePlan> plans(const Job& job) {
+    return {{0, bus::dds::live::live_topic(schedules::model::Channel::kA), job.session.members},
+            {1, bus::dds::live::live_topic(schedules::model::Channel::kB), job.session.members}};
   }
-  void send(bus::HostTime due) {
-    channel_ = channel_ == schedules::Channel::kA ? schedules::Channel::kB : schedules::Channel::kA;
-    wire::FrameHeader header;
+  void send(bus::ports::HostTime due) {
+    channel_ =
+        channel_ == schedules::model::Channel::kA ? schedules::model::Channel::kB : schedules::model::Channel::kA;
+    bus::wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>(1 + index_of(job_.self));
-    std::array<std::byte, wire::kMaxFrameBytes> frame;
-    const std::size_t size = wire::encode_frame(header, channel_, std::array<std::byte, kPayload>{}, frame);
-    bus::LiveSignal signal;
+    std::array<std::byte, bus::wire::kMaxFrameBytes> frame;
+    const std::size_t size = bus::wire::encode_frame(header, channel_, std::array<std::byte, kPayload>{}, frame);
+    bus::ports::LiveSignal signal;
     signal.channel = channel_;
     signal.slot = header.frame_id;
     signal.bytes = std::span(frame).first(size);
-    const bus::HostTime before = bus::host_now();
-    TTF_CHECK(medium_.send(signal, due) == bus::LiveStatus::kDone);
-    sends_.push_back((bus::host_now() - before).ns);
+    const bus::ports::HostTime before = bus::ports::host_now();
+    TTF_CHECK(medium_.send(signal, due) == bus::ports::LiveStatus::kDone);
+    sends_.push_back((bus::ports::host_now() - before).ns);
   }
   void sleep(Duration patience) {
     std::array<pollfd, 2> lines{{{medium_.descriptor(0), POLLIN, 0}, {medium_.descriptor(1), POLLIN, 0}}};
@@ -162,9 +165,9 @@ class Member {
     ppoll(lines.data(), lines.size(), &timeout, nullptr);
   }
 
-  dds::LiveMedium medium_;
+  bus::dds::live::LiveMedium medium_;
   Job job_;
-  schedules::Channel channel_ = schedules::Channel::kB;
+  schedules::model::Channel channel_ = schedules::model::Channel::kB;
   std::vector<std::int64_t> ways_, sends_;  // ns
 };
 
@@ -173,7 +176,7 @@ int be_member(char** words) {
   Member member(job_of(words));
   fmt::print("ready\n");
   std::fflush(stdout);
-  bus::HostTime begin;
+  bus::ports::HostTime begin;
   if (std::scanf("%" SCNd64, &begin.ns) != 1) return 1;
   member.work(begin);
   return 0;
@@ -207,7 +210,7 @@ void DdsLivePaced(benchmark::State& state) {
   for (std::size_t i = 0; i < members; ++i) children.emplace_back(words_of(session, i, members, reliable, seconds));
   for (test::ChildProcess& child : children) child.await_ready();
   if (with_stopped) children.back().signal(SIGSTOP);
-  const bus::HostTime begin = bus::host_now() + Duration::milliseconds(200);
+  const bus::ports::HostTime begin = bus::ports::host_now() + Duration::milliseconds(200);
   for (const test::ChildProcess& child : children) child.tell(std::to_string(begin.ns));
   Totals all;
   std::vector<std::int64_t> ways, sends;

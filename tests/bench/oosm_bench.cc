@@ -19,21 +19,21 @@ namespace ttf::fusion::oosm {
 namespace {
 
 using Plane = ConstantVelocity<2>;
-using Measurement = LinearMeasurement<4, 2>;
+using Measurement = linear::LinearMeasurement<4, 2>;
 
 constexpr int kScans = 15, kBatch = 32, kCapacity = 16;
 
 Measurement position(double x, double y) {
   Measurement measurement;
-  measurement.z = Vector<2>(x, y);
+  measurement.z = linear::Vector<2>(x, y);
   measurement.h(0, 0) = measurement.h(1, 2) = 1.0;
-  measurement.r = 0.5 * Matrix<2>::Identity();
+  measurement.r = 0.5 * linear::Matrix<2>::Identity();
   return measurement;
 }
 
 // A method that took kScans scans, 40 ms apart, and knows that one from between will come `lag` late (0: in order).
 template <class X> X prepared(X method, const Stamp& awaited) {
-  method.start(GlobalTime{}, {Vector<4>::Zero(), Matrix<4>::Identity()});
+  method.start(GlobalTime{}, {linear::Vector<4>::Zero(), linear::Matrix<4>::Identity()});
   for (int i = 1; i <= kScans; ++i) {
     method.announce(awaited);
     method.take(stamp_at(after_ms(40 * i)), position(i, -i));
@@ -67,16 +67,16 @@ template <class X> void Take(benchmark::State& state) {
 void Plain(benchmark::State& state) {
   const Plane motion;
   const Measurement measurement = position(1.0, -1.0);
-  Gaussian<4> now{Vector<4>::Zero(), Matrix<4>::Identity()};
+  linear::Gaussian<4> now{linear::Vector<4>::Zero(), linear::Matrix<4>::Identity()};
   double dt = 0.04;
   for (auto _ : state) {
     bench::hide(dt);
-    const LinearStep<4> step = motion.step(dt);
-    const Vector<4> x = step.f * now.x;
-    const Matrix<4> p = step.f * now.p * step.f.transpose() + step.q;
-    const Matrix<2> s = measurement.h * p * measurement.h.transpose() + measurement.r;
-    const Matrix<4, 2> k = p * measurement.h.transpose() * s.inverse();
-    const Matrix<4> rest = Matrix<4>::Identity() - k * measurement.h;
+    const linear::LinearStep<4> step = motion.step(dt);
+    const linear::Vector<4> x = step.f * now.x;
+    const linear::Matrix<4> p = step.f * now.p * step.f.transpose() + step.q;
+    const linear::Matrix<2> s = measurement.h * p * measurement.h.transpose() + measurement.r;
+    const linear::Matrix<4, 2> k = p * measurement.h.transpose() * s.inverse();
+    const linear::Matrix<4> rest = linear::Matrix<4>::Identity() - k * measurement.h;
     now.x = x + k * (measurement.z - measurement.h * x);
     now.p = rest * p * rest.transpose() + k * measurement.r * k.transpose();
     benchmark::DoNotOptimize(now);

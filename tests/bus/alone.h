@@ -13,17 +13,17 @@
 
 namespace ttf::bus {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
-struct NoPort final : FlexRayPort {
-  void transmit(const Transmission& transmission) override {
+struct NoPort final : ports::FlexRayPort {
+  void transmit(const ports::Transmission& transmission) override {
     sent.push_back({transmission.channel, transmission.signal, transmission.start, transmission.end});
   }
   bool carrier(Channel channel) const override { return busy[index_of(channel)]; }
 
   struct Sent {
     Channel channel;
-    Signal signal;
+    ports::Signal signal;
     Microticks start, end;
   };
   std::vector<Sent> sent;
@@ -31,18 +31,18 @@ struct NoPort final : FlexRayPort {
 };
 
 // A frame as the medium hands it over.
-inline Reception received(Channel channel, Microticks start, Microticks end, std::span<const std::byte> bytes) {
-  return {channel, Signal::kFrame, start, end, wire::decode_frame(channel, bytes)};
+inline ports::Reception received(Channel channel, Microticks start, Microticks end, std::span<const std::byte> bytes) {
+  return {channel, ports::Signal::kFrame, start, end, wire::decode_frame(channel, bytes)};
 }
 
 // Cycle 0 starts at its microtick 1000, so macrotick m of cycle c is at 1000 + 40 * (1000 c + m).
 struct Alone {
-  schedules::Cluster cluster;
+  schedules::model::Cluster cluster;
   NoPort port;
   Heard heard;
-  FlexRayController controller;
+  controller::FlexRayController controller;
 
-  explicit Alone(int node = 0, schedules::Cluster made = small_cluster(4))
+  explicit Alone(int node = 0, schedules::model::Cluster made = small_cluster(4))
       : cluster(std::move(made)), controller(cluster, static_cast<NodeId>(node), port, heard) {
     controller.start_integrated({{1000}, 0});
   }

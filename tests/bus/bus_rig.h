@@ -29,10 +29,10 @@ inline constexpr int kMicroPerCycle = 40'000;  // of 25 ns
 // (34 + 20 * gClusterDriftDamping) * gdMaxMicrotick: the assumed precision without propagation delay.
 inline constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25};
 
-inline schedules::Cluster small_cluster(int nodes) {
-  schedules::Cluster cluster;
+inline schedules::model::Cluster small_cluster(int nodes) {
+  schedules::model::Cluster cluster;
   cluster.name = "small";
-  schedules::GlobalParameters& g = cluster.flexray;
+  schedules::model::GlobalParameters& g = cluster.flexray;
   g.gMacroPerCycle = 1000;
   g.gdCycle_ps = 1'000'000'000;
   g.gNumberOfStaticSlots = 10;
@@ -40,7 +40,7 @@ inline schedules::Cluster small_cluster(int nodes) {
   g.gdNIT = 160;
   g.gOffsetCorrectionStart = 900;
   for (int n = 0; n < nodes; ++n) {
-    schedules::Node node;
+    schedules::model::Node node;
     node.name = "node" + std::to_string(n);
     node.flexray.emplace();
     node.flexray->pMicroPerCycle = kMicroPerCycle;
@@ -49,26 +49,27 @@ inline schedules::Cluster small_cluster(int nodes) {
     node.flexray->pOffsetCorrectionOut = 400;
     node.flexray->pRateCorrectionOut = 121;  // 40'000 * 0.003 / 0.9985
     cluster.nodes.push_back(node);
-    cluster.frames.push_back({n + 1, schedules::Channels::kAB, 0, 1, static_cast<NodeId>(n), kNoPdu, 0, 0});
+    cluster.frames.push_back({n + 1, schedules::model::Channels::kAB, 0, 1, static_cast<NodeId>(n), kNoPdu, 0, 0});
   }
   cluster.pdus = {list_layout(4, 10, 3), list_layout(4, 3, 3)};
-  for (int f = 0; f < 4; ++f) cluster.frames.push_back({5 + f, schedules::Channels::kAB, 0, 1, NodeId{0}, kList, f, 0});
-  if (nodes > 1) cluster.frames.push_back({9, schedules::Channels::kA, 1, 2, NodeId{1}, kOddList, 0, 0});
+  for (int f = 0; f < 4; ++f)
+    cluster.frames.push_back({5 + f, schedules::model::Channels::kAB, 0, 1, NodeId{0}, kList, f, 0});
+  if (nodes > 1) cluster.frames.push_back({9, schedules::model::Channels::kA, 1, 2, NodeId{1}, kOddList, 0, 0});
   return cluster;
 }
 
 // Everything a controller says.
-struct Heard final : ControllerEvents {
+struct Heard final : controller::ControllerEvents {
   struct Problem {
     std::int64_t cycle;
     int slot;
-    schedules::Channel channel;
+    schedules::model::Channel channel;
     int status;
   };
   struct Sent {
     std::int64_t cycle;
     int slot;
-    schedules::Channel channel;
+    schedules::model::Channel channel;
     Microticks start;
     bool null_frame;
     PduId pdu;
@@ -79,7 +80,7 @@ struct Heard final : ControllerEvents {
   };
   struct Arrived {
     PduId pdu;
-    ArrivalEffect effect;
+    cni::ArrivalEffect effect;
     std::uint32_t sequence;
     Microticks at;
     std::optional<std::uint32_t> torn;
@@ -95,8 +96,8 @@ struct Heard final : ControllerEvents {
   std::vector<std::int64_t> static_segments;  // cycles whose static segment has ended
   std::function<void(std::int64_t)> on_static_segment_ended;
   struct Changed {
-    PocKind from, to;
-    PocReason reason, consequence;
+    poc::PocKind from, to;
+    poc::PocReason reason, consequence;
     Microticks at;
   };
   std::vector<std::int64_t> cycles;
@@ -107,14 +108,15 @@ struct Heard final : ControllerEvents {
     cycles.push_back(cycle);
     cycle_starts.emplace_back(cycle, at);
   }
-  void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status, Microticks) override {
+  void slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel, controller::SlotStatus status,
+                    Microticks) override {
     problems.push_back({cycle, slot, channel, status});
   }
   void static_segment_ended(std::int64_t cycle, Microticks) override {
     static_segments.push_back(cycle);
     if (on_static_segment_ended) on_static_segment_ended(cycle);
   }
-  void frame_sent(const Transmission& t, std::int64_t cycle, bool null_frame, PduId pdu, std::uint32_t sequence,
+  void frame_sent(const ports::Transmission& t, std::int64_t cycle, bool null_frame, PduId pdu, std::uint32_t sequence,
                   int fragment, bool last) override {
     sent.push_back({cycle,
                     t.slot,
@@ -127,7 +129,7 @@ struct Heard final : ControllerEvents {
                     last,
                     {t.bytes.begin(), t.bytes.end()}});
   }
-  void list_arrived(PduId pdu, ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
+  void list_arrived(PduId pdu, cni::ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
                     Microticks at) override {
     arrived.push_back({pdu, effect, sequence, at, torn});
   }
@@ -135,7 +137,7 @@ struct Heard final : ControllerEvents {
                        Microticks) override {
     corrected.push_back({cycle, offset, rate});
   }
-  void state_changed(PocKind from, const PocStep& step, Microticks at) override {
+  void state_changed(poc::PocKind from, const poc::PocStep& step, Microticks at) override {
     changed.push_back({from, step.next.kind, step.reason, step.consequence, at});
   }
 };
@@ -146,9 +148,9 @@ class TestMedium {
  public:
   struct Arrival {
     TrueTime start, end;
-    schedules::Channel channel;
+    schedules::model::Channel channel;
     std::size_t sender, receiver;
-    Signal signal = Signal::kFrame;
+    ports::Signal signal = ports::Signal::kFrame;
     std::vector<std::byte> bytes;
     auto order() const { return std::tuple(end, channel, sender, receiver); }
   };
@@ -157,7 +159,7 @@ class TestMedium {
       : oscillators_(std::move(oscillators)), delay_(delay) {
     for (std::size_t n = 0; n < oscillators_.size(); ++n) ports_.push_back(std::make_unique<Port>(*this, n));
   }
-  FlexRayPort& port(std::size_t node) { return *ports_[node]; }
+  ports::FlexRayPort& port(std::size_t node) { return *ports_[node]; }
   const timebase::Oscillator& oscillator(std::size_t node) const { return oscillators_[node]; }
   void set_now(TrueTime now) { now_ = now; }  // what carrier() goes by
 
@@ -171,10 +173,11 @@ class TestMedium {
     pending_.erase(at);
     return arrival;
   }
-  Reception reception(const Arrival& arrival) const {
+  ports::Reception reception(const Arrival& arrival) const {
     const timebase::Oscillator& clock = oscillators_[arrival.receiver];
-    Reception made{arrival.channel, arrival.signal, clock.ticks_at(arrival.start), clock.ticks_at(arrival.end), {}};
-    if (arrival.signal == Signal::kFrame) made.frame = wire::decode_frame(arrival.channel, arrival.bytes);
+    ports::Reception made{
+        arrival.channel, arrival.signal, clock.ticks_at(arrival.start), clock.ticks_at(arrival.end), {}};
+    if (arrival.signal == ports::Signal::kFrame) made.frame = wire::decode_frame(arrival.channel, arrival.bytes);
     return made;
   }
   // What arrives at one receiver, or everywhere but at its sender.
@@ -185,7 +188,8 @@ class TestMedium {
         ++other;
         continue;
       }
-      if (other->signal != Signal::kCas || arrival.signal != Signal::kCas) arrival.signal = Signal::kUndecodable;
+      if (other->signal != ports::Signal::kCas || arrival.signal != ports::Signal::kCas)
+        arrival.signal = ports::Signal::kUndecodable;
       arrival.start = std::min(arrival.start, other->start);
       arrival.end = std::max(arrival.end, other->end);
       arrival.sender = std::min(arrival.sender, other->sender);
@@ -196,19 +200,19 @@ class TestMedium {
   }
 
  private:
-  struct Port final : FlexRayPort {
+  struct Port final : ports::FlexRayPort {
     TestMedium& medium;
     std::size_t node;
     Port(TestMedium& m, std::size_t n) : medium(m), node(n) {}
-    void transmit(const Transmission& transmission) override { medium.transmit(node, transmission); }
-    bool carrier(schedules::Channel channel) const override {
+    void transmit(const ports::Transmission& transmission) override { medium.transmit(node, transmission); }
+    bool carrier(schedules::model::Channel channel) const override {
       return std::any_of(medium.pending_.begin(), medium.pending_.end(), [&](const Arrival& arrival) {
         return arrival.receiver == node && arrival.channel == channel && arrival.start <= medium.now_;
       });
     }
   };
 
-  void transmit(std::size_t sender, const Transmission& t) {
+  void transmit(std::size_t sender, const ports::Transmission& t) {
     const TrueTime start = oscillators_[sender].time_of(t.start) + delay_;
     const TrueTime end = oscillators_[sender].time_of(t.end) + delay_;
     for (std::size_t receiver = 0; receiver < ports_.size(); ++receiver)
@@ -231,23 +235,23 @@ class TestMedium {
 // uncorrected; or powered on one after the other.
 class Rig {
  public:
-  Rig(schedules::Cluster cluster, const std::vector<std::int64_t>& drifts_ppb, Duration delay = {})
+  Rig(schedules::model::Cluster cluster, const std::vector<std::int64_t>& drifts_ppb, Duration delay = {})
       : Rig(std::move(cluster), drifts_ppb, delay, std::vector<TrueTime>(drifts_ppb.size(), kNoPower)) {
     for (std::size_t n = 0; n < drifts_ppb.size(); ++n)
       controllers_[n]->start_integrated({medium_.oscillator(n).ticks_at(kStart) + Microticks{1}, 0});
   }
-  Rig(schedules::Cluster cluster, const std::vector<std::int64_t>& drifts_ppb, Duration delay,
+  Rig(schedules::model::Cluster cluster, const std::vector<std::int64_t>& drifts_ppb, Duration delay,
       std::vector<TrueTime> power_on)
       : cluster_(std::move(cluster)), medium_(oscillators(drifts_ppb), delay), power_on_(std::move(power_on)) {
     for (std::size_t n = 0; n < drifts_ppb.size(); ++n) {
       heard_.push_back(std::make_unique<Heard>());
-      controllers_.push_back(
-          std::make_unique<FlexRayController>(cluster_, static_cast<NodeId>(n), medium_.port(n), *heard_[n]));
+      controllers_.push_back(std::make_unique<controller::FlexRayController>(cluster_, static_cast<NodeId>(n),
+                                                                             medium_.port(n), *heard_[n]));
     }
   }
 
   // False drops the arrival; it may be changed on the way.
-  std::function<bool(TestMedium::Arrival&)> on_the_way;
+  std::function<bool(ttf::bus::TestMedium::Arrival&)> on_the_way;
 
   void run_until(TrueTime end) {
     while (true) {
@@ -287,9 +291,9 @@ class Rig {
     }
     return high - low;
   }
-  FlexRayController& controller(std::size_t node) { return *controllers_[node]; }
+  controller::FlexRayController& controller(std::size_t node) { return *controllers_[node]; }
   Heard& heard(std::size_t node) { return *heard_[node]; }
-  const schedules::Cluster& cluster() const { return cluster_; }
+  const schedules::model::Cluster& cluster() const { return cluster_; }
 
   TestMedium& medium() { return medium_; }
   void power_on(std::size_t node, TrueTime at) { power_on_[node] = at; }
@@ -310,11 +314,11 @@ class Rig {
     return made;
   }
 
-  schedules::Cluster cluster_;
+  schedules::model::Cluster cluster_;
   TestMedium medium_;
   std::vector<TrueTime> power_on_;
   std::vector<std::unique_ptr<Heard>> heard_;
-  std::vector<std::unique_ptr<FlexRayController>> controllers_;
+  std::vector<std::unique_ptr<controller::FlexRayController>> controllers_;
 };
 
 }  // namespace ttf::bus

@@ -7,14 +7,15 @@
 
 namespace ttf::bus {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 inline constexpr std::int64_t kSegment =
     840 + 4;  // macrotick of the first minislot: 10 static slots, difference of action points
 
 // small_cluster with 24 minislots of 5 MT; dynamic slot 11 + n is node n's, one fragment of 8 bytes.
-inline schedules::Cluster dynamic_cluster(int nodes, schedules::Channels channels = schedules::Channels::kAB) {
-  schedules::Cluster cluster = small_cluster(nodes);
+inline schedules::model::Cluster dynamic_cluster(
+    int nodes, schedules::model::Channels channels = schedules::model::Channels::kAB) {
+  schedules::model::Cluster cluster = small_cluster(nodes);
   cluster.flexray.gNumberOfMinislots = 24;
   cluster.flexray.gdNIT = 1000 - kSegment - 24 * 5;
   cluster.flexray.gOffsetCorrectionStart = 980;
@@ -42,7 +43,7 @@ inline std::vector<Heard::Sent> dynamic_frames(Rig& rig, std::size_t node, Chann
 inline std::vector<std::uint32_t> arrived(Rig& rig, std::size_t node, PduId pdu) {
   std::vector<std::uint32_t> sequences;
   for (const auto& one : rig.heard(node).arrived)
-    if (one.pdu == pdu && one.effect == ArrivalEffect::kCompleted) sequences.push_back(one.sequence);
+    if (one.pdu == pdu && one.effect == cni::ArrivalEffect::kCompleted) sequences.push_back(one.sequence);
   return sequences;
 }
 

@@ -13,8 +13,8 @@
 
 namespace ttf::bus {
 
-inline schedules::Signal signal(std::string name, int bits, double low = 0.0, double resolution = 1.0) {
-  schedules::Signal s;
+inline schedules::model::Signal signal(std::string name, int bits, double low = 0.0, double resolution = 1.0) {
+  schedules::model::Signal s;
   s.name = std::move(name);
   s.bits = bits;
   s.low = low;
@@ -23,17 +23,17 @@ inline schedules::Signal signal(std::string name, int bits, double low = 0.0, do
   return s;
 }
 
-inline void derive(std::vector<schedules::Signal>& signals, int& total) {
+inline void derive(std::vector<schedules::model::Signal>& signals, int& total) {
   total = 0;
-  for (schedules::Signal& s : signals) {
+  for (schedules::model::Signal& s : signals) {
     s.bit_offset = total;
     total += s.bits;
   }
 }
 
 // Elements of one 16-bit signal, `per_fragment` in each.
-inline schedules::PduLayout list_layout(int sequence_bits = 4, int max_elements = 10, int per_fragment = 3) {
-  schedules::PduLayout layout;
+inline schedules::model::PduLayout list_layout(int sequence_bits = 4, int max_elements = 10, int per_fragment = 3) {
+  schedules::model::PduLayout layout;
   layout.name = "list";
   layout.max_elements = max_elements;
   layout.elements_per_fragment = per_fragment;
@@ -48,12 +48,12 @@ inline schedules::PduLayout list_layout(int sequence_bits = 4, int max_elements 
 
 // Fragments of a list whose i-th element is `seed` + i.
 struct MadeList {
-  const schedules::PduLayout* layout;
+  const schedules::model::PduLayout* layout;
   std::uint32_t sequence;
   int fragments;
   std::vector<std::byte> bytes;
 
-  MadeList(const schedules::PduLayout& of, std::uint32_t number, int count, std::uint32_t seed)
+  MadeList(const schedules::model::PduLayout& of, std::uint32_t number, int count, std::uint32_t seed)
       : layout(&of), sequence(number), fragments(of.fragments_of(count)),
         bytes(static_cast<std::size_t>(fragments) * static_cast<std::size_t>(of.fragment_bytes)) {
     const std::uint32_t mask = (1u << of.header[1].bits) - 1;
@@ -71,7 +71,7 @@ struct MadeList {
     const auto size = static_cast<std::size_t>(layout->fragment_bytes);
     return std::span(bytes).subspan(static_cast<std::size_t>(f) * size, size);
   }
-  ListView view() const { return {sequence, fragments, bytes}; }
+  cni::ListView view() const { return {sequence, fragments, bytes}; }
 };
 
 }  // namespace ttf::bus

@@ -7,10 +7,10 @@ namespace ttf::bus {
 
 // small_cluster with `coldstart` coldstart nodes and `others` that only integrate, parameters as a designer would
 // choose.
-inline schedules::Cluster startup_cluster(int coldstart, int others = 0) {
-  schedules::Cluster cluster = small_cluster(coldstart + others);
+inline schedules::model::Cluster startup_cluster(int coldstart, int others = 0) {
+  schedules::model::Cluster cluster = small_cluster(coldstart + others);
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
-    schedules::NodeParameters& p = *cluster.nodes[n].flexray;
+    schedules::model::NodeParameters& p = *cluster.nodes[n].flexray;
     p.pdAcceptedStartupRange = 400;
     p.pdListenTimeout = 2 * (kMicroPerCycle + 121);
     p.pAllowPassiveToActive = 2;

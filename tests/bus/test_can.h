@@ -15,13 +15,13 @@ namespace ttf::bus {
 class TestCan {
  public:
   // Called for each controller that a frame reaches.
-  using Hear = std::function<void(std::size_t controller, const CanFrame& frame)>;
+  using Hear = std::function<void(std::size_t controller, const ttf::bus::ports::CanFrame& frame)>;
 
   TestCan(std::size_t controllers, Hear hear) : hear_(std::move(hear)) {
     for (std::size_t c = 0; c < controllers; ++c) ports_.push_back(std::make_unique<Port>(*this, c));
   }
   std::size_t controllers() const { return ports_.size(); }
-  CanPort& port(std::size_t controller) { return *ports_[controller]; }
+  ports::CanPort& port(std::size_t controller) { return *ports_[controller]; }
 
   // Where the bus is idle, the next frame begins; nothing can displace it any more.
   void begin() {
@@ -53,11 +53,11 @@ class TestCan {
     bool flexible_data_rate = false;
     std::vector<std::byte> data;
   };
-  struct Port final : CanPort {
+  struct Port final : ports::CanPort {
     TestCan& bus;
     std::size_t controller;
     Port(TestCan& b, std::size_t c) : bus(b), controller(c) {}
-    void send(const CanFrame& frame) override {
+    void send(const ports::CanFrame& frame) override {
       bus.waiting_.push_back(
           {controller, frame.identifier, frame.flexible_data_rate, {frame.data.begin(), frame.data.end()}});
     }

@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::vector<std::string> read(const std::string& text, const std::function<void(YamlMap&)>& reader) {
+std::vector<std::string> read(const std::string& text, const std::function<void(ttf::YamlMap&)>& reader) {
   const StrictYaml yaml = StrictYaml::parse(text, "a.yaml");
   Findings findings;
   YamlMap root = yaml.root(findings);
@@ -128,7 +128,7 @@ TEST(StrictYaml, ScaledNumbersAreExact) {
 // What each getter returns when it finds nothing usable, and what it says.
 struct Refusal {
   const char* text;
-  std::function<void(YamlMap&)> read;
+  std::function<void(ttf::YamlMap&)> read;
   const char* sentence;
 };
 

@@ -9,25 +9,25 @@
 #include "tests/drives/drive_fixture.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using testing_support::Drive;
-
 // Reads the counter at the first record of the run and at every end of a task.
-struct AllocationsSeen final : records::Sink {
-  using records::Sink::on;
+struct AllocationsSeen final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::optional<std::int64_t> at_start;
   std::int64_t last = 0;
   TrueTime first_more{};  // where a failure is to be looked for
   int fusions = 0, uses = 0;
   std::size_t most_hits = 0;
 
-  void on(const records::SlotFrameSent&) override { read({}); }
-  void on(const records::TaskRun& run) override { read(run.end.true_time); }
-  void on(const records::FusionStep&) override { ++fusions; }
-  void on(const records::FeatureUsed&) override { ++uses; }
-  void on(const records::Measured& measured) override { most_hits = std::max(most_hits, measured.truth_ids.size()); }
+  void on(const recording::records::SlotFrameSent&) override { read({}); }
+  void on(const recording::records::TaskRun& run) override { read(run.end.true_time); }
+  void on(const recording::records::FusionStep&) override { ++fusions; }
+  void on(const recording::records::FeatureUsed&) override { ++uses; }
+  void on(const recording::records::Measured& measured) override {
+    most_hits = std::max(most_hits, measured.truth_ids.size());
+  }
 
  private:
   void read(TrueTime at) {
@@ -37,7 +37,7 @@ struct AllocationsSeen final : records::Sink {
   }
 };
 
-class Allocations : public testing::TestWithParam<fusion::StrategyKind> {
+class Allocations : public testing::TestWithParam<fusion::strategies::StrategyKind> {
  protected:
   AllocationsSeen expect_none(const Drive& drive, int fusions) const {
     AllocationsSeen seen;
@@ -63,7 +63,7 @@ TEST_P(Allocations, NoneWithFullLists) {
   drive.scenario.world.objects.clear();
   for (int row = 0; row < 2; ++row)
     for (int post = -40; post <= 40; ++post) {
-      world::ObjectConfig object;
+      sim::world::ObjectConfig object;
       object.x = 20.0 + 8.0 * row;
       object.y = 1.6 * post + 0.8 * row;
       object.heading = 1.5707963;
@@ -76,8 +76,8 @@ TEST_P(Allocations, NoneWithFullLists) {
   EXPECT_GT(seen.most_hits, 1'200u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Strategies, Allocations, testing::ValuesIn(testing_support::kStrategies),
-                         [](const auto& strategy) { return std::string(nodes::name_of(strategy.param)); });
+INSTANTIATE_TEST_SUITE_P(Strategies, Allocations, testing::ValuesIn(kStrategies),
+                         [](const auto& strategy) { return std::string(name_of(strategy.param)); });
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

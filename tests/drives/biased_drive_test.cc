@@ -17,20 +17,16 @@
 #include "tests/drives/drive_fixture.h"
 #include "tests/drives/image_copy.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::Drive;
-using testing_support::Images;
-using testing_support::kStrategies;
-using testing_support::same;
+using fusion::strategies::StrategyKind;
 
 // What the laser's lists say of the objects, as the fusion node takes them.
-struct LaserSightings final : records::Sink {
-  using records::Sink::on;
+struct LaserSightings final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::map<std::uint32_t, std::vector<double>> x, y;  // by list
-  void on(const records::ObservationSeen& seen) override {
+  void on(const recording::records::ObservationSeen& seen) override {
     if (seen.id.sensor != SensorId{0}) return;
     x[seen.id.sequence].push_back(seen.x);
     y[seen.id.sequence].push_back(seen.y);
@@ -48,7 +44,7 @@ struct LaserSightings final : records::Sink {
 Drive standing_car(StrategyKind strategy) {
   Drive drive("scenarios/paper_scenario1.yaml", strategy);
   drive.scenario.world.acceleration_noise = drive.scenario.world.yaw_rate_noise = 0.0;
-  world::ObjectConfig& car = drive.scenario.world.objects[0];
+  sim::world::ObjectConfig& car = drive.scenario.world.objects[0];
   car.x = 30.0;
   car.speed = 0.0;
   car.segments.clear();
@@ -66,12 +62,13 @@ TEST(BiasedDrive, EveryStrategyHasTheSameDrawAndEveryDriveItsOwn) {
     plain[s] = exact.mean_x();
     drive.scenario.laser.range_bias.sigma = 1.0;
     drive.run(of[s]);
-    const double drawn = world::in_drive({0.0, 1.0}, world::ErrorOf::kRange, {1, 0, 0}).fixed;
+    const double drawn = sim::world::in_drive({0.0, 1.0}, sim::world::ErrorOf::kRange, {1, 0, 0}).fixed;
     EXPECT_GT(std::abs(drawn), 0.05);
-    EXPECT_NEAR(of[s].mean_x() - plain[s], drawn, 0.03) << nodes::name_of(strategy);
+    EXPECT_NEAR(of[s].mean_x() - plain[s], drawn, 0.03) << name_of(strategy);
     LaserSightings other;
     drive.run(other, 2);
-    EXPECT_NEAR(other.mean_x() - plain[s], world::in_drive({0.0, 1.0}, world::ErrorOf::kRange, {2, 0, 0}).fixed, 0.05);
+    EXPECT_NEAR(other.mean_x() - plain[s],
+                sim::world::in_drive({0.0, 1.0}, sim::world::ErrorOf::kRange, {2, 0, 0}).fixed, 0.05);
   }
   EXPECT_EQ(of[0].x, of[1].x) << "the same lists, to the bit";
 }
@@ -87,11 +84,11 @@ TEST(BiasedDrive, AStampsErrorMovesWhatMoves) {
 }
 
 // The last of a drive's predictions for its images, of the car at (30, 0) m; the nearest one, for a camera sees ghosts.
-struct LastPrediction final : records::Sink {
-  using records::Sink::on;
+struct LastPrediction final : recording::records::Sink {
+  using recording::records::Sink::on;
   GlobalTime at{};
   double squared = 0.0, distance = std::numeric_limits<double>::infinity();  // NEES of (x, y), error [m]
-  void on(const records::TrackState& track) override {
+  void on(const recording::records::TrackState& track) override {
     if (!track.predicted_for_image) return;
     const Eigen::Vector2d error(track.state[0] - 30.0, track.state[1]);
     if (track.valid_at == at && error.norm() >= distance) return;
@@ -111,14 +108,15 @@ TEST(BiasedDrive, ConsideredItIsConsistentIgnoredItIsNot) {
   drive.scenario.tracker.process_noise = 0.1;
   drive.scenario.laser.range_bias.sigma = 0.4;
   drive.scenario.laser.azimuth_bias.sigma = drive.scenario.camera.bearing_bias.sigma = 0.015;
-  std::vector<fusion::KnownSensor>& sensors = drive.scenario.tracker.sensors;
+  std::vector<fusion::sensors::KnownSensor>& sensors = drive.scenario.tracker.sensors;
   sensors.resize(2);
   sensors[0].name = "laser";
   sensors[0].errors.sigma << 0.4, 0.015, 0.0, 0.0;
   sensors[1].name = "camera";
   sensors[1].errors.sigma << 0.0, 0.015, 0.0, 0.0;
   double rmse[2] = {};
-  for (const auto answer : {fusion::SystematicErrorsAre::kIgnored, fusion::SystematicErrorsAre::kConsidered}) {
+  for (const auto answer :
+       {fusion::config::SystematicErrorsAre::kIgnored, fusion::config::SystematicErrorsAre::kConsidered}) {
     drive.scenario.tracker.systematic = answer;
     fusion::metrics::Consistency nees;
     double& squares = rmse[static_cast<std::size_t>(answer)];
@@ -129,7 +127,7 @@ TEST(BiasedDrive, ConsideredItIsConsistentIgnoredItIsNot) {
       nees.add(last.squared, 2);
       squares += last.distance * last.distance / kDrives;
     }
-    if (answer == fusion::SystematicErrorsAre::kConsidered)
+    if (answer == fusion::config::SystematicErrorsAre::kConsidered)
       EXPECT_TRUE(nees.consistent()) << nees.mean();
     else
       EXPECT_GT(nees.mean(), nees.band().high);
@@ -142,13 +140,13 @@ TEST(MountedDrive, BackwardsIsForwardsTurned) {
   for (const StrategyKind strategy : kStrategies) {
     const Drive ahead("scenarios/paper_scenario1.yaml", strategy);
     Drive behind = ahead;
-    world::ObjectConfig& car = behind.scenario.world.objects[0];
+    sim::world::ObjectConfig& car = behind.scenario.world.objects[0];
     car.x = -car.x;
     car.y = -car.y;
     car.heading += std::numbers::pi;
     behind.scenario.laser.device.placement.heading = behind.scenario.camera.device.placement.heading = std::numbers::pi;
     for (const char* name : {"laser", "camera"}) {
-      fusion::KnownSensor& sensor = behind.scenario.tracker.sensors.emplace_back();
+      fusion::sensors::KnownSensor& sensor = behind.scenario.tracker.sensors.emplace_back();
       sensor.name = name;
       sensor.mounting.yaw = std::numbers::pi;
     }
@@ -158,7 +156,7 @@ TEST(MountedDrive, BackwardsIsForwardsTurned) {
     ASSERT_EQ(a.written.size(), b.written.size());
     std::size_t objects = 0;
     for (const auto& [sequence, image] : a.written) {
-      const std::vector<records::ImageObject>& turned = b.written.at(sequence).objects;
+      const std::vector<recording::records::ImageObject>& turned = b.written.at(sequence).objects;
       ASSERT_EQ(image.objects.size(), turned.size()) << sequence;
       for (std::size_t o = 0; o < turned.size(); ++o, ++objects) {
         // Within a step of the code.
@@ -171,7 +169,7 @@ TEST(MountedDrive, BackwardsIsForwardsTurned) {
             << sequence;
       }
     }
-    EXPECT_GT(objects, 40u) << nodes::name_of(strategy);
+    EXPECT_GT(objects, 40u) << name_of(strategy);
   }
 }
 
@@ -180,16 +178,16 @@ TEST(MountedDrive, BackwardsIsForwardsTurned) {
 TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
   Drive drive("scenarios/laser_radar_recorded.yaml", StrategyKind::kTt);
   drive.scenario.duration = drive.scenario.world.duration = Duration::milliseconds(5'000);
-  std::vector<fusion::KnownSensor>& sensors = drive.scenario.tracker.sensors;
+  std::vector<fusion::sensors::KnownSensor>& sensors = drive.scenario.tracker.sensors;
   sensors.resize(2);
   sensors[0].name = "radar";  // not in the cluster's order
   sensors[0].mounting = {.position = {-2.0, 1.0}, .yaw = std::numbers::pi};
   sensors[0].errors.known << 0.5, 0.0, 0.0;
   sensors[1].name = "laser";
   sensors[1].mounting = {.position = {1.0, 0.5}, .yaw = 0.5 * std::numbers::pi};
-  auto recording = std::make_shared<recording::RecordedInput>();
+  auto recording = std::make_shared<recording::rows::RecordedInput>();
   for (int row = 0; row < 98; ++row) {
-    recording::RecordedObservation seen;
+    recording::rows::RecordedObservation seen;
     const bool laser = row % 2 == 0;
     seen.time_us_from_start = 50'000 * row;
     const double x = -40.0 + 0.25 * row, y = 3.0;
@@ -199,7 +197,7 @@ TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
       seen.y = 1.0 - x;
     } else {
       seen.sensor = "radar";
-      seen.kind = recording::RecordedObservation::Kind::kRangeBearingRate;
+      seen.kind = recording::rows::RecordedObservation::Kind::kRangeBearingRate;
       const double qx = -(x + 2.0), qy = -(y - 1.0);  // in the radar's axes
       seen.range = std::hypot(qx, qy) + 0.5;
       seen.bearing = std::atan2(qy, qx);
@@ -208,17 +206,17 @@ TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
     recording->observations.push_back(seen);
     recording->truth.push_back({seen.time_us_from_start, x, y, 5.0, 0.0, 0.0, 0.0});
   }
-  struct Seen final : records::Sink {
-    using records::Sink::on;
+  struct Seen final : recording::records::Sink {
+    using recording::records::Sink::on;
     std::size_t sightings = 0, predictions = 0;
-    void on(const records::ObservationSeen& seen) override {
+    void on(const recording::records::ObservationSeen& seen) override {
       const double x = -40.0 + 5.0 * (seen.measured - GlobalTime{}).seconds();
       ++sightings;
       // The instant of row 0 and the clocks' distance are not known here: some tens of milliseconds.
       EXPECT_NEAR(seen.x, x, 0.5) << index_of(seen.id.sensor);
       EXPECT_NEAR(seen.y, 3.0, 0.01) << index_of(seen.id.sensor);
     }
-    void on(const records::TrackState& track) override {
+    void on(const recording::records::TrackState& track) override {
       if (!track.predicted_for_image || track.valid_at < GlobalTime{} + Duration::milliseconds(2'000)) return;
       ++predictions;
       EXPECT_NEAR(track.state[1], 3.0, 0.05);
@@ -226,7 +224,7 @@ TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
       EXPECT_NEAR(track.state[3], 0.0, 0.1);
     }
   } seen;
-  sim::run_drive({&drive.scenario, &drive.cluster, drive.strategy, 1, 0, recording}, seen);
+  run_drive({&drive.scenario, &drive.cluster, drive.strategy, 1, 0, recording}, seen);
   EXPECT_GT(seen.sightings, 80u);
   EXPECT_GT(seen.predictions, 20u);
 }
@@ -235,7 +233,7 @@ TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
 TEST(BiasedDrive, TheDocumentedKeysLoad) {
   const auto whole = [](const std::string& path) {
     std::ostringstream text;
-    text << std::ifstream(testing_support::shipped(path)).rdbuf();
+    text << std::ifstream(shipped(path)).rdbuf();
     return text.str();
   };
   std::string scenario = whole("scenarios/paper_scenario1.yaml");
@@ -246,15 +244,16 @@ TEST(BiasedDrive, TheDocumentedKeysLoad) {
     scenario += page.substr(from, page.find("```", from) - from);
   }
   ASSERT_EQ(blocks, 2);
-  const nodes::Scenario loaded = nodes::parse_scenario(scenario, testing_support::shipped("scenarios/documented.yaml"));
+  const Scenario loaded = parse_scenario(scenario, shipped("scenarios/documented.yaml"));
   EXPECT_EQ(loaded.laser.device.placement.x, 3.5);
   EXPECT_EQ(loaded.laser.range_bias.sigma, 0.3);
   EXPECT_EQ(loaded.laser.device.time.fixed, 0.005);
   EXPECT_EQ(loaded.camera.bearing_bias.fixed, -0.005);
   EXPECT_EQ(loaded.camera.disparity_bias.sigma, 0.1);
-  EXPECT_EQ(loaded.tracker.systematic, fusion::SystematicErrorsAre::kConsidered);
+  EXPECT_EQ(loaded.tracker.systematic, fusion::config::SystematicErrorsAre::kConsidered);
   Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
-  const fusion::TrackerConfig tracker = nodes::tracker_in(drive.cluster, loaded.tracker, "documented.yaml");
+  const fusion::config::TrackerConfig tracker =
+      nodes::fusion::tracker_in(drive.cluster, loaded.tracker, "documented.yaml");
   ASSERT_EQ(tracker.sensors.size(), 2u);
   EXPECT_EQ(tracker.sensors[0].errors.sigma(0), 0.3);
   EXPECT_EQ(tracker.sensors[1].mounting.position.x(), 1.8);
@@ -262,11 +261,11 @@ TEST(BiasedDrive, TheDocumentedKeysLoad) {
 
 TEST(BiasedDrive, ASensorThatIsNoneIsRefused) {
   Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
-  fusion::KnownSensor& sensor = drive.scenario.tracker.sensors.emplace_back();
+  fusion::sensors::KnownSensor& sensor = drive.scenario.tracker.sensors.emplace_back();
   sensor.name = "sonar";
   sensor.line = 17;
   try {
-    sim::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
+    check_fits(drive.scenario, drive.cluster, drive.strategy, false);
     FAIL() << "taken";
   } catch (const InputError& error) {
     ASSERT_EQ(error.findings().size(), 1u);
@@ -278,4 +277,4 @@ TEST(BiasedDrive, ASensorThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

@@ -7,21 +7,22 @@
 #include <set>
 #include <vector>
 
-#include "evaluation/cluster/startup_account.h"
 #include "drives/step_catalog.h"
+#include "evaluation/cluster/startup_account.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::Drive;
+using fusion::strategies::StrategyKind;
 
 constexpr char kScenario[] = "scenarios/cold_start.yaml";
 
-NodeId named(const schedules::Cluster& cluster, std::string_view name) { return cluster.find_node(name).value(); }
+NodeId named(const schedules::model::Cluster& cluster, std::string_view name) {
+  return cluster.find_node(name).value();
+}
 
-struct Told final : records::Sink {
+struct Told final : recording::records::Sink {
   struct Symbol {
     TrueTime start, end;
     NodeId node;
@@ -29,39 +30,41 @@ struct Told final : records::Sink {
   };
   std::map<NodeId, std::vector<TrueTime>> powered;
   std::vector<Symbol> symbols;
-  std::vector<records::ReferenceFix> fixes;
+  std::vector<recording::records::ReferenceFix> fixes;
   std::map<MeasurementId, TrueTime> measured;
   std::vector<std::pair<MeasurementId, TrueTime>> fused;  // when its list says it was measured
   std::map<std::uint32_t, TrueTime> images;               // the instant an image is of
   Duration image_off{};                                   // most that the feature service takes it to be of another one
 
-  using records::Sink::on;
-  void on(const records::PowerChanged& r) override {
+  using recording::records::Sink::on;
+  void on(const recording::records::PowerChanged& r) override {
     if (r.on) powered[r.stamp.node].push_back(r.stamp.true_time);
   }
-  void on(const records::SymbolSent& r) override {
+  void on(const recording::records::SymbolSent& r) override {
     symbols.push_back({r.stamp.true_time, r.end.true_time, r.stamp.node, r.channel, r.kind});
   }
-  void on(const records::ReferenceFix& r) override { fixes.push_back(r); }
-  void on(const records::Measured& r) override { measured[r.id] = r.stamp.true_time; }
-  void on(const records::FusionInput& r) override {
-    fused.emplace_back(MeasurementId{r.sensor, r.sequence}, records::true_time_of(r.stamp, r.measured));
+  void on(const recording::records::ReferenceFix& r) override { fixes.push_back(r); }
+  void on(const recording::records::Measured& r) override { measured[r.id] = r.stamp.true_time; }
+  void on(const recording::records::FusionInput& r) override {
+    fused.emplace_back(MeasurementId{r.sensor, r.sequence}, recording::records::true_time_of(r.stamp, r.measured));
   }
-  void on(const records::ImageWritten& r) override { images[r.sequence] = records::true_time_of(r.stamp, r.valid_at); }
-  void on(const records::FeatureUsed& r) override {
+  void on(const recording::records::ImageWritten& r) override {
+    images[r.sequence] = recording::records::true_time_of(r.stamp, r.valid_at);
+  }
+  void on(const recording::records::FeatureUsed& r) override {
     const auto image = images.find(r.image_sequence);
     if (image == images.end()) return;
-    const Duration off = records::true_time_of(r.stamp, r.image_valid_at) - image->second;
+    const Duration off = recording::records::true_time_of(r.stamp, r.image_valid_at) - image->second;
     image_off = std::max({image_off, off, -off});
   }
 };
 
 TEST(ColdStart, OneLeadsFromCycle6OthersFollowIn7AndIntegrateIn8) {
   const Drive drive(kScenario, StrategyKind::kTt);
-  experiments::StartupAccount account(drive.cluster.cycle());
+  evaluation::cluster::StartupAccount account(drive.cluster.cycle());
   drive.run(account);
   ASSERT_EQ(account.nodes().size(), 6u);
-  for (const experiments::NodeStartup& node : account.nodes()) {
+  for (const evaluation::cluster::NodeStartup& node : account.nodes()) {
     const std::string& name = drive.cluster.node(node.node).name;
     ASSERT_TRUE(node.active.has_value()) << name;
     EXPECT_EQ(node.active->cycle, name == "fusion" ? 6 : name == "laser" || name == "camera" ? 8 : 7) << name;
@@ -80,9 +83,9 @@ TEST(ColdStart, EveryNodeBecomesActiveWhateverThePowerOnTimes) {
   drive.scenario.startup.power_on.clear();
   drive.scenario.duration = drive.scenario.world.duration = Duration::milliseconds(200);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    experiments::StartupAccount account(drive.cluster.cycle());
+    evaluation::cluster::StartupAccount account(drive.cluster.cycle());
     drive.run(account, seed);
-    for (const experiments::NodeStartup& node : account.nodes())
+    for (const evaluation::cluster::NodeStartup& node : account.nodes())
       EXPECT_TRUE(node.active.has_value()) << "seed " << seed << ": " << drive.cluster.node(node.node).name << " is in "
                                            << node.state << ": " << node.why;
   }
@@ -92,16 +95,16 @@ TEST(ColdStart, EveryNodeBecomesActiveWhateverThePowerOnTimes) {
 // up to the noise of one drive, which differs as measurements are made some milliseconds later. Pooled over ten drives
 // of either kind, errors agree within a quarter.
 TEST(ColdStart, IsWorthWhatAnIntegratedDriveIs) {
-  for (const StrategyKind strategy : testing_support::kStrategies) {
+  for (const StrategyKind strategy : kStrategies) {
     Drive drive("scenarios/paper_scenario2.yaml", strategy);
     double squares[2] = {}, velocities[2] = {}, ages[2] = {};
     std::uint64_t matched[2] = {}, missed[2] = {};
     for (const bool cold : {false, true})
       for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         drive.scenario.startup.cold = cold;
-        experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
+        evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
         drive.run(measures, seed);
-        const experiments::DriveSummary summary = measures.finish();
+        const evaluation::accuracy::DriveSummary summary = measures.finish();
         const auto n = static_cast<double>(summary.matched);
         squares[cold] += n * summary.position_rmse_truth * summary.position_rmse_truth;
         velocities[cold] += n * summary.velocity_rmse_truth * summary.velocity_rmse_truth;
@@ -112,7 +115,7 @@ TEST(ColdStart, IsWorthWhatAnIntegratedDriveIs) {
     const auto pooled = [&](const double(&sums)[2], bool cold) {
       return std::sqrt(sums[cold] / static_cast<double>(matched[cold]));
     };
-    SCOPED_TRACE(nodes::name_of(strategy));
+    SCOPED_TRACE(name_of(strategy));
     EXPECT_NEAR(pooled(squares, true) / pooled(squares, false), 1.0, 0.25);
     EXPECT_NEAR(pooled(velocities, true) / pooled(velocities, false), 1.0, 0.25);
     EXPECT_NEAR(static_cast<double>(matched[1]), static_cast<double>(matched[0]),
@@ -151,19 +154,21 @@ TEST(ColdStart, ListsSayWhenTheyWereMeasured) {
 // was.
 TEST(ColdStart, FixesAreOnTheClustersTimeScale) {
   Told told;
-  struct Scale final : records::Sink {
+  struct Scale final : recording::records::Sink {
     std::vector<std::pair<TrueTime, GlobalTime>> readings;
-    using records::Sink::on;
-    void on(const records::FusionStep& r) override { readings.emplace_back(r.stamp.true_time, r.stamp.global); }
+    using recording::records::Sink::on;
+    void on(const recording::records::FusionStep& r) override {
+      readings.emplace_back(r.stamp.true_time, r.stamp.global);
+    }
   } scale;
-  records::Tee tee({&told, &scale});
+  recording::records::Tee tee({&told, &scale});
   Drive(kScenario, StrategyKind::kTt).run(tee);
   ASSERT_GT(told.fixes.size(), 5u);
   ASSERT_GT(scale.readings.size(), 100u);
   EXPECT_GT((scale.readings.front().first - TrueTime{}) - (scale.readings.front().second - GlobalTime{}),
             Duration::milliseconds(4))
       << "cycle 0 comes milliseconds later than in an integrated drive";
-  for (const records::ReferenceFix& fix : told.fixes) {
+  for (const recording::records::ReferenceFix& fix : told.fixes) {
     const auto after = std::lower_bound(scale.readings.begin(), scale.readings.end(), fix.measured_true,
                                         [](const auto& reading, TrueTime at) { return reading.first < at; });
     if (after == scale.readings.end()) continue;
@@ -183,16 +188,16 @@ TEST(ColdStart, AWakeupPatternPowersTheOthersOn) {
     drive.scenario.startup.power_on.push_back({name, Duration::milliseconds(1), 0});
   drive.scenario.startup.power_on.push_back({"camera_pre", Duration::milliseconds(2), 0});
   Told told;
-  experiments::StartupAccount account(drive.cluster.cycle());
-  records::Tee tee({&told, &account});
+  evaluation::cluster::StartupAccount account(drive.cluster.cycle());
+  recording::records::Tee tee({&told, &account});
   drive.run(tee);
   ASSERT_FALSE(told.symbols.empty());
   const Told::Symbol& pattern = told.symbols.front();
-  EXPECT_EQ(pattern.kind, records::kSymbolWakeup);
+  EXPECT_EQ(pattern.kind, recording::records::kSymbolWakeup);
   EXPECT_EQ(pattern.node, named(drive.cluster, "fusion"));
   EXPECT_EQ(pattern.channel, 0);
   EXPECT_EQ(std::count_if(told.symbols.begin(), told.symbols.end(),
-                          [](const Told::Symbol& s) { return s.kind == records::kSymbolWakeup; }),
+                          [](const Told::Symbol& s) { return s.kind == recording::records::kSymbolWakeup; }),
             1);
   EXPECT_EQ(told.powered.size(), 6u);
   for (const auto& [node, times] : told.powered) {
@@ -206,24 +211,24 @@ TEST(ColdStart, AWakeupPatternPowersTheOthersOn) {
     const Duration boots = Duration::milliseconds(name == "camera_pre" ? 2 : 1);
     EXPECT_NEAR(static_cast<double>((times[0] - pattern.end).ns), static_cast<double>(boots.ns), 4'000) << name;
   }
-  for (const experiments::NodeStartup& node : account.nodes())
+  for (const evaluation::cluster::NodeStartup& node : account.nodes())
     EXPECT_TRUE(node.active.has_value()) << drive.cluster.node(node.node).name;
 }
 
 // Two lose their supply before anybody wakes them. One gets it back, when nobody is woken any more: it starts up at
 // once.
 TEST(ColdStart, OfASleepersSupplyNobodyIsToldBeforeItIsAwake) {
-  struct Supplies final : records::Sink {
-    using records::Sink::on;
+  struct Supplies final : recording::records::Sink {
+    using recording::records::Sink::on;
     std::map<NodeId, std::vector<bool>> told;
-    void on(const records::PowerChanged& r) override { told[r.stamp.node].push_back(r.on); }
+    void on(const recording::records::PowerChanged& r) override { told[r.stamp.node].push_back(r.on); }
   };
   Drive drive(kScenario, StrategyKind::kTt);
   drive.scenario.duration = drive.scenario.world.duration = Duration::milliseconds(300);
   drive.scenario.startup.wake_up = "fusion";
   for (const char* name : {"feature", "camera"}) {
-    nodes::Fault& crash = drive.scenario.faults.faults.emplace_back();
-    crash.kind = nodes::FaultKind::kCrash;
+    faults::Fault& crash = drive.scenario.faults.faults.emplace_back();
+    crash.kind = faults::FaultKind::kCrash;
     crash.node_name = name;
     crash.from = Duration::milliseconds(1);
   }
@@ -238,9 +243,9 @@ TEST(ColdStart, OfASleepersSupplyNobodyIsToldBeforeItIsAwake) {
 TEST(ColdStart, WithARecordingItIsRefused) {
   Drive drive("scenarios/laser_radar_recorded.yaml", StrategyKind::kTt);
   drive.scenario.startup.cold = true;
-  EXPECT_THROW(sim::check_recording(drive.scenario, drive.cluster, true), InputError);
+  EXPECT_THROW(check_recording(drive.scenario, drive.cluster, true), InputError);
   drive.scenario.startup.cold = false;
-  EXPECT_NO_THROW(sim::check_recording(drive.scenario, drive.cluster, true));
+  EXPECT_NO_THROW(check_recording(drive.scenario, drive.cluster, true));
 }
 
 // ---- a node loses its supply in the middle of a drive, and comes back
@@ -252,24 +257,24 @@ struct Restarted {
 
 Restarted restarted(std::string_view name) {
   const Drive drive(kScenario, StrategyKind::kAdva);
-  const TrueTime start = sim::drive_start(drive.cluster);
-  const auto scene = std::make_shared<nodes::WorldScene>(drive.scenario.world, 1, 0, start);
-  const nodes::NodeSetConfig set{&drive.scenario, &drive.cluster, drive.strategy, 1, 0, scene, nullptr};
-  const auto starts = nodes::node_starts(drive.scenario.startup, drive.cluster, 1, 0);
-  sim::SimulationConfig config;
+  const TrueTime start = drive_start(drive.cluster);
+  const auto scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, 1, 0, start);
+  const NodeSetConfig set{&drive.scenario, &drive.cluster, drive.strategy, 1, 0, scene, nullptr};
+  const auto starts = nodes::host::node_starts(drive.scenario.startup, drive.cluster, 1, 0);
+  sim::crank::SimulationConfig config;
   config.cluster = &drive.cluster;
   config.seed = 1;
-  config.make_steps = [&](NodeId node) { return nodes::make_steps(set, node); };
+  config.make_steps = [&](NodeId node) { return make_steps(set, node); };
   config.power_on = [&](NodeId node) { return std::optional(start + starts[index_of(node)].after); };
   Restarted result;
-  sim::ClusterSimulation simulation(config, result.told);
+  sim::crank::ClusterSimulation simulation(config, result.told);
   simulation.run_until(start + Duration::milliseconds(1'000));
   const NodeId node = named(drive.cluster, name);
   simulation.power_off(node);
   simulation.power_on(node, start + Duration::milliseconds(1'005));
   simulation.run_until(start + Duration::milliseconds(2'500));
   for (std::size_t n = 0; n < drive.cluster.nodes.size(); ++n) {
-    const nodes::Executive& executive = simulation.node(static_cast<NodeId>(n));
+    const nodes::host::Executive& executive = simulation.node(static_cast<NodeId>(n));
     EXPECT_NE(executive.clock(), nullptr) << drive.cluster.nodes[n].name;
     result.global[static_cast<NodeId>(n)] = executive.stamp(executive.oscillator().ticks_at(simulation.now())).global;
   }
@@ -282,7 +287,7 @@ TEST(ColdStart, ARestartedNodesStampsAreUnderstoodModuloARound) {
   for (const char* name : {"laser_pre", "camera_pre", "fusion", "feature"}) {
     SCOPED_TRACE(name);
     const Restarted drive = restarted(name);
-    const schedules::Cluster cluster = Drive(kScenario, StrategyKind::kAdva).cluster;
+    const schedules::model::Cluster cluster = Drive(kScenario, StrategyKind::kAdva).cluster;
     const NodeId node = named(cluster, name),
                  other = named(cluster, std::string_view(name) == "fusion" ? "feature" : "fusion");
     const Duration behind = drive.global.at(other) - drive.global.at(node);
@@ -294,4 +299,4 @@ TEST(ColdStart, ARestartedNodesStampsAreUnderstoodModuloARound) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

@@ -12,10 +12,8 @@
 #include "tests/drives/drive_fixture.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
-
-using testing_support::Drive;
 
 constexpr double kGate_m = 1.5;  // an image object further from a true object is not of it
 
@@ -23,16 +21,16 @@ constexpr double kGate_m = 1.5;  // an image object further from a true object i
 // sensor's scans, after its first period, and the greatest age at use.
 TrueTime confirmation_time(const Drive& drive) {
   Duration period{}, age{};
-  for (const schedules::AgePath& path : schedules::measurement_ages(drive.cluster)) {
-    const schedules::Sensor& sensor = drive.cluster.sensor(path.sensor);
+  for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(drive.cluster)) {
+    const schedules::model::Sensor& sensor = drive.cluster.sensor(path.sensor);
     period = std::max(period, sensor.scheduled ? drive.cluster.cycle() * sensor.at.repetition : sensor.period);
     age = std::max({age, path.newest_worst, path.buffered_newest_worst});
   }
-  return sim::kFirstCycle + period * (1 + drive.scenario.tracker.confirm_window) + age;
+  return sim::crank::kFirstCycle + period * (1 + drive.scenario.tracker.confirm_window) + age;
 }
 
 // Which track shows which true object at every use: one to one, within the gate.
-class Coverage final : public records::Sink {
+class Coverage final : public recording::records::Sink {
  public:
   struct Object {
     int uses = 0, shown = 0;
@@ -40,14 +38,14 @@ class Coverage final : public records::Sink {
     TrueTime first_missed{};
   };
   explicit Coverage(TrueTime from) : from_(from) {}
-  using records::Sink::on;
+  using recording::records::Sink::on;
   std::map<ObjectId, Object> objects;
 
-  void on(const records::FeatureUsed& used) override {
+  void on(const recording::records::FeatureUsed& used) override {
     judge();
     if (used.stamp.true_time >= from_) use_ = Use{used.stamp.true_time, {used.objects.begin(), used.objects.end()}};
   }
-  void on(const records::TruthState& truth) override {
+  void on(const recording::records::TruthState& truth) override {
     if (!truth_.empty() && truth_.front().at != truth.at) {
       judge();
       truth_.clear();
@@ -60,16 +58,17 @@ class Coverage final : public records::Sink {
  private:
   struct Use {
     TrueTime at;
-    std::vector<records::FeatureObject> objects;
+    std::vector<recording::records::FeatureObject> objects;
   };
   // The truth of a use's instant comes before or after it.
   void judge() {
     if (!use_ || truth_.empty() || truth_.front().at != use_->at) return;
-    std::vector<experiments::PlanePosition> truth, shown;
-    for (const records::TruthState& state : truth_) truth.push_back({state.x, state.y});
-    for (const records::FeatureObject& object : use_->objects) shown.push_back({object.image.x, object.image.y});
+    std::vector<evaluation::accuracy::PlanePosition> truth, shown;
+    for (const recording::records::TruthState& state : truth_) truth.push_back({state.x, state.y});
+    for (const recording::records::FeatureObject& object : use_->objects)
+      shown.push_back({object.image.x, object.image.y});
     std::vector<std::optional<TrackId>> track(truth.size());
-    for (const experiments::TruthPair& pair : experiments::closest_pairs(truth, shown, kGate_m))
+    for (const evaluation::accuracy::TruthPair& pair : evaluation::accuracy::closest_pairs(truth, shown, kGate_m))
       track[pair.truth] = use_->objects[pair.estimate].image.track;
     for (std::size_t t = 0; t < truth.size(); ++t) {
       Object& object = objects[truth_[t].object];
@@ -86,40 +85,41 @@ class Coverage final : public records::Sink {
 
   TrueTime from_;
   std::optional<Use> use_;
-  std::vector<records::TruthState> truth_;  // of one instant
+  std::vector<recording::records::TruthState> truth_;  // of one instant
 };
 
 // The measures remember the newest 256 lists: seven seconds' worth.
 constexpr Duration kWarmUp = Duration::milliseconds(10'000);
 
-struct Memory final : records::Sink {
-  using records::Sink::on;
+struct Memory final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::int64_t after_warm_up = 0, largest = 0;  // bytes
-  void on(const records::FeatureUsed& used) override {
+  void on(const recording::records::FeatureUsed& used) override {
     const std::int64_t now = support::live_bytes();
     if (after_warm_up == 0 && used.stamp.true_time > TrueTime{} + kWarmUp) after_warm_up = now;
     largest = std::max(largest, now);
   }
 };
 
-class Crowd : public testing::TestWithParam<std::tuple<fusion::StrategyKind, std::uint64_t>> {};  // strategy, seed
+class Crowd : public testing::TestWithParam<std::tuple<fusion::strategies::StrategyKind, std::uint64_t>> {
+};  // strategy, seed
 
 TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
-  const Drive drive("scenarios/crowd_25.yaml", std::get<fusion::StrategyKind>(GetParam()));
+  const Drive drive("scenarios/crowd_25.yaml", std::get<fusion::strategies::StrategyKind>(GetParam()));
   const TrueTime from = confirmation_time(drive);
-  EXPECT_LT(from, sim::kFirstCycle + Duration::milliseconds(1000));
+  EXPECT_LT(from, sim::crank::kFirstCycle + Duration::milliseconds(1000));
   Coverage coverage(from);
   Memory memory;
-  experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
-  records::Tee tee({&coverage, &memory, &measures});
-  const sim::DriveOutcome outcome = drive.run(tee, std::get<std::uint64_t>(GetParam()));
+  evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
+  recording::records::Tee tee({&coverage, &memory, &measures});
+  const DriveOutcome outcome = drive.run(tee, std::get<std::uint64_t>(GetParam()));
   coverage.finish();
   ASSERT_EQ(coverage.objects.size(), 25u);
   for (const auto& [id, object] : coverage.objects) {
     EXPECT_GT(object.uses, 1450);
     // Visible all the time: at every use it is there, under the name it was born with.
     EXPECT_EQ(object.shown, object.uses) << "object " << index_of(id) << ", first missed at "
-                                         << (object.first_missed - sim::kFirstCycle).seconds() << " s";
+                                         << (object.first_missed - sim::crank::kFirstCycle).seconds() << " s";
     EXPECT_EQ(object.tracks.size(), 1u) << "object " << index_of(id) << " has that many tracks";
   }
   EXPECT_EQ(outcome.counts.slot_problems, 0u);
@@ -133,12 +133,12 @@ TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryStrategy, Crowd,
-                         testing::Combine(testing::ValuesIn(testing_support::kStrategies),
+                         testing::Combine(testing::ValuesIn(kStrategies),
                                           testing::Values(std::uint64_t{1}, std::uint64_t{2})),
                          [](const auto& run) {
-                           return std::string(nodes::name_of(std::get<fusion::StrategyKind>(run.param))) + "_" +
+                           return std::string(name_of(std::get<fusion::strategies::StrategyKind>(run.param))) + "_" +
                                   std::to_string(std::get<std::uint64_t>(run.param));
                          });
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

@@ -13,7 +13,7 @@
 #include "schedules/analysis/can_load.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::testing_support {
+namespace ttf::drives {
 
 enum class Filling { kDense, kSparse };
 
@@ -39,7 +39,7 @@ class Wire {
 };
 
 // Fills a fragment: the sequence number, fragment, count and time stamp stay as they are.
-inline void fill(std::span<std::byte> fragment, const schedules::PduLayout& layout, std::uint32_t identifier,
+inline void fill(std::span<std::byte> fragment, const schedules::model::PduLayout& layout, std::uint32_t identifier,
                  Filling filling) {
   const auto data_code = [](int bytes) {  // of a CAN FD frame that holds them
     constexpr int kLengths[] = {12, 16, 20, 24, 32, 48, 64};
@@ -54,7 +54,7 @@ inline void fill(std::span<std::byte> fragment, const schedules::PduLayout& layo
   wire.put(0b00101, 5);                                                       // RRS, IDE, FDF, res, BRS
   wire.put(static_cast<std::uint32_t>(data_code(layout.fragment_bytes)), 5);  // ESI, DLC
   std::vector<bool> free(8 * fragment.size(), true);
-  for (const schedules::Signal& signal : layout.header)
+  for (const schedules::model::Signal& signal : layout.header)
     for (const std::string_view fixed : {"sequence", "fragment", "count", "timestamp"})
       if (signal.name == fixed) std::fill_n(free.begin() + signal.bit_offset, signal.bits, false);
   for (std::size_t b = 0; b < free.size(); ++b) {
@@ -66,8 +66,8 @@ inline void fill(std::span<std::byte> fragment, const schedules::PduLayout& layo
 }
 
 // Rewrites what `output` holds.
-inline void fill(nodes::Output& output, std::uint32_t identifier, Filling filling) {
-  const bus::ListView list = output.view();
+inline void fill(nodes::host::Output& output, std::uint32_t identifier, Filling filling) {
+  const bus::cni::ListView list = output.view();
   std::vector<std::byte> bytes(list.bytes.begin(), list.bytes.end());
   const auto size = static_cast<std::size_t>(output.layout().fragment_bytes);
   for (std::size_t f = 0; f < static_cast<std::size_t>(list.fragments); ++f)
@@ -76,18 +76,19 @@ inline void fill(nodes::Output& output, std::uint32_t identifier, Filling fillin
 }
 
 // A sensor device whose every measurement is such a list, and a preprocessing that makes such a list of it.
-class FilledStep final : public nodes::Step {
+class FilledStep final : public nodes::host::Step {
  public:
   // The first list has the number `first`.
-  FilledStep(const schedules::Cluster& cluster, const schedules::Task& task, std::uint32_t first, Filling filling)
+  FilledStep(const schedules::model::Cluster& cluster, const schedules::model::Task& task, std::uint32_t first,
+             Filling filling)
       : filling_(filling), first_(first) {
-    const schedules::PortBinding& out = task.writes.at(0);
-    for (const schedules::CanMessage& message : cluster.can_buses[out.can_bus.value()].messages)
+    const schedules::model::PortBinding& out = task.writes.at(0);
+    for (const schedules::model::CanMessage& message : cluster.can_buses[out.can_bus.value()].messages)
       if (message.pdu == out.pdu) identifier_ = message.identifier;
     sensor_ = cluster.pdu(out.pdu).sensor;
   }
-  void run(nodes::StepContext& context) override {
-    nodes::Output& out = context.outputs[0];
+  void run(nodes::host::StepContext& context) override {
+    nodes::host::Output& out = context.outputs[0];
     const int count = filling_ == Filling::kDense ? out.layout().max_elements : 0;
     if (context.inputs.empty()) {
       out.begin(first_ + context.measurement, count, GlobalTime{});
@@ -105,9 +106,9 @@ class FilledStep final : public nodes::Step {
 };
 
 // A device that measures nothing.
-class SilentStep final : public nodes::Step {
+class SilentStep final : public nodes::host::Step {
  public:
-  void run(nodes::StepContext&) override {}
+  void run(nodes::host::StepContext&) override {}
 };
 
-}  // namespace ttf::testing_support
+}  // namespace ttf::drives

@@ -10,20 +10,16 @@
 #include "tests/drives/drive_fixture.h"
 #include "tests/drives/image_copy.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::Drive;
-using testing_support::Images;
-using testing_support::kStrategies;
-using testing_support::same;
+using fusion::strategies::StrategyKind;
 
 std::string log_of(const Drive& drive, std::uint64_t seed, const std::string& name) {
   const std::string path = testing::TempDir() + "/" + name + ".mcap";
-  recording::LogManifest manifest;
+  recording::log::LogManifest manifest;
   manifest.seed = seed;
-  recording::LogWriter log(path, manifest);
+  recording::log::LogWriter log(path, manifest);
   drive.run(log, seed);
   log.close();
   std::ifstream file(path, std::ios::binary);
@@ -37,16 +33,17 @@ TEST(Drive, SameSeedSameLogBytesOtherSeedOthers) {
     const Drive drive("scenarios/paper_scenario2.yaml", strategy);
     const std::string first = log_of(drive, 5, "first"), second = log_of(drive, 5, "second");
     EXPECT_GT(first.size(), 100'000u);
-    EXPECT_TRUE(first == second) << nodes::name_of(strategy);
-    EXPECT_FALSE(first == log_of(drive, 6, "third")) << nodes::name_of(strategy);
+    EXPECT_TRUE(first == second) << name_of(strategy);
+    EXPECT_FALSE(first == log_of(drive, 6, "third")) << name_of(strategy);
   }
 }
 
-struct FusedLists final : records::Sink {
-  using records::Sink::on;
+struct FusedLists final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::vector<MeasurementId> ids;
-  void on(const records::ListFused& list) override {
-    if (list.disposition == records::Disposition::kFused || list.disposition == records::Disposition::kFusedLate)
+  void on(const recording::records::ListFused& list) override {
+    if (list.disposition == recording::records::Disposition::kFused ||
+        list.disposition == recording::records::Disposition::kFusedLate)
       ids.push_back(list.id);
   }
 };
@@ -55,10 +52,10 @@ TEST(Drive, ShippedDrivesHaveOutOfSequenceArrivalsAndTheStrategiesDiffer) {
   std::vector<Images> images(3);
   for (const StrategyKind strategy : kStrategies) {
     const Drive drive("scenarios/paper_scenario1.yaml", strategy);
-    experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
-    records::Tee tee({&measures, &images[static_cast<std::size_t>(strategy)]});
+    evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
+    recording::records::Tee tee({&measures, &images[static_cast<std::size_t>(strategy)]});
     drive.run(tee);
-    const experiments::DriveSummary summary = measures.finish();
+    const evaluation::accuracy::DriveSummary summary = measures.finish();
     EXPECT_EQ(summary.out_of_sequence == 0, strategy == StrategyKind::kTt);
     if (strategy == StrategyKind::kBuff) {
       EXPECT_GT(summary.held, 0u);
@@ -86,7 +83,7 @@ TEST(Drive, EveryListIsFusedExactlyOnce) {
     FusedLists fused;
     Drive("scenarios/paper_scenario2.yaml", strategy).run(fused);
     std::sort(fused.ids.begin(), fused.ids.end());
-    EXPECT_EQ(std::adjacent_find(fused.ids.begin(), fused.ids.end()), fused.ids.end()) << nodes::name_of(strategy);
+    EXPECT_EQ(std::adjacent_find(fused.ids.begin(), fused.ids.end()), fused.ids.end()) << name_of(strategy);
     EXPECT_GT(fused.ids.size(), 90u);
   }
 }
@@ -116,4 +113,4 @@ TEST(Drive, TheFeatureServiceUsesWhatTheBusCarried) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

@@ -8,14 +8,14 @@
 
 #include "recording/records/records.h"
 
-namespace ttf::testing_support {
+namespace ttf::drives {
 
-inline bool same(const records::Stamp& a, const records::Stamp& b) {
+inline bool same(const recording::records::Stamp& a, const recording::records::Stamp& b) {
   return a.true_time == b.true_time && a.local == b.local && a.global == b.global && a.node == b.node;
 }
 
 // Every field by name: one that is added later does not compile until it is compared, too.
-inline auto bits(const records::ImageObject& object) {
+inline auto bits(const recording::records::ImageObject& object) {
   const auto& [track, x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy,
                sigma_heading, sigma_speed, sigma_acceleration, sigma_length, sigma_width, status] = object;
   std::vector<std::uint64_t> all{index_of(track), status};
@@ -26,14 +26,14 @@ inline auto bits(const records::ImageObject& object) {
 }
 
 struct ImageCopy {
-  records::Stamp stamp;
+  recording::records::Stamp stamp;
   std::uint32_t sequence = 0;
   GlobalTime valid_at{}, newest_measurement{};
-  std::vector<records::ImageObject> objects;
+  std::vector<recording::records::ImageObject> objects;
   std::vector<MeasurementId> newest;
 
   ImageCopy() = default;
-  explicit ImageCopy(const records::ImageWritten& image) {
+  explicit ImageCopy(const recording::records::ImageWritten& image) {
     const auto& [its_stamp, its_sequence, its_valid_at, its_newest_measurement, its_objects, its_newest] = image;
     stamp = its_stamp;
     sequence = its_sequence;
@@ -44,7 +44,8 @@ struct ImageCopy {
   }
 };
 
-inline bool same(const std::vector<records::ImageObject>& a, const std::vector<records::ImageObject>& b) {
+inline bool same(const std::vector<recording::records::ImageObject>& a,
+                 const std::vector<recording::records::ImageObject>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t o = 0; o < a.size(); ++o)
     if (bits(a[o]) != bits(b[o])) return false;
@@ -57,22 +58,22 @@ inline bool same(const ImageCopy& a, const ImageCopy& b) {
 }
 
 // Of a whole drive.
-struct Images final : records::Sink {
-  using records::Sink::on;
+struct Images final : recording::records::Sink {
+  using recording::records::Sink::on;
   struct Use {
     std::uint32_t sequence = 0;
     GlobalTime valid_at{};
     bool fresh = false;
-    std::vector<records::ImageObject> objects;
+    std::vector<recording::records::ImageObject> objects;
   };
   std::map<std::uint32_t, ImageCopy> written;  // by sequence
   std::vector<Use> used;
 
-  void on(const records::ImageWritten& image) override { written[image.sequence] = ImageCopy(image); }
-  void on(const records::FeatureUsed& use) override {
+  void on(const recording::records::ImageWritten& image) override { written[image.sequence] = ImageCopy(image); }
+  void on(const recording::records::FeatureUsed& use) override {
     used.push_back({use.image_sequence, use.image_valid_at, use.fresh, {}});
-    for (const records::FeatureObject& object : use.objects) used.back().objects.push_back(object.image);
+    for (const recording::records::FeatureObject& object : use.objects) used.back().objects.push_back(object.image);
   }
 };
 
-}  // namespace ttf::testing_support
+}  // namespace ttf::drives

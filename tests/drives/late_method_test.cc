@@ -5,23 +5,23 @@
 
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using fusion::StrategyKind;
 using fusion::oosm::Kind;
-using testing_support::Drive;
+using fusion::strategies::StrategyKind;
 
 constexpr const char* kScenario = "scenarios/paper_scenario1.yaml";
 
-experiments::DriveSummary summary_of(const Drive& drive) {
-  experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
+evaluation::accuracy::DriveSummary summary_of(const Drive& drive) {
+  evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
   drive.run(measures);
   return measures.finish();
 }
 
 // Errors within two in a hundred, objects and lists alike.
-void expect_nearly(const experiments::DriveSummary& other, const experiments::DriveSummary& rewinding) {
+void expect_nearly(const evaluation::accuracy::DriveSummary& other,
+                   const evaluation::accuracy::DriveSummary& rewinding) {
   EXPECT_NEAR(other.position_rmse_truth / rewinding.position_rmse_truth, 1.0, 0.02);
   EXPECT_NEAR(other.velocity_rmse_truth / rewinding.velocity_rmse_truth, 1.0, 0.02);
   EXPECT_NEAR(other.nees / rewinding.nees, 1.0, 0.05);
@@ -38,7 +38,7 @@ void expect_nearly(const experiments::DriveSummary& other, const experiments::Dr
 TEST(LateMethod, AdvaWithOthersIsNearlyRewinding) {
   for (const char* scenario : {kScenario, "scenarios/crowd_25.yaml"}) {
     Drive drive(scenario, StrategyKind::kAdva);
-    const experiments::DriveSummary rewinding = summary_of(drive);
+    const evaluation::accuracy::DriveSummary rewinding = summary_of(drive);
     EXPECT_GE(rewinding.fused_late, scenario == kScenario ? 2u : 100u);
     for (const Kind kind : {Kind::kAugmented, Kind::kAdjoint, Kind::kAl1}) {
       drive.scenario.tracker.late = kind;
@@ -53,9 +53,9 @@ TEST(LateMethod, AdvaWithOthersIsNearlyRewinding) {
 TEST(LateMethod, AdvaWithClonesIsNearlyRewinding) {
   Drive drive(kScenario, StrategyKind::kTt);
   drive.strategy = StrategyKind::kAdva;
-  for (schedules::Sensor& sensor : drive.cluster.sensors)
-    if (sensor.kind == schedules::SensorKind::kCamera) sensor.at.base_cycle = 6;
-  const experiments::DriveSummary rewinding = summary_of(drive);
+  for (schedules::model::Sensor& sensor : drive.cluster.sensors)
+    if (sensor.kind == schedules::model::SensorKind::kCamera) sensor.at.base_cycle = 6;
+  const evaluation::accuracy::DriveSummary rewinding = summary_of(drive);
   EXPECT_GT(rewinding.fused_late, 30u);
   drive.scenario.tracker.late = Kind::kClone;
   expect_nearly(summary_of(drive), rewinding);
@@ -66,8 +66,8 @@ TEST(LateMethod, AdvaWithClonesIsNearlyRewinding) {
 TEST(LateMethod, WhereSensorsFollowTheirHostsAllButClonesAreNearlyRewinding) {
   for (const char* cluster : {"schedules/paper_free_running.yaml", "schedules/paper_free_flexray.yaml"}) {
     Drive drive(kScenario, StrategyKind::kAdva);
-    drive.cluster = schedules::load_cluster(testing_support::shipped(cluster));
-    const experiments::DriveSummary rewinding = summary_of(drive);
+    drive.cluster = schedules::file::load_cluster(shipped(cluster));
+    const evaluation::accuracy::DriveSummary rewinding = summary_of(drive);
     EXPECT_GT(rewinding.fused_late, 20u);
     for (const Kind kind : {Kind::kAugmented, Kind::kAdjoint, Kind::kAl1, Kind::kBl1}) {
       drive.scenario.tracker.late = kind;
@@ -81,9 +81,9 @@ TEST(LateMethod, WhereSensorsFollowTheirHostsAllButClonesAreNearlyRewinding) {
 
 TEST(LateMethod, TimeTriggeredClonesAreNeverNeeded) {
   Drive drive(kScenario, StrategyKind::kTt);
-  const experiments::DriveSummary rewinding = summary_of(drive);
+  const evaluation::accuracy::DriveSummary rewinding = summary_of(drive);
   drive.scenario.tracker.late = Kind::kClone;
-  const experiments::DriveSummary clones = summary_of(drive);
+  const evaluation::accuracy::DriveSummary clones = summary_of(drive);
   EXPECT_EQ(clones.fused_late, 0u);
   EXPECT_EQ(clones.position_rmse_truth, rewinding.position_rmse_truth);
   EXPECT_EQ(clones.nees, rewinding.nees);
@@ -91,7 +91,7 @@ TEST(LateMethod, TimeTriggeredClonesAreNeverNeeded) {
 
 TEST(LateMethod, BuffAlwaysRewinds) {
   Drive drive(kScenario, StrategyKind::kBuff);
-  const experiments::DriveSummary rewinding = summary_of(drive);
+  const evaluation::accuracy::DriveSummary rewinding = summary_of(drive);
   drive.scenario.tracker.late = Kind::kC;
   EXPECT_EQ(summary_of(drive).position_rmse_truth, rewinding.position_rmse_truth);
 }
@@ -111,4 +111,4 @@ TEST(LateMethod, WhatCannotBeIsRefusedBeforeTheDrive) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

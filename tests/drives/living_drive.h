@@ -11,20 +11,20 @@
 #include "sim/crank/cluster_simulation.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf::testing_support {
+namespace ttf::drives {
 
 struct FusedList {
   MeasurementId id;
   GlobalTime measured{}, fused{};
   TrueTime at{};
-  records::Disposition disposition{};
+  recording::records::Disposition disposition{};
 };
 struct SeenImage {
   TrueTime at{};
   std::uint32_t sequence = 0;
   GlobalTime valid_at{}, newest_measurement{};
   std::vector<MeasurementId> newest;
-  std::vector<records::ImageObject> objects;
+  std::vector<recording::records::ImageObject> objects;
   std::vector<double> traces;  // of the objects' covariances, in their order
   bool shows(SensorId sensor, std::uint32_t sequence_number) const {
     return std::find(newest.begin(), newest.end(), MeasurementId{sensor, sequence_number}) != newest.end();
@@ -38,24 +38,26 @@ struct SeenUse {
   std::size_t objects = 0;
 };
 
-struct LivingRecords final : records::Sink {
-  using records::Sink::on;
+struct LivingRecords final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::vector<std::pair<MeasurementId, TrueTime>> measured;
   std::vector<FusedList> fused;
   std::vector<SeenImage> images;
   std::vector<SeenUse> uses;
 
-  void on(const records::Measured& record) override { measured.emplace_back(record.id, record.stamp.true_time); }
-  void on(const records::ListFused& record) override {
-    if (record.disposition != records::Disposition::kHeld)
+  void on(const recording::records::Measured& record) override {
+    measured.emplace_back(record.id, record.stamp.true_time);
+  }
+  void on(const recording::records::ListFused& record) override {
+    if (record.disposition != recording::records::Disposition::kHeld)
       fused.push_back({record.id, record.measured, record.stamp.global, record.stamp.true_time, record.disposition});
   }
-  void on(const records::TrackState& track) override {
+  void on(const recording::records::TrackState& track) override {
     if (!track.predicted_for_image) return;
     double& trace = traces_.emplace_back(0.0);
     for (std::size_t k = 0; k < 6; ++k) trace += track.covariance[7 * k];
   }
-  void on(const records::ImageWritten& image) override {
+  void on(const recording::records::ImageWritten& image) override {
     images.push_back({image.stamp.true_time,
                       image.sequence,
                       image.valid_at,
@@ -65,7 +67,7 @@ struct LivingRecords final : records::Sink {
                       std::move(traces_)});
     traces_.clear();
   }
-  void on(const records::FeatureUsed& use) override {
+  void on(const recording::records::FeatureUsed& use) override {
     uses.push_back({use.stamp.true_time, use.stamp.global, use.image_valid_at, use.image_sequence, use.fresh, use.stale,
                     use.objects.size()});
   }
@@ -80,20 +82,22 @@ constexpr TrueTime at_s(double s) { return TrueTime{static_cast<std::int64_t>(s 
 struct LivingDrive {
   Drive drive;
   LivingRecords seen;
-  std::shared_ptr<nodes::WorldScene> scene;
-  nodes::NodeSetConfig nodes;
-  std::unique_ptr<sim::ClusterSimulation> simulation;
+  std::shared_ptr<nodes::sensing::WorldScene> scene;
+  NodeSetConfig nodes;
+  std::unique_ptr<sim::crank::ClusterSimulation> simulation;
 
-  explicit LivingDrive(fusion::StrategyKind strategy, records::Sink* also = nullptr, std::uint64_t seed = 1)
+  explicit LivingDrive(fusion::strategies::StrategyKind strategy, recording::records::Sink* also = nullptr,
+                       std::uint64_t seed = 1)
       : drive("scenarios/paper_scenario1.yaml", strategy),
-        tee_(also ? std::vector<records::Sink*>{&seen, also} : std::vector<records::Sink*>{&seen}) {
-    scene = std::make_shared<nodes::WorldScene>(drive.scenario.world, seed, 0, sim::kFirstCycle);
+        tee_(also ? std::vector<recording::records::Sink*>{&seen, also}
+                  : std::vector<recording::records::Sink*>{&seen}) {
+    scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, seed, 0, sim::crank::kFirstCycle);
     nodes = {&drive.scenario, &drive.cluster, strategy, seed, 0, scene, nullptr};
-    sim::SimulationConfig config;
+    sim::crank::SimulationConfig config;
     config.cluster = &drive.cluster;
     config.seed = seed;
-    config.make_steps = [this](NodeId node) { return nodes::make_steps(nodes, node); };
-    simulation = std::make_unique<sim::ClusterSimulation>(config, tee_);
+    config.make_steps = [this](NodeId node) { return make_steps(nodes, node); };
+    simulation = std::make_unique<sim::crank::ClusterSimulation>(config, tee_);
   }
   SensorId sensor(const std::string& name) const { return *drive.cluster.find_sensor(name); }
   void off(const std::string& node, double at) {
@@ -104,7 +108,7 @@ struct LivingDrive {
   void run_to(double at) { simulation->run_until(at_s(at)); }
 
  private:
-  records::Tee tee_;
+  recording::records::Tee tee_;
 };
 
-}  // namespace ttf::testing_support
+}  // namespace ttf::drives

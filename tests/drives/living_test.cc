@@ -9,32 +9,27 @@
 #include "schedules/analysis/ages.h"
 #include "tests/drives/living_drive.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::at_s;
-using testing_support::FusedList;
-using testing_support::LivingDrive;
-using testing_support::SeenImage;
-using testing_support::SeenUse;
+using fusion::strategies::StrategyKind;
 
 class Living : public testing::TestWithParam<StrategyKind> {};
-INSTANTIATE_TEST_SUITE_P(All, Living, testing::ValuesIn(testing_support::kStrategies),
-                         [](const auto& kind) { return std::string(nodes::name_of(kind.param)); });
+INSTANTIATE_TEST_SUITE_P(All, Living, testing::ValuesIn(kStrategies),
+                         [](const auto& kind) { return std::string(name_of(kind.param)); });
 
 // No list fused twice, none but of what was measured, none older than the schedule says: BUFF and TT may wait for what
 // never comes, ADVA waits for nobody. `besides`: how long a list may have waited in a node that was starting up.
 void expect_nothing_invented(const LivingDrive& drive, Duration besides = {}) {
   std::map<SensorId, Duration> most;
-  for (const schedules::AgePath& path : schedules::measurement_ages(drive.drive.cluster))
+  for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(drive.drive.cluster))
     most[path.sensor] = drive.drive.strategy == StrategyKind::kAdva ? path.fused_worst : path.buffered_fused_worst;
   std::map<MeasurementId, std::vector<TrueTime>> measured;
   for (const auto& [id, at] : drive.seen.measured) measured[id].push_back(at);
   std::set<std::pair<MeasurementId, GlobalTime>> once;
   for (const FusedList& list : drive.seen.fused) {
-    ASSERT_TRUE(list.disposition == records::Disposition::kFused ||
-                list.disposition == records::Disposition::kFusedLate);
+    ASSERT_TRUE(list.disposition == recording::records::Disposition::kFused ||
+                list.disposition == recording::records::Disposition::kFusedLate);
     ASSERT_TRUE(once.emplace(list.id, list.measured).second) << "twice";
     ASSERT_LE(list.fused - list.measured, most[list.id.sensor] + besides) << "sensor " << index_of(list.id.sensor);
     // The age is true: the device measured as long ago, on any clock, give or take clocks and stamps.
@@ -49,7 +44,7 @@ void expect_nothing_invented(const LivingDrive& drive, Duration besides = {}) {
   }
   for (const SeenImage& image : drive.seen.images) {
     std::set<TrackId> names;
-    for (const records::ImageObject& object : image.objects) ASSERT_TRUE(names.insert(object.track).second);
+    for (const recording::records::ImageObject& object : image.objects) ASSERT_TRUE(names.insert(object.track).second);
   }
 }
 
@@ -75,7 +70,7 @@ TEST_P(Living, WithOneSensorDeadTheOtherIsEnough) {
       if (image.at < at_s(1.8)) continue;
       ++images;
       ASSERT_EQ(image.objects.size(), 1u) << dead << " dead, the car at " << image.at.ns;
-      EXPECT_EQ(image.objects[0].status & records::kImageCoasting, 0);
+      EXPECT_EQ(image.objects[0].status & recording::records::kImageCoasting, 0);
       EXPECT_TRUE(image.shows(sensor, last)) << "the last one there was";
     }
     EXPECT_GT(images, 50u);
@@ -107,7 +102,7 @@ TEST_P(Living, ASensorThatRestartsIsFusedAgain) {
 
 // Both die. The image goes on: an object less and less certain, called coasting, then none.
 void expect_coasting_from(const LivingDrive& drive, double silent_s) {
-  const fusion::TrackerConfig& rule = drive.drive.scenario.tracker;
+  const fusion::config::TrackerConfig& rule = drive.drive.scenario.tracker;
   double trace = 0.0;
   int before = 0, coasting = 0, after = 0;
   for (const SeenImage& image : drive.seen.images) {
@@ -122,7 +117,7 @@ void expect_coasting_from(const LivingDrive& drive, double silent_s) {
     ASSERT_EQ(image.objects.size(), 1u) << silent.ns;
     EXPECT_GT(image.traces[0], trace) << silent.ns;
     trace = image.traces[0];
-    const bool called = (image.objects[0].status & records::kImageCoasting) != 0;
+    const bool called = (image.objects[0].status & recording::records::kImageCoasting) != 0;
     EXPECT_EQ(called, silent > rule.coast_after) << silent.ns;
     ++(called ? coasting : before);
   }
@@ -149,13 +144,13 @@ TEST_P(Living, WithoutTheGatewayTracksCoastAndWithItAgainTheyAreBornAnew) {
   const std::size_t images = drive.seen.images.size();
   std::set<TrackId> old;
   for (const SeenImage& image : drive.seen.images)
-    for (const records::ImageObject& object : image.objects) old.insert(object.track);
+    for (const recording::records::ImageObject& object : image.objects) old.insert(object.track);
   drive.on("gateway", 3.4);
   drive.run_to(5.0);
   expect_nothing_invented(drive, Duration::milliseconds(60));
   ASSERT_EQ(drive.seen.images.back().objects.size(), 1u);
   for (std::size_t i = images; i < drive.seen.images.size(); ++i)
-    for (const records::ImageObject& object : drive.seen.images[i].objects)
+    for (const recording::records::ImageObject& object : drive.seen.images[i].objects)
       EXPECT_FALSE(old.contains(object.track)) << "what ended does not come back";
 }
 
@@ -239,4 +234,4 @@ TEST_P(Living, AHostThatRestartsStampsWhatItMeansAgain) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

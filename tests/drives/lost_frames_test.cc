@@ -12,24 +12,23 @@
 #include "sim/medium/disturbance.h"
 #include "tests/drives/living_drive.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::LivingDrive;
+using fusion::strategies::StrategyKind;
 
 // Keeps frames of observation lists from the bus: a share of the lists altogether, and of the others a share of the
 // frames.
-class Losses final : public sim::Disturbance {
+class Losses final : public sim::medium::Disturbance {
  public:
-  Losses(const schedules::Cluster& cluster, std::uint64_t seed) : cluster_(cluster), seed_(seed) {}
+  Losses(const schedules::model::Cluster& cluster, std::uint64_t seed) : cluster_(cluster), seed_(seed) {}
 
-  bool leaving(sim::Leaving& signal) override {
-    if (signal.signal != bus::Signal::kFrame || signal.bytes.size() < 10) return true;
+  bool leaving(sim::medium::Leaving& signal) override {
+    if (signal.signal != bus::ports::Signal::kFrame || signal.bytes.size() < 10) return true;
     // Header: 5 bits, then 11 of the frame id; payload: 16 bits of the sequence number first.
     const auto byte = [&](std::size_t i) { return std::to_integer<int>(signal.bytes[i]); };
     const int slot = (byte(0) & 7) << 8 | byte(1);
-    for (const schedules::FrameSlot& frame : cluster_.frames) {
+    for (const schedules::model::FrameSlot& frame : cluster_.frames) {
       if (frame.slot != slot || frame.pdu == kNoPdu || cluster_.pdu(frame.pdu).sensor == kNoSensor) continue;
       const auto sequence = static_cast<std::uint32_t>(byte(5) << 8 | byte(6));
       RandomStream list({seed_, 0, Purpose::kTest, static_cast<std::uint16_t>(frame.pdu), sequence});
@@ -43,7 +42,7 @@ class Losses final : public sim::Disturbance {
   int lost() const { return lost_; }
 
  private:
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   std::uint64_t seed_;
   std::uint32_t frames_ = 0;
   int lost_ = 0;
@@ -56,26 +55,28 @@ struct List {
 using Lists = std::map<MeasurementId, List>;
 
 // What a fusion node that receives all lists was sent.
-struct Everything final : records::Sink {
-  using records::Sink::on;
+struct Everything final : recording::records::Sink {
+  using recording::records::Sink::on;
   Lists lists;
-  void on(const records::FusionInput& input) override {
+  void on(const recording::records::FusionInput& input) override {
     lists[{input.sensor, input.sequence}] = {input.measured, {input.fragments.begin(), input.fragments.end()}};
   }
 };
 
 // A strategy beside the drive that is handed, of the lists that arrived, those of the faultless drive.
-class Beside final : public records::Sink {
+class Beside final : public recording::records::Sink {
  public:
-  Beside(const schedules::Cluster& cluster, const fusion::TrackerConfig& tracker, StrategyKind kind, const Lists& sent)
-      : cluster_(cluster), strategy_(fusion::make_strategy(kind, tracker, nodes::sensor_timings(cluster))),
+  Beside(const schedules::model::Cluster& cluster, const fusion::config::TrackerConfig& tracker, StrategyKind kind,
+         const Lists& sent)
+      : cluster_(cluster),
+        strategy_(fusion::strategies::make_strategy(kind, tracker, nodes::fusion::sensor_timings(cluster))),
         sent_(sent) {}
 
   std::set<MeasurementId> arrived;
   std::size_t compared = 0;
 
-  using records::Sink::on;
-  void on(const records::FusionInput& input) override {
+  using recording::records::Sink::on;
+  void on(const recording::records::FusionInput& input) override {
     const MeasurementId id{input.sensor, input.sequence};
     ASSERT_TRUE(arrived.insert(id).second) << "twice";
     const auto list = sent_.find(id);
@@ -85,17 +86,18 @@ class Beside final : public records::Sink {
                            list->second.bytes.end()))
         << "mixed from more than one list";
     const int fragments = static_cast<int>(list->second.bytes.size()) / cluster_.pdu(input.pdu).fragment_bytes;
-    nodes::ObservationCodec(cluster_, input.pdu).decode({id.sequence, fragments, list->second.bytes}, observations_);
+    nodes::sensing::ObservationCodec(cluster_, input.pdu)
+        .decode({id.sequence, fragments, list->second.bytes}, observations_);
     strategy_->accept({id, list->second.measured, observations_});
   }
-  void on(const records::FusionStep& step) override { strategy_->fuse(step.stamp.global); }
-  void on(const records::TrackState& track) override {
+  void on(const recording::records::FusionStep& step) override { strategy_->fuse(step.stamp.global); }
+  void on(const recording::records::TrackState& track) override {
     if (track.predicted_for_image) shown_[track.track].assign(track.state.begin(), track.state.end());
   }
-  void on(const records::ImageWritten& image) override {
+  void on(const recording::records::ImageWritten& image) override {
     strategy_->image(image.valid_at, views_);
     ASSERT_EQ(shown_.size(), views_.size());
-    for (const fusion::TrackView& view : views_)
+    for (const fusion::tracks::TrackView& view : views_)
       for (std::size_t k = 0; k < 6; ++k)
         ASSERT_EQ(std::bit_cast<std::uint64_t>(shown_[view.id].at(k)),
                   std::bit_cast<std::uint64_t>(view.state(static_cast<Eigen::Index>(k))));
@@ -104,16 +106,16 @@ class Beside final : public records::Sink {
   }
 
  private:
-  const schedules::Cluster& cluster_;
-  std::unique_ptr<fusion::Strategy> strategy_;
+  const schedules::model::Cluster& cluster_;
+  std::unique_ptr<fusion::strategies::Strategy> strategy_;
   const Lists& sent_;
-  std::vector<fusion::Observation> observations_;
-  std::vector<fusion::TrackView> views_;
+  std::vector<fusion::sensors::Observation> observations_;
+  std::vector<fusion::tracks::TrackView> views_;
   std::map<TrackId, std::vector<double>> shown_;
 };
 
 TEST(LostFrames, ImagesAreThoseOfAFusionNodeThatWasNeverSentWhatGotLost) {
-  for (const StrategyKind kind : testing_support::kStrategies)
+  for (const StrategyKind kind : kStrategies)
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       Everything everything;
       LivingDrive whole(kind, &everything, seed);
@@ -134,4 +136,4 @@ TEST(LostFrames, ImagesAreThoseOfAFusionNodeThatWasNeverSentWhatGotLost) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

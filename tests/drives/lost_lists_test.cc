@@ -8,10 +8,10 @@
 #include "tests/bus/layouts.h"
 #include "timebase/oscillator.h"
 
-namespace ttf::nodes {
+namespace ttf::drives {
 namespace {
 
-using records::Hop;
+using recording::records::Hop;
 
 struct Seen {  // a hop with its list
   Hop hop;
@@ -19,48 +19,48 @@ struct Seen {  // a hop with its list
   bool operator==(const Seen&) const = default;
 };
 
-struct Hops final : records::Sink {
-  using records::Sink::on;
+struct Hops final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::vector<Seen> list;
-  void on(const records::ListHop& hop) override { list.push_back({hop.hop, hop.sequence}); }
+  void on(const recording::records::ListHop& hop) override { list.push_back({hop.hop, hop.sequence}); }
 };
 
-struct Idle final : Step {
-  void run(StepContext&) override {}
+struct Idle final : nodes::host::Step {
+  void run(nodes::host::StepContext&) override {}
 };
 
-struct NoLines final : SensorLines {
+struct NoLines final : nodes::host::SensorLines {
   void trigger(SensorId) override {}
   void strobe(SensorId, std::uint32_t) override {}
 };
 
-struct NoCan final : bus::CanPort {
-  void send(const bus::CanFrame&) override {}
+struct NoCan final : bus::ports::CanPort {
+  void send(const bus::ports::CanFrame&) override {}
 };
 
 // A node off FlexRay with a task that each list on its CAN activates. Fragments of 2 + 3 * 2 bytes: three elements.
 struct Host {
-  schedules::Cluster cluster = made();
+  schedules::model::Cluster cluster = made();
   Hops hops;
   NoLines lines;
   NoCan port;
-  Executive executive{{&cluster, NodeId{1}, timebase::Oscillator(25'000, 0, 0), {}, 0, 0, {}},
-                      {std::make_shared<Idle>()},
-                      nullptr,
-                      {&port},
-                      lines,
-                      hops};
+  nodes::host::Executive executive{{&cluster, NodeId{1}, timebase::Oscillator(25'000, 0, 0), {}, 0, 0, {}},
+                                   {std::make_shared<Idle>()},
+                                   nullptr,
+                                   {&port},
+                                   lines,
+                                   hops};
   Microticks now{0};
 
-  static schedules::Cluster made() {
-    schedules::Cluster cluster;
+  static schedules::model::Cluster made() {
+    schedules::model::Cluster cluster;
     cluster.nodes.resize(2);
     cluster.pdus = {bus::list_layout(4, 10, 3)};
-    schedules::CanBus bus;
+    schedules::model::CanBus bus;
     bus.messages = {{PduId{0}, 0x100, NodeId{0}, {}, 0}};
     cluster.can_buses = {bus};
-    schedules::Task task;
-    task.activation.kind = schedules::ActivationKind::kMessage;
+    schedules::model::Task task;
+    task.activation.kind = schedules::model::ActivationKind::kMessage;
     task.activation.port = "in";
     task.best_case = task.worst_case = task.deadline = Duration::microseconds(1);
     task.reads = {{"in", PduId{0}, 0, 0}};
@@ -97,4 +97,4 @@ TEST(LostLists, AListOfOneFragmentDoesNotHideTheOneItTears) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::drives

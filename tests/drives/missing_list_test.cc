@@ -10,20 +10,20 @@
 #include "schedules/analysis/ages.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using fusion::StrategyKind;
+using fusion::strategies::StrategyKind;
 
 constexpr GlobalTime at_us(std::int64_t us) { return GlobalTime{} + Duration::microseconds(us); }
 
 struct FusionNode {
-  schedules::Cluster cluster;
-  std::unique_ptr<fusion::Strategy> strategy;
+  schedules::model::Cluster cluster;
+  std::unique_ptr<fusion::strategies::Strategy> strategy;
 
   FusionNode(const std::string& file, StrategyKind kind)
-      : cluster(schedules::load_cluster(testing_support::shipped(file))),
-        strategy(fusion::make_strategy(kind, {}, nodes::sensor_timings(cluster))) {}
+      : cluster(schedules::file::load_cluster(shipped(file))),
+        strategy(fusion::strategies::make_strategy(kind, {}, nodes::fusion::sensor_timings(cluster))) {}
   SensorId sensor(const char* name) const { return *cluster.find_sensor(name); }
 
   // The instant at which a list alone is fused, with none of any other sensor.
@@ -31,11 +31,11 @@ struct FusionNode {
     strategy->accept({{sensor(name), 0}, measured, {}});
     for (GlobalTime now = at_us(1'800);; now += Duration::milliseconds(10)) {
       strategy->fuse(now);
-      if (strategy->last_fused()[0].disposition == fusion::Disposition::kFused) return now;
+      if (strategy->last_fused()[0].disposition == fusion::strategies::Disposition::kFused) return now;
     }
   }
   Duration worst_delay(const char* name) const {
-    for (const schedules::AgePath& path : schedules::measurement_ages(cluster))
+    for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(cluster))
       if (path.sensor == sensor(name)) return path.fusion_worst;
     return {};
   }
@@ -68,4 +68,4 @@ TEST(MissingList, BuffGoesOnAtTheLastSlotsTheCameraCanReach) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

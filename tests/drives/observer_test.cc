@@ -6,23 +6,25 @@
 #include <tuple>
 #include <vector>
 
-namespace ttf::sim {
+namespace ttf::drives {
 namespace {
 
-struct TwoObjects final : nodes::Scene {
-  void states_at(TrueTime at, std::vector<world::ObjectState>& out) const override {
+struct TwoObjects final : nodes::sensing::Scene {
+  void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const override {
     out = {{ObjectId{0}, static_cast<double>(at.ns)}, {ObjectId{1}, 7.0}};
   }
   std::size_t objects() const override { return 2; }
 };
 
-struct Truths final : records::Sink {
+struct Truths final : recording::records::Sink {
   std::vector<std::tuple<std::int64_t, NodeId, ObjectId, std::int64_t>> seen;  // true time, node, object, local time
-  using records::Sink::on;
-  void on(const records::TruthState& r) override { seen.emplace_back(r.at.ns, r.node, r.object, r.local.ns); }
+  using recording::records::Sink::on;
+  void on(const recording::records::TruthState& r) override {
+    seen.emplace_back(r.at.ns, r.node, r.object, r.local.ns);
+  }
 };
 
-records::Stamp stamp(std::int64_t ns, NodeId node) {
+recording::records::Stamp stamp(std::int64_t ns, NodeId node) {
   return {TrueTime{ns}, LocalTime{ns + static_cast<std::int64_t>(index_of(node))}, GlobalTime{}, node};
 }
 
@@ -32,8 +34,8 @@ TEST(Observer, EveryNodeRecordsTheTruthOfItsInstantOnce) {
   const TwoObjects scene;
   Truths truths;
   Observer observer(scene, 3, truths);
-  records::Measured measured;
-  records::FeatureUsed used;
+  recording::records::Measured measured;
+  recording::records::FeatureUsed used;
   for (const std::int64_t ns : {100, 200}) {
     measured.stamp = stamp(ns, kLaser);
     used.stamp = stamp(ns, kFeature);
@@ -51,4 +53,4 @@ TEST(Observer, EveryNodeRecordsTheTruthOfItsInstantOnce) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::drives

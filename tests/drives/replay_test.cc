@@ -11,20 +11,16 @@
 #include "tests/drives/drive_fixture.h"
 #include "tests/drives/image_copy.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::Drive;
-using testing_support::ImageCopy;
-using testing_support::kStrategies;
-using testing_support::same;
+using fusion::strategies::StrategyKind;
 
 // What a fusion node says about its images: the image itself and the predictions behind it.
-struct FusionRecords final : records::Sink {
-  using records::Sink::on;
+struct FusionRecords final : recording::records::Sink {
+  using recording::records::Sink::on;
   struct Prediction {
-    records::Stamp stamp;
+    recording::records::Stamp stamp;
     std::uint32_t step = 0;
     TrackId track{};
     GlobalTime valid_at{};
@@ -33,13 +29,13 @@ struct FusionRecords final : records::Sink {
   std::vector<ImageCopy> images;
   std::vector<Prediction> predictions;  // since the last image
 
-  void on(const records::TrackState& track) override {
+  void on(const recording::records::TrackState& track) override {
     if (!track.predicted_for_image) return;
     Prediction& prediction = predictions.emplace_back();
     prediction = {track.stamp, track.step, track.track, track.valid_at, {track.state.begin(), track.state.end()}};
     prediction.numbers.insert(prediction.numbers.end(), track.covariance.begin(), track.covariance.end());
   }
-  void on(const records::ImageWritten& image) override { images.emplace_back(image); }
+  void on(const recording::records::ImageWritten& image) override { images.emplace_back(image); }
 };
 
 bool same_predictions(const FusionRecords& a, const FusionRecords& b) {
@@ -56,44 +52,43 @@ bool same_predictions(const FusionRecords& a, const FusionRecords& b) {
 
 // A task of the fusion node with its ports, driven by hand.
 struct HandDrivenTask {
-  std::shared_ptr<nodes::Step> step;
-  std::vector<nodes::Input> inputs;
-  std::vector<nodes::Output> outputs;
+  std::shared_ptr<nodes::host::Step> step;
+  std::vector<nodes::host::Input> inputs;
+  std::vector<nodes::host::Output> outputs;
   std::map<PduId, std::vector<std::byte>> held;  // the bytes behind the inputs
 
-  void run(const records::Stamp& stamp, records::Sink& sink) {
-    nodes::StepContext context;
+  void run(const recording::records::Stamp& stamp, recording::records::Sink& sink) {
+    nodes::host::StepContext context;
     context.stamp = stamp;
     context.inputs = inputs;
     context.outputs = outputs;
     context.sink = &sink;
     step->run(context);
-    for (nodes::Input& input : inputs) input.fresh = false;
+    for (nodes::host::Input& input : inputs) input.fresh = false;
   }
 };
 
-class FusionReplay final : public records::Sink {
+class FusionReplay final : public recording::records::Sink {
  public:
-  using records::Sink::on;
+  using recording::records::Sink::on;
   std::size_t images = 0, differences = 0, objects = 0;
 
   explicit FusionReplay(const Drive& drive) : cluster_(drive.cluster) {
     const NodeId node = *cluster_.find_node("fusion");
-    const auto steps =
-        nodes::make_steps({&drive.scenario, &drive.cluster, drive.strategy, 0, 0, nullptr, nullptr}, node);
+    const auto steps = make_steps({&drive.scenario, &drive.cluster, drive.strategy, 0, 0, nullptr, nullptr}, node);
     for (std::size_t t = 0; t < steps.size(); ++t) {
-      const schedules::Task& task = cluster_.node(node).tasks[t];
+      const schedules::model::Task& task = cluster_.node(node).tasks[t];
       HandDrivenTask& mine = task.step == "fusion" ? fusion_ : image_output_;
       EXPECT_FALSE(mine.step) << "one task of each kind";
       mine.step = steps[t];
-      for (const schedules::PortBinding& binding : task.reads)
+      for (const schedules::model::PortBinding& binding : task.reads)
         mine.inputs.push_back({binding.port, binding.pdu, &cluster_.pdu(binding.pdu), std::nullopt, false});
-      for (const schedules::PortBinding& binding : task.writes)
+      for (const schedules::model::PortBinding& binding : task.writes)
         mine.outputs.emplace_back(binding.port, binding.pdu, cluster_.pdu(binding.pdu));
     }
   }
-  void on(const records::FusionInput& input) override {
-    for (nodes::Input& port : fusion_.inputs) {
+  void on(const recording::records::FusionInput& input) override {
+    for (nodes::host::Input& port : fusion_.inputs) {
       if (port.pdu != input.pdu) continue;
       EXPECT_FALSE(port.fresh) << "two lists of one port in one step";
       std::vector<std::byte>& bytes = fusion_.held[input.pdu];
@@ -102,9 +97,9 @@ class FusionReplay final : public records::Sink {
       port.fresh = true;
     }
   }
-  void on(const records::FusionStep& step) override { fusion_.run(step.stamp, replayed_); }
-  void on(const records::TrackState& track) override { logged_.on(track); }
-  void on(const records::ImageWritten& image) override {
+  void on(const recording::records::FusionStep& step) override { fusion_.run(step.stamp, replayed_); }
+  void on(const recording::records::TrackState& track) override { logged_.on(track); }
+  void on(const recording::records::ImageWritten& image) override {
     logged_.on(image);
     image_output_.run(image.stamp, replayed_);
     ++images;
@@ -114,14 +109,14 @@ class FusionReplay final : public records::Sink {
   }
 
  private:
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   HandDrivenTask fusion_, image_output_;
   FusionRecords logged_, replayed_;
 };
 
 std::string log_of(const Drive& drive, const std::string& name) {
   const std::string path = testing::TempDir() + "/" + name + ".mcap";
-  recording::LogWriter log(path, {});
+  recording::log::LogWriter log(path, {});
   drive.run(log, 3);
   log.close();
   return path;
@@ -132,31 +127,31 @@ TEST(Log, ReplayingTheFusionNodesInputsGivesEveryImageBitForBit) {
     const Drive drive("scenarios/paper_scenario2.yaml", strategy);
     const std::string path = log_of(drive, "replay");
     FusionReplay replay(drive);
-    recording::read_log(path, replay);
+    recording::log::read_log(path, replay);
     EXPECT_GT(replay.images, 70u);
     EXPECT_GT(replay.objects, 60u);
-    EXPECT_EQ(replay.differences, 0u) << nodes::name_of(strategy);
+    EXPECT_EQ(replay.differences, 0u) << name_of(strategy);
     std::filesystem::remove(path);
   }
 }
 
 // The comparison can say no: one bit of one input, and images differ.
-struct OneBitFlipped final : records::Sink {
-  using records::Sink::on;
+struct OneBitFlipped final : recording::records::Sink {
+  using recording::records::Sink::on;
   FusionReplay& next;
   int inputs = 0;
   explicit OneBitFlipped(FusionReplay& replay) : next(replay) {}
-  void on(const records::FusionInput& input) override {
+  void on(const recording::records::FusionInput& input) override {
     std::vector<std::byte> bytes(input.fragments.begin(), input.fragments.end());
-    records::FusionInput changed = input;
+    recording::records::FusionInput changed = input;
     changed.fragments = bytes;
     // The first of the elements' signals is a position.
     if (++inputs == 40) bytes[12] ^= std::byte{1};
     next.on(changed);
   }
-  void on(const records::FusionStep& step) override { next.on(step); }
-  void on(const records::TrackState& track) override { next.on(track); }
-  void on(const records::ImageWritten& image) override { next.on(image); }
+  void on(const recording::records::FusionStep& step) override { next.on(step); }
+  void on(const recording::records::TrackState& track) override { next.on(track); }
+  void on(const recording::records::ImageWritten& image) override { next.on(image); }
 };
 
 TEST(Log, ReplayingOtherInputsGivesOtherImages) {
@@ -164,10 +159,10 @@ TEST(Log, ReplayingOtherInputsGivesOtherImages) {
   const std::string path = log_of(drive, "replay_flipped");
   FusionReplay replay(drive);
   OneBitFlipped flipped(replay);
-  recording::read_log(path, flipped);
+  recording::log::read_log(path, flipped);
   EXPECT_GT(replay.differences, 0u);
   std::filesystem::remove(path);
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

@@ -10,23 +10,22 @@
 #include "sim/crank/cluster_simulation.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::Drive;
+using fusion::strategies::StrategyKind;
 
-Duration assumed_precision(const schedules::GlobalParameters& g) {
+Duration assumed_precision(const schedules::model::GlobalParameters& g) {
   return {((34 + 20 * g.gClusterDriftDamping) * g.gdMaxMicrotick_ps + 2 * g.gdMaxPropagationDelay_ps) / 1000};
 }
 
-struct Seen final : records::Sink {
-  using records::Sink::on;
-  std::vector<records::PrecisionSample> precision;
+struct Seen final : recording::records::Sink {
+  using recording::records::Sink::on;
+  std::vector<recording::records::PrecisionSample> precision;
   std::vector<TrueTime> images, uses;
-  void on(const records::PrecisionSample& sample) override { precision.push_back(sample); }
-  void on(const records::ImageWritten& image) override { images.push_back(image.stamp.true_time); }
-  void on(const records::FeatureUsed& used) override { uses.push_back(used.stamp.true_time); }
+  void on(const recording::records::PrecisionSample& sample) override { precision.push_back(sample); }
+  void on(const recording::records::ImageWritten& image) override { images.push_back(image.stamp.true_time); }
+  void on(const recording::records::FeatureUsed& used) override { uses.push_back(used.stamp.true_time); }
   static std::size_t within(const std::vector<TrueTime>& all, double from, double to) {
     std::size_t count = 0;
     for (const TrueTime at : all) {
@@ -39,17 +38,17 @@ struct Seen final : records::Sink {
 
 struct Cluster {
   Drive drive;
-  std::shared_ptr<nodes::WorldScene> scene;
-  nodes::NodeSetConfig nodes;
-  sim::SimulationConfig config;
+  std::shared_ptr<nodes::sensing::WorldScene> scene;
+  NodeSetConfig nodes;
+  sim::crank::SimulationConfig config;
   int made = 0;  // sets of steps
 
   explicit Cluster(StrategyKind strategy) : drive("scenarios/paper_scenario1.yaml", strategy) {
-    scene = std::make_shared<nodes::WorldScene>(drive.scenario.world, 1, 0, sim::kFirstCycle);
+    scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, 1, 0, sim::crank::kFirstCycle);
     nodes = {&drive.scenario, &drive.cluster, strategy, 1, 0, scene, nullptr};
     config.cluster = &drive.cluster;
     config.seed = 1;
-    config.make_steps = [this](NodeId node) { return ++made, nodes::make_steps(nodes, node); };
+    config.make_steps = [this](NodeId node) { return ++made, make_steps(nodes, node); };
   }
   NodeId node(const char* name) const { return *drive.cluster.find_node(name); }
 };
@@ -59,10 +58,10 @@ TrueTime seconds(double s) { return TrueTime{static_cast<std::int64_t>(s * 1e9)}
 // Away for longer than a round of the cycle counter: it comes back with another cycle number, and the precision is
 // measured on.
 TEST(Restart, TheFusionNodeComesBackWithNothing) {
-  for (const StrategyKind strategy : testing_support::kStrategies) {
+  for (const StrategyKind strategy : kStrategies) {
     Cluster cluster(strategy);
     Seen seen;
-    sim::ClusterSimulation simulation(cluster.config, seen);
+    sim::crank::ClusterSimulation simulation(cluster.config, seen);
     const int made = cluster.made;
     simulation.run_until(seconds(1.5));
     const auto counts = simulation.counts();
@@ -77,7 +76,7 @@ TEST(Restart, TheFusionNodeComesBackWithNothing) {
     EXPECT_GT(Seen::within(seen.images, 4.0, 5.0), 10u);
     ASSERT_GT(seen.precision.size(), 100u);
     std::int64_t cycle = -1;
-    for (const records::PrecisionSample& sample : seen.precision) {
+    for (const recording::records::PrecisionSample& sample : seen.precision) {
       EXPECT_LT(sample.precision, assumed_precision(cluster.drive.cluster.flexray)) << sample.at.ns;
       EXPECT_GT(sample.cycle, cycle);
       cycle = sample.cycle;
@@ -88,7 +87,7 @@ TEST(Restart, TheFusionNodeComesBackWithNothing) {
 }
 
 TEST(Restart, AColdStartedClusterFuses) {
-  for (const StrategyKind strategy : testing_support::kStrategies) {
+  for (const StrategyKind strategy : kStrategies) {
     Cluster cluster(strategy);
     RandomStream draw({7, 0, Purpose::kTest, 0, 0});
     std::vector<TrueTime> at;
@@ -96,7 +95,7 @@ TEST(Restart, AColdStartedClusterFuses) {
       at.push_back(TrueTime{draw.integer(0, 100'000'000)});
     cluster.config.power_on = [&](NodeId node) { return std::optional(at[index_of(node)]); };
     Seen seen;
-    sim::ClusterSimulation simulation(cluster.config, seen);
+    sim::crank::ClusterSimulation simulation(cluster.config, seen);
     EXPECT_EQ(cluster.made, 0) << "no node is there before its supply";
     simulation.run_until(seconds(4.0));
     EXPECT_EQ(cluster.made, static_cast<int>(at.size()));
@@ -111,9 +110,9 @@ TEST(Restart, AColdStartedClusterFuses) {
 }
 
 // Nodes of all kinds, hosts, sensor devices, gateways, lose their supply at any instant, again and again.
-class Blackouts final : public sim::Disturbance {
+class Blackouts final : public sim::medium::Disturbance {
  public:
-  Blackouts(sim::Plant& plant, std::size_t nodes, std::uint64_t seed)
+  Blackouts(sim::crank::Plant& plant, std::size_t nodes, std::uint64_t seed)
       : plant_(plant), nodes_(nodes), draw_({seed, 0, Purpose::kTest, 2, 0}) {}
   TrueTime next() const override { return next_; }
   void act(TrueTime now) override {
@@ -123,7 +122,7 @@ class Blackouts final : public sim::Disturbance {
   }
 
  private:
-  sim::Plant& plant_;
+  sim::crank::Plant& plant_;
   std::size_t nodes_;
   RandomStream draw_;
   TrueTime next_{500'000'000};
@@ -133,9 +132,9 @@ std::uint64_t story(StrategyKind strategy, std::uint64_t seed, Duration blackout
   Cluster cluster(strategy);
   Seen seen;
   const std::string path = testing::TempDir() + "/blackouts.mcap";
-  recording::LogWriter log(path, {});
-  records::Tee both({&seen, &log});
-  sim::ClusterSimulation simulation(cluster.config, both);
+  recording::log::LogWriter log(path, {});
+  recording::records::Tee both({&seen, &log});
+  sim::crank::ClusterSimulation simulation(cluster.config, both);
   Blackouts blackouts(simulation, cluster.drive.cluster.nodes.size(), seed);
   simulation.set_disturbance(&blackouts);
   simulation.run_until(TrueTime{} + blackouts_until);
@@ -150,11 +149,11 @@ std::uint64_t story(StrategyKind strategy, std::uint64_t seed, Duration blackout
 }
 
 TEST(Restart, AClusterSurvivesBlackoutsAndIsAFunctionOfItsSeed) {
-  for (const StrategyKind strategy : testing_support::kStrategies)
+  for (const StrategyKind strategy : kStrategies)
     for (std::uint64_t seed = 0; seed < 3; ++seed)
       EXPECT_EQ(story(strategy, seed, Duration::milliseconds(6'000)),
                 story(strategy, seed, Duration::milliseconds(6'000)));
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

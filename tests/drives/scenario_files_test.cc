@@ -10,7 +10,7 @@
 #include "core/errors.h"
 #include "drives/scenario.h"
 
-namespace ttf::nodes {
+namespace ttf::drives {
 namespace {
 
 std::vector<std::filesystem::path> shipped() {
@@ -95,4 +95,4 @@ TEST(ScenarioFiles, AnUnknownKeyAndATruncatedFileAreRefused) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::drives

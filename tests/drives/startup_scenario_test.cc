@@ -10,14 +10,14 @@
 #include "nodes/host/cold_start.h"
 #include "tests/bus/bus_rig.h"
 
-namespace ttf::nodes {
+namespace ttf::drives {
 namespace {
 
-Startup startup_of(const std::string& yaml) {
+nodes::host::Startup startup_of(const std::string& yaml) {
   const StrictYaml file = StrictYaml::parse(yaml, "drive.yaml");
   Findings findings;
   YamlMap root = file.root(findings);
-  Startup startup = load_startup(root, Duration::milliseconds(3'000));
+  nodes::host::Startup startup = nodes::host::load_startup(root, Duration::milliseconds(3'000));
   root.finish();
   findings.throw_if_any();
   return startup;
@@ -33,16 +33,16 @@ std::string refusal(const std::string& yaml) {
 }
 
 // Nodes node0 .. node3 on FlexRay, and a device off it.
-schedules::Cluster five() {
-  schedules::Cluster cluster = bus::small_cluster(4);
+schedules::model::Cluster five() {
+  schedules::model::Cluster cluster = bus::small_cluster(4);
   cluster.file = "cluster.yaml";
-  schedules::Node device;
+  schedules::model::Node device;
   device.name = "device";
   cluster.nodes.push_back(device);
   return cluster;
 }
 
-std::string refusal(const Startup& startup, const schedules::Cluster& cluster) {
+std::string refusal(const nodes::host::Startup& startup, const schedules::model::Cluster& cluster) {
   try {
     node_starts(startup, cluster, 1, 0);
   } catch (const InputError& error) {
@@ -55,7 +55,7 @@ TEST(StartupScenario, BeginsIntegratedUnlessToldOtherwise) {
   EXPECT_FALSE(startup_of("{}").cold);
   EXPECT_FALSE(startup_of("startup: integrated").cold);
   EXPECT_FALSE(startup_of("startup: {kind: integrated}").cold);
-  const Startup cold = startup_of("startup: {kind: cold}");
+  const nodes::host::Startup cold = startup_of("startup: {kind: cold}");
   EXPECT_TRUE(cold.cold);
   EXPECT_EQ(cold.spread, Duration::milliseconds(20));
   EXPECT_TRUE(cold.power_on.empty());
@@ -63,7 +63,7 @@ TEST(StartupScenario, BeginsIntegratedUnlessToldOtherwise) {
 }
 
 TEST(StartupScenario, TakesTimesByNodeAndWhoWakes) {
-  const Startup startup = startup_of(
+  const nodes::host::Startup startup = startup_of(
       "startup:\n  kind: cold\n  spread: 5 ms\n  wake_up: node1\n  power_on: {node0: 1500 us, node2: 0 ms}\n");
   EXPECT_EQ(startup.spread, Duration::milliseconds(5));
   EXPECT_EQ(startup.wake_up, "node1");
@@ -90,7 +90,7 @@ TEST(StartupScenario, SaysWhatIsWrongWithFileLineKeyAndRange) {
 }
 
 TEST(StartupScenario, DrawsWithinTheSpreadWhatItDoesNotSay) {
-  Startup startup;
+  nodes::host::Startup startup;
   startup.cold = true;
   startup.spread = Duration::milliseconds(7);
   startup.power_on = {{"node2", Duration::milliseconds(40), 3}};
@@ -99,7 +99,7 @@ TEST(StartupScenario, DrawsWithinTheSpreadWhatItDoesNotSay) {
     const auto starts = node_starts(startup, five(), seed, 0);
     ASSERT_EQ(starts.size(), 5u);
     for (std::size_t n = 0; n < 5; ++n) {
-      EXPECT_EQ(starts[n].how, ColdStart::kStarts);
+      EXPECT_EQ(starts[n].how, nodes::host::ColdStart::kStarts);
       if (n == 2) {
         EXPECT_EQ(starts[n].after, Duration::milliseconds(40));
         continue;
@@ -118,20 +118,20 @@ TEST(StartupScenario, DrawsWithinTheSpreadWhatItDoesNotSay) {
 
 // node1 wakes on channel A. node3 is on B alone, the device on no FlexRay: they cannot be woken.
 TEST(StartupScenario, WhoIsOnTheWakeupChannelSleeps) {
-  schedules::Cluster cluster = five();
-  cluster.nodes[1].flexray->pWakeupChannel = schedules::Channel::kA;
-  cluster.nodes[3].flexray->pChannels = schedules::Channels::kB;
-  Startup startup;
+  schedules::model::Cluster cluster = five();
+  cluster.nodes[1].flexray->pWakeupChannel = schedules::model::Channel::kA;
+  cluster.nodes[3].flexray->pChannels = schedules::model::Channels::kB;
+  nodes::host::Startup startup;
   startup.cold = true;
   startup.wake_up = "node1";
-  std::vector<ColdStart> how;
-  for (const NodeStart& start : node_starts(startup, cluster, 1, 0)) how.push_back(start.how);
-  using enum ColdStart;
-  EXPECT_EQ(how, (std::vector<ColdStart>{kSleeps, kWakes, kSleeps, kStarts, kStarts}));
+  std::vector<nodes::host::ColdStart> how;
+  for (const nodes::host::NodeStart& start : node_starts(startup, cluster, 1, 0)) how.push_back(start.how);
+  using enum nodes::host::ColdStart;
+  EXPECT_EQ(how, (std::vector<nodes::host::ColdStart>{kSleeps, kWakes, kSleeps, kStarts, kStarts}));
 }
 
 TEST(StartupScenario, NamesAreThoseOfTheCluster) {
-  Startup startup;
+  nodes::host::Startup startup;
   startup.file = "drive.yaml";
   startup.power_on = {{"nobody", {}, 7}, {"node0", {}, 7}};
   EXPECT_NE(refusal(startup, five()).find("drive.yaml:7: startup.power_on = nobody: is no node of cluster.yaml"),
@@ -143,12 +143,12 @@ TEST(StartupScenario, NamesAreThoseOfTheCluster) {
   startup.wake_up = "device";
   EXPECT_NE(refusal(startup, five()).find("must be on FlexRay"), std::string::npos);
   startup.wake_up = "node1";
-  schedules::Cluster other_channel = five();
-  other_channel.nodes[1].flexray->pChannels = schedules::Channels::kA;
-  other_channel.nodes[1].flexray->pWakeupChannel = schedules::Channel::kB;
+  schedules::model::Cluster other_channel = five();
+  other_channel.nodes[1].flexray->pChannels = schedules::model::Channels::kA;
+  other_channel.nodes[1].flexray->pWakeupChannel = schedules::model::Channel::kB;
   EXPECT_NE(refusal(startup, other_channel).find("must be attached to its wake-up channel"), std::string::npos);
   EXPECT_EQ(refusal(startup, five()), "");
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::drives

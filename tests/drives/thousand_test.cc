@@ -6,12 +6,10 @@
 #include "evaluation/accuracy/drive_measures.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using testing_support::Drive;
-
-class Hundreds : public testing::TestWithParam<fusion::StrategyKind> {};
+class Hundreds : public testing::TestWithParam<fusion::strategies::StrategyKind> {};
 
 TEST_P(Hundreds, OfObjectsAreTrackedNearlyAllTheTime) {
   Drive drive("scenarios/thousand.yaml", GetParam());
@@ -19,9 +17,9 @@ TEST_P(Hundreds, OfObjectsAreTrackedNearlyAllTheTime) {
   drive.scenario.world.objects.resize(kObjects);
   drive.scenario.duration = drive.scenario.world.duration = Duration::milliseconds(1800);
   drive.scenario.evaluate_from = Duration::milliseconds(1200);
-  experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
-  const sim::DriveOutcome outcome = drive.run(measures);
-  const experiments::DriveSummary summary = measures.finish();
+  evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
+  const DriveOutcome outcome = drive.run(measures);
+  const evaluation::accuracy::DriveSummary summary = measures.finish();
   ASSERT_GE(summary.uses, 4);
   EXPECT_EQ(summary.matched + summary.missed, kObjects * summary.uses);
   EXPECT_LT(summary.missed, kObjects * summary.uses / 200) << "of " << kObjects << " at " << summary.uses << " uses";
@@ -32,8 +30,8 @@ TEST_P(Hundreds, OfObjectsAreTrackedNearlyAllTheTime) {
   EXPECT_EQ(outcome.counts.torn_lists, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryStrategy, Hundreds, testing::ValuesIn(testing_support::kStrategies),
-                         [](const auto& run) { return std::string(nodes::name_of(run.param)); });
+INSTANTIATE_TEST_SUITE_P(EveryStrategy, Hundreds, testing::ValuesIn(kStrategies),
+                         [](const auto& run) { return std::string(name_of(run.param)); });
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

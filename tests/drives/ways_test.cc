@@ -8,33 +8,32 @@
 
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::Drive;
+using fusion::strategies::StrategyKind;
 
 // Where a list was seen, by the measurement it names: each arrow once.
 using Arrow = std::tuple<std::string, PduId, NodeId>;
 
-struct Ways final : records::Sink {
-  using records::Sink::on;
-  const schedules::Cluster& cluster;
-  std::map<MeasurementId, records::Stamp> measured;
+struct Ways final : recording::records::Sink {
+  using recording::records::Sink::on;
+  const schedules::model::Cluster& cluster;
+  std::map<MeasurementId, recording::records::Stamp> measured;
   std::map<MeasurementId, std::set<Arrow>> arrows;
   std::set<MeasurementId> fused, in_images;
   std::map<std::pair<std::uint8_t, PduId>, std::uint32_t> newest_on_can;
-  std::vector<records::TaskRun> runs;
+  std::vector<recording::records::TaskRun> runs;
   int can_frames = 0, slot_frames = 0, image_frames = 0, truths = 0, fixes = 0;
 
-  explicit Ways(const schedules::Cluster& c) : cluster(c) {}
+  explicit Ways(const schedules::model::Cluster& c) : cluster(c) {}
 
   void arrow(const char* what, PduId pdu, SensorId sensor, std::uint32_t sequence, NodeId node) {
     EXPECT_EQ(sensor, pdu == kNoPdu ? kNoSensor : cluster.pdu(pdu).sensor);
     if (sensor != kNoSensor) arrows[{sensor, sequence}].insert({what, pdu, node});
   }
   // Later, or at the same instant, on all three clocks; and by about as much.
-  static void expect_in_order(const records::Stamp& a, const records::Stamp& b) {
+  static void expect_in_order(const recording::records::Stamp& a, const recording::records::Stamp& b) {
     EXPECT_EQ(a.node, b.node);
     const std::int64_t elapsed = (b.true_time - a.true_time).ns;
     EXPECT_GE(elapsed, 0);
@@ -44,8 +43,8 @@ struct Ways final : records::Sink {
                 2000.0 + 0.0015 * static_cast<double>(elapsed));
   }
 
-  void on(const records::Measured& r) override { measured[r.id] = r.stamp; }
-  void on(const records::CanFrameSent& r) override {
+  void on(const recording::records::Measured& r) override { measured[r.id] = r.stamp; }
+  void on(const recording::records::CanFrameSent& r) override {
     ++can_frames;
     expect_in_order(r.start, r.end);
     EXPECT_LT(r.start.true_time, r.end.true_time);
@@ -54,34 +53,36 @@ struct Ways final : records::Sink {
     EXPECT_TRUE(first || r.sequence == entry->second || r.sequence == entry->second + 1) << r.sequence;
     entry->second = r.sequence;
   }
-  void on(const records::SlotFrameSent& r) override {
+  void on(const recording::records::SlotFrameSent& r) override {
     ++slot_frames;
     expect_in_order(r.stamp, r.end);
     if (r.null_frame) return;
     arrow("slot frame", r.pdu, r.sensor, r.sequence, r.stamp.node);
     if (r.pdu != kNoPdu && r.sensor == kNoSensor) ++image_frames;
   }
-  void on(const records::ListHop& r) override {
+  void on(const recording::records::ListHop& r) override {
     constexpr const char* kNames[] = {"", "written", "sent", "received", "torn", "read", "overwritten", "stale"};
     arrow(kNames[static_cast<std::size_t>(r.hop)], r.pdu, r.sensor, r.sequence, r.stamp.node);
   }
-  void on(const records::TaskRun& r) override {
+  void on(const recording::records::TaskRun& r) override {
     expect_in_order(r.activated, r.start);
     expect_in_order(r.start, r.end);
     runs.push_back(r);
   }
-  void on(const records::FusionInput& r) override { arrow("fusion input", r.pdu, r.sensor, r.sequence, r.stamp.node); }
-  void on(const records::ListFused& r) override { fused.insert(r.id); }
-  void on(const records::ImageWritten& r) override { in_images.insert(r.newest.begin(), r.newest.end()); }
-  void on(const records::TruthState& r) override {
+  void on(const recording::records::FusionInput& r) override {
+    arrow("fusion input", r.pdu, r.sensor, r.sequence, r.stamp.node);
+  }
+  void on(const recording::records::ListFused& r) override { fused.insert(r.id); }
+  void on(const recording::records::ImageWritten& r) override { in_images.insert(r.newest.begin(), r.newest.end()); }
+  void on(const recording::records::TruthState& r) override {
     ++truths;
     // The cluster's time runs as fast as its oscillators do on average; a device off the bus has its own, from
     // power-on.
-    const std::int64_t elapsed = (r.at - sim::kFirstCycle).ns;
+    const std::int64_t elapsed = (r.at - sim::crank::kFirstCycle).ns;
     EXPECT_NEAR(static_cast<double>((r.global - GlobalTime{}).ns), static_cast<double>(elapsed),
                 (cluster.node(r.node).flexray ? 3e3 : 2e6) + 1e-4 * static_cast<double>(elapsed));
   }
-  void on(const records::ReferenceFix& r) override {
+  void on(const recording::records::ReferenceFix& r) override {
     ++fixes;
     EXPECT_EQ(r.measured_local.ns, r.measured_true.ns);
   }
@@ -89,17 +90,17 @@ struct Ways final : records::Sink {
 
 // The arrows every list of this sensor takes: both devices' and hosts' CANs, the gateway, both channels, the fusion
 // node.
-std::set<Arrow> expected_arrows(const schedules::Cluster& cluster, SensorId sensor) {
+std::set<Arrow> expected_arrows(const schedules::model::Cluster& cluster, SensorId sensor) {
   std::set<Arrow> arrows;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     const auto node = static_cast<NodeId>(n);
-    for (const schedules::Task& task : cluster.nodes[n].tasks) {
-      for (const schedules::PortBinding& port : task.writes) {
+    for (const schedules::model::Task& task : cluster.nodes[n].tasks) {
+      for (const schedules::model::PortBinding& port : task.writes) {
         if (cluster.pdu(port.pdu).sensor != sensor) continue;
         for (const char* what : {"written", "sent", port.can_bus ? "can frame" : "slot frame"})
           arrows.insert({what, port.pdu, node});
       }
-      for (const schedules::PortBinding& port : task.reads) {
+      for (const schedules::model::PortBinding& port : task.reads) {
         if (cluster.pdu(port.pdu).sensor != sensor) continue;
         for (const char* what : {"received", "read"}) arrows.insert({what, port.pdu, node});
         if (task.step == "fusion") arrows.insert({"fusion input", port.pdu, node});
@@ -137,8 +138,8 @@ TEST_P(WaysOfMeasurements, EveryArrowCarriesTheMeasurementsId) {
 TEST_P(WaysOfMeasurements, SequenceNumbersCountOnWhereTheFieldWraps) {
   const Drive shipped("scenarios/paper_scenario1.yaml", GetParam());
   Drive wrapping = shipped;
-  for (schedules::PduLayout& pdu : wrapping.cluster.pdus)
-    pdu.header[*schedules::find_signal(pdu.header, "sequence")].bits = 4;
+  for (schedules::model::PduLayout& pdu : wrapping.cluster.pdus)
+    pdu.header[*schedules::model::find_signal(pdu.header, "sequence")].bits = 4;
   Ways expected(shipped.cluster), found(wrapping.cluster);
   shipped.run(expected);
   wrapping.run(found);
@@ -148,8 +149,8 @@ TEST_P(WaysOfMeasurements, SequenceNumbersCountOnWhereTheFieldWraps) {
   EXPECT_EQ(found.arrows, expected.arrows);
 }
 
-INSTANTIATE_TEST_SUITE_P(Strategies, WaysOfMeasurements, testing::ValuesIn(testing_support::kStrategies),
-                         [](const auto& strategy) { return std::string(nodes::name_of(strategy.param)); });
+INSTANTIATE_TEST_SUITE_P(Strategies, WaysOfMeasurements, testing::ValuesIn(kStrategies),
+                         [](const auto& strategy) { return std::string(name_of(strategy.param)); });
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives

@@ -13,7 +13,7 @@
 
 #include "schedules/file/loader.h"
 
-namespace ttf::nodes {
+namespace ttf::faults {
 namespace {
 
 using testing::ElementsAre;
@@ -214,9 +214,11 @@ TEST(FaultPlan, MistakesAreSaidInOneSentence) {
   EXPECT_THAT(none.sentences, ElementsAre("drive.yaml:2: faults: must be a list of mappings"));
 }
 
-schedules::Cluster paper() { return schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml"); }
+schedules::model::Cluster paper() {
+  return schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+}
 
-std::vector<std::string> refused(const std::string& entries, const schedules::Cluster& cluster) {
+std::vector<std::string> refused(const std::string& entries, const schedules::model::Cluster& cluster) {
   const Read result = read(entries);
   EXPECT_THAT(result.sentences, ElementsAre());
   std::vector<std::string> sentences;
@@ -229,7 +231,7 @@ std::vector<std::string> refused(const std::string& entries, const schedules::Cl
 }
 
 TEST(FaultPlan, NamesAreLookedUpInTheCluster) {
-  const schedules::Cluster cluster = paper();
+  const schedules::model::Cluster cluster = paper();
   std::vector<NodeId> on_bus;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
     if (cluster.nodes[n].flexray) on_bus.push_back(static_cast<NodeId>(n));
@@ -249,14 +251,14 @@ TEST(FaultPlan, NamesAreLookedUpInTheCluster) {
 }
 
 TEST(FaultPlan, WhatTheClusterHasNotIsRefused) {
-  schedules::Cluster cluster = paper();
+  schedules::model::Cluster cluster = paper();
   for (auto node = cluster.nodes.rbegin(); node != cluster.nodes.rend(); ++node)
     if (node->flexray) {
       node->flexray->pKeySlotUsedForStartup = false;
       break;
     }
   std::string off_bus, not_coldstart, on_bus;
-  for (const schedules::Node& node : cluster.nodes) {
+  for (const schedules::model::Node& node : cluster.nodes) {
     if (!node.flexray)
       off_bus = node.name;
     else if (!node.flexray->pKeySlotUsedForStartup)
@@ -274,7 +276,7 @@ TEST(FaultPlan, WhatTheClusterHasNotIsRefused) {
   ASSERT_EQ(sentences.size(), 7U);
   EXPECT_THAT(sentences[0], HasSubstr("drive.yaml:2: faults[0].node = nobody: must be a node of "));
   std::string names;
-  for (const schedules::Node& node : cluster.nodes)
+  for (const schedules::model::Node& node : cluster.nodes)
     if (node.flexray) names += (names.empty() ? ": " : ", ") + node.name;
   EXPECT_THAT(sentences[0], testing::EndsWith(cluster.name + names));
   EXPECT_THAT(sentences[1], HasSubstr("drive.yaml:3: faults[1].node = " + off_bus + ": must be on FlexRay of "));
@@ -287,4 +289,4 @@ TEST(FaultPlan, WhatTheClusterHasNotIsRefused) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::faults

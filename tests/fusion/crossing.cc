@@ -19,12 +19,12 @@ constexpr double kWidth = 60.0, kHeight = 20.0;
 
 Crossing::Drive Crossing::draw_drive(std::uint64_t seed) const {
   RandomStream stream({.seed = seed, .purpose = Purpose::kTest, .entity = 5});
-  const Covariance f = transition(MotionModel::kConstantVelocity, kPeriod);
-  const Covariance q = driving_noise(MotionModel::kConstantVelocity, process_noise, kPeriod);
-  std::vector<State> now(2, State::Zero());
+  const estimators::Covariance f = transition(config::MotionModel::kConstantVelocity, kPeriod);
+  const estimators::Covariance q = driving_noise(config::MotionModel::kConstantVelocity, process_noise, kPeriod);
+  std::vector<estimators::State> now(2, estimators::State::Zero());
   for (int object = 0; object < 2; ++object) {
     const double side = object == 0 ? 1.0 : -1.0;
-    State& x = now[static_cast<std::size_t>(object)];
+    estimators::State& x = now[static_cast<std::size_t>(object)];
     x(0) = 5.0;
     x(1) = 4.0 * side;
     x(2) = 8.0;
@@ -32,8 +32,8 @@ Crossing::Drive Crossing::draw_drive(std::uint64_t seed) const {
   }
   Drive drive;
   for (int k = 0; k < kLists; ++k) {
-    std::vector<Observation> list;
-    for (State& x : now) {
+    std::vector<sensors::Observation> list;
+    for (estimators::State& x : now) {
       if (k > 0) x = draw(f * x, q, stream);
       const bool seen = stream.uniform() < detection_probability || k < kQuiet;
       const double dx = kSigma * stream.normal(), dy = kSigma * stream.normal();
@@ -49,33 +49,33 @@ Crossing::Drive Crossing::draw_drive(std::uint64_t seed) const {
   return drive;
 }
 
-TrackerConfig Crossing::config() const {
-  TrackerConfig config;
+config::TrackerConfig Crossing::config() const {
+  config::TrackerConfig config;
   config.process_noise = process_noise;
   config.detection_probability = detection_probability;
   config.clutter_density = clutter_density;
   return config;
 }
 
-Followed follow(const Crossing& crossing, const TrackerConfig& config, int runs) {
+Followed follow(const Crossing& crossing, const config::TrackerConfig& config, int runs) {
   Followed sum;
   std::uint64_t judged = 0, pairs = 0;
   for (int run = 1; run <= runs; ++run) {
     const Crossing::Drive drive = crossing.draw_drive(static_cast<std::uint64_t>(run));
-    Timeline timeline(config, 96);
+    tracks::Timeline timeline(config, 96);
     metrics::ClearMot mot({.objects = 2, .tracks = 200, .objects_ever = 2}, 3.0);
     metrics::SetMetric distance(2, 200, {.distance_m = 5.0, .order = 2.0});
-    const auto estimator = make_estimator(config);
+    const auto estimator = estimators::make_estimator(config);
     for (std::size_t k = 0; k < drive.lists.size(); ++k) {
       timeline.insert(drive.lists[k].view());
       std::vector<metrics::Point> truths, estimates;
       std::vector<metrics::Named> objects, tracks;
-      std::vector<Cartesian> states;
-      for (const State& x : drive.truth[k]) {
+      std::vector<estimators::Cartesian> states;
+      for (const estimators::State& x : drive.truth[k]) {
         objects.push_back({static_cast<metrics::Identity>(objects.size()), {x(0), x(1)}});
         truths.push_back({x(0), x(1)});
       }
-      for (const Track& track : timeline.current().tracks) {
+      for (const tracks::Track& track : timeline.current().tracks) {
         if (!track.confirmed) continue;
         states.push_back(estimator->cartesian(track.estimate));
         estimates.push_back({states.back().x(0), states.back().x(1)});
@@ -88,9 +88,9 @@ Followed follow(const Crossing& crossing, const TrackerConfig& config, int runs)
       for (std::size_t i = 0; i < truths.size(); ++i) {
         const int estimate = distance.estimate_of()[i];
         if (estimate < 0) continue;
-        const Cartesian& state = states[static_cast<std::size_t>(estimate)];
+        const estimators::Cartesian& state = states[static_cast<std::size_t>(estimate)];
         sum.nees += metrics::nees<4>({state.x.head<4>(), state.p.topLeftCorner<4, 4>()},
-                                     Vector<4>(drive.truth[k][i].head<4>()));
+                                     linear::Vector<4>(drive.truth[k][i].head<4>()));
         ++pairs;
       }
     }

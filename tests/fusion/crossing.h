@@ -24,11 +24,11 @@ struct Crossing {
 
   // Positions, and everything else, of both objects at each list.
   struct Drive {
-    std::vector<std::vector<State>> truth;  // by list, by object
+    std::vector<std::vector<estimators::State>> truth;  // by list, by object
     std::vector<OwnedScan> lists;
   };
   Drive draw_drive(std::uint64_t seed) const;
-  TrackerConfig config() const;  // that knows all this
+  config::TrackerConfig config() const;  // that knows all this
 };
 
 struct Followed {
@@ -37,6 +37,6 @@ struct Followed {
   std::uint64_t switches = 0, misses = 0, false_tracks = 0;  // CLEAR-MOT, gate 3 m
 };
 // Over `runs` drives of seeds 1, 2, ...; judged from 1.5 s on.
-Followed follow(const Crossing& crossing, const TrackerConfig& config, int runs);
+Followed follow(const Crossing& crossing, const config::TrackerConfig& config, int runs);
 
 }  // namespace ttf::fusion

@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-namespace ttf::fusion::dense {
+namespace ttf::fusion {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -16,4 +16,4 @@ double least_eigenvalue(const MatrixXd& a) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues()(0);  // ascending
 }
 
-}  // namespace ttf::fusion::dense
+}  // namespace ttf::fusion

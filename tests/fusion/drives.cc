@@ -5,15 +5,16 @@
 
 namespace ttf::fusion {
 
-SensorTiming free_running(std::uint8_t sensor, std::int64_t worst_ms) {
-  return {static_cast<SensorId>(sensor), Settling::after(Duration::milliseconds(worst_ms)), false, {}, {}};
+strategies::SensorTiming free_running(std::uint8_t sensor, std::int64_t worst_ms) {
+  return {static_cast<SensorId>(sensor), strategies::Settling::after(Duration::milliseconds(worst_ms)), false, {}, {}};
 }
-SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms, std::int64_t period_ms) {
-  return {static_cast<SensorId>(sensor), Settling::after(Duration::milliseconds(worst_ms)), true, at_ms(first_ms),
-          Duration::milliseconds(period_ms)};
+strategies::SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms,
+                                   std::int64_t period_ms) {
+  return {static_cast<SensorId>(sensor), strategies::Settling::after(Duration::milliseconds(worst_ms)), true,
+          at_ms(first_ms), Duration::milliseconds(period_ms)};
 }
 
-std::vector<SensorTiming> laser_and_camera() { return {scheduled(0, 60, 0, 80), scheduled(1, 35, 20, 40)}; }
+std::vector<strategies::SensorTiming> laser_and_camera() { return {scheduled(0, 60, 0, 80), scheduled(1, 35, 20, 40)}; }
 
 void sort_by_arrival(std::vector<Arrival>& arrivals) {
   std::stable_sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) { return a.ms < b.ms; });
@@ -36,27 +37,27 @@ std::ostream& operator<<(std::ostream& out, const Fused& f) {
   return out << "{" << f.ms << " ms: " << index_of(f.id.sensor) << "/" << f.id.sequence << " "
              << static_cast<int>(f.disposition) << "}";
 }
-Fused fused(std::int64_t ms, std::uint8_t sensor, std::uint32_t sequence, Disposition d) {
+Fused fused(std::int64_t ms, std::uint8_t sensor, std::uint32_t sequence, strategies::Disposition d) {
   return {ms, {static_cast<SensorId>(sensor), sequence}, d};
 }
 
-std::vector<Fused> run(Strategy& strategy, std::vector<Arrival> arrivals, std::int64_t until) {
+std::vector<Fused> run(strategies::Strategy& strategy, std::vector<Arrival> arrivals, std::int64_t until) {
   sort_by_arrival(arrivals);
   std::vector<Fused> out;
   std::size_t next = 0;
   for (std::int64_t now = 0; now <= until; now += 10) {
     for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) strategy.accept(arrivals[next].scan.view());
     strategy.fuse(at_ms(now));
-    for (const FusedScan& f : strategy.last_fused())
-      if (f.disposition != Disposition::kHeld) out.push_back({now, f.id, f.disposition});
+    for (const strategies::FusedScan& f : strategy.last_fused())
+      if (f.disposition != strategies::Disposition::kHeld) out.push_back({now, f.id, f.disposition});
   }
   return out;
 }
 
-std::size_t held(const Strategy& strategy) {
+std::size_t held(const strategies::Strategy& strategy) {
   return static_cast<std::size_t>(
       std::count_if(strategy.last_fused().begin(), strategy.last_fused().end(),
-                    [](const FusedScan& f) { return f.disposition == Disposition::kHeld; }));
+                    [](const strategies::FusedScan& f) { return f.disposition == strategies::Disposition::kHeld; }));
 }
 
 }  // namespace ttf::fusion

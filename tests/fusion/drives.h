@@ -15,18 +15,21 @@
 namespace ttf::fusion {
 
 // The name of a test that is run for every strategy.
-inline std::string name_of(const testing::TestParamInfo<StrategyKind>& kind) {
-  return kind.param == StrategyKind::kBuff ? "Buff" : kind.param == StrategyKind::kAdva ? "Adva" : "Tt";
+inline std::string name_of(const testing::TestParamInfo<strategies::StrategyKind>& kind) {
+  return kind.param == strategies::StrategyKind::kBuff   ? "Buff"
+         : kind.param == strategies::StrategyKind::kAdva ? "Adva"
+                                                         : "Tt";
 }
 
 // What the schedule promises of a sensor: measurements at unknown instants, or every `period_ms` from
 // `first_ms`.
-SensorTiming free_running(std::uint8_t sensor, std::int64_t worst_ms);
-SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms, std::int64_t period_ms);
+strategies::SensorTiming free_running(std::uint8_t sensor, std::int64_t worst_ms);
+strategies::SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms,
+                                   std::int64_t period_ms);
 
 // Laser and camera, both on a schedule: from 0 every 80 ms, there after 60 ms at worst; from 20 every 40 ms,
 // after 35.
-std::vector<SensorTiming> laser_and_camera();
+std::vector<strategies::SensorTiming> laser_and_camera();
 
 struct Arrival {
   std::int64_t ms = 0;
@@ -42,16 +45,17 @@ std::vector<Arrival> drawn_drive(std::uint64_t seed, std::uint32_t laser_scans);
 struct Fused {
   std::int64_t ms = 0;
   MeasurementId id;
-  Disposition disposition = Disposition::kFused;
+  strategies::Disposition disposition = strategies::Disposition::kFused;
   bool operator==(const Fused&) const = default;
 };
 std::ostream& operator<<(std::ostream& out, const Fused& f);
-Fused fused(std::int64_t ms, std::uint8_t sensor, std::uint32_t sequence, Disposition d = Disposition::kFused);
+Fused fused(std::int64_t ms, std::uint8_t sensor, std::uint32_t sequence,
+            strategies::Disposition d = strategies::Disposition::kFused);
 
 // Fusion every 10 ms from 0 to `until`; what was reported, held scans left out.
-std::vector<Fused> run(Strategy& strategy, std::vector<Arrival> arrivals, std::int64_t until);
+std::vector<Fused> run(strategies::Strategy& strategy, std::vector<Arrival> arrivals, std::int64_t until);
 
 // Scans that the last fusion instant left waiting.
-std::size_t held(const Strategy& strategy);
+std::size_t held(const strategies::Strategy& strategy);
 
 }  // namespace ttf::fusion

@@ -17,48 +17,51 @@ namespace ttf::fusion {
 inline constexpr double kPi = std::numbers::pi;
 constexpr GlobalTime at_ms(std::int64_t ms) { return GlobalTime{ms * 1'000'000}; }
 
-Observation position(double x, double y, double sigma);
-Observation radar(double range, double bearing, double rate, double sigma_range, double sigma_bearing,
-                  double sigma_rate);
+sensors::Observation position(double x, double y, double sigma);
+sensors::Observation radar(double range, double bearing, double rate, double sigma_range, double sigma_bearing,
+                           double sigma_rate);
 
 // A scan that owns its observations.
 struct OwnedScan {
   MeasurementId id;
   GlobalTime measured{};
-  std::vector<Observation> observations;
-  Scan view() const { return {id, measured, observations}; }
+  std::vector<sensors::Observation> observations;
+  sensors::Scan view() const { return {id, measured, observations}; }
 };
 inline OwnedScan scan(std::uint8_t sensor, std::uint32_t sequence, GlobalTime measured,
-                      std::vector<Observation> observations = {}) {
+                      std::vector<sensors::Observation> observations = {}) {
   return {{static_cast<SensorId>(sensor), sequence}, measured, std::move(observations)};
 }
 
 // What a test varies of the default configuration.
-TrackerConfig config_of(MotionModel motion, double process_noise = 3.0, FilterKind filter = FilterKind::kExtended);
+config::TrackerConfig config_of(config::MotionModel motion, double process_noise = 3.0,
+                                config::FilterKind filter = config::FilterKind::kExtended);
 
 // An estimate of a constant-velocity or constant-acceleration estimator, and what it is seen as; of tracks, under the
 // default configuration.
-Estimate estimate_of(MotionModel motion, const State& x, const Covariance& p);
-Cartesian seen_as(const Estimate& estimate);
-inline State state_of(const Track& track) { return seen_as(track.estimate).x; }
+estimators::Estimate estimate_of(config::MotionModel motion, const estimators::State& x,
+                                 const estimators::Covariance& p);
+estimators::Cartesian seen_as(const estimators::Estimate& estimate);
+inline estimators::State state_of(const tracks::Track& track) { return seen_as(track.estimate).x; }
 
 // view_of() with the configuration's own estimator.
-TrackView shown(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config = {});
+tracks::TrackView shown(const tracks::Track& track, GlobalTime time, GlobalTime at,
+                        const config::TrackerConfig& config = {});
 
 // F(dt) over the whole state, and the covariance of the driving noise over dt, by numerical integration of
 // F(t) G q G' F(t)' with Gauss-Legendre nodes (exact for these polynomials): independent of the filter's
 // formulas.
-Covariance transition(MotionModel motion, double dt);
-Covariance driving_noise(MotionModel motion, double q, double dt);
+estimators::Covariance transition(config::MotionModel motion, double dt);
+estimators::Covariance driving_noise(config::MotionModel motion, double q, double dt);
 
 // A draw from N(mean, covariance), covariance positive semi-definite.
-State draw(const State& mean, const Covariance& covariance, RandomStream& stream);
+estimators::State draw(const estimators::State& mean, const estimators::Covariance& covariance, RandomStream& stream);
 
 // Estimates, the states of two sets of tracks, images are the same to the last bit. Sets: whatever their tracks
 // are called.
-bool same_bits(const Estimate& a, const Estimate& b);
-bool same_bits(const TrackSet& a, const TrackSet& b);
-bool same_bits(const std::vector<TrackView>& a, const std::vector<TrackView>& b);
+bool same_bits(const estimators::Estimate& a, const estimators::Estimate& b);
+bool same_bits(const tracks::TrackSet& a, const tracks::TrackSet& b);
+bool same_bits(const std::vector<tracks::TrackView>& a, const std::vector<tracks::TrackView>& b);
 
 // Objects on a grid of lanes that drive at their own constant velocity, seen with noise and in shuffled order
 // by one of two sensors in turn. A pure function of its arguments.
@@ -69,8 +72,8 @@ struct Lanes {
   double miss_probability = 0.0;
   std::uint64_t seed = 1;
 
-  State truth(int object, GlobalTime at) const;
-  std::vector<Observation> see(GlobalTime at, std::uint32_t index) const;
+  estimators::State truth(int object, GlobalTime at) const;
+  std::vector<sensors::Observation> see(GlobalTime at, std::uint32_t index) const;
 };
 
 }  // namespace ttf::fusion

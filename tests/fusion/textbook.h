@@ -11,22 +11,23 @@ namespace ttf::fusion {
 
 // What an update did; nu and S are those before it.
 template <int N, int M> struct Correction {
-  Vector<M> nu;
-  Matrix<M> s;
-  Matrix<N, M> k;
+  linear::Vector<M> nu;
+  linear::Matrix<M> s;
+  linear::Matrix<N, M> k;
 };
 
-template <int N, int M> Correction<N, M> update(Gaussian<N>& state, const LinearMeasurement<N, M>& measurement) {
+template <int N, int M>
+Correction<N, M> update(linear::Gaussian<N>& state, const linear::LinearMeasurement<N, M>& measurement) {
   Correction<N, M> c;
   c.nu = measurement.z - measurement.h * state.x;
-  const Matrix<M, N> hp = measurement.h * state.p;
+  const linear::Matrix<M, N> hp = measurement.h * state.p;
   c.s = hp * measurement.h.transpose() + measurement.r;
-  symmetrise<M>(c.s);
+  linear::symmetrise<M>(c.s);
   c.k = c.s.ldlt().solve(hp).transpose();
   state.x += c.k * c.nu;
-  const Matrix<N> a = Matrix<N>::Identity() - c.k * measurement.h;
+  const linear::Matrix<N> a = linear::Matrix<N>::Identity() - c.k * measurement.h;
   state.p = (a * state.p * a.transpose() + c.k * measurement.r * c.k.transpose()).eval();
-  symmetrise<N>(state.p);
+  linear::symmetrise<N>(state.p);
   return c;
 }
 

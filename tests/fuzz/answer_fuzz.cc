@@ -7,10 +7,11 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ttf;
   constexpr char kFile[] = "answer.json";
-  report::ExperimentFolder folder;
-  if (!fuzz::accepted(kFile, [&] { folder = report::parse_answer(fuzz::text_of(data, size), kFile); })) return 0;
-  const std::string page = report::experiment_report_html(folder, {}, {});
+  report::experiment::ExperimentFolder folder;
+  if (!fuzz::accepted(kFile, [&] { folder = report::experiment::parse_answer(fuzz::text_of(data, size), kFile); }))
+    return 0;
+  const std::string page = report::experiment::experiment_report_html(folder, {}, {});
   fuzz::check_page(page);
-  TTF_CHECK(page == report::experiment_report_html(folder, {}, {}), "another page of the same answer");
+  TTF_CHECK(page == report::experiment::experiment_report_html(folder, {}, {}), "another page of the same answer");
   return 0;
 }

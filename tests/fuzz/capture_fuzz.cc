@@ -12,14 +12,14 @@
 namespace {
 
 using namespace ttf;
-using recording::Capture;
-using recording::CapturedPacket;
+using recording::capture::Capture;
+using recording::capture::CapturedPacket;
 
 constexpr char kFile[] = "bus.pcapng";
 
-const schedules::Cluster& cluster() {
-  static const schedules::Cluster kCluster =
-      schedules::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "cluster.yaml");
+const schedules::model::Cluster& cluster() {
+  static const schedules::model::Cluster kCluster =
+      schedules::file::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "cluster.yaml");
   return kCluster;
 }
 
@@ -32,23 +32,23 @@ void check_packets(const Capture& capture, std::size_t size) {
     TTF_CHECK(packet.data_begin + packet.data_size <= size, "packet at {} of {} bytes", packet.data_begin,
               packet.data_size);
     TTF_CHECK(!packet.time_ns || *packet.time_ns >= 0, "packet at {} ns", packet.time_ns.value_or(0));
-    recording::parse_flexray_packet(capture.data(packet));
+    recording::capture::parse_flexray_packet(capture.data(packet));
   }
 }
 
 void check_written_again(const Capture& capture) {
   if (capture.interfaces.empty()) return;
-  std::vector<recording::CaptureInterface> interfaces;
-  for (const recording::CaptureSource& source : capture.interfaces)
-    interfaces.push_back({static_cast<recording::LinkType>(source.link_type), ""});
+  std::vector<recording::exports::CaptureInterface> interfaces;
+  for (const recording::capture::CaptureSource& source : capture.interfaces)
+    interfaces.push_back({static_cast<recording::capture::LinkType>(source.link_type), ""});
   std::string bytes;
-  recording::CaptureWriter writer(bytes, interfaces, "");
+  recording::exports::CaptureWriter writer(bytes, interfaces, "");
   for (const CapturedPacket& packet : capture.packets) {
     const auto data = capture.data(packet);
     writer.packet(packet.interface, packet.time_ns.value_or(0),
                   {reinterpret_cast<const char*>(data.data()), data.size()}, "");
   }
-  const Capture again = recording::parse_capture(bytes, kFile);
+  const Capture again = recording::capture::parse_capture(bytes, kFile);
   TTF_CHECK(again.warning.empty() && again.packets.size() == capture.packets.size(), "{} packets are {}: {}",
             capture.packets.size(), again.packets.size(), again.warning);
   for (std::size_t i = 0; i < again.packets.size(); ++i) {
@@ -61,8 +61,9 @@ void check_written_again(const Capture& capture) {
 }
 
 void check_verdict(const Capture& capture) {
-  recording::CaptureVerdict verdict;
-  const bool said = fuzz::accepted(kFile, [&] { verdict = recording::check_capture(capture, kFile, cluster(), {}); });
+  recording::capture::CaptureVerdict verdict;
+  const bool said =
+      fuzz::accepted(kFile, [&] { verdict = recording::capture::check_capture(capture, kFile, cluster(), {}); });
   if (!said) return;
   TTF_CHECK(verdict.frames > 0 && verdict.cycles > 0, "{} frames, {} cycles", verdict.frames, verdict.cycles);
   TTF_CHECK(verdict.frames + verdict.symbols + verdict.other_packets == capture.packets.size(), "{} of {} packets",
@@ -71,7 +72,7 @@ void check_verdict(const Capture& capture) {
                 verdict.findings.empty() == (verdict.contradictions() == 0),
             "{} findings, {} contradictions", verdict.findings.size(), verdict.contradictions());
   std::uint64_t before = 0;
-  for (const recording::CaptureFinding& finding : verdict.findings) {
+  for (const recording::capture::CaptureFinding& finding : verdict.findings) {
     TTF_CHECK(finding.packet >= before && finding.packet <= capture.packets.size() && !finding.text.empty(),
               "packet {} after {}: {}", finding.packet, before, finding.text);
     before = finding.packet;
@@ -82,7 +83,8 @@ void check_verdict(const Capture& capture) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Capture capture;
-  if (!fuzz::accepted(kFile, [&] { capture = recording::parse_capture(fuzz::text_of(data, size), kFile); })) return 0;
+  if (!fuzz::accepted(kFile, [&] { capture = recording::capture::parse_capture(fuzz::text_of(data, size), kFile); }))
+    return 0;
   fuzz::check_lines(capture.warning, kFile);
   check_packets(capture, size);
   check_written_again(capture);

@@ -7,13 +7,13 @@
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ttf::fuzz;
-  static const std::array<Shipped, 6> kFiles{
-      {{"paper_synchronised", shipped("schedules/paper_synchronised.yaml")},
-       {"paper_unsynchronised", shipped("schedules/paper_unsynchronised.yaml")},
-       {"laser_radar", shipped("schedules/laser_radar.yaml")},
-       {"laser_radar_synchronised", shipped("schedules/laser_radar_synchronised.yaml")},
-       {"flexray_demo", shipped("schedules/flexray_demo.yaml")},
-       {"paper_free_flexray", shipped("schedules/paper_free_flexray.yaml")}}};
-  check_cluster(edited(kFiles, text_of(data, size)));
+  static const std::array<ttf::fuzz::Shipped, 6> kFiles{
+      {{"paper_synchronised", ttf::fuzz::shipped("schedules/paper_synchronised.yaml")},
+       {"paper_unsynchronised", ttf::fuzz::shipped("schedules/paper_unsynchronised.yaml")},
+       {"laser_radar", ttf::fuzz::shipped("schedules/laser_radar.yaml")},
+       {"laser_radar_synchronised", ttf::fuzz::shipped("schedules/laser_radar_synchronised.yaml")},
+       {"flexray_demo", ttf::fuzz::shipped("schedules/flexray_demo.yaml")},
+       {"paper_free_flexray", ttf::fuzz::shipped("schedules/paper_free_flexray.yaml")}}};
+  ttf::fuzz::check_cluster(edited(kFiles, ttf::fuzz::text_of(data, size)));
   return 0;
 }

@@ -8,10 +8,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ttf;
   const std::string text = fuzz::text_of(data, size);
   fuzz::check_cluster(text);
-  const bool alone = fuzz::accepted("c.yaml", [&] { schedules::parse_cluster(text, "c.yaml"); });
+  const bool alone = fuzz::accepted("c.yaml", [&] { schedules::file::parse_cluster(text, "c.yaml"); });
   if (!alone) return 0;
   const std::string more = text + "\n...\n---\nunknown: 1\n";
-  TTF_CHECK(!fuzz::accepted("c.yaml", [&] { schedules::parse_cluster(more, "c.yaml"); }),
+  TTF_CHECK(!fuzz::accepted("c.yaml", [&] { schedules::file::parse_cluster(more, "c.yaml"); }),
             "a second document is passed over");
   return 0;
 }

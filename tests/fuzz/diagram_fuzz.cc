@@ -20,21 +20,21 @@ namespace {
 using namespace ttf;
 
 struct Pictures {
-  report::Names names;
+  report::drawing::Names names;
   TrueTime from, to;
   Duration cycle;
 
   std::vector<std::string> of(const std::string& log) const {
-    report::TimingDiagram timing(names, cycle, from, to);
-    recording::read_log_bytes(log, "drive.mcap", timing);
-    report::PositionPlots position(names, {.title = "drive", .from = from, .to = to});
-    recording::read_log_bytes(log, "drive.mcap", position);
-    report::StartupDiagram startup(names, cycle, from, to);
-    recording::read_log_bytes(log, "drive.mcap", startup);
-    recording::LatenessSums lateness;
-    recording::read_log_bytes(log, "drive.mcap", lateness);
+    report::timing::TimingDiagram timing(names, cycle, from, to);
+    recording::log::read_log_bytes(log, "drive.mcap", timing);
+    report::plots::PositionPlots position(names, {.title = "drive", .from = from, .to = to});
+    recording::log::read_log_bytes(log, "drive.mcap", position);
+    report::startup::StartupDiagram startup(names, cycle, from, to);
+    recording::log::read_log_bytes(log, "drive.mcap", startup);
+    recording::exports::LatenessSums lateness;
+    recording::log::read_log_bytes(log, "drive.mcap", lateness);
     return {timing.svg(), position.over_time_svg(), position.plane_svg(), startup.svg(),
-            report::lateness_svg(lateness.nodes(), names)};
+            report::plots::lateness_svg(lateness.nodes(), names)};
   }
 };
 

@@ -12,9 +12,9 @@
 namespace ttf::fuzz {
 namespace {
 
-using schedules::Cluster;
-using schedules::FibexDifference;
-using schedules::FibexImport;
+using schedules::exchange::fibex::FibexDifference;
+using schedules::exchange::fibex::FibexImport;
+using schedules::model::Cluster;
 
 constexpr char kFibexFile[] = "cluster.xml";
 
@@ -28,11 +28,11 @@ bool is_fibex_name(const std::string& name) {
 
 bool has_fibex_names(const Cluster& cluster) {
   bool all = is_fibex_name(cluster.name);
-  for (const schedules::Node& node : cluster.nodes) all = all && is_fibex_name(node.name);
-  for (const schedules::PduLayout& pdu : cluster.pdus) {
+  for (const schedules::model::Node& node : cluster.nodes) all = all && is_fibex_name(node.name);
+  for (const schedules::model::PduLayout& pdu : cluster.pdus) {
     all = all && is_fibex_name(pdu.name) && pdu.max_fragments() <= 256;
     for (const auto* signals : {&pdu.header, &pdu.element})
-      for (const schedules::Signal& signal : *signals)
+      for (const schedules::model::Signal& signal : *signals)
         all = all && is_fibex_name(signal.name) && (signal.unit.empty() || is_fibex_name(signal.unit));
   }
   return all;
@@ -47,7 +47,8 @@ void check_same(const Cluster& a, const Cluster& b) {
 
 void check_fibex_round_trip(const Cluster& cluster) {
   if (!has_fibex_names(cluster)) return;
-  const FibexImport import = schedules::parse_fibex(schedules::fibex_text(cluster), kFibexFile);
+  const FibexImport import =
+      schedules::exchange::fibex::parse_fibex(schedules::exchange::fibex::fibex_text(cluster), kFibexFile);
   check_same(cluster, import.cluster);
   TTF_CHECK(import.left_out.empty() && import.assumed.empty() && import.foreign.empty(), "{} left out, {} assumed",
             import.left_out.size(), import.assumed.size());
@@ -55,18 +56,20 @@ void check_fibex_round_trip(const Cluster& cluster) {
 
 void check_fibex(const std::string& text) {
   FibexImport import;
-  if (!accepted(kFibexFile, [&] { import = schedules::parse_fibex(text, kFibexFile); })) return;
+  if (!accepted(kFibexFile, [&] { import = schedules::exchange::fibex::parse_fibex(text, kFibexFile); })) return;
   if (!import.left_out.empty()) check_refusal(InputError(import.left_out), kFibexFile);
-  const std::string yaml = schedules::skeleton_yaml(import);
+  const std::string yaml = schedules::exchange::fibex::skeleton_yaml(import);
   Cluster again;
   try {
-    again = schedules::parse_cluster(yaml, "cluster.yaml");
+    again = schedules::file::parse_cluster(yaml, "cluster.yaml");
   } catch (const InputError& error) {
     TTF_CHECK(false, "what was imported does not load: {}\n{}", error.what(), yaml);
   }
   check_same(import.cluster, again);
   if (has_fibex_names(again))
-    check_same(again, schedules::parse_fibex(schedules::fibex_text(again), kFibexFile).cluster);
+    check_same(
+        again,
+        schedules::exchange::fibex::parse_fibex(schedules::exchange::fibex::fibex_text(again), kFibexFile).cluster);
 }
 
 }  // namespace ttf::fuzz

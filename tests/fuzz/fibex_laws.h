@@ -9,7 +9,7 @@ namespace ttf::fuzz {
 
 // A consistent cluster is the same after export and import, in what FIBEX can say, and nothing of it is left
 // out or assumed.
-void check_fibex_round_trip(const schedules::Cluster& cluster);
+void check_fibex_round_trip(const schedules::model::Cluster& cluster);
 
 // Any text that claims to be FIBEX: refused as it should, or it becomes a cluster file that loads as what was
 // imported, and stays the same on another way through FIBEX.

@@ -17,7 +17,7 @@
 namespace {
 
 using namespace ttf;
-using socketcan::Outcome;
+using bus::socketcan::Outcome;
 
 bool same(const canfd_frame& one, const canfd_frame& other) {
   return one.can_id == other.can_id && one.len == other.len && std::equal(one.data, one.data + one.len, other.data);
@@ -35,42 +35,44 @@ canfd_frame any_frame(fuzz::Source& source) {
   return can;
 }
 
-canfd_frame sent_follow_up(fuzz::Source& source, schedules::Channel channel) {
-  return socketcan::follow_up_to_can(
-      channel, {.slot = 1 + static_cast<int>(source.below(socketcan::kLastSlot)),
+canfd_frame sent_follow_up(fuzz::Source& source, schedules::model::Channel channel) {
+  return bus::socketcan::follow_up_to_can(
+      channel, {.slot = 1 + static_cast<int>(source.below(bus::socketcan::kLastSlot)),
                 .cycle_counter = static_cast<std::uint8_t>(source.below(64)),
                 .late = Duration::nanoseconds(static_cast<std::int32_t>(source.take<std::uint32_t>()))});
 }
 
 // Sent as a frame of a drawn slot; with right CRCs by our own encoder.
-std::vector<canfd_frame> sent_frame(fuzz::Source& source, schedules::Channel channel, bool right) {
-  const int slot = 1 + static_cast<int>(source.below(socketcan::kLastSlot));
-  const std::size_t size = wire::kHeaderBytes + wire::kTrailerBytes + source.below(wire::kMaxPayloadBytes + 1);
+std::vector<canfd_frame> sent_frame(fuzz::Source& source, schedules::model::Channel channel, bool right) {
+  const int slot = 1 + static_cast<int>(source.below(bus::socketcan::kLastSlot));
+  const std::size_t size =
+      bus::wire::kHeaderBytes + bus::wire::kTrailerBytes + source.below(bus::wire::kMaxPayloadBytes + 1);
   std::vector<std::byte> frame(size);
   const auto bytes = source.bytes(size);
   std::copy(bytes.begin(), bytes.end(), frame.begin());
   if (right) {
-    wire::FrameHeader header;
+    bus::wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>(slot);
     header.cycle = static_cast<std::uint8_t>(frame[4]) & 0x3f;
-    const std::vector<std::byte> payload(frame.begin() + wire::kHeaderBytes,
-                                         frame.begin() + static_cast<int>(wire::kHeaderBytes + (size - 8) / 2 * 2));
-    frame.resize(wire::kMaxFrameBytes);
-    frame.resize(wire::encode_frame(header, channel, payload, frame));
+    const std::vector<std::byte> payload(
+        frame.begin() + bus::wire::kHeaderBytes,
+        frame.begin() + static_cast<int>(bus::wire::kHeaderBytes + (size - 8) / 2 * 2));
+    frame.resize(bus::wire::kMaxFrameBytes);
+    frame.resize(bus::wire::encode_frame(header, channel, payload, frame));
   }
-  const socketcan::CanFrames can = socketcan::frame_to_can(slot, frame);
+  const bus::socketcan::CanFrames can = bus::socketcan::frame_to_can(slot, frame);
   return {can.all().begin(), can.all().end()};
 }
 
 class Laws {
  public:
-  explicit Laws(schedules::Channel channel) : channel_(channel), receiver_(channel) {}
+  explicit Laws(schedules::model::Channel channel) : channel_(channel), receiver_(channel) {}
 
   void arrive(const canfd_frame& can) {
-    const socketcan::Arrival arrival = receiver_.arrive(can);
+    const bus::socketcan::Arrival arrival = receiver_.arrive(can);
     ++arrivals_;
     std::uint64_t counted = 0;
-    for (std::size_t i = 0; i < socketcan::kOutcomes; ++i) counted += receiver_.count(static_cast<Outcome>(i));
+    for (std::size_t i = 0; i < bus::socketcan::kOutcomes; ++i) counted += receiver_.count(static_cast<Outcome>(i));
     TTF_CHECK(counted == arrivals_, "{} of {} counted", counted, arrivals_);
     TTF_CHECK(!arrival.abandoned || !begun_.empty(), "abandoned though nothing is begun");
     if (arrival.abandoned) begun_.clear();
@@ -79,17 +81,17 @@ class Laws {
   }
 
  private:
-  void complete(const canfd_frame& can, const socketcan::Arrival& arrival) {
+  void complete(const canfd_frame& can, const bus::socketcan::Arrival& arrival) {
     if (arrival.follow_up) {  // what is begun goes on
-      TTF_CHECK(same(socketcan::follow_up_to_can(channel_, *arrival.follow_up), can), "another follow-up");
+      TTF_CHECK(same(bus::socketcan::follow_up_to_can(channel_, *arrival.follow_up), can), "another follow-up");
       TTF_CHECK(!arrival.abandoned, "a follow-up ended a frame");
       return;
     }
-    if (arrival.signal != bus::Signal::kFrame) {
-      TTF_CHECK(same(socketcan::symbol_to_can(channel_, arrival.signal, arrival.duration), can), "another symbol");
+    if (arrival.signal != bus::ports::Signal::kFrame) {
+      TTF_CHECK(same(bus::socketcan::symbol_to_can(channel_, arrival.signal, arrival.duration), can), "another symbol");
       return;
     }
-    const socketcan::CanFrames again = socketcan::frame_to_can(arrival.slot, arrival.frame);
+    const bus::socketcan::CanFrames again = bus::socketcan::frame_to_can(arrival.slot, arrival.frame);
     TTF_CHECK(again.count == begun_.size() + 1, "{} CAN frames of {}", again.count, begun_.size() + 1);
     begun_.push_back(can);
     for (std::size_t i = 0; i < again.count; ++i)
@@ -97,8 +99,8 @@ class Laws {
     begun_.clear();
   }
 
-  schedules::Channel channel_;
-  socketcan::Reassembly receiver_;
+  schedules::model::Channel channel_;
+  bus::socketcan::Reassembly receiver_;
   std::uint64_t arrivals_ = 0;
   std::vector<canfd_frame> begun_;
 };
@@ -107,7 +109,8 @@ class Laws {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Source source(data, size);
-  const auto channel = (source.take<std::uint8_t>() & 1) != 0 ? schedules::Channel::kB : schedules::Channel::kA;
+  const auto channel =
+      (source.take<std::uint8_t>() & 1) != 0 ? schedules::model::Channel::kB : schedules::model::Channel::kA;
   Laws laws(channel);
   std::vector<canfd_frame> seen;
   while (!source.empty()) {

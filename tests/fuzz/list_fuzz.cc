@@ -17,18 +17,18 @@
 namespace {
 
 using namespace ttf;
-using schedules::PduLayout;
+using schedules::model::PduLayout;
 
 std::size_t header_of(const PduLayout& layout, std::string_view name) {
-  return *schedules::find_signal(layout.header, name);
+  return *schedules::model::find_signal(layout.header, name);
 }
 
 void make_plausible(const PduLayout& layout, std::span<std::byte> payload) {
   const std::size_t sequence = header_of(layout, "sequence"), fragment = header_of(layout, "fragment"),
                     count = header_of(layout, "count");
   const auto bounded = [&](std::size_t signal, std::uint32_t below) {
-    const std::uint32_t raw = wire::read_header_raw(layout, payload, signal);
-    wire::write_header_raw(layout, payload, signal, raw % below);
+    const std::uint32_t raw = bus::wire::read_header_raw(layout, payload, signal);
+    bus::wire::write_header_raw(layout, payload, signal, raw % below);
     return raw % below;
   };
   bounded(sequence, 3);
@@ -40,44 +40,45 @@ void make_plausible(const PduLayout& layout, std::span<std::byte> payload) {
 void check_codec(const PduLayout& layout, std::span<const std::byte> payload) {
   std::vector<std::byte> copy(payload.begin(), payload.end());
   for (std::size_t s = 0; s < layout.header.size(); ++s)
-    wire::write_header_raw(layout, copy, s, wire::read_header_raw(layout, payload, s));
+    bus::wire::write_header_raw(layout, copy, s, bus::wire::read_header_raw(layout, payload, s));
   for (int i = 0; i < layout.elements_per_fragment; ++i)
     for (std::size_t s = 0; s < layout.element.size(); ++s) {
-      const std::uint32_t raw = wire::read_element_raw(layout, payload, i, s);
-      wire::write_element_raw(layout, copy, i, s, raw);
-      const double physical = wire::to_physical(layout.element[s], raw);
-      if (raw <= wire::highest_code(layout.element[s]))
-        TTF_CHECK(wire::to_raw(layout.element[s], physical) == raw, "{}: {} is {}", layout.element[s].name, raw,
+      const std::uint32_t raw = bus::wire::read_element_raw(layout, payload, i, s);
+      bus::wire::write_element_raw(layout, copy, i, s, raw);
+      const double physical = bus::wire::to_physical(layout.element[s], raw);
+      if (raw <= bus::wire::highest_code(layout.element[s]))
+        TTF_CHECK(bus::wire::to_raw(layout.element[s], physical) == raw, "{}: {} is {}", layout.element[s].name, raw,
                   physical);
     }
   TTF_CHECK(std::equal(copy.begin(), copy.end(), payload.begin()), "{}: other bytes", layout.name);
 }
 
-void check_list(const PduLayout& layout, const bus::ListView& list, const std::vector<std::vector<std::byte>>& seen) {
+void check_list(const PduLayout& layout, const bus::cni::ListView& list,
+                const std::vector<std::vector<std::byte>>& seen) {
   const auto bytes = static_cast<std::size_t>(layout.fragment_bytes);
   TTF_CHECK(list.fragments >= 1 && list.fragments <= layout.max_fragments() &&
                 list.bytes.size() == bytes * static_cast<std::size_t>(list.fragments),
             "{} fragments, {} bytes", list.fragments, list.bytes.size());
   const auto sequence = header_of(layout, "sequence"), count = header_of(layout, "count");
   const auto first = list.bytes.first(bytes);
-  const auto elements = static_cast<int>(wire::read_header_raw(layout, first, count));
+  const auto elements = static_cast<int>(bus::wire::read_header_raw(layout, first, count));
   TTF_CHECK(elements <= layout.max_elements && layout.fragments_of(elements) == list.fragments,
             "{} elements in {} fragments", elements, list.fragments);
-  const std::uint32_t raw = wire::read_header_raw(layout, first, sequence);
+  const std::uint32_t raw = bus::wire::read_header_raw(layout, first, sequence);
   TTF_CHECK(((list.sequence - raw) & ((std::uint64_t{1} << layout.header[sequence].bits) - 1)) == 0,
             "sequence {} of raw {}", list.sequence, raw);
   for (int f = 0; f < list.fragments; ++f) {
     const auto fragment = list.bytes.subspan(static_cast<std::size_t>(f) * bytes, bytes);
-    TTF_CHECK(
-        wire::read_header_raw(layout, fragment, sequence) == raw &&
-            wire::read_header_raw(layout, fragment, count) == static_cast<std::uint32_t>(elements) &&
-            wire::read_header_raw(layout, fragment, header_of(layout, "fragment")) == static_cast<std::uint32_t>(f),
-        "fragment {} is of another list", f);
+    TTF_CHECK(bus::wire::read_header_raw(layout, fragment, sequence) == raw &&
+                  bus::wire::read_header_raw(layout, fragment, count) == static_cast<std::uint32_t>(elements) &&
+                  bus::wire::read_header_raw(layout, fragment, header_of(layout, "fragment")) ==
+                      static_cast<std::uint32_t>(f),
+              "fragment {} is of another list", f);
     TTF_CHECK(std::any_of(seen.begin(), seen.end(),
                           [&](const auto& one) { return std::equal(one.begin(), one.end(), fragment.begin()); }),
               "fragment {} never arrived", f);
   }
-  bus::OutgoingList out(layout);
+  bus::cni::OutgoingList out(layout);
   out.write(list);
   for (int f = 0; f < list.fragments; ++f) {
     const auto fragment = out.fragment(f);
@@ -90,13 +91,13 @@ void check_list(const PduLayout& layout, const bus::ListView& list, const std::v
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const schedules::Cluster kClusters[] = {
-      schedules::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "paper"),
-      schedules::parse_cluster(fuzz::shipped("schedules/laser_radar.yaml"), "recorded")};
+  static const schedules::model::Cluster kClusters[] = {
+      schedules::file::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "paper"),
+      schedules::file::parse_cluster(fuzz::shipped("schedules/laser_radar.yaml"), "recorded")};
   fuzz::Source source(data, size);
-  const schedules::Cluster& cluster = kClusters[source.take<std::uint8_t>() % 2];
+  const schedules::model::Cluster& cluster = kClusters[source.take<std::uint8_t>() % 2];
   const PduLayout& layout = cluster.pdus[source.take<std::uint8_t>() % cluster.pdus.size()];
-  bus::IncomingList list(layout);
+  bus::cni::IncomingList list(layout);
   std::vector<std::vector<std::byte>> seen;
   std::optional<std::uint32_t> latest;
   while (!source.empty()) {
@@ -111,9 +112,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     }
     seen.push_back(payload);
     check_codec(layout, payload);
-    const bus::ArrivalEffect effect = list.arrive(payload);
+    const bus::cni::ArrivalEffect effect = list.arrive(payload);
     const auto view = list.latest();
-    if (effect == bus::ArrivalEffect::kCompleted) {
+    if (effect == bus::cni::ArrivalEffect::kCompleted) {
       TTF_CHECK(view && view->sequence == list.arrived(), "a complete list is not there");
       TTF_CHECK(list.mark_read() && !list.mark_read(), "read twice as new");
     } else {

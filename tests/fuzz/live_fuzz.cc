@@ -1,7 +1,7 @@
 // Anything that may arrive in real time, at any instant and in any order, at a node that is at work
-// (nodes/runner/arrival_window.h): frames of any slot and cycle, sound or broken, sync frames with and without follow-ups,
-// symbols of any length, CAN frames and strobes. Laws: arrivals are handed over in the order in which they are due,
-// none before it; the node stops for none of them, and its clock goes on.
+// (nodes/runner/arrival_window.h): frames of any slot and cycle, sound or broken, sync frames with and without
+// follow-ups, symbols of any length, CAN frames and strobes. Laws: arrivals are handed over in the order in which they
+// are due, none before it; the node stops for none of them, and its clock goes on.
 //
 // Input: how the node begins (a byte), then acts: what (a byte), and what it takes.
 #include <algorithm>
@@ -23,45 +23,46 @@ namespace {
 
 using namespace ttf;
 
-const schedules::Cluster& the_cluster() {
-  static const schedules::Cluster kCluster = [] {
-    auto cluster = schedules::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "paper_synchronised");
-    schedules::bind_ports(cluster, nodes::step_ports());
+const schedules::model::Cluster& the_cluster() {
+  static const schedules::model::Cluster kCluster = [] {
+    auto cluster =
+        schedules::file::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "paper_synchronised");
+    schedules::model::bind_ports(cluster, drives::step_ports());
     return cluster;
   }();
   return kCluster;
 }
 
-struct Nobody final : nodes::SensorLines {
+struct Nobody final : nodes::host::SensorLines {
   void trigger(SensorId) override {}
   void strobe(SensorId, std::uint32_t) override {}
 };
-struct Deaf final : bus::CanPort {
-  void send(const bus::CanFrame&) override {}
+struct Deaf final : bus::ports::CanPort {
+  void send(const bus::ports::CanFrame&) override {}
 };
-struct Idle final : nodes::Step {
-  void run(nodes::StepContext&) override {}
+struct Idle final : nodes::host::Step {
+  void run(nodes::host::StepContext&) override {}
 };
-struct Port final : bus::FlexRayPort {
-  const runner::Arrivals* arrivals = nullptr;
+struct Port final : bus::ports::FlexRayPort {
+  const nodes::runner::Arrivals* arrivals = nullptr;
   Microticks now{};
-  void transmit(const bus::Transmission&) override {}
-  bool carrier(schedules::Channel channel) const override { return arrivals->carrier(channel, now); }
+  void transmit(const bus::ports::Transmission&) override {}
+  bool carrier(schedules::model::Channel channel) const override { return arrivals->carrier(channel, now); }
 };
 
 class Node {
  public:
   explicit Node(bool integrated) : arrivals_(the_cluster(), kNode, {Microticks{4'000}, Microticks{20'000}}, events_) {
-    const schedules::Cluster& cluster = the_cluster();
+    const schedules::model::Cluster& cluster = the_cluster();
     const timebase::Oscillator oscillator(25'000, 0, 0);
     const TrueTime first{1'000'000};
     port_.arrivals = &arrivals_;
     now_ = oscillator.ticks_at(first);
-    const nodes::ExecutiveConfig config{
+    const nodes::host::ExecutiveConfig config{
         &cluster,
         kNode,
         oscillator,
-        integrated ? std::optional(nodes::integrated_clock(oscillator, cluster, cluster.node(kNode), first))
+        integrated ? std::optional(nodes::host::integrated_clock(oscillator, cluster, cluster.node(kNode), first))
                    : std::nullopt,
         1,
         0,
@@ -69,12 +70,13 @@ class Node {
         {},
         {},
         nullptr};
-    std::vector<std::shared_ptr<nodes::Step>> steps(cluster.node(kNode).tasks.size());
+    std::vector<std::shared_ptr<nodes::host::Step>> steps(cluster.node(kNode).tasks.size());
     for (auto& step : steps) step = std::make_shared<Idle>();
-    std::vector<bus::CanPort*> cans;
+    std::vector<bus::ports::CanPort*> cans;
     for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
-      cans.push_back(schedules::is_on_can(cluster.node(kNode), b) ? &can_ : nullptr);
-    executive_ = std::make_unique<nodes::Executive>(config, std::move(steps), &port_, std::move(cans), lines_, sink_);
+      cans.push_back(schedules::model::is_on_can(cluster.node(kNode), b) ? &can_ : nullptr);
+    executive_ =
+        std::make_unique<nodes::host::Executive>(config, std::move(steps), &port_, std::move(cans), lines_, sink_);
   }
 
   const timebase::CycleClock* clock() const {
@@ -84,7 +86,8 @@ class Node {
   std::int64_t cycle() const { return clock() != nullptr ? clock()->cycle() : 0; }
   Microticks now() const { return now_; }
 
-  void arrive(const bus::LiveArrival& arrival, Microticks at, std::optional<Microticks> late, Microticks duration) {
+  void arrive(const bus::ports::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
+              Microticks duration) {
     arrivals_.arrive(arrival, at, late, duration, clock());
   }
 
@@ -95,7 +98,7 @@ class Node {
       now_ = std::max(now_, due);
       port_.now = now_;
       if (const auto arrived = arrivals_.take(now_, clock())) {
-        if (arrived->kind == bus::LiveArrival::Kind::kFlexRay) {
+        if (arrived->kind == bus::ports::LiveArrival::Kind::kFlexRay) {
           TTF_CHECK(arrived->reception.end <= now_, "handed over {} microticks before its end",
                     (arrived->reception.end - now_).value);
           executive_->receive(arrived->reception);
@@ -114,38 +117,38 @@ class Node {
 
  private:
   static constexpr NodeId kNode{4};  // the gateway: on both channels, and on a CAN
-  runner::ArrivalEvents events_;
-  runner::Arrivals arrivals_;
+  nodes::runner::ArrivalEvents events_;
+  nodes::runner::Arrivals arrivals_;
   Nobody lines_;
   Deaf can_;
   Port port_;
-  records::Sink sink_;
-  std::unique_ptr<nodes::Executive> executive_;
+  recording::records::Sink sink_;
+  std::unique_ptr<nodes::host::Executive> executive_;
   Microticks now_{};
 };
 
 void signal_arrives(Node& node, fuzz::Source& input, bool follow_up) {
-  bus::LiveArrival arrival;
-  arrival.kind = follow_up ? bus::LiveArrival::Kind::kFollowUp : bus::LiveArrival::Kind::kFlexRay;
+  bus::ports::LiveArrival arrival;
+  arrival.kind = follow_up ? bus::ports::LiveArrival::Kind::kFollowUp : bus::ports::LiveArrival::Kind::kFlexRay;
   const auto kind = input.take<std::uint8_t>();
-  arrival.signal.channel = (kind & 1) != 0 ? schedules::Channel::kB : schedules::Channel::kA;
+  arrival.signal.channel = (kind & 1) != 0 ? schedules::model::Channel::kB : schedules::model::Channel::kA;
   arrival.signal.slot = 1 + static_cast<int>(input.below(45));
   const std::int64_t cycle = node.cycle() + input.take<std::int8_t>() % 4;
   arrival.cycle_counter = static_cast<std::uint8_t>(cycle & 63);
   const Microticks at = node.now() + Microticks{input.take<std::int16_t>() * 8};
   const auto late = (kind & 2) != 0 || follow_up ? std::optional(Microticks{input.take<std::int16_t>()}) : std::nullopt;
-  std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+  std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
   std::size_t size = 0;
   Microticks duration{};
   if (!follow_up && (kind & 4) != 0) {
-    arrival.signal.signal = static_cast<bus::Signal>(1 + (kind >> 3) % 3);
+    arrival.signal.signal = static_cast<bus::ports::Signal>(1 + (kind >> 3) % 3);
     duration = Microticks{input.take<std::uint16_t>() * 16};
   } else if (!follow_up && (kind & 8) != 0) {
-    const auto raw = input.bytes(8 + input.below(wire::kMaxFrameBytes - 7));
+    const auto raw = input.bytes(8 + input.below(bus::wire::kMaxFrameBytes - 7));
     size = std::max<std::size_t>(raw.size(), 8);
     std::copy(raw.begin(), raw.end(), bytes.begin());
   } else if (!follow_up) {
-    wire::FrameHeader header;
+    bus::wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>((kind & 64) != 0 ? 1 + input.below(2047) : arrival.signal.slot);
     header.cycle = arrival.cycle_counter;
     header.sync = (kind & 16) != 0;
@@ -154,15 +157,15 @@ void signal_arrives(Node& node, fuzz::Source& input, bool follow_up) {
     std::array<std::byte, 56> payload{};
     const auto content = input.bytes(56);
     std::copy(content.begin(), content.end(), payload.begin());
-    size = wire::encode_frame(header, arrival.signal.channel, payload, bytes);
+    size = bus::wire::encode_frame(header, arrival.signal.channel, payload, bytes);
   }
   arrival.signal.bytes = std::span<const std::byte>(bytes).first(size);
   node.arrive(arrival, at, late, duration);
 }
 
 void can_arrives(Node& node, fuzz::Source& input) {
-  bus::LiveArrival arrival;
-  arrival.kind = bus::LiveArrival::Kind::kCan;
+  bus::ports::LiveArrival arrival;
+  arrival.kind = bus::ports::LiveArrival::Kind::kCan;
   const auto& cluster = the_cluster();
   arrival.can_bus = cluster.can_buses.size() - 1;
   const auto& messages = cluster.can_buses[arrival.can_bus].messages;

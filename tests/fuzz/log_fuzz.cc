@@ -34,42 +34,42 @@ class MemoryFile {
   int descriptor_;
 };
 
-void check_written_again(std::string_view bytes, const recording::LogInfo& info, const recording::TextSink& read) {
+void check_written_again(std::string_view bytes, const recording::log::LogInfo& info, const recording::TextSink& read) {
   const MemoryFile file;
-  recording::LogWriter writer(file.path(), info.manifest);
-  recording::read_log_bytes(bytes, kFile, writer);
+  recording::log::LogWriter writer(file.path(), info.manifest);
+  recording::log::read_log_bytes(bytes, kFile, writer);
   writer.close();
   recording::TextSink again;
-  const recording::LogInfo info_again = recording::read_log(file.path(), again);
+  const recording::log::LogInfo info_again = recording::log::read_log(file.path(), again);
   TTF_CHECK(again.lines == read.lines, "{} records are {}", read.lines.size(), again.lines.size());
   TTF_CHECK(info_again.manifest == info.manifest, "the manifest changed");
   TTF_CHECK(info_again.warning.empty() && !info_again.truncated, "{}", info_again.warning);
   TTF_CHECK(info_again.content_hash == writer.content_hash(), "the content hash changed");
 }
 
-std::vector<std::string> lines_of(const recording::MergedLogs& merged) {
+std::vector<std::string> lines_of(const recording::merge::MergedLogs& merged) {
   recording::TextSink sink;
   merged.read(sink);
   return std::move(sink.lines);
 }
-std::vector<recording::StoredLog> written(const recording::MergedLogs& merged) {
+std::vector<recording::merge::StoredLog> written(const recording::merge::MergedLogs& merged) {
   const MemoryFile file;
-  recording::LogWriter writer(file.path(), merged.manifest());
+  recording::log::LogWriter writer(file.path(), merged.manifest());
   merged.read(writer);
   writer.close();
-  std::vector<recording::StoredLog> logs;
+  std::vector<recording::merge::StoredLog> logs;
   logs.emplace_back(file.path());
   return logs;
 }
 
 void check_merged(std::string_view bytes, recording::TextSink read) {
-  std::vector<recording::StoredLog> logs;
+  std::vector<recording::merge::StoredLog> logs;
   logs.emplace_back(std::string(bytes), kFile);
-  const recording::MergedLogs merged(std::move(logs));
+  const recording::merge::MergedLogs merged(std::move(logs));
   std::vector<std::string> lines = lines_of(merged);
   // Only what was written by us is compared by its bytes: others may write the same number in different ways.
-  const recording::MergedLogs once(written(merged));
-  const recording::MergedLogs twice(written(once));
+  const recording::merge::MergedLogs once(written(merged));
+  const recording::merge::MergedLogs twice(written(once));
   TTF_CHECK(lines_of(once) == lines_of(twice), "{} records are in another order", lines.size());
   std::sort(lines.begin(), lines.end());
   std::sort(read.lines.begin(), read.lines.end());
@@ -81,8 +81,8 @@ void check_merged(std::string_view bytes, recording::TextSink read) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   recording::TextSink read;
-  recording::LogInfo info;
-  if (!fuzz::accepted(kFile, [&] { info = recording::read_log_bytes(bytes, kFile, read); })) return 0;
+  recording::log::LogInfo info;
+  if (!fuzz::accepted(kFile, [&] { info = recording::log::read_log_bytes(bytes, kFile, read); })) return 0;
   fuzz::check_lines(info.warning, kFile);
   const auto counted = std::accumulate(info.counts.begin(), info.counts.end(), std::uint64_t{0});
   TTF_CHECK(counted == read.lines.size(), "{} records counted, {} handed on", counted, read.lines.size());

@@ -16,31 +16,31 @@ namespace ttf::fuzz {
 using Messages = std::vector<std::pair<std::uint8_t, std::string_view>>;
 
 inline std::string mcap_around(const Messages& messages) {
-  using namespace recording;
+  using namespace recording::mcap;
   std::string records;
   for (const auto& [kind, payload] : messages) {
-    const std::size_t start = begin_record(records, Opcode::kMessage);
-    put(records, std::uint16_t{kind});
-    put(records, std::uint32_t{0});  // sequence
-    put(records, std::uint64_t{0});  // log time
-    put(records, std::uint64_t{0});  // publish time
+    const std::size_t start = begin_record(records, recording::mcap::Opcode::kMessage);
+    recording::mcap::put(records, std::uint16_t{kind});
+    recording::mcap::put(records, std::uint32_t{0});  // sequence
+    recording::mcap::put(records, std::uint64_t{0});  // log time
+    recording::mcap::put(records, std::uint64_t{0});  // publish time
     records += payload;
-    end_record(records, start);
+    recording::mcap::end_record(records, start);
   }
-  std::string log(kMcapMagic);
-  const std::size_t header = begin_record(log, Opcode::kHeader);
-  put_text(log, "ttfusion");
-  put_text(log, "");
-  end_record(log, header);
-  const std::size_t chunk = begin_record(log, Opcode::kChunk);
-  put(log, std::uint64_t{0});
-  put(log, std::uint64_t{0});
-  put(log, static_cast<std::uint64_t>(records.size()));
-  put(log, std::uint32_t{0});  // no checksum
-  put_text(log, "");           // no compression
-  put(log, static_cast<std::uint64_t>(records.size()));
+  std::string log(recording::mcap::kMcapMagic);
+  const std::size_t header = begin_record(log, recording::mcap::Opcode::kHeader);
+  recording::mcap::put_text(log, "ttfusion");
+  recording::mcap::put_text(log, "");
+  recording::mcap::end_record(log, header);
+  const std::size_t chunk = begin_record(log, recording::mcap::Opcode::kChunk);
+  recording::mcap::put(log, std::uint64_t{0});
+  recording::mcap::put(log, std::uint64_t{0});
+  recording::mcap::put(log, static_cast<std::uint64_t>(records.size()));
+  recording::mcap::put(log, std::uint32_t{0});  // no checksum
+  recording::mcap::put_text(log, "");           // no compression
+  recording::mcap::put(log, static_cast<std::uint64_t>(records.size()));
   log += records;
-  end_record(log, chunk);
+  recording::mcap::end_record(log, chunk);
   return log;
 }
 

@@ -8,12 +8,12 @@
 
 namespace ttf::fuzz {
 
-class NothingThere final : public nodes::Scene {
+class NothingThere final : public nodes::sensing::Scene {
  public:
-  void states_at(TrueTime, std::vector<world::ObjectState>& out) const override { out.clear(); }
+  void states_at(TrueTime, std::vector<sim::world::ObjectState>& out) const override { out.clear(); }
   std::size_t objects() const override { return 0; }
 };
 
-inline std::shared_ptr<const nodes::Scene> nothing_there() { return std::make_shared<const NothingThere>(); }
+inline std::shared_ptr<const nodes::sensing::Scene> nothing_there() { return std::make_shared<const NothingThere>(); }
 
 }  // namespace ttf::fuzz

@@ -12,17 +12,17 @@
 
 #include "core/check.h"
 #include "core/decimal.h"
-#include "replay/recorded_lists.h"
-#include "replay/sensor_timing.h"
-#include "replay/replay.h"
 #include "recording/rows/csv.h"
 #include "recording/rows/observation_rows.h"
+#include "replay/recorded_lists.h"
+#include "replay/replay.h"
+#include "replay/sensor_timing.h"
 #include "tests/fuzz/harness.h"
 
 namespace {
 
 using namespace ttf;
-using recording::ObservationRow;
+using recording::rows::ObservationRow;
 
 constexpr char kFile[] = "o.csv";
 
@@ -35,9 +35,9 @@ std::string written(const std::vector<ObservationRow>& rows) {
       "length,sigma_length,width,sigma_width,z,height,class,score\n";
   for (const ObservationRow& row : rows) {
     const bool position = row.kind == ObservationRow::Kind::kPosition;
-    const bool three = recording::dimension_of(row.kind) == 3;
+    const bool three = recording::rows::dimension_of(row.kind) == 3;
     text += scaled_text(row.time_ns, 1'000'000'000) + ',' + scaled_text(row.arrival_ns, 1'000'000'000) + ',' +
-            recording::csv_field(row.sensor) + ',';
+            recording::rows::csv_field(row.sensor) + ',';
     text += position ? fmt::format("{},{},,,", row.z[0], row.z[1]) : fmt::format(",,{},{},", row.z[0], row.z[1]);
     text += three ? fmt::to_string(row.z[2]) : "";
     for (std::size_t i = 0; i < 6; ++i) {
@@ -48,7 +48,7 @@ std::string written(const std::vector<ObservationRow>& rows) {
     for (const auto& value : {row.heading, row.sigma_heading, row.length, row.sigma_length, row.width, row.sigma_width,
                               row.elevation, row.height})
       text += ',' + cell(value);
-    text += ',' + recording::csv_field(row.class_name) + ',' +
+    text += ',' + recording::rows::csv_field(row.class_name) + ',' +
             (row.class_name.empty() ? "" : fmt::to_string(row.score)) + '\n';
   }
   return text;
@@ -67,29 +67,28 @@ void check_rows(const std::vector<ObservationRow>& rows) {
 }
 
 void check_tracks(const std::vector<ObservationRow>& rows) {
-  experiments::ReplayConfig config;
+  replay::ReplayConfig config;
   config.tracker.history_scans = 8;  // little to set up, and soon too old
-  experiments::Arrivals arrivals;
+  replay::Arrivals arrivals;
   Findings findings;
   if (!fuzz::accepted(kFile, [&] {
-        experiments::list_sensors(config, rows, {}, kFile);
-        arrivals = experiments::arrivals_of(rows, config, kFile, findings);
+        replay::list_sensors(config, rows, {}, kFile);
+        arrivals = replay::arrivals_of(rows, config, kFile, findings);
         findings.throw_if_any();
       }))
     return;
-  for (const experiments::ListArrival& list : arrivals.lists)
+  for (const replay::ListArrival& list : arrivals.lists)
     TTF_CHECK(list.arrival >= list.measured && !list.observations.empty(), "list of {} ns", list.measured.ns);
-  for (const auto strategy : {fusion::StrategyKind::kAdva, fusion::StrategyKind::kBuff}) {
+  for (const auto strategy : {fusion::strategies::StrategyKind::kAdva, fusion::strategies::StrategyKind::kBuff}) {
     std::uint64_t fates = 0;
-    const experiments::ReplaySetup setup{strategy, config.tracker,
-                                         experiments::sensor_timings(arrivals, config, strategy), true};
-    const experiments::ReplayAccount account =
-        experiments::replay(arrivals, setup, [](GlobalTime, std::span<const fusion::TrackView> tracks) {
-          for (const fusion::TrackView& track : tracks)
+    const replay::ReplaySetup setup{strategy, config.tracker, replay::sensor_timings(arrivals, config, strategy), true};
+    const replay::ReplayAccount account =
+        replay::replay(arrivals, setup, [](GlobalTime, std::span<const fusion::tracks::TrackView> tracks) {
+          for (const fusion::tracks::TrackView& track : tracks)
             TTF_CHECK(track.state.allFinite() && track.covariance.allFinite() && std::isfinite(track.heading),
                       "track {} at {} ns", index_of(track.id), track.valid_at.ns);
         });
-    for (const experiments::SensorAccount& one : account.sensors)
+    for (const replay::SensorAccount& one : account.sensors)
       fates += one.in_order + one.late + one.too_old + one.duplicates;
     TTF_CHECK(fates == arrivals.lists.size(), "{} fates of {} lists", fates, arrivals.lists.size());
   }
@@ -101,13 +100,13 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text = fuzz::text_of(data, size);
   std::vector<ObservationRow> rows;
   Findings findings;
-  if (!fuzz::accepted(kFile, [&] { rows = recording::parse_observation_rows(text, kFile, findings); })) return 0;
+  if (!fuzz::accepted(kFile, [&] { rows = recording::rows::parse_observation_rows(text, kFile, findings); })) return 0;
   if (!findings.empty()) fuzz::check_refusal(InputError(findings.list()), kFile);
   check_rows(rows);
   if (rows.empty()) return 0;
   const std::string once = written(rows);
   Findings again;
-  TTF_CHECK(written(recording::parse_observation_rows(once, kFile, again)) == once && again.empty(),
+  TTF_CHECK(written(recording::rows::parse_observation_rows(once, kFile, again)) == once && again.empty(),
             "rows change when written again: {}", again.empty() ? once : again.list().front().sentence());
   check_tracks(rows);
   return 0;

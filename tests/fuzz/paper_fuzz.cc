@@ -12,7 +12,7 @@ namespace {
 using namespace ttf;
 
 void check_table(const std::string& text) {
-  recording::CsvLines lines(text);
+  recording::rows::CsvLines lines(text);
   std::size_t fields = 0;
   while (lines.next()) {
     TTF_CHECK(lines.broken().empty(), "line {}: {}", lines.line(), lines.broken());
@@ -52,14 +52,15 @@ void check_script(const std::string& text) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr char kFile[] = "summary.csv";
-  std::vector<report::PaperFile> files;
+  std::vector<report::paper::PaperFile> files;
   const auto words = [](std::string_view measure) {
-    return measure == "nees" ? report::MeasureWords{"m^2", "a word"} : report::MeasureWords{};
+    return measure == "nees" ? report::paper::MeasureWords{"m^2", "a word"} : report::paper::MeasureWords{};
   };
-  if (!fuzz::accepted(
-          kFile, [&] { files = report::paper_of_experiment(fuzz::text_of(data, size), kFile, "e\n\"`x`\\", words); }))
+  if (!fuzz::accepted(kFile, [&] {
+        files = report::paper::paper_of_experiment(fuzz::text_of(data, size), kFile, "e\n\"`x`\\", words);
+      }))
     return 0;
-  for (const report::PaperFile& file : files) {
+  for (const report::paper::PaperFile& file : files) {
     TTF_CHECK(!file.name.starts_with('.') && std::all_of(file.name.begin(), file.name.end(),
                                                          [](char c) {
                                                            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||

@@ -14,15 +14,15 @@
 namespace {
 
 using namespace ttf;
-using recording::RecordedObservation;
+using recording::rows::RecordedObservation;
 
 constexpr char kFile[] = "rows.txt";
 
-std::string written(const recording::RecordedInput& input) {
+std::string written(const recording::rows::RecordedInput& input) {
   std::string text;
   for (std::size_t i = 0; i < input.observations.size(); ++i) {
     const RecordedObservation& o = input.observations[i];
-    const recording::RecordedTruth& t = input.truth[i];
+    const recording::rows::RecordedTruth& t = input.truth[i];
     text += o.kind == RecordedObservation::Kind::kPosition
                 ? fmt::format("L\t{}\t{}", o.x, o.y)
                 : fmt::format("R\t{}\t{}\t{}", o.range, o.bearing, o.range_rate);
@@ -33,8 +33,8 @@ std::string written(const recording::RecordedInput& input) {
 }
 
 void check_laser_radar(const std::string& text) {
-  recording::RecordedInput input;
-  if (!fuzz::accepted(kFile, [&] { input = recording::parse_laser_radar(text, kFile); })) return;
+  recording::rows::RecordedInput input;
+  if (!fuzz::accepted(kFile, [&] { input = recording::rows::parse_laser_radar(text, kFile); })) return;
   TTF_CHECK(!input.observations.empty() && input.observations.size() == input.truth.size(), "{} rows, {} truths",
             input.observations.size(), input.truth.size());
   std::int64_t last = 0;
@@ -44,10 +44,10 @@ void check_laser_radar(const std::string& text) {
     last = at;
   }
   const std::string once = written(input);
-  TTF_CHECK(written(recording::parse_laser_radar(once, kFile)) == once, "rows change when written again");
+  TTF_CHECK(written(recording::rows::parse_laser_radar(once, kFile)) == once, "rows change when written again");
 
-  const nodes::RecordedScene scene(input, TrueTime{});
-  std::vector<world::ObjectState> states;
+  const nodes::sensing::RecordedScene scene(input, TrueTime{});
+  std::vector<sim::world::ObjectState> states;
   for (const Duration at : {Duration{-1}, Duration{}, Duration::milliseconds(50), Duration::milliseconds(3'600'000)}) {
     scene.states_at(TrueTime{} + at, states);
     const bool recorded = at.ns >= 0 && (at.ns + 999) / 1000 <= input.truth.back().time_us_from_start;
@@ -58,30 +58,30 @@ void check_laser_radar(const std::string& text) {
 }
 
 void check_scans(const std::string& text) {
-  std::vector<recording::RecordedScan> scans;
-  if (!fuzz::accepted(kFile, [&] { scans = recording::parse_lidar_scans(text, kFile); })) return;
+  std::vector<recording::rows::RecordedScan> scans;
+  if (!fuzz::accepted(kFile, [&] { scans = recording::rows::parse_lidar_scans(text, kFile); })) return;
   TTF_CHECK(!scans.empty(), "no scan");
   std::string once;
-  const recording::RecordedScan* before = nullptr;
-  for (const recording::RecordedScan& scan : scans) {
+  const recording::rows::RecordedScan* before = nullptr;
+  for (const recording::rows::RecordedScan& scan : scans) {
     TTF_CHECK(!scan.returns.empty() && (before == nullptr || before->frame < scan.frame), "scan {}", scan.frame);
     before = &scan;
-    std::vector<nodes::ScanPoint> points;
-    for (const recording::RecordedReturn& hit : scan.returns) {
+    std::vector<nodes::laser::ScanPoint> points;
+    for (const recording::rows::RecordedReturn& hit : scan.returns) {
       once += fmt::format("{},{},{},{}\n", scan.frame, hit.azimuth_rad, hit.range_m, hit.intensity);
       points.push_back({0, hit.azimuth_rad, hit.range_m});
     }
-    std::vector<nodes::LaserObject> objects;
-    nodes::LaserPreprocessor(nodes::LaserPreprocessingConfig{}, points.size()).process(points, objects);
-    for (const nodes::LaserObject& o : objects)
+    std::vector<nodes::laser::LaserObject> objects;
+    nodes::laser::LaserPreprocessor(nodes::laser::LaserPreprocessingConfig{}, points.size()).process(points, objects);
+    for (const nodes::laser::LaserObject& o : objects)
       TTF_CHECK(std::isfinite(o.x) && std::isfinite(o.y) && std::isfinite(o.heading) && std::isfinite(o.length) &&
                     std::isfinite(o.width) && o.sxx > 0 && o.syy > 0 && o.sxy * o.sxy < o.sxx * o.syy,
                 "x {} y {} heading {} length {} width {} covariance {} {} {}", o.x, o.y, o.heading, o.length, o.width,
                 o.sxx, o.sxy, o.syy);
   }
   std::string twice;
-  for (const recording::RecordedScan& scan : recording::parse_lidar_scans(once, kFile))
-    for (const recording::RecordedReturn& hit : scan.returns)
+  for (const recording::rows::RecordedScan& scan : recording::rows::parse_lidar_scans(once, kFile))
+    for (const recording::rows::RecordedReturn& hit : scan.returns)
       twice += fmt::format("{},{},{},{}\n", scan.frame, hit.azimuth_rad, hit.range_m, hit.intensity);
   TTF_CHECK(once == twice, "rows change when written again");
 }
@@ -90,7 +90,7 @@ void check_scans(const std::string& text) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text = fuzz::text_of(data, size);
-  fuzz::accepted(kFile, [&] { recording::sniff_recording(text, kFile); });
+  fuzz::accepted(kFile, [&] { recording::rows::sniff_recording(text, kFile); });
   check_laser_radar(text);
   check_scans(text);
   return 0;

@@ -7,16 +7,17 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ttf;
   constexpr char kFile[] = "summary.json";
-  report::RunFolder folder;
-  if (!fuzz::accepted(kFile, [&] { folder = report::parse_run_summary(fuzz::text_of(data, size), kFile); })) return 0;
-  for (const report::Drive& drive : folder.drives)
+  report::run::RunFolder folder;
+  if (!fuzz::accepted(kFile, [&] { folder = report::run::parse_run_summary(fuzz::text_of(data, size), kFile); }))
+    return 0;
+  for (const report::run::Drive& drive : folder.drives)
     TTF_CHECK(drive.log_name.find('/') == std::string::npos, "a log elsewhere: {}", drive.log_name);
-  const std::string page = report::run_report_html({folder}, {});
+  const std::string page = report::run::run_report_html({folder}, {});
   fuzz::check_page(page);
-  TTF_CHECK(page == report::run_report_html({folder}, {}), "another page of the same run");
-  report::RunFolder other = folder;
+  TTF_CHECK(page == report::run::run_report_html({folder}, {}), "another page of the same run");
+  report::run::RunFolder other = folder;
   other.path = "other";
-  for (report::Drive& drive : other.drives) ++drive.seed;
-  fuzz::check_page(report::run_report_html({folder, other}, {}));
+  for (report::run::Drive& drive : other.drives) ++drive.seed;
+  fuzz::check_page(report::run::run_report_html({folder, other}, {}));
   return 0;
 }

@@ -5,8 +5,8 @@
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ttf::fuzz;
-  const std::string text = text_of(data, size);
-  if (check_scenario(text))
-    TTF_CHECK(!check_scenario(text + "\n...\n---\nunknown: 1\n"), "a second document is passed over");
+  const std::string text = ttf::fuzz::text_of(data, size);
+  if (ttf::fuzz::check_scenario(text))
+    TTF_CHECK(!ttf::fuzz::check_scenario(text + "\n...\n---\nunknown: 1\n"), "a second document is passed over");
   return 0;
 }

@@ -93,7 +93,8 @@ void yaml_seeds(const fs::path& folder, const std::string& what, const fs::path&
 
 // The files written by hand, a small one, and the names that FIBEX gives things.
 void fibex_seeds(const fs::path& folder) {
-  const std::string powertrain = schedules::kPowertrain, objects = schedules::kObjects;
+  const std::string powertrain = schedules::exchange::fibex::kPowertrain,
+                    objects = schedules::exchange::fibex::kObjects;
   write(folder / "fibex_text/powertrain", powertrain);
   write(folder / "fibex_text/objects", objects);
   write(folder / "fibex_text/empty", "<fx:FIBEX><fx:ELEMENTS/></fx:FIBEX>");
@@ -144,14 +145,14 @@ void observation_seeds(const fs::path& folder) {
 
 void frame_seeds(const fs::path& folder) {
   for (const std::size_t payload : {0u, 16u, 254u}) {
-    wire::FrameHeader header;
+    bus::wire::FrameHeader header;
     header.sync = header.startup = payload == 16;
     header.null_frame = payload == 0;
     header.frame_id = static_cast<std::uint16_t>(payload + 1);
     header.cycle = 5;
-    std::array<std::byte, wire::kMaxFrameBytes> frame{};
+    std::array<std::byte, bus::wire::kMaxFrameBytes> frame{};
     const std::vector<std::byte> bytes(payload, std::byte{0x5a});
-    const std::size_t size = wire::encode_frame(header, schedules::Channel::kA, bytes, frame);
+    const std::size_t size = bus::wire::encode_frame(header, schedules::model::Channel::kA, bytes, frame);
     for (const char how : {'\0', '\2'})
       write(folder / "frame" / ("payload_" + std::to_string(payload) + (how != 0 ? "_right" : "")),
             how + std::string(reinterpret_cast<const char*>(frame.data()), size));
@@ -193,53 +194,54 @@ void live_seeds(const fs::path& folder) {
 // A schedule's frames as pcapng and, from the same packets, as pcap; short enough to be edited.
 // A turn of every act, and one without.
 void turn_seeds(const fs::path& folder) {
-  const schedules::Cluster cluster =
-      schedules::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
-  std::array<std::byte, wire::kMaxFrameBytes> room{};
-  wire::FrameHeader header;
+  const schedules::model::Cluster cluster =
+      schedules::file::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
+  std::array<std::byte, bus::wire::kMaxFrameBytes> room{};
+  bus::wire::FrameHeader header;
   header.frame_id = 3;
   const std::array<std::byte, 4> payload{std::byte{1}, std::byte{2}};
-  const std::size_t size = wire::encode_frame(header, schedules::Channel::kA, payload, room);
+  const std::size_t size = bus::wire::encode_frame(header, schedules::model::Channel::kA, payload, room);
   const std::span<const std::byte> frame = std::span<const std::byte>(room).first(size);
   const SensorId sensor{0};
-  const auto add = [&](const std::string& name, NodeId node, const std::vector<sim::Act>& acts) {
-    sim::TurnWriter writer;
-    for (const sim::Act& act : acts) writer.add(act);
+  const auto add = [&](const std::string& name, NodeId node, const std::vector<sim::processes::Act>& acts) {
+    sim::processes::TurnWriter writer;
+    for (const sim::processes::Act& act : acts) writer.add(act);
     const auto bytes = writer.finish({node, 1, Microticks{400}, {Microticks{900}, Microticks{}, Microticks{5}}});
     write(folder / "turn" / name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   };
-  const bus::Transmission signal{
-      schedules::Channel::kA, bus::Signal::kFrame, Microticks{400}, Microticks{500}, 3, frame};
-  bus::Transmission symbol = signal;
-  symbol.signal = bus::Signal::kWakeup;
+  const bus::ports::Transmission signal{
+      schedules::model::Channel::kA, bus::ports::Signal::kFrame, Microticks{400}, Microticks{500}, 3, frame};
+  bus::ports::Transmission symbol = signal;
+  symbol.signal = bus::ports::Signal::kWakeup;
   symbol.bytes = {};
   add("silent", NodeId{0}, {});
-  add("host", cluster.sensor(sensor).host, {signal, symbol, sim::TriggerAct{sensor}});
+  add("host", cluster.sensor(sensor).host, {signal, symbol, sim::processes::TriggerAct{sensor}});
   add("device", cluster.sensor(sensor).device,
-      {sim::StrobeAct{sensor, 7}, sim::CanAct{0, {0x20, false, frame.first(8)}}});
+      {sim::processes::StrobeAct{sensor, 7}, sim::processes::CanAct{0, {0x20, false, frame.first(8)}}});
 }
 
 void capture_seeds(const fs::path& folder) {
   for (const int first_slot : {1, 20})
     for (const bool nanoseconds : {false, true}) {
-      const std::array interfaces{recording::CaptureInterface{recording::LinkType::kCan, "laser_can"},
-                                  recording::CaptureInterface{recording::LinkType::kFlexRay, "FlexRay"}};
+      const std::array interfaces{
+          recording::exports::CaptureInterface{recording::capture::LinkType::kCan, "laser_can"},
+          recording::exports::CaptureInterface{recording::capture::LinkType::kFlexRay, "FlexRay"}};
       std::string pcapng, pcap;
-      recording::CaptureWriter writer(pcapng, interfaces, "a run");
+      recording::exports::CaptureWriter writer(pcapng, interfaces, "a run");
       put(pcap, nanoseconds ? 0xa1b23c4du : 0xa1b2c3d4u);
       for (const std::uint32_t field : {0x00040002u, 0u, 0u, 65535u, 210u}) put(pcap, field);
       for (int i = 0; i < 24; ++i) {
-        wire::FrameHeader header;
+        bus::wire::FrameHeader header;
         header.frame_id = static_cast<std::uint16_t>(first_slot + i % 3);
         header.cycle = static_cast<std::uint8_t>(i / 6);
         header.sync = header.startup = header.frame_id <= 5;
-        const auto channel = static_cast<schedules::Channel>(i / 3 % 2);
-        std::array<std::byte, wire::kMaxFrameBytes> frame{};
+        const auto channel = static_cast<schedules::model::Channel>(i / 3 % 2);
+        std::array<std::byte, bus::wire::kMaxFrameBytes> frame{};
         const std::array<std::byte, 56> payload{};
-        const std::size_t size = wire::encode_frame(header, channel, payload, frame);
+        const std::size_t size = bus::wire::encode_frame(header, channel, payload, frame);
         std::string packet;
-        recording::put_flexray_packet(packet, channel,
-                                      recording::check_flexray_frame(channel, std::span(frame).first(size)));
+        recording::capture::put_flexray_packet(
+            packet, channel, recording::capture::check_flexray_frame(channel, std::span(frame).first(size)));
         const std::int64_t at = i / 6 * 5'000'000 + header.frame_id * 84'000;
         writer.packet(1, at, packet, i % 6 == 0 ? "measurement laser 12" : "");
         for (const std::int64_t field :
@@ -287,7 +289,7 @@ void drawn_seeds(const fs::path& folder) {
     }
 }
 
-class Payloads final : public recording::McapHandler {
+class Payloads final : public recording::mcap::McapHandler {
  public:
   void on_metadata(std::string_view, const std::vector<std::pair<std::string, std::string>>&) override {}
   void on_attachment(std::string_view, std::string_view, std::string_view) override {}
@@ -303,11 +305,11 @@ class Payloads final : public recording::McapHandler {
 
 std::string log_with(const fs::path& scratch, recording::Values values, int first_kind, int last_kind, int rounds) {
   {
-    recording::LogManifest manifest;
+    recording::log::LogManifest manifest;
     manifest.node_names = {"laser", "fusion"};
     manifest.task_names = {{"scan"}, {"fuse", "image"}};
     manifest.sensor_names = {"laser"};
-    recording::LogWriter writer(scratch.string(), manifest);
+    recording::log::LogWriter writer(scratch.string(), manifest);
     writer.attach("a.yaml", "application/yaml", "name: a\n");
     for (int i = 0; i < rounds; ++i)
       for (int kind = first_kind; kind <= last_kind; ++kind)
@@ -329,7 +331,7 @@ void log_seeds(const fs::path& folder) {
     const std::string log = log_with(scratch, values, first, last, rounds);
     write(folder / "log" / name, log);
     Payloads payloads;
-    recording::walk_mcap(log, payloads);
+    recording::mcap::walk_mcap(log, payloads);
     std::string window;
     put(window, std::uint64_t{0});
     put(window, std::uint32_t{100'000});
@@ -338,7 +340,7 @@ void log_seeds(const fs::path& folder) {
     write(folder / "diagram" / name, window + payloads.messages);
     write(folder / "trace" / name, payloads.messages);
   };
-  constexpr int kKinds = recording::kRecordKinds;
+  constexpr int kKinds = recording::log::kRecordKinds;
   add("empty", Values::kZero, 1, 0, 1);
   for (int kind = 1; kind <= kKinds; ++kind) {
     add("zero_" + std::to_string(kind), Values::kZero, kind, kind, 1);
@@ -427,11 +429,11 @@ void result_seeds(const fs::path& folder) {
 
   const fs::path path = folder / "store/small";
   fs::create_directories(path.parent_path());
-  results::Store store = results::Store::create(path, {"e", "id", "1", "name: e", {"m"}});
-  store.add({{{0, 0, 0}, results::kDone, {1.0}},
-             {{0, 0, 1}, results::kDone, {2.0}},
+  experiments::results::Store store = experiments::results::Store::create(path, {"e", "id", "1", "name: e", {"m"}});
+  store.add({{{0, 0, 0}, experiments::results::kDone, {1.0}},
+             {{0, 0, 1}, experiments::results::kDone, {2.0}},
              {{0, 1, 0}, "went <wrong>", {2.5}},
-             {{0, 1, 1}, results::kDone, {3.0}},
+             {{0, 1, 1}, experiments::results::kDone, {3.0}},
              {{7, 1, 9}, "of nobody", {4.0}}});
 }
 

@@ -48,11 +48,11 @@ class ScratchFile {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ttf;
   const ScratchFile file(fuzz::text_of(data, size));
-  report::ExperimentFolder folder = report::parse_answer(kAnswer, "answer.json");
-  if (!fuzz::accepted(file.path(), [&] { report::read_store(file.path(), folder); })) return 0;
+  report::experiment::ExperimentFolder folder = report::experiment::parse_answer(kAnswer, "answer.json");
+  if (!fuzz::accepted(file.path(), [&] { report::experiment::read_store(file.path(), folder); })) return 0;
   TTF_CHECK(folder.store.has_value(), "no store");
   try {
-    fuzz::check_page(report::experiment_report_html(folder, {}, {}));
+    fuzz::check_page(report::experiment::experiment_report_html(folder, {}, {}));
   } catch (const std::runtime_error& error) {
     // What only another order of reading comes upon (an index that is not as its table).
     TTF_CHECK(std::string_view(error.what()).starts_with(file.path()), "{}", error.what());

@@ -1,11 +1,11 @@
-// Any records as a Perfetto trace. Laws: the trace is sound, whatever the log says (tests/recording/exports/perfetto_trace.h:
-// tracks described once and before they are used, times that never go back, slices that end, flows with two ends), what
-// it says it wrote is there, and the same log gives the same bytes.
+// Any records as a Perfetto trace. Laws: the trace is sound, whatever the log says
+// (tests/recording/exports/perfetto_trace.h: tracks described once and before they are used, times that never go back,
+// slices that end, flows with two ends), what it says it wrote is there, and the same log gives the same bytes.
 //
 // Input: messages: kind (1 byte), length (2 bytes), payload.
 #include "core/check.h"
-#include "recording/merge/merge.h"
 #include "recording/exports/perfetto.h"
+#include "recording/merge/merge.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/mcap_around.h"
 #include "tests/recording/exports/perfetto_trace.h"
@@ -16,16 +16,17 @@ using namespace ttf;
 
 struct Exported {
   std::string bytes;
-  recording::TraceCounts counts;
+  recording::exports::TraceCounts counts;
 };
 
-Exported exported(const recording::MergedLogs& log) {
-  recording::LogManifest names;
+Exported exported(const recording::merge::MergedLogs& log) {
+  recording::log::LogManifest names;
   names.node_names = {"laser", "fusion"};
   names.task_names = {{"scan"}, {"fuse", "image"}};
   names.sensor_names = {"laser"};
   Exported result;
-  recording::PerfettoExport trace(recording::LogNames(names), [&](std::string_view more) { result.bytes += more; });
+  recording::exports::PerfettoExport trace(recording::exports::LogNames(names),
+                                           [&](std::string_view more) { result.bytes += more; });
   log.read(trace);
   result.counts = trace.finish();
   return result;
@@ -42,11 +43,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto payload = source.bytes(source.take<std::uint16_t>());
     messages.emplace_back(kind, std::string_view(reinterpret_cast<const char*>(payload.data()), payload.size()));
   }
-  std::vector<recording::StoredLog> logs;
+  std::vector<recording::merge::StoredLog> logs;
   if (!fuzz::accepted(kFile, [&] { logs.emplace_back(fuzz::mcap_around(messages), kFile); })) return 0;
-  const recording::MergedLogs log(std::move(logs));
+  const recording::merge::MergedLogs log(std::move(logs));
   const Exported one = exported(log);
-  const recording::PerfettoTrace trace(one.bytes);
+  const recording::exports::PerfettoTrace trace(one.bytes);
   TTF_CHECK(trace.problems.empty(), "{}", trace.problems.front());
   TTF_CHECK(trace.slices.size() == one.counts.slices + one.counts.instants, "{} slices of {}", trace.slices.size(),
             one.counts.slices + one.counts.instants);

@@ -1,5 +1,5 @@
-// Any bytes as a turn (sim/processes/turn.h). Laws: what is none is refused, with a sentence; what is one is the same after
-// writing and reading it again, and says nothing that could not be simulated.
+// Any bytes as a turn (sim/processes/turn.h). Laws: what is none is refused, with a sentence; what is one is the same
+// after writing and reading it again, and says nothing that could not be simulated.
 #include <algorithm>
 #include <span>
 #include <stdexcept>
@@ -14,15 +14,15 @@
 using namespace ttf;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const schedules::Cluster cluster =
-      schedules::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
+  static const schedules::model::Cluster cluster =
+      schedules::file::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
   const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(data), size);
-  std::vector<sim::Act> acts;
+  std::vector<sim::processes::Act> acts;
   try {
-    const sim::TurnHeader header = sim::read_turn(cluster, bytes, acts);
+    const sim::processes::TurnHeader header = sim::processes::read_turn(cluster, bytes, acts);
     TTF_CHECK(header.promise.silent_until > header.at, "silent until {}", header.promise.silent_until.value);
-    sim::TurnWriter writer;
-    for (const sim::Act& act : acts) writer.add(act);
+    sim::processes::TurnWriter writer;
+    for (const sim::processes::Act& act : acts) writer.add(act);
     const auto again = writer.finish(header);
     TTF_CHECK(std::equal(bytes.begin(), bytes.end(), again.begin(), again.end()), "{} bytes become {}", size,
               again.size());

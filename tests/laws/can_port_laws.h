@@ -31,7 +31,7 @@ class CanBench {
   virtual ~CanBench() = default;
   virtual bool flexible_data_rate() const = 0;
   virtual std::size_t controllers() const = 0;
-  virtual bus::CanPort& port(std::size_t controller) = 0;
+  virtual bus::ports::CanPort& port(std::size_t controller) = 0;
   // Lets the bus decide who sends next among what has been handed over so far, and no frame end yet.
   virtual void begin() = 0;
   // Delivers everything that was handed over.

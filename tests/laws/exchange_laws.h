@@ -30,7 +30,7 @@ class ExchangeBench {
  public:
   virtual ~ExchangeBench() = default;
   virtual std::size_t members() const = 0;
-  virtual bus::Exchange& member(std::size_t index) = 0;
+  virtual bus::ports::Exchange& member(std::size_t index) = 0;
   // Makes it gone for the others, in whatever way; its own thread uses it no more.
   virtual void end(std::size_t index) = 0;
 };

@@ -20,12 +20,12 @@
 
 namespace ttf::laws {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 struct Reached {
   std::size_t controller = 0;
   Channel channel{};
-  bus::Signal signal{};
+  bus::ports::Signal signal{};
   Microticks start{};
   Microticks end{};
   std::vector<std::byte> bytes;  // of a frame
@@ -34,10 +34,10 @@ struct Reached {
 class FlexRayBench {
  public:
   virtual ~FlexRayBench() = default;
-  virtual const schedules::GlobalParameters& parameters() const = 0;
+  virtual const schedules::model::GlobalParameters& parameters() const = 0;
   virtual std::int64_t microtick_ps() const = 0;
   virtual std::size_t controllers() const = 0;
-  virtual bus::FlexRayPort& port(std::size_t controller) = 0;
+  virtual bus::ports::FlexRayPort& port(std::size_t controller) = 0;
   // Delivers what is due up to and including microtick `now`; never called with less than before.
   virtual void run_until(Microticks now) = 0;
   // All receptions so far, in the order in which they were delivered.
@@ -51,26 +51,26 @@ template <class Bench> class FlexRayPortLaws : public testing::Test {
     std::vector<std::byte> payload(static_cast<std::size_t>(2 * words));
     for (std::size_t i = 0; i < payload.size(); ++i)
       payload[i] = static_cast<std::byte>(number * 31 + static_cast<int>(i));
-    wire::FrameHeader header;
+    bus::wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>(number + 1);
     header.cycle = static_cast<std::uint8_t>(sender);
-    std::vector<std::byte> bytes(wire::kMaxFrameBytes);
-    bytes.resize(wire::encode_frame(header, channel, payload, bytes));
+    std::vector<std::byte> bytes(bus::wire::kMaxFrameBytes);
+    bytes.resize(bus::wire::encode_frame(header, channel, payload, bytes));
     return bytes;
   }
   void transmit(std::size_t sender, Channel channel, std::int64_t start, const std::vector<std::byte>& bytes) {
     const auto bits = bench_.parameters().gdTSSTransmitter + 3 + 10 * static_cast<std::int64_t>(bytes.size());
     const std::int64_t end = start + ticks(bits * bench_.parameters().gdBit_ps);
-    bench_.port(sender).transmit({channel, bus::Signal::kFrame, Microticks{start}, Microticks{end}, 1, bytes});
+    bench_.port(sender).transmit({channel, bus::ports::Signal::kFrame, Microticks{start}, Microticks{end}, 1, bytes});
   }
   void transmit_cas(std::size_t sender, Channel channel, std::int64_t start, std::int64_t end) {
-    bench_.port(sender).transmit({channel, bus::Signal::kCas, Microticks{start}, Microticks{end}, 0, {}});
+    bench_.port(sender).transmit({channel, bus::ports::Signal::kCas, Microticks{start}, Microticks{end}, 0, {}});
   }
   static std::size_t sender_of(const Reached& reached) {
-    return wire::decode_frame(reached.channel, reached.bytes).header.cycle;
+    return bus::wire::decode_frame(reached.channel, reached.bytes).header.cycle;
   }
   std::int64_t ticks(std::int64_t ps) const { return (ps + bench_.microtick_ps() - 1) / bench_.microtick_ps(); }
-  std::int64_t length(int words) const { return ticks(wire::frame_duration_ps(bench_.parameters(), words)); }
+  std::int64_t length(int words) const { return ticks(bus::wire::frame_duration_ps(bench_.parameters(), words)); }
   std::int64_t longest_delay() const { return ticks(bench_.parameters().gdMaxPropagationDelay_ps); }
   std::vector<Reached> at(std::size_t controller) const {
     std::vector<Reached> mine;
@@ -189,13 +189,13 @@ TYPED_TEST_P(FlexRayPortLaws, L6_SignalsThatOverlapArriveAsOneUndecodable) {
   const auto mine = this->at(1);
   ASSERT_EQ(mine.size(), 2u);
   EXPECT_EQ(mine[0].channel, Channel::kA);
-  EXPECT_EQ(mine[0].signal, bus::Signal::kUndecodable);
-  EXPECT_EQ(mine[1].signal, bus::Signal::kFrame);
+  EXPECT_EQ(mine[0].signal, bus::ports::Signal::kUndecodable);
+  EXPECT_EQ(mine[1].signal, bus::ports::Signal::kFrame);
   EXPECT_NEAR(static_cast<double>((mine[0].end - mine[0].start).value),
               static_cast<double>(second - this->kFirst + this->length(8)), 1.0);
   // Those who sent hear the other, and only the other: whether they could make it out is their controller's business.
   EXPECT_EQ(this->at(0).size(), 2u);
-  EXPECT_EQ(this->at(0)[0].signal, bus::Signal::kFrame);
+  EXPECT_EQ(this->at(0)[0].signal, bus::ports::Signal::kFrame);
 }
 
 TYPED_TEST_P(FlexRayPortLaws, L6_ABridgeBetweenTwoSignalsMakesThemOne) {
@@ -204,7 +204,7 @@ TYPED_TEST_P(FlexRayPortLaws, L6_ABridgeBetweenTwoSignalsMakesThemOne) {
   this->transmit(2, Channel::kA, this->kFirst + 300, this->frame(2, 2, 8, Channel::kA));
   this->bench_.run_until(Microticks{this->kFirst + 100'000});
   ASSERT_EQ(this->at(1).size(), 1u);
-  EXPECT_EQ(this->at(1)[0].signal, bus::Signal::kUndecodable);
+  EXPECT_EQ(this->at(1)[0].signal, bus::ports::Signal::kUndecodable);
 }
 
 TYPED_TEST_P(FlexRayPortLaws, L6_OverlappingCollisionAvoidanceSymbolsRemainOne) {
@@ -212,7 +212,7 @@ TYPED_TEST_P(FlexRayPortLaws, L6_OverlappingCollisionAvoidanceSymbolsRemainOne) 
   this->transmit_cas(2, Channel::kA, this->kFirst + 40, this->kFirst + 200);
   this->bench_.run_until(Microticks{this->kFirst + 100'000});
   ASSERT_EQ(this->at(1).size(), 1u);
-  EXPECT_EQ(this->at(1)[0].signal, bus::Signal::kCas);
+  EXPECT_EQ(this->at(1)[0].signal, bus::ports::Signal::kCas);
   EXPECT_NEAR(static_cast<double>((this->at(1)[0].end - this->at(1)[0].start).value), 200.0, 1.0);
 }
 

@@ -28,15 +28,15 @@ class LiveBench {
   virtual std::string missing() const { return {}; }
   // 2..16 members, who all hear each other already and have said nothing yet. Each may have a thread of its own.
   virtual std::size_t members() const = 0;
-  virtual bus::LiveMedium& member(std::size_t index) = 0;
+  virtual bus::ports::LiveMedium& member(std::size_t index) = 0;
   // For each CAN whether it carries CAN FD.
   virtual std::vector<bool> can_buses() const = 0;
   // Everybody is on both channels; at least two members are on every CAN.
-  virtual bool on(std::size_t member, bus::Line line) const = 0;
+  virtual bool on(std::size_t member, bus::ports::Line line) const = 0;
 
   enum class Intruder { kForeign, kMalformed };
   // Puts what is nobody's, or is in our form but wrong, on a line. False where there is no such thing.
-  virtual bool intrude(bus::Line line, Intruder what) = 0;
+  virtual bool intrude(bus::ports::Line line, Intruder what) = 0;
   // More signals than anybody keeps who does not listen.
   virtual std::size_t flood() const = 0;
   // lost counts pieces of signals, so that it may be more than signals are missing.
@@ -46,10 +46,12 @@ class LiveBench {
   virtual std::chrono::milliseconds patience() const { return std::chrono::seconds(10); }
   virtual std::chrono::milliseconds quiet() const { return std::chrono::milliseconds(200); }
 
-  std::size_t lines() const { return bus::line_of_can(can_buses().size()); }
-  bool fast(bus::Line line) const { return line >= bus::line_of_can(0) && can_buses()[line - bus::line_of_can(0)]; }
+  std::size_t lines() const { return bus::ports::line_of_can(can_buses().size()); }
+  bool fast(bus::ports::Line line) const {
+    return line >= bus::ports::line_of_can(0) && can_buses()[line - bus::ports::line_of_can(0)];
+  }
   // All members but this one that are on the line.
-  std::vector<std::size_t> others(std::size_t member, bus::Line line) const {
+  std::vector<std::size_t> others(std::size_t member, bus::ports::Line line) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < members(); ++i)
       if (i != member && on(i, line)) found.push_back(i);
@@ -65,18 +67,18 @@ class LiveListener {
       : bench_(bench), self_(self), traffic_(traffic), next_(bench.lines(), std::vector<std::size_t>(bench.members())),
         missed_(next_), said_(bench.lines()) {}
 
-  bus::LiveMedium& medium() const { return bench_.member(self_); }
+  bus::ports::LiveMedium& medium() const { return bench_.member(self_); }
   std::size_t self() const { return self_; }
   // What was wrong first; empty: nothing.
   const std::string& wrong() const { return wrong_; }
-  std::size_t said(bus::Line line) const { return said_[line]; }
-  std::size_t heard(bus::Line line, std::size_t from) const { return next_[line][from]; }
-  std::size_t missed(bus::Line line, std::size_t from) const { return missed_[line][from]; }
+  std::size_t said(bus::ports::Line line) const { return said_[line]; }
+  std::size_t heard(bus::ports::Line line, std::size_t from) const { return next_[line][from]; }
+  std::size_t missed(bus::ports::Line line, std::size_t from) const { return missed_[line][from]; }
   std::uint64_t received() const { return received_; }
   std::uint64_t refused() const { return refused_; }
 
   // Says the next thing on this line, again and again while there is no room.
-  void say(bus::Line line) {
+  void say(bus::ports::Line line) {
     const auto begin = std::chrono::steady_clock::now();
     while (!try_to_say(line) && wrong_.empty()) {
       if (std::chrono::steady_clock::now() - begin > bench_.patience()) return complain("never has room");
@@ -84,14 +86,14 @@ class LiveListener {
     }
   }
   // Once; whether there was room.
-  bool try_to_say(bus::Line line) {
+  bool try_to_say(bus::ports::Line line) {
     Utterance utterance(line, {self_, bench_.members()}, said_[line], traffic_, bench_.fast(line));
-    const bus::LiveStatus status = utterance.send(medium());
+    const bus::ports::LiveStatus status = utterance.send(medium());
     utterance.scribble();  // L5
-    if (status == bus::LiveStatus::kDone) ++said_[line];
-    if (status == bus::LiveStatus::kNoRoom) ++refused_;
-    if (status == bus::LiveStatus::kFailed) complain("send fails: " + medium().failure());
-    return status == bus::LiveStatus::kDone;
+    if (status == bus::ports::LiveStatus::kDone) ++said_[line];
+    if (status == bus::ports::LiveStatus::kNoRoom) ++refused_;
+    if (status == bus::ports::LiveStatus::kFailed) complain("send fails: " + medium().failure());
+    return status == bus::ports::LiveStatus::kDone;
   }
 
   // Hears what is there. `gaps`: something may be missing.
@@ -101,7 +103,7 @@ class LiveListener {
   // Hears until `count` things of this member on this line have been heard, and how late they were. `meanwhile`: what
   // members do that have no thread; some media follow up as their sender hears that its frame has left.
   void hear_until(
-      bus::Line line, std::size_t from, std::size_t count, bool gaps = false,
+      bus::ports::Line line, std::size_t from, std::size_t count, bool gaps = false,
       const std::function<void()>& meanwhile = [] {}) {
     const auto begin = std::chrono::steady_clock::now();
     for (hear(gaps); next_[line][from] < count || waits_for_follow_up(line, from); meanwhile(), hear(gaps)) {
@@ -132,13 +134,13 @@ class LiveListener {
     Duration late{};
   };
 
-  void take(const bus::LiveArrival& heard, bool gaps) {
-    const bus::Line line = line_of(heard);
+  void take(const bus::ports::LiveArrival& heard, bool gaps) {
+    const bus::ports::Line line = line_of(heard);
     const std::size_t from = speaker_of(heard, bench_.members());
     if (line >= bench_.lines() || !bench_.on(self_, line)) return complain(fmt::format("hears on line {}", line));
     if (from == self_) return complain(fmt::format("line {}: hears itself", line));
     if (from >= bench_.members()) return complain(fmt::format("line {}: hears what nobody said", line));
-    if (heard.kind == bus::LiveArrival::Kind::kFollowUp) return take_follow_up(line, from, heard);
+    if (heard.kind == bus::ports::LiveArrival::Kind::kFollowUp) return take_follow_up(line, from, heard);
     ++received_;
     std::size_t& next = next_[line][from];
     for (const std::size_t first = next;; ++next, ++missed_[line][from]) {
@@ -151,12 +153,12 @@ class LiveListener {
       return complain(fmt::format("line {}: what is heard of member {} is not its number {}", line, from, first));
     }
   }
-  void take_lateness(bus::Line line, std::size_t from, const Utterance& expected, std::optional<Duration> late) {
+  void take_lateness(bus::ports::Line line, std::size_t from, const Utterance& expected, std::optional<Duration> late) {
     if (late && !expected.late()) return complain("is told how late, of what is no sync frame");
     if (late) return check_lateness(*late, *expected.late());
     if (expected.late()) waiting_[{line, from}].push_back({expected.slot(), expected.cycle(), *expected.late()});
   }
-  void take_follow_up(bus::Line line, std::size_t from, const bus::LiveArrival& heard) {
+  void take_follow_up(bus::ports::Line line, std::size_t from, const bus::ports::LiveArrival& heard) {
     auto& waiting = waiting_[{line, from}];
     if (waiting.empty()) return complain(fmt::format("line {}: a follow-up of nothing from {}", line, from));
     const SyncFrame frame = waiting.front();
@@ -171,7 +173,7 @@ class LiveListener {
     if (late < least || late > least + Duration::milliseconds(10'000))
       complain(fmt::format("is told that it left {} ns late, for at least {}", late.ns, least.ns));
   }
-  bool waits_for_follow_up(bus::Line line, std::size_t from) const {
+  bool waits_for_follow_up(bus::ports::Line line, std::size_t from) const {
     const auto found = waiting_.find({line, from});
     return found != waiting_.end() && !found->second.empty();
   }
@@ -181,8 +183,8 @@ class LiveListener {
   Traffic traffic_;
   std::vector<std::vector<std::size_t>> next_;  // by line and speaker: the number that is heard next
   std::vector<std::vector<std::size_t>> missed_;
-  std::map<std::pair<bus::Line, std::size_t>, std::deque<SyncFrame>> waiting_;  // for their follow-up
-  std::vector<std::size_t> said_;                                               // by line
+  std::map<std::pair<bus::ports::Line, std::size_t>, std::deque<SyncFrame>> waiting_;  // for their follow-up
+  std::vector<std::size_t> said_;                                                      // by line
   std::uint64_t received_ = 0, refused_ = 0;
   std::string wrong_;
 };

@@ -1,5 +1,5 @@
-// Each law of bus/ports/live_medium.h as a function that tries it and returns what is wrong, in words; empty: nothing is. So
-// they can be tried on media that break them (tests/bus/ports/live_medium_test.cc), and are known to notice.
+// Each law of bus/ports/live_medium.h as a function that tries it and returns what is wrong, in words; empty: nothing
+// is. So they can be tried on media that break them (tests/bus/ports/live_medium_test.cc), and are known to notice.
 #pragma once
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ inline std::string first_wrong(const std::vector<LiveListener>& members) {
 }
 
 // What this member hears next, if it is there in time.
-inline std::optional<bus::LiveArrival> await(
+inline std::optional<bus::ports::LiveArrival> await(
     LiveBench& bench, std::size_t member, const std::function<void()>& meanwhile = [] {}) {
   const auto begin = std::chrono::steady_clock::now();
   for (;;) {
@@ -47,7 +47,7 @@ inline std::optional<bus::LiveArrival> await(
   }
 }
 
-inline bool readable(bus::LiveMedium& medium, bus::Line line, std::chrono::milliseconds patience) {
+inline bool readable(bus::ports::LiveMedium& medium, bus::ports::Line line, std::chrono::milliseconds patience) {
   pollfd poller{medium.descriptor(line), POLLIN, 0};
   return poll(&poller, 1, static_cast<int>(patience.count())) == 1 && (poller.revents & POLLIN) != 0;
 }
@@ -55,8 +55,8 @@ inline bool readable(bus::LiveMedium& medium, bus::Line line, std::chrono::milli
 // What everybody said and heard is what the medium counted, and nothing was lost.
 inline std::string check_counts(LiveBench& bench, const LiveListener& member) {
   std::uint64_t said = 0;
-  for (bus::Line line = 0; line < bench.lines(); ++line) said += member.said(line);
-  const bus::LiveCounts counts = member.medium().counts();
+  for (bus::ports::Line line = 0; line < bench.lines(); ++line) said += member.said(line);
+  const bus::ports::LiveCounts counts = member.medium().counts();
   if (counts.sent == said && counts.received == member.received() && counts.not_sent == member.refused() &&
       counts.lost == 0 && counts.foreign == 0 && counts.malformed == 0 && member.medium().failure().empty())
     return {};
@@ -69,12 +69,12 @@ inline std::string check_counts(LiveBench& bench, const LiveListener& member) {
 
 inline void say_on_all_lines(LiveBench& bench, LiveListener& member, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
-    for (bus::Line line = 0; line < bench.lines(); ++line)
+    for (bus::ports::Line line = 0; line < bench.lines(); ++line)
       if (bench.on(member.self(), line)) member.say(line);
 }
 inline void hear_all_of(
     LiveBench& bench, LiveListener& member, std::size_t count, const std::function<void()>& meanwhile = [] {}) {
-  for (bus::Line line = 0; line < bench.lines(); ++line)
+  for (bus::ports::Line line = 0; line < bench.lines(); ++line)
     for (const std::size_t other : bench.others(member.self(), line))
       if (bench.on(member.self(), line)) member.hear_until(line, other, count, false, meanwhile);
 }
@@ -118,7 +118,7 @@ inline std::string once_and_unchanged(LiveBench& bench, bool in_threads) {
 inline std::string missing_is_counted(LiveBench& bench) {
   auto members = listeners(bench, Traffic::kFrames);
   LiveListener& speaker = members[0];
-  const bus::Line line = bus::line_of(schedules::Channel::kA);
+  const bus::ports::Line line = bus::ports::line_of(schedules::model::Channel::kA);
   for (std::size_t i = 0; i < bench.flood(); ++i) {
     speaker.try_to_say(line);
     for (LiveListener& member : members)
@@ -145,7 +145,7 @@ inline std::string does_not_hear_itself(LiveBench& bench) {
   for (LiveListener& speaker : members) {
     say_on_all_lines(bench, speaker, 20);
     for (LiveListener& other : members)
-      for (bus::Line line = 0; line < bench.lines(); ++line)
+      for (bus::ports::Line line = 0; line < bench.lines(); ++line)
         if (&other != &speaker && bench.on(speaker.self(), line) && bench.on(other.self(), line))
           other.hear_until(line, speaker.self(), 20, false, [&] { speaker.hear(); });
     if (speaker.medium().receive()) return fmt::format("member {} hears itself", speaker.self());
@@ -169,12 +169,12 @@ inline std::string arrives_when_it_says(LiveBench& bench) {
   static constexpr auto kNap = std::chrono::milliseconds(400);
   for (std::size_t i = 0; i < 100; ++i) {
     const bool late = i % 50 == 49;
-    const bus::HostTime begin = bus::host_now();
+    const bus::ports::HostTime begin = bus::ports::host_now();
     const Utterance utterance(i % 2, {0, bench.members()}, i, Traffic::kFrames);
-    if (utterance.send(bench.member(0)) != bus::LiveStatus::kDone) return "has no room";
+    if (utterance.send(bench.member(0)) != bus::ports::LiveStatus::kDone) return "has no room";
     if (late) std::this_thread::sleep_for(kNap);
     const auto heard = await(bench, 1);
-    const bus::HostTime end = bus::host_now();
+    const bus::ports::HostTime end = bus::ports::host_now();
     if (!heard || !utterance.is(*heard)) return "hears something else";
     if (heard->at < begin || heard->at > end)
       return fmt::format("arrives {} ns after it was sent, {} ns before it is received", (heard->at - begin).ns,
@@ -197,8 +197,8 @@ inline std::string keeps_what_is_its_own(LiveBench& bench) {
   std::vector<Utterance> said;
   said.reserve(kCount);
   for (std::size_t i = 0; i < kCount; ++i) {
-    said.emplace_back(bus::Line{0}, Speaker{0, bench.members()}, i, Traffic::kFrames);
-    if (said.back().send(bench.member(0)) != bus::LiveStatus::kDone) return "has no room";
+    said.emplace_back(bus::ports::Line{0}, Speaker{0, bench.members()}, i, Traffic::kFrames);
+    if (said.back().send(bench.member(0)) != bus::ports::LiveStatus::kDone) return "has no room";
     said.back().scribble();
   }
   const auto expected = [&bench](std::size_t number) {
@@ -227,16 +227,17 @@ inline std::string never_blocks_nor_allocates(LiveBench& bench) {
   auto longest = std::chrono::steady_clock::duration::zero();
   const std::size_t lines = bench.lines();
   std::vector<std::vector<Utterance>> utterances(lines);
-  for (bus::Line line = 0; line < lines; ++line)
+  for (bus::ports::Line line = 0; line < lines; ++line)
     for (std::size_t i = 0; i < kCount && bench.on(0, line); ++i)
       utterances[line].emplace_back(line, Speaker{0, bench.members()}, i, Traffic::kAll, bench.fast(line));
   std::int64_t allocated = 0;
   std::size_t heard = 0, said = 0;
   for (int round = 0; round < 2; ++round) {
     const std::int64_t before = support::allocations();
-    for (bus::Line line = 0; line < lines; ++line) {
+    for (bus::ports::Line line = 0; line < lines; ++line) {
       for (const Utterance& utterance : utterances[line]) {
-        longest = std::max(longest, timed([&] { said += utterance.send(bench.member(0)) == bus::LiveStatus::kDone; }));
+        longest =
+            std::max(longest, timed([&] { said += utterance.send(bench.member(0)) == bus::ports::LiveStatus::kDone; }));
       }
     }
     for (std::size_t quiet = 0; quiet < 50; ++quiet) {
@@ -262,8 +263,8 @@ inline std::string never_blocks_nor_allocates(LiveBench& bench) {
 // L7: on every line, and what is ours is heard all the same.
 inline std::string strangers_are_counted(LiveBench& bench, LiveBench::Intruder what) {
   auto members = listeners(bench, Traffic::kAll);
-  for (bus::Line line = 0; line < bench.lines(); ++line) {
-    std::vector<bus::LiveCounts> before;
+  for (bus::ports::Line line = 0; line < bench.lines(); ++line) {
+    std::vector<bus::ports::LiveCounts> before;
     for (const LiveListener& member : members) before.push_back(member.medium().counts());
     if (!bench.intrude(line, what)) continue;
     const std::size_t speaker = bench.on(0, line) ? 0 : bench.others(0, line).front();
@@ -271,7 +272,7 @@ inline std::string strangers_are_counted(LiveBench& bench, LiveBench::Intruder w
     for (const std::size_t other : bench.others(speaker, line)) {
       members[other].hear_until(line, speaker, 1);
       members[other].hear_out();
-      const bus::LiveCounts counts = members[other].medium().counts();
+      const bus::ports::LiveCounts counts = members[other].medium().counts();
       const bool foreign = what == LiveBench::Intruder::kForeign;
       const std::uint64_t counted =
           foreign ? counts.foreign - before[other].foreign : counts.malformed - before[other].malformed;
@@ -286,13 +287,13 @@ inline std::string strangers_are_counted(LiveBench& bench, LiveBench::Intruder w
 // L8, for every line by itself.
 inline std::string what_is_watched_is_readable(LiveBench& bench) {
   using namespace std::chrono_literals;
-  for (bus::Line line = 0; line < bench.lines(); ++line) {
+  for (bus::ports::Line line = 0; line < bench.lines(); ++line) {
     const std::size_t speaker = bench.on(0, line) ? 0 : bench.others(0, line).front();
     const std::size_t hearer = bench.others(speaker, line).front();
-    bus::LiveMedium& medium = bench.member(hearer);
+    bus::ports::LiveMedium& medium = bench.member(hearer);
     const auto say = [&](std::size_t number) {
       return Utterance(line, {speaker, bench.members()}, number, Traffic::kFrames, bench.fast(line))
-                 .send(bench.member(speaker)) == bus::LiveStatus::kDone;
+                 .send(bench.member(speaker)) == bus::ports::LiveStatus::kDone;
     };
     const auto complaint = [line](const char* what) { return fmt::format("line {} {}", line, what); };
     for (std::size_t i = 0; i < bench.members(); ++i)
@@ -325,10 +326,11 @@ inline std::string what_is_watched_is_readable(LiveBench& bench) {
 inline std::string says_how_late_it_left(LiveBench& bench) {
   for (std::size_t i = 0; i < 20; ++i) {
     const Utterance utterance(i % 2, {0, bench.members()}, 1 + 8 * i, Traffic::kAll);
-    const bus::HostTime due = bus::host_now() - Duration::microseconds(static_cast<std::int64_t>(700 * i));
-    const bus::HostTime begin = bus::host_now();
-    if (bench.member(0).send(utterance.signal(), due) != bus::LiveStatus::kDone) return "has no room";
-    const bus::HostTime end = bus::host_now();
+    const bus::ports::HostTime due =
+        bus::ports::host_now() - Duration::microseconds(static_cast<std::int64_t>(700 * i));
+    const bus::ports::HostTime begin = bus::ports::host_now();
+    if (bench.member(0).send(utterance.signal(), due) != bus::ports::LiveStatus::kDone) return "has no room";
+    const bus::ports::HostTime end = bus::ports::host_now();
     for (std::size_t member = 1; member < bench.members(); ++member) {
       std::optional<Duration> late;
       const auto heard = await(bench, member);
@@ -336,7 +338,7 @@ inline std::string says_how_late_it_left(LiveBench& bench) {
       late = heard->late;
       if (!late) {
         const auto follow_up = await(bench, member, [&] { bench.member(0).receive(); });
-        if (follow_up && follow_up->kind == bus::LiveArrival::Kind::kFollowUp) late = follow_up->late;
+        if (follow_up && follow_up->kind == bus::ports::LiveArrival::Kind::kFollowUp) late = follow_up->late;
       }
       if (!late) return "is not told how late it left";
       if (*late < begin - due || *late > end - due)

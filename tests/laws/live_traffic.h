@@ -1,5 +1,5 @@
-// What members say while the laws of bus/ports/live_medium.h are tried: the number-th thing that a member says on a line. Who
-// hears it can tell from the thing itself whose it is, and holds it against what it should be.
+// What members say while the laws of bus/ports/live_medium.h are tried: the number-th thing that a member says on a
+// line. Who hears it can tell from the thing itself whose it is, and holds it against what it should be.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Speaker {
 class Utterance {
  public:
   // `fast`: of a CAN line, whether it carries CAN FD.
-  Utterance(bus::Line line, Speaker speaker, std::size_t number, Traffic traffic, bool fast = false)
+  Utterance(bus::ports::Line line, Speaker speaker, std::size_t number, Traffic traffic, bool fast = false)
       : line_(line), speaker_(speaker), number_(number) {
     for (std::size_t i = 0; i < bytes_.size(); ++i)
       bytes_[i] = static_cast<std::byte>((number * 0x9E3779B9u + speaker.index * 89 + i * 0x85EBCA6Bu) >> 13);
@@ -39,16 +39,16 @@ class Utterance {
       make_signal(traffic);
   }
 
-  bool is_can() const { return line_ >= bus::line_of_can(0); }
-  bus::LiveSignal signal() const {
-    return {.channel = static_cast<schedules::Channel>(line_),
+  bool is_can() const { return line_ >= bus::ports::line_of_can(0); }
+  bus::ports::LiveSignal signal() const {
+    return {.channel = static_cast<schedules::model::Channel>(line_),
             .signal = what_,
             .slot = slot(),
             .duration = duration_,
             .bytes = std::span(bytes_).first(size_),
             .tells_late = late_.has_value()};
   }
-  bus::CanFrame can() const {
+  bus::ports::CanFrame can() const {
     return {static_cast<std::uint32_t>(number_ % 100 * speaker_.members + speaker_.index), fast_,
             std::span(bytes_).first(size_)};
   }
@@ -57,23 +57,23 @@ class Utterance {
   // Of a sync frame that tells it: how late it is when it is handed over.
   std::optional<Duration> late() const { return late_; }
 
-  bus::LiveStatus send(bus::LiveMedium& medium) const {
-    return is_can() ? medium.send_can(line_ - bus::line_of_can(0), can())
-                    : medium.send(signal(), bus::host_now() - late_.value_or(Duration{}));
+  bus::ports::LiveStatus send(bus::ports::LiveMedium& medium) const {
+    return is_can() ? medium.send_can(line_ - bus::ports::line_of_can(0), can())
+                    : medium.send(signal(), bus::ports::host_now() - late_.value_or(Duration{}));
   }
   // Nobody may look at the bytes any more.
   void scribble() { bytes_.fill(std::byte{0xEE}); }
 
   // Whether this is what has arrived; of sync frames without how late they are.
-  bool is(const bus::LiveArrival& heard) const {
+  bool is(const bus::ports::LiveArrival& heard) const {
     if (is_can())
-      return heard.kind == bus::LiveArrival::Kind::kCan && bus::line_of_can(heard.can_bus) == line_ &&
+      return heard.kind == bus::ports::LiveArrival::Kind::kCan && bus::ports::line_of_can(heard.can_bus) == line_ &&
              heard.can.identifier == can().identifier && heard.can.flexible_data_rate == fast_ &&
              std::ranges::equal(heard.can.data, can().data);
-    if (heard.kind != bus::LiveArrival::Kind::kFlexRay || bus::line_of(heard.signal.channel) != line_ ||
+    if (heard.kind != bus::ports::LiveArrival::Kind::kFlexRay || bus::ports::line_of(heard.signal.channel) != line_ ||
         heard.signal.signal != what_)
       return false;
-    if (what_ != bus::Signal::kFrame) return heard.signal.duration == duration_;
+    if (what_ != bus::ports::Signal::kFrame) return heard.signal.duration == duration_;
     return heard.signal.slot == slot() && std::ranges::equal(heard.signal.bytes, signal().bytes);
   }
 
@@ -86,51 +86,51 @@ class Utterance {
   void make_signal(Traffic traffic) {
     static constexpr std::array<int, 8> kEdges{0, 127, 1, 28, 29, 27, 30, 126};  // where media begin to cut frames up
     const std::size_t form = traffic == Traffic::kFrames ? 2 : number_ % 8;
-    if (form == 3) return make_symbol(bus::Signal::kCas);
-    if (form == 5) return make_symbol(bus::Signal::kWakeup);
-    if (form == 6) return make_symbol(bus::Signal::kUndecodable);
+    if (form == 3) return make_symbol(bus::ports::Signal::kCas);
+    if (form == 5) return make_symbol(bus::ports::Signal::kWakeup);
+    if (form == 6) return make_symbol(bus::ports::Signal::kUndecodable);
     if (form == 1) late_ = Duration::microseconds(1000 + static_cast<std::int64_t>(number_ % 1000));
     const int words = traffic == Traffic::kFrames ? 8
                       : form == 0                 ? kEdges[number_ / 8 % 8]
                                                   : static_cast<int>(number_ * 37 % 128);
-    const std::array<std::byte, wire::kMaxFrameBytes> payload = bytes_;
-    wire::FrameHeader header;
+    const std::array<std::byte, bus::wire::kMaxFrameBytes> payload = bytes_;
+    bus::wire::FrameHeader header;
     header.null_frame = form == 4;
     header.sync = form == 1;
     header.startup = form == 1 && number_ % 16 == 1;
     header.frame_id = static_cast<std::uint16_t>(slot());
     header.cycle = cycle();
-    size_ = wire::encode_frame(header, static_cast<schedules::Channel>(line_),
-                               std::span(payload).first(static_cast<std::size_t>(2 * words)), bytes_);
+    size_ = bus::wire::encode_frame(header, static_cast<schedules::model::Channel>(line_),
+                                    std::span(payload).first(static_cast<std::size_t>(2 * words)), bytes_);
     if (form == 7) bytes_[number_ % 16 == 7 ? 4 : size_ - 1] ^= std::byte{0x40};  // its header CRC, its frame CRC
   }
-  void make_symbol(bus::Signal what) {
+  void make_symbol(bus::ports::Signal what) {
     what_ = what;
     size_ = 0;
     duration_ = Duration::milliseconds(1 + static_cast<std::int64_t>(speaker_.index)) +
                 Duration::nanoseconds(static_cast<std::int64_t>(number_));
   }
 
-  bus::Line line_;
+  bus::ports::Line line_;
   Speaker speaker_;
   std::size_t number_;
-  bus::Signal what_ = bus::Signal::kFrame;
+  bus::ports::Signal what_ = bus::ports::Signal::kFrame;
   Duration duration_{};
   std::optional<Duration> late_;
   bool fast_ = false;
   std::size_t size_ = 0;
-  std::array<std::byte, wire::kMaxFrameBytes> bytes_{};
+  std::array<std::byte, bus::wire::kMaxFrameBytes> bytes_{};
 };
 
-inline bus::Line line_of(const bus::LiveArrival& heard) {
-  return heard.kind == bus::LiveArrival::Kind::kCan ? bus::line_of_can(heard.can_bus)
-                                                    : bus::line_of(heard.signal.channel);
+inline bus::ports::Line line_of(const bus::ports::LiveArrival& heard) {
+  return heard.kind == bus::ports::LiveArrival::Kind::kCan ? bus::ports::line_of_can(heard.can_bus)
+                                                           : bus::ports::line_of(heard.signal.channel);
 }
 
 // Whose utterance it is, if it is one of those above.
-inline std::size_t speaker_of(const bus::LiveArrival& heard, std::size_t members) {
-  if (heard.kind == bus::LiveArrival::Kind::kCan) return heard.can.identifier % members;
-  if (heard.kind == bus::LiveArrival::Kind::kFollowUp || heard.signal.signal == bus::Signal::kFrame)
+inline std::size_t speaker_of(const bus::ports::LiveArrival& heard, std::size_t members) {
+  if (heard.kind == bus::ports::LiveArrival::Kind::kCan) return heard.can.identifier % members;
+  if (heard.kind == bus::ports::LiveArrival::Kind::kFollowUp || heard.signal.signal == bus::ports::Signal::kFrame)
     return static_cast<std::size_t>(heard.signal.slot - 1) % members;
   return static_cast<std::size_t>(heard.signal.duration.ns / 1'000'000 - 1);
 }

@@ -13,46 +13,46 @@
 
 namespace ttf::recording {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
-inline schedules::Cluster shipped_cluster(const std::string& name = "paper_synchronised") {
-  return schedules::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
+inline schedules::model::Cluster shipped_cluster(const std::string& name = "paper_synchronised") {
+  return schedules::file::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
 }
 
 // One frame on the bus; `packet()` is what a capture has of it.
 struct BusFrame {
   std::int64_t time_ns = 0;
   Channel channel = Channel::kA;
-  wire::FrameHeader header;
+  bus::wire::FrameHeader header;
   std::vector<std::byte> payload;
   std::uint8_t errors = 0;
 
   std::string packet() const {
-    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
-    wire::FrameHeader sound = header;
+    std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
+    bus::wire::FrameHeader sound = header;
     sound.startup = header.startup && header.sync;
-    const std::size_t size = wire::encode_frame(sound, channel, payload, bytes);
+    const std::size_t size = bus::wire::encode_frame(sound, channel, payload, bytes);
     std::string out;
-    CheckedFlexRayFrame frame = check_flexray_frame(channel, std::span(bytes).first(size));
+    capture::CheckedFlexRayFrame frame = capture::check_flexray_frame(channel, std::span(bytes).first(size));
     frame.errors |= errors;
     put_flexray_packet(out, channel, frame);
     return out;
   }
 };
 
-inline std::vector<std::byte> scheduled_payload(const schedules::Cluster& cluster) {
+inline std::vector<std::byte> scheduled_payload(const schedules::model::Cluster& cluster) {
   return std::vector<std::byte>(static_cast<std::size_t>(2 * cluster.flexray.gPayloadLengthStatic));
 }
 
 // What the cluster sends in `cycles` cycles from counter `first_counter` on, by a clock that is `ppm` fast.
-inline std::vector<BusFrame> scheduled_frames(const schedules::Cluster& cluster, int cycles, int first_counter = 0,
-                                              std::int64_t ppm = 0) {
+inline std::vector<BusFrame> scheduled_frames(const schedules::model::Cluster& cluster, int cycles,
+                                              int first_counter = 0, std::int64_t ppm = 0) {
   constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
   std::vector<BusFrame> frames;
   const int counters = cluster.flexray.gCycleCountMax + 1;
   for (int n = 0; n < cycles; ++n) {
     const int counter = (first_counter + n) % counters;
-    for (const schedules::FrameSlot& slot : cluster.frames) {
+    for (const schedules::model::FrameSlot& slot : cluster.frames) {
       if (counter % slot.repetition != slot.base_cycle) continue;
       for (const Channel channel : {Channel::kA, Channel::kB}) {
         if (!includes(slot.channels, channel)) continue;
@@ -75,15 +75,15 @@ inline std::vector<BusFrame> scheduled_frames(const schedules::Cluster& cluster,
 }
 
 inline std::string capture_bytes(const std::vector<BusFrame>& frames) {
-  const CaptureInterface interface { LinkType::kFlexRay, "FlexRay" };
+  const exports::CaptureInterface interface { capture::LinkType::kFlexRay, "FlexRay" };
   std::string bytes;
-  CaptureWriter writer(bytes, {&interface, 1}, "");
+  exports::CaptureWriter writer(bytes, {&interface, 1}, "");
   for (const BusFrame& frame : frames) writer.packet(0, frame.time_ns, frame.packet(), "");
   return bytes;
 }
 
-inline Capture capture_of(const std::vector<BusFrame>& frames) {
-  return parse_capture(capture_bytes(frames), "bus.pcapng");
+inline capture::Capture capture_of(const std::vector<BusFrame>& frames) {
+  return capture::parse_capture(capture_bytes(frames), "bus.pcapng");
 }
 
 }  // namespace ttf::recording

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <map>
 
+#include "fusion/strategies/strategy.h"
 #include "replay/recorded_lists.h"
 #include "replay/sensor_timing.h"
-#include "fusion/strategies/strategy.h"
 #include "tests/replay/replay_rows.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 namespace {
 
 using testing::ElementsAre;
@@ -49,14 +49,14 @@ TEST(Arrivals, NoiseIsTheRowsOwnOrTheSensors) {
   ReplayConfig config;
   config.sensors = {{"s", {}}};
   config.sensors[0].second.noise = {0.4, 0.6, 0.02, 0.7, 0.1, 0.3, 0.2};
-  std::vector<recording::ObservationRow> rows{position_row("s", 0, 0, 1, 2), position_row("s", 0, 0, 3, 4),
-                                              position_row("s", 0, 0, 5, 0.5)};
+  std::vector<recording::rows::ObservationRow> rows{position_row("s", 0, 0, 1, 2), position_row("s", 0, 0, 3, 4),
+                                                    position_row("s", 0, 0, 5, 0.5)};
   rows[0].covariance = {{0.25, 0.1, 0.09, 0, 0, 0}};
   rows[0].heading = 1.0;
   rows[0].length = 4.0;
   rows[0].sigma_length = 0.05;
-  rows[1].kind = recording::ObservationRow::Kind::kRangeBearingRate;
-  rows[2].kind = recording::ObservationRow::Kind::kRangeBearing;
+  rows[1].kind = recording::rows::ObservationRow::Kind::kRangeBearingRate;
+  rows[2].kind = recording::rows::ObservationRow::Kind::kRangeBearing;
   const Arrivals arrivals = arrivals_of_rows(rows, config);
   ASSERT_EQ(arrivals.lists.size(), 1u);
   const auto& o = arrivals.lists[0].observations;
@@ -66,9 +66,9 @@ TEST(Arrivals, NoiseIsTheRowsOwnOrTheSensors) {
   EXPECT_TRUE(o[0].has_heading && o[0].has_length && !o[0].has_width && !o[0].has_span);
   EXPECT_EQ(o[0].sigma_heading, 0.1);
   EXPECT_EQ(o[0].sigma_length, 0.05);
-  EXPECT_EQ(o[1].kind, fusion::ObservationKind::kRangeBearingRate);
+  EXPECT_EQ(o[1].kind, fusion::sensors::ObservationKind::kRangeBearingRate);
   EXPECT_EQ(o[1].r.diagonal(), Eigen::Vector3d(0.6 * 0.6, 0.02 * 0.02, 0.7 * 0.7));
-  EXPECT_EQ(o[2].kind, fusion::ObservationKind::kPosition) << "without a rate: converted";
+  EXPECT_EQ(o[2].kind, fusion::sensors::ObservationKind::kPosition) << "without a rate: converted";
   EXPECT_NEAR(o[2].z.head<2>().norm(), 5.0, 0.01);
 }
 
@@ -76,8 +76,8 @@ TEST(Arrivals, WhatNoFilterCanTakeIsAFinding) {
   ReplayConfig config;
   config.file = "c.yaml";
   config.sensors = {{"a", {}}, {"b", {}}};
-  std::vector<recording::ObservationRow> rows{position_row("a", 0, 0, 1, 0), position_row("c", 0, 0, 2, 0),
-                                              position_row("b", 0, 0, 3, 0)};
+  std::vector<recording::rows::ObservationRow> rows{position_row("a", 0, 0, 1, 0), position_row("c", 0, 0, 2, 0),
+                                                    position_row("b", 0, 0, 3, 0)};
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].line = static_cast<int>(i) + 2;
   rows[2].covariance = {{0.04, 0.2, 0.04, 0, 0, 0}};
   for (std::size_t i = 0; i < config.tracker.max_observations; ++i) rows.push_back(position_row("a", 0, 0, 1, 0));
@@ -95,7 +95,7 @@ TEST(Arrivals, WhatNoFilterCanTakeIsAFinding) {
 
 TEST(Arrivals, ClassesAreNumberedByTheirNames) {
   ReplayConfig config;
-  std::vector<recording::ObservationRow> rows;
+  std::vector<recording::rows::ObservationRow> rows;
   for (int i = 0; i < 17; ++i) {
     rows.push_back(position_row("a", i, i, 0, 0));
     rows.back().class_name = std::string(1, static_cast<char>('z' - i));
@@ -111,9 +111,9 @@ TEST(Arrivals, ClassesAreNumberedByTheirNames) {
   rows.back().class_name.clear();
   const Arrivals arrivals = arrivals_of_rows(rows, config);
   EXPECT_EQ(arrivals.classes.front(), "l");
-  EXPECT_EQ(arrivals.lists[0].observations[0].class_id, fusion::ClassId{14}) << "z";
+  EXPECT_EQ(arrivals.lists[0].observations[0].class_id, fusion::sensors::ClassId{14}) << "z";
   EXPECT_EQ(arrivals.lists[0].observations[0].score, 1.0);
-  EXPECT_EQ(arrivals.lists[15].observations[0].class_id, fusion::kNoClass);
+  EXPECT_EQ(arrivals.lists[15].observations[0].class_id, fusion::sensors::kNoClass);
 }
 
 std::map<MeasurementId, GlobalTime> arrival_of(const Arrivals& arrivals) {
@@ -153,8 +153,8 @@ TEST(SimulatedArrivals, DelaysAreWithinTheirBoundsAndOfTheSeed) {
                              [](const ListArrival& a, const ListArrival& b) { return a.arrival < b.arrival; }));
 
   // The camera is not there: the radar's delays are as they were.
-  std::vector<recording::ObservationRow> rows = two_cars(10);
-  std::erase_if(rows, [](const recording::ObservationRow& row) { return row.sensor == "camera"; });
+  std::vector<recording::rows::ObservationRow> rows = two_cars(10);
+  std::erase_if(rows, [](const recording::rows::ObservationRow& row) { return row.sensor == "camera"; });
   Arrivals alone = arrivals_of_rows(rows, config);
   simulated.seed = 3;
   simulate(alone, simulated);
@@ -192,7 +192,7 @@ TEST(SensorTiming, WorstDelaysAreTheConfigurationsOrTheLongestSeen) {
       {position_row("a", 0, 20, 0, 0), position_row("a", 50, 110, 0, 0), position_row("b", 0, 5, 0, 0)}, config);
   EXPECT_THAT(longest_delays(arrivals), ElementsAre(Duration::milliseconds(60), Duration::milliseconds(5)));
   config.sensors[1].second.worst_delay = Duration::milliseconds(300);
-  const auto timings = sensor_timings(arrivals, config, fusion::StrategyKind::kBuff);
+  const auto timings = sensor_timings(arrivals, config, fusion::strategies::StrategyKind::kBuff);
   ASSERT_EQ(timings.size(), 2u);
   EXPECT_EQ(timings[0].settling.settled(ms(1000)), ms(940));
   EXPECT_EQ(timings[1].settling.settled(ms(1000)), ms(700));
@@ -211,20 +211,20 @@ TEST(SensorTiming, TtNeedsASchedule) {
   ReplayConfig config;
   config.file = "c.yaml";
   const Arrivals arrivals = arrivals_of_rows(two_cars(2), config);
-  const auto seen = sensor_timings(arrivals, config, fusion::StrategyKind::kTt);
+  const auto seen = sensor_timings(arrivals, config, fusion::strategies::StrategyKind::kTt);
   EXPECT_TRUE(seen[0].scheduled && seen[1].scheduled);
   EXPECT_EQ(seen[0].period, Duration::milliseconds(50));
   EXPECT_EQ(seen[1].period, Duration::milliseconds(70));
   config.sensors[0].second.period = Duration::milliseconds(25);
   config.sensors[0].second.first = ms(-75);
-  const auto given = sensor_timings(arrivals, config, fusion::StrategyKind::kTt);
+  const auto given = sensor_timings(arrivals, config, fusion::strategies::StrategyKind::kTt);
   EXPECT_EQ(given[0].period, Duration::milliseconds(25));
   EXPECT_EQ(given[0].first, ms(-75));
   ReplayConfig bare;
   bare.file = "c.yaml";
   const Arrivals once = arrivals_of_rows({position_row("a", 0, 0, 0, 0)}, bare);
   try {
-    sensor_timings(once, bare, fusion::StrategyKind::kTt);
+    sensor_timings(once, bare, fusion::strategies::StrategyKind::kTt);
     FAIL() << "nothing is known of any schedule";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
@@ -234,4 +234,4 @@ TEST(SensorTiming, TtNeedsASchedule) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

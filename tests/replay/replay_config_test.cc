@@ -4,7 +4,7 @@
 
 #include "replay/config.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 namespace {
 
 using testing::ElementsAre;
@@ -23,8 +23,8 @@ TEST(ReplayConfig, EveryKeyHasADefault) {
   SensorSetup usual;
   usual.noise.position = 0.15;
   const ReplayConfig config = parse_replay_config("sensors: {laser: {}}\n", "c.yaml", usual);
-  EXPECT_EQ(config.strategy, fusion::StrategyKind::kAdva);
-  EXPECT_EQ(config.tracker.process_noise, fusion::TrackerConfig{}.process_noise);
+  EXPECT_EQ(config.strategy, fusion::strategies::StrategyKind::kAdva);
+  EXPECT_EQ(config.tracker.process_noise, fusion::config::TrackerConfig{}.process_noise);
   ASSERT_EQ(config.sensors.size(), 1u);
   EXPECT_EQ(config.sensors[0].second.noise.position, 0.15) << "of a sensor, what is not said is as usual";
   EXPECT_FALSE(config.sensors[0].second.worst_delay);
@@ -39,7 +39,7 @@ TEST(ReplayConfig, ReadsEveryKey) {
       "  radar: {range: 0.3, bearing: 0.02, range_rate: 0.4, period: 100 ms, first: 50 ms, worst_delay: 70 ms}\n"
       "  lidar: {position: 0.1, heading: 0.05, length: 0.2, width: 0.3}\n",
       "c.yaml", {});
-  EXPECT_EQ(config.strategy, fusion::StrategyKind::kTt);
+  EXPECT_EQ(config.strategy, fusion::strategies::StrategyKind::kTt);
   EXPECT_EQ(config.tracker.process_noise, 4.0);
   EXPECT_EQ(config.tracker.confirm_hits, 1);
   ASSERT_EQ(config.sensors.size(), 2u);
@@ -102,4 +102,4 @@ TEST(ReplayConfig, SigmasAreKnownByName) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "core/random.h"
-#include "replay/recorded_lists.h"
 #include "recording/rows/observation_rows.h"
+#include "replay/recorded_lists.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 
-inline recording::ObservationRow position_row(const std::string& sensor, std::int64_t time_ms, std::int64_t arrival_ms,
-                                              double x, double y) {
-  recording::ObservationRow row;
+inline recording::rows::ObservationRow position_row(const std::string& sensor, std::int64_t time_ms,
+                                                    std::int64_t arrival_ms, double x, double y) {
+  recording::rows::ObservationRow row;
   row.sensor = sensor;
   row.time_ns = time_ms * 1'000'000;
   row.arrival_ns = arrival_ms * 1'000'000;
@@ -24,19 +24,19 @@ inline recording::ObservationRow position_row(const std::string& sensor, std::in
 
 // Two cars, one after the other on a lane, seen by a camera every 50 ms and a radar every 70 ms for `seconds`; every
 // list arrives as it is measured.
-inline std::vector<recording::ObservationRow> two_cars(int seconds) {
-  std::vector<recording::ObservationRow> rows;
+inline std::vector<recording::rows::ObservationRow> two_cars(int seconds) {
+  std::vector<recording::rows::ObservationRow> rows;
   RandomStream noise({.seed = 5, .purpose = Purpose::kTest});
   for (std::int64_t ms = 0; ms < seconds * 1000; ms += 10)
     for (const bool radar : {false, true}) {
       if (ms % (radar ? 70 : 50) != 0) continue;
       for (const double start : {10.0, 40.0}) {
         const double x = start + 8.0 * static_cast<double>(ms) * 1e-3, y = 3.0;
-        recording::ObservationRow row =
+        recording::rows::ObservationRow row =
             position_row(radar ? "radar" : "camera", ms, ms, x + 0.3 * noise.normal(), y + 0.3 * noise.normal());
         if (radar) {
           const double range = std::hypot(x, y);
-          row.kind = recording::ObservationRow::Kind::kRangeBearingRate;
+          row.kind = recording::rows::ObservationRow::Kind::kRangeBearingRate;
           row.z = {range + 0.3 * noise.normal(), std::atan2(y, x) + 0.01 * noise.normal(),
                    8.0 * x / range + 0.2 * noise.normal()};
         }
@@ -47,7 +47,7 @@ inline std::vector<recording::ObservationRow> two_cars(int seconds) {
 }
 
 // Of sensors whose noise is as usual.
-inline Arrivals arrivals_of_rows(const std::vector<recording::ObservationRow>& rows, ReplayConfig& config) {
+inline Arrivals arrivals_of_rows(const std::vector<recording::rows::ObservationRow>& rows, ReplayConfig& config) {
   list_sensors(config, rows, {}, "o.csv");
   Findings findings;
   Arrivals arrivals = arrivals_of(rows, config, "o.csv", findings);
@@ -55,4 +55,4 @@ inline Arrivals arrivals_of_rows(const std::vector<recording::ObservationRow>& r
   return arrivals;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

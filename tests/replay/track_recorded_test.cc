@@ -10,13 +10,13 @@
 #include <iostream>
 #include <map>
 
-#include "replay/sensor_timing.h"
-#include "replay/replay.h"
 #include "nodes/sensing/recorded.h"
 #include "recording/rows/laser_radar_file.h"
+#include "replay/replay.h"
+#include "replay/sensor_timing.h"
 #include "tests/support/recordings.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 namespace {
 
 class TrackRecorded : public testing::Test {
@@ -24,9 +24,9 @@ class TrackRecorded : public testing::Test {
   void SetUp() override {
     const std::string name = "laser_radar/measurements.txt";
     if (!std::filesystem::exists(support::recording_path(name))) GTEST_SKIP() << support::recording_missing(name);
-    input = recording::read_laser_radar(support::recording_path(name));
+    input = recording::rows::read_laser_radar(support::recording_path(name));
     SensorSetup usual;
-    const nodes::RecordedNoise documented;
+    const nodes::sensing::RecordedNoise documented;
     usual.noise.position = documented.position_m;
     usual.noise.range = documented.range_m;
     usual.noise.bearing = documented.bearing_rad;
@@ -35,28 +35,28 @@ class TrackRecorded : public testing::Test {
         "tracker: {process_noise: 4.0, confirm_hits: 1, confirm_window: 1, "
         "gate_probability: 0.999999}\n",
         "c.yaml", usual);
-    const auto rows = recording::observation_rows_of(input, name);
+    const auto rows = recording::rows::observation_rows_of(input, name);
     list_sensors(config, rows, usual, name);
     Findings findings;
     arrivals = arrivals_of(rows, config, name, findings);
     findings.throw_if_any();
-    for (const recording::RecordedTruth& truth : input.truth)
+    for (const recording::rows::RecordedTruth& truth : input.truth)
       truth_at[(input.first_time_us + truth.time_us_from_start) * 1000] = truth;
   }
 
   struct Error {
     std::array<double, 4> rmse{};
     std::size_t rows = 0;
-    recording::TrackRow last;
+    recording::rows::TrackRow last;
   };
-  Error error_of(fusion::StrategyKind strategy) {
+  Error error_of(fusion::strategies::StrategyKind strategy) {
     Error error;
     const ReplaySetup setup{strategy, config.tracker, sensor_timings(arrivals, config, strategy), false};
     const ReplayAccount account =
-        replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::TrackView> tracks) {
+        replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::tracks::TrackView> tracks) {
           ASSERT_EQ(tracks.size(), 1u) << "one vehicle, one track";
-          const recording::TrackRow row = track_row_of(tracks[0], known, arrivals.classes);
-          const recording::RecordedTruth& truth = truth_at.at(row.time_ns);
+          const recording::rows::TrackRow row = track_row_of(tracks[0], known, arrivals.classes);
+          const recording::rows::RecordedTruth& truth = truth_at.at(row.time_ns);
           const std::array<double, 4> off{row.x - truth.x, row.y - truth.y, row.vx - truth.vx, row.vy - truth.vy};
           for (std::size_t i = 0; i < 4; ++i) error.rmse[i] += off[i] * off[i];
           ++error.rows;
@@ -69,14 +69,14 @@ class TrackRecorded : public testing::Test {
     return error;
   }
 
-  recording::RecordedInput input;
+  recording::rows::RecordedInput input;
   ReplayConfig config;
   Arrivals arrivals;
-  std::map<std::int64_t, recording::RecordedTruth> truth_at;
+  std::map<std::int64_t, recording::rows::RecordedTruth> truth_at;
 };
 
 TEST_F(TrackRecorded, IsWithinThePublishedLimitsOfAnExtendedFilter) {
-  const Error error = error_of(fusion::StrategyKind::kAdva);
+  const Error error = error_of(fusion::strategies::StrategyKind::kAdva);
   EXPECT_EQ(error.rows, 500u);
   EXPECT_LT(error.rmse[0], 0.11);
   EXPECT_LT(error.rmse[1], 0.11);
@@ -88,11 +88,12 @@ TEST_F(TrackRecorded, IsWithinThePublishedLimitsOfAnExtendedFilter) {
 // nothing had been late, whatever the strategy. (Less than the radar's period: BUFF and TT wait for other sensors, not
 // for the same.)
 TEST_F(TrackRecorded, DelaysChangeNothingInTheEnd) {
-  const Error in_order = error_of(fusion::StrategyKind::kAdva);
+  const Error in_order = error_of(fusion::strategies::StrategyKind::kAdva);
   SimulatedArrivals simulated;
   simulated.delays = {std::nullopt, SimulatedArrivals::Delay{Duration::milliseconds(20), Duration::milliseconds(90)}};
   simulate(arrivals, simulated);
-  for (const auto strategy : {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva, fusion::StrategyKind::kTt}) {
+  for (const auto strategy : {fusion::strategies::StrategyKind::kBuff, fusion::strategies::StrategyKind::kAdva,
+                              fusion::strategies::StrategyKind::kTt}) {
     const Error late = error_of(strategy);
     EXPECT_EQ(late.last.time_ns, in_order.last.time_ns);
     EXPECT_EQ(late.last.x, in_order.last.x);
@@ -102,4 +103,4 @@ TEST_F(TrackRecorded, DelaysChangeNothingInTheEnd) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

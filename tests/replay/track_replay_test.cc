@@ -8,31 +8,31 @@
 #include <string>
 #include <vector>
 
-#include "replay/sensor_timing.h"
 #include "replay/replay.h"
+#include "replay/sensor_timing.h"
 #include "tests/replay/replay_rows.h"
 
-namespace ttf::experiments {
+namespace ttf::replay {
 namespace {
 
-using fusion::StrategyKind;
+using fusion::strategies::StrategyKind;
 
 struct Outcome {
   ReplayAccount account;
   std::vector<std::string> lines;  // of the tracks, as they are written
   std::vector<GlobalTime> known;   // the instants of fusions that took something in
-  std::vector<recording::TrackRow> last;
+  std::vector<recording::rows::TrackRow> last;
 };
 
 Outcome outcome_of(const Arrivals& arrivals, const ReplayConfig& config, StrategyKind strategy, bool predict = false) {
   Outcome outcome;
   const ReplaySetup setup{strategy, config.tracker, sensor_timings(arrivals, config, strategy), predict};
-  outcome.account = replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::TrackView> tracks) {
+  outcome.account = replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::tracks::TrackView> tracks) {
     outcome.known.push_back(known);
     outcome.last.clear();
-    for (const fusion::TrackView& track : tracks) {
+    for (const fusion::tracks::TrackView& track : tracks) {
       outcome.last.push_back(track_row_of(track, known, arrivals.classes));
-      outcome.lines.push_back(recording::track_line(outcome.last.back()));
+      outcome.lines.push_back(recording::rows::track_line(outcome.last.back()));
     }
   });
   return outcome;
@@ -42,10 +42,10 @@ Outcome outcome_of(const Arrivals& arrivals, const ReplayConfig& config, Strateg
 void expect_same_end(const Outcome& a, const Outcome& b) {
   ASSERT_EQ(a.last.size(), b.last.size());
   for (std::size_t i = 0; i < a.last.size(); ++i) {
-    recording::TrackRow one = a.last[i], other = b.last[i];
+    recording::rows::TrackRow one = a.last[i], other = b.last[i];
     one.known_ns = other.known_ns = 0;
     one.track = other.track = 0;
-    EXPECT_EQ(recording::track_line(one), recording::track_line(other));
+    EXPECT_EQ(recording::rows::track_line(one), recording::rows::track_line(other));
     EXPECT_EQ(one.x, other.x);
     EXPECT_EQ(one.vy, other.vy);
     EXPECT_EQ(one.covariance, other.covariance);
@@ -99,8 +99,8 @@ TEST(TrackReplay, AdvaEndsTheSameForEveryOrderOfArrival) {
 TEST(TrackReplay, FollowsBothCarsFromAnotherPlace) {
   ReplayConfig plain;
   const Outcome expected = outcome_of(arrivals_of_rows(two_cars(10), plain), plain, StrategyKind::kAdva);
-  std::vector<recording::ObservationRow> rows = two_cars(10);
-  for (recording::ObservationRow& row : rows) {
+  std::vector<recording::rows::ObservationRow> rows = two_cars(10);
+  for (recording::rows::ObservationRow& row : rows) {
     if (row.sensor == "radar") {
       row.z[0] += 0.4;
       row.z[1] += std::numbers::pi + 0.02;
@@ -145,8 +145,9 @@ TEST(TrackReplay, ConsideredBiasesAreInTheTracks) {
 // Two vans and a car, says the camera of the one at 10 m; of the other it says as much car as van, and the first name
 // counts.
 TEST(TrackReplay, WhateverBuffWaitsForEveryListHasItsFate) {
-  for (const fusion::BuffWaiting waits :
-       {fusion::BuffWaiting::kSchedule, fusion::BuffWaiting::kMeasured, fusion::BuffWaiting::kFixedLag}) {
+  for (const fusion::config::BuffWaiting waits :
+       {fusion::config::BuffWaiting::kSchedule, fusion::config::BuffWaiting::kMeasured,
+        fusion::config::BuffWaiting::kFixedLag}) {
     ReplayConfig config;
     Arrivals arrivals = arrivals_of_rows(two_cars(4), config);
     config.tracker.buff_waits = waits;
@@ -158,10 +159,10 @@ TEST(TrackReplay, WhateverBuffWaitsForEveryListHasItsFate) {
     expect_same_end(outcome_of(arrivals, config, StrategyKind::kAdva), outcome);
     for (const SensorAccount& sensor : outcome.account.sensors) EXPECT_EQ(fates(sensor), sensor.lists);
     const std::uint64_t late = outcome.account.sensors[0].late + outcome.account.sensors[1].late;
-    if (waits == fusion::BuffWaiting::kSchedule) {
+    if (waits == fusion::config::BuffWaiting::kSchedule) {
       EXPECT_EQ(late, 0u);
     }
-    if (waits == fusion::BuffWaiting::kFixedLag) {
+    if (waits == fusion::config::BuffWaiting::kFixedLag) {
       EXPECT_GT(late, 0u);
       EXPECT_LE(outcome.account.sensors[0].longest_hold, Duration::milliseconds(25));
       EXPECT_GT(outcome.account.sensors[0].longest_hold, Duration::milliseconds(15)) << "some list came nearly at once";
@@ -186,9 +187,9 @@ TEST(TrackReplay, TtWaitsForTheScheduleFromItsFirstInstantOn) {
 }
 TEST(TrackReplay, ClassAndThirdAxisGoWithTheTrackForEveryOrderOfArrival) {
   ReplayConfig config;
-  std::vector<recording::ObservationRow> rows = two_cars(2);
+  std::vector<recording::rows::ObservationRow> rows = two_cars(2);
   int seen = 0;
-  for (recording::ObservationRow& row : rows) {
+  for (recording::rows::ObservationRow& row : rows) {
     if (row.sensor != "camera") continue;
     const bool near = seen % 2 == 0;
     row.class_name = near ? (seen % 6 == 0 ? "car" : "van") : (seen % 4 == 1 ? "van" : "car");
@@ -269,7 +270,7 @@ TEST(TrackReplay, WhatIsHeldIsLetGoWhenTheWorstDelayIsOver) {
 TEST(TrackReplay, DuplicatesAndWhatIsTooOldAreCounted) {
   ReplayConfig config;
   config.tracker.history_scans = 4;
-  std::vector<recording::ObservationRow> rows;
+  std::vector<recording::rows::ObservationRow> rows;
   for (std::int64_t ms = 0; ms < 1000; ms += 50) {
     rows.push_back(position_row("a", ms, ms, 10.0, 0.0));
     if (ms == 500) rows.push_back(position_row("a", ms, ms + 20, 10.0, 0.0));  // heard twice
@@ -290,13 +291,13 @@ TEST(TrackReplay, DuplicatesAndWhatIsTooOldAreCounted) {
 
 TEST(TrackReplay, NumbersFarFromZeroStayFinite) {
   ReplayConfig config;
-  std::vector<recording::ObservationRow> rows;
+  std::vector<recording::rows::ObservationRow> rows;
   for (std::int64_t ms = 0; ms < 500; ms += 50) {
     rows.push_back(position_row("a", 3'999'999'000'000 + ms, 3'999'999'000'000 + ms, 1e7, -1e7));
     rows.back().covariance = {{1e-8, 0.0, 1e8, 0.0, 0.0, 0.0}};
     rows.push_back(rows.back());
     rows.back().sensor = "b";
-    rows.back().kind = recording::ObservationRow::Kind::kRangeBearingRate;
+    rows.back().kind = recording::rows::ObservationRow::Kind::kRangeBearingRate;
     rows.back().z = {1e7, -100.0, 1e4};
     rows.back().covariance = {{1e8, 0.0, 1e-8, 0.0, 0.0, 1e-8}};
   }
@@ -309,4 +310,4 @@ TEST(TrackReplay, NumbersFarFromZeroStayFinite) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::replay

@@ -14,7 +14,7 @@ namespace ttf::report {
 
 struct DrawnText {
   std::string text;
-  Area area;
+  drawing::Area area;
 };
 
 inline std::string unescape(std::string s) {
@@ -33,11 +33,11 @@ inline std::vector<DrawnText> texts_of(const std::string& svg) {
   for (std::sregex_iterator it(svg.begin(), svg.end(), element), end; it != end; ++it) {
     const std::string more = (*it)[4];
     if (more.find("rotate") != std::string::npos) continue;
-    TextStyle style;
+    drawing::TextStyle style;
     style.size = std::stod((*it)[3]);
     style.bold = more.find("bold") != std::string::npos;
-    if (more.find("middle") != std::string::npos) style.anchor = Anchor::kMiddle;
-    if (more.find("\"end\"") != std::string::npos) style.anchor = Anchor::kEnd;
+    if (more.find("middle") != std::string::npos) style.anchor = drawing::Anchor::kMiddle;
+    if (more.find("\"end\"") != std::string::npos) style.anchor = drawing::Anchor::kEnd;
     const std::string text = unescape((*it)[5]);
     out.push_back({text, text_area({std::stod((*it)[1]), std::stod((*it)[2])}, text, style)});
   }

@@ -33,7 +33,7 @@ inline std::string shipped_text(const std::string& name) {
 // Of the loader, or of the checker where loading goes well.
 inline std::vector<Finding> findings_of(const std::string& text) {
   try {
-    return check(parse_cluster(text, "cluster.yaml"));
+    return check::check(file::parse_cluster(text, "cluster.yaml"));
   } catch (const InputError& error) {
     return error.findings();
   }

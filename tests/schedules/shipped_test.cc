@@ -10,18 +10,18 @@ namespace {
 class Shipped : public testing::TestWithParam<std::string> {};
 
 TEST_P(Shipped, LoadsAndChecksClean) {
-  const Cluster cluster = load_cluster(shipped_path(GetParam()));
+  const model::Cluster cluster = file::load_cluster(shipped_path(GetParam()));
   EXPECT_EQ(cluster.name, GetParam());
   EXPECT_EQ(cluster.text, shipped_text(GetParam()));
-  const auto findings = check(cluster);
+  const auto findings = check::check(cluster);
   EXPECT_TRUE(findings.empty()) << sentences(findings);
 }
 
 TEST_P(Shipped, EverySensorReachesItsUse) {
-  const Cluster cluster = load_checked_cluster(shipped_path(GetParam()));
-  const auto ages = measurement_ages(cluster);
+  const model::Cluster cluster = file::load_checked_cluster(shipped_path(GetParam()));
+  const auto ages = analysis::measurement_ages(cluster);
   ASSERT_EQ(ages.size(), cluster.sensors.size());
-  for (const AgePath& path : ages) {
+  for (const analysis::AgePath& path : ages) {
     ASSERT_TRUE(path.reaches_use);
     EXPECT_GT(path.fusion_best, Duration{});
     EXPECT_LE(path.fusion_best, path.fusion_worst);
@@ -32,17 +32,17 @@ TEST_P(Shipped, EverySensorReachesItsUse) {
     EXPECT_LE(path.use_worst, path.newest_worst);
     EXPECT_LE(path.use_worst, path.buffered_use_worst + cluster.cycle());
     Duration best{}, worst{};
-    for (const Contribution& part : path.to_use) best += part.best, worst += part.worst;
+    for (const analysis::Contribution& part : path.to_use) best += part.best, worst += part.worst;
     EXPECT_EQ(best, path.use_best);
     EXPECT_EQ(worst, path.use_worst);
   }
 }
 
 TEST_P(Shipped, IsDrawnAsText) {
-  const Cluster cluster = load_cluster(shipped_path(GetParam()));
-  const std::string text = show_text(cluster);
-  for (const Node& node : cluster.nodes)
-    for (const Task& task : node.tasks) EXPECT_NE(text.find(task.name), std::string::npos) << task.name;
+  const model::Cluster cluster = file::load_cluster(shipped_path(GetParam()));
+  const std::string text = exchange::show_text(cluster);
+  for (const model::Node& node : cluster.nodes)
+    for (const model::Task& task : node.tasks) EXPECT_NE(text.find(task.name), std::string::npos) << task.name;
   const bool one = cluster.pdu(*cluster.find_pdu("image")).max_fragments() == 1;
   EXPECT_NE(text.find(one ? "image 0" : "image 0-"), std::string::npos);
   EXPECT_NE(text.find("(sync, startup)"), std::string::npos);
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Clusters, Shipped, testing::ValuesIn(shipped_clusters()
                          [](const auto& parameter) { return parameter.param; });
 
 TEST(ShippedPaper, HoldsThePapersFigures) {
-  const Cluster cluster = load_cluster(shipped_path("paper_unsynchronised"));
+  const model::Cluster cluster = file::load_cluster(shipped_path("paper_unsynchronised"));
   EXPECT_EQ(cluster.cycle(), Duration::milliseconds(5));
   EXPECT_EQ(cluster.flexray.baudrate, 10'000'000);
   EXPECT_EQ(cluster.pdu(*cluster.find_pdu("image")).max_elements, 25);
@@ -62,7 +62,7 @@ TEST(ShippedPaper, HoldsThePapersFigures) {
   EXPECT_EQ(cluster.pdu(*cluster.find_pdu("laser_objects")).element_bits, 128);
   EXPECT_EQ(cluster.pdu(*cluster.find_pdu("camera_objects")).max_fragments(), 7);
   EXPECT_EQ(cluster.pdu(*cluster.find_pdu("camera_objects")).element_bits, 96);
-  for (const Task& task : cluster.node(*cluster.find_node("fusion")).tasks) {
+  for (const model::Task& task : cluster.node(*cluster.find_node("fusion")).tasks) {
     const Duration period = cluster.cycle() * task.activation.at.repetition;
     EXPECT_EQ(period, Duration::milliseconds(task.name == "fuse" ? 10 : 40));
   }
@@ -71,8 +71,8 @@ TEST(ShippedPaper, HoldsThePapersFigures) {
 
 // What synchronising the sensors is for: a smaller and far more even age when used.
 TEST(ShippedPaper, SynchronisedMeasurementsAreYoungerAtWorst) {
-  const auto loose = measurement_ages(load_cluster(shipped_path("paper_unsynchronised")));
-  const auto tight = measurement_ages(load_cluster(shipped_path("paper_synchronised")));
+  const auto loose = analysis::measurement_ages(file::load_cluster(shipped_path("paper_unsynchronised")));
+  const auto tight = analysis::measurement_ages(file::load_cluster(shipped_path("paper_synchronised")));
   for (std::size_t s = 0; s < loose.size(); ++s) {
     EXPECT_LT(tight[s].use_worst, loose[s].use_worst);
     EXPECT_LT(tight[s].use_worst - tight[s].use_best, Duration::milliseconds(1));
@@ -82,8 +82,8 @@ TEST(ShippedPaper, SynchronisedMeasurementsAreYoungerAtWorst) {
 
 // The laser's slowest list comes later than the camera's fastest one that was measured after it.
 TEST(ShippedPaper, UnsynchronisedListsCanArriveOutOfSequence) {
-  const Cluster cluster = load_cluster(shipped_path("paper_unsynchronised"));
-  const auto ages = measurement_ages(cluster);
+  const model::Cluster cluster = file::load_cluster(shipped_path("paper_unsynchronised"));
+  const auto ages = analysis::measurement_ages(cluster);
   const auto& laser = ages[index_of(*cluster.find_sensor("laser"))];
   const auto& camera = ages[index_of(*cluster.find_sensor("camera"))];
   EXPECT_GT(laser.fusion_worst, camera.fusion_best + Duration::milliseconds(10));

@@ -15,44 +15,44 @@ namespace ttf::schedules {
 
 inline constexpr std::int64_t kClocks = 7851, kApart = 7850, kRounding = 101;
 
-inline Task timed(std::string name, CycleInstant at, Duration execution) {
-  Task task;
+inline model::Task timed(std::string name, model::CycleInstant at, Duration execution) {
+  model::Task task;
   task.name = std::move(name);
   task.activation.at = at;
   task.best_case = task.worst_case = execution;
   return task;
 }
 
-inline Cluster small(bool scheduled) {
-  Cluster cluster;
+inline model::Cluster small(bool scheduled) {
+  model::Cluster cluster;
   cluster.flexray.gNumberOfStaticSlots = 20;
   cluster.pdus.resize(2);
-  for (PduLayout& layout : cluster.pdus) {
+  for (model::PduLayout& layout : cluster.pdus) {
     layout.fragment_bytes = 56;
     layout.max_elements = layout.elements_per_fragment = 1;
   }
   cluster.pdus[0].sensor = SensorId{0};
   cluster.nodes.resize(3);
-  for (Node& node : cluster.nodes) {
+  for (model::Node& node : cluster.nodes) {
     node.flexray.emplace();
     node.drift_ppb = 0;
   }
-  Task measure = timed("measure", {}, Duration::milliseconds(1));
-  measure.activation.kind = ActivationKind::kSensor;
+  model::Task measure = timed("measure", {}, Duration::milliseconds(1));
+  measure.activation.kind = model::ActivationKind::kSensor;
   measure.activation.sensor = SensorId{0};
   measure.writes = {{"raw", PduId{0}, std::nullopt, 0}};
   cluster.nodes[0].tasks = {measure};
-  Task fuse = timed("fuse", {1, 2, Macroticks{1000}}, Duration::milliseconds(2));
+  model::Task fuse = timed("fuse", {1, 2, Macroticks{1000}}, Duration::milliseconds(2));
   fuse.reads = {{"s", PduId{0}, std::nullopt, 0}};
-  Task publish = timed("publish", {0, 2, Macroticks{0}}, Duration::microseconds(100));
+  model::Task publish = timed("publish", {0, 2, Macroticks{0}}, Duration::microseconds(100));
   publish.writes = {{"image", PduId{1}, std::nullopt, 0}};
   cluster.nodes[1].tasks = {fuse, publish};
-  Task use = timed("use", {0, 2, Macroticks{500}}, Duration::microseconds(100));
+  model::Task use = timed("use", {0, 2, Macroticks{500}}, Duration::microseconds(100));
   use.reads = {{"image", PduId{1}, std::nullopt, 0}};
   cluster.nodes[2].tasks = {use};
-  cluster.frames = {{3, Channels::kAB, 0, 1, NodeId{0}, PduId{0}, 0, 0},
-                    {4, Channels::kAB, 0, 2, NodeId{1}, PduId{1}, 0, 0}};
-  Sensor sensor;
+  cluster.frames = {{3, model::Channels::kAB, 0, 1, NodeId{0}, PduId{0}, 0, 0},
+                    {4, model::Channels::kAB, 0, 2, NodeId{1}, PduId{1}, 0, 0}};
+  model::Sensor sensor;
   sensor.name = "s";
   sensor.scheduled = scheduled;
   sensor.period = Duration::milliseconds(10);

@@ -30,7 +30,7 @@ namespace ttf::test {
 class MemoryExchange {
  public:
   // One more member. Destroying an endpoint is not leaving: all that it said is heard, and only leave() announces it.
-  std::unique_ptr<bus::Exchange> join(NodeId node) { return std::make_unique<Endpoint>(hub_, node); }
+  std::unique_ptr<bus::ports::Exchange> join(NodeId node) { return std::make_unique<Endpoint>(hub_, node); }
 
   // Tells everybody, after all that `node` said, that it is gone. From then on it is cut off: what it sends is heard by
   // nobody, and its receive() throws, also where it is asleep already.
@@ -98,7 +98,7 @@ class MemoryExchange {
     }
   };
 
-  class Endpoint final : public bus::Exchange {
+  class Endpoint final : public bus::ports::Exchange {
    public:
     Endpoint(std::shared_ptr<Hub> hub, NodeId node) : hub_(std::move(hub)), node_(node) { hub_->join(node); }
     void send(std::span<const std::byte> message) override { hub_->send(node_, message); }

@@ -1,5 +1,5 @@
-// The live medium (bus/ports/live_medium.h) between members of one process, each in a thread of its own or all in one: the
-// plainest thing that keeps its laws.
+// The live medium (bus/ports/live_medium.h) between members of one process, each in a thread of its own or all in one:
+// the plainest thing that keeps its laws.
 //
 //   MemoryLiveBus bus({.can_buses = {false, true}});
 //   auto a = bus.join(), b = bus.join({0, 1, line_of_can(0)});       // all before anybody sends
@@ -44,21 +44,21 @@ class MemoryLiveBus {
   }
 
   // One more member, on all lines or on some.
-  std::unique_ptr<bus::LiveMedium> join() {
-    std::vector<bus::Line> all(lines());
-    for (bus::Line line = 0; line < all.size(); ++line) all[line] = line;
+  std::unique_ptr<bus::ports::LiveMedium> join() {
+    std::vector<bus::ports::Line> all(lines());
+    for (bus::ports::Line line = 0; line < all.size(); ++line) all[line] = line;
     return join(all);
   }
-  std::unique_ptr<bus::LiveMedium> join(const std::vector<bus::Line>& lines) {
+  std::unique_ptr<bus::ports::LiveMedium> join(const std::vector<bus::ports::Line>& lines) {
     auto member = std::make_shared<Member>(this->lines(), lines, hub_->options.room);
     const std::scoped_lock lock(hub_->mutex);
     hub_->members.push_back(member);
     return std::make_unique<Endpoint>(hub_, std::move(member));
   }
-  std::size_t lines() const { return bus::line_of_can(hub_->options.can_buses.size()); }
+  std::size_t lines() const { return bus::ports::line_of_can(hub_->options.can_buses.size()); }
 
   // Something on a line that is nobody's, or in our form but wrong: everybody there counts it.
-  void intrude(bus::Line line, std::uint64_t bus::LiveCounts::*counted) {
+  void intrude(bus::ports::Line line, std::uint64_t bus::ports::LiveCounts::*counted) {
     const std::scoped_lock lock(hub_->mutex);
     for (const auto& member : hub_->members)
       if (member->is_on(line)) ++(member->counts.*counted);
@@ -66,9 +66,9 @@ class MemoryLiveBus {
 
  private:
   struct Kept {
-    bus::LiveArrival arrival;  // its spans are empty
+    bus::ports::LiveArrival arrival;  // its spans are empty
     std::size_t size = 0;
-    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+    std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
   };
   // What waits on one line for one member: a ring, whose size never changes.
   struct Queue {
@@ -86,8 +86,8 @@ class MemoryLiveBus {
     }
   };
   struct Member {
-    Member(std::size_t all, const std::vector<bus::Line>& lines, std::size_t room) : queues(all) {
-      for (const bus::Line line : lines) {
+    Member(std::size_t all, const std::vector<bus::ports::Line>& lines, std::size_t room) : queues(all) {
+      for (const bus::ports::Line line : lines) {
         queues[line].ring.resize(room);
         queues[line].event = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
         TTF_CHECK(queues[line].event >= 0);
@@ -99,10 +99,10 @@ class MemoryLiveBus {
     }
     Member(const Member&) = delete;
     Member& operator=(const Member&) = delete;
-    bool is_on(bus::Line line) const { return queues[line].event >= 0; }
+    bool is_on(bus::ports::Line line) const { return queues[line].event >= 0; }
 
     std::vector<Queue> queues;
-    bus::LiveCounts counts;
+    bus::ports::LiveCounts counts;
   };
   struct Hub {
     MemoryLiveBusOptions options;
@@ -110,14 +110,14 @@ class MemoryLiveBus {
     std::vector<std::shared_ptr<Member>> members;  // guarded by mutex, what they hold too
   };
 
-  class Endpoint final : public bus::LiveMedium {
+  class Endpoint final : public bus::ports::LiveMedium {
    public:
     Endpoint(std::shared_ptr<Hub> hub, std::shared_ptr<Member> self) : hub_(std::move(hub)), self_(std::move(self)) {}
 
-    bus::LiveStatus send(const bus::LiveSignal& signal, bus::HostTime due) override {
+    bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::HostTime due) override {
       const std::scoped_lock lock(hub_->mutex);
-      const bus::HostTime now = bus::host_now();
-      bus::LiveArrival arrival;
+      const bus::ports::HostTime now = bus::ports::host_now();
+      bus::ports::LiveArrival arrival;
       arrival.at = arrival.received = now;
       arrival.left = now;
       arrival.signal = signal;
@@ -125,32 +125,32 @@ class MemoryLiveBus {
       const bool tells = signal.tells_late;
       const bool follows = tells && hub_->options.told == Told::kInAFollowUp;
       if (tells && !follows) arrival.late = now - due;
-      carry(arrival, bus::line_of(signal.channel), signal.bytes);
+      carry(arrival, bus::ports::line_of(signal.channel), signal.bytes);
       if (follows) {
-        bus::LiveArrival follow_up = arrival;
-        follow_up.kind = bus::LiveArrival::Kind::kFollowUp;
-        follow_up.cycle_counter = wire::header_of(signal.bytes).value_or(wire::FrameHeader{}).cycle;
+        bus::ports::LiveArrival follow_up = arrival;
+        follow_up.kind = bus::ports::LiveArrival::Kind::kFollowUp;
+        follow_up.cycle_counter = bus::wire::header_of(signal.bytes).value_or(bus::wire::FrameHeader{}).cycle;
         follow_up.late = now - due;
-        carry(follow_up, bus::line_of(signal.channel), {});
+        carry(follow_up, bus::ports::line_of(signal.channel), {});
       }
       ++self_->counts.sent;
-      return bus::LiveStatus::kDone;
+      return bus::ports::LiveStatus::kDone;
     }
-    bus::LiveStatus send_can(std::size_t can_bus, const bus::CanFrame& frame) override {
+    bus::ports::LiveStatus send_can(std::size_t can_bus, const bus::ports::CanFrame& frame) override {
       const std::scoped_lock lock(hub_->mutex);
-      bus::LiveArrival arrival;
-      arrival.kind = bus::LiveArrival::Kind::kCan;
-      arrival.at = arrival.received = bus::host_now();
+      bus::ports::LiveArrival arrival;
+      arrival.kind = bus::ports::LiveArrival::Kind::kCan;
+      arrival.at = arrival.received = bus::ports::host_now();
       arrival.left = arrival.at;
       arrival.can_bus = can_bus;
       arrival.can = frame;
       arrival.can.data = {};
-      carry(arrival, bus::line_of_can(can_bus), frame.data);
+      carry(arrival, bus::ports::line_of_can(can_bus), frame.data);
       ++self_->counts.sent;
-      return bus::LiveStatus::kDone;
+      return bus::ports::LiveStatus::kDone;
     }
 
-    std::optional<bus::LiveArrival> receive() override {
+    std::optional<bus::ports::LiveArrival> receive() override {
       const std::scoped_lock lock(hub_->mutex);
       for (Queue& queue : self_->queues) {
         if (queue.count == 0) continue;
@@ -158,37 +158,38 @@ class MemoryLiveBus {
         queue.first = (queue.first + 1) % queue.ring.size();
         if (--queue.count == 0) queue.silence();
         const auto bytes = std::span(last_.bytes).first(last_.size);
-        bus::LiveArrival arrival = last_.arrival;
-        if (arrival.kind == bus::LiveArrival::Kind::kCan)
+        bus::ports::LiveArrival arrival = last_.arrival;
+        if (arrival.kind == bus::ports::LiveArrival::Kind::kCan)
           arrival.can.data = bytes;
         else
           arrival.signal.bytes = bytes;
-        self_->counts.received += arrival.kind != bus::LiveArrival::Kind::kFollowUp;
+        self_->counts.received += arrival.kind != bus::ports::LiveArrival::Kind::kFollowUp;
         return arrival;
       }
       return {};
     }
 
-    int descriptor(bus::Line line) const override { return self_->queues[line].event; }
-    void watch(bus::Line line, bool on) override {
+    int descriptor(bus::ports::Line line) const override { return self_->queues[line].event; }
+    void watch(bus::ports::Line line, bool on) override {
       const std::scoped_lock lock(hub_->mutex);
       self_->queues[line].watched = on;
       self_->queues[line].ring_bell();
     }
-    bus::LiveCounts counts() const override {
+    bus::ports::LiveCounts counts() const override {
       const std::scoped_lock lock(hub_->mutex);
       return self_->counts;
     }
     const std::string& failure() const override { return failure_; }
 
    private:
-    void carry(const bus::LiveArrival& arrival, bus::Line line, std::span<const std::byte> bytes) {
-      TTF_CHECK(self_->is_on(line) && bytes.size() <= wire::kMaxFrameBytes, "line {}, {} bytes", line, bytes.size());
+    void carry(const bus::ports::LiveArrival& arrival, bus::ports::Line line, std::span<const std::byte> bytes) {
+      TTF_CHECK(self_->is_on(line) && bytes.size() <= bus::wire::kMaxFrameBytes, "line {}, {} bytes", line,
+                bytes.size());
       for (const auto& member : hub_->members) {
         Queue& queue = member->queues[line];
         if (member == self_ || queue.event < 0) continue;
         if (queue.count == queue.ring.size()) {
-          member->counts.lost += arrival.kind != bus::LiveArrival::Kind::kFollowUp;
+          member->counts.lost += arrival.kind != bus::ports::LiveArrival::Kind::kFollowUp;
           continue;
         }
         Kept& kept = queue.ring[(queue.first + queue.count++) % queue.ring.size()];

@@ -29,8 +29,8 @@
 namespace {
 
 using namespace ttf;
-using namespace ttf::socketcan;
-using schedules::Channel;
+using namespace ttf::bus::socketcan;
+using schedules::model::Channel;
 
 constexpr std::int64_t kSecond = 1'000'000'000, kCycle = 5'000'000, kSlot = 100'000;
 
@@ -48,75 +48,75 @@ std::string hex(std::span<const std::byte> bytes) {
   return text;
 }
 
-std::string described(Channel channel, const Arrival& arrival) {
+std::string described(Channel channel, const bus::socketcan::Arrival& arrival) {
   if (const auto& told = arrival.follow_up)
     return fmt::format("slot {} cycle {} left {} ns late", told->slot, told->cycle_counter, told->late.ns);
-  if (arrival.signal != bus::Signal::kFrame)
+  if (arrival.signal != bus::ports::Signal::kFrame)
     return fmt::format("{} of {} ns",
-                       arrival.signal == bus::Signal::kCas      ? "CAS"
-                       : arrival.signal == bus::Signal::kWakeup ? "wake-up"
-                                                                : "noise",
+                       arrival.signal == bus::ports::Signal::kCas      ? "CAS"
+                       : arrival.signal == bus::ports::Signal::kWakeup ? "wake-up"
+                                                                       : "noise",
                        arrival.duration.ns);
-  const wire::DecodedFrame frame = wire::decode_frame(channel, arrival.frame);
+  const bus::wire::DecodedFrame frame = bus::wire::decode_frame(channel, arrival.frame);
   return fmt::format("slot {} cycle {} {}{}{}", arrival.slot, frame.header.cycle,
-                     frame.error == wire::FrameError::kNone ? "" : "broken ", frame.header.null_frame ? "null " : "",
-                     hex(frame.payload));
+                     frame.error == bus::wire::FrameError::kNone ? "" : "broken ",
+                     frame.header.null_frame ? "null " : "", hex(frame.payload));
 }
 
-int failed(const Socket& socket) {
+int failed(const bus::socketcan::Socket& socket) {
   fmt::print(stderr, "{}\n", socket.failure());
   return 1;
 }
 
-bool send_all(Socket& socket, std::span<const canfd_frame> frames) {
+bool send_all(bus::socketcan::Socket& socket, std::span<const canfd_frame> frames) {
   for (const canfd_frame& can : frames)
-    if (socket.send(can) != Status::kDone) return false;
+    if (socket.send(can) != bus::socketcan::Status::kDone) return false;
   return true;
 }
 
 int listen(const std::string& interface, Channel channel, std::int64_t idle_ms, const std::string& onto) {
-  Socket socket({.interface = interface, .filters = {}});
-  std::vector<Socket> out;
-  if (!onto.empty()) out.emplace_back(SocketOptions{.interface = onto, .filters = {}});
+  bus::socketcan::Socket socket({.interface = interface, .filters = {}});
+  std::vector<bus::socketcan::Socket> out;
+  if (!onto.empty()) out.emplace_back(bus::socketcan::SocketOptions{.interface = onto, .filters = {}});
   fmt::print(stderr, "listening\n");
-  Reassembly reassembly(channel);
+  bus::socketcan::Reassembly reassembly(channel);
   for (;;) {
-    Received received;
-    Status status = socket.receive(received);
-    if (status == Status::kNothing) {
+    bus::socketcan::Received received;
+    bus::socketcan::Status status = socket.receive(received);
+    if (status == bus::socketcan::Status::kNothing) {
       socket.wait(Duration::milliseconds(idle_ms));
       status = socket.receive(received);
     }
-    if (status == Status::kNothing) break;
-    if (status != Status::kDone) return failed(socket);
-    const Arrival arrival = reassembly.arrive(received.can);
-    if (arrival.outcome != Outcome::kComplete) continue;
+    if (status == bus::socketcan::Status::kNothing) break;
+    if (status != bus::socketcan::Status::kDone) return failed(socket);
+    const bus::socketcan::Arrival arrival = reassembly.arrive(received.can);
+    if (arrival.outcome != bus::socketcan::Outcome::kComplete) continue;
     fmt::print("{}\n", described(channel, arrival));
     if (out.empty()) continue;
-    const auto one = [&](const canfd_frame& can) { return out[0].send(can) == Status::kDone; };
+    const auto one = [&](const canfd_frame& can) { return out[0].send(can) == bus::socketcan::Status::kDone; };
     const bool done = arrival.follow_up ? one(follow_up_to_can(channel, *arrival.follow_up))
-                      : arrival.signal == bus::Signal::kFrame
-                          ? send_all(out[0], frame_to_can(arrival.slot, arrival.frame).all())
-                          : one(symbol_to_can(channel, arrival.signal, arrival.duration));
+                      : arrival.signal == bus::ports::Signal::kFrame
+                          ? send_all(out[0], bus::socketcan::frame_to_can(arrival.slot, arrival.frame).all())
+                          : one(bus::socketcan::symbol_to_can(channel, arrival.signal, arrival.duration));
     if (!done) return failed(out[0]);
   }
   fmt::print("complete {} fragments {} foreign {} malformed {} displaced {} abandoned {} lost {}\n",
-             reassembly.count(Outcome::kComplete), reassembly.count(Outcome::kFragment),
-             reassembly.count(Outcome::kForeign), reassembly.count(Outcome::kMalformed),
-             reassembly.count(Outcome::kDisplaced), reassembly.abandoned(), socket.lost());
+             reassembly.count(bus::socketcan::Outcome::kComplete), reassembly.count(bus::socketcan::Outcome::kFragment),
+             reassembly.count(bus::socketcan::Outcome::kForeign), reassembly.count(bus::socketcan::Outcome::kMalformed),
+             reassembly.count(bus::socketcan::Outcome::kDisplaced), reassembly.abandoned(), socket.lost());
   return 0;
 }
 
 // Frames of all lengths take their turns, fragments among them.
-bool send_frame(Socket& socket, Channel channel, int slot, int cycle) {
+bool send_frame(bus::socketcan::Socket& socket, Channel channel, int slot, int cycle) {
   const std::size_t words = static_cast<std::size_t>((slot * 17 + cycle * 5) % 128);
   std::vector<std::byte> payload(2 * words, static_cast<std::byte>(slot + cycle));
-  wire::FrameHeader header;
+  bus::wire::FrameHeader header;
   header.frame_id = static_cast<std::uint16_t>(slot);
   header.cycle = static_cast<std::uint8_t>(cycle % 64);
-  std::array<std::byte, wire::kMaxFrameBytes> frame{};
-  const std::size_t size = wire::encode_frame(header, channel, payload, frame);
-  return send_all(socket, frame_to_can(slot, std::span(frame).first(size)).all());
+  std::array<std::byte, bus::wire::kMaxFrameBytes> frame{};
+  const std::size_t size = bus::wire::encode_frame(header, channel, payload, frame);
+  return send_all(socket, bus::socketcan::frame_to_can(slot, std::span(frame).first(size)).all());
 }
 
 // Wakes at an instant, to the microsecond; a timeout of poll()'s comes up to a thousandth of its length late.
@@ -133,7 +133,7 @@ class Alarm {
     timerfd_settime(descriptor_, TFD_TIMER_ABSTIME, &when, nullptr);
   }
   // Until the instant that was set has come, or something is there to be received.
-  void wait(const Socket& socket) const {
+  void wait(const bus::socketcan::Socket& socket) const {
     pollfd either[] = {{.fd = descriptor_, .events = POLLIN, .revents = 0},
                        {.fd = socket.descriptor(), .events = POLLIN, .revents = 0}};
     poll(either, 2, -1);
@@ -144,27 +144,28 @@ class Alarm {
 };
 
 // Prints what has been said until that instant.
-bool hear_until(Socket& socket, Channel channel, Reassembly& reassembly, Alarm& alarm, std::int64_t until) {
+bool hear_until(bus::socketcan::Socket& socket, Channel channel, bus::socketcan::Reassembly& reassembly, Alarm& alarm,
+                std::int64_t until) {
   alarm.set(until);
   for (;;) {
-    Received received;
-    const Status status = socket.receive(received);
-    if (status == Status::kNothing) {
+    bus::socketcan::Received received;
+    const bus::socketcan::Status status = socket.receive(received);
+    if (status == bus::socketcan::Status::kNothing) {
       if (now_ns() >= until) return true;
       alarm.wait(socket);
       continue;
     }
-    if (status != Status::kDone) return false;
+    if (status != bus::socketcan::Status::kDone) return false;
     const std::int64_t read_at = now_ns();
-    const Arrival arrival = reassembly.arrive(received.can);
+    const bus::socketcan::Arrival arrival = reassembly.arrive(received.can);
     fmt::print("{} {} {} {}\n", received.stamp_ns, read_at, static_cast<int>(arrival.outcome),
-               arrival.outcome == Outcome::kComplete ? described(channel, arrival) : "");
+               arrival.outcome == bus::socketcan::Outcome::kComplete ? described(channel, arrival) : "");
   }
 }
 
 int node(const std::string& interface, Channel channel, int slot, int nodes, int cycles, std::int64_t start) {
-  Socket socket({.interface = interface, .filters = {}});
-  Reassembly reassembly(channel);
+  bus::socketcan::Socket socket({.interface = interface, .filters = {}});
+  bus::socketcan::Reassembly reassembly(channel);
   Alarm alarm;
   for (int cycle = 0; cycle < cycles; ++cycle) {
     if (!hear_until(socket, channel, reassembly, alarm, start + cycle * kCycle + slot * kSlot)) return failed(socket);
@@ -172,17 +173,18 @@ int node(const std::string& interface, Channel channel, int slot, int nodes, int
   }
   if (!hear_until(socket, channel, reassembly, alarm, start + cycles * kCycle + kCycle)) return failed(socket);
   const auto expected = static_cast<std::uint64_t>((nodes - 1) * cycles);
-  fmt::print("complete {} of {} lost {}\n", reassembly.count(Outcome::kComplete), expected, socket.lost());
-  return reassembly.count(Outcome::kComplete) == expected && socket.lost() == 0 ? 0 : 1;
+  fmt::print("complete {} of {} lost {}\n", reassembly.count(bus::socketcan::Outcome::kComplete), expected,
+             socket.lost());
+  return reassembly.count(bus::socketcan::Outcome::kComplete) == expected && socket.lost() == 0 ? 0 : 1;
 }
 
 int deaf(const std::string& interface, int frames, std::int64_t ms) {
-  Socket socket({.interface = interface, .receive_buffer_frames = frames, .filters = {}});
+  bus::socketcan::Socket socket({.interface = interface, .receive_buffer_frames = frames, .filters = {}});
   fmt::print(stderr, "listening\n");
   const timespec pause{.tv_sec = ms / 1000, .tv_nsec = ms % 1000 * 1'000'000};
   nanosleep(&pause, nullptr);
   int heard = 0;
-  for (Received received; socket.receive(received) == Status::kDone;) ++heard;
+  for (bus::socketcan::Received received; socket.receive(received) == bus::socketcan::Status::kDone;) ++heard;
   fmt::print("heard {} lost {}\n", heard, socket.lost());
   return 0;
 }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace ttf::dds {
+namespace ttf::bus::dds::common {
 
 std::string loopback_configuration(std::chrono::milliseconds lease) {
   return fmt::format(R"(<CycloneDDS xmlns="https://cdds.io/config">
@@ -40,4 +40,4 @@ std::string loopback_configuration(std::chrono::milliseconds lease) {
                      kMaxUnacknowledgedBytes);
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::common

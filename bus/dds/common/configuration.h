@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace ttf::dds {
+namespace ttf::bus::dds::common {
 
 // Participants of one domain on one machine: more would reach into the next domain's UDP ports, which are
 // 7400 + 250 domain + 10 + 2 index and the one after (DDSI-RTPS 2.3, 9.6.1).
@@ -25,4 +25,4 @@ inline constexpr std::int64_t kReceiveBufferBytes = 4 << 20;
 // `lease`: a participant from which nothing has come for so long is taken to be gone.
 std::string loopback_configuration(std::chrono::milliseconds lease);
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::common

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace ttf::dds {
+namespace ttf::bus::dds::common {
 namespace {
 
 // FNV-1a.
@@ -31,4 +31,4 @@ std::uint64_t host_identity() {
   return identity_of(text);
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::common

@@ -10,7 +10,7 @@
 
 #include "bus/dds/common/configuration.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::common {
 namespace {
 
 // Cyclone DDS holds one domain of a number per process, configured once; it is closed with its last participant.
@@ -67,4 +67,4 @@ Participant::~Participant() {
   if (configured_) close_domain(domain_);
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::common

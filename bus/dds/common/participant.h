@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace ttf::dds {
+namespace ttf::bus::dds::common {
 
 using Handle = std::int32_t;  // dds_entity_t
 
@@ -31,4 +31,4 @@ class Participant {
   Handle handle_ = 0;
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::common

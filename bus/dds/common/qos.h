@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace ttf::dds {
+namespace ttf::bus::dds::common {
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
@@ -19,4 +19,4 @@ inline Qos partition(const std::string& session) {
   return qos;
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::common

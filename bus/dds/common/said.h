@@ -14,7 +14,7 @@
 
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::common {
 
 enum class Kind : std::uint8_t {
   kHello,     // the first sample of everybody on either topic
@@ -59,4 +59,4 @@ struct Entry {
   Bytes bytes;
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::common

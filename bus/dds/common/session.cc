@@ -11,7 +11,7 @@
 #include "bus/dds/common/said.h"
 #include "core/errors.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::common {
 namespace {
 
 constexpr std::size_t kMaxNameLength = 64;
@@ -63,4 +63,4 @@ NotReady::NotReady(const Session& session, std::chrono::milliseconds waited, std
                    std::vector<NodeId> deaf)
     : std::runtime_error(sentence(session, waited, absent, deaf)), absent_(std::move(absent)), deaf_(std::move(deaf)) {}
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::common

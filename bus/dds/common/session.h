@@ -9,7 +9,7 @@
 
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::common {
 
 struct Session {
   std::uint32_t domain = 0;     // 0..231 (kMaxDomain)
@@ -37,4 +37,4 @@ class NotReady : public std::runtime_error {
   std::vector<NodeId> deaf_;
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::common

@@ -9,18 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "bus/dds/exchange/exchange_sample.h"
 #include "bus/dds/common/qos.h"
+#include "bus/dds/exchange/exchange_sample.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 namespace {
 
 constexpr std::size_t kBatch = 64;      // samples taken at a time
 constexpr std::int32_t kHistory = 256;  // kept for who comes back
 constexpr std::uint32_t kConnections = DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_LIVELINESS_CHANGED_STATUS;
 
-Qos qualities() {
-  Qos qos = new_qos();
+common::Qos qualities() {
+  common::Qos qos = common::new_qos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_INFINITY);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, 0);
   dds_qset_resource_limits(qos.get(), DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
@@ -32,15 +32,15 @@ Qos qualities() {
   return qos;
 }
 
-Said said_in(const ttf_ExchangeSample& sample) {
-  if (sample.kind >= kKinds || sample.inner >= kKinds)
+common::Said said_in(const ttf_ExchangeSample& sample) {
+  if (sample.kind >= common::kKinds || sample.inner >= common::kKinds)
     throw std::runtime_error(fmt::format("exchange: node {} says what is not known here (kind {}): another version?",
                                          sample.sender, sample.kind));
   return {.sender = NodeId{sample.sender},
-          .kind = Kind{sample.kind},
+          .kind = common::Kind{sample.kind},
           .about = NodeId{sample.about},
           .holder = NodeId{sample.holder},
-          .inner = Kind{sample.inner},
+          .inner = common::Kind{sample.inner},
           .round = sample.round,
           .number = sample.number,
           .first = sample.first,
@@ -50,23 +50,27 @@ Said said_in(const ttf_ExchangeSample& sample) {
 
 }  // namespace
 
-Channel::Channel(const Participant& participant, const std::string& topic, const std::string& session) {
-  const Handle parent = participant.handle();
-  const Qos qos = qualities();
-  const Qos within = partition(session);
-  topic_ = checked(dds_create_topic(parent, &ttf_ExchangeSample_desc, topic.c_str(), nullptr, nullptr),
-                   "cannot make topic " + topic);
-  const Handle publisher = checked(dds_create_publisher(parent, within.get(), nullptr), "cannot make a publisher");
-  const Handle subscriber = checked(dds_create_subscriber(parent, within.get(), nullptr), "cannot make a subscriber");
-  reader_ = checked(dds_create_reader(subscriber, topic_, qos.get(), nullptr), "cannot make a reader of " + topic);
-  checked(dds_set_status_mask(reader_, kConnections), "cannot watch the reader of " + topic);
-  reading_ = checked(dds_create_readcondition(reader_, DDS_ANY_STATE), "cannot watch the reader of " + topic);
-  writer_ = checked(dds_create_writer(publisher, topic_, qos.get(), nullptr), "cannot make a writer of " + topic);
+Channel::Channel(const common::Participant& participant, const std::string& topic, const std::string& session) {
+  const common::Handle parent = participant.handle();
+  const common::Qos qos = qualities();
+  const common::Qos within = common::partition(session);
+  topic_ = common::checked(dds_create_topic(parent, &ttf_ExchangeSample_desc, topic.c_str(), nullptr, nullptr),
+                           "cannot make topic " + topic);
+  const common::Handle publisher =
+      common::checked(dds_create_publisher(parent, within.get(), nullptr), "cannot make a publisher");
+  const common::Handle subscriber =
+      common::checked(dds_create_subscriber(parent, within.get(), nullptr), "cannot make a subscriber");
+  reader_ =
+      common::checked(dds_create_reader(subscriber, topic_, qos.get(), nullptr), "cannot make a reader of " + topic);
+  common::checked(dds_set_status_mask(reader_, kConnections), "cannot watch the reader of " + topic);
+  reading_ = common::checked(dds_create_readcondition(reader_, DDS_ANY_STATE), "cannot watch the reader of " + topic);
+  writer_ =
+      common::checked(dds_create_writer(publisher, topic_, qos.get(), nullptr), "cannot make a writer of " + topic);
 }
 
 Channel::~Channel() = default;  // the participant takes all of it along
 
-void Channel::say(Said said) {
+void Channel::say(common::Said said) {
   ttf_ExchangeSample sample{};
   sample.sender = static_cast<std::uint8_t>(said.sender);
   sample.kind = static_cast<std::uint8_t>(said.kind);
@@ -80,20 +84,20 @@ void Channel::say(Said said) {
   sample.bytes._length = sample.bytes._maximum = static_cast<std::uint32_t>(said.bytes.size());
   // Only read; C has no way to say so here.
   sample.bytes._buffer = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(said.bytes.data()));
-  checked(dds_write(writer_, &sample), "cannot write");
+  common::checked(dds_write(writer_, &sample), "cannot write");
   ++next_number_;
 }
 
-bool Channel::take(const std::function<void(const Said&)>& visit) {
+bool Channel::take(const std::function<void(const ttf::bus::dds::common::Said&)>& visit) {
   std::array<void*, kBatch> samples{};
   std::array<dds_sample_info_t, kBatch> infos;
-  const auto count = checked(dds_take(reader_, samples.data(), infos.data(), kBatch, kBatch), "cannot read");
+  const auto count = common::checked(dds_take(reader_, samples.data(), infos.data(), kBatch, kBatch), "cannot read");
   if (count == 0) return false;
   const auto give_back = [this, count](void** loan) { dds_return_loan(reader_, loan, count); };
   const std::unique_ptr<void*, decltype(give_back)> loan(samples.data(), give_back);
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     if (!infos[i].valid_data) continue;  // that a writer has come or gone
-    const Said said = said_in(*static_cast<const ttf_ExchangeSample*>(samples[i]));
+    const common::Said said = said_in(*static_cast<const ttf_ExchangeSample*>(samples[i]));
     auto& writer = writers_[index_of(said.sender)];
     if (writer != infos[i].publication_handle) changed_ = true;
     writer = infos[i].publication_handle;
@@ -108,7 +112,7 @@ bool Channel::acknowledged_within(std::chrono::nanoseconds patience) const {
 
 bool Channel::connections_changed() {
   std::uint32_t status = 0;
-  checked(dds_take_status(reader_, &status, kConnections), "cannot ask who is there");
+  common::checked(dds_take_status(reader_, &status, kConnections), "cannot ask who is there");
   return std::exchange(changed_, false) || status != 0;
 }
 
@@ -117,9 +121,9 @@ bool Channel::lost(NodeId sender) const {
   if (writer == 0) return false;
   std::vector<dds_instance_handle_t> matched(256);
   const auto count =
-      checked(dds_get_matched_publications(reader_, matched.data(), matched.size()), "cannot ask who is there");
+      common::checked(dds_get_matched_publications(reader_, matched.data(), matched.size()), "cannot ask who is there");
   matched.resize(std::min<std::size_t>(matched.size(), static_cast<std::size_t>(count)));
   return std::find(matched.begin(), matched.end(), writer) == matched.end();
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

@@ -14,22 +14,22 @@
 #include "bus/dds/common/said.h"
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
 class Channel {
  public:
   // `topic`: its name; `session`: its partition. Who is in another session is not heard.
-  Channel(const Participant& participant, const std::string& topic, const std::string& session);
+  Channel(const common::Participant& participant, const std::string& topic, const std::string& session);
   ~Channel();
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
   // Numbers and says it; `said.number` is not looked at. Waits while others have no room.
-  void say(Said said);
+  void say(common::Said said);
 
   // Hands over what has come, in order of arrival, some at a time. Whether there was anything.
   // Throws std::runtime_error on what is no sample of an exchange.
-  bool take(const std::function<void(const Said&)>& visit);
+  bool take(const std::function<void(const ttf::bus::dds::common::Said&)>& visit);
 
   // Waits, so long at most, until everybody has everything said so far; whether they have.
   bool acknowledged_within(std::chrono::nanoseconds patience) const;
@@ -39,17 +39,17 @@ class Channel {
   // Whether this sender has been heard and DDS has since lost it: its lease ran out, or it ended.
   bool lost(NodeId sender) const;
 
-  Handle reader() const { return reader_; }
-  Handle reading() const { return reading_; }
+  common::Handle reader() const { return reader_; }
+  common::Handle reading() const { return reading_; }
 
  private:
-  Handle topic_ = 0;
-  Handle writer_ = 0;
-  Handle reader_ = 0;
-  Handle reading_ = 0;  // the condition that something has come
+  common::Handle topic_ = 0;
+  common::Handle writer_ = 0;
+  common::Handle reader_ = 0;
+  common::Handle reading_ = 0;  // the condition that something has come
   std::uint64_t next_number_ = 0;
   std::array<std::uint64_t, 256> writers_{};  // by sender: DDS' number of the writer last heard; 0: none
   bool changed_ = true;
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
 Departure::Order Departure::begin() {
   ++round_;
@@ -10,7 +10,7 @@ Departure::Order Departure::begin() {
   closed_.clear();
   holder_ = kNoNode;
   closing_ = survivors_.empty();  // then there is nothing to agree upon
-  return {Kind::kFence, round_};
+  return {common::Kind::kFence, round_};
 }
 
 std::optional<Departure::Order> Departure::report(NodeId survivor, std::uint32_t round, std::uint64_t end) {
@@ -43,7 +43,7 @@ std::optional<Departure::Order> Departure::decide() {
   closing_ = true;
   end_ = most->second;
   if (least->second < end_) holder_ = most->first;
-  return Order{Kind::kClose, round_, holder_, least->second, end_};
+  return Order{common::Kind::kClose, round_, holder_, least->second, end_};
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

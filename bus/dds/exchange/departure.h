@@ -1,5 +1,5 @@
-// How the survivors of a member come to have heard the same of it: the supervisor's part of bus/dds/exchange/stream.h. Pure:
-// reports in, orders to everybody out.
+// How the survivors of a member come to have heard the same of it: the supervisor's part of bus/dds/exchange/stream.h.
+// Pure: reports in, orders to everybody out.
 //
 // A round is kFence, a report from every survivor, kClose at the best report. Whoever holds the most says again
 // what others lack. Should that one go before all have got it, another round begins; its end may be earlier, but
@@ -15,12 +15,12 @@
 #include "bus/dds/common/said.h"
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
 class Departure {
  public:
   struct Order {
-    Kind kind{};  // kFence or kClose
+    common::Kind kind{};  // kFence or kClose
     std::uint32_t round = 0;
     NodeId holder = kNoNode;  // of kClose: who says again samples [first, end); kNoNode: nobody lacks any
     std::uint64_t first = 0;
@@ -53,4 +53,4 @@ class Departure {
   std::uint64_t end_ = 0;
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

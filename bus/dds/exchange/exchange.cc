@@ -4,9 +4,9 @@
 
 #include "bus/dds/exchange/member.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
-Exchange::Exchange(const Session& session, NodeId self) : member_(std::make_unique<Member>(session, self)) {}
+Exchange::Exchange(const common::Session& session, NodeId self) : member_(std::make_unique<Member>(session, self)) {}
 
 Exchange::~Exchange() {
   try {
@@ -20,8 +20,8 @@ void Exchange::wait_ready(std::chrono::milliseconds patience) { member_->wait_re
 
 void Exchange::send(std::span<const std::byte> message) { member_->send(message); }
 
-bus::Exchange::Heard Exchange::receive() { return member_->receive(); }
+ports::Exchange::Heard Exchange::receive() { return member_->receive(); }
 
 void Exchange::leave() { member_->leave(); }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

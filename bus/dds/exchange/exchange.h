@@ -6,9 +6,9 @@
 //   exchange.leave();                         // or the destructor: the others hear that it is gone
 //
 // L5 holds for the killed, too: in a supervised session they are gone when the supervisor says so
-// (bus/dds/exchange/exchange_supervisor.h), and all survivors hear exactly the same messages of them. In a session without supervisor
-// DDS alone knows; then a member that ends without leaving is an error of everybody else's, after its lease and as
-// long again in which it may come back.
+// (bus/dds/exchange/exchange_supervisor.h), and all survivors hear exactly the same messages of them. In a session
+// without supervisor DDS alone knows; then a member that ends without leaving is an error of everybody else's, after
+// its lease and as long again in which it may come back.
 //
 // An object belongs to one thread at a time.
 #pragma once
@@ -21,13 +21,13 @@
 #include "bus/ports/exchange.h"
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
-class Exchange final : public bus::Exchange {
+class Exchange final : public ports::Exchange {
  public:
   // Precondition: `self` is a member. Throws InputError on a session that is none, std::runtime_error where DDS
   // does not start.
-  Exchange(const Session& session, NodeId self);
+  Exchange(const common::Session& session, NodeId self);
   // Leaves, if that has not been done.
   ~Exchange() override;
 
@@ -49,4 +49,4 @@ class Exchange final : public bus::Exchange {
   std::unique_ptr<Member> member_;
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

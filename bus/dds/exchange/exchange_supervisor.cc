@@ -13,18 +13,18 @@
 #include <thread>
 #include <utility>
 
+#include "bus/dds/common/participant.h"
+#include "bus/dds/common/said.h"
 #include "bus/dds/exchange/channel.h"
 #include "bus/dds/exchange/departure.h"
 #include "bus/dds/exchange/numbering.h"
-#include "bus/dds/common/participant.h"
-#include "bus/dds/common/said.h"
 #include "bus/dds/exchange/waiter.h"
 #include "core/check.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 namespace {
 
-const Session& supervised(const Session& session) {
+const common::Session& supervised(const common::Session& session) {
   validate(session);
   TTF_CHECK(session.supervised, "a supervisor of an exchange that has none");
   return session;
@@ -34,9 +34,9 @@ const Session& supervised(const Session& session) {
 
 class ExchangeSupervisor::Watch {
  public:
-  explicit Watch(const Session& session)
+  explicit Watch(const common::Session& session)
       : session_(supervised(session)), participant_(session.domain, session.lease),
-        control_(participant_, kControlTopic, session.name), waiter_(participant_, control_, nullptr),
+        control_(participant_, common::kControlTopic, session.name), waiter_(participant_, control_, nullptr),
         members_(session.members.begin(), session.members.end()), thread_([this] { run(); }) {}
   ~Watch();
 
@@ -49,7 +49,7 @@ class ExchangeSupervisor::Watch {
   void run();
   void work();
   bool everybody_has_come() const;
-  void on_control(const Said& said);
+  void on_control(const common::Said& said);
   void begin_departure(NodeId node);
   void give(NodeId about, const std::optional<Departure::Order>& order);
   void without(NodeId node);
@@ -57,8 +57,8 @@ class ExchangeSupervisor::Watch {
   void look_for_lost();
   void tell(What what, NodeId node, std::uint64_t samples = 0);
 
-  const Session session_;
-  Participant participant_;
+  const common::Session session_;
+  common::Participant participant_;
   Channel control_;
   Waiter waiter_;
   const std::set<NodeId> members_;
@@ -103,10 +103,10 @@ void ExchangeSupervisor::Watch::run() {
 }
 
 void ExchangeSupervisor::Watch::work() {
-  control_.say({.sender = kSupervisor, .kind = Kind::kHello});
+  control_.say({.sender = common::kSupervisor, .kind = common::Kind::kHello});
   bool ready = false;
   for (;;) {
-    while (control_.take([this](const Said& said) { on_control(said); })) {
+    while (control_.take([this](const common::Said& said) { on_control(said); })) {
     }
     std::deque<NodeId> announcements;
     {
@@ -117,13 +117,13 @@ void ExchangeSupervisor::Watch::work() {
     for (const NodeId node : announcements) begin_departure(node);
     end_departures();
     if (!ready && everybody_has_come()) {
-      control_.say({.sender = kSupervisor, .kind = Kind::kReady});
+      control_.say({.sender = common::kSupervisor, .kind = common::Kind::kReady});
       ready = true;
     }
     if (control_.connections_changed()) look_for_lost();
     waiter_.wait({});
   }
-  control_.say({.sender = kSupervisor, .kind = Kind::kBye});
+  control_.say({.sender = common::kSupervisor, .kind = common::Kind::kBye});
   control_.acknowledged_within(std::chrono::milliseconds(dead_.empty() ? 2000 : 500));
 }
 
@@ -133,38 +133,39 @@ bool ExchangeSupervisor::Watch::everybody_has_come() const {
                      [this](NodeId member) { return hello_.contains(member) || dead_.contains(member); });
 }
 
-void ExchangeSupervisor::Watch::on_control(const Said& said) {
+void ExchangeSupervisor::Watch::on_control(const common::Said& said) {
   const NodeId node = said.sender;
   if (!members_.contains(node))
-    throw std::runtime_error(fmt::format(
-        "session {} on DDS domain {}: {}", session_.name, session_.domain,
-        node == kSupervisor ? "there is a second supervisor" : fmt::format("node {} is no member", index_of(node))));
+    throw std::runtime_error(fmt::format("session {} on DDS domain {}: {}", session_.name, session_.domain,
+                                         node == common::kSupervisor
+                                             ? "there is a second supervisor"
+                                             : fmt::format("node {} is no member", index_of(node))));
   if (dead_.contains(node) || !numbers_.is_new(node, said.number)) return;
   switch (said.kind) {
-    case Kind::kHello:
+    case common::Kind::kHello:
       hello_.insert(node);
       tell(What::kJoined, node);
       return;
-    case Kind::kReady: tell(What::kReady, node); return;
-    case Kind::kBye:
+    case common::Kind::kReady: tell(What::kReady, node); return;
+    case common::Kind::kBye:
       left_.insert(node);
       without(node);
       tell(What::kLeft, node);
       return;
-    case Kind::kReport:
+    case common::Kind::kReport:
       if (const auto departure = departures_.find(said.about); departure != departures_.end())
         give(said.about, departure->second.report(node, said.round, said.end));
       return;
-    case Kind::kClosed:
+    case common::Kind::kClosed:
       if (const auto departure = departures_.find(said.about); departure != departures_.end())
         departure->second.closed(node, said.round);
       return;
-    case Kind::kAgain:
-    case Kind::kAllAgain:
-    case Kind::kHeard: return;  // for the members
-    case Kind::kFence:
-    case Kind::kClose:
-    case Kind::kMessage:
+    case common::Kind::kAgain:
+    case common::Kind::kAllAgain:
+    case common::Kind::kHeard: return;  // for the members
+    case common::Kind::kFence:
+    case common::Kind::kClose:
+    case common::Kind::kMessage:
       throw std::runtime_error(fmt::format("exchange: node {} speaks as no member may", index_of(node)));
   }
 }
@@ -181,7 +182,7 @@ void ExchangeSupervisor::Watch::begin_departure(NodeId node) {
 
 void ExchangeSupervisor::Watch::give(NodeId about, const std::optional<Departure::Order>& order) {
   if (order)
-    control_.say({.sender = kSupervisor,
+    control_.say({.sender = common::kSupervisor,
                   .kind = order->kind,
                   .about = about,
                   .holder = order->holder,
@@ -243,7 +244,7 @@ void ExchangeSupervisor::Watch::wait_ready(std::chrono::milliseconds patience) {
       deaf.push_back(member);
   }
   if (!absent.empty()) deaf.clear();  // no wonder
-  throw NotReady(session_, patience, std::move(absent), std::move(deaf));
+  throw common::NotReady(session_, patience, std::move(absent), std::move(deaf));
 }
 
 void ExchangeSupervisor::Watch::announce_gone(NodeId node) {
@@ -267,7 +268,7 @@ std::optional<ExchangeSupervisor::Event> ExchangeSupervisor::Watch::next_event(s
   return {};
 }
 
-ExchangeSupervisor::ExchangeSupervisor(const Session& session) : watch_(std::make_unique<Watch>(session)) {}
+ExchangeSupervisor::ExchangeSupervisor(const common::Session& session) : watch_(std::make_unique<Watch>(session)) {}
 ExchangeSupervisor::~ExchangeSupervisor() = default;
 void ExchangeSupervisor::wait_ready(std::chrono::milliseconds patience) { watch_->wait_ready(patience); }
 void ExchangeSupervisor::announce_gone(NodeId node) { watch_->announce_gone(node); }
@@ -275,4 +276,4 @@ std::optional<ExchangeSupervisor::Event> ExchangeSupervisor::next_event(std::chr
   return watch_->next_event(patience);
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

@@ -16,7 +16,7 @@
 #include "bus/dds/common/session.h"
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
 class ExchangeSupervisor {
  public:
@@ -36,7 +36,7 @@ class ExchangeSupervisor {
   };
 
   // Precondition: session.supervised. Throws as dds::Exchange does.
-  explicit ExchangeSupervisor(const Session& session);
+  explicit ExchangeSupervisor(const common::Session& session);
   // Members that are still there hear that the supervisor has left, and stop.
   ~ExchangeSupervisor();
 
@@ -52,4 +52,4 @@ class ExchangeSupervisor {
   std::unique_ptr<Watch> watch_;
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

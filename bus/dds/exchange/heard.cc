@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 namespace {
 
 constexpr std::size_t kCountOctets = 8;
@@ -54,4 +54,4 @@ std::uint64_t HeardTable::by_all(NodeId sender) const {
   return least;
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

@@ -12,7 +12,7 @@
 
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
 using HeardCounts = std::map<NodeId, std::uint64_t>;  // samples heard, by their sender
 
@@ -35,4 +35,4 @@ class HeardTable {
   std::map<NodeId, HeardCounts> heard_by_;
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

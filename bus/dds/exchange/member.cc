@@ -8,7 +8,7 @@
 
 #include "core/check.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 namespace {
 
 // How much of what is heard of one member is kept at most, where not everybody tells that it has heard it. No two
@@ -18,7 +18,9 @@ constexpr std::size_t kRetainBytes = 32 << 20;
 // For the acknowledgements of others while one is dead, from whom none will come.
 constexpr std::chrono::milliseconds kPatienceAfterDeath{500};
 
-std::string node(NodeId id) { return id == kSupervisor ? "the supervisor" : fmt::format("node {}", index_of(id)); }
+std::string node(NodeId id) {
+  return id == common::kSupervisor ? "the supervisor" : fmt::format("node {}", index_of(id));
+}
 
 std::vector<NodeId> without(std::vector<NodeId> members, NodeId self) {
   members.erase(std::remove(members.begin(), members.end(), self), members.end());
@@ -27,15 +29,16 @@ std::vector<NodeId> without(std::vector<NodeId> members, NodeId self) {
 
 }  // namespace
 
-Exchange::Member::Member(const Session& session, NodeId self)
+Exchange::Member::Member(const common::Session& session, NodeId self)
     : session_(validate(session)), self_(self), participant_(session.domain, session.lease),
-      data_(participant_, kDataTopic, session.name), control_(participant_, kControlTopic, session.name),
-      waiter_(participant_, data_, &control_), heard_table_(without(session.members, self)) {
+      data_(participant_, common::kDataTopic, session.name),
+      control_(participant_, common::kControlTopic, session.name), waiter_(participant_, data_, &control_),
+      heard_table_(without(session.members, self)) {
   for (const NodeId id : session.members)
     if (id != self) others_.try_emplace(id, Stream(id, session.supervised ? kRetainBytes : 0));
   TTF_CHECK(others_.size() + 1 == session.members.size(), "node {} is no member", index_of(self));
-  say(data_, Kind::kHello);
-  say(control_, Kind::kHello);
+  say(data_, common::Kind::kHello);
+  say(control_, common::Kind::kHello);
 }
 
 // Of those from whom it is to come; who has gone meanwhile is not waited for.
@@ -50,12 +53,12 @@ void Exchange::Member::wait_ready(std::chrono::milliseconds patience) {
   while (!all_ready_) {
     if (take()) continue;
     if (cut_off_) throw std::runtime_error("exchange: " + node(self_) + " has been announced gone");
-    const bool supervisor_heard = !session_.supervised || control_hello_.contains(kSupervisor);
+    const bool supervisor_heard = !session_.supervised || control_hello_.contains(common::kSupervisor);
     if (!said && supervisor_heard && everybody(data_hello_) && everybody(control_hello_)) {
-      say(control_, Kind::kReady);
+      say(control_, common::Kind::kReady);
       said = true;
     }
-    all_ready_ = said && everybody(ready_) && (!session_.supervised || ready_.contains(kSupervisor));
+    all_ready_ = said && everybody(ready_) && (!session_.supervised || ready_.contains(common::kSupervisor));
     if (all_ready_) return;
     if (Clock::now() >= deadline) give_up(patience);
     note_lost();  // of no interest yet
@@ -67,24 +70,24 @@ void Exchange::Member::give_up(std::chrono::milliseconds waited) const {
   std::vector<NodeId> expected;
   for (const auto& entry : others_)
     if (!gone_.contains(entry.first)) expected.push_back(entry.first);
-  if (session_.supervised) expected.push_back(kSupervisor);
+  if (session_.supervised) expected.push_back(common::kSupervisor);
   std::vector<NodeId> absent, deaf;
   for (const NodeId id : expected) {
-    if (!control_hello_.contains(id) || (id != kSupervisor && !data_hello_.contains(id)))
+    if (!control_hello_.contains(id) || (id != common::kSupervisor && !data_hello_.contains(id)))
       absent.push_back(id);
     else if (!ready_.contains(id))
       deaf.push_back(id);
   }
   if (!absent.empty()) deaf.clear();  // no wonder
-  throw NotReady(session_, waited, std::move(absent), std::move(deaf));
+  throw common::NotReady(session_, waited, std::move(absent), std::move(deaf));
 }
 
 void Exchange::Member::send(std::span<const std::byte> message) {
   TTF_CHECK(all_ready_ && !left_, "node {} sends before wait_ready() or after leave()", index_of(self_));
-  data_.say({.sender = self_, .kind = Kind::kMessage, .bytes = message});
+  data_.say({.sender = self_, .kind = common::Kind::kMessage, .bytes = message});
 }
 
-bus::Exchange::Heard Exchange::Member::receive() {
+ports::Exchange::Heard Exchange::Member::receive() {
   for (;;) {
     if (cut_off_) throw std::runtime_error("exchange: " + node(self_) + " has been announced gone");
     if (!coming_.empty()) {
@@ -123,7 +126,7 @@ void Exchange::Member::note_lost() {
     else
       lost_.erase(id);
   };
-  if (session_.supervised) return note(kSupervisor);  // it knows best who else is gone
+  if (session_.supervised) return note(common::kSupervisor);  // it knows best who else is gone
   for (const auto& entry : others_) note(entry.first);
 }
 
@@ -133,11 +136,11 @@ void Exchange::Member::wait(std::optional<Clock::time_point> until) {
 
 void Exchange::Member::leave() {
   if (std::exchange(left_, true)) return;
-  say(data_, Kind::kBye);
-  say(control_, Kind::kBye);
+  say(data_, common::Kind::kBye);
+  say(control_, common::Kind::kBye);
   const bool somebody_died = last_death_ != Clock::time_point{} && Clock::now() - last_death_ < 2 * session_.lease;
   const std::chrono::milliseconds patience = somebody_died ? kPatienceAfterDeath : session_.lease;
   if (data_.acknowledged_within(patience)) control_.acknowledged_within(patience);
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

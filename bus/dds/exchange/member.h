@@ -11,27 +11,27 @@
 #include <string>
 #include <vector>
 
+#include "bus/dds/common/participant.h"
+#include "bus/dds/common/said.h"
+#include "bus/dds/common/session.h"
 #include "bus/dds/exchange/channel.h"
 #include "bus/dds/exchange/exchange.h"
 #include "bus/dds/exchange/heard.h"
 #include "bus/dds/exchange/numbering.h"
-#include "bus/dds/common/participant.h"
-#include "bus/dds/common/said.h"
-#include "bus/dds/common/session.h"
 #include "bus/dds/exchange/stream.h"
 #include "bus/dds/exchange/waiter.h"
 #include "bus/ports/exchange.h"
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
 class Exchange::Member {
  public:
-  Member(const Session& session, NodeId self);
+  Member(const common::Session& session, NodeId self);
 
   void wait_ready(std::chrono::milliseconds patience);
   void send(std::span<const std::byte> message);
-  bus::Exchange::Heard receive();
+  ports::Exchange::Heard receive();
   void leave();
 
  private:
@@ -46,23 +46,23 @@ class Exchange::Member {
   // What receive() is going to return; no bytes: gone.
   struct Coming {
     NodeId from{};
-    Bytes bytes;
+    common::Bytes bytes;
   };
 
   // Takes what has come; whether there was anything.
   bool take();
   void drain_data();
-  void on_data(const Said& said);
-  void on_control(const Said& said);
-  void on_fence(const Said& said);
-  void on_close(const Said& said);
-  void on_again(const Said& said);
+  void on_data(const common::Said& said);
+  void on_control(const common::Said& said);
+  void on_fence(const common::Said& said);
+  void on_close(const common::Said& said);
+  void on_again(const common::Said& said);
   void deliver(NodeId from);  // what is in entries_
   void confirm(NodeId of, Other& other);
   void tell_heard();
   Other& other(NodeId node);
 
-  void say(Channel& channel, Kind kind) { channel.say({.sender = self_, .kind = kind}); }
+  void say(Channel& channel, common::Kind kind) { channel.say({.sender = self_, .kind = kind}); }
   bool everybody(const std::set<NodeId>& said) const;
   [[noreturn]] void give_up(std::chrono::milliseconds waited) const;
   bool nobody_left() const { return gone_.size() == others_.size(); }
@@ -72,9 +72,9 @@ class Exchange::Member {
   void note_lost();
   void wait(std::optional<Clock::time_point> until);
 
-  const Session session_;
+  const common::Session session_;
   const NodeId self_;
-  Participant participant_;
+  common::Participant participant_;
   Channel data_;
   Channel control_;
   Waiter waiter_;
@@ -91,9 +91,9 @@ class Exchange::Member {
   bool supervisor_left_ = false;
   bool left_ = false;
   Clock::time_point last_death_{};
-  std::vector<Entry> entries_;  // scratch
+  std::vector<common::Entry> entries_;  // scratch
   std::deque<Coming> coming_;
-  Bytes current_;  // what receive() returned last
+  common::Bytes current_;  // what receive() returned last
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

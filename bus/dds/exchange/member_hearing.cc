@@ -6,7 +6,7 @@
 
 #include "bus/dds/exchange/member.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 namespace {
 
 // How much is heard before the others are told how far, so that they can forget it.
@@ -14,21 +14,21 @@ constexpr std::size_t kTellEvery = 256 << 10;
 // What keeping a sample takes beside its bytes, about.
 constexpr std::size_t kSampleBytes = 96;
 
-Bytes copy(std::span<const std::byte> bytes) {
+common::Bytes copy(std::span<const std::byte> bytes) {
   return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
 }
 
 }  // namespace
 
 bool Exchange::Member::take() {
-  const bool data = data_.take([this](const Said& said) { on_data(said); });
-  const bool control = control_.take([this](const Said& said) { on_control(said); });
+  const bool data = data_.take([this](const common::Said& said) { on_data(said); });
+  const bool control = control_.take([this](const common::Said& said) { on_control(said); });
   return data || control;
 }
 
 // Where the end of a member is agreed upon, all that DDS has brought of it counts as heard.
 void Exchange::Member::drain_data() {
-  while (data_.take([this](const Said& said) { on_data(said); })) {
+  while (data_.take([this](const common::Said& said) { on_data(said); })) {
   }
 }
 
@@ -40,7 +40,7 @@ Exchange::Member::Other& Exchange::Member::other(NodeId node) {
   return found->second;
 }
 
-void Exchange::Member::on_data(const Said& said) {
+void Exchange::Member::on_data(const common::Said& said) {
   Other& sender = other(said.sender);
   sender.stream.accept({said.number, said.kind, copy(said.bytes)}, entries_);
   deliver(said.sender);
@@ -52,15 +52,15 @@ void Exchange::Member::tell_heard() {
   HeardCounts heard;
   for (const auto& [id, state] : others_) heard[id] = state.stream.heard();
   const std::vector<std::byte> bytes = encode(heard);
-  control_.say({.sender = self_, .kind = Kind::kHeard, .bytes = bytes});
+  control_.say({.sender = self_, .kind = common::Kind::kHeard, .bytes = bytes});
   heard_bytes_ = 0;
 }
 
 void Exchange::Member::deliver(NodeId from) {
-  for (Entry& entry : entries_) {
-    if (entry.kind == Kind::kHello) data_hello_.insert(from);
-    if (entry.kind == Kind::kMessage) coming_.push_back({from, std::move(entry.bytes)});
-    if (entry.kind == Kind::kBye) {
+  for (common::Entry& entry : entries_) {
+    if (entry.kind == common::Kind::kHello) data_hello_.insert(from);
+    if (entry.kind == common::Kind::kMessage) coming_.push_back({from, std::move(entry.bytes)});
+    if (entry.kind == common::Kind::kBye) {
       coming_.push_back({from, nullptr});
       gone_.insert(from);
       heard_table_.without(from);
@@ -70,33 +70,33 @@ void Exchange::Member::deliver(NodeId from) {
   confirm(from, other(from));
 }
 
-void Exchange::Member::on_control(const Said& said) {
-  if (said.sender != kSupervisor) other(said.sender);
+void Exchange::Member::on_control(const common::Said& said) {
+  if (said.sender != common::kSupervisor) other(said.sender);
   if (!control_numbers_.is_new(said.sender, said.number)) return;
   switch (said.kind) {
-    case Kind::kHello: control_hello_.insert(said.sender); return;
-    case Kind::kReady: ready_.insert(said.sender); return;
-    case Kind::kBye:
-      if (said.sender == kSupervisor) supervisor_left_ = true;
+    case common::Kind::kHello: control_hello_.insert(said.sender); return;
+    case common::Kind::kReady: ready_.insert(said.sender); return;
+    case common::Kind::kBye:
+      if (said.sender == common::kSupervisor) supervisor_left_ = true;
       return;
-    case Kind::kFence: on_fence(said); return;
-    case Kind::kClose: on_close(said); return;
-    case Kind::kAgain: on_again(said); return;
-    case Kind::kAllAgain:
+    case common::Kind::kFence: on_fence(said); return;
+    case common::Kind::kClose: on_close(said); return;
+    case common::Kind::kAgain: on_again(said); return;
+    case common::Kind::kAllAgain:
       if (const Other& about = other(said.about); about.round == said.round && about.stream.wanting())
         throw std::runtime_error(about.stream.missing());
       return;
-    case Kind::kHeard:
+    case common::Kind::kHeard:
       heard_table_.note(said.sender, decode(said.bytes));
       for (auto& [id, state] : others_) state.stream.settle(heard_table_.by_all(id));
       return;
-    case Kind::kReport:
-    case Kind::kClosed: return;  // the supervisor's business
-    case Kind::kMessage: throw std::runtime_error("exchange: a message among control samples");
+    case common::Kind::kReport:
+    case common::Kind::kClosed: return;  // the supervisor's business
+    case common::Kind::kMessage: throw std::runtime_error("exchange: a message among control samples");
   }
 }
 
-void Exchange::Member::on_fence(const Said& said) {
+void Exchange::Member::on_fence(const common::Said& said) {
   if (said.about == self_) {
     cut_off_ = true;
     return;
@@ -106,10 +106,10 @@ void Exchange::Member::on_fence(const Said& said) {
   last_death_ = Clock::now();
   heard_table_.without(said.about);
   const std::uint64_t end = about.stream.fence();
-  control_.say({.sender = self_, .kind = Kind::kReport, .about = said.about, .round = said.round, .end = end});
+  control_.say({.sender = self_, .kind = common::Kind::kReport, .about = said.about, .round = said.round, .end = end});
 }
 
-void Exchange::Member::on_close(const Said& said) {
+void Exchange::Member::on_close(const common::Said& said) {
   if (said.about == self_) return;
   Other& about = other(said.about);
   about.round = said.round;
@@ -117,18 +117,18 @@ void Exchange::Member::on_close(const Said& said) {
   about.stream.close(said.end, entries_);
   deliver(said.about);
   if (said.holder != self_) return;
-  for (const Entry& entry : about.stream.again(said.first))
+  for (const common::Entry& entry : about.stream.again(said.first))
     control_.say({.sender = self_,
-                  .kind = Kind::kAgain,
+                  .kind = common::Kind::kAgain,
                   .about = said.about,
                   .inner = entry.kind,
                   .round = said.round,
                   .first = entry.number,
                   .bytes = *entry.bytes});
-  control_.say({.sender = self_, .kind = Kind::kAllAgain, .about = said.about, .round = said.round});
+  control_.say({.sender = self_, .kind = common::Kind::kAllAgain, .about = said.about, .round = said.round});
 }
 
-void Exchange::Member::on_again(const Said& said) {
+void Exchange::Member::on_again(const common::Said& said) {
   if (said.about == self_) return;
   other(said.about).stream.accept({said.first, said.inner, copy(said.bytes)}, entries_);
   deliver(said.about);
@@ -137,7 +137,7 @@ void Exchange::Member::on_again(const Said& said) {
 void Exchange::Member::confirm(NodeId of, Other& other) {
   if (other.round == 0 || other.confirmed || !other.stream.closed()) return;
   other.confirmed = true;
-  control_.say({.sender = self_, .kind = Kind::kClosed, .about = of, .round = other.round});
+  control_.say({.sender = self_, .kind = common::Kind::kClosed, .about = of, .round = other.round});
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

@@ -10,7 +10,7 @@
 
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
 class Numbering {
  public:
@@ -30,4 +30,4 @@ class Numbering {
   std::array<std::uint64_t, 256> next_{};
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

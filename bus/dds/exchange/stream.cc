@@ -8,13 +8,13 @@
 
 #include "core/check.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 namespace {
 
 // What keeping an entry takes beside its bytes, about.
 constexpr std::size_t kEntryBytes = 96;
 
-std::size_t cost(const Entry& entry) { return kEntryBytes + (entry.bytes ? entry.bytes->size() : 0); }
+std::size_t cost(const common::Entry& entry) { return kEntryBytes + (entry.bytes ? entry.bytes->size() : 0); }
 
 std::string lost(NodeId sender, std::uint64_t first, std::uint64_t end) {
   return fmt::format("exchange: samples {} to {} of node {} are lost", first, end - 1, index_of(sender));
@@ -22,7 +22,7 @@ std::string lost(NodeId sender, std::uint64_t first, std::uint64_t end) {
 
 }  // namespace
 
-void Stream::accept(Entry entry, std::vector<Entry>& heard) {
+void Stream::accept(common::Entry entry, std::vector<common::Entry>& heard) {
   if (closed() || entry.number < next_) return;  // heard before, or beyond the agreed end
   switch (phase_) {
     case Phase::kOpen:
@@ -43,7 +43,7 @@ std::uint64_t Stream::fence() {
   return next_;
 }
 
-void Stream::close(std::uint64_t end, std::vector<Entry>& heard) {
+void Stream::close(std::uint64_t end, std::vector<common::Entry>& heard) {
   TTF_CHECK(end >= next_, "node {} ends at {}, but {} were heard", index_of(sender_), end, next_);
   if (closed()) return;
   phase_ = Phase::kClosing;
@@ -56,30 +56,30 @@ std::string Stream::missing() const {
   return lost(sender_, next_, waiting_.empty() ? end_ : std::min(end_, waiting_.begin()->first));
 }
 
-std::vector<Entry> Stream::again(std::uint64_t first) const {
+std::vector<common::Entry> Stream::again(std::uint64_t first) const {
   const std::uint64_t oldest = next_ - kept_.size();
   if (first < oldest) throw std::runtime_error(lost(sender_, first, oldest) + " to others, and no longer kept here");
   if (first >= next_) return {};
   return {kept_.begin() + static_cast<std::ptrdiff_t>(first - oldest), kept_.end()};
 }
 
-void Stream::hear(Entry entry, std::vector<Entry>& heard) {
+void Stream::hear(common::Entry entry, std::vector<common::Entry>& heard) {
   keep(entry);
   ++next_;
-  if (entry.kind == Kind::kBye) phase_ = Phase::kClosed;
+  if (entry.kind == common::Kind::kBye) phase_ = Phase::kClosed;
   heard.push_back(std::move(entry));
 }
 
-void Stream::hear_waiting(std::vector<Entry>& heard) {
+void Stream::hear_waiting(std::vector<common::Entry>& heard) {
   while (!closed() && next_ < end_ && !waiting_.empty() && waiting_.begin()->first == next_)
     hear(std::move(waiting_.extract(waiting_.begin()).mapped()), heard);
   if (closed() || next_ < end_) return;
   phase_ = Phase::kClosed;
   waiting_.clear();
-  heard.push_back({next_, Kind::kBye, nullptr});  // in its stead
+  heard.push_back({next_, common::Kind::kBye, nullptr});  // in its stead
 }
 
-void Stream::keep(const Entry& entry) {
+void Stream::keep(const common::Entry& entry) {
   if (retain_bytes_ == 0) return;
   kept_.push_back(entry);
   kept_bytes_ += cost(entry);
@@ -95,4 +95,4 @@ void Stream::forget() {
   kept_.pop_front();
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

@@ -20,7 +20,7 @@
 #include "bus/dds/common/said.h"
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
 class Stream {
  public:
@@ -29,13 +29,13 @@ class Stream {
 
   // A sample from the sender itself, or said again. What can now be heard, in order, is appended to `heard`; the
   // last is of kind kBye. Throws std::runtime_error where the sender skipped a number: samples are lost.
-  void accept(Entry entry, std::vector<Entry>& heard);
+  void accept(common::Entry entry, std::vector<common::Entry>& heard);
   // Everybody has heard the samples before number `settled`; they need not be kept.
   void settle(std::uint64_t settled);
   // Nothing further is heard until close(). Returns the number of samples heard so far.
   std::uint64_t fence();
   // The stream ends before number `end`; never before what has been heard.
-  void close(std::uint64_t end, std::vector<Entry>& heard);
+  void close(std::uint64_t end, std::vector<common::Entry>& heard);
 
   std::uint64_t heard() const { return next_; }  // how many samples
   bool closed() const { return phase_ == Phase::kClosed; }
@@ -44,24 +44,24 @@ class Stream {
   // What is still missing, in words. Precondition: wanting().
   std::string missing() const;
   // What was heard from number `first` on. Throws std::runtime_error where it is no longer kept.
-  std::vector<Entry> again(std::uint64_t first) const;
+  std::vector<common::Entry> again(std::uint64_t first) const;
 
  private:
   enum class Phase { kOpen, kFenced, kClosing, kClosed };
 
-  void hear(Entry entry, std::vector<Entry>& heard);
-  void hear_waiting(std::vector<Entry>& heard);
-  void keep(const Entry& entry);
+  void hear(common::Entry entry, std::vector<common::Entry>& heard);
+  void hear_waiting(std::vector<common::Entry>& heard);
+  void keep(const common::Entry& entry);
   void forget();  // the oldest that is kept
 
   NodeId sender_;
   std::size_t retain_bytes_;
   Phase phase_ = Phase::kOpen;
-  std::uint64_t next_ = 0;                  // the number that is heard next
-  std::uint64_t end_ = 0;                   // of kClosing
-  std::map<std::uint64_t, Entry> waiting_;  // behind the fence, or behind what is missing
-  std::deque<Entry> kept_;                  // heard last, without a gap, up to next_
+  std::uint64_t next_ = 0;                          // the number that is heard next
+  std::uint64_t end_ = 0;                           // of kClosing
+  std::map<std::uint64_t, common::Entry> waiting_;  // behind the fence, or behind what is missing
+  std::deque<common::Entry> kept_;                  // heard last, without a gap, up to next_
   std::size_t kept_bytes_ = 0;
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

@@ -4,14 +4,14 @@
 #include <chrono>
 #include <optional>
 
-#include "bus/dds/exchange/channel.h"
 #include "bus/dds/common/participant.h"
+#include "bus/dds/exchange/channel.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 
 class Waiter {
  public:
-  Waiter(const Participant& participant, const Channel& first, const Channel* second);
+  Waiter(const common::Participant& participant, const Channel& first, const Channel* second);
   ~Waiter();
   Waiter(const Waiter&) = delete;
   Waiter& operator=(const Waiter&) = delete;
@@ -23,8 +23,8 @@ class Waiter {
   void call();
 
  private:
-  Handle set_ = 0;
-  Handle called_ = 0;
+  common::Handle set_ = 0;
+  common::Handle called_ = 0;
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

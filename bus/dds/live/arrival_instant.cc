@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 
-bus::HostTime ArrivalInstant::of(NodeId sender, std::uint64_t host, std::int64_t sent, bus::HostTime received) {
+ports::HostTime ArrivalInstant::of(NodeId sender, std::uint64_t host, std::int64_t sent, ports::HostTime received) {
   Host& from = find(host);
   from.heard = received;
   const Duration delay{received.ns - sent};
-  const bus::HostTime at = received - (delay - from.delay.least(received, delay));
-  bus::HostTime& last = last_[index_of(sender)];
+  const ports::HostTime at = received - (delay - from.delay.least(received, delay));
+  ports::HostTime& last = last_[index_of(sender)];
   last = std::min(std::max(at, last), received);
   return last;
 }
@@ -24,4 +24,4 @@ ArrivalInstant::Host& ArrivalInstant::find(std::uint64_t identity) {
   return *silent = Host{identity, {}, {}};
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -33,7 +33,7 @@ const LeastDelay::Frame* LeastDelay::Minima<kBins>::among(std::size_t from, std:
   return least;
 }
 
-Duration LeastDelay::least(bus::HostTime received, Duration delay) {
+Duration LeastDelay::least(ports::HostTime received, Duration delay) {
   short_.add({received, delay});
   long_.add({received, delay});
   const std::int64_t slope = drift();
@@ -60,4 +60,4 @@ std::int64_t LeastDelay::drift() const {
   return std::abs((middle->delay - line).ns) <= kBend.ns ? slope : 0;
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

@@ -30,7 +30,7 @@
 #include "bus/ports/live_medium.h"
 #include "core/time.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 
 class LeastDelay {
  public:
@@ -41,11 +41,11 @@ class LeastDelay {
 
   // The least delay as a frame is there that was in hand at `received`, and by its sender's stamp took `delay`.
   // `received` does not decrease. Delays may have either sign, and differ by less than 2^63 ns.
-  Duration least(bus::HostTime received, Duration delay);
+  Duration least(ports::HostTime received, Duration delay);
 
  private:
   struct Frame {
-    bus::HostTime received{};
+    ports::HostTime received{};
     Duration delay{};
   };
   // The least delayed frame in each of the last kBins intervals.
@@ -75,4 +75,4 @@ class LeastDelay {
   Minima<3 * kThird> long_{Duration::milliseconds(1000)};
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

@@ -7,12 +7,12 @@
 #include <cctype>
 
 #include "bus/dds/common/host_identity.h"
-#include "bus/dds/live/live_sample.h"
 #include "bus/dds/common/qos.h"
+#include "bus/dds/live/live_sample.h"
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 namespace {
 
 constexpr std::size_t kBoxes = 16;           // samples taken at a time
@@ -24,8 +24,8 @@ constexpr std::int64_t kLatest = 4'000'000'000'000'000'000, kLongest = 1'000'000
 // LiveSample::kind: a bus::Signal, or one of these.
 constexpr std::uint8_t kClassicCan = 4, kFastCan = 5;
 
-Qos live_qualities(Delivery delivery, NodeId self) {
-  Qos qos = new_qos();
+common::Qos live_qualities(Delivery delivery, NodeId self) {
+  common::Qos qos = common::new_qos();
   dds_qset_reliability(qos.get(),
                        delivery == Delivery::kReliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, LiveLine::kHistory);
@@ -41,17 +41,17 @@ bool is_can_length(std::size_t size, bool fast) {
 }
 
 // Whether it can be what it says it is, on this line.
-bool well_formed(const ttf_LiveSample& sample, bus::Line line) {
+bool well_formed(const ttf_LiveSample& sample, ports::Line line) {
   const std::size_t size = sample.bytes._length;
-  const bool is_frame = line < bus::line_of_can(0) && sample.kind == static_cast<int>(bus::Signal::kFrame);
+  const bool is_frame = line < ports::line_of_can(0) && sample.kind == static_cast<int>(ports::Signal::kFrame);
   if (sample.tells_late > 1 || (sample.tells_late == 1 && !is_frame)) return false;
-  if (line >= bus::line_of_can(0))
+  if (line >= ports::line_of_can(0))
     return (sample.kind == kClassicCan || sample.kind == kFastCan) && sample.identifier <= 0x7FF &&
            is_can_length(size, sample.kind == kFastCan);
   if (is_frame)
     return sample.slot >= 1 && sample.slot <= 2047 && size >= wire::kHeaderBytes + wire::kTrailerBytes &&
            size <= wire::kMaxFrameBytes;
-  return sample.kind <= static_cast<int>(bus::Signal::kUndecodable) && size == 0 && sample.duration > 0;
+  return sample.kind <= static_cast<int>(ports::Signal::kUndecodable) && size == 0 && sample.duration > 0;
 }
 
 // Whether clocks may show what it says of instants.
@@ -61,7 +61,7 @@ bool of_a_clock(const ttf_LiveSample& sample) {
 }
 
 // What a reader or writer says whose it is.
-std::vector<NodeId> owners(Handle entity, const std::vector<dds_instance_handle_t>& matched,
+std::vector<NodeId> owners(common::Handle entity, const std::vector<dds_instance_handle_t>& matched,
                            dds_builtintopic_endpoint_t* (*data)(dds_entity_t, dds_instance_handle_t)) {
   std::vector<NodeId> nodes;
   for (const dds_instance_handle_t handle : matched) {
@@ -97,48 +97,51 @@ struct LiveLine::Boxes {
   }
 };
 
-LiveLine::LiveLine(const Participant& participant, const std::string& session, NodeId self, const LiveLinePlan& plan,
-                   Delivery delivery)
-    : line_(plan.line), topic_(plan.topic), self_(self), host_(host_identity()), nodes_(plan.nodes),
+LiveLine::LiveLine(const common::Participant& participant, const std::string& session, NodeId self,
+                   const LiveLinePlan& plan, Delivery delivery)
+    : line_(plan.line), topic_(plan.topic), self_(self), host_(common::host_identity()), nodes_(plan.nodes),
       boxes_(std::make_unique<Boxes>()), from_afar_(plan.nodes.size()) {
   for (const NodeId node : nodes_) is_on_[index_of(node)] = true;
   boxes_->out.sender = static_cast<std::uint8_t>(self);
   boxes_->out.host = host_;
-  boxes_->out.incarnation = static_cast<std::uint64_t>(bus::host_now().ns);
-  const Handle parent = participant.handle();
-  const Qos qos = live_qualities(delivery, self);
-  const Qos within = partition(session);
-  const Handle topic = checked(dds_create_topic(parent, &ttf_LiveSample_desc, topic_.c_str(), nullptr, nullptr),
-                               "cannot make topic " + topic_);
-  const Handle publisher = checked(dds_create_publisher(parent, within.get(), nullptr), "cannot make a publisher");
-  const Handle subscriber = checked(dds_create_subscriber(parent, within.get(), nullptr), "cannot make a subscriber");
-  writer_ = checked(dds_create_writer(publisher, topic, qos.get(), nullptr), "cannot make a writer of " + topic_);
+  boxes_->out.incarnation = static_cast<std::uint64_t>(ports::host_now().ns);
+  const common::Handle parent = participant.handle();
+  const common::Qos qos = live_qualities(delivery, self);
+  const common::Qos within = common::partition(session);
+  const common::Handle topic = common::checked(
+      dds_create_topic(parent, &ttf_LiveSample_desc, topic_.c_str(), nullptr, nullptr), "cannot make topic " + topic_);
+  const common::Handle publisher =
+      common::checked(dds_create_publisher(parent, within.get(), nullptr), "cannot make a publisher");
+  const common::Handle subscriber =
+      common::checked(dds_create_subscriber(parent, within.get(), nullptr), "cannot make a subscriber");
+  writer_ =
+      common::checked(dds_create_writer(publisher, topic, qos.get(), nullptr), "cannot make a writer of " + topic_);
   const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(dds_create_listener(this),
                                                                                  dds_delete_listener);
   dds_lset_data_available(listener.get(), &LiveLine::on_data);
-  reader_ =
-      checked(dds_create_reader(subscriber, topic, qos.get(), listener.get()), "cannot make a reader of " + topic_);
+  reader_ = common::checked(dds_create_reader(subscriber, topic, qos.get(), listener.get()),
+                            "cannot make a reader of " + topic_);
 }
 
 // Once the reader is gone nobody calls any more; the participant takes the rest along.
 LiveLine::~LiveLine() { dds_delete(reader_); }
 
-void LiveLine::on_data(Handle reader, void* self) { static_cast<LiveLine*>(self)->take(reader); }
+void LiveLine::on_data(common::Handle reader, void* self) { static_cast<LiveLine*>(self)->take(reader); }
 
 // DDS calls this for one reader from one thread at a time, so the boxes and the queue's end are its own; the first time
 // maybe before the constructor knows the reader.
-void LiveLine::take(Handle reader) {
+void LiveLine::take(common::Handle reader) {
   for (bool more = true; more;) {
     const auto count = dds_take(reader, boxes_->pointers.data(), boxes_->infos.data(), kBoxes, kBoxes);
     if (count < 0) return take_error_.store(count);
-    const bus::HostTime now = bus::host_now();
+    const ports::HostTime now = ports::host_now();
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
       if (boxes_->infos[i].valid_data) accept(i, now);  // else that a writer has come or gone
     more = static_cast<std::size_t>(count) == kBoxes;
   }
 }
 
-void LiveLine::accept(std::size_t box, bus::HostTime now) {
+void LiveLine::accept(std::size_t box, ports::HostTime now) {
   const ttf_LiveSample& sample = boxes_->in[box];
   const NodeId sender{sample.sender};
   if (!is_on_[sample.sender] || sender == self_) {
@@ -157,24 +160,24 @@ void LiveLine::accept(std::size_t box, bus::HostTime now) {
     ++lost_;
     return;
   }
-  bus::LiveArrival& arrival = item->arrival = {};
+  ports::LiveArrival& arrival = item->arrival = {};
   arrival.received = now;
   if (host_ == 0 || sample.host == 0) {
     arrival.at = now;  // by whose clock it was sent cannot be made out
   } else if (sample.host == host_) {
-    arrival.at = std::min(bus::HostTime{sample.sent}, now);
+    arrival.at = std::min(ports::HostTime{sample.sent}, now);
     arrival.left = arrival.at;
   } else {
     arrival.at = from_afar_.of(sender, sample.host, sample.sent, now);
   }
-  if (line_ >= bus::line_of_can(0)) {
-    arrival.kind = bus::LiveArrival::Kind::kCan;
-    arrival.can_bus = line_ - bus::line_of_can(0);
+  if (line_ >= ports::line_of_can(0)) {
+    arrival.kind = ports::LiveArrival::Kind::kCan;
+    arrival.can_bus = line_ - ports::line_of_can(0);
     arrival.can.identifier = sample.identifier;
     arrival.can.flexible_data_rate = sample.kind == kFastCan;
   } else {
-    arrival.signal.channel = static_cast<schedules::Channel>(line_);
-    arrival.signal.signal = static_cast<bus::Signal>(sample.kind);
+    arrival.signal.channel = static_cast<schedules::model::Channel>(line_);
+    arrival.signal.signal = static_cast<ports::Signal>(sample.kind);
     arrival.signal.slot = sample.slot;
     arrival.signal.duration = Duration::nanoseconds(sample.duration);
     arrival.signal.tells_late = sample.tells_late == 1;
@@ -185,7 +188,7 @@ void LiveLine::accept(std::size_t box, bus::HostTime now) {
   queue_.push();
 }
 
-bus::LiveStatus LiveLine::send(const bus::LiveSignal& signal, bus::HostTime due) {
+ports::LiveStatus LiveLine::send(const ports::LiveSignal& signal, ports::HostTime due) {
   ttf_LiveSample& sample = boxes_->out;
   sample.kind = static_cast<std::uint8_t>(signal.signal);
   sample.slot = static_cast<std::uint16_t>(signal.slot);
@@ -194,14 +197,14 @@ bus::LiveStatus LiveLine::send(const bus::LiveSignal& signal, bus::HostTime due)
   return write(signal.bytes, due);
 }
 
-bus::LiveStatus LiveLine::send(const bus::CanFrame& frame) {
+ports::LiveStatus LiveLine::send(const ports::CanFrame& frame) {
   boxes_->out.kind = frame.flexible_data_rate ? kFastCan : kClassicCan;
   boxes_->out.identifier = frame.identifier;
   boxes_->out.tells_late = 0;
   return write(frame.data, {});
 }
 
-bus::LiveStatus LiveLine::write(std::span<const std::byte> bytes, bus::HostTime due) {
+ports::LiveStatus LiveLine::write(std::span<const std::byte> bytes, ports::HostTime due) {
   ttf_LiveSample& sample = boxes_->out;
   sample.number = next_number_;
   sample.bytes._length = sample.bytes._maximum = static_cast<std::uint32_t>(bytes.size());
@@ -209,16 +212,16 @@ bus::LiveStatus LiveLine::write(std::span<const std::byte> bytes, bus::HostTime 
   sample.bytes._buffer = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(bytes.data()));
   TTF_CHECK(well_formed(sample, line_), "line {}: kind {}, slot {}, identifier {}, {} bytes, {} ns", line_, sample.kind,
             sample.slot, sample.identifier, bytes.size(), sample.duration);
-  sample.sent = bus::host_now().ns;
+  sample.sent = ports::host_now().ns;
   sample.late = sample.tells_late == 1 ? sample.sent - due.ns : 0;
   const auto result = dds_write(writer_, &sample);
-  if (result == DDS_RETCODE_TIMEOUT || result == DDS_RETCODE_OUT_OF_RESOURCES) return bus::LiveStatus::kNoRoom;
+  if (result == DDS_RETCODE_TIMEOUT || result == DDS_RETCODE_OUT_OF_RESOURCES) return ports::LiveStatus::kNoRoom;
   if (result < 0) {
     write_error_ = result;
-    return bus::LiveStatus::kFailed;
+    return ports::LiveStatus::kFailed;
   }
   ++next_number_;
-  return bus::LiveStatus::kDone;
+  return ports::LiveStatus::kDone;
 }
 
 std::string LiveLine::failure() const {
@@ -229,16 +232,16 @@ std::string LiveLine::failure() const {
 
 std::vector<NodeId> LiveLine::unheard() const {
   std::vector<dds_instance_handle_t> matched(kMostEndpoints);
-  const auto count =
-      checked(dds_get_matched_publications(reader_, matched.data(), matched.size()), "cannot ask who is on " + topic_);
+  const auto count = common::checked(dds_get_matched_publications(reader_, matched.data(), matched.size()),
+                                     "cannot ask who is on " + topic_);
   matched.resize(std::min(matched.size(), static_cast<std::size_t>(count)));
   return all_but(owners(reader_, matched, dds_get_matched_publication_data));
 }
 
 std::vector<NodeId> LiveLine::deaf() const {
   std::vector<dds_instance_handle_t> matched(kMostEndpoints);
-  const auto count =
-      checked(dds_get_matched_subscriptions(writer_, matched.data(), matched.size()), "cannot ask who is on " + topic_);
+  const auto count = common::checked(dds_get_matched_subscriptions(writer_, matched.data(), matched.size()),
+                                     "cannot ask who is on " + topic_);
   matched.resize(std::min(matched.size(), static_cast<std::size_t>(count)));
   return all_but(owners(writer_, matched, dds_get_matched_subscription_data));
 }
@@ -250,8 +253,8 @@ std::vector<NodeId> LiveLine::all_but(const std::vector<NodeId>& found) const {
   return missing;
 }
 
-std::string live_topic(schedules::Channel channel) {
-  return channel == schedules::Channel::kA ? "ttf/flexray/A" : "ttf/flexray/B";
+std::string live_topic(schedules::model::Channel channel) {
+  return channel == schedules::model::Channel::kA ? "ttf/flexray/A" : "ttf/flexray/B";
 }
 
 std::string live_can_topic(const std::string& name) {
@@ -270,4 +273,4 @@ std::string live_can_topic(const std::string& name) {
   return topic;
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

@@ -1,10 +1,10 @@
 // One line of a medium in real time over DDS, as one node has it: the topic, a writer, a reader, and what has arrived.
 //
 // Arrivals are taken and stamped by DDS' own threads as they come in, and wait in a queue. Where the sender runs on the
-// same host (bus/dds/common/host_identity.h), a sample has arrived when it was handed to DDS there: the clock is the same, and
-// how long the kernel takes to wake up who reads it says nothing about the sender's clock. From another host it has
-// arrived when it was handed to DDS there, by that host's clock, and the least delay of late that is known from there
-// (bus/dds/live/arrival_instant.h). Where a host cannot be told from another, it arrives when it is taken.
+// same host (bus/dds/common/host_identity.h), a sample has arrived when it was handed to DDS there: the clock is the
+// same, and how long the kernel takes to wake up who reads it says nothing about the sender's clock. From another host
+// it has arrived when it was handed to DDS there, by that host's clock, and the least delay of late that is known from
+// there (bus/dds/live/arrival_instant.h). Where a host cannot be told from another, it arrives when it is taken.
 #pragma once
 
 #include <array>
@@ -17,14 +17,14 @@
 #include <string>
 #include <vector>
 
+#include "bus/dds/common/participant.h"
 #include "bus/dds/live/arrival_instant.h"
 #include "bus/dds/live/numbering.h"
 #include "bus/dds/live/queue.h"
-#include "bus/dds/common/participant.h"
 #include "bus/ports/live_medium.h"
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 
 enum class Delivery {
   kBestEffort,  // what is lost is lost, and counted
@@ -33,7 +33,7 @@ enum class Delivery {
 
 // A line and who is on it.
 struct LiveLinePlan {
-  bus::Line line = 0;
+  ports::Line line = 0;
   std::string topic;          // live_topic()
   std::vector<NodeId> nodes;  // all of them, whoever reads this
 };
@@ -43,16 +43,16 @@ class LiveLine {
   static constexpr std::int32_t kHistory = 256;
 
   // Throws std::runtime_error where DDS cannot do it.
-  LiveLine(const Participant& participant, const std::string& session, NodeId self, const LiveLinePlan& plan,
+  LiveLine(const common::Participant& participant, const std::string& session, NodeId self, const LiveLinePlan& plan,
            Delivery delivery);
   ~LiveLine();
   LiveLine(const LiveLine&) = delete;
   LiveLine& operator=(const LiveLine&) = delete;
 
-  bus::Line line() const { return line_; }
+  ports::Line line() const { return line_; }
 
-  bus::LiveStatus send(const bus::LiveSignal& signal, bus::HostTime due);
-  bus::LiveStatus send(const bus::CanFrame& frame);
+  ports::LiveStatus send(const ports::LiveSignal& signal, ports::HostTime due);
+  ports::LiveStatus send(const ports::CanFrame& frame);
   LiveQueue& queue() { return queue_; }
   const LiveQueue& queue() const { return queue_; }
 
@@ -70,13 +70,13 @@ class LiveLine {
  private:
   struct Boxes;  // DDS' own form of a sample
 
-  static void on_data(Handle reader, void* self);
-  void take(Handle reader);
-  void accept(std::size_t box, bus::HostTime now);
-  bus::LiveStatus write(std::span<const std::byte> bytes, bus::HostTime due);
+  static void on_data(common::Handle reader, void* self);
+  void take(common::Handle reader);
+  void accept(std::size_t box, ports::HostTime now);
+  ports::LiveStatus write(std::span<const std::byte> bytes, ports::HostTime due);
   std::vector<NodeId> all_but(const std::vector<NodeId>& found) const;
 
-  const bus::Line line_;
+  const ports::Line line_;
   const std::string topic_;
   const NodeId self_;
   const std::uint64_t host_;
@@ -90,12 +90,12 @@ class LiveLine {
   std::int32_t write_error_ = 0;  // DDS' return codes
   std::atomic<std::int32_t> take_error_{0};
   std::uint64_t next_number_ = 0;
-  Handle writer_ = 0, reader_ = 0;
+  common::Handle writer_ = 0, reader_ = 0;
 };
 
 // "ttf/flexray/A", "ttf/flexray/B", "ttf/can/NAME": DDS allows letters, digits, '_' and '/', so anything else in a
 // name, and what would be mistaken for it, is '_' and two hexadecimal digits.
-std::string live_topic(schedules::Channel channel);
+std::string live_topic(schedules::model::Channel channel);
 std::string live_can_topic(const std::string& name);
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

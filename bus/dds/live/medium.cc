@@ -6,7 +6,7 @@
 
 #include "core/check.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 namespace {
 
 constexpr auto kLookAgain = std::chrono::milliseconds(5);
@@ -19,7 +19,8 @@ void merge(std::vector<NodeId>& into, const std::vector<NodeId>& more) {
 
 }  // namespace
 
-LiveMedium::LiveMedium(const Session& session, NodeId self, const std::vector<LiveLinePlan>& lines, Delivery delivery)
+LiveMedium::LiveMedium(const common::Session& session, NodeId self, const std::vector<LiveLinePlan>& lines,
+                       Delivery delivery)
     : session_(validate(session)), participant_(session.domain, session.lease) {
   for (const LiveLinePlan& plan : lines) {
     if (plan.line >= lines_.size()) lines_.resize(plan.line + 1);
@@ -40,30 +41,30 @@ void LiveMedium::wait_ready(std::chrono::milliseconds patience) const {
       merge(deaf, line->deaf());
     }
     if (absent.empty() && deaf.empty()) return;
-    if (std::chrono::steady_clock::now() > deadline) throw NotReady(session_, patience, absent, deaf);
+    if (std::chrono::steady_clock::now() > deadline) throw common::NotReady(session_, patience, absent, deaf);
     std::this_thread::sleep_for(kLookAgain);
   }
 }
 
-bus::LiveStatus LiveMedium::send(const bus::LiveSignal& signal, bus::HostTime due) {
-  LiveLine* const line = find(bus::line_of(signal.channel));
+ports::LiveStatus LiveMedium::send(const ports::LiveSignal& signal, ports::HostTime due) {
+  LiveLine* const line = find(ports::line_of(signal.channel));
   TTF_CHECK(line != nullptr, "not on channel {}", static_cast<int>(signal.channel));
   return counted(line->send(signal, due));
 }
 
-bus::LiveStatus LiveMedium::send_can(std::size_t can_bus, const bus::CanFrame& frame) {
-  LiveLine* const line = find(bus::line_of_can(can_bus));
+ports::LiveStatus LiveMedium::send_can(std::size_t can_bus, const ports::CanFrame& frame) {
+  LiveLine* const line = find(ports::line_of_can(can_bus));
   TTF_CHECK(line != nullptr, "not on CAN {}", can_bus);
   return counted(line->send(frame));
 }
 
-std::optional<bus::LiveArrival> LiveMedium::receive() {
+std::optional<ports::LiveArrival> LiveMedium::receive() {
   for (const auto& line : lines_) {
     if (line == nullptr || !line->queue().pop(last_)) continue;
     ++received_;
-    bus::LiveArrival arrival = last_.arrival;
+    ports::LiveArrival arrival = last_.arrival;
     const auto bytes = std::span<const std::byte>(last_.bytes).first(last_.size);
-    if (arrival.kind == bus::LiveArrival::Kind::kCan)
+    if (arrival.kind == ports::LiveArrival::Kind::kCan)
       arrival.can.data = bytes;
     else
       arrival.signal.bytes = bytes;
@@ -72,17 +73,17 @@ std::optional<bus::LiveArrival> LiveMedium::receive() {
   return {};
 }
 
-int LiveMedium::descriptor(bus::Line line) const {
+int LiveMedium::descriptor(ports::Line line) const {
   const LiveLine* const found = find(line);
   return found == nullptr ? -1 : found->queue().descriptor();
 }
 
-void LiveMedium::watch(bus::Line line, bool on) {
+void LiveMedium::watch(ports::Line line, bool on) {
   if (LiveLine* const found = find(line)) found->queue().watch(on);
 }
 
-bus::LiveCounts LiveMedium::counts() const {
-  bus::LiveCounts counts{.sent = sent_, .received = received_, .not_sent = not_sent_};
+ports::LiveCounts LiveMedium::counts() const {
+  ports::LiveCounts counts{.sent = sent_, .received = received_, .not_sent = not_sent_};
   for (const auto& line : lines_) {
     if (line == nullptr) continue;
     counts.lost += line->lost();
@@ -98,12 +99,12 @@ const std::string& LiveMedium::failure() const {
   return failure_;
 }
 
-LiveLine* LiveMedium::find(bus::Line line) const { return line < lines_.size() ? lines_[line].get() : nullptr; }
+LiveLine* LiveMedium::find(ports::Line line) const { return line < lines_.size() ? lines_[line].get() : nullptr; }
 
-bus::LiveStatus LiveMedium::counted(bus::LiveStatus status) {
-  if (status == bus::LiveStatus::kDone) ++sent_;
-  if (status == bus::LiveStatus::kNoRoom) ++not_sent_;
+ports::LiveStatus LiveMedium::counted(ports::LiveStatus status) {
+  if (status == ports::LiveStatus::kDone) ++sent_;
+  if (status == ports::LiveStatus::kNoRoom) ++not_sent_;
   return status;
 }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

@@ -7,7 +7,7 @@
 
 #include "core/ids.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 
 class LiveNumbering {
  public:
@@ -32,4 +32,4 @@ class LiveNumbering {
   std::array<Next, 256> next_{};
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 namespace {
 
 int new_event() {
@@ -61,4 +61,4 @@ void LiveQueue::call() const { eventfd_write(event_, 1); }
 
 bool LiveQueue::empty() const { return filled_.load() == emptied_.load(); }
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

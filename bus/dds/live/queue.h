@@ -10,10 +10,10 @@
 #include "bus/ports/live_medium.h"
 #include "bus/wire/flexray_frame.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 
 struct LiveItem {
-  bus::LiveArrival arrival;  // its spans are empty: the bytes are below
+  ports::LiveArrival arrival;  // its spans are empty: the bytes are below
   std::size_t size = 0;
   std::array<std::byte, wire::kMaxFrameBytes> bytes{};
 };
@@ -50,4 +50,4 @@ class LiveQueue {
   std::atomic<bool> watched_{false};
 };
 
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

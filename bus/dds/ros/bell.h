@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 
 class Bell {
  public:
@@ -22,4 +22,4 @@ class Bell {
   sem_t semaphore_;
 };
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

@@ -7,7 +7,7 @@
 
 #include "core/time.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 
 // As diagnostic_msgs/msg/DiagnosticStatus numbers them.
 enum class HealthLevel : std::uint8_t { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
@@ -25,4 +25,4 @@ struct Health {
   std::span<const HealthValue> values;
 };
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

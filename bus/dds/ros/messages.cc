@@ -8,7 +8,7 @@
 
 #include "core/int128.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -28,7 +28,7 @@ geometry_msgs_msg_dds__Pose_ pose_of(double x, double y, double heading) {
           .orientation = {.x = 0, .y = 0, .z = std::sin(heading / 2), .w = std::cos(heading / 2)}};
 }
 
-ttfusion_msgs_msg_dds__ImageObject_ message_of(const records::ImageObject& object) {
+ttfusion_msgs_msg_dds__ImageObject_ message_of(const recording::records::ImageObject& object) {
   return {.track_id = static_cast<std::uint16_t>(object.track),
           .status = object.status,
           .x = object.x,
@@ -48,9 +48,9 @@ ttfusion_msgs_msg_dds__ImageObject_ message_of(const records::ImageObject& objec
           .sigma_width = object.sigma_width};
 }
 
-vision_msgs_msg_dds__ObjectHypothesisWithPose_ hypothesis_of(const records::ImageObject& object) {
+vision_msgs_msg_dds__ObjectHypothesisWithPose_ hypothesis_of(const recording::records::ImageObject& object) {
   vision_msgs_msg_dds__ObjectHypothesisWithPose_ hypothesis{};
-  const bool confirmed = (object.status & records::kImageConfirmed) != 0;
+  const bool confirmed = (object.status & recording::records::kImageConfirmed) != 0;
   hypothesis.hypothesis = {.class_id = text_of(confirmed ? "confirmed" : "tentative"), .score = 1};
   hypothesis.pose.pose = pose_of(object.x, object.y, object.heading);
   double(&covariance)[36] = hypothesis.pose.covariance;  // row-major, of x, y, z and the rotations about X, Y, Z
@@ -94,7 +94,7 @@ std_msgs_msg_dds__Header_ Messages::header(TrueTime at) { return {.stamp = time_
 
 const ttfusion_msgs_msg_dds__RealTimeImage_& Messages::image(const WaitingImage& waiting) {
   objects_.clear();
-  for (const records::ImageObject& object : waiting.objects) objects_.push_back(message_of(object));
+  for (const recording::records::ImageObject& object : waiting.objects) objects_.push_back(message_of(object));
   image_.header = header(waiting.valid_at);
   image_.sequence_number = waiting.sequence;
   image_.written = time_of(waiting.written);
@@ -108,7 +108,7 @@ const vision_msgs_msg_dds__Detection3DArray_& Messages::boxes(const WaitingImage
   hypotheses_.clear();
   ids_.clear();
   detections_.clear();
-  for (const records::ImageObject& object : waiting.objects) {
+  for (const recording::records::ImageObject& object : waiting.objects) {
     hypotheses_.push_back(hypothesis_of(object));
     *fmt::format_to_n(ids_.emplace_back().data(), 7, "{}", index_of(object.track)).out = '\0';
   }
@@ -143,7 +143,7 @@ const ttfusion_msgs_msg_dds__TrackArray_& Messages::tracks(const WaitingStep& wa
 }
 
 const nav_msgs_msg_dds__Odometry_& Messages::truth(const WaitingTruth& waiting) {
-  const records::TruthState& state = waiting.state;
+  const recording::records::TruthState& state = waiting.state;
   child_frame_ = object_name(state.object);
   odometry_.header = header(state.at);
   odometry_.child_frame_id = text_of(child_frame_);
@@ -176,4 +176,4 @@ const diagnostic_msgs_msg_dds__DiagnosticArray_& Messages::health(const WaitingH
   return diagnostics_;
 }
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

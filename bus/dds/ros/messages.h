@@ -11,7 +11,7 @@
 #include "bus/dds/ros/standard_messages.h"
 #include "bus/dds/ros/ttfusion_messages.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 
 // ROS time, nanoseconds since 1970; what int32 seconds do not reach is their end.
 builtin_interfaces_msg_dds__Time_ ros_time(std::int64_t realtime_ns);
@@ -55,4 +55,4 @@ class Messages {
   diagnostic_msgs_msg_dds__DiagnosticArray_ diagnostics_{};
 };
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

@@ -11,7 +11,7 @@
 #include "core/decimal.h"
 #include "core/errors.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 namespace {
 
 constexpr std::size_t kMost = 1024;
@@ -39,8 +39,8 @@ void validate(const RosOptions& options) {
     demand(value >= Duration{} && value <= Duration::milliseconds(3'600'000), key, std::to_string(value.ns),
            "must be 0..1 h");
   };
-  demand(options.domain <= dds::kMaxDomain, "domain", std::to_string(options.domain),
-         fmt::format("must be 0..{}", dds::kMaxDomain));
+  demand(options.domain <= common::kMaxDomain, "domain", std::to_string(options.domain),
+         fmt::format("must be 0..{}", common::kMaxDomain));
   demand(options.time_scale_ppm >= kSmallestScale_ppm && options.time_scale_ppm <= kLargestScale_ppm, "time_scale_ppm",
          std::to_string(options.time_scale_ppm), fmt::format("must be {}..{}", kSmallestScale_ppm, kLargestScale_ppm));
   for (const auto& [key, name] : {std::pair{"node_name", &options.node_name}, std::pair{"frame_id", &options.frame_id}})
@@ -67,12 +67,12 @@ std::uint32_t domain_of_environment() {
   const char* const text = std::getenv("ROS_DOMAIN_ID");
   if (text == nullptr || *text == '\0') return 0;
   const auto domain = parse_scaled(text, 1);
-  if (!domain || *domain < 0 || *domain > dds::kMaxDomain)
+  if (!domain || *domain < 0 || *domain > common::kMaxDomain)
     throw InputError(
-        {"environment", 0, "ROS_DOMAIN_ID", text, fmt::format("must be a whole number 0..{}", dds::kMaxDomain)});
+        {"environment", 0, "ROS_DOMAIN_ID", text, fmt::format("must be a whole number 0..{}", common::kMaxDomain)});
   return static_cast<std::uint32_t>(*domain);
 }
 
-void try_domain(const RosOptions& options) { const dds::Participant there(options.domain, lease_of(options)); }
+void try_domain(const RosOptions& options) { const common::Participant there(options.domain, lease_of(options)); }
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

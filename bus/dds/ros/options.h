@@ -8,7 +8,7 @@
 
 #include "core/time.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 
 struct RosOptions {
   std::uint32_t domain = 0;                 // DDS' domain, ROS_DOMAIN_ID: 0..231
@@ -45,4 +45,4 @@ std::uint32_t domain_of_environment();
 // Joins the options' domain as a RosPublisher does, and leaves it. Throws std::runtime_error where DDS does not let us.
 void try_domain(const RosOptions& options);
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

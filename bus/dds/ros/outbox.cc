@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 namespace {
 
 void count(std::atomic<std::uint64_t>& counter) { counter.fetch_add(1, std::memory_order_relaxed); }
@@ -35,16 +35,17 @@ Outbox::Outbox(const RosOptions& options)
       truths(options.queue * std::max<std::size_t>(options.truth_objects, 1)), healths(options.queue),
       most_objects_(options.most_objects), most_tracks_(options.most_tracks), last_truth_(options.truth_objects) {}
 
-bool Outbox::put(const records::ImageWritten& image) {
+bool Outbox::put(const recording::records::ImageWritten& image) {
   WaitingImage* slot = images.room();
   if (slot == nullptr) {
     count(dropped_images_);
     return false;
   }
-  slot->valid_at = records::true_time_of(image.stamp, image.valid_at);
+  slot->valid_at = recording::records::true_time_of(image.stamp, image.valid_at);
   slot->written = image.stamp.true_time;
   slot->newest_measurement.reset();
-  if (!image.newest.empty()) slot->newest_measurement = records::true_time_of(image.stamp, image.newest_measurement);
+  if (!image.newest.empty())
+    slot->newest_measurement = recording::records::true_time_of(image.stamp, image.newest_measurement);
   slot->sequence = image.sequence;
   const std::size_t objects = std::min(image.objects.size(), most_objects_);
   if (objects < image.objects.size()) count(cut_);
@@ -60,7 +61,7 @@ void Outbox::begin(std::uint32_t step) {
   if (waiting_ != nullptr) waiting_->tracks.clear();
 }
 
-bool Outbox::put(const records::TrackState& track) {
+bool Outbox::put(const recording::records::TrackState& track) {
   if (track.predicted_for_image) return false;
   if (step_ != track.step) begin(track.step);
   if (waiting_ == nullptr) return false;
@@ -70,13 +71,13 @@ bool Outbox::put(const records::TrackState& track) {
   }
   WaitingTrack& into = waiting_->tracks.emplace_back();
   into.id = track.track;
-  into.valid_at = records::true_time_of(track.stamp, track.valid_at);
+  into.valid_at = recording::records::true_time_of(track.stamp, track.valid_at);
   std::copy(track.state.begin(), track.state.end(), into.state.begin());
   std::copy(track.covariance.begin(), track.covariance.end(), into.covariance.begin());
   return false;
 }
 
-bool Outbox::put(const records::FusionStep& step) {
+bool Outbox::put(const recording::records::FusionStep& step) {
   if (step_ != step.step) begin(step.step);
   step_.reset();
   if (waiting_ == nullptr) {
@@ -92,7 +93,7 @@ bool Outbox::put(const records::FusionStep& step) {
   return true;
 }
 
-bool Outbox::put(const records::TruthState& truth) {
+bool Outbox::put(const recording::records::TruthState& truth) {
   if (index_of(truth.object) >= last_truth_.size()) return false;
   std::optional<TrueTime>& last = last_truth_[index_of(truth.object)];
   if (last && truth.at <= *last) return false;
@@ -136,4 +137,4 @@ Outbox::Dropped Outbox::dropped() const {
   return {read(dropped_images_), read(dropped_steps_), read(dropped_truths_), read(dropped_healths_), read(cut_)};
 }
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

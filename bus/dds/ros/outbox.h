@@ -16,7 +16,7 @@
 #include "bus/dds/ros/ring.h"
 #include "recording/records/records.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 
 // A real-time image. Instants are the drive's true time.
 struct WaitingImage {
@@ -24,7 +24,7 @@ struct WaitingImage {
   TrueTime valid_at{}, written{};
   std::optional<TrueTime> newest_measurement;  // none before the first
   std::uint32_t sequence = 0;
-  std::vector<records::ImageObject> objects;
+  std::vector<recording::records::ImageObject> objects;
 };
 
 // A step of the fusion, and the tracks after it.
@@ -43,7 +43,7 @@ struct WaitingStep {
 };
 
 struct WaitingTruth {
-  records::TruthState state;
+  recording::records::TruthState state;
 };
 
 inline constexpr std::size_t kHealthText = 4096;
@@ -60,10 +60,10 @@ class Outbox {
   explicit Outbox(const RosOptions& options);
 
   // Each says whether there is something new to take.
-  bool put(const records::ImageWritten& image);
-  bool put(const records::TrackState& track);  // waits for the FusionStep it belongs to
-  bool put(const records::FusionStep& step);
-  bool put(const records::TruthState& truth);  // several nodes may tell of one instant: it is taken once
+  bool put(const recording::records::ImageWritten& image);
+  bool put(const recording::records::TrackState& track);  // waits for the FusionStep it belongs to
+  bool put(const recording::records::FusionStep& step);
+  bool put(const recording::records::TruthState& truth);  // several nodes may tell of one instant: it is taken once
   bool put(const Health& health);
 
   // What had no room, and what was too long.
@@ -89,4 +89,4 @@ class Outbox {
   std::atomic<std::uint64_t> dropped_images_{0}, dropped_steps_{0}, dropped_truths_{0}, dropped_healths_{0}, cut_{0};
 };
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

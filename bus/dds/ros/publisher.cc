@@ -8,7 +8,7 @@
 #include "bus/dds/ros/outbox.h"
 #include "bus/dds/ros/writers.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 namespace {
 
 TopicCounts counts_of(const Writer::Counts& written, std::uint64_t dropped) {
@@ -81,11 +81,11 @@ class RosPublisher::Impl {
 RosPublisher::RosPublisher(const RosOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 RosPublisher::~RosPublisher() = default;
 
-void RosPublisher::on(const records::ImageWritten& image) { impl_->put(image); }
-void RosPublisher::on(const records::TrackState& track) { impl_->put(track); }
-void RosPublisher::on(const records::FusionStep& step) { impl_->put(step); }
-void RosPublisher::on(const records::TruthState& truth) { impl_->put(truth); }
+void RosPublisher::on(const recording::records::ImageWritten& image) { impl_->put(image); }
+void RosPublisher::on(const recording::records::TrackState& track) { impl_->put(track); }
+void RosPublisher::on(const recording::records::FusionStep& step) { impl_->put(step); }
+void RosPublisher::on(const recording::records::TruthState& truth) { impl_->put(truth); }
 void RosPublisher::health(const Health& health) { impl_->put(health); }
 RosCounts RosPublisher::counts() const { return impl_->counts(); }
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

@@ -13,7 +13,7 @@
 #include "bus/dds/ros/options.h"
 #include "recording/records/records.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 
 struct TopicCounts {
   std::uint64_t written = 0;           // to DDS
@@ -27,7 +27,7 @@ struct RosCounts {
   std::uint64_t cut = 0;                             // images and steps with more in them than RosOptions has room for
 };
 
-class RosPublisher final : public records::Sink {
+class RosPublisher final : public recording::records::Sink {
  public:
   // Throws InputError for options out of range, std::runtime_error where DDS does not let us.
   explicit RosPublisher(const RosOptions& options);
@@ -37,11 +37,11 @@ class RosPublisher final : public records::Sink {
   RosPublisher& operator=(const RosPublisher&) = delete;
 
   // From one thread, as every sink.
-  using records::Sink::on;
-  void on(const records::ImageWritten& image) override;
-  void on(const records::TrackState& track) override;
-  void on(const records::FusionStep& step) override;
-  void on(const records::TruthState& truth) override;
+  using recording::records::Sink::on;
+  void on(const recording::records::ImageWritten& image) override;
+  void on(const recording::records::TrackState& track) override;
+  void on(const recording::records::FusionStep& step) override;
+  void on(const recording::records::TruthState& truth) override;
   // From one thread, that or another. Longer than 4096 characters in all, it is dropped.
   void health(const Health& health);
 
@@ -52,4 +52,4 @@ class RosPublisher final : public records::Sink {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 
 template <class Slot> class Ring {
  public:
@@ -37,4 +37,4 @@ template <class Slot> class Ring {
   std::atomic<std::size_t> emptied_{0};  // ever; written by who empties
 };
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

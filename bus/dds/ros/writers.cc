@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 namespace {
 
 constexpr std::int32_t kDepth = 10;  // as many as ROS' readers keep where nobody says otherwise
@@ -40,15 +40,15 @@ std::string topic_of(const RosOptions& options, const std::string& name) {
 
 }  // namespace
 
-Writer::Writer(const dds::Participant& participant, const void* type, const std::string& topic, Duration period,
+Writer::Writer(const common::Participant& participant, const void* type, const std::string& topic, Duration period,
                bool kept_for_late_listeners, const RosOptions& options) {
   const Qos qos = qualities(period, kept_for_late_listeners, options);
-  const dds::Handle made =
-      dds::checked(dds_create_topic(participant.handle(), static_cast<const dds_topic_descriptor_t*>(type),
-                                    topic.c_str(), nullptr, nullptr),
-                   "cannot make topic " + topic);
-  writer_ = dds::checked(dds_create_writer(participant.handle(), made, qos.get(), nullptr),
-                         "cannot make a writer of " + topic);
+  const common::Handle made =
+      common::checked(dds_create_topic(participant.handle(), static_cast<const dds_topic_descriptor_t*>(type),
+                                       topic.c_str(), nullptr, nullptr),
+                      "cannot make topic " + topic);
+  writer_ = common::checked(dds_create_writer(participant.handle(), made, qos.get(), nullptr),
+                            "cannot make a writer of " + topic);
 }
 
 void Writer::write(const void* sample) {
@@ -106,4 +106,4 @@ Writer::Counts Writers::truths() const {
   return all;
 }
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

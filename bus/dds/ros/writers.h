@@ -11,7 +11,7 @@
 #include "bus/dds/ros/options.h"
 #include "bus/dds/ros/outbox.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 
 // One topic and its writer.
 class Writer {
@@ -21,13 +21,13 @@ class Writer {
     std::uint64_t refused = 0;           // DDS took it not: its memory is full, or whatever it said
     std::uint64_t deadlines_missed = 0;  // promised, and not kept
   };
-  Writer(const dds::Participant& participant, const void* type, const std::string& topic, Duration period,
+  Writer(const common::Participant& participant, const void* type, const std::string& topic, Duration period,
          bool kept_for_late_listeners, const RosOptions& options);
   void write(const void* sample);  // never waits
   Counts counts() const;
 
  private:
-  dds::Handle writer_ = 0;
+  common::Handle writer_ = 0;
   Counts counts_;
 };
 
@@ -48,10 +48,10 @@ class Writers {
   Writer::Counts healths() const { return healths_.counts(); }
 
  private:
-  dds::Participant participant_;
+  common::Participant participant_;
   Messages messages_;
   Writer images_, boxes_, tracks_, healths_;
   std::vector<Writer> truths_;  // by object
 };
 
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

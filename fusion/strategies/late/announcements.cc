@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ttf::fusion::late {
+namespace ttf::fusion::strategies::late {
 
 Announcements::Announcements(std::span<const SensorTiming> sensors) {
   for (const SensorTiming& timing : sensors)
@@ -11,13 +11,13 @@ Announcements::Announcements(std::span<const SensorTiming> sensors) {
   due_.reserve(sensors_.size() * static_cast<std::size_t>(kClones));
 }
 
-std::optional<GlobalTime> Announcements::instant_of(const Scan& scan) const {
+std::optional<GlobalTime> Announcements::instant_of(const sensors::Scan& scan) const {
   for (const Sensor& own : sensors_)
     if (own.sensor == scan.id.sensor) return own.instants.of(scan.measured);
   return std::nullopt;
 }
 
-When Announcements::when(const Scan& scan) const {
+When Announcements::when(const sensors::Scan& scan) const {
   if (const std::optional<GlobalTime> instant = instant_of(scan))
     for (const Sensor& own : sensors_)
       if (own.sensor == scan.id.sensor && own.next && *instant < *own.next)
@@ -25,7 +25,7 @@ When Announcements::when(const Scan& scan) const {
   return {.stamp = {scan.measured, scan.id}, .after = {}};
 }
 
-std::span<const oosm::Stamp> Announcements::pass(const Scan& scan) {
+std::span<const oosm::Stamp> Announcements::pass(const sensors::Scan& scan) {
   due_.clear();
   const std::optional<GlobalTime> mine = instant_of(scan);
   const GlobalTime until = mine.value_or(scan.measured);
@@ -45,4 +45,4 @@ std::span<const oosm::Stamp> Announcements::pass(const Scan& scan) {
   return due_;
 }
 
-}  // namespace ttf::fusion::late
+}  // namespace ttf::fusion::strategies::late

@@ -11,12 +11,12 @@
 #include <span>
 #include <vector>
 
-#include "fusion/strategies/late/pasts.h"
 #include "fusion/sensors/observation.h"
+#include "fusion/strategies/late/pasts.h"
 #include "fusion/strategies/scheduled_instants.h"
 #include "fusion/strategies/strategy.h"
 
-namespace ttf::fusion::late {
+namespace ttf::fusion::strategies::late {
 
 class Announcements {
  public:
@@ -24,10 +24,10 @@ class Announcements {
   explicit Announcements(std::span<const SensorTiming> sensors);
 
   // When a list was measured: off an announced instant, or at a stamp of its own.
-  When when(const Scan& scan) const;
+  When when(const sensors::Scan& scan) const;
   // What is to be announced before this list is taken, which is newer than all before; valid until the next call. Of
   // each sensor the newest kClones at most. Nothing of what lies before the first list.
-  std::span<const oosm::Stamp> pass(const Scan& scan);
+  std::span<const oosm::Stamp> pass(const sensors::Scan& scan);
 
  private:
   struct Sensor {
@@ -37,10 +37,10 @@ class Announcements {
   };
   static oosm::Stamp stamp_of(SensorId sensor, GlobalTime instant) { return {instant, {sensor, 0}}; }
   // The scheduled instant of this list; nothing where its stamp fits none.
-  std::optional<GlobalTime> instant_of(const Scan& scan) const;
+  std::optional<GlobalTime> instant_of(const sensors::Scan& scan) const;
 
   std::vector<Sensor> sensors_;
   std::vector<oosm::Stamp> due_;
 };
 
-}  // namespace ttf::fusion::late
+}  // namespace ttf::fusion::strategies::late

@@ -2,10 +2,10 @@
 
 #include "fusion/strategies/late/pasts_of.h"
 
-namespace ttf::fusion::late {
+namespace ttf::fusion::strategies::late {
 
-std::unique_ptr<Pasts> make_at_constant_acceleration(const TrackerConfig& config, std::size_t slots) {
+std::unique_ptr<Pasts> make_at_constant_acceleration(const config::TrackerConfig& config, std::size_t slots) {
   return make_pasts_of(motion::ConstantAcceleration(config.process_noise), config.late, slots);
 }
 
-}  // namespace ttf::fusion::late
+}  // namespace ttf::fusion::strategies::late

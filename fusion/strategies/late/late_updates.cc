@@ -5,13 +5,13 @@
 
 #include "core/check.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies::late {
 namespace {
 
 bool is_taken(oosm::Taken taken) { return taken == oosm::Taken::kInOrder || taken == oosm::Taken::kLate; }
 
 // A list at its place, `since` lists before the newest.
-void count(Track& track, int since, bool hit) {
+void count(tracks::Track& track, int since, bool hit) {
   if (since < 32) {
     const std::uint32_t later = (1u << since) - 1u;
     track.hits = (track.hits & later) | ((track.hits & ~later) << 1) | ((hit ? 1u : 0u) << since);
@@ -24,10 +24,10 @@ double widened(double sigma, double variance) { return std::sqrt(sigma * sigma +
 
 }  // namespace
 
-LateUpdates::LateUpdates(const TrackerConfig& config, std::size_t max_observations,
+LateUpdates::LateUpdates(const config::TrackerConfig& config, std::size_t max_observations,
                          std::span<const SensorTiming> sensors)
     : tracker_(config, max_observations), identities_(tracker_.max_tracks()),
-      pasts_(late::make_pasts(config, tracker_.max_tracks())),
+      pasts_(make_pasts(config, tracker_.max_tracks())),
       announcements_(config.late == oosm::Kind::kClone ? sensors : std::span<const SensorTiming>()),
       set_(tracker_.max_tracks()), then_(tracker_.max_tracks()) {
   objects_.reserve(tracker_.max_tracks());
@@ -41,8 +41,10 @@ bool LateUpdates::contains(const MeasurementId& id, GlobalTime measured) const {
   return std::any_of(lists_.begin(), lists_.end(), same) || (forgotten_ && same(*forgotten_));
 }
 
-TrackHistory::Insertion LateUpdates::insert(const Scan& scan) {
-  const auto is_before = [&](const Taken& list) { return before(scan.id, scan.measured, list.id, list.measured); };
+tracks::TrackHistory::Insertion LateUpdates::insert(const sensors::Scan& scan) {
+  const auto is_before = [&](const Taken& list) {
+    return tracks::before(scan.id, scan.measured, list.id, list.measured);
+  };
   if (forgotten_ && is_before(*forgotten_)) return Insertion::kTooOld;
   auto place = lists_.end();
   while (place != lists_.begin() && is_before(*std::prev(place))) --place;
@@ -60,17 +62,17 @@ TrackHistory::Insertion LateUpdates::insert(const Scan& scan) {
   return late ? Insertion::kLate : Insertion::kInOrder;
 }
 
-void LateUpdates::step(const Scan& scan) {
-  const late::When when = announcements_.when(scan);
+void LateUpdates::step(const sensors::Scan& scan) {
+  const When when = announcements_.when(scan);
   for (const oosm::Stamp& due : announcements_.pass(scan))
     for (const Object& object : objects_) pasts_->announce(object.slot, due);
   tracker_.step(set_, scan);
   align();
   for (std::size_t t = 0; t < set_.tracks.size(); ++t) {
-    const Track& track = set_.tracks[t];
+    const tracks::Track& track = set_.tracks[t];
     Object& object = objects_[t];
     if (track.newest.measurement != scan.id || track.newest.measured != scan.measured) continue;
-    const Observation& z = scan.observations[track.newest.index];
+    const sensors::Observation& z = scan.observations[track.newest.index];
     if (z.third.has_z) object.z_at = scan.measured;
     if (z.third.has_height) object.height_at = scan.measured;
     // A stamp that fits nothing the method knows: it begins anew, with what the tracker knows.
@@ -79,16 +81,16 @@ void LateUpdates::step(const Scan& scan) {
   }
 }
 
-bool LateUpdates::mend(const Scan& scan, int lists_since) {
-  const late::When when = announcements_.when(scan);
+bool LateUpdates::mend(const sensors::Scan& scan, int lists_since) {
+  const When when = announcements_.when(scan);
   then_.time = scan.measured;
   then_.started = true;
   then_.tracks.clear();
   places_.clear();
   for (std::size_t t = 0; t < set_.tracks.size(); ++t) {
-    const ObservationId& birth = set_.tracks[t].birth;
-    if (!before(birth.measurement, birth.measured, scan.id, scan.measured)) continue;
-    const std::optional<Estimate> then = pasts_->at(objects_[t].slot, when);
+    const tracks::ObservationId& birth = set_.tracks[t].birth;
+    if (!tracks::before(birth.measurement, birth.measured, scan.id, scan.measured)) continue;
+    const std::optional<estimators::Estimate> then = pasts_->at(objects_[t].slot, when);
     if (!then) continue;
     then_.tracks.push_back(set_.tracks[t]);
     then_.tracks.back().estimate = *then;
@@ -97,10 +99,10 @@ bool LateUpdates::mend(const Scan& scan, int lists_since) {
   if (places_.empty()) return false;
   const std::span<const int> assigned = tracker_.assigned(then_, scan);
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    Track& track = set_.tracks[places_[i]];
+    tracks::Track& track = set_.tracks[places_[i]];
     count(track, lists_since, assigned[i] >= 0);
     if (assigned[i] < 0) continue;
-    const ObservationId which{scan.id, static_cast<std::uint16_t>(assigned[i]), scan.measured};
+    const tracks::ObservationId which{scan.id, static_cast<std::uint16_t>(assigned[i]), scan.measured};
     mend(track, objects_[places_[i]], which, scan.observations[which.index], when, then_.tracks[i]);
   }
   tracker_.prune(set_);
@@ -108,13 +110,13 @@ bool LateUpdates::mend(const Scan& scan, int lists_since) {
   return true;
 }
 
-void LateUpdates::mend(Track& track, Object& object, const ObservationId& which, const Observation& z,
-                       const late::When& when, Track& then) {
+void LateUpdates::mend(tracks::Track& track, Object& object, const tracks::ObservationId& which,
+                       const sensors::Observation& z, const When& when, tracks::Track& then) {
   const oosm::Taken taken = pasts_->take(object.slot, when, z);
   TTF_CHECK(is_taken(taken), "what was seen at its instant is not taken: {}", static_cast<int>(taken));
   track.estimate = pasts_->newest(object.slot, set_.time);
 
-  Observation now = z;
+  sensors::Observation now = z;
   const double age = (set_.time - which.measured).seconds();
   const double range = (z.z.head<2>() - place_of(tracker_.config().sensors, z.sensor)).norm();
   const double walked = tracker_.config().extent_noise * age;
@@ -133,7 +135,8 @@ void LateUpdates::mend(Track& track, Object& object, const ObservationId& which,
   newest(now.third.has_z, object.z_at, track.unfiltered.third.has_z);
   newest(now.third.has_height, object.height_at, track.unfiltered.third.has_height);
   carry(track.unfiltered, now);
-  if (before(track.newest.measurement, track.newest.measured, which.measurement, which.measured)) track.newest = which;
+  if (tracks::before(track.newest.measurement, track.newest.measured, which.measurement, which.measured))
+    track.newest = which;
 }
 
 // Tracks are in order of birth: those that ended are gone from between, those that were born are behind.
@@ -147,11 +150,11 @@ void LateUpdates::align() {
   }
   objects_.resize(kept);
   for (; kept < set_.tracks.size(); ++kept) {
-    const Track& track = set_.tracks[kept];
+    const tracks::Track& track = set_.tracks[kept];
     objects_.push_back({.birth = track.birth, .slot = free_.back()});
     free_.pop_back();
     pasts_->start(objects_.back().slot, set_.time, track.estimate);
   }
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies::late

@@ -8,9 +8,9 @@
 //     since, the prediction. Gated and assigned as ever: an exact method's innovation is chi-square as one in order.
 //   - updates each assigned track by the method; its estimate is then the method's, predicted to the newest list.
 // What was associated later stays so, and an observation that no track takes gives birth to nothing: late data re-opens
-// association where the tracker rewinds (fusion/tracks/timeline.h), here it does not. A track that was born later, or whose
-// past does not reach back so far, has no part in it; a list that no track has a part in is too old, as is one before
-// the last config.history_scans.
+// association where the tracker rewinds (fusion/tracks/timeline.h), here it does not. A track that was born later, or
+// whose past does not reach back so far, has no part in it; a list that no track has a part in is too old, as is one
+// before the last config.history_scans.
 //
 // Beside the state:
 //   counters  the list counts at its place among the others, as a hit or a miss: hits, misses and scans are those of
@@ -32,22 +32,22 @@
 #include <span>
 #include <vector>
 
-#include "fusion/tracks/identities.h"
 #include "fusion/strategies/late/announcements.h"
 #include "fusion/strategies/late/pasts.h"
 #include "fusion/strategies/strategy.h"
+#include "fusion/tracks/identities.h"
 #include "fusion/tracks/track_history.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies::late {
 
-class LateUpdates final : public TrackHistory {
+class LateUpdates final : public tracks::TrackHistory {
  public:
   // config.late is not rewind. Clones take late lists of those of the sensors that are scheduled, other methods of any.
-  LateUpdates(const TrackerConfig& config, std::size_t max_observations, std::span<const SensorTiming> sensors);
+  LateUpdates(const config::TrackerConfig& config, std::size_t max_observations, std::span<const SensorTiming> sensors);
 
-  Insertion insert(const Scan& scan) override;
-  const TrackSet& current() const override { return set_; }
-  const Estimator& estimator() const override { return tracker_.estimator(); }
+  Insertion insert(const sensors::Scan& scan) override;
+  const tracks::TrackSet& current() const override { return set_; }
+  const estimators::Estimator& estimator() const override { return tracker_.estimator(); }
   bool contains(const MeasurementId& id, GlobalTime measured) const override;
 
  private:
@@ -57,27 +57,27 @@ class LateUpdates final : public TrackHistory {
   };
   // Of a track, beside it.
   struct Object {
-    ObservationId birth;
+    tracks::ObservationId birth;
     std::size_t slot = 0;            // of its past
     GlobalTime z_at{}, height_at{};  // when what it carries of the third axis was measured
   };
-  void step(const Scan& scan);
-  bool mend(const Scan& scan, int lists_since);
-  void mend(Track& track, Object& object, const ObservationId& which, const Observation& z, const late::When& when,
-            Track& then);
+  void step(const sensors::Scan& scan);
+  bool mend(const sensors::Scan& scan, int lists_since);
+  void mend(tracks::Track& track, Object& object, const tracks::ObservationId& which, const sensors::Observation& z,
+            const When& when, tracks::Track& then);
   void align();
 
-  Tracker tracker_;
-  Identities identities_;
-  std::unique_ptr<late::Pasts> pasts_;
-  late::Announcements announcements_;
-  TrackSet set_;
+  tracks::Tracker tracker_;
+  tracks::Identities identities_;
+  std::unique_ptr<Pasts> pasts_;
+  Announcements announcements_;
+  tracks::TrackSet set_;
   std::vector<Object> objects_;      // of the set's tracks, one by one
   std::vector<std::size_t> free_;    // slots
-  TrackSet then_;                    // the tracks that have a part in the late list at work, as they were
+  tracks::TrackSet then_;            // the tracks that have a part in the late list at work, as they were
   std::vector<std::size_t> places_;  // of those in the set
   std::vector<Taken> lists_;         // chronological
   std::optional<Taken> forgotten_;   // the newest list that is not remembered
 };
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies::late

@@ -10,12 +10,12 @@
 #include <optional>
 
 #include "core/time.h"
-#include "fusion/estimators/estimate.h"
-#include "fusion/sensors/observation.h"
-#include "fusion/oosm/method.h"
 #include "fusion/config/tracker_config.h"
+#include "fusion/estimators/estimate.h"
+#include "fusion/oosm/method.h"
+#include "fusion/sensors/observation.h"
 
-namespace ttf::fusion::late {
+namespace ttf::fusion::strategies::late {
 
 inline constexpr int kRemembered = 16;  // measurements of an object that a method can reach behind, births included
 inline constexpr int kClones = 8;       // of an object, at a time
@@ -33,20 +33,20 @@ class Pasts {
  public:
   virtual ~Pasts() = default;
   // Forgets what the slot held: an object is believed to be at `estimate` at `time`.
-  virtual void start(std::size_t slot, GlobalTime time, const Estimate& estimate) = 0;
+  virtual void start(std::size_t slot, GlobalTime time, const estimators::Estimate& estimate) = 0;
   virtual void announce(std::size_t slot, const oosm::Stamp& stamp) = 0;
   // What a position measured then is an innovation to (law L9 of fusion/oosm/method.h); nothing where take() would not
   // take it.
-  virtual std::optional<Estimate> at(std::size_t slot, const When& when) const = 0;
-  virtual oosm::Taken take(std::size_t slot, const When& when, const Observation& position) = 0;
+  virtual std::optional<estimators::Estimate> at(std::size_t slot, const When& when) const = 0;
+  virtual oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& position) = 0;
   // Predicted to `time`.
-  virtual Estimate newest(std::size_t slot, GlobalTime time) const = 0;
+  virtual estimators::Estimate newest(std::size_t slot, GlobalTime time) const = 0;
 };
 
 // For straight motion, config.late, and so many objects. What a slot takes: fusion/strategies/late/late_updates.h.
-std::unique_ptr<Pasts> make_pasts(const TrackerConfig& config, std::size_t slots);
+std::unique_ptr<Pasts> make_pasts(const config::TrackerConfig& config, std::size_t slots);
 // Of one motion. One source file each: the compiler takes its time over them.
-std::unique_ptr<Pasts> make_at_constant_velocity(const TrackerConfig& config, std::size_t slots);
-std::unique_ptr<Pasts> make_at_constant_acceleration(const TrackerConfig& config, std::size_t slots);
+std::unique_ptr<Pasts> make_at_constant_velocity(const config::TrackerConfig& config, std::size_t slots);
+std::unique_ptr<Pasts> make_at_constant_acceleration(const config::TrackerConfig& config, std::size_t slots);
 
-}  // namespace ttf::fusion::late
+}  // namespace ttf::fusion::strategies::late

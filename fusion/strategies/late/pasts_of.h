@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/check.h"
-#include "fusion/strategies/late/pasts.h"
 #include "fusion/motion/motion_model.h"
 #include "fusion/oosm/adjoint.h"
 #include "fusion/oosm/al1.h"
@@ -15,31 +14,33 @@
 #include "fusion/oosm/augmented.h"
 #include "fusion/oosm/bl1.h"
 #include "fusion/oosm/clone.h"
+#include "fusion/strategies/late/pasts.h"
 
-namespace ttf::fusion::late {
+namespace ttf::fusion::strategies::late {
 
 template <motion::LinearModel M, oosm::Method X> class PastsOf final : public Pasts {
  public:
   PastsOf(const M& motion, std::size_t slots) : motion_(motion), methods_(slots, X(motion)) {}
 
-  void start(std::size_t slot, GlobalTime time, const Estimate& estimate) override {
+  void start(std::size_t slot, GlobalTime time, const estimators::Estimate& estimate) override {
     methods_[slot].start(time, std::get<State>(estimate));
   }
   void announce(std::size_t slot, const oosm::Stamp& stamp) override { methods_[slot].announce(stamp); }
-  std::optional<Estimate> at(std::size_t slot, const When& when) const override {
+  std::optional<estimators::Estimate> at(std::size_t slot, const When& when) const override {
     const std::optional<State> then = methods_[slot].at(when.stamp);
     if (!then) return std::nullopt;
     return moved(*then, when.after);
   }
-  oosm::Taken take(std::size_t slot, const When& when, const Observation& position) override {
-    TTF_CHECK(position.kind == ObservationKind::kPosition, "observation of kind {}", static_cast<int>(position.kind));
-    LinearMeasurement<kN, 2> measurement;
+  oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& position) override {
+    TTF_CHECK(position.kind == sensors::ObservationKind::kPosition, "observation of kind {}",
+              static_cast<int>(position.kind));
+    linear::LinearMeasurement<kN, 2> measurement;
     measurement.z = position.z.template head<2>();
     measurement.h = transition(when.after).template topRows<2>();
     measurement.r = position.r.template topLeftCorner<2, 2>();
     return methods_[slot].take(when.stamp, measurement);
   }
-  Estimate newest(std::size_t slot, GlobalTime time) const override {
+  estimators::Estimate newest(std::size_t slot, GlobalTime time) const override {
     const Duration elapsed = time - methods_[slot].time();
     if (elapsed < Duration{}) return moved(methods_[slot].state(), elapsed);  // an instant of a clock that is ahead
     return oosm::advanced<kN>(methods_[slot].state(), motion_, elapsed);
@@ -47,15 +48,17 @@ template <motion::LinearModel M, oosm::Method X> class PastsOf final : public Pa
 
  private:
   static constexpr int kN = M::kStates;
-  using State = Gaussian<kN>;
+  using State = linear::Gaussian<kN>;
 
-  Matrix<kN> transition(Duration by) const { return motion_.jacobian(Vector<kN>::Zero(), by.seconds()); }
+  linear::Matrix<kN> transition(Duration by) const {
+    return motion_.jacobian(linear::Vector<kN>::Zero(), by.seconds());
+  }
   // By what a clock is off, forwards or backwards: no noise.
   State moved(const State& state, Duration by) const {
     if (by == Duration{}) return state;
-    const Matrix<kN> f = transition(by);
+    const linear::Matrix<kN> f = transition(by);
     State result{f * state.x, f * state.p * f.transpose()};
-    symmetrise<kN>(result.p);
+    linear::symmetrise<kN>(result.p);
     return result;
   }
 
@@ -81,4 +84,4 @@ std::unique_ptr<Pasts> make_pasts_of(const M& motion, oosm::Kind kind, std::size
   TTF_CHECK(false, "no past of single states under {}", oosm::name_of(kind));
 }
 
-}  // namespace ttf::fusion::late
+}  // namespace ttf::fusion::strategies::late

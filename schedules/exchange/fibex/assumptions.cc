@@ -9,7 +9,7 @@
 #include "schedules/exchange/fibex/parameters.h"
 #include "schedules/file/parameter_table.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
 constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
@@ -28,7 +28,7 @@ void set_next_to(Parameters& parameters, const Table& table, std::string_view na
 
 void assume_global(FibexFile& file, const std::string& name, std::set<std::string, std::less<>>& assumed,
                    Findings& wrong) {
-  GlobalParameters& g = file.global;
+  model::GlobalParameters& g = file.global;
   const auto given = [&](std::string_view parameter) { return file.given.find(parameter) != file.given.end(); };
   const auto missing = [&](std::string what) {
     wrong.add({name, file.cluster_line, "fx:CLUSTER", "", "must have " + std::move(what)});
@@ -45,10 +45,11 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
   }
   if (!given("gdCycle")) g.gdCycle_ps = g.cycle_ps();
   if (!given("gdMacrotick")) g.gdMacrotick_ps = g.gdCycle_ps / g.gMacroPerCycle;
-  if (!given("gMacroPerCycle")) set_next_to(g, kGlobalIntegers, "gMacroPerCycle", g.gdCycle_ps / g.gdMacrotick_ps);
+  if (!given("gMacroPerCycle"))
+    set_next_to(g, file::kGlobalIntegers, "gMacroPerCycle", g.gdCycle_ps / g.gdMacrotick_ps);
   if (of_three < 3 && g.cycle_ps() != g.gdCycle_ps) missing("a flexray:CYCLE of a whole number of macroticks");
   if (!given("gdBit")) g.gdBit_ps = kPicosecondsPerSecond / g.baudrate;
-  for (const auto& p : kGlobalScaled)
+  for (const auto& p : file::kGlobalScaled)
     if (!given(p.name) && (g.*p.member < p.low || g.*p.member > p.high))
       missing(fmt::format("parameters from which {} follows in {}..{} {}", p.name, scaled_text(p.low, p.scale),
                           scaled_text(p.high, p.scale), p.unit));
@@ -56,11 +57,11 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
   const int action_points =
       g.gNumberOfMinislots == 0 ? 0 : std::max(g.gdActionPointOffset - g.gdMinislotActionPointOffset, 0);
   if (!given("gdNIT"))
-    set_next_to(g, kGlobalIntegers, "gdNIT",
+    set_next_to(g, file::kGlobalIntegers, "gdNIT",
                 std::int64_t{g.gMacroPerCycle} - g.gdStaticSlot * g.gNumberOfStaticSlots - action_points -
                     g.gdMinislot * g.gNumberOfMinislots - g.gdSymbolWindow);
   if (!given("gOffsetCorrectionStart"))
-    set_next_to(g, kGlobalIntegers, "gOffsetCorrectionStart", std::int64_t{g.gMacroPerCycle} - g.gdNIT + 1);
+    set_next_to(g, file::kGlobalIntegers, "gOffsetCorrectionStart", std::int64_t{g.gMacroPerCycle} - g.gdNIT + 1);
   if (!given("gdMaxMicrotick")) {
     std::int64_t longest = 12'500;
     for (const FibexEcu& ecu : file.ecus) longest = std::max(longest, ecu.parameters.pdMicrotick_ps);
@@ -69,16 +70,16 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
   const auto mark = [&](std::string_view parameter) {
     if (!given(parameter) && parameter != "gCycleCountMax") assumed.insert(fmt::format("flexray.{}", parameter));
   };
-  for (const auto& p : kGlobalIntegers) mark(p.name);
-  for (const auto& p : kGlobalScaled) mark(p.name);
+  for (const auto& p : file::kGlobalIntegers) mark(p.name);
+  for (const auto& p : file::kGlobalScaled) mark(p.name);
 }
 
-NodeParameters assume_local(const FibexEcu& ecu, const GlobalParameters& global, int first_slot,
-                            std::set<std::string, std::less<>>& assumed) {
-  NodeParameters p = ecu.parameters;
+model::NodeParameters assume_local(const FibexEcu& ecu, const model::GlobalParameters& global, int first_slot,
+                                   std::set<std::string, std::less<>>& assumed) {
+  model::NodeParameters p = ecu.parameters;
   const auto given = [&](std::string_view parameter) { return ecu.given.find(parameter) != ecu.given.end(); };
   const auto assume = [&](std::string_view parameter, std::int64_t value) {
-    if (!given(parameter)) set_next_to(p, kNodeIntegers, parameter, value);
+    if (!given(parameter)) set_next_to(p, file::kNodeIntegers, parameter, value);
   };
   // pSamplesPerMicrotick = 8 pdMicrotick / gdBit; a common microtick is 25 ns, or one sample where that is
   // longer.
@@ -94,7 +95,7 @@ NodeParameters assume_local(const FibexEcu& ecu, const GlobalParameters& global,
   const std::int64_t drift = ecu.max_drift.value_or(ceil_div(std::int64_t{p.pMicroPerCycle} * 6, 1997));
   assume("pRateCorrectionOut", drift);
   assume("pdListenTimeout", 2 * (p.pMicroPerCycle + drift));
-  const std::int64_t precision = ceil_div(assumed_precision_ps(global), p.pdMicrotick_ps);
+  const std::int64_t precision = ceil_div(check::assumed_precision_ps(global), p.pdMicrotick_ps);
   assume("pOffsetCorrectionOut", precision);
   assume("pdAcceptedStartupRange", precision);
   const auto initial_offset = [&](int delay) {
@@ -107,11 +108,11 @@ NodeParameters assume_local(const FibexEcu& ecu, const GlobalParameters& global,
   const auto mark = [&](std::string_view parameter) {
     if (!given(parameter)) assumed.insert(fmt::format("nodes.{}.flexray.{}", ecu.name, parameter));
   };
-  for (const auto& one : kNodeIntegers) mark(one.name);
-  for (const auto& one : kNodeScaled) mark(one.name);
-  for (const auto& one : kNodeFlags) mark(one.name);
+  for (const auto& one : file::kNodeIntegers) mark(one.name);
+  for (const auto& one : file::kNodeScaled) mark(one.name);
+  for (const auto& one : file::kNodeFlags) mark(one.name);
   for (const char* one : {"pChannels", "pWakeupChannel"}) mark(one);
   return p;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

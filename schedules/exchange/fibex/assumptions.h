@@ -9,7 +9,7 @@
 
 #include "schedules/exchange/fibex/file.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 // Completes the global parameters; what cannot be assumed (the layout of the cycle) goes to `wrong`. Paths of
 // the assumed ones ("flexray.gdNIT") go to `assumed`.
@@ -17,7 +17,7 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
                    Findings& wrong);
 
 // Completes a node's parameters; `first_slot` is the first static slot it owns, 0 for none.
-NodeParameters assume_local(const FibexEcu& ecu, const GlobalParameters& global, int first_slot,
-                            std::set<std::string, std::less<>>& assumed);
+model::NodeParameters assume_local(const FibexEcu& ecu, const model::GlobalParameters& global, int first_slot,
+                                   std::set<std::string, std::less<>>& assumed);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

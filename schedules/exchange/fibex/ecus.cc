@@ -4,7 +4,7 @@
 #include "schedules/exchange/fibex/file.h"
 #include "schedules/exchange/fibex/parameters.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
 // STARTUP-SYNC and SYNC hold the slot; NONE none, which our own extension adds.
@@ -112,7 +112,7 @@ FibexEcu read_ecu(XmlElement& ecu, const ChannelIds& channels, FibexReader& read
   }
   if (elsewhere) one.has_controller = false;  // on another cluster, as far as this one knows
   if (attached != 0) {
-    one.parameters.pChannels = static_cast<Channels>(attached);
+    one.parameters.pChannels = static_cast<model::Channels>(attached);
     one.given.insert("pChannels");
   }
   if (!one.given.contains("pWakeupChannel")) one.parameters.pWakeupChannel = default_wakeup(one.parameters.pChannels);
@@ -128,4 +128,4 @@ std::vector<FibexEcu> read_ecus(XmlElement& elements, const ChannelIds& channels
   return ecus;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

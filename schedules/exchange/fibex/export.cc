@@ -7,23 +7,23 @@
 #include <sstream>
 
 #include "core/decimal.h"
+#include "schedules/analysis/minislots.h"
 #include "schedules/exchange/fibex/export_pdus.h"
 #include "schedules/exchange/fibex/parameters.h"
-#include "schedules/analysis/minislots.h"
 #include "schedules/exchange/fibex/xml.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
-std::string channel_id(Channel channel) { return fmt::format("channel_{}", letter(channel)); }
+std::string channel_id(model::Channel channel) { return fmt::format("channel_{}", letter(channel)); }
 std::string controller_id(std::size_t node) { return fmt::format("controller_{}", node); }
-std::string triggering_id(std::size_t frame, Channel channel) {
+std::string triggering_id(std::size_t frame, model::Channel channel) {
   return fmt::format("triggering_{}_{}", frame, letter(channel));
 }
 
 class Exporter {
  public:
-  explicit Exporter(const Cluster& cluster) : cluster_(cluster) {}
+  explicit Exporter(const model::Cluster& cluster) : cluster_(cluster) {}
 
   std::string write() {
     pugi::xml_node declaration = document_.append_child(pugi::node_declaration);
@@ -59,7 +59,7 @@ class Exporter {
   }
 
   void put_cluster(pugi::xml_node clusters) {
-    const GlobalParameters& g = cluster_.flexray;
+    const model::GlobalParameters& g = cluster_.flexray;
     pugi::xml_node cluster = put_named(clusters, "fx:CLUSTER", "cluster", cluster_.name, "flexray:CLUSTER-TYPE");
     put(cluster, "fx:SPEED", fibex_value(g, "baudrate"));
     put(cluster, "fx:IS-HIGH-LOW-BIT-ORDER", "true");
@@ -67,11 +67,12 @@ class Exporter {
     put(cluster, "fx:PROTOCOL", "FlexRay").append_attribute("xsi:type") = "flexray:PROTOCOL-TYPE";
     put(cluster, "fx:PROTOCOL-VERSION", "2.1");
     pugi::xml_node channels = cluster.append_child("fx:CHANNEL-REFS");
-    for (const Channel channel : kBothChannels) put_reference(channels, "fx:CHANNEL-REF", channel_id(channel));
+    for (const model::Channel channel : model::kBothChannels)
+      put_reference(channels, "fx:CHANNEL-REF", channel_id(channel));
     put(cluster, "fx:MEDIUM", "ELECTRICAL");
     pugi::xml_node extension = cluster.append_child("fx:MANUFACTURER-EXTENSION");
     for (const FibexParameter& one : kFibexExtension) put_parameter(extension, one, g);
-    if (cluster_.topology == Topology::kStar) put(extension, "ttf:TOPOLOGY", "star");
+    if (cluster_.topology == model::Topology::kStar) put(extension, "ttf:TOPOLOGY", "star");
     if (cluster_.guardian) put(extension, "ttf:GUARDIAN", "true");
     for (const FibexParameter& one : kFibexCluster) {
       put_parameter(cluster, one, g);
@@ -85,7 +86,7 @@ class Exporter {
   }
 
   void put_channels(pugi::xml_node channels) {
-    for (const Channel channel : kBothChannels) {
+    for (const model::Channel channel : model::kBothChannels) {
       pugi::xml_node one = put_named(channels, "fx:CHANNEL", channel_id(channel),
                                      fmt::format("Channel_{}", letter(channel)), "flexray:CHANNEL-TYPE");
       pugi::xml_node triggerings = one.append_child("fx:FRAME-TRIGGERINGS");
@@ -95,8 +96,8 @@ class Exporter {
     }
   }
 
-  void put_triggering(pugi::xml_node triggerings, std::size_t index, Channel channel) {
-    const FrameSlot& frame = cluster_.frames[index];
+  void put_triggering(pugi::xml_node triggerings, std::size_t index, model::Channel channel) {
+    const model::FrameSlot& frame = cluster_.frames[index];
     pugi::xml_node one = triggerings.append_child("fx:FRAME-TRIGGERING");
     one.append_attribute("ID") = triggering_id(index, channel).c_str();
     pugi::xml_node timing = one.append_child("fx:TIMINGS").append_child("fx:ABSOLUTELY-SCHEDULED-TIMING");
@@ -111,18 +112,18 @@ class Exporter {
 
   void put_ecus(pugi::xml_node ecus) {
     for (std::size_t i = 0; i < cluster_.nodes.size(); ++i) {
-      const Node& node = cluster_.nodes[i];
+      const model::Node& node = cluster_.nodes[i];
       if (!node.flexray) continue;
       pugi::xml_node ecu = put_named(ecus, "fx:ECU", fmt::format("ecu_{}", i), node.name);
       put_controller(ecu.append_child("fx:CONTROLLERS"), i);
       pugi::xml_node connectors = ecu.append_child("fx:CONNECTORS");
-      for (const Channel channel : kBothChannels)
+      for (const model::Channel channel : model::kBothChannels)
         if (includes(node.flexray->pChannels, channel)) put_connector(connectors, i, channel);
     }
   }
 
   void put_controller(pugi::xml_node controllers, std::size_t index) {
-    const NodeParameters& p = *cluster_.nodes[index].flexray;
+    const model::NodeParameters& p = *cluster_.nodes[index].flexray;
     pugi::xml_node one = put_named(controllers, "fx:CONTROLLER", controller_id(index),
                                    fmt::format("{}_controller", cluster_.nodes[index].name), "flexray:CONTROLLER-TYPE");
     const std::string key_slot = std::to_string(p.pKeySlotId);
@@ -133,7 +134,7 @@ class Exporter {
     else
       usage.append_child("flexray:NONE");
     put(one, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH",
-        std::to_string(longest_dynamic_words(cluster_, static_cast<NodeId>(index))));
+        std::to_string(analysis::longest_dynamic_words(cluster_, static_cast<NodeId>(index))));
     for (const FibexParameter& parameter : kFibexController) {
       put_parameter(one, parameter, p);
       if (parameter.name != "pdListenTimeout") continue;
@@ -144,15 +145,15 @@ class Exporter {
   }
 
   // A node takes in the frames of every list that one of its tasks reads from FlexRay.
-  bool receives(const Node& node, const FrameSlot& frame) const {
+  bool receives(const model::Node& node, const model::FrameSlot& frame) const {
     if (frame.pdu == kNoPdu) return false;
-    for (const Task& task : node.tasks)
-      for (const PortBinding& port : task.reads)
+    for (const model::Task& task : node.tasks)
+      for (const model::PortBinding& port : task.reads)
         if (!port.can_bus && port.pdu == frame.pdu) return true;
     return false;
   }
 
-  void put_connector(pugi::xml_node connectors, std::size_t index, Channel channel) {
+  void put_connector(pugi::xml_node connectors, std::size_t index, model::Channel channel) {
     pugi::xml_node one = connectors.append_child("fx:CONNECTOR");
     one.append_attribute("ID") = fmt::format("connector_{}_{}", index, letter(channel)).c_str();
     one.append_attribute("xsi:type") = "flexray:CONNECTOR-TYPE";
@@ -161,7 +162,7 @@ class Exporter {
     const auto ports = [&](const char* list, const char* port, const char* id, auto&& wanted) {
       pugi::xml_node to;
       for (std::size_t i = 0; i < cluster_.frames.size(); ++i) {
-        const FrameSlot& frame = cluster_.frames[i];
+        const model::FrameSlot& frame = cluster_.frames[i];
         if (!includes(frame.channels, channel) || !wanted(frame)) continue;
         if (!to) to = one.append_child(list);
         pugi::xml_node item = to.append_child(port);
@@ -171,22 +172,22 @@ class Exporter {
       }
     };
     ports("fx:INPUTS", "fx:INPUT-PORT", "input",
-          [&](const FrameSlot& frame) { return receives(cluster_.nodes[index], frame); });
+          [&](const model::FrameSlot& frame) { return receives(cluster_.nodes[index], frame); });
     ports("fx:OUTPUTS", "fx:OUTPUT-PORT", "output",
-          [&](const FrameSlot& frame) { return index_of(frame.sender) == index; });
+          [&](const model::FrameSlot& frame) { return index_of(frame.sender) == index; });
     put(one, "flexray:WAKE-UP-CHANNEL", channel == cluster_.nodes[index].flexray->pWakeupChannel ? "true" : "false");
   }
 
   void put_frames(pugi::xml_node frames) {
     for (std::size_t i = 0; i < cluster_.frames.size(); ++i) {
-      const FrameSlot& frame = cluster_.frames[i];
+      const model::FrameSlot& frame = cluster_.frames[i];
       const bool status = frame.pdu == kNoPdu;
       const std::string what = status ? fmt::format("{}_status", cluster_.node(frame.sender).name)
                                       : fmt::format("{}_{}", cluster_.pdu(frame.pdu).name, frame.fragment);
       pugi::xml_node one = put_named(frames, "fx:FRAME", frame_id(i),
                                      fmt::format("{}_slot_{}_cycle_{}", what, frame.slot, frame.base_cycle));
-      const int words =
-          is_dynamic(cluster_.flexray, frame) ? dynamic_words(cluster_, frame) : cluster_.flexray.gPayloadLengthStatic;
+      const int words = is_dynamic(cluster_.flexray, frame) ? analysis::dynamic_words(cluster_, frame)
+                                                            : cluster_.flexray.gPayloadLengthStatic;
       put(one, "fx:BYTE-LENGTH", std::to_string(2 * words));
       put(one, "fx:FRAME-TYPE", status ? "OTHER" : "APPLICATION");
       if (status && !frame.network_management) continue;
@@ -208,12 +209,12 @@ class Exporter {
 
   static std::string frame_id(std::size_t frame) { return fmt::format("frame_{}", frame); }
 
-  const Cluster& cluster_;
+  const model::Cluster& cluster_;
   pugi::xml_document document_;
 };
 
 }  // namespace
 
-std::string fibex_text(const Cluster& cluster) { return Exporter(cluster).write(); }
+std::string fibex_text(const model::Cluster& cluster) { return Exporter(cluster).write(); }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <vector>
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
 // In the order of first use.
-std::vector<std::string> units_of(const Cluster& cluster) {
+std::vector<std::string> units_of(const model::Cluster& cluster) {
   std::vector<std::string> units;
-  for (const PduLayout& pdu : cluster.pdus)
+  for (const model::PduLayout& pdu : cluster.pdus)
     for (const auto* signals : {&pdu.header, &pdu.element})
-      for (const Signal& signal : *signals)
+      for (const model::Signal& signal : *signals)
         if (!signal.unit.empty() && std::find(units.begin(), units.end(), signal.unit) == units.end())
           units.push_back(signal.unit);
   return units;
@@ -62,8 +62,8 @@ void put_segment(pugi::xml_node part, int first_bit, int bits) {
   put(segment, "ho:BIT-LENGTH", std::to_string(bits));
 }
 
-void put_multiplexer(pugi::xml_node multiplexer, const PduLayout& layout, std::size_t index) {
-  const Signal& fragment = layout.header[*find_signal(layout.header, "fragment")];
+void put_multiplexer(pugi::xml_node multiplexer, const model::PduLayout& layout, std::size_t index) {
+  const model::Signal& fragment = layout.header[*find_signal(layout.header, "fragment")];
   pugi::xml_node selector = put_named(multiplexer, "fx:SWITCH", fmt::format("switch_{}", index), "fragment");
   put(selector, "fx:BIT-POSITION", std::to_string(position_of(fragment.bit_offset)));
   put(selector, "fx:IS-HIGH-LOW-BYTE-ORDER", "true");
@@ -86,7 +86,7 @@ void put_multiplexer(pugi::xml_node multiplexer, const PduLayout& layout, std::s
   put_reference(instance, "fx:PDU-REF", header_id(index));
 }
 
-void put_coding(pugi::xml_node codings, const std::string& id, const std::string& name, const Signal& signal,
+void put_coding(pugi::xml_node codings, const std::string& id, const std::string& name, const model::Signal& signal,
                 const std::vector<std::string>& units) {
   pugi::xml_node coding = put_named(codings, "fx:CODING", id, name);
   pugi::xml_node type = coding.append_child("ho:CODED-TYPE");
@@ -143,9 +143,9 @@ pugi::xml_node put_named(pugi::xml_node to, std::string_view name, const std::st
 
 std::string fibex_pdu_id(PduId pdu) { return fmt::format("pdu_{}", index_of(pdu)); }
 
-void put_fibex_pdus(pugi::xml_node pdus, const Cluster& cluster) {
+void put_fibex_pdus(pugi::xml_node pdus, const model::Cluster& cluster) {
   for (std::size_t i = 0; i < cluster.pdus.size(); ++i) {
-    const PduLayout& layout = cluster.pdus[i];
+    const model::PduLayout& layout = cluster.pdus[i];
     pugi::xml_node header = put_pdu(pdus, header_id(i), layout.name + "_header", layout.header_bits / 8)
                                 .append_child("fx:SIGNAL-INSTANCES");
     for (std::size_t s = 0; s < layout.header.size(); ++s)
@@ -162,9 +162,9 @@ void put_fibex_pdus(pugi::xml_node pdus, const Cluster& cluster) {
   }
 }
 
-void put_fibex_signals(pugi::xml_node signals, const Cluster& cluster) {
+void put_fibex_signals(pugi::xml_node signals, const model::Cluster& cluster) {
   for (std::size_t i = 0; i < cluster.pdus.size(); ++i) {
-    const PduLayout& layout = cluster.pdus[i];
+    const model::PduLayout& layout = cluster.pdus[i];
     for (std::size_t s = 0; s < layout.header.size(); ++s)
       put_reference(put_named(signals, "fx:SIGNAL", header_signal_id(i, s), layout.header[s].name), "fx:CODING-REF",
                     coding_id(i, true, s));
@@ -176,7 +176,7 @@ void put_fibex_signals(pugi::xml_node signals, const Cluster& cluster) {
   }
 }
 
-void put_fibex_codings(pugi::xml_node processing, const Cluster& cluster) {
+void put_fibex_codings(pugi::xml_node processing, const model::Cluster& cluster) {
   const std::vector<std::string> units = units_of(cluster);
   pugi::xml_node unit_list = processing.append_child("ho:UNIT-SPEC").append_child("ho:UNITS");
   for (std::size_t i = 0; i < units.size(); ++i)
@@ -185,11 +185,11 @@ void put_fibex_codings(pugi::xml_node processing, const Cluster& cluster) {
   pugi::xml_node codings = processing.append_child("fx:CODINGS");
   for (std::size_t i = 0; i < cluster.pdus.size(); ++i)
     for (const bool header : {true, false}) {
-      const std::vector<Signal>& signals = header ? cluster.pdus[i].header : cluster.pdus[i].element;
+      const std::vector<model::Signal>& signals = header ? cluster.pdus[i].header : cluster.pdus[i].element;
       for (std::size_t s = 0; s < signals.size(); ++s)
         put_coding(codings, coding_id(i, header, s), fmt::format("{}_{}", cluster.pdus[i].name, signals[s].name),
                    signals[s], units);
     }
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

@@ -8,7 +8,7 @@
 
 #include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 // Each appends one child and gives it back.
 pugi::xml_node put(pugi::xml_node to, std::string_view name, const std::string& text);
@@ -17,8 +17,8 @@ pugi::xml_node put_named(pugi::xml_node to, std::string_view name, const std::st
                          const char* type = nullptr);
 
 std::string fibex_pdu_id(PduId pdu);
-void put_fibex_pdus(pugi::xml_node pdus, const Cluster& cluster);
-void put_fibex_signals(pugi::xml_node signals, const Cluster& cluster);
-void put_fibex_codings(pugi::xml_node processing, const Cluster& cluster);
+void put_fibex_pdus(pugi::xml_node pdus, const model::Cluster& cluster);
+void put_fibex_signals(pugi::xml_node signals, const model::Cluster& cluster);
+void put_fibex_codings(pugi::xml_node processing, const model::Cluster& cluster);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

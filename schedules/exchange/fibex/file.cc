@@ -9,7 +9,7 @@
 #include "core/decimal.h"
 #include "schedules/exchange/fibex/parameters.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
 constexpr std::size_t kLongestName = 128;  // of a SHORT-NAME
@@ -145,7 +145,7 @@ void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
     if (const auto topology = extension->text_of("ttf:TOPOLOGY")) {
       if (*topology != "star" && *topology != "bus")
         reader.fail(*extension, *topology, "must have a TOPOLOGY bus or star");
-      out.topology = *topology == "star" ? Topology::kStar : Topology::kBus;
+      out.topology = *topology == "star" ? model::Topology::kStar : model::Topology::kBus;
     }
     out.guardian = reader.boolean(*extension, "ttf:GUARDIAN", false);
     extension->finish();
@@ -181,14 +181,14 @@ void read_timing(XmlElement& timing, FibexTriggering& out, FibexReader& reader) 
 }
 
 // Which of the two it is; nothing where it does not say.
-std::optional<Channel> read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
+std::optional<model::Channel> read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
   const std::string name = channel.text_of("flexray:FLEXRAY-CHANNEL-NAME").value_or("");
   channel.ignore("ho:SHORT-NAME");
   if (name != "A" && name != "B") reader.fail(channel, name, "must have a FLEXRAY-CHANNEL-NAME, A or B");
   for (XmlElement& one : channel.children_of("fx:FRAME-TRIGGERINGS", "fx:FRAME-TRIGGERING")) {
     FibexTriggering triggering;
     triggering.id = one.attribute("ID");
-    triggering.channel = name == "B" ? Channel::kB : Channel::kA;
+    triggering.channel = name == "B" ? model::Channel::kB : model::Channel::kA;
     triggering.line = one.line();
     triggering.frame = one.reference("fx:FRAME-REF");
     auto timings = one.children_of("fx:TIMINGS", "fx:ABSOLUTELY-SCHEDULED-TIMING");
@@ -201,7 +201,7 @@ std::optional<Channel> read_channel(XmlElement& channel, FibexFile& out, FibexRe
   }
   channel.finish();
   if (name != "A" && name != "B") return std::nullopt;
-  return name == "B" ? Channel::kB : Channel::kA;
+  return name == "B" ? model::Channel::kB : model::Channel::kA;
 }
 
 bool is_understood(const std::string& version) {
@@ -270,4 +270,4 @@ FibexFile read_fibex(const XmlFile& file, Findings& wrong, Findings& left_out) {
   return out;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

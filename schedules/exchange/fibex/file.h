@@ -15,21 +15,21 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "schedules/model/cluster.h"
 #include "schedules/exchange/fibex/parameters.h"
 #include "schedules/exchange/fibex/xml.h"
+#include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 // How a signal's raw number is meant. `unlike` says why our signals cannot mean it, or is empty.
 struct FibexCoding {
-  Signal meaning;  // without name: unit, bits, low, high, resolution
+  model::Signal meaning;  // without name: unit, bits, low, high, resolution
   std::string unlike;
 };
 
 struct FibexSignal {
   std::string name;
-  Signal meaning;  // with the name
+  model::Signal meaning;  // with the name
   std::string unlike;
   int position = 0;
   bool high_low = true;
@@ -74,14 +74,14 @@ struct FibexFrame {
 
 struct FibexTriggering {
   std::string id, frame;
-  Channel channel = Channel::kA;
+  model::Channel channel = model::Channel::kA;
   int slot = 0, base_cycle = 0, repetition = 1;
   int line = 0;
 };
 
 struct FibexEcu {
   std::string name;
-  NodeParameters parameters;
+  model::NodeParameters parameters;
   std::set<std::string, std::less<>> given;  // names of parameters that the file states
   bool has_controller = false;
   std::vector<std::string> sends, receives;  // ids of frame triggerings
@@ -93,9 +93,9 @@ struct FibexEcu {
 
 struct FibexFile {
   std::string cluster_name;
-  Topology topology = Topology::kBus;  // these two of our own extension
+  model::Topology topology = model::Topology::kBus;  // these two of our own extension
   bool guardian = false;
-  GlobalParameters global;
+  model::GlobalParameters global;
   std::set<std::string, std::less<>> given;  // names of parameters that the file states
   int cluster_line = 0;
   std::set<std::string> channels;  // ids of CHANNEL-REFS; none: all FlexRay channels of the file are its own
@@ -152,7 +152,7 @@ class FibexReader {
 };
 
 // Channels by the ids of their elements.
-using ChannelIds = std::map<std::string, Channel>;
+using ChannelIds = std::map<std::string, model::Channel>;
 
 std::vector<FibexEcu> read_ecus(XmlElement& elements, const ChannelIds& channels, FibexReader& reader);
 std::map<std::string, FibexCoding> read_codings(XmlElement& root, XmlElement& elements, FibexReader& reader);
@@ -160,4 +160,4 @@ std::vector<FibexPdu> read_pdus(XmlElement& elements, const std::map<std::string
                                 FibexReader& reader);
 std::vector<FibexFrame> read_frames(XmlElement& elements, FibexReader& reader);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

@@ -6,13 +6,13 @@
 #include <map>
 #include <tuple>
 
+#include "schedules/analysis/minislots.h"
 #include "schedules/exchange/fibex/assumptions.h"
 #include "schedules/exchange/fibex/lists.h"
 #include "schedules/exchange/fibex/references.h"
 #include "schedules/model/limits.h"
-#include "schedules/analysis/minislots.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
 class Importer {
@@ -22,7 +22,7 @@ class Importer {
 
   FibexImport import() {
     wrong_.throw_if_any();
-    Cluster& cluster = out_.cluster;
+    model::Cluster& cluster = out_.cluster;
     cluster.file = name_;
     cluster.name = file_.cluster_name;
     assume_global(file_, name_, out_.assumed, wrong_);
@@ -52,8 +52,8 @@ class Importer {
     left_out_.add({name_, line, std::move(key), std::move(value), std::move(why)});
   }
   void limit(std::string key, std::size_t count) {
-    if (count > kMostNamed)
-      fail(0, std::move(key), std::to_string(count), fmt::format("must have at most {} entries", kMostNamed));
+    if (count > model::kMostNamed)
+      fail(0, std::move(key), std::to_string(count), fmt::format("must have at most {} entries", model::kMostNamed));
   }
 
   template <class Item> std::map<std::string, const Item*> by_id(const char* key, const std::vector<Item>& items) {
@@ -104,7 +104,7 @@ class Importer {
         if (const auto [other, fresh] = senders_.emplace(sent, id); !fresh && other->second != id)
           fail(ecu.line, "fx:OUTPUT-PORT", sent, fmt::format("must have one sender, not {} too", ecu.name));
       }
-      Node& node = out_.cluster.nodes.emplace_back();
+      model::Node& node = out_.cluster.nodes.emplace_back();
       node.name = ecu.name;
       node.line = ecu.line;
       ecus_.push_back(&ecu);
@@ -117,7 +117,7 @@ class Importer {
       leave_out(one.line, "fx:FRAME-TRIGGERING", value, why);
       return false;
     };
-    const GlobalParameters& g = out_.cluster.flexray;
+    const model::GlobalParameters& g = out_.cluster.flexray;
     if (one.slot > g.gNumberOfStaticSlots + g.gNumberOfMinislots)
       return out(fmt::format("slot {}", one.slot), "is left out: it is neither a static slot nor has it a minislot");
     if ((one.repetition & (one.repetition - 1)) != 0)
@@ -147,9 +147,9 @@ class Importer {
     }
     for (const auto& [key, found] : slots) {
       const auto& [slot, base_cycle, repetition, frame, sender] = key;
-      FrameSlot out;
+      model::FrameSlot out;
       out.slot = slot;
-      out.channels = static_cast<Channels>(found.first);
+      out.channels = static_cast<model::Channels>(found.first);
       out.base_cycle = base_cycle;
       out.repetition = repetition;
       out.sender = sender;
@@ -169,11 +169,11 @@ class Importer {
     std::vector<std::size_t> order(out_.cluster.frames.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     const auto rank = [&](std::size_t i) {
-      const FrameSlot& f = out_.cluster.frames[i];
+      const model::FrameSlot& f = out_.cluster.frames[i];
       return std::tuple{f.slot, f.base_cycle, f.repetition, static_cast<int>(f.channels), i};
     };
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
-    std::vector<FrameSlot> frames;
+    std::vector<model::FrameSlot> frames;
     std::vector<std::string> contents;
     for (const std::size_t i : order) {
       frames.push_back(out_.cluster.frames[i]);
@@ -184,13 +184,13 @@ class Importer {
   }
 
   // In the dynamic segment of a cluster file a frame is a fragment of a list, and as long.
-  bool fits_dynamic(const FibexFrame& frame, const FrameSlot& out) {
+  bool fits_dynamic(const FibexFrame& frame, const model::FrameSlot& out) {
     if (out.pdu == kNoPdu) {
       leave_out(out.line, "fx:FRAME-TRIGGERING", fmt::format("slot {}", out.slot),
                 fmt::format("is left out: a frame of the dynamic segment carries a list, and {} does not", frame.name));
       return false;
     }
-    const int bytes = 2 * dynamic_words(out_.cluster, out);
+    const int bytes = 2 * analysis::dynamic_words(out_.cluster, out);
     if (frame.bytes != bytes)
       leave_out(frame.line, "fx:FRAME", fmt::format("{} bytes", frame.bytes),
                 fmt::format("is left out: in the dynamic segment {} is as long as its fragment, {} bytes", frame.name,
@@ -201,7 +201,7 @@ class Importer {
   }
 
   // Sets what the frame carries of a list; the words say what else it does.
-  std::string take_contents(const FibexFrame& frame, FrameSlot& out) {
+  std::string take_contents(const FibexFrame& frame, model::FrameSlot& out) {
     std::string contents;
     const bool dynamic = is_dynamic(out_.cluster.flexray, out);
     out.network_management = frame.network_management && !dynamic;
@@ -231,7 +231,7 @@ class Importer {
   }
 
   // As our own extension says; else counted in the order of the slots.
-  void take_fragment(const FibexFrame& frame, PduId pdu, FrameSlot& out) {
+  void take_fragment(const FibexFrame& frame, PduId pdu, model::FrameSlot& out) {
     const int fragments = out_.cluster.pdu(pdu).max_fragments();
     out.pdu = pdu;
     out.fragment = frame.fragment.value_or(0);
@@ -268,12 +268,12 @@ class Importer {
   void complete_nodes() {
     for (std::size_t i = 0; i < ecus_.size(); ++i) {
       int first = 0;
-      for (const FrameSlot& frame : out_.cluster.frames)
+      for (const model::FrameSlot& frame : out_.cluster.frames)
         if (index_of(frame.sender) == i && first == 0) first = frame.slot;
-      Node& node = out_.cluster.nodes[i];
+      model::Node& node = out_.cluster.nodes[i];
       node.flexray = assume_local(*ecus_[i], out_.cluster.flexray, first, out_.assumed);
       node.microtick_ps = node.flexray->pdMicrotick_ps;
-      const int words = longest_dynamic_words(out_.cluster, static_cast<NodeId>(i));
+      const int words = analysis::longest_dynamic_words(out_.cluster, static_cast<NodeId>(i));
       if (const auto most = ecus_[i]->max_dynamic_words; most && *most != words)
         leave_out(ecus_[i]->controller_line, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", std::to_string(*most),
                   fmt::format("is left out: it is that of the longest frame {} sends in the dynamic segment, {}",
@@ -283,7 +283,7 @@ class Importer {
   }
 
   // What the file says of a controller besides, and follows from what is kept.
-  void check_derived(const FibexEcu& ecu, const NodeParameters& p) {
+  void check_derived(const FibexEcu& ecu, const model::NodeParameters& p) {
     const auto other = [&](const char* key, int value, std::string what) {
       leave_out(ecu.controller_line, key, std::to_string(value), "is left out: " + std::move(what));
     };
@@ -344,4 +344,4 @@ FibexImport parse_fibex(std::string text, std::string name) {
   return import_from(XmlFile::parse(std::move(text), std::move(name)));
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

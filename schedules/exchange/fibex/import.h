@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "schedules/model/cluster.h"
 #include "schedules/exchange/fibex/file.h"
+#include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 struct ForeignPdu {
   FibexPdu pdu;
@@ -23,7 +23,7 @@ struct ForeignPdu {
 };
 
 struct FibexImport {
-  Cluster cluster;                             // name, flexray, nodes without tasks, lists, frames
+  model::Cluster cluster;                      // name, flexray, nodes without tasks, lists, frames
   std::set<std::string, std::less<>> assumed;  // paths of parameters the file does not state: "flexray.gdNIT"
   std::vector<ForeignPdu> foreign;
   std::vector<std::string> contents;               // of each frame: foreign PDUs in it, in words; or empty
@@ -38,4 +38,4 @@ FibexImport parse_fibex(std::string text, std::string name);
 // A cluster file that schedules/file/loader.h reads: what was imported, and what is left to do in comments.
 std::string skeleton_yaml(const FibexImport& import);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

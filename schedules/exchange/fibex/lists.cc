@@ -8,26 +8,26 @@
 
 #include "schedules/model/limits.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
-bool same_meaning(const Signal& a, const Signal& b) {
+bool same_meaning(const model::Signal& a, const model::Signal& b) {
   return a.unit == b.unit && a.bits == b.bits && a.low == b.low && a.high == b.high && a.resolution == b.resolution;
 }
 
 // Why a cluster file cannot say it, or empty.
 std::string unlike_ours(const FibexSignal& signal) {
-  const Signal& s = signal.meaning;
+  const model::Signal& s = signal.meaning;
   if (!signal.unlike.empty()) return fmt::format("{}: {}", signal.name, signal.unlike);
   const double top = s.low + (std::ldexp(1.0, s.bits) - 1.0) * s.resolution;
-  const bool in_range = s.bits <= kMostSignalBits && s.resolution >= kFinestResolution &&
-                        s.resolution <= kCoarsestResolution && std::abs(s.low) <= kLargestLow &&
-                        s.high <= kLargestHigh && s.high > s.low && s.high <= top + 0.5 * s.resolution;
+  const bool in_range = s.bits <= model::kMostSignalBits && s.resolution >= model::kFinestResolution &&
+                        s.resolution <= model::kCoarsestResolution && std::abs(s.low) <= model::kLargestLow &&
+                        s.high <= model::kLargestHigh && s.high > s.low && s.high <= top + 0.5 * s.resolution;
   return in_range ? "" : fmt::format("{}: its range is not one of a cluster file", signal.name);
 }
 
 // Signals one behind the other from the first bit on; or why they are not.
-std::string take_contiguous(const FibexPdu& pdu, std::vector<Signal>& signals, int& bits) {
+std::string take_contiguous(const FibexPdu& pdu, std::vector<model::Signal>& signals, int& bits) {
   bits = 0;
   for (const FibexSignal& signal : pdu.signals) {
     if (std::string reason = unlike_ours(signal); !reason.empty()) return reason;
@@ -53,9 +53,9 @@ std::optional<int> take_index(std::string& name) {
 }
 
 // The signals of one element, where `all` are several elements alike; else all of them are one element.
-int take_elements(const std::vector<Signal>& all, std::vector<Signal>& element) {
+int take_elements(const std::vector<model::Signal>& all, std::vector<model::Signal>& element) {
   element.clear();
-  std::vector<Signal> stems = all;
+  std::vector<model::Signal> stems = all;
   std::size_t size = 0;
   bool alike = true;
   for (std::size_t i = 0; i < stems.size() && alike; ++i) {
@@ -72,22 +72,22 @@ int take_elements(const std::vector<Signal>& all, std::vector<Signal>& element) 
   return static_cast<int>(stems.size() / size);
 }
 
-bool names_differ(const std::vector<Signal>& signals) {
+bool names_differ(const std::vector<model::Signal>& signals) {
   std::set<std::string> names;
-  for (const Signal& signal : signals)
+  for (const model::Signal& signal : signals)
     if (signal.name != "spare" && !names.insert(signal.name).second) return false;
   return true;
 }
 
 // The loader's rules for the header, and that the switch is its fragment number.
-std::string check_header(const PduLayout& layout, const FibexMultiplexer& multiplexer) {
+std::string check_header(const model::PduLayout& layout, const FibexMultiplexer& multiplexer) {
   const auto needs = [&](const char* name, std::int64_t largest) {
     const auto found = find_signal(layout.header, name);
     return found && largest < std::int64_t{1} << layout.header[*found].bits;
   };
   if (!needs("sequence", 4) || !needs("count", layout.max_elements) || !needs("fragment", layout.max_fragments() - 1))
     return "its static part has no signals sequence, fragment and count, wide enough";
-  const Signal& fragment = layout.header[*find_signal(layout.header, "fragment")];
+  const model::Signal& fragment = layout.header[*find_signal(layout.header, "fragment")];
   FibexSignal selector;
   selector.position = multiplexer.switch_position;
   selector.high_low = multiplexer.switch_high_low;
@@ -106,15 +106,16 @@ std::string find_elements(const FibexMultiplexer& multiplexer, const std::map<st
     if (id != multiplexer.layouts.front().second) return "its fragments do not all have the same signals";
   }
   if (codes.empty() || *codes.rbegin() + 1 != static_cast<std::int64_t>(multiplexer.layouts.size()) ||
-      codes.size() != multiplexer.layouts.size() || codes.size() > kMostFragments)
-    return fmt::format("its switch codes are not 0, 1, ..., at most {}", kMostFragments - 1);
+      codes.size() != multiplexer.layouts.size() || codes.size() > model::kMostFragments)
+    return fmt::format("its switch codes are not 0, 1, ..., at most {}", model::kMostFragments - 1);
   const auto found = by_id.find(multiplexer.layouts.front().second);
   if (found == by_id.end()) return "its dynamic part is no PDU of this file";
   elements = found->second;
   return "";
 }
 
-std::string take_list(const FibexPdu& pdu, const std::map<std::string, const FibexPdu*>& by_id, PduLayout& layout) {
+std::string take_list(const FibexPdu& pdu, const std::map<std::string, const FibexPdu*>& by_id,
+                      model::PduLayout& layout) {
   if (!pdu.multiplexer) return "it has no multiplexer, hence no fragments";
   const FibexMultiplexer& multiplexer = *pdu.multiplexer;
   if (!multiplexer.unlike.empty()) return multiplexer.unlike;
@@ -133,12 +134,12 @@ std::string take_list(const FibexPdu& pdu, const std::map<std::string, const Fib
   layout.header_bits = (layout.header_bits + 7) / 8 * 8;
   if (multiplexer.dynamic_position != layout.header_bits)
     return "its dynamic part does not follow the header's last byte";
-  std::vector<Signal> all;
+  std::vector<model::Signal> all;
   int bits = 0;
   if (std::string reason = take_contiguous(*elements, all, bits); !reason.empty()) return reason;
   layout.elements_per_fragment = take_elements(all, layout.element);
   layout.element_bits = bits / layout.elements_per_fragment;
-  if (layout.fragment_bytes > kMostFragmentBytes || layout.header_bits + bits > 8 * layout.fragment_bytes)
+  if (layout.fragment_bytes > model::kMostFragmentBytes || layout.header_bits + bits > 8 * layout.fragment_bytes)
     return "its signals do not fit its length";
   if (!names_differ(layout.header) || !names_differ(layout.element)) return "two of its signals have the same name";
   const int fragments = static_cast<int>(multiplexer.layouts.size());
@@ -151,10 +152,10 @@ std::string take_list(const FibexPdu& pdu, const std::map<std::string, const Fib
 }  // namespace
 
 ListFound as_list(const FibexPdu& pdu, const std::map<std::string, const FibexPdu*>& by_id) {
-  PduLayout layout;
+  model::PduLayout layout;
   std::string reason = take_list(pdu, by_id, layout);
   if (!reason.empty()) return {std::nullopt, std::move(reason)};
   return {std::move(layout), {}};
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

@@ -14,13 +14,13 @@
 #include "schedules/exchange/fibex/file.h"
 #include "schedules/model/pdu.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 struct ListFound {
-  std::optional<PduLayout> layout;  // complete but for the sensor
-  std::string reason;               // why the PDU is no list, else
+  std::optional<model::PduLayout> layout;  // complete but for the sensor
+  std::string reason;                      // why the PDU is no list, else
 };
 
 ListFound as_list(const FibexPdu& pdu, const std::map<std::string, const FibexPdu*>& by_id);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

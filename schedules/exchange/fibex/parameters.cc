@@ -8,19 +8,19 @@
 #include "core/decimal.h"
 #include "schedules/file/parameter_table.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
 constexpr std::int64_t kPicosecondsPerMicrosecond = 1'000'000;
 
 template <class Struct> struct Tables {
-  std::span<const IntegerParameter<Struct>> integers;
-  std::span<const ScaledParameter<Struct>> scaled;
-  std::span<const FlagParameter<Struct>> flags;
+  std::span<const file::IntegerParameter<Struct>> integers;
+  std::span<const file::ScaledParameter<Struct>> scaled;
+  std::span<const file::FlagParameter<Struct>> flags;
 };
 
-Tables<Global> tables_of(const Global&) { return {kGlobalIntegers, kGlobalScaled, {}}; }
-Tables<Local> tables_of(const Local&) { return {kNodeIntegers, kNodeScaled, kNodeFlags}; }
+Tables<file::Global> tables_of(const file::Global&) { return {file::kGlobalIntegers, file::kGlobalScaled, {}}; }
+Tables<file::Local> tables_of(const file::Local&) { return {file::kNodeIntegers, file::kNodeScaled, file::kNodeFlags}; }
 
 // FIBEX knows times in microseconds only.
 std::int64_t fibex_scale(std::string_view unit) { return unit == "bit/s" ? 1 : kPicosecondsPerMicrosecond; }
@@ -68,23 +68,25 @@ std::optional<std::string> set_value(Struct& parameters, std::string_view name, 
 
 }  // namespace
 
-std::string fibex_value(const GlobalParameters& parameters, std::string_view name) {
+std::string fibex_value(const model::GlobalParameters& parameters, std::string_view name) {
   return value_text(parameters, name, true);
 }
-std::string fibex_value(const NodeParameters& parameters, std::string_view name) {
+std::string fibex_value(const model::NodeParameters& parameters, std::string_view name) {
   return value_text(parameters, name, true);
 }
-std::string yaml_value(const GlobalParameters& parameters, std::string_view name) {
+std::string yaml_value(const model::GlobalParameters& parameters, std::string_view name) {
   return value_text(parameters, name, false);
 }
-std::string yaml_value(const NodeParameters& parameters, std::string_view name) {
+std::string yaml_value(const model::NodeParameters& parameters, std::string_view name) {
   return value_text(parameters, name, false);
 }
-std::optional<std::string> set_fibex_value(GlobalParameters& parameters, std::string_view name, std::string_view text) {
+std::optional<std::string> set_fibex_value(model::GlobalParameters& parameters, std::string_view name,
+                                           std::string_view text) {
   return set_value(parameters, name, text);
 }
-std::optional<std::string> set_fibex_value(NodeParameters& parameters, std::string_view name, std::string_view text) {
+std::optional<std::string> set_fibex_value(model::NodeParameters& parameters, std::string_view name,
+                                           std::string_view text) {
   return set_value(parameters, name, text);
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

@@ -9,7 +9,7 @@
 
 #include "schedules/model/flexray_parameters.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 struct FibexParameter {
   std::string_view name;
@@ -90,15 +90,17 @@ inline constexpr int kLeastMaxDrift = 2, kMostMaxDrift = 1923;
 
 // The value of the parameter of that name, as FIBEX writes it. A name that is not in the tables is a bug of
 // ours.
-std::string fibex_value(const GlobalParameters& parameters, std::string_view name);
-std::string fibex_value(const NodeParameters& parameters, std::string_view name);
+std::string fibex_value(const model::GlobalParameters& parameters, std::string_view name);
+std::string fibex_value(const model::NodeParameters& parameters, std::string_view name);
 
 // Sets it from FIBEX's text; or says what is expected instead ("must be 2..31"), and leaves it as it was.
-std::optional<std::string> set_fibex_value(GlobalParameters& parameters, std::string_view name, std::string_view text);
-std::optional<std::string> set_fibex_value(NodeParameters& parameters, std::string_view name, std::string_view text);
+std::optional<std::string> set_fibex_value(model::GlobalParameters& parameters, std::string_view name,
+                                           std::string_view text);
+std::optional<std::string> set_fibex_value(model::NodeParameters& parameters, std::string_view name,
+                                           std::string_view text);
 
 // The same in the words of a cluster file, whose units differ (pdMicrotick: ns there, us here).
-std::string yaml_value(const GlobalParameters& parameters, std::string_view name);
-std::string yaml_value(const NodeParameters& parameters, std::string_view name);
+std::string yaml_value(const model::GlobalParameters& parameters, std::string_view name);
+std::string yaml_value(const model::NodeParameters& parameters, std::string_view name);
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
 // The references that the importer follows, and what they lead to.
@@ -83,4 +83,4 @@ void check_references(const XmlFile& file, Findings& wrong) {
   for (XmlElement& element : elements) check_reference(file, element, targets, wrong);
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

@@ -8,7 +8,7 @@
 #include "schedules/exchange/fibex/file.h"
 #include "schedules/model/limits.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 std::optional<int> FibexSignal::offset() const {
   const int byte = position / 8;
@@ -19,7 +19,7 @@ std::optional<int> FibexSignal::offset() const {
 
 namespace {
 
-constexpr int kMostBits = 8 * kMostFragmentBytes;
+constexpr int kMostBits = 8 * model::kMostFragmentBytes;
 
 using Units = std::map<std::string, std::string>;
 
@@ -105,7 +105,7 @@ void read_method(XmlElement& method, const Units& units, FibexCoding& coding, Fi
     method.ignore("ho:COMPU-INTERNAL-TO-PHYS");
   }
   // Where no limit says otherwise, all raw numbers are in use.
-  Signal& meaning = coding.meaning;
+  model::Signal& meaning = coding.meaning;
   meaning.high = meaning.low + (std::ldexp(1.0, meaning.bits) - 1.0) * meaning.resolution;
   read_limits(method, coding, reader);
   method.finish();
@@ -114,7 +114,7 @@ void read_method(XmlElement& method, const Units& units, FibexCoding& coding, Fi
 FibexCoding read_coding(XmlElement& element, const Units& units, FibexReader& reader) {
   FibexCoding coding;
   element.ignore("ho:SHORT-NAME");
-  Signal& meaning = coding.meaning;
+  model::Signal& meaning = coding.meaning;
   if (auto type = element.child("ho:CODED-TYPE")) {
     meaning.bits = reader.integer(*type, "ho:BIT-LENGTH", 1, kMostBits);
     const std::string base = type->attribute("ho:BASE-DATA-TYPE"), encoding = type->attribute("ENCODING");
@@ -291,7 +291,7 @@ std::vector<FibexFrame> read_frames(XmlElement& elements, FibexReader& reader) {
     frame.id = element.attribute("ID");
     frame.name = reader.name_of(element);
     frame.line = element.line();
-    frame.bytes = reader.integer(element, "fx:BYTE-LENGTH", 0, kMostFragmentBytes);
+    frame.bytes = reader.integer(element, "fx:BYTE-LENGTH", 0, model::kMostFragmentBytes);
     element.ignore("fx:FRAME-TYPE");
     for (XmlElement& instance : element.children_of("fx:PDU-INSTANCES", "fx:PDU-INSTANCE")) {
       frame.places.push_back(
@@ -311,4 +311,4 @@ std::vector<FibexFrame> read_frames(XmlElement& elements, FibexReader& reader) {
   return frames;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

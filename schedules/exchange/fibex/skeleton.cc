@@ -8,7 +8,7 @@
 #include "schedules/exchange/fibex/parameters.h"
 #include "schedules/file/parameter_table.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
 constexpr const char* kAssumed = "assumed: FIBEX does not say";
@@ -42,7 +42,7 @@ std::string comment(std::string text) {
   return text;
 }
 
-std::string signal_text(const Signal& signal) {
+std::string signal_text(const model::Signal& signal) {
   std::string text = fmt::format("{{name: {}", scalar(signal.name));
   if (!signal.unit.empty()) text += fmt::format(", unit: {}", scalar(signal.unit));
   text += fmt::format(", bits: {}", signal.bits);
@@ -61,7 +61,7 @@ class Writer {
     write_head();
     line(fmt::format("name: {}", scalar(cluster_.name)));
     line("synchronisation: true");
-    if (cluster_.topology == Topology::kStar) line("topology: star");
+    if (cluster_.topology == model::Topology::kStar) line("topology: star");
     if (cluster_.guardian) line("guardian: true");
     line("");
     line("flexray:");
@@ -69,8 +69,8 @@ class Writer {
       const bool assumed = in_.assumed.count(fmt::format("flexray.{}", name)) != 0;
       line(fmt::format("  {}: {}{}", name, yaml_value(cluster_.flexray, name), remark(unit, assumed)));
     };
-    for (const auto& p : kGlobalScaled) global(p.name, p.unit);
-    for (const auto& p : kGlobalIntegers) global(p.name, "");
+    for (const auto& p : file::kGlobalScaled) global(p.name, p.unit);
+    for (const auto& p : file::kGlobalIntegers) global(p.name, "");
     write_nodes();
     write_pdus();
     line("\n# To be added: FIBEX knows no sensors.\nsensors: {}");
@@ -105,7 +105,7 @@ class Writer {
   static std::string text_of(const Value& value) {
     return fmt::format("{}: {}{}", value.name, value.text, remark(value.unit, value.assumed));
   }
-  std::vector<Value> values_of(const Node& node) const {
+  std::vector<Value> values_of(const model::Node& node) const {
     std::vector<Value> values;
     const auto assumed = [&](std::string_view name) {
       return in_.assumed.count(fmt::format("nodes.{}.flexray.{}", node.name, name)) != 0;
@@ -114,11 +114,13 @@ class Writer {
       values.push_back({name, yaml_value(*node.flexray, name), assumed(name), unit});
     };
     values.push_back({"pChannels", std::string(channels_text(node.flexray->pChannels)), assumed("pChannels"), {}});
-    values.push_back(
-        {"pWakeupChannel", node.flexray->pWakeupChannel == Channel::kA ? "A" : "B", assumed("pWakeupChannel"), {}});
-    for (const auto& p : kNodeScaled) add(p.name, p.unit);
-    for (const auto& p : kNodeIntegers) add(p.name);
-    for (const auto& p : kNodeFlags) add(p.name);
+    values.push_back({"pWakeupChannel",
+                      node.flexray->pWakeupChannel == model::Channel::kA ? "A" : "B",
+                      assumed("pWakeupChannel"),
+                      {}});
+    for (const auto& p : file::kNodeScaled) add(p.name, p.unit);
+    for (const auto& p : file::kNodeIntegers) add(p.name);
+    for (const auto& p : file::kNodeFlags) add(p.name);
     return values;
   }
 
@@ -129,7 +131,7 @@ class Writer {
       return;
     }
     std::vector<std::vector<Value>> values;
-    for (const Node& node : cluster_.nodes) values.push_back(values_of(node));
+    for (const model::Node& node : cluster_.nodes) values.push_back(values_of(node));
     std::vector<bool> shared;
     std::string common;
     for (std::size_t i = 0; i < values[0].size(); ++i) {
@@ -178,22 +180,22 @@ class Writer {
       if (foreign.pdu.multiplexer) write_multiplexer(*foreign.pdu.multiplexer);
     }
     line(cluster_.pdus.empty() ? "pdus: {}" : "pdus:");
-    for (const PduLayout& pdu : cluster_.pdus) {
+    for (const model::PduLayout& pdu : cluster_.pdus) {
       line(fmt::format("  {}:", scalar(pdu.name)));
       line(fmt::format("    fragment_bytes: {}", pdu.fragment_bytes));
       line(fmt::format("    max_elements: {}", pdu.max_elements));
       line(fmt::format("    elements_per_fragment: {}", pdu.elements_per_fragment));
       line("    header:");
-      for (const Signal& signal : pdu.header) line("      - " + signal_text(signal));
+      for (const model::Signal& signal : pdu.header) line("      - " + signal_text(signal));
       line("    element:");
-      for (const Signal& signal : pdu.element) line("      - " + signal_text(signal));
+      for (const model::Signal& signal : pdu.element) line("      - " + signal_text(signal));
     }
   }
 
   void write_frames() {
     line(cluster_.frames.empty() ? "\nframes: []" : "\nframes:");
     for (std::size_t i = 0; i < cluster_.frames.size();) {
-      const FrameSlot& first = cluster_.frames[i];
+      const model::FrameSlot& first = cluster_.frames[i];
       std::size_t end = i + 1;
       while (end < cluster_.frames.size() && continues(cluster_.frames[end - 1], cluster_.frames[end])) ++end;
       std::string text = fmt::format("  - {{slot: {}, channels: {}, sender: {}, base_cycle: {}, repetition: {}",
@@ -213,7 +215,7 @@ class Writer {
   }
 
   const FibexImport& in_;
-  const Cluster& cluster_;
+  const model::Cluster& cluster_;
   std::string text_;
 };
 
@@ -221,4 +223,4 @@ class Writer {
 
 std::string skeleton_yaml(const FibexImport& import) { return Writer(import).write(); }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

@@ -7,7 +7,7 @@
 
 #include "core/file_bytes.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 struct XmlElement::Content {
   std::string file;
@@ -241,4 +241,4 @@ void XmlElement::finish() {
   }
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

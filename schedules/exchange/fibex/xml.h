@@ -21,7 +21,7 @@
 
 #include "core/errors.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 // Namespaces and the prefixes elements are called by here. Elements of other namespaces keep the prefix the
 // file gave them.
@@ -94,4 +94,4 @@ class XmlFile {
   std::shared_ptr<const XmlElement::Content> content_;
 };
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

@@ -7,7 +7,7 @@
 
 #include "tests/bus/layouts.h"
 
-namespace ttf::bus {
+namespace ttf::bus::cni {
 namespace {
 
 constexpr PduId kUp{0}, kDown{1};
@@ -17,26 +17,26 @@ struct SentFrame {
   std::uint32_t identifier;
   bool flexible_data_rate;
   std::vector<std::byte> data;
-  CanFrame view() const { return {identifier, flexible_data_rate, data}; }
+  ports::CanFrame view() const { return {identifier, flexible_data_rate, data}; }
 };
 
-struct Wire final : CanPort {
+struct Wire final : ports::CanPort {
   std::vector<SentFrame> frames;
-  void send(const CanFrame& frame) override {
+  void send(const ports::CanFrame& frame) override {
     frames.push_back({frame.identifier, frame.flexible_data_rate, {frame.data.begin(), frame.data.end()}});
   }
 };
 
 // Fragments of 2 + 4 * 2 = 10 bytes: 12 on CAN FD. With three elements each, 8 bytes for classic CAN.
-schedules::Cluster cluster(bool flexible_data_rate) {
-  schedules::Cluster made;
+schedules::model::Cluster cluster(bool flexible_data_rate) {
+  schedules::model::Cluster made;
   made.nodes.resize(3);
   made.nodes[0].name = "device";
   made.nodes[1].name = "host";
   made.nodes[2].name = "other";
   const int per_fragment = flexible_data_rate ? 4 : 3;
   made.pdus = {list_layout(4, 10, per_fragment), list_layout(4, 10, per_fragment)};
-  schedules::CanBus bus;
+  schedules::model::CanBus bus;
   bus.name = "private";
   bus.flexible_data_rate = flexible_data_rate;
   bus.nominal_bit_rate = 1'000'000;
@@ -48,7 +48,7 @@ schedules::Cluster cluster(bool flexible_data_rate) {
 
 TEST(CanController, AListTravelsAsFramesOfOneIdentifierInOrder) {
   for (const bool flexible : {false, true}) {
-    const schedules::Cluster c = cluster(flexible);
+    const schedules::model::Cluster c = cluster(flexible);
     Wire wire;
     CanController device(c, kDevice, 0, wire), host(c, kHost, 0, wire);
     MadeList list(c.pdus[0], 5, 10, 1000);
@@ -76,7 +76,7 @@ TEST(CanController, AListTravelsAsFramesOfOneIdentifierInOrder) {
 }
 
 TEST(CanController, AShortListAfterALongOneIsPaddedWithZerosAgain) {
-  const schedules::Cluster c = cluster(true);
+  const schedules::model::Cluster c = cluster(true);
   Wire wire;
   CanController device(c, kDevice, 0, wire);
   MadeList list(c.pdus[0], 1, 1, 0xFFFF);
@@ -87,7 +87,7 @@ TEST(CanController, AShortListAfterALongOneIsPaddedWithZerosAgain) {
 }
 
 TEST(CanController, WhatTheScheduleDoesNotLayDownIsCountedAndIgnored) {
-  const schedules::Cluster c = cluster(true);
+  const schedules::model::Cluster c = cluster(true);
   Wire wire;
   CanController host(c, kHost, 0, wire);
   const std::vector<std::byte> data(12), cut_off(8), longer(16);
@@ -106,7 +106,7 @@ TEST(CanController, WhatTheScheduleDoesNotLayDownIsCountedAndIgnored) {
 }
 
 TEST(CanController, AFlexibleDataRateFrameOnAClassicBusIsRefused) {
-  const schedules::Cluster c = cluster(false);
+  const schedules::model::Cluster c = cluster(false);
   Wire wire;
   CanController device(c, kDevice, 0, wire), host(c, kHost, 0, wire);
   MadeList list(c.pdus[0], 1, 1, 7);
@@ -121,7 +121,7 @@ TEST(CanController, AFlexibleDataRateFrameOnAClassicBusIsRefused) {
 
 // Frames leave some lists after they were queued; the field has four bits.
 TEST(CanController, ASentFrameIsOfTheNewestListWithItsNumber) {
-  const schedules::Cluster c = cluster(true);
+  const schedules::model::Cluster c = cluster(true);
   Wire wire;
   CanController device(c, kDevice, 0, wire);
   for (std::uint32_t sequence = 0; sequence < 100; ++sequence) {
@@ -132,7 +132,7 @@ TEST(CanController, ASentFrameIsOfTheNewestListWithItsNumber) {
 }
 
 TEST(CanController, ArrivalNamesTheListOfItsFragment) {
-  const schedules::Cluster c = cluster(true);
+  const schedules::model::Cluster c = cluster(true);
   Wire wire;
   CanController device(c, kDevice, 0, wire), host(c, kHost, 0, wire);
   MadeList first(c.pdus[0], 1, 1, 0), second(c.pdus[0], 2, 8, 0), third(c.pdus[0], 3, 8, 0);
@@ -151,7 +151,7 @@ TEST(CanController, ArrivalNamesTheListOfItsFragment) {
 }
 
 TEST(CanControllerDeathTest, ListsOfOthersAreOurBugs) {
-  const schedules::Cluster c = cluster(true);
+  const schedules::model::Cluster c = cluster(true);
   Wire wire;
   CanController device(c, kDevice, 0, wire);
   MadeList list(c.pdus[1], 1, 1, 0);
@@ -162,4 +162,4 @@ TEST(CanControllerDeathTest, ListsOfOthersAreOurBugs) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::cni

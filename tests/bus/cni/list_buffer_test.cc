@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "tests/bus/layouts.h"
 
-namespace ttf::bus {
+namespace ttf::bus::cni {
 namespace {
 
 using enum ArrivalEffect;
@@ -239,7 +239,7 @@ TEST(IncomingList, L2_AStragglerDoesNotTearTheListBegunAfterIt) {
 }
 
 // The sender has sent `before` lists and counts from zero again; each of its lists has two fragments.
-int lists_until_believed(const schedules::PduLayout& layout, std::uint32_t before) {
+int lists_until_believed(const schedules::model::PduLayout& layout, std::uint32_t before) {
   IncomingList incoming(layout);
   for (std::uint32_t sequence = 0; sequence < before; ++sequence) {
     MadeList list(layout, sequence, 4, sequence);
@@ -406,4 +406,4 @@ TEST(OutgoingListDeathTest, AListThatDoesNotFitIsOurBug) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::cni

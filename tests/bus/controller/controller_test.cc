@@ -8,7 +8,7 @@
 #include "tests/bus/alone.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
 TEST(ControllerSends, L3_InItsSlotsOnlyAndAlways) {
@@ -126,7 +126,7 @@ TEST(ControllerSends, LastIsSaidOncePerListWithItsLastFragmentOnItsLastChannel) 
 
 // Base cycle and repetition go by the cycle counter, which here wraps after 5: cycles 5 and 6 are counter 5 and 0.
 TEST(ControllerSends, MultiplexingGoesByTheCycleCounter) {
-  schedules::Cluster cluster = small_cluster(4);
+  schedules::model::Cluster cluster = small_cluster(4);
   cluster.flexray.gCycleCountMax = 5;
   for (auto& frame : cluster.frames)
     if (frame.pdu == kOddList) frame.base_cycle = 1, frame.repetition = 4;
@@ -155,11 +155,11 @@ TEST(Controller, L1_NextEventIsNeverInThePast) {
 
 TEST(Controller, L4_NothingAllocatesAfterConstruction) {
   struct Silent final : ControllerEvents {};
-  struct SilentPort final : FlexRayPort {
-    void transmit(const Transmission&) override {}
+  struct SilentPort final : ports::FlexRayPort {
+    void transmit(const ports::Transmission&) override {}
     bool carrier(Channel) const override { return false; }
   };
-  const schedules::Cluster cluster = small_cluster(4);
+  const schedules::model::Cluster cluster = small_cluster(4);
   SilentPort port;
   Silent events;
   FlexRayController controller(cluster, NodeId{1}, port, events);
@@ -204,9 +204,9 @@ TEST(ControllerReceives, ListsFromBothChannels) {
     for (const auto& arrived : rig.heard(node).arrived) {
       if (arrived.pdu != kList) continue;
       EXPECT_EQ(arrived.sequence, 1u);
-      completed += arrived.effect == ArrivalEffect::kCompleted;
-      incomplete += arrived.effect == ArrivalEffect::kIncomplete;
-      repeated += arrived.effect == ArrivalEffect::kDuplicate;
+      completed += arrived.effect == cni::ArrivalEffect::kCompleted;
+      incomplete += arrived.effect == cni::ArrivalEffect::kIncomplete;
+      repeated += arrived.effect == cni::ArrivalEffect::kDuplicate;
     }
     EXPECT_EQ(completed, 1);
     EXPECT_EQ(incomplete, 3);
@@ -218,7 +218,7 @@ TEST(ControllerReceives, ListsFromBothChannels) {
 }
 
 TEST(ControllerDeathTest, SlotsWithoutMicroticksAreOurBug) {
-  schedules::Cluster without_slots = small_cluster(2), without_cycle = small_cluster(2);
+  schedules::model::Cluster without_slots = small_cluster(2), without_cycle = small_cluster(2);
   without_slots.flexray.gdStaticSlot = 0;
   without_cycle.flexray.gMacroPerCycle = 0;
   EXPECT_DEATH(Alone(0, without_slots), "static slots of 0 macroticks");
@@ -226,4 +226,4 @@ TEST(ControllerDeathTest, SlotsWithoutMicroticksAreOurBug) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

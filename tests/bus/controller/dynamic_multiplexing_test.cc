@@ -7,12 +7,12 @@
 #include "tests/bus/alone.h"
 #include "tests/bus/dynamic_cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
-using schedules::Channels;
+using schedules::model::Channels;
 
-schedules::FrameSlot& dynamic_slot(schedules::Cluster& cluster, int node) {
+schedules::model::FrameSlot& dynamic_slot(schedules::model::Cluster& cluster, int node) {
   return *std::find_if(cluster.frames.begin(), cluster.frames.end(),
                        [&](const auto& frame) { return frame.slot == 11 + node; });
 }
@@ -29,10 +29,10 @@ void expect_no_problems(Rig& rig, std::size_t nodes) {
 
 // Slot 11 is node 0's in cycles 1, 5, 9.., node 1's in even ones; both have something new in every cycle.
 TEST(DynamicMultiplexing, ASlotIsSharedByBaseCycleAndRepetition) {
-  schedules::Cluster cluster = dynamic_cluster(3);
+  schedules::model::Cluster cluster = dynamic_cluster(3);
   dynamic_slot(cluster, 0).base_cycle = 1;
   dynamic_slot(cluster, 0).repetition = 4;
-  schedules::FrameSlot& other = dynamic_slot(cluster, 1);
+  schedules::model::FrameSlot& other = dynamic_slot(cluster, 1);
   other.slot = 11;
   other.repetition = 2;
   Rig rig(cluster, {0, 0, 0});
@@ -49,7 +49,7 @@ TEST(DynamicMultiplexing, ASlotIsSharedByBaseCycleAndRepetition) {
 
 // A frame with the right id in a cycle that is not its own: nobody's.
 TEST(DynamicMultiplexing, TheWrongCycleIsAContentError) {
-  schedules::Cluster cluster = dynamic_cluster(2);
+  schedules::model::Cluster cluster = dynamic_cluster(2);
   dynamic_slot(cluster, 1).base_cycle = 1;
   dynamic_slot(cluster, 1).repetition = 2;
   for (const std::int64_t cycle : {0, 1}) {
@@ -75,9 +75,9 @@ TEST(DynamicMultiplexing, TheWrongCycleIsAContentError) {
 
 // Slot 11 is node 0's on A and node 1's on B, in the same cycles.
 TEST(DynamicMultiplexing, TheChannelsBelongToDifferentNodes) {
-  schedules::Cluster cluster = dynamic_cluster(3);
+  schedules::model::Cluster cluster = dynamic_cluster(3);
   dynamic_slot(cluster, 0).channels = Channels::kA;
-  schedules::FrameSlot& other = dynamic_slot(cluster, 1);
+  schedules::model::FrameSlot& other = dynamic_slot(cluster, 1);
   other.slot = 11;
   other.channels = Channels::kB;
   Rig rig(cluster, {100'000, -100'000, 0}, Duration{500});
@@ -97,7 +97,7 @@ TEST(DynamicMultiplexing, TheChannelsBelongToDifferentNodes) {
 
 // Slot 5 belongs to node 0 on A and to node 1 on B, and slot 9 to two nodes by cycle.
 TEST(StaticMultiplexing, ChannelsAndCyclesOfASlotBelongToDifferentNodes) {
-  schedules::Cluster cluster = small_cluster(3);
+  schedules::model::Cluster cluster = small_cluster(3);
   std::erase_if(cluster.frames, [](const auto& frame) { return frame.slot > 4; });
   cluster.pdus = {list_layout(4, 3, 3), list_layout(4, 3, 3), list_layout(4, 3, 3)};
   cluster.frames.push_back({5, Channels::kA, 0, 1, NodeId{0}, PduId{0}, 0, 0});
@@ -128,7 +128,7 @@ TEST(StaticMultiplexing, ChannelsAndCyclesOfASlotBelongToDifferentNodes) {
 
 // Only the key slot, in neither segment anything else, until ALL_SLOTS has taken effect at a cycle start.
 TEST(KeySlotOnlyMode, HoldsInBothSegments) {
-  schedules::Cluster cluster = dynamic_cluster(3);
+  schedules::model::Cluster cluster = dynamic_cluster(3);
   cluster.nodes[0].flexray->pKeySlotOnlyEnabled = true;
   Rig rig(cluster, {0, 0, 0});
   MadeList list(rig.cluster().pdus[0], 1, 10, 0);
@@ -139,7 +139,7 @@ TEST(KeySlotOnlyMode, HoldsInBothSegments) {
   EXPECT_EQ(rig.heard(0).sent.size(), 8u);  // four cycles, two channels
   const TrueTime middle = Rig::kStart + Duration::microseconds(4'020);
   rig.run_until(middle);
-  rig.controller(0).command(PocEventKind::kAllSlots, {middle.ns / 25});
+  rig.controller(0).command(poc::PocEventKind::kAllSlots, {middle.ns / 25});
   rig.run_cycles(6);
   std::vector<int> in_cycle_4, in_cycle_5;
   for (const auto& sent : rig.heard(0).sent) {
@@ -153,10 +153,10 @@ TEST(KeySlotOnlyMode, HoldsInBothSegments) {
 }
 
 // Two lists of node 1 share slot 12, told apart by message id; node 0's slot 11 has none.
-schedules::Cluster with_message_ids() {
-  schedules::Cluster cluster = dynamic_cluster(3);
+schedules::model::Cluster with_message_ids() {
+  schedules::model::Cluster cluster = dynamic_cluster(3);
   dynamic_slot(cluster, 1).message_id = 0x1234;
-  schedules::FrameSlot second = dynamic_slot(cluster, 1);
+  schedules::model::FrameSlot second = dynamic_slot(cluster, 1);
   second.message_id = 0xFEDC;
   second.pdu = static_cast<PduId>(cluster.pdus.size());
   cluster.pdus.push_back(list_layout(4, 3, 3));
@@ -233,4 +233,4 @@ TEST(MessageId, NeedsTwoBytes) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

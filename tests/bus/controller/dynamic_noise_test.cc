@@ -7,7 +7,7 @@
 
 #include "tests/bus/dynamic_cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
 // Three nodes with a list each, written before cycle kCycle, in which channel A is noisy.
@@ -27,7 +27,7 @@ struct Noisy {
     rig.run_until(at(kCycle - 1, 980));
     for (std::size_t node = 0; node < 3; ++node) {
       write(rig, node, 1);
-      rig.medium().put({from, to, Channel::kA, 9, node, Signal::kUndecodable, {}});
+      rig.medium().put({from, to, Channel::kA, 9, node, ports::Signal::kUndecodable, {}});
     }
     rig.run_cycles(kCycle + 2);
   }
@@ -91,4 +91,4 @@ TEST(DynamicNoise, WhatLastsTheWholeSegmentLeavesTheNextOneAlone) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -6,11 +6,11 @@
 
 #include "core/random.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
-schedules::GlobalParameters parameters() {
-  schedules::GlobalParameters g;
+schedules::model::GlobalParameters parameters() {
+  schedules::model::GlobalParameters g;
   g.gNumberOfStaticSlots = 40;
   g.gdStaticSlot = 84;
   g.gdActionPointOffset = 7;
@@ -24,14 +24,14 @@ schedules::GlobalParameters parameters() {
 }
 
 timebase::CycleClock clock_at(std::int64_t start, int rate) {
-  const schedules::GlobalParameters g = parameters();
+  const schedules::model::GlobalParameters g = parameters();
   return timebase::CycleClock({g.gMacroPerCycle, g.gdMacrotick_ps, 200'000, g.gOffsetCorrectionStart},
                               Microticks{start}, rate);
 }
 
 // The specification's own way of counting: minislot after minislot. taken[m]: a transmission begins in m and
 // its DTS ends in it.
-std::vector<int> slots_one_by_one(const schedules::GlobalParameters& g, const std::vector<int>& last_of) {
+std::vector<int> slots_one_by_one(const schedules::model::GlobalParameters& g, const std::vector<int>& last_of) {
   std::vector<int> slots(static_cast<std::size_t>(g.gNumberOfMinislots) + 1, 0);
   int slot = g.gNumberOfStaticSlots + 1;
   for (int m = 1; m <= g.gNumberOfMinislots; ++m, ++slot) {
@@ -63,7 +63,7 @@ TEST(DynamicSlotCounter, ATransmissionTakesWholeMinislotsAndTheIdlePhase) {
 }
 
 TEST(DynamicSlotCounter, StopsAtTheHighestFrameId) {
-  schedules::GlobalParameters g = parameters();
+  schedules::model::GlobalParameters g = parameters();
   g.gNumberOfStaticSlots = 2040;  // beyond what a schedule may have; only the counter is looked at
   const DynamicSlotCounter counter(g);
   EXPECT_EQ(counter.slot_in(7), 2047);
@@ -80,7 +80,7 @@ TEST(DynamicSlotCounter, StartsAnewInEveryCycle) {
 TEST(DynamicSlotCounter, AgreesWithCountingMinislotByMinislot) {
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     RandomStream draw({seed, 0, Purpose::kTest, 0, 0});
-    schedules::GlobalParameters g = parameters();
+    schedules::model::GlobalParameters g = parameters();
     g.gdDynamicSlotIdlePhase = static_cast<int>(draw.integer(0, 2));
     std::vector<int> last_of(static_cast<std::size_t>(g.gNumberOfMinislots) + 1, 0);
     DynamicSlotCounter counter(g);
@@ -135,4 +135,4 @@ TEST(MinislotGrid, TheTrailingSequenceEndsAtTheFirstActionPointThatLeavesRoomFor
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

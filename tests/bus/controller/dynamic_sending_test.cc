@@ -9,10 +9,10 @@
 #include "schedules/analysis/minislots.h"
 #include "tests/bus/dynamic_cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
-using schedules::Channels;
+using schedules::model::Channels;
 
 TEST(DynamicSegment, AListIsSentOnceAndArrives) {
   Rig rig(dynamic_cluster(3), {0, 0, 0}, Duration{500});
@@ -51,11 +51,11 @@ TEST(DynamicSegment, TheLowerIdentifierGoesFirstAndTheOthersWaitForItsEnd) {
   // As the schedule's analysis has it, whose bound this reaches.
   const auto& frames = rig.cluster().frames;
   for (std::size_t node = 0; node < 3; ++node)
-    EXPECT_EQ(schedules::latest_turn(rig.cluster(), frames[frames.size() - 3 + node]), minislots[node]);
+    EXPECT_EQ(schedules::analysis::latest_turn(rig.cluster(), frames[frames.size() - 3 + node]), minislots[node]);
 }
 
 TEST(DynamicSegment, WhatDoesNotFitWaitsForTheNextCycle) {
-  schedules::Cluster cluster = dynamic_cluster(3);
+  schedules::model::Cluster cluster = dynamic_cluster(3);
   for (auto& node : cluster.nodes) node.flexray->pLatestTx = 9;
   Rig rig(cluster, {0, 0, 0});
   rig.run_cycles(2);
@@ -68,7 +68,7 @@ TEST(DynamicSegment, WhatDoesNotFitWaitsForTheNextCycle) {
 }
 
 TEST(DynamicSegment, TheChannelsCountOnTheirOwn) {
-  schedules::Cluster cluster = dynamic_cluster(3);
+  schedules::model::Cluster cluster = dynamic_cluster(3);
   cluster.frames[cluster.frames.size() - 3].channels = Channels::kA;  // slot 11 on A only
   Rig rig(cluster, {0, 0, 0});
   rig.run_cycles(2);
@@ -113,4 +113,4 @@ TEST(DynamicSegment, RandomLoadOnDriftingClocks) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

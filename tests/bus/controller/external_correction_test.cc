@@ -7,10 +7,10 @@
 #include "tests/bus/alone.h"
 #include "tests/bus/startup_cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
-schedules::Cluster correctable(schedules::Cluster cluster, int damping = 2) {
+schedules::model::Cluster correctable(schedules::model::Cluster cluster, int damping = 2) {
   for (auto& node : cluster.nodes) {
     node.flexray->pExternOffsetCorrection = 7;
     node.flexray->pExternRateCorrection = 5;
@@ -114,14 +114,14 @@ TEST(ExternalCorrection, IsNotForStartup) {
     Rig rig(correctable(startup_cluster(3)), {0, 0, 0}, {}, std::vector<TrueTime>(3, Rig::kStart));
     for (std::size_t n = 0; n < 3; ++n) rig.controller(n).set_external_correction(offset, 0);
     rig.run_cycles(60);
-    EXPECT_EQ(rig.controller(0).state().kind, PocKind::kNormalActive);
+    EXPECT_EQ(rig.controller(0).state().kind, poc::PocKind::kNormalActive);
     return rig.heard(0);
   };
   const Heard plain = start(0), given = start(7);
   ASSERT_EQ(plain.cycles, given.cycles);
   ASSERT_EQ(plain.changed.size(), given.changed.size());
   const auto active = std::find_if(plain.changed.begin(), plain.changed.end(),
-                                   [](const auto& change) { return change.to == PocKind::kNormalActive; });
+                                   [](const auto& change) { return change.to == poc::PocKind::kNormalActive; });
   ASSERT_NE(active, plain.changed.end());
   bool later = false;
   for (std::size_t i = 0; i < plain.cycle_starts.size(); ++i) {
@@ -173,4 +173,4 @@ TEST(ExternalCorrection, AClusterFollowsAnExternalTime) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -6,7 +6,7 @@
 
 #include "tests/bus/alone.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
 // One frame each, wrong in one way each; what the controller reports for its slot in cycle 0.
@@ -152,8 +152,8 @@ TEST(ControllerJudges, AFragmentInAnotherOnesSlotIsAContentError) {
   carry(6, 1);
   node.run_to(1);
   ASSERT_EQ(node.heard.arrived.size(), 2u);
-  EXPECT_EQ(node.heard.arrived[0].effect, ArrivalEffect::kMalformed);
-  EXPECT_EQ(node.heard.arrived[1].effect, ArrivalEffect::kIncomplete);
+  EXPECT_EQ(node.heard.arrived[0].effect, cni::ArrivalEffect::kMalformed);
+  EXPECT_EQ(node.heard.arrived[1].effect, cni::ArrivalEffect::kIncomplete);
   int errors = 0;
   for (const auto& problem : node.heard.problems) {
     if (problem.slot == 5 && problem.channel == Channel::kA) {
@@ -178,4 +178,4 @@ TEST(ControllerJudges, ANullFrameIsValidAndLeavesTheListAlone) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

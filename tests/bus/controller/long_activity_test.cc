@@ -6,7 +6,7 @@
 
 #include "tests/bus/alone.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
 constexpr int kFound = kSyntaxError | kBoundaryViolation;  // where it began; elsewhere the boundary alone
@@ -24,7 +24,7 @@ struct Listener : Alone {
     port.busy[index_of(channel)] = true;
     controller.advance(end - Microticks{1});
     port.busy[index_of(channel)] = false;
-    controller.receive({channel, Signal::kUndecodable, start, end, {}});
+    controller.receive({channel, ports::Signal::kUndecodable, start, end, {}});
   }
   void frames(std::int64_t cycle, std::vector<int> in_slots) {
     for (const int slot : in_slots) {
@@ -92,7 +92,8 @@ TEST(LongActivity, AFrameBehindItInItsLastSlotIsValidAllTheSame) {
 TEST(LongActivity, EndsWithTheSlotThatItEndsIn) {
   Listener node;
   node.frames(0, {1});
-  node.controller.receive({Channel::kA, Signal::kUndecodable, Listener::middle(0, 3), Listener::at(0, 84 * 4), {}});
+  node.controller.receive(
+      {Channel::kA, ports::Signal::kUndecodable, Listener::middle(0, 3), Listener::at(0, 84 * 4), {}});
   node.run_to(1);
   const Statuses told = node.told(0);
   EXPECT_EQ(told.at(3), kFound);
@@ -109,7 +110,7 @@ TEST(LongActivity, AcrossACycleStart) {
   node.port.busy[0] = true;
   node.controller.advance(end - Microticks{1});
   node.port.busy[0] = false;
-  node.controller.receive({Channel::kA, Signal::kUndecodable, start, end, {}});
+  node.controller.receive({Channel::kA, ports::Signal::kUndecodable, start, end, {}});
   node.frames(1, {4, 5, 6, 7, 8});
   node.run_to(2);
   EXPECT_EQ(node.told(0), Statuses{});
@@ -173,4 +174,4 @@ TEST(LongActivity, OneThatEndedAfterTheCycleBeganDoesNotCoverTheCycle) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -9,7 +9,7 @@
 #include "tests/bus/alone.h"
 #include "tests/bus/startup_cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -22,7 +22,7 @@ Bytes bytes(std::initializer_list<int> values) {
 Bytes copy(std::span<const std::byte> vector) { return {vector.begin(), vector.end()}; }
 
 // Three bytes of vector in all status frames (slots 1..4) and in the first slot of the list (slot 5).
-schedules::Cluster managed(schedules::Cluster cluster) {
+schedules::model::Cluster managed(schedules::model::Cluster cluster) {
   cluster.flexray.gNetworkManagementVectorLength = 3;
   for (auto& frame : cluster.frames) frame.network_management = frame.slot <= 5;
   return cluster;
@@ -171,7 +171,7 @@ TEST(NetworkManagement, IsOfNormalOperation) {
   EXPECT_TRUE(in_startup_zero);
   EXPECT_TRUE(someone_earlier);  // others spoke while the last one was still starting
   EXPECT_EQ(copy(rig.controller(3).network_management_vector()), bytes({0x0F, 0, 0}));
-  rig.controller(3).command(PocEventKind::kFreeze, {rig.controller(3).next_event()});
+  rig.controller(3).command(poc::PocEventKind::kFreeze, {rig.controller(3).next_event()});
   rig.run_until(Rig::kStart + Duration::milliseconds(60));
   EXPECT_EQ(copy(rig.controller(3).network_management_vector()), bytes({0x0F, 0, 0}));
   EXPECT_EQ(copy(rig.controller(0).network_management_vector()), bytes({0x07, 0, 0}));
@@ -180,4 +180,4 @@ TEST(NetworkManagement, IsOfNormalOperation) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

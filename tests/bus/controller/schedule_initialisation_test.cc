@@ -4,10 +4,10 @@
 
 #include "timebase/cycle_clock.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 class ScheduleInitialisationTest : public ::testing::Test {
  protected:
@@ -28,8 +28,8 @@ class ScheduleInitialisationTest : public ::testing::Test {
   StartupFrame frame(int slot, int cycle, Channel channel = Channel::kA, std::int64_t length = 200'000) const {
     return {channel, slot, cycle, arrival(slot, cycle, 7'000, length, channel == Channel::kA ? 50 : 30)};
   }
-  schedules::GlobalParameters flexray;
-  schedules::NodeParameters node;
+  schedules::model::GlobalParameters flexray;
+  schedules::model::NodeParameters node;
 };
 
 TEST_F(ScheduleInitialisationTest, APairGivesCycleStartAndRate) {
@@ -110,4 +110,4 @@ TEST_F(ScheduleInitialisationTest, ResetForgetsTheEvenFrame) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -11,13 +11,13 @@
 #include "tests/bus/alone.h"
 #include "tests/bus/startup_cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
 // The running cycle in which a node became normal active, or -1.
 std::int64_t active_in(Rig& rig, std::size_t node) {
   for (const auto& change : rig.heard(node).changed)
-    if (change.to == PocKind::kNormalActive) {
+    if (change.to == poc::PocKind::kNormalActive) {
       // Cycle starts are reported right after the change.
       const auto& cycles = rig.heard(node).cycle_starts;
       for (const auto& [cycle, at] : cycles)
@@ -26,8 +26,8 @@ std::int64_t active_in(Rig& rig, std::size_t node) {
   return -1;
 }
 
-std::vector<PocKind> path(Rig& rig, std::size_t node) {
-  std::vector<PocKind> kinds;
+std::vector<poc::PocKind> path(Rig& rig, std::size_t node) {
+  std::vector<poc::PocKind> kinds;
   for (const auto& change : rig.heard(node).changed) kinds.push_back(change.to);
   return kinds;
 }
@@ -40,7 +40,7 @@ TEST(Startup, AllPoweredOnInTimeLeaderInSixFollowersInSevenIntegratorsInEight) {
   EXPECT_EQ(active_in(rig, 1), 7);
   EXPECT_EQ(active_in(rig, 2), 7);
   EXPECT_EQ(active_in(rig, 3), 8);
-  using K = PocKind;
+  using K = poc::PocKind;
   EXPECT_EQ(path(rig, 0), (std::vector<K>{K::kConfig, K::kReady, K::kColdstartListen, K::kColdstartCollisionResolution,
                                           K::kColdstartConsistencyCheck, K::kNormalActive}));
   EXPECT_EQ(path(rig, 1), (std::vector<K>{K::kConfig, K::kReady, K::kColdstartListen, K::kInitialiseSchedule,
@@ -59,15 +59,15 @@ TEST(Startup, AllPoweredOnInTimeLeaderInSixFollowersInSevenIntegratorsInEight) {
 // In real time the partner of the first startup frame is handed over when it has come, which may be longer after its
 // end than rates can differ by.
 TEST(Startup, APartnerHandedOverWithinTheMediumsTimeMakesASchedule) {
-  struct LatePort final : FlexRayPort {
-    void transmit(const Transmission&) override {}
+  struct LatePort final : ports::FlexRayPort {
+    void transmit(const ports::Transmission&) override {}
     bool carrier(Channel) const override { return false; }
     Microticks handed_over_within() const override { return within; }
     Microticks within{};
   };
   constexpr std::int64_t kLongest = 9'000, kRateLimit = 121;  // of 40'000 a cycle
   const auto state_after = [](std::int64_t within, std::int64_t late) {
-    const schedules::Cluster cluster = startup_cluster(1, 1);
+    const schedules::model::Cluster cluster = startup_cluster(1, 1);
     LatePort port;
     port.within = {within};
     Heard heard;
@@ -81,20 +81,20 @@ TEST(Startup, APartnerHandedOverWithinTheMediumsTimeMakesASchedule) {
     }
     return controller.state().kind;
   };
-  EXPECT_EQ(state_after(0, 0), PocKind::kIntegrationConsistencyCheck);
-  EXPECT_EQ(state_after(0, kRateLimit + 1), PocKind::kIntegrationListen) << "the odd frame begins nothing";
-  EXPECT_EQ(state_after(kLongest, kLongest), PocKind::kIntegrationConsistencyCheck);
-  EXPECT_EQ(state_after(kLongest, kLongest + kRateLimit + 1), PocKind::kIntegrationListen);
+  EXPECT_EQ(state_after(0, 0), poc::PocKind::kIntegrationConsistencyCheck);
+  EXPECT_EQ(state_after(0, kRateLimit + 1), poc::PocKind::kIntegrationListen) << "the odd frame begins nothing";
+  EXPECT_EQ(state_after(kLongest, kLongest), poc::PocKind::kIntegrationConsistencyCheck);
+  EXPECT_EQ(state_after(kLongest, kLongest + kRateLimit + 1), poc::PocKind::kIntegrationListen);
 }
 
 TEST(Startup, OneColdstartNodeAloneUsesUpItsAttempts) {
   Rig rig(startup_cluster(1, 1), {0, 0}, Duration{500}, {at_ms(1.0), at_ms(1.0)});
   rig.run_until(at_ms(500));
   EXPECT_EQ(active_in(rig, 0), -1);
-  EXPECT_EQ(rig.controller(0).state().kind, PocKind::kIntegrationListen);
-  EXPECT_EQ(rig.heard(0).changed.back().consequence, PocReason::kAttemptsExhausted);
+  EXPECT_EQ(rig.controller(0).state().kind, poc::PocKind::kIntegrationListen);
+  EXPECT_EQ(rig.heard(0).changed.back().consequence, poc::PocReason::kAttemptsExhausted);
   const auto attempts = std::count_if(rig.heard(0).changed.begin(), rig.heard(0).changed.end(), [](const auto& change) {
-    return change.to == PocKind::kColdstartCollisionResolution;
+    return change.to == poc::PocKind::kColdstartCollisionResolution;
   });
   EXPECT_EQ(attempts, rig.cluster().flexray.gColdStartAttempts);
 }
@@ -102,8 +102,8 @@ TEST(Startup, OneColdstartNodeAloneUsesUpItsAttempts) {
 TEST(Startup, TwoThatBeginAtTheSameInstantSortThemselvesOut) {
   Rig rig(startup_cluster(2), {0, 0}, Duration{500}, {at_ms(1.0), at_ms(1.0)});
   rig.run_until(at_ms(60));
-  EXPECT_EQ(rig.controller(0).state().kind, PocKind::kNormalActive);
-  EXPECT_EQ(rig.controller(1).state().kind, PocKind::kNormalActive);
+  EXPECT_EQ(rig.controller(0).state().kind, poc::PocKind::kNormalActive);
+  EXPECT_EQ(rig.controller(1).state().kind, poc::PocKind::kNormalActive);
 }
 
 TEST(Startup, ALateNodeIntegratesIntoTheRunningCluster) {
@@ -111,7 +111,7 @@ TEST(Startup, ALateNodeIntegratesIntoTheRunningCluster) {
     Rig rig(startup_cluster(coldstart ? 3 : 2, coldstart ? 0 : 1), {0, 100'000, -300'000}, Duration{500},
             {at_ms(1.0), at_ms(1.1), at_ms(103.7)});
     rig.run_until(at_ms(140));
-    ASSERT_EQ(rig.controller(2).state().kind, PocKind::kNormalActive) << coldstart;
+    ASSERT_EQ(rig.controller(2).state().kind, poc::PocKind::kNormalActive) << coldstart;
     EXPECT_LT(rig.heard(2).changed.back().at, Microticks{40'000 * 120});
     // Its cycle counter is the cluster's; how often that has wrapped it cannot know.
     EXPECT_EQ(rig.controller(2).clock()->cycle() % 64, rig.controller(0).clock()->cycle() % 64);
@@ -127,8 +127,8 @@ TEST(Startup, ARestartedNodeComesBack) {
   rig.run_until(at_ms(50));
   rig.power_on(2, at_ms(50.3));  // out of the middle of a cycle
   rig.run_until(at_ms(90));
-  EXPECT_EQ(rig.controller(2).state().kind, PocKind::kNormalActive);
-  EXPECT_EQ(rig.controller(0).state().kind, PocKind::kNormalActive);
+  EXPECT_EQ(rig.controller(2).state().kind, poc::PocKind::kNormalActive);
+  EXPECT_EQ(rig.controller(0).state().kind, poc::PocKind::kNormalActive);
 }
 
 TEST(Startup, NoiseDelaysTheColdstartUntilTheNoiseTimerExpires) {
@@ -136,15 +136,20 @@ TEST(Startup, NoiseDelaysTheColdstartUntilTheNoiseTimerExpires) {
   // Noise on channel A, again and again before a listen time-out of 2 ms is over, until 9 ms.
   for (int i = 0; i < 9; ++i)
     for (const std::size_t node : {0u, 1u})
-      rig.medium().put(
-          {at_ms(1.5 + i * 0.9), at_ms(1.6 + i * 0.9), schedules::Channel::kA, 9, node, Signal::kUndecodable, {}});
+      rig.medium().put({at_ms(1.5 + i * 0.9),
+                        at_ms(1.6 + i * 0.9),
+                        schedules::model::Channel::kA,
+                        9,
+                        node,
+                        ports::Signal::kUndecodable,
+                        {}});
   rig.run_until(at_ms(60));
-  EXPECT_EQ(rig.controller(0).state().kind, PocKind::kNormalActive);
+  EXPECT_EQ(rig.controller(0).state().kind, poc::PocKind::kNormalActive);
   const auto lead = std::find_if(rig.heard(0).changed.begin(), rig.heard(0).changed.end(), [](const auto& change) {
-    return change.to == PocKind::kColdstartCollisionResolution;
+    return change.to == poc::PocKind::kColdstartCollisionResolution;
   });
   ASSERT_NE(lead, rig.heard(0).changed.end());
-  EXPECT_EQ(lead->reason, PocReason::kColdstartAfterNoise);
+  EXPECT_EQ(lead->reason, poc::PocReason::kColdstartAfterNoise);
   // gListenNoise 2 times 2 ms after 1 ms, without the noise it would have been 3 ms.
   EXPECT_NEAR(static_cast<double>(lead->at.value) * 25e-6, 5.0, 0.1);
 }
@@ -156,14 +161,15 @@ TEST(Startup, TheLoserOfACollisionFollowsTheWinner) {
     Rig rig(startup_cluster(3), {0, 0, 0}, Duration{700}, {at_ms(1.0), at_ms(1.0) + Duration{tick * 25}, at_ms(1.0)});
     rig.run_until(at_ms(60));
     for (std::size_t n = 0; n < 3; ++n) {
-      EXPECT_EQ(rig.controller(n).state().kind, PocKind::kNormalActive) << "tick " << tick << " node " << n;
+      EXPECT_EQ(rig.controller(n).state().kind, poc::PocKind::kNormalActive) << "tick " << tick << " node " << n;
       for (const auto& change : rig.heard(n).changed)
-        if (change.reason == PocReason::kCollisionHeader || change.reason == PocReason::kCollisionCas) ++collisions;
+        if (change.reason == poc::PocReason::kCollisionHeader || change.reason == poc::PocReason::kCollisionCas)
+          ++collisions;
     }
     const auto leaders = [&] {
       int count = 0;
       for (std::size_t n = 0; n < 3; ++n)
-        for (const auto& change : rig.heard(n).changed) count += change.reason == PocReason::kClusterStarted;
+        for (const auto& change : rig.heard(n).changed) count += change.reason == poc::PocReason::kClusterStarted;
       return count;
     }();
     EXPECT_EQ(leaders, 1) << "tick " << tick;
@@ -184,7 +190,7 @@ TEST(Startup, RandomPowerOnDelaysWithinTheAttempts) {
     Rig rig(startup_cluster(coldstart, others), drifts, Duration{draw.integer(0, 2'500)}, power_on);
     rig.run_until(at_ms(100));
     for (std::size_t n = 0; n < drifts.size(); ++n)
-      ASSERT_EQ(rig.controller(n).state().kind, PocKind::kNormalActive)
+      ASSERT_EQ(rig.controller(n).state().kind, poc::PocKind::kNormalActive)
           << "seed " << seed << " node " << n << ": " << to_text(rig.controller(n).state().kind) << ", "
           << to_text(rig.heard(n).changed.back().reason);
     ASSERT_LT(rig.precision(at_ms(100)), Duration{6'850}) << "seed " << seed;  // the assumed precision of the layout
@@ -192,4 +198,4 @@ TEST(Startup, RandomPowerOnDelaysWithinTheAttempts) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -9,7 +9,7 @@
 #include "tests/bus/alone.h"
 #include "tests/bus/startup_cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
 constexpr SlotSeen kNothing{};
@@ -103,7 +103,7 @@ TEST(SlotSeen, IsToldInEveryCycleAlsoDuringStartup) {
   Rig rig(startup_cluster(4), {0, 0, 0, 0}, {}, std::vector<TrueTime>(4, Rig::kStart));
   rig.run_cycles(60);
   for (std::size_t n = 0; n < 4; ++n) {
-    ASSERT_EQ(rig.controller(n).state().kind, PocKind::kNormalActive) << n;
+    ASSERT_EQ(rig.controller(n).state().kind, poc::PocKind::kNormalActive) << n;
     const auto& cycles = rig.heard(n).static_segments;
     ASSERT_GT(cycles.size(), 20u);
     const auto last_start = std::find(cycles.rbegin(), cycles.rend(), cycles.front()).base() - 1;
@@ -141,22 +141,22 @@ TEST(SyncStatus, CountsBeyondWhatIsUsedUpTo15) {
   SyncCollector collector(2);
   collector.start_cycle(0);
   for (int frame = 1; frame <= 20; ++frame) {
-    collector.heard(frame, schedules::Channels::kA, {}, false);
-    if (frame <= 3) collector.heard(frame, schedules::Channels::kB, {}, false);
+    collector.heard(frame, schedules::model::Channels::kA, {}, false);
+    if (frame <= 3) collector.heard(frame, schedules::model::Channels::kB, {}, false);
     EXPECT_EQ(collector.valid(Channel::kA), std::min(frame, 15));
   }
   EXPECT_EQ(collector.valid(Channel::kB), 3);
   EXPECT_EQ(collector.measurements().even_count, 2);
   collector.start_cycle(1);
   EXPECT_EQ(collector.valid(Channel::kA), 0);
-  collector.own(7, schedules::Channels::kB);
+  collector.own(7, schedules::model::Channels::kB);
   EXPECT_EQ(collector.valid(Channel::kA), 0);
   EXPECT_EQ(collector.valid(Channel::kB), 1);
 }
 
 // A node without a sync frame of its own, which hears one other in one cycle of two.
 TEST(SyncStatus, MissingTermsAndTheirCount) {
-  schedules::Cluster cluster = small_cluster(4);
+  schedules::model::Cluster cluster = small_cluster(4);
   cluster.nodes[0].flexray->pKeySlotUsedForSync = cluster.nodes[0].flexray->pKeySlotUsedForStartup = false;
   cluster.flexray.gMaxWithoutClockCorrectionPassive = cluster.flexray.gMaxWithoutClockCorrectionFatal = 15;
   Alone node(0, cluster);
@@ -205,4 +205,4 @@ TEST(SyncStatus, BeginsAnewWithTheSchedule) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

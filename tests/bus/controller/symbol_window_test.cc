@@ -7,30 +7,30 @@
 #include "tests/bus/alone.h"
 #include "tests/bus/startup_cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
-using schedules::Channels;
+using schedules::model::Channels;
 
 // The window is macroticks 840..859, its action point 847; a symbol lasts 9 + 30 bits, 156 microticks.
 constexpr int kWindow = 840, kWindowEnd = 860, kPoint = 847, kSymbol = 156;
-schedules::Cluster windowed(schedules::Cluster cluster) {
+schedules::model::Cluster windowed(schedules::model::Cluster cluster) {
   cluster.flexray.gdSymbolWindow = kWindowEnd - kWindow;
   cluster.flexray.gdNIT -= kWindowEnd - kWindow;
   return cluster;
 }
 
 struct Single : Alone {
-  explicit Single(schedules::Cluster made = windowed(small_cluster(4))) : Alone(0, std::move(made)) {}
+  explicit Single(schedules::model::Cluster made = windowed(small_cluster(4))) : Alone(0, std::move(made)) {}
 
   std::vector<NoPort::Sent> symbols() const {
     std::vector<NoPort::Sent> found;
     for (const auto& sent : port.sent)
-      if (sent.signal == Signal::kCas) found.push_back(sent);
+      if (sent.signal == ports::Signal::kCas) found.push_back(sent);
     return found;
   }
   // `from`: microticks into cycle 0's window (negative: before it).
-  void hear(Signal signal, std::int64_t from, std::int64_t length = kSymbol, Channel channel = Channel::kA) {
+  void hear(ports::Signal signal, std::int64_t from, std::int64_t length = kSymbol, Channel channel = Channel::kA) {
     const Microticks start = at(0, kWindow) + Microticks{from};
     controller.advance(start + Microticks{length - 1});
     controller.receive({channel, signal, start, start + Microticks{length}, {}});
@@ -62,7 +62,7 @@ TEST(MediaTestSymbol, OnTheChannelsAskedForAndAttached) {
   ASSERT_EQ(asked.symbols().size(), 1u);
   EXPECT_EQ(asked.symbols()[0].channel, Channel::kB);
 
-  schedules::Cluster cluster = windowed(small_cluster(4));
+  schedules::model::Cluster cluster = windowed(small_cluster(4));
   cluster.nodes[0].flexray->pChannels = Channels::kA;
   Single attached(cluster);
   EXPECT_TRUE(attached.controller.send_media_test_symbol());
@@ -73,7 +73,7 @@ TEST(MediaTestSymbol, OnTheChannelsAskedForAndAttached) {
 
 // Behind the minislots where there are any: 24 of 5 MT from 844 on.
 TEST(MediaTestSymbol, TheWindowFollowsTheDynamicSegment) {
-  schedules::Cluster cluster = small_cluster(4);
+  schedules::model::Cluster cluster = small_cluster(4);
   cluster.flexray.gNumberOfMinislots = 24;
   cluster.flexray.gdSymbolWindow = 20;
   cluster.flexray.gdNIT = 1000 - 844 - 120 - 20;
@@ -102,11 +102,11 @@ TEST(MediaTestSymbol, IsRefusedWithoutWindowAndInKeySlotOnlyMode) {
   Single without(small_cluster(4));
   EXPECT_FALSE(without.controller.send_media_test_symbol());
 
-  schedules::Cluster cluster = windowed(small_cluster(4));
+  schedules::model::Cluster cluster = windowed(small_cluster(4));
   cluster.nodes[0].flexray->pKeySlotOnlyEnabled = true;
   Single node(cluster);
   EXPECT_FALSE(node.controller.send_media_test_symbol());
-  node.controller.command(PocEventKind::kAllSlots, Alone::at(0, 10));
+  node.controller.command(poc::PocEventKind::kAllSlots, Alone::at(0, 10));
   EXPECT_FALSE(node.controller.send_media_test_symbol());  // from the next cycle on
   node.run_to(1);
   EXPECT_TRUE(node.controller.send_media_test_symbol());
@@ -116,7 +116,7 @@ TEST(MediaTestSymbol, IsRefusedWithoutWindowAndInKeySlotOnlyMode) {
 
 // A node that hears no sync frames and has none of its own is passive from cycle 2 on.
 TEST(MediaTestSymbol, WhatWasAskedForInTimeIsDroppedInNormalPassive) {
-  schedules::Cluster cluster = windowed(small_cluster(4));
+  schedules::model::Cluster cluster = windowed(small_cluster(4));
   cluster.nodes[0].flexray->pKeySlotUsedForSync = cluster.nodes[0].flexray->pKeySlotUsedForStartup = false;
   cluster.flexray.gMaxWithoutClockCorrectionPassive = 1;
   cluster.nodes[0].flexray->pAllowHaltDueToClock = false;
@@ -124,7 +124,7 @@ TEST(MediaTestSymbol, WhatWasAskedForInTimeIsDroppedInNormalPassive) {
   node.run_to(1, kWindowEnd);
   EXPECT_TRUE(node.controller.send_media_test_symbol());
   node.run_to(2);
-  ASSERT_EQ(node.controller.state().kind, PocKind::kNormalPassive);
+  ASSERT_EQ(node.controller.state().kind, poc::PocKind::kNormalPassive);
   EXPECT_FALSE(node.controller.send_media_test_symbol());
   node.run_to(5);
   EXPECT_TRUE(node.symbols().empty());
@@ -133,7 +133,7 @@ TEST(MediaTestSymbol, WhatWasAskedForInTimeIsDroppedInNormalPassive) {
 TEST(MediaTestSymbol, ARequestDoesNotOutliveTheSchedule) {
   Single node;
   EXPECT_TRUE(node.controller.send_media_test_symbol());
-  node.controller.command(PocEventKind::kFreeze, Alone::at(0, 20));
+  node.controller.command(poc::PocEventKind::kFreeze, Alone::at(0, 20));
   node.controller.start_integrated({Alone::at(1, 0), 0});
   node.run_to(4);
   EXPECT_TRUE(node.symbols().empty());
@@ -170,26 +170,26 @@ TEST(SymbolWindow, TwoSendersConflict) {
 
 TEST(SymbolWindow, AnythingButASymbolIsASyntaxError) {
   const SymbolWindowSeen error{.syntax_error = true};
-  for (const Signal signal : {Signal::kUndecodable, Signal::kWakeup, Signal::kFrame}) {
+  for (const ports::Signal signal : {ports::Signal::kUndecodable, ports::Signal::kWakeup, ports::Signal::kFrame}) {
     Single node;
     node.hear(signal, 300);
     EXPECT_EQ(node.seen(), error) << static_cast<int>(signal);
     EXPECT_EQ(node.seen(Channel::kB), SymbolWindowSeen{});
   }
   Single twice;
-  twice.hear(Signal::kCas, 100);
-  twice.hear(Signal::kCas, 400);
+  twice.hear(ports::Signal::kCas, 100);
+  twice.hear(ports::Signal::kCas, 400);
   EXPECT_EQ(twice.seen(), (SymbolWindowSeen{.valid_mts = true, .syntax_error = true}));
   Single spoilt;
-  spoilt.hear(Signal::kUndecodable, 100, 20);
-  spoilt.hear(Signal::kCas, 400);
+  spoilt.hear(ports::Signal::kUndecodable, 100, 20);
+  spoilt.hear(ports::Signal::kCas, 400);
   EXPECT_EQ(spoilt.seen(), error);
 }
 
 TEST(SymbolWindow, BothEndsAreBoundaries) {
   constexpr std::int64_t kLength = (kWindowEnd - kWindow) * 40;
   const SymbolWindowSeen valid{.valid_mts = true}, violation{.boundary_violation = true};
-  const auto heard = [](std::int64_t from, Signal signal = Signal::kCas) {
+  const auto heard = [](std::int64_t from, ports::Signal signal = ports::Signal::kCas) {
     Single node;
     node.hear(signal, from);
     return node.seen();
@@ -200,13 +200,13 @@ TEST(SymbolWindow, BothEndsAreBoundaries) {
   EXPECT_EQ(heard(kLength - kSymbol), valid);
   EXPECT_EQ(heard(kLength - kSymbol + 1), violation);
   EXPECT_EQ(heard(kLength), SymbolWindowSeen{});  // all behind it
-  EXPECT_EQ(heard(kLength - 1, Signal::kUndecodable),
+  EXPECT_EQ(heard(kLength - 1, ports::Signal::kUndecodable),
             (SymbolWindowSeen{.syntax_error = true, .boundary_violation = true}));
 }
 
 TEST(SymbolWindow, StandsFromTheEndOfOneWindowToTheEndOfTheNext) {
   Single node;
-  node.hear(Signal::kCas, 280);
+  node.hear(ports::Signal::kCas, 280);
   node.controller.advance(Alone::at(0, kWindowEnd) - Microticks{1});
   EXPECT_EQ(node.controller.symbol_window_status(Channel::kA), SymbolWindowSeen{});
   node.run_to(0, kWindowEnd);
@@ -224,18 +224,18 @@ TEST(SymbolWindow, SaysNothingDuringStartup) {
   bool silent = true;
   int heard_by_others = 0;
   for (int cycle = 25; cycle < 80; ++cycle) {
-    if (rig.controller(0).state().kind == PocKind::kNormalActive) rig.controller(0).send_media_test_symbol();
+    if (rig.controller(0).state().kind == poc::PocKind::kNormalActive) rig.controller(0).send_media_test_symbol();
     rig.run_until(at_ms(cycle));
-    if (rig.controller(3).state().kind != PocKind::kNormalActive)
+    if (rig.controller(3).state().kind != poc::PocKind::kNormalActive)
       silent &= rig.controller(3).symbol_window_status(Channel::kA) == SymbolWindowSeen{};
     heard_by_others += rig.controller(1).symbol_window_status(Channel::kA).valid_mts;
   }
   EXPECT_TRUE(silent);
   EXPECT_GT(heard_by_others, 50);
-  EXPECT_EQ(rig.controller(3).state().kind, PocKind::kNormalActive);
+  EXPECT_EQ(rig.controller(3).state().kind, poc::PocKind::kNormalActive);
   EXPECT_TRUE(rig.controller(3).symbol_window_status(Channel::kA).valid_mts);
   for (const auto& problem : rig.heard(1).problems) EXPECT_EQ(problem.slot, 4);  // the fourth's, before it is there
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -7,19 +7,19 @@
 #include "bus/wire/flexray_frame.h"
 #include "tests/bus/alone.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 // Node 3 by itself; sync frames of nodes 0..2 arrive as the test says, late by so many microticks.
 struct Listener {
-  schedules::Cluster cluster = small_cluster(4);
+  schedules::model::Cluster cluster = small_cluster(4);
   NoPort port;
   Heard heard;
   FlexRayController controller;
 
-  explicit Listener(schedules::Cluster made = small_cluster(4))
+  explicit Listener(schedules::model::Cluster made = small_cluster(4))
       : cluster(std::move(made)), controller(cluster, NodeId{3}, port, heard) {
     controller.start_integrated({{0}, 0});
   }
@@ -83,7 +83,7 @@ TEST(Deviations, EvenCyclesDoNotCorrectTheOffset) {
 }
 
 TEST(Deviations, DelayCompensationIsTakenOffPerChannel) {
-  schedules::Cluster cluster = small_cluster(4);
+  schedules::model::Cluster cluster = small_cluster(4);
   cluster.nodes[3].flexray->pDelayCompensationA = 10;
   cluster.nodes[3].flexray->pDelayCompensationB = 4;
   Listener node(cluster);
@@ -174,7 +174,7 @@ TEST(Convergence, ACompensatedDelayDoesNotSlowTheClusterDown) {
   constexpr std::int64_t kCycles = 400;
   const TrueTime end = Rig::kStart + Duration::milliseconds(kCycles);
   for (const bool compensated : {true, false}) {
-    schedules::Cluster cluster = small_cluster(4);
+    schedules::model::Cluster cluster = small_cluster(4);
     for (auto& node : cluster.nodes)
       node.flexray->pDelayCompensationA = node.flexray->pDelayCompensationB = compensated ? 100 : 0;
     Rig rig(cluster, {900'000, 300'000, -300'000, -900'000}, Duration{2500});
@@ -218,7 +218,7 @@ TEST(Convergence, OneTwoFacedClockOfFourDoesNotTearTheOthersApart) {
 
 // Two clocks 3000 ppm apart: 3 us more per millisecond, for as long as one looks.
 TEST(WithoutSynchronisation, TheDifferenceGrowsAsDriftTimesTime) {
-  schedules::Cluster cluster = small_cluster(2);
+  schedules::model::Cluster cluster = small_cluster(2);
   cluster.synchronisation = false;
   Rig rig(cluster, {1'500'000, -1'500'000});
   for (std::int64_t ms = 10; ms <= 400; ms += 10) {
@@ -237,4 +237,4 @@ TEST(WithoutSynchronisation, TheDifferenceGrowsAsDriftTimesTime) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

@@ -6,41 +6,42 @@
 #include "tests/bus/alone.h"
 #include "tests/bus/startup_cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::controller {
 namespace {
 
 // A coldstart node whose host has commanded WAKEUP at 0. Its listen time-out is over after two cycles of silence; then
 // it sends its pattern on channel A.
 struct Waking {
-  schedules::Cluster cluster = patient_cluster();
+  schedules::model::Cluster cluster = patient_cluster();
   NoPort port;
   Heard heard;
   FlexRayController controller{cluster, NodeId{0}, port, heard};
 
   Waking() {
-    for (const auto command : {PocEventKind::kConfig, PocEventKind::kConfigComplete, PocEventKind::kWakeup})
+    for (const auto command :
+         {poc::PocEventKind::kConfig, poc::PocEventKind::kConfigComplete, poc::PocEventKind::kWakeup})
       controller.command(command, {});
   }
   // The noise timer is not what ends things here.
-  static schedules::Cluster patient_cluster() {
-    schedules::Cluster cluster = startup_cluster(2);
+  static schedules::model::Cluster patient_cluster() {
+    schedules::model::Cluster cluster = startup_cluster(2);
     cluster.flexray.gListenNoise = 16;
     return cluster;
   }
   Microticks timeout() const { return {cluster.nodes[0].flexray->pdListenTimeout}; }
-  PocKind kind() const { return controller.state().kind; }
-  WakeupStatus status() const { return controller.state().wakeup_status; }
+  poc::PocKind kind() const { return controller.state().kind; }
+  poc::WakeupStatus status() const { return controller.state().wakeup_status; }
   void hear_noise(Microticks start, Microticks end) {
     controller.advance(end - Microticks{1});
-    controller.receive({Channel::kA, Signal::kUndecodable, start, end, {}});
+    controller.receive({Channel::kA, ports::Signal::kUndecodable, start, end, {}});
   }
   // Noise into the pattern: a collision, heard until the end of that noise.
   Microticks collide() {
     controller.advance(timeout());
-    EXPECT_EQ(kind(), PocKind::kWakeupSend);
+    EXPECT_EQ(kind(), poc::PocKind::kWakeupSend);
     const Microticks end = timeout() + Microticks{500};
     hear_noise(timeout() + Microticks{100}, end);
-    EXPECT_EQ(kind(), PocKind::kWakeupDetect);
+    EXPECT_EQ(kind(), poc::PocKind::kWakeupDetect);
     return end;
   }
 };
@@ -48,13 +49,13 @@ struct Waking {
 TEST(Wakeup, AfterSilenceThePatternIsSentAndTheNodeIsReady) {
   Waking node;
   node.controller.advance(node.timeout() - Microticks{1});
-  EXPECT_EQ(node.kind(), PocKind::kWakeupListen);
+  EXPECT_EQ(node.kind(), poc::PocKind::kWakeupListen);
   node.controller.advance(node.timeout());
   ASSERT_EQ(node.port.sent.size(), 1u);
-  EXPECT_EQ(node.port.sent[0].signal, Signal::kWakeup);
+  EXPECT_EQ(node.port.sent[0].signal, ports::Signal::kWakeup);
   node.controller.advance(node.port.sent[0].end);
-  EXPECT_EQ(node.kind(), PocKind::kReady);
-  EXPECT_EQ(node.status(), WakeupStatus::kTransmitted);
+  EXPECT_EQ(node.kind(), poc::PocKind::kReady);
+  EXPECT_EQ(node.status(), poc::WakeupStatus::kTransmitted);
 }
 
 // What keeps a channel busy when the timer expires has stopped it: the node listens anew behind it.
@@ -62,24 +63,24 @@ TEST(Wakeup, WhileListeningTheTimerFollowsTheChannels) {
   Waking node;
   node.port.busy[0] = true;
   node.controller.advance(node.timeout());
-  EXPECT_EQ(node.kind(), PocKind::kWakeupListen);
+  EXPECT_EQ(node.kind(), poc::PocKind::kWakeupListen);
   node.port.busy[0] = false;
   const Microticks end = node.timeout() + Microticks{300};
   node.hear_noise(node.timeout() - Microticks{100}, end);
   node.controller.advance(end + node.timeout());
-  EXPECT_EQ(node.kind(), PocKind::kWakeupListen);  // since channel idle was recognised: some bits later
+  EXPECT_EQ(node.kind(), poc::PocKind::kWakeupListen);  // since channel idle was recognised: some bits later
   node.controller.advance(end + node.timeout() + Microticks{11 * 4});
-  EXPECT_EQ(node.kind(), PocKind::kWakeupSend);
+  EXPECT_EQ(node.kind(), poc::PocKind::kWakeupSend);
 }
 
 TEST(Wakeup, ACollisionThatNothingExplainsEndsWithTheListenTimer) {
   Waking node;
   const Microticks collision = node.collide();
   node.controller.advance(collision + node.timeout() - Microticks{1});
-  EXPECT_EQ(node.kind(), PocKind::kWakeupDetect);
+  EXPECT_EQ(node.kind(), poc::PocKind::kWakeupDetect);
   node.controller.advance(collision + node.timeout());
-  EXPECT_EQ(node.kind(), PocKind::kReady);
-  EXPECT_EQ(node.status(), WakeupStatus::kCollisionUnknown);
+  EXPECT_EQ(node.kind(), poc::PocKind::kReady);
+  EXPECT_EQ(node.status(), poc::WakeupStatus::kCollisionUnknown);
 }
 
 // Whoever looks for what collided with the pattern has no other bound than that timer: it runs whatever is heard.
@@ -88,8 +89,8 @@ TEST(Wakeup, ABusyChannelDoesNotKeepTheCollisionUnexplainedForEver) {
   const Microticks collision = node.collide();
   node.port.busy[0] = true;
   node.controller.advance(collision + node.timeout());
-  EXPECT_EQ(node.kind(), PocKind::kReady);
-  EXPECT_EQ(node.status(), WakeupStatus::kCollisionUnknown);
+  EXPECT_EQ(node.kind(), poc::PocKind::kReady);
+  EXPECT_EQ(node.status(), poc::WakeupStatus::kCollisionUnknown);
 }
 
 // Back to back, as the timer expires in the middle of one of them.
@@ -104,9 +105,9 @@ TEST(Wakeup, NoiseUponNoiseDoesNotEither) {
     node.port.busy[0] = false;
     node.hear_noise(at, at + Microticks{2'320});
   }
-  EXPECT_EQ(node.kind(), PocKind::kReady);
-  EXPECT_EQ(node.status(), WakeupStatus::kCollisionUnknown);
+  EXPECT_EQ(node.kind(), poc::PocKind::kReady);
+  EXPECT_EQ(node.status(), poc::WakeupStatus::kCollisionUnknown);
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::controller

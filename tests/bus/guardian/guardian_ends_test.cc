@@ -1,5 +1,5 @@
-// Where a guardian ends what it forwards in the dynamic segment (bus/guardian/guardian.h G9), as a pure rule; in a running
-// cluster: tests/sim/crank/guardian_ends_test.cc.
+// Where a guardian ends what it forwards in the dynamic segment (bus/guardian/guardian.h G9), as a pure rule; in a
+// running cluster: tests/sim/crank/guardian_ends_test.cc.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,19 +11,19 @@
 #include "core/random.h"
 #include "tests/bus/dynamic_cluster.h"
 
-namespace ttf::bus {
+namespace ttf::bus::guardian {
 namespace {
 
 constexpr std::int64_t kDelay = 25;  // to the coupler, as it is compensated for: half of two nodes'
 constexpr int kMicroPerMacro = 40;
 
 // Minislots of 7 macroticks with the action point 3 in, of 25 ns microticks.
-schedules::Cluster ends_cluster() {
-  schedules::Cluster cluster = dynamic_cluster(4);
+schedules::model::Cluster ends_cluster() {
+  schedules::model::Cluster cluster = dynamic_cluster(4);
   cluster.flexray.gdMinislot = 7;
   cluster.flexray.gNumberOfMinislots = 18;
   cluster.flexray.gdMinislotActionPointOffset = 3;
-  for (schedules::Node& node : cluster.nodes) {
+  for (schedules::model::Node& node : cluster.nodes) {
     node.flexray->pDelayCompensationA = node.flexray->pDelayCompensationB = 2 * kDelay;
     node.flexray->pLatestTx = 12;
   }
@@ -31,10 +31,10 @@ schedules::Cluster ends_cluster() {
 }
 
 struct Ends {
-  schedules::Cluster cluster = ends_cluster(), with = guardian_cluster(cluster, Channel::kA);
-  const schedules::GlobalParameters& g = cluster.flexray;
+  schedules::model::Cluster cluster = ends_cluster(), with = guardian_cluster(cluster, Channel::kA);
+  const schedules::model::GlobalParameters& g = cluster.flexray;
   Guardian guardian{with, Channel::kA, *with.nodes.back().flexray};
-  MinislotGrid grid{g};
+  controller::MinislotGrid grid{g};
   timebase::CycleClock clock = at_cycle(0, 0);
   Microticks tolerance{3 * kMicroPerMacro / 2};
   std::vector<Microticks> action_points;  // at the coupler
@@ -110,7 +110,7 @@ TEST(GuardianEnds, G9_NoFrameOfAFaultFreeNodeIsTouched) {
   for (int n = 0; n < 50'000; ++n) {
     const auto sender = static_cast<std::size_t>(draw.integer(0, 3));
     // A slot's minislot without and with transmissions before it.
-    DynamicSlotCounter counter(ends.g);
+    controller::DynamicSlotCounter counter(ends.g);
     if (sender > 0 && draw.integer(0, 1) == 1) counter.occupied(1, static_cast<int>(draw.integer(1, 8)));
     const int minislot = counter.minislot_of(static_cast<int>(11 + sender));
     if (minislot < 1 || minislot > 12) continue;
@@ -118,14 +118,14 @@ TEST(GuardianEnds, G9_NoFrameOfAFaultFreeNodeIsTouched) {
     const auto clock = ends.at_cycle(draw.integer(-close.value, close.value), static_cast<int>(draw.integer(-3, 3)));
     const auto frame = Ends::frame(sender, static_cast<int>(draw.integer(0, kWords)));
     const Microticks begin = clock.start_of(ends.grid.action_point(minislot));
-    const std::int64_t bits = 4 * schedules::frame_bits(ends.g, frame.header.payload_words);
+    const std::int64_t bits = 4 * schedules::model::frame_bits(ends.g, frame.header.payload_words);
     const Microticks frame_end = begin + Microticks{bits + bits * draw.integer(-3000, 3000) / 1'000'000};
     const int last = ends.grid.dts_end(clock, frame_end, Microticks{4});
     ASSERT_LE(last, ends.grid.count());
     const Microticks delay{kDelay}, start = begin + delay;
     const Microticks end = clock.start_of(ends.grid.action_point(last)) + delay;
     const GuardianAnswer answer =
-        ends.guardian.judge(ends.clock, counter, {static_cast<NodeId>(sender), Signal::kFrame, start, &frame});
+        ends.guardian.judge(ends.clock, counter, {static_cast<NodeId>(sender), ports::Signal::kFrame, start, &frame});
     ASSERT_EQ(answer.reason, GuardianReason::kForwarded);
     ASSERT_EQ(ends.guardian.end_of(ends.clock, start, end, answer.until), end)
         << "minislots " << minislot << " to " << last << ", " << int{frame.header.payload_words} << " words";
@@ -136,13 +136,13 @@ TEST(GuardianEnds, G9_WhatLastsTooLongIsCutAtAnActionPointOfTheSegment) {
   const Ends ends;
   for (int taken = 0; taken <= 9; ++taken)
     for (int words = 0; words <= 5; ++words) {
-      DynamicSlotCounter counter(ends.g);
+      controller::DynamicSlotCounter counter(ends.g);
       if (taken > 0) counter.occupied(1, taken);
       const std::size_t sender = taken > 0 ? 1 : 0;
       const Microticks start = ends.action_point(counter.minislot_of(static_cast<int>(11 + sender)));
       const auto frame = Ends::frame(sender, words);
       const auto answer =
-          ends.guardian.judge(ends.clock, counter, {static_cast<NodeId>(sender), Signal::kFrame, start, &frame});
+          ends.guardian.judge(ends.clock, counter, {static_cast<NodeId>(sender), ports::Signal::kFrame, start, &frame});
       ASSERT_TRUE(answer.forwards());
       EXPECT_TRUE(std::binary_search(ends.action_points.begin(), ends.action_points.end(), answer.until));
       const std::int64_t too_long = ends.tolerance.value + 1;
@@ -162,4 +162,4 @@ TEST(GuardianEnds, G9_WhatDoesNotBeginInTheDynamicSegmentHasNoGrid) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::guardian

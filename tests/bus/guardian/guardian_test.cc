@@ -1,5 +1,6 @@
-// The laws of the central guardian's pure part (bus/guardian/guardian.h G1 to G8, bus/guardian/startup_turns.h S1 to S6), over every
-// node, slot, channel and cycle of a schedule, at the edges of every window. G9 is guardian_ends_test.cc's.
+// The laws of the central guardian's pure part (bus/guardian/guardian.h G1 to G8, bus/guardian/startup_turns.h S1 to
+// S6), over every node, slot, channel and cycle of a schedule, at the edges of every window. G9 is
+// guardian_ends_test.cc's.
 #include "bus/guardian/guardian.h"
 
 #include <gtest/gtest.h>
@@ -13,21 +14,21 @@
 #include "bus/guardian/startup_turns.h"
 #include "tests/bus/layouts.h"
 
-namespace ttf::bus {
+namespace ttf::bus::guardian {
 namespace {
 
-using schedules::Channel;
-using schedules::Channels;
-using schedules::FrameSlot;
+using schedules::model::Channel;
+using schedules::model::Channels;
+using schedules::model::FrameSlot;
 
 constexpr std::array kBoth = {Channel::kA, Channel::kB};
 constexpr NodeId kFirst{0}, kSecond{1}, kThird{2}, kFourth{3};
 
 // Four nodes in eight static slots of 43 us, twenty minislots, a symbol window; cycle multiplexing, and slots of one
 // channel.
-schedules::Cluster small() {
-  schedules::Cluster cluster;
-  schedules::GlobalParameters& g = cluster.flexray;
+schedules::model::Cluster small() {
+  schedules::model::Cluster cluster;
+  schedules::model::GlobalParameters& g = cluster.flexray;
   g.gMacroPerCycle = 1000;
   g.gdStaticSlot = 43;
   g.gNumberOfStaticSlots = 8;
@@ -37,9 +38,9 @@ schedules::Cluster small() {
   g.gOffsetCorrectionStart = 900;
   cluster.pdus = {list_layout(), list_layout()};
   for (int n = 0; n < 4; ++n) {
-    schedules::Node node;
+    schedules::model::Node node;
     node.flexray.emplace();
-    schedules::NodeParameters& p = *node.flexray;
+    schedules::model::NodeParameters& p = *node.flexray;
     p.pMicroPerCycle = 40'000;
     p.pKeySlotId = n + 1;
     p.pKeySlotUsedForStartup = n < 2;
@@ -60,9 +61,9 @@ schedules::Cluster small() {
 }
 
 struct Bench {
-  schedules::Cluster cluster = small();
-  std::array<schedules::Cluster, 2> with{guardian_cluster(cluster, Channel::kA),
-                                         guardian_cluster(cluster, Channel::kB)};
+  schedules::model::Cluster cluster = small();
+  std::array<schedules::model::Cluster, 2> with{guardian_cluster(cluster, Channel::kA),
+                                                guardian_cluster(cluster, Channel::kB)};
   std::array<std::unique_ptr<Guardian>, 2> guardian;
   Bench() {
     for (const Channel channel : kBoth) {
@@ -70,7 +71,7 @@ struct Bench {
       guardian[c] = std::make_unique<Guardian>(with[c], channel, *with[c].nodes.back().flexray);
     }
   }
-  const schedules::GlobalParameters& g() const { return cluster.flexray; }
+  const schedules::model::GlobalParameters& g() const { return cluster.flexray; }
 
   // Cycle c begins at microtick 1000 + 40'000 c.
   static timebase::CycleClock clock(int cycle) {
@@ -87,18 +88,19 @@ struct Bench {
     made.header.cycle = static_cast<std::uint8_t>(cycle);
     const bool is_static = slot <= g().gNumberOfStaticSlots;
     made.header.payload_words = static_cast<std::uint8_t>(is_static ? g().gPayloadLengthStatic : 3);
-    const schedules::NodeParameters& p = *cluster.node(node).flexray;
+    const schedules::model::NodeParameters& p = *cluster.node(node).flexray;
     made.header.sync = slot == p.pKeySlotId && p.pKeySlotUsedForSync;
     made.header.startup = slot == p.pKeySlotId && p.pKeySlotUsedForStartup;
     return made;
   }
   GuardianAnswer ask(Channel channel, int cycle, const GuardianSignal& signal,
-                     std::optional<DynamicSlotCounter> counter = std::nullopt) const {
-    return guardian[index_of(channel)]->judge(clock(cycle), counter ? *counter : DynamicSlotCounter(g()), signal);
+                     std::optional<controller::DynamicSlotCounter> counter = std::nullopt) const {
+    return guardian[index_of(channel)]->judge(clock(cycle), counter ? *counter : controller::DynamicSlotCounter(g()),
+                                              signal);
   }
   GuardianReason reason(Channel channel, int cycle, NodeId node, Microticks start,
                         const wire::DecodedFrame& frame) const {
-    return ask(channel, cycle, {node, Signal::kFrame, start, &frame}).reason;
+    return ask(channel, cycle, {node, ports::Signal::kFrame, start, &frame}).reason;
   }
   bool owns(NodeId node, int slot, int cycle, Channel channel) const {
     return std::any_of(cluster.frames.begin(), cluster.frames.end(), [&](const FrameSlot& one) {
@@ -160,8 +162,9 @@ TEST(Guardian, G2_AFrameBeginsWithinHalfAnActionPointOffset) {
         if (slot.slot > 8 || !bench.owns(slot.sender, slot.slot, cycle, channel)) continue;
         const wire::DecodedFrame frame = bench.frame(slot.slot, cycle, slot.sender);
         for (std::int64_t off = -400; off <= 400; ++off) {
-          const auto answer = bench.ask(
-              channel, cycle, {slot.sender, Signal::kFrame, Bench::at(cycle, 43 * (slot.slot - 1) + 7, off), &frame});
+          const auto answer =
+              bench.ask(channel, cycle,
+                        {slot.sender, ports::Signal::kFrame, Bench::at(cycle, 43 * (slot.slot - 1) + 7, off), &frame});
           const bool within = off >= -140 && off <= 140;  // 3.5 us
           const bool in_slot = off >= -280;               // 7 us before lies in the slot before
           if (within) {
@@ -177,7 +180,7 @@ TEST(Guardian, G2_AFrameBeginsWithinHalfAnActionPointOffset) {
 
 TEST(Guardian, G3_DynamicSlotsAreCountedAndBelongToTheirNodes) {
   const Bench bench;
-  const MinislotGrid grid(bench.g());
+  const controller::MinislotGrid grid(bench.g());
   for (const Channel channel : kBoth)
     for (const int cycle : {0, 1})
       for (int minislot = 1; minislot <= 20; ++minislot)
@@ -192,26 +195,27 @@ TEST(Guardian, G3_DynamicSlotsAreCountedAndBelongToTheirNodes) {
               << "minislot " << minislot << " node " << n;
         }
   // After slot 9 took minislots 1 to 4 and an idle one, slot 11 comes in minislot 7.
-  DynamicSlotCounter counter(bench.g());
+  controller::DynamicSlotCounter counter(bench.g());
   const auto clock = Bench::clock(0);
   bench.guardian[0]->count(clock, counter, Bench::at(0, grid.action_point(1).value),
                            Bench::at(0, grid.action_point(4).value));
   const auto frame = bench.frame(11, 0, kFirst);
   for (int minislot = 1; minislot <= 20; ++minislot)
-    EXPECT_EQ(bench
-                  .ask(Channel::kA, 0,
-                       {kFirst, Signal::kFrame, Bench::at(0, grid.action_point(minislot).value), &frame}, counter)
-                  .forwards(),
-              minislot == 7)
+    EXPECT_EQ(
+        bench
+            .ask(Channel::kA, 0,
+                 {kFirst, ports::Signal::kFrame, Bench::at(0, grid.action_point(minislot).value), &frame}, counter)
+            .forwards(),
+        minislot == 7)
         << minislot;
 }
 
 // What went on when the segment began has slot 9; whatever began before it and ended before it has none.
 TEST(Guardian, G3_CountsWhatBeganBeforeTheSegmentAsNodesDo) {
   const Bench bench;
-  const MinislotGrid grid(bench.g());
+  const controller::MinislotGrid grid(bench.g());
   const auto count = [&](int cycle, Microticks start, Microticks end) {
-    DynamicSlotCounter counter(bench.g());
+    controller::DynamicSlotCounter counter(bench.g());
     bench.guardian[0]->count(Bench::clock(cycle), counter, start, end);
     return counter;
   };
@@ -230,17 +234,18 @@ TEST(Guardian, G3_CountsWhatBeganBeforeTheSegmentAsNodesDo) {
 
 TEST(Guardian, G3_NotLaterThanPLatestTxNotLongerThanItsPduNotBeyondTheSegment) {
   Bench bench;
-  const MinislotGrid grid(bench.g());
-  DynamicSlotCounter counter(bench.g());
+  const controller::MinislotGrid grid(bench.g());
+  controller::DynamicSlotCounter counter(bench.g());
   const auto clock = Bench::clock(0);
   // Slot 10 was taken until minislot 11: slot 11 begins in 13, after pLatestTx.
   bench.guardian[0]->count(clock, counter, Bench::at(0, grid.action_point(2).value),
                            Bench::at(0, grid.action_point(11).value));
   auto frame = bench.frame(11, 0, kFirst);
-  EXPECT_EQ(
-      bench.ask(Channel::kA, 0, {kFirst, Signal::kFrame, Bench::at(0, grid.action_point(13).value), &frame}, counter)
-          .reason,
-      GuardianReason::kOutsideWindow);
+  EXPECT_EQ(bench
+                .ask(Channel::kA, 0, {kFirst, ports::Signal::kFrame, Bench::at(0, grid.action_point(13).value), &frame},
+                     counter)
+                .reason,
+            GuardianReason::kOutsideWindow);
 
   auto first = bench.frame(9, 0, kFourth);
   const Microticks start = Bench::at(0, grid.action_point(1).value);
@@ -255,8 +260,9 @@ TEST(Guardian, G3_NotLaterThanPLatestTxNotLongerThanItsPduNotBeyondTheSegment) {
   first.header.sync = true;
   EXPECT_EQ(bench.reason(Channel::kA, 0, kFourth, start, first), GuardianReason::kWrongHeader);
   first.header.sync = false;
-  const auto answer = bench.ask(Channel::kA, 0, {kFourth, Signal::kFrame, start, &first});
-  EXPECT_GE(answer.until, start + Microticks{4 * schedules::frame_bits(bench.g(), 3) + 40 * bench.g().gdMinislot});
+  const auto answer = bench.ask(Channel::kA, 0, {kFourth, ports::Signal::kFrame, start, &first});
+  EXPECT_GE(answer.until,
+            start + Microticks{4 * schedules::model::frame_bits(bench.g(), 3) + 40 * bench.g().gdMinislot});
   EXPECT_LE(answer.until, Bench::at(0, grid.start_of(21).value));
 }
 
@@ -267,14 +273,15 @@ TEST(Guardian, G4_AMediaAccessTestSymbolInTheSymbolWindowOnly) {
     for (std::size_t n = 0; n < 4; ++n)
       for (std::int64_t macrotick = 0; macrotick < 1000; ++macrotick) {
         const auto answer =
-            bench.ask(channel, 2, {static_cast<NodeId>(n), Signal::kCas, Bench::at(2, macrotick), nullptr});
+            bench.ask(channel, 2, {static_cast<NodeId>(n), ports::Signal::kCas, Bench::at(2, macrotick), nullptr});
         const bool in_window = macrotick >= window && macrotick < window + 30;
         ASSERT_EQ(answer.reason, in_window ? GuardianReason::kForwarded : GuardianReason::kNoSymbolNow) << macrotick;
         if (in_window) {
           ASSERT_LE(answer.until, Bench::at(2, window + 30));
         }
-        ASSERT_FALSE(bench.ask(channel, 2, {static_cast<NodeId>(n), Signal::kWakeup, Bench::at(2, macrotick), nullptr})
-                         .forwards());
+        ASSERT_FALSE(
+            bench.ask(channel, 2, {static_cast<NodeId>(n), ports::Signal::kWakeup, Bench::at(2, macrotick), nullptr})
+                .forwards());
       }
 }
 
@@ -284,7 +291,7 @@ TEST(Guardian, G5_NothingBetweenTheSegmentsAndNothingThatIsNotMadeOut) {
   for (std::int64_t macrotick = 8 * 43 + 4 + 20 * 5; macrotick < 1000; ++macrotick)
     ASSERT_EQ(bench.reason(Channel::kA, 0, kFirst, Bench::at(0, macrotick), frame), GuardianReason::kNobodysTime);
   EXPECT_EQ(bench.reason(Channel::kA, 0, kFirst, Bench::at(0, 0, -1), frame), GuardianReason::kNobodysTime);
-  EXPECT_EQ(bench.ask(Channel::kA, 0, {kFirst, Signal::kUndecodable, Bench::at(0, 7), nullptr}).reason,
+  EXPECT_EQ(bench.ask(Channel::kA, 0, {kFirst, ports::Signal::kUndecodable, Bench::at(0, 7), nullptr}).reason,
             GuardianReason::kUndecodable);
   for (const auto error : {wire::FrameError::kTooShort, wire::FrameError::kHeaderCrc}) {
     frame.error = error;
@@ -295,10 +302,10 @@ TEST(Guardian, G5_NothingBetweenTheSegmentsAndNothingThatIsNotMadeOut) {
 TEST(Guardian, G7_AFrameMayLastAsLongAsASlowNodesAndEndsInItsSlot) {
   const Bench bench;
   const auto frame = bench.frame(3, 0, kThird);
-  const std::int64_t bits = schedules::frame_bits(bench.g(), 8);
+  const std::int64_t bits = schedules::model::frame_bits(bench.g(), 8);
   for (std::int64_t off = -140; off <= 140; off += 20) {
     const Microticks start = Bench::at(0, 2 * 43 + 7, off);
-    const auto answer = bench.ask(Channel::kB, 0, {kThird, Signal::kFrame, start, &frame});
+    const auto answer = bench.ask(Channel::kB, 0, {kThird, ports::Signal::kFrame, start, &frame});
     EXPECT_GE((answer.until - start).value, 4 * bits + 4 * bits * 3 / 1000);
     EXPECT_LE(answer.until, Bench::at(0, 3 * 43 - 3));  // half an action point offset before the slot's end
   }
@@ -316,12 +323,12 @@ struct Startup : Bench {
                                     StartupTurns(with[1], Channel::kB, *with[1].nodes.back().flexray)};
   wire::DecodedFrame made;
   static Microticks cycles(double count) { return {static_cast<std::int64_t>(40'000 * count)}; }
-  GuardianSignal symbol(NodeId node, double at, Signal kind = Signal::kCas) const {
+  GuardianSignal symbol(NodeId node, double at, ports::Signal kind = ports::Signal::kCas) const {
     return {node, kind, cycles(at), nullptr};
   }
   GuardianSignal startup_frame(NodeId node, double at, int cycle = 0) {
     made = frame(cluster.node(node).flexray->pKeySlotId, cycle, node);
-    return {node, Signal::kFrame, cycles(at), &made};
+    return {node, ports::Signal::kFrame, cycles(at), &made};
   }
   GuardianReason reason(const GuardianSignal& signal, Channel channel = Channel::kA) const {
     return turns[index_of(channel)].judge(signal).reason;
@@ -342,7 +349,7 @@ TEST(GuardianStartupTurns, G6_OnlyColdstartNodesSendSymbolsAndStartupFrames) {
     EXPECT_EQ(s.reason(s.symbol(node, 1.0)), expected);
     EXPECT_EQ(s.reason(s.startup_frame(node, 1.0)), expected);
   }
-  EXPECT_EQ(s.reason(s.symbol(kFirst, 1.0, Signal::kUndecodable)), GuardianReason::kUndecodable);
+  EXPECT_EQ(s.reason(s.symbol(kFirst, 1.0, ports::Signal::kUndecodable)), GuardianReason::kUndecodable);
   auto wrong = [&](auto change) {
     GuardianSignal signal = s.startup_frame(kFirst, 1.0);
     change(s.made);
@@ -361,7 +368,7 @@ TEST(GuardianStartupTurns, S1_OneLeadsAtATime) {
   EXPECT_EQ(s.turns[0].leader(), kFirst);
   EXPECT_EQ(s.pass(s.symbol(kSecond, 1.01)), GuardianReason::kOtherLeads);
   EXPECT_EQ(s.pass(s.startup_frame(kSecond, 1.5)), GuardianReason::kOtherLeads);
-  EXPECT_EQ(s.pass(s.symbol(kSecond, 1.5, Signal::kWakeup)), GuardianReason::kNoWakeup);
+  EXPECT_EQ(s.pass(s.symbol(kSecond, 1.5, ports::Signal::kWakeup)), GuardianReason::kNoWakeup);
   EXPECT_EQ(s.pass(s.startup_frame(kFirst, 1.02)), GuardianReason::kForwarded);
   EXPECT_EQ(s.turns[0].leader(), kFirst);
   // The leader is not heard for more than a cycle.
@@ -425,15 +432,15 @@ TEST(GuardianStartupTurns, S4_WhoLedAsItShouldWaitsForTheSilentCycleOnly) {
 
 TEST(GuardianStartupTurns, S5_AWakeupPatternOnItsChannelOnceInAWhile) {
   Startup s;
-  EXPECT_EQ(s.reason(s.symbol(kFirst, 1.0, Signal::kWakeup), Channel::kB), GuardianReason::kNoWakeup);
-  EXPECT_EQ(s.reason(s.symbol(kSecond, 1.0, Signal::kWakeup), Channel::kB), GuardianReason::kForwarded);
-  EXPECT_EQ(s.pass(s.symbol(kFirst, 1.0, Signal::kWakeup)), GuardianReason::kForwarded);
-  EXPECT_EQ(s.pass(s.symbol(kFirst, 12.9, Signal::kWakeup)), GuardianReason::kNoWakeup);
-  EXPECT_EQ(s.pass(s.symbol(kFourth, 2.0, Signal::kWakeup)), GuardianReason::kForwarded);
-  EXPECT_EQ(s.pass(s.symbol(kFirst, 13.0, Signal::kWakeup)), GuardianReason::kForwarded);
+  EXPECT_EQ(s.reason(s.symbol(kFirst, 1.0, ports::Signal::kWakeup), Channel::kB), GuardianReason::kNoWakeup);
+  EXPECT_EQ(s.reason(s.symbol(kSecond, 1.0, ports::Signal::kWakeup), Channel::kB), GuardianReason::kForwarded);
+  EXPECT_EQ(s.pass(s.symbol(kFirst, 1.0, ports::Signal::kWakeup)), GuardianReason::kForwarded);
+  EXPECT_EQ(s.pass(s.symbol(kFirst, 12.9, ports::Signal::kWakeup)), GuardianReason::kNoWakeup);
+  EXPECT_EQ(s.pass(s.symbol(kFourth, 2.0, ports::Signal::kWakeup)), GuardianReason::kForwarded);
+  EXPECT_EQ(s.pass(s.symbol(kFirst, 13.0, ports::Signal::kWakeup)), GuardianReason::kForwarded);
   EXPECT_EQ(s.turns[0].leader(), kNoNode);
   s.pass(s.symbol(kSecond, 14.0));
-  EXPECT_EQ(s.pass(s.symbol(kThird, 14.1, Signal::kWakeup)), GuardianReason::kOtherLeads);
+  EXPECT_EQ(s.pass(s.symbol(kThird, 14.1, ports::Signal::kWakeup)), GuardianReason::kOtherLeads);
 }
 
 TEST(GuardianStartupTurns, S6_NothingLastsLongerThanItMay) {
@@ -442,8 +449,9 @@ TEST(GuardianStartupTurns, S6_NothingLastsLongerThanItMay) {
     return (s.turns[0].judge(signal).until - signal.start).value;
   };
   EXPECT_NEAR(static_cast<double>(length(s.symbol(kFirst, 1.0))), 4.0 * 91, 8.0);
-  EXPECT_NEAR(static_cast<double>(length(s.startup_frame(kFirst, 1.0))), 4.0 * schedules::frame_bits(s.g(), 8), 10.0);
-  EXPECT_NEAR(static_cast<double>(length(s.symbol(kFirst, 1.0, Signal::kWakeup))), 4.0 * 2 * 240, 12.0);
+  EXPECT_NEAR(static_cast<double>(length(s.startup_frame(kFirst, 1.0))), 4.0 * schedules::model::frame_bits(s.g(), 8),
+              10.0);
+  EXPECT_NEAR(static_cast<double>(length(s.symbol(kFirst, 1.0, ports::Signal::kWakeup))), 4.0 * 2 * 240, 12.0);
 }
 
 TEST(GuardianStartupTurns, AfterTheClusterHasStartedNobodyLeads) {
@@ -458,4 +466,4 @@ TEST(GuardianStartupTurns, AfterTheClusterHasStartedNobodyLeads) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::guardian

@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "tests/bus/poc/poc_script.h"
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 namespace {
 
 struct Frame {
@@ -276,4 +276,4 @@ TEST(PocCluster, LateNodesJoinTheRunningCluster) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

@@ -1,7 +1,7 @@
 // Normal operation: how clock errors degrade a node and how it recovers, deferred commands, key slot only mode.
 #include "tests/bus/poc/poc_script.h"
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 namespace {
 
 // A coldstart node in cycle 7, normal active.
@@ -197,4 +197,4 @@ TEST(PocHost, PowerOnForgetsEverything) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

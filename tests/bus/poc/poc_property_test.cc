@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "tests/bus/poc/poc_script.h"
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 namespace {
 
 constexpr int kSeeds = 200;
@@ -257,4 +257,4 @@ TEST(PocProperties, TheSameInputsGiveTheSameStep) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

@@ -8,7 +8,7 @@
 
 #include "bus/poc/poc.h"
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 
 using Kind = PocKind;
 using Event = PocEventKind;
@@ -106,4 +106,4 @@ class PocScript {
   bool clock_limit = false;
 };
 
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

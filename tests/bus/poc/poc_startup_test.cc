@@ -1,7 +1,7 @@
 // Start-up and wake-up, one node at a time: what its controller would report is told in order.
 #include "tests/bus/poc/poc_script.h"
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 namespace {
 
 // Tells cycle after cycle until the node is normal active; gives the number of the cycle that began with it, -1: never.
@@ -262,12 +262,12 @@ TEST(PocStartup, InhibitedNodeFollowsButDoesNotLead) {
 TEST(PocStartup, TimeoutsComeFromTheParameters) {
   EXPECT_EQ(coldstart_node().listen_timeout(), Microticks{400'000});
   EXPECT_EQ(coldstart_node().noise_timeout(), Microticks{800'000});
-  schedules::GlobalParameters global;
+  schedules::model::GlobalParameters global;
   global.gListenNoise = 5;
   global.gColdStartAttempts = 7;
   global.gMaxWithoutClockCorrectionPassive = 3;
   global.gMaxWithoutClockCorrectionFatal = 9;
-  schedules::NodeParameters node;
+  schedules::model::NodeParameters node;
   node.pdListenTimeout = 1'000;
   node.pKeySlotUsedForStartup = true;
   node.pKeySlotOnlyEnabled = true;
@@ -317,4 +317,4 @@ TEST(PocWakeup, LeavesColdstartInhibitAsItWas) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

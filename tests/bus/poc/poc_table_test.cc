@@ -7,7 +7,7 @@
 
 #include "tests/bus/poc/poc_script.h"
 
-namespace ttf::bus {
+namespace ttf::bus::poc {
 namespace {
 
 struct Code {
@@ -68,8 +68,8 @@ struct Row {
   const char* start;  // the state's code
   const char* what;
   PocParameters parameters;
-  std::function<void(PocScript&)> lead;  // there
-  const char* next;                      // by column; "--" is the same state
+  std::function<void(ttf::bus::poc::PocScript&)> lead;  // there
+  const char* next;                                     // by column; "--" is the same state
 };
 
 PocParameters with_attempts(int attempts) {
@@ -308,4 +308,4 @@ TEST(PocTable, EachStateEventAndReasonHasItsOwnWords) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::poc

@@ -15,7 +15,7 @@ template <bool kFlexibleDataRate> class TestCanBench final : public CanBench {
  public:
   bool flexible_data_rate() const override { return kFlexibleDataRate; }
   std::size_t controllers() const override { return can_.controllers(); }
-  bus::CanPort& port(std::size_t controller) override { return can_.port(controller); }
+  bus::ports::CanPort& port(std::size_t controller) override { return can_.port(controller); }
   void begin() override { can_.begin(); }
   void run_until_idle() override { can_.run_until_idle(); }
   const std::vector<CanReached>& reached() const override { return reached_; }
@@ -23,7 +23,7 @@ template <bool kFlexibleDataRate> class TestCanBench final : public CanBench {
  private:
   std::vector<CanReached> reached_;
   bus::TestCan can_{
-      4, [this](std::size_t controller, const bus::CanFrame& frame) {
+      4, [this](std::size_t controller, const bus::ports::CanFrame& frame) {
         reached_.push_back(
             {controller, frame.identifier, frame.flexible_data_rate, {frame.data.begin(), frame.data.end()}});
       }};
@@ -37,29 +37,29 @@ INSTANTIATE_TYPED_TEST_SUITE_P(TestMedium, CanPortLaws, CanBenches);
 
 }  // namespace ttf::laws
 
-namespace ttf::bus {
+namespace ttf::bus::ports {
 namespace {
 
 // Two nodes' lists interleave on the bus: the urgent one overtakes frame by frame, and the third node has both whole.
 TEST(CanControllers, ListsThatInterleaveArriveWhole) {
-  schedules::Cluster cluster;
+  schedules::model::Cluster cluster;
   cluster.nodes.resize(3);
   cluster.pdus = {list_layout(4, 10, 4), list_layout(4, 10, 4)};
-  schedules::CanBus bus;
+  schedules::model::CanBus bus;
   bus.flexible_data_rate = true;
   bus.nominal_bit_rate = 1'000'000;
   bus.data_bit_rate = 5'000'000;
   bus.messages = {{PduId{0}, 0x40, NodeId{0}, {}, 0}, {PduId{1}, 0x50, NodeId{1}, {}, 0}};
   cluster.can_buses = {bus};
 
-  std::vector<std::unique_ptr<CanController>> nodes;
+  std::vector<std::unique_ptr<cni::CanController>> nodes;
   std::vector<PduId> order;  // of the frames that node 2 hears
   TestCan can(3, [&](std::size_t node, const CanFrame& frame) {
     const auto arrival = nodes[node]->receive(frame);
     if (node == 2) order.push_back(arrival.value().pdu);
   });
   for (std::size_t n = 0; n < 3; ++n)
-    nodes.push_back(std::make_unique<CanController>(cluster, static_cast<NodeId>(n), 0, can.port(n)));
+    nodes.push_back(std::make_unique<cni::CanController>(cluster, static_cast<NodeId>(n), 0, can.port(n)));
   MadeList urgent(cluster.pdus[0], 3, 10, 100), other(cluster.pdus[1], 9, 10, 200);
   nodes[1]->send(PduId{1}, other.view());
   can.begin();
@@ -75,4 +75,4 @@ TEST(CanControllers, ListsThatInterleaveArriveWhole) {
 }
 
 }  // namespace
-}  // namespace ttf::bus
+}  // namespace ttf::bus::ports

@@ -13,12 +13,12 @@ template <std::size_t kMembers> class MemoryExchangeBench : public ExchangeBench
     for (std::size_t i = 0; i < kMembers; ++i) members_.push_back(hub_.join(NodeId{static_cast<std::uint8_t>(i)}));
   }
   std::size_t members() const override { return kMembers; }
-  bus::Exchange& member(std::size_t index) override { return *members_[index]; }
+  bus::ports::Exchange& member(std::size_t index) override { return *members_[index]; }
   void end(std::size_t index) override { hub_.leave(NodeId{static_cast<std::uint8_t>(index)}); }
 
  private:
   test::MemoryExchange hub_;
-  std::vector<std::unique_ptr<bus::Exchange>> members_;
+  std::vector<std::unique_ptr<bus::ports::Exchange>> members_;
 };
 
 using MemoryExchangeBenches = testing::Types<MemoryExchangeBench<2>, MemoryExchangeBench<6>>;

@@ -8,14 +8,14 @@ namespace {
 
 class TestMediumBench final : public FlexRayBench {
  public:
-  const schedules::GlobalParameters& parameters() const override { return flexray_; }
+  const schedules::model::GlobalParameters& parameters() const override { return flexray_; }
   std::int64_t microtick_ps() const override { return 25'000; }
   std::size_t controllers() const override { return 4; }
-  bus::FlexRayPort& port(std::size_t controller) override { return medium_.port(controller); }
+  bus::ports::FlexRayPort& port(std::size_t controller) override { return medium_.port(controller); }
   void run_until(Microticks now) override {
     while (medium_.next() && medium_.oscillator(0).ticks_at(*medium_.next()) <= now) {
       const auto arrival = medium_.pop();
-      const bus::Reception reception = medium_.reception(arrival);
+      const bus::ports::Reception reception = medium_.reception(arrival);
       reached_.push_back(
           {arrival.receiver, reception.channel, reception.signal, reception.start, reception.end, arrival.bytes});
     }
@@ -24,7 +24,7 @@ class TestMediumBench final : public FlexRayBench {
   const std::vector<Reached>& reached() const override { return reached_; }
 
  private:
-  schedules::GlobalParameters flexray_;
+  schedules::model::GlobalParameters flexray_;
   bus::TestMedium medium_{std::vector<timebase::Oscillator>(4, {25'000, 0, 0}), Duration{700}};
   std::vector<Reached> reached_;
 };

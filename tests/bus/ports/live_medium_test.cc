@@ -23,20 +23,21 @@ template <std::size_t kMembers, test::Told kTold> class MemoryLiveBench : public
  public:
   MemoryLiveBench() {
     for (std::size_t i = 0; i < kMembers; ++i) {
-      std::vector<bus::Line> lines;
-      for (bus::Line line = 0; line < bus_.lines(); ++line)
+      std::vector<bus::ports::Line> lines;
+      for (bus::ports::Line line = 0; line < bus_.lines(); ++line)
         if (on(i, line)) lines.push_back(line);
       members_.push_back(bus_.join(lines));
     }
   }
   std::size_t members() const override { return kMembers; }
-  bus::LiveMedium& member(std::size_t index) override { return *members_[index]; }
+  bus::ports::LiveMedium& member(std::size_t index) override { return *members_[index]; }
   std::vector<bool> can_buses() const override { return {false, true}; }
-  bool on(std::size_t member, bus::Line line) const override {
-    return line != bus::line_of_can(0) || member + 1 < kMembers || kMembers == 2;
+  bool on(std::size_t member, bus::ports::Line line) const override {
+    return line != bus::ports::line_of_can(0) || member + 1 < kMembers || kMembers == 2;
   }
-  bool intrude(bus::Line line, Intruder what) override {
-    bus_.intrude(line, what == Intruder::kForeign ? &bus::LiveCounts::foreign : &bus::LiveCounts::malformed);
+  bool intrude(bus::ports::Line line, Intruder what) override {
+    bus_.intrude(line,
+                 what == Intruder::kForeign ? &bus::ports::LiveCounts::foreign : &bus::ports::LiveCounts::malformed);
     return true;
   }
   std::size_t flood() const override { return 3000; }
@@ -44,7 +45,7 @@ template <std::size_t kMembers, test::Told kTold> class MemoryLiveBench : public
 
  protected:
   test::MemoryLiveBus bus_{{.can_buses = {false, true}, .told = kTold}};
-  std::vector<std::unique_ptr<bus::LiveMedium>> members_;
+  std::vector<std::unique_ptr<bus::ports::LiveMedium>> members_;
 };
 
 using MemoryLiveBenches =
@@ -78,32 +79,33 @@ enum class Defect {
 };
 
 // A medium that keeps the laws but for one thing.
-class DefectiveMedium final : public bus::LiveMedium {
+class DefectiveMedium final : public bus::ports::LiveMedium {
  public:
-  using Bytes = std::array<std::byte, wire::kMaxFrameBytes>;
+  using Bytes = std::array<std::byte, bus::wire::kMaxFrameBytes>;
   // `common`: the one place for what arrives at any member.
-  DefectiveMedium(std::unique_ptr<bus::LiveMedium> sound, Defect defect, std::shared_ptr<Bytes> common)
+  DefectiveMedium(std::unique_ptr<bus::ports::LiveMedium> sound, Defect defect, std::shared_ptr<Bytes> common)
       : sound_(std::move(sound)), defect_(defect), common_(std::move(common)) {}
 
-  bus::LiveStatus send(const bus::LiveSignal& signal, bus::HostTime due) override {
+  bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::HostTime due) override {
     if (defect_ == Defect::kEchoes) echo_ = true;
     if (defect_ == Defect::kReusesBytes) std::ranges::copy(signal.bytes, common_->begin());
-    bus::LiveSignal sent = signal;
-    if (defect_ == Defect::kReadsBytesLater && signal.signal == bus::Signal::kFrame) {  // sends the one before
+    bus::ports::LiveSignal sent = signal;
+    if (defect_ == Defect::kReadsBytesLater && signal.signal == bus::ports::Signal::kFrame) {  // sends the one before
       const auto before = std::exchange(later_, sent);
-      return before ? sound_->send(*before, due) : bus::LiveStatus::kDone;
+      return before ? sound_->send(*before, due) : bus::ports::LiveStatus::kDone;
     }
     if (defect_ == Defect::kBlocks) std::this_thread::sleep_for(std::chrono::milliseconds(++sent_ == 20 ? 1100 : 0));
     if (defect_ == Defect::kOtherLine && signal.slot > 1)
-      sent.channel = signal.channel == schedules::Channel::kA ? schedules::Channel::kB : schedules::Channel::kA;
+      sent.channel = signal.channel == schedules::model::Channel::kA ? schedules::model::Channel::kB
+                                                                     : schedules::model::Channel::kA;
     if (defect_ == Defect::kTellsNothing) sent.tells_late = false;
     if (defect_ == Defect::kTellsWrong) due = due - Duration::milliseconds(1);
     return sound_->send(sent, due);
   }
-  bus::LiveStatus send_can(std::size_t can_bus, const bus::CanFrame& frame) override {
+  bus::ports::LiveStatus send_can(std::size_t can_bus, const bus::ports::CanFrame& frame) override {
     return sound_->send_can(can_bus, frame);
   }
-  std::optional<bus::LiveArrival> receive() override {
+  std::optional<bus::ports::LiveArrival> receive() override {
     if (std::exchange(echo_, false)) return invented();
     if (auto again = std::exchange(again_, {})) return again;
     auto heard = sound_->receive();
@@ -113,14 +115,14 @@ class DefectiveMedium final : public bus::LiveMedium {
     if (defect_ == Defect::kDoubles && received_ == 5) again_ = heard;
     if (defect_ == Defect::kTellsTwice && heard->late) {
       again_ = heard;
-      again_->kind = bus::LiveArrival::Kind::kFollowUp;
+      again_->kind = bus::ports::LiveArrival::Kind::kFollowUp;
     }
     if (defect_ == Defect::kAlters && received_ > 5 && !heard->signal.bytes.empty()) {
       std::ranges::copy(heard->signal.bytes, bytes_.begin());
       bytes_[heard->signal.bytes.size() - 1] ^= std::byte{1};
       heard->signal.bytes = std::span(bytes_).first(heard->signal.bytes.size());
     }
-    if (defect_ == Defect::kReusesBytes && heard->kind == bus::LiveArrival::Kind::kFlexRay) {
+    if (defect_ == Defect::kReusesBytes && heard->kind == bus::ports::LiveArrival::Kind::kFlexRay) {
       std::ranges::copy(heard->signal.bytes, common_->begin());
       heard->signal.bytes = std::span(*common_).first(heard->signal.bytes.size());
     }
@@ -131,20 +133,20 @@ class DefectiveMedium final : public bus::LiveMedium {
         return next;
       }
     if (defect_ == Defect::kStampsEarly) heard->at = heard->at - Duration::milliseconds(1);
-    if (defect_ == Defect::kStampsWhenAskedFor) heard->at = bus::host_now();
+    if (defect_ == Defect::kStampsWhenAskedFor) heard->at = bus::ports::host_now();
     if (defect_ == Defect::kAllocates) allocated_ = std::make_unique<int>(1);
     return heard;
   }
-  int descriptor(bus::Line line) const override { return sound_->descriptor(line); }
-  void watch(bus::Line line, bool on) override {
+  int descriptor(bus::ports::Line line) const override { return sound_->descriptor(line); }
+  void watch(bus::ports::Line line, bool on) override {
     if (defect_ == Defect::kSilentDescriptor) return;
     sound_->watch(line, on);
     if (defect_ == Defect::kLoudDescriptor && descriptor(line) >= 0) eventfd_write(descriptor(line), 1);
     eventfd_t ignored = 0;
     if (defect_ == Defect::kForgetsWhatCameBefore) eventfd_read(descriptor(line), &ignored);
   }
-  bus::LiveCounts counts() const override {
-    bus::LiveCounts counts = sound_->counts();
+  bus::ports::LiveCounts counts() const override {
+    bus::ports::LiveCounts counts = sound_->counts();
     if (defect_ == Defect::kCountsNoLosses) counts.lost = 0;
     if (defect_ == Defect::kCountsNoStrangers) counts.foreign = counts.malformed = 0;
     if (defect_ == Defect::kMiscounts && counts.sent > 0) ++counts.sent;
@@ -153,26 +155,26 @@ class DefectiveMedium final : public bus::LiveMedium {
   const std::string& failure() const override { return sound_->failure(); }
 
  private:
-  static bus::LiveArrival invented() {
-    bus::LiveArrival arrival;
+  static bus::ports::LiveArrival invented() {
+    bus::ports::LiveArrival arrival;
     arrival.signal.slot = 1;
     return arrival;
   }
-  std::optional<bus::LiveArrival> handed_over(std::optional<bus::LiveArrival> nothing) {
-    const bus::LiveCounts counts = sound_->counts();
+  std::optional<bus::ports::LiveArrival> handed_over(std::optional<bus::ports::LiveArrival> nothing) {
+    const bus::ports::LiveCounts counts = sound_->counts();
     if (defect_ == Defect::kHandsStrangersOver && std::exchange(strangers_, counts.foreign) != counts.foreign)
       return invented();
     return nothing;
   }
 
-  std::unique_ptr<bus::LiveMedium> sound_;
+  std::unique_ptr<bus::ports::LiveMedium> sound_;
   Defect defect_;
   std::shared_ptr<Bytes> common_;
   std::uint64_t sent_ = 0, received_ = 0, strangers_ = 0;
   bool echo_ = false;
-  std::optional<bus::LiveSignal> later_;
-  std::optional<bus::LiveArrival> again_;
-  bus::LiveArrival kept_;
+  std::optional<bus::ports::LiveSignal> later_;
+  std::optional<bus::ports::LiveArrival> again_;
+  bus::ports::LiveArrival kept_;
   Bytes bytes_{};
   std::unique_ptr<int> allocated_;
 };
@@ -186,7 +188,7 @@ class DefectiveBench : public MemoryLiveBench<3, test::Told::kWithTheFrame> {
   std::chrono::milliseconds patience() const override { return std::chrono::milliseconds(500); }
 };
 
-using Law = std::string (*)(LiveBench&);
+using Law = std::string (*)(ttf::laws::LiveBench&);
 struct Noticed {
   const char* name;
   Defect defect;

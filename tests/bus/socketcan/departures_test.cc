@@ -8,11 +8,11 @@
 #include "bus/socketcan/stamp.h"
 #include "tests/bus/socketcan/frames.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
-using bus::HostTime;
-using schedules::Channel;
+using ports::HostTime;
+using schedules::model::Channel;
 
 canfd_frame last_of(int slot, int cycle, int words) {
   const CanFrames can = frame_to_can(slot, drawn_frame(Channel::kA, slot, cycle, words));
@@ -100,9 +100,9 @@ TEST(Stamps, WhereThereIsNoneItIsNow) {
 }
 
 TEST(Stamps, ClocksAreReadTogether) {
-  const HostTime before = bus::host_now();
+  const HostTime before = ports::host_now();
   const ClockPair pair = clock_pair();
-  const HostTime after = bus::host_now();
+  const HostTime after = ports::host_now();
   EXPECT_TRUE(before <= pair.host && pair.host <= pair.now && pair.now <= after);
   // Two pairs agree on what a stamp means, unless somebody sets the clock or keeps both readings waiting.
   const ClockPair later = clock_pair();
@@ -110,4 +110,4 @@ TEST(Stamps, ClocksAreReadTogether) {
 }
 
 }  // namespace
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

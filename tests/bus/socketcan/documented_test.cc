@@ -10,13 +10,13 @@
 
 #include "bus/socketcan/flexray_on_can.h"
 #include "bus/wire/flexray_crc.h"
-#include "tests/schedules/exchange/dbc_reader.h"
 #include "tests/bus/socketcan/frames.h"
+#include "tests/schedules/exchange/dbc_reader.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 struct Line {
   Channel channel{};
@@ -47,21 +47,21 @@ TEST(DocumentedExamples, AreWhatTheyAreSaidToBe) {
   Reassembly a(Channel::kA), b(Channel::kB);
   struct Said {
     Outcome outcome;
-    bus::Signal signal;
+    ports::Signal signal;
     int slot, cycle, words;
     bool sync, null_frame;
     int first_byte;  // of the payload
     std::int64_t ns;
   };
   const std::vector<Said> said{
-      {Outcome::kComplete, bus::Signal::kFrame, 1, 0, 8, true, false, 0x00, 0},
-      {Outcome::kComplete, bus::Signal::kFrame, 5, 1, 0, false, true, -1, 0},
-      {Outcome::kComplete, bus::Signal::kFrame, 5, 1, 0, false, true, -1, 0},
-      {Outcome::kComplete, bus::Signal::kFrame, 37, 12, 9, false, false, 0xa0, 0},
-      {Outcome::kFragment, bus::Signal::kFrame, 70, 0, 0, false, false, 0, 0},
-      {Outcome::kComplete, bus::Signal::kFrame, 70, 63, 30, false, false, 0x01, 0},
-      {Outcome::kComplete, bus::Signal::kCas, 0, 0, 0, false, false, 0, 5'700},
-      {Outcome::kComplete, bus::Signal::kWakeup, 0, 0, 0, false, false, 0, 1'980'000},
+      {Outcome::kComplete, ports::Signal::kFrame, 1, 0, 8, true, false, 0x00, 0},
+      {Outcome::kComplete, ports::Signal::kFrame, 5, 1, 0, false, true, -1, 0},
+      {Outcome::kComplete, ports::Signal::kFrame, 5, 1, 0, false, true, -1, 0},
+      {Outcome::kComplete, ports::Signal::kFrame, 37, 12, 9, false, false, 0xa0, 0},
+      {Outcome::kFragment, ports::Signal::kFrame, 70, 0, 0, false, false, 0, 0},
+      {Outcome::kComplete, ports::Signal::kFrame, 70, 63, 30, false, false, 0x01, 0},
+      {Outcome::kComplete, ports::Signal::kCas, 0, 0, 0, false, false, 0, 5'700},
+      {Outcome::kComplete, ports::Signal::kWakeup, 0, 0, 0, false, false, 0, 1'980'000},
   };
   ASSERT_EQ(lines.size(), said.size() + 1);
   for (std::size_t i = 0; i < said.size(); ++i) {
@@ -72,7 +72,7 @@ TEST(DocumentedExamples, AreWhatTheyAreSaidToBe) {
     if (said[i].outcome == Outcome::kFragment) continue;
     EXPECT_EQ(arrival.signal, said[i].signal) << i;
     EXPECT_EQ(arrival.duration.ns, said[i].ns) << i;
-    if (said[i].signal != bus::Signal::kFrame) continue;
+    if (said[i].signal != ports::Signal::kFrame) continue;
     const wire::DecodedFrame frame = wire::decode_frame(lines[i].channel, arrival.frame);
     ASSERT_EQ(frame.error, wire::FrameError::kNone) << i;
     EXPECT_EQ(frame.header.frame_id, said[i].slot) << i;
@@ -105,7 +105,7 @@ TEST(DocumentedExamples, AreWhatIsSent) {
       EXPECT_TRUE(same(follow_up_to_can(lines[i].channel, *arrival.follow_up), lines[i].can)) << i;
       continue;
     }
-    if (arrival.signal != bus::Signal::kFrame) {
+    if (arrival.signal != ports::Signal::kFrame) {
       EXPECT_TRUE(same(symbol_to_can(lines[i].channel, arrival.signal, arrival.duration), lines[i].can)) << i;
       continue;
     }
@@ -120,7 +120,7 @@ TEST(ShippedDbc, ReadsSymbolsAndFollowUpsAsTheyAreSent) {
   for (const char* name : {"paper_synchronised", "laser_radar"}) {
     std::ifstream file(TTF_SOURCE_DIR "/schedules/" + std::string(name) + ".dbc");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
-    const schedules::DbcMessage message = schedules::read_dbc(text).messages.at(0);
+    const schedules::exchange::DbcMessage message = schedules::exchange::read_dbc(text).messages.at(0);
     const auto reads = [&](const canfd_frame& can, int kind, const std::string& signal) {
       std::vector<std::byte> data = bytes_of(data_of(can));
       data.resize(static_cast<std::size_t>(message.length));
@@ -131,8 +131,8 @@ TEST(ShippedDbc, ReadsSymbolsAndFollowUpsAsTheyAreSent) {
     const auto crc = [](const canfd_frame& can, std::size_t says) {
       return static_cast<double>(wire::frame_crc(Channel::kB, data_of(can).first(says)));
     };
-    const std::vector<std::pair<bus::Signal, std::string>> symbols{
-        {bus::Signal::kCas, "cas"}, {bus::Signal::kWakeup, "wakeup"}, {bus::Signal::kUndecodable, "noise"}};
+    const std::vector<std::pair<ports::Signal, std::string>> symbols{
+        {ports::Signal::kCas, "cas"}, {ports::Signal::kWakeup, "wakeup"}, {ports::Signal::kUndecodable, "noise"}};
     for (std::size_t i = 0; i < symbols.size(); ++i) {
       const canfd_frame can = symbol_to_can(Channel::kB, symbols[i].first, Duration::nanoseconds(3'141'592'653));
       EXPECT_EQ(reads(can, static_cast<int>(i + 1), symbols[i].second + "_duration"), 3'141'592'653.0);
@@ -149,4 +149,4 @@ TEST(ShippedDbc, ReadsSymbolsAndFollowUpsAsTheyAreSent) {
 }
 
 }  // namespace
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

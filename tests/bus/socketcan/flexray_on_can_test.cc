@@ -10,10 +10,10 @@
 #include "tests/bus/socketcan/frames.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 std::size_t at(RandomStream& draw, const Bytes& bytes) {
   return static_cast<std::size_t>(draw.integer(0, static_cast<std::int64_t>(bytes.size()) - 1));
@@ -52,7 +52,7 @@ TEST(FlexRayOnCan, EveryLengthArrivesUnchanged) {
             continue;
           }
           ASSERT_EQ(arrival.outcome, Outcome::kComplete) << words;
-          EXPECT_EQ(arrival.signal, bus::Signal::kFrame);
+          EXPECT_EQ(arrival.signal, ports::Signal::kFrame);
           EXPECT_EQ(bytes_of(arrival.frame), frame) << words;
           EXPECT_EQ(wire::decode_frame(channel, arrival.frame).error, wire::FrameError::kNone);
         }
@@ -104,7 +104,7 @@ TEST(FlexRayOnCan, AFrameInAnotherSlotKeepsItsHeader) {
 
 TEST(FlexRayOnCan, SymbolsArriveWithTheirDurations) {
   for (const Channel channel : {Channel::kA, Channel::kB})
-    for (const bus::Signal symbol : {bus::Signal::kCas, bus::Signal::kWakeup, bus::Signal::kUndecodable})
+    for (const ports::Signal symbol : {ports::Signal::kCas, ports::Signal::kWakeup, ports::Signal::kUndecodable})
       for (const std::int64_t ns : {std::int64_t{0}, std::int64_t{1}, std::int64_t{5'700}, std::int64_t{1'980'000},
                                     std::int64_t{0xffff'ffff}}) {
         const canfd_frame can = symbol_to_can(channel, symbol, Duration::nanoseconds(ns));
@@ -205,7 +205,7 @@ TEST(FlexRayOnCan, NoOtherIdentifierOrLengthMakesAnotherFrame) {
 }
 
 TEST(FlexRayOnCan, ASymbolWithACorruptedByteIsNone) {
-  const canfd_frame can = symbol_to_can(Channel::kA, bus::Signal::kWakeup, Duration::nanoseconds(1'980'000));
+  const canfd_frame can = symbol_to_can(Channel::kA, ports::Signal::kWakeup, Duration::nanoseconds(1'980'000));
   Reassembly receiver(Channel::kA);
   for (std::size_t at = 0; at < can.len; ++at)
     for (unsigned flip = 1; flip < 256; ++flip) {
@@ -287,7 +287,7 @@ TEST(FlexRayOnCan, NothingIsAllocated) {
   for (int i = 0; i < 100; ++i) {
     const CanFrames can = frame_to_can(5, frame);
     for (const canfd_frame& one : can.all()) receiver.arrive(one);
-    receiver.arrive(symbol_to_can(Channel::kA, bus::Signal::kCas, Duration::nanoseconds(5'700)));
+    receiver.arrive(symbol_to_can(Channel::kA, ports::Signal::kCas, Duration::nanoseconds(5'700)));
     receiver.arrive(follow_up_to_can(Channel::kA, {.slot = 5, .cycle_counter = 1, .late = Duration::nanoseconds(i)}));
   }
   EXPECT_EQ(support::allocations(), before);
@@ -295,4 +295,4 @@ TEST(FlexRayOnCan, NothingIsAllocated) {
 }
 
 }  // namespace
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

@@ -7,10 +7,10 @@
 #include "core/random.h"
 #include "tests/bus/socketcan/frames.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 class Fragments : public ::testing::Test {
  protected:
@@ -100,7 +100,7 @@ TEST_F(Fragments, EndWithAWholeFrameASymbolOrABrokenFrameInBetween) {
   broken[2] ^= std::byte{1};
   for (const canfd_frame& between :
        {frame_to_can(71, drawn_frame(Channel::kA, 71, kCycle, 4)).frames[0], frame_to_can(71, broken).frames[0],
-        symbol_to_can(Channel::kA, bus::Signal::kCas, Duration::nanoseconds(5'700))}) {
+        symbol_to_can(Channel::kA, ports::Signal::kCas, Duration::nanoseconds(5'700))}) {
     arrive(0);
     const Arrival arrival = receiver_.arrive(between);
     EXPECT_EQ(arrival.outcome, Outcome::kComplete);
@@ -192,4 +192,4 @@ TEST_F(Fragments, InAnyOrderMakeNoOtherFrame) {
 }
 
 }  // namespace
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

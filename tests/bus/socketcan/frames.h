@@ -11,7 +11,7 @@
 #include "bus/wire/flexray_frame.h"
 #include "core/random.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 
 using Bytes = std::vector<std::byte>;
 
@@ -21,7 +21,7 @@ inline std::span<const std::byte> data_of(const canfd_frame& can) {
 }
 
 // The same for the same arguments; some are sync, startup or null frames.
-inline Bytes drawn_frame(schedules::Channel channel, int slot, int cycle, int words) {
+inline Bytes drawn_frame(schedules::model::Channel channel, int slot, int cycle, int words) {
   RandomStream draw({.seed = 1,
                      .entity = static_cast<std::uint16_t>(slot),
                      .index = static_cast<std::uint32_t>(cycle * 128 + words)});
@@ -40,9 +40,9 @@ inline Bytes drawn_frame(schedules::Channel channel, int slot, int cycle, int wo
 }
 
 // Whether a controller would take it as the frame of that slot.
-inline bool sound(schedules::Channel channel, const Arrival& arrival, int slot) {
+inline bool sound(schedules::model::Channel channel, const Arrival& arrival, int slot) {
   const wire::DecodedFrame decoded = wire::decode_frame(channel, arrival.frame);
   return arrival.slot == slot && decoded.error == wire::FrameError::kNone && decoded.header.frame_id == slot;
 }
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

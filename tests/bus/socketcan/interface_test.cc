@@ -10,12 +10,12 @@
 #include "core/errors.h"
 #include "tests/bus/socketcan/vcan.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
 constexpr InterfaceState kFine{.refused = 0, .there = true, .can = true, .up = true, .mtu = 72};
 
-InterfaceState but(void (*change)(InterfaceState&)) {
+InterfaceState but(void (*change)(ttf::bus::socketcan::InterfaceState&)) {
   InterfaceState state = kFine;
   change(state);
   return state;
@@ -121,4 +121,4 @@ TEST_F(OwnVcan, IsMendedByTheCommands) {
 }
 
 }  // namespace
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

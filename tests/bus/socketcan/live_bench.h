@@ -9,27 +9,27 @@
 #include <vector>
 
 #include "bus/socketcan/live_medium.h"
-#include "tests/laws/live_listener.h"
 #include "tests/bus/socketcan/vcan.h"
+#include "tests/laws/live_listener.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 
 // Nobody sends while another does, as the schedule has it: the fragments of one frame follow one another.
-class InItsSlot final : public bus::LiveMedium {
+class InItsSlot final : public ports::LiveMedium {
  public:
   InItsSlot(const LiveOptions& options, std::mutex& slot) : medium_(options), slot_(slot) {}
 
-  bus::LiveStatus send(const bus::LiveSignal& signal, bus::HostTime due) override {
+  ports::LiveStatus send(const ports::LiveSignal& signal, ports::HostTime due) override {
     const std::scoped_lock lock(slot_);
     return medium_.send(signal, due);
   }
-  bus::LiveStatus send_can(std::size_t can_bus, const bus::CanFrame& frame) override {
+  ports::LiveStatus send_can(std::size_t can_bus, const ports::CanFrame& frame) override {
     return medium_.send_can(can_bus, frame);
   }
-  std::optional<bus::LiveArrival> receive() override { return medium_.receive(); }
-  int descriptor(bus::Line line) const override { return medium_.descriptor(line); }
-  void watch(bus::Line line, bool on) override { medium_.watch(line, on); }
-  bus::LiveCounts counts() const override { return medium_.counts(); }
+  std::optional<ports::LiveArrival> receive() override { return medium_.receive(); }
+  int descriptor(ports::Line line) const override { return medium_.descriptor(line); }
+  void watch(ports::Line line, bool on) override { medium_.watch(line, on); }
+  ports::LiveCounts counts() const override { return medium_.counts(); }
   const std::string& failure() const override { return medium_.failure(); }
 
  private:
@@ -43,25 +43,25 @@ template <std::size_t kMembers> class VcanBench : public laws::LiveBench {
   VcanBench() {
     for (std::size_t i = 0; i < kMembers && missing().empty(); ++i) {
       LiveOptions options{.channels = {vcans_[0], vcans_[1]},
-                          .cans = {{on(i, bus::line_of_can(0)) ? vcans_[2] : "", false}, {vcans_[3], true}},
+                          .cans = {{on(i, ports::line_of_can(0)) ? vcans_[2] : "", false}, {vcans_[3], true}},
                           .receive_buffer_frames = 2048};
       members_.push_back(std::make_unique<InItsSlot>(options, slot_));
     }
   }
   std::string missing() const override { return vcans_.missing(); }
   std::size_t members() const override { return kMembers; }
-  bus::LiveMedium& member(std::size_t index) override { return *members_[index]; }
+  ports::LiveMedium& member(std::size_t index) override { return *members_[index]; }
   std::vector<bool> can_buses() const override { return {false, true}; }
-  bool on(std::size_t member, bus::Line line) const override {
-    return line != bus::line_of_can(0) || member + 1 < kMembers || kMembers == 2;
+  bool on(std::size_t member, ports::Line line) const override {
+    return line != ports::line_of_can(0) || member + 1 < kMembers || kMembers == 2;
   }
   // Foreign: a classic frame on a channel, a 29-bit identifier on a CAN. Malformed: a CAN FD frame of zeros, of a
   // length that only a vcan carries.
-  bool intrude(bus::Line line, Intruder what) override {
+  bool intrude(ports::Line line, Intruder what) override {
     Socket stranger({.interface = vcans_[line], .filters = {}});
     canfd_frame can{};
     can.can_id = 5;
-    if (what == Intruder::kForeign && line >= bus::line_of_can(0)) can.can_id |= CAN_EFF_FLAG;
+    if (what == Intruder::kForeign && line >= ports::line_of_can(0)) can.can_id |= CAN_EFF_FLAG;
     if (what == Intruder::kMalformed) can.flags = CANFD_FDF;
     can.len = what == Intruder::kMalformed ? 13 : 8;
     return stranger.send(can) == Status::kDone;
@@ -75,4 +75,4 @@ template <std::size_t kMembers> class VcanBench : public laws::LiveBench {
   std::vector<std::unique_ptr<InItsSlot>> members_;
 };
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

@@ -1,10 +1,10 @@
 // The real-time medium on SocketCAN keeps the laws of the port.
-#include "tests/laws/live_medium_laws.h"
 #include "tests/bus/socketcan/live_bench.h"
+#include "tests/laws/live_medium_laws.h"
 
 namespace ttf::laws {
 
-using VcanBenches = testing::Types<socketcan::VcanBench<2>, socketcan::VcanBench<5>>;
+using VcanBenches = testing::Types<bus::socketcan::VcanBench<2>, bus::socketcan::VcanBench<5>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(SocketCan, LiveMediumLaws, VcanBenches);
 
 }  // namespace ttf::laws

@@ -24,13 +24,13 @@
 #include "tests/bus/socketcan/vcan.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
-using bus::HostTime;
-using bus::LiveArrival;
-using bus::LiveStatus;
-using schedules::Channel;
+using ports::HostTime;
+using ports::LiveArrival;
+using ports::LiveStatus;
+using schedules::model::Channel;
 
 // On channel A, on B, and on a classic CAN.
 class LiveOnVcan : public ::testing::Test {
@@ -44,7 +44,7 @@ class LiveOnVcan : public ::testing::Test {
             .receive_buffer_frames = receive_buffer_frames};
   }
   Socket stranger(std::size_t line) const { return Socket({.interface = vcans_[line], .filters = {}}); }
-  static bus::LiveSignal signal(const Bytes& frame, int slot, bool tells_late = false) {
+  static ports::LiveSignal signal(const Bytes& frame, int slot, bool tells_late = false) {
     return {.channel = Channel::kA, .slot = slot, .bytes = frame, .tells_late = tells_late};
   }
   // What comes within a second.
@@ -79,9 +79,9 @@ TEST_F(LiveOnVcan, AFollowUpSaysHowLateTheFrameLeft) {
   LiveMedium sender(options()), receiver(options());
   for (const std::int64_t late_ns : {0, 1'000'000, 123'456'789, -5'000'000, 2'000'000'000}) {
     const Bytes frame = drawn_frame(Channel::kA, 9, 33, 20);
-    const HostTime due = bus::host_now() - Duration::nanoseconds(late_ns), begin = bus::host_now();
+    const HostTime due = ports::host_now() - Duration::nanoseconds(late_ns), begin = ports::host_now();
     ASSERT_EQ(sender.send(signal(frame, 9, true), due), LiveStatus::kDone);
-    const HostTime end = bus::host_now();
+    const HostTime end = ports::host_now();
     const auto arrival = next(receiver);
     ASSERT_TRUE(arrival);
     ASSERT_EQ(arrival->kind, LiveArrival::Kind::kFlexRay);
@@ -112,7 +112,7 @@ TEST_F(LiveOnVcan, AFollowUpIsSentAtOnce) {
   std::size_t told = 0;
   for (int i = 0; i < 20; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ASSERT_EQ(sender.send(signal(frame, 9, true), bus::host_now()), LiveStatus::kDone);
+    ASSERT_EQ(sender.send(signal(frame, 9, true), ports::host_now()), LiveStatus::kDone);
     while (const auto arrival = receiver.receive()) told += arrival->kind == LiveArrival::Kind::kFollowUp;
   }
   EXPECT_EQ(told, 20u);
@@ -123,9 +123,9 @@ TEST_F(LiveOnVcan, AFollowUpWaitsForWhatIsStillToBeReceived) {
   LiveMedium sender(options()), receiver(options());
   const Bytes others = drawn_frame(Channel::kA, 2, 33, 20), own = drawn_frame(Channel::kA, 9, 33, 20);
   ASSERT_EQ(receiver.send(signal(others, 2), {}), LiveStatus::kDone);
-  const HostTime due = bus::host_now();
+  const HostTime due = ports::host_now();
   ASSERT_EQ(sender.send(signal(own, 9, true), due), LiveStatus::kDone);
-  const HostTime left = bus::host_now();
+  const HostTime left = ports::host_now();
   ASSERT_TRUE(next(receiver));
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_FALSE(receiver.receive());
@@ -143,9 +143,9 @@ TEST_F(LiveOnVcan, OnlyWhatIsToTellItIsFollowedUp) {
   LiveMedium sender(options()), receiver(options());
   const Bytes frame = drawn_frame(Channel::kA, 9, 33, 20);
   ASSERT_EQ(sender.send(signal(frame, 9, false), {}), LiveStatus::kDone);
-  ASSERT_EQ(sender.send({.channel = Channel::kA, .signal = bus::Signal::kCas, .duration = {5'700}, .bytes = {}}, {}),
+  ASSERT_EQ(sender.send({.channel = Channel::kA, .signal = ports::Signal::kCas, .duration = {5'700}, .bytes = {}}, {}),
             LiveStatus::kDone);
-  const HostTime long_ago = bus::host_now() - Duration::milliseconds(3'000);  // too late to be told
+  const HostTime long_ago = ports::host_now() - Duration::milliseconds(3'000);  // too late to be told
   ASSERT_EQ(sender.send(signal(frame, 9, true), long_ago), LiveStatus::kDone);
   for (int i = 0; i < 3; ++i) {
     const auto arrival = next(receiver);
@@ -164,7 +164,7 @@ TEST_F(LiveOnVcan, NothingArrivesInTheFuture) {
   Socket socket = stranger(0);
   const sock_txtime with{.clockid = CLOCK_MONOTONIC, .flags = 0};
   ASSERT_EQ(setsockopt(socket.descriptor(), SOL_SOCKET, SO_TXTIME, &with, sizeof with), 0);
-  canfd_frame can = symbol_to_can(Channel::kA, bus::Signal::kCas, Duration::nanoseconds(5'700));
+  canfd_frame can = symbol_to_can(Channel::kA, ports::Signal::kCas, Duration::nanoseconds(5'700));
   iovec place{.iov_base = &can, .iov_len = CANFD_MTU};
   alignas(cmsghdr) std::array<std::byte, CMSG_SPACE(sizeof(std::uint64_t))> control{};
   msghdr message{};
@@ -178,10 +178,10 @@ TEST_F(LiveOnVcan, NothingArrivesInTheFuture) {
   head->cmsg_len = CMSG_LEN(sizeof(std::uint64_t));
   const std::uint64_t year_2255 = 9'000'000'000'000'000'000;
   std::memcpy(CMSG_DATA(head), &year_2255, sizeof year_2255);
-  const HostTime begin = bus::host_now();
+  const HostTime begin = ports::host_now();
   ASSERT_EQ(sendmsg(socket.descriptor(), &message, 0), static_cast<ssize_t>(CANFD_MTU));
   const auto arrival = next(receiver);
-  const HostTime end = bus::host_now();
+  const HostTime end = ports::host_now();
   ASSERT_TRUE(arrival);
   EXPECT_GE(arrival->at, begin);
   EXPECT_LE(arrival->at, end);
@@ -363,4 +363,4 @@ TEST(LiveMediumWithout, AnInterfaceIsAClearError) {
 }
 
 }  // namespace
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

@@ -9,18 +9,18 @@
 #include <vector>
 
 #include "bus/wire/can_timing.h"
-#include "schedules/file/loader.h"
 #include "schedules/check/real_time_rules.h"
+#include "schedules/file/loader.h"
 #include "tests/bus/socketcan/frames.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
-using schedules::Channels;
-using schedules::Cluster;
+using schedules::model::Channels;
+using schedules::model::Cluster;
 
 constexpr BitRates kFast{1'000'000, 5'000'000};
-constexpr std::int64_t kOne = schedules::kTimeScaleOne;
+constexpr std::int64_t kOne = schedules::check::kTimeScaleOne;
 
 // The most stuff bits that n bits of anybody's choice can need: after five equal ones, stuff bits included,
 // another follows.
@@ -58,7 +58,7 @@ Duration longest(int data_bytes, BitRates rates) {
 }
 
 Cluster shipped(const std::string& name) {
-  return schedules::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
+  return schedules::file::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
 }
 
 // One node off sync with slot 1 on both channels, and a payload of so many words.
@@ -67,7 +67,7 @@ Cluster with_payload(int words) {
   cluster.flexray.gNumberOfStaticSlots = 10;
   cluster.flexray.gPayloadLengthStatic = words;
   cluster.nodes.resize(2);
-  for (schedules::Node& node : cluster.nodes) node.flexray.emplace();
+  for (schedules::model::Node& node : cluster.nodes) node.flexray.emplace();
   cluster.frames = {{1, Channels::kAB, 0, 1, NodeId{0}, kNoPdu, 0, 0}};
   return cluster;
 }
@@ -121,12 +121,12 @@ TEST(ScheduleOnCan, LengthsAreThoseOfTheMapping) {
 TEST(ScheduleOnCan, DrawnFramesLastNoLonger) {
   for (const int words : {0, 3, 8, 28, 29, 64, 127}) {
     const auto slots = slots_on_can(with_payload(words), kFast);
-    schedules::CanBus bus;
+    schedules::model::CanBus bus;
     bus.flexible_data_rate = true;
     bus.nominal_bit_rate = kFast.nominal;
     bus.data_bit_rate = kFast.data;
     for (int cycle = 0; cycle < 64; ++cycle) {
-      const Bytes frame = drawn_frame(schedules::Channel::kA, 1 + 32 * cycle, cycle, words);
+      const Bytes frame = drawn_frame(schedules::model::Channel::kA, 1 + 32 * cycle, cycle, words);
       Duration sum{};
       const auto on_can = frame_to_can(1 + 32 * cycle, frame);
       for (const canfd_frame& can : on_can.all()) sum += wire::can_frame_duration(bus, can.can_id, data_of(can));
@@ -220,8 +220,8 @@ TEST(ScheduleOnCan, TheSmallestTimeScaleIsTheSmallest) {
       EXPECT_TRUE(slots[0].holds(smallest)) << smallest;
       EXPECT_FALSE(slots[0].holds(smallest - 1)) << smallest;
     }
-  EXPECT_EQ(smallest_time_scale({}), schedules::kSmallestTimeScale);
+  EXPECT_EQ(smallest_time_scale({}), schedules::check::kSmallestTimeScale);
 }
 
 }  // namespace
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

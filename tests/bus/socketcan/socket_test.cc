@@ -11,10 +11,10 @@
 #include "tests/bus/socketcan/frames.h"
 #include "tests/bus/socketcan/vcan.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 using SocketOnVcan = OnVcan;
 using SocketOnOwnVcan = OwnVcan;
 
@@ -195,4 +195,4 @@ TEST_F(SocketOnOwnVcan, AnInterfaceThatIsRemovedWakesItsReader) {
 }
 
 }  // namespace
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

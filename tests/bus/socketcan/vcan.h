@@ -11,7 +11,7 @@
 
 #include "bus/socketcan/interface.h"
 
-namespace ttf::socketcan {
+namespace ttf::bus::socketcan {
 
 // Runs a command as one would type it; whether it succeeded.
 inline bool run(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()) == 0; }
@@ -79,4 +79,4 @@ class OwnVcan : public ::testing::Test {
   }
 };
 
-}  // namespace ttf::socketcan
+}  // namespace ttf::bus::socketcan

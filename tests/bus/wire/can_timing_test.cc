@@ -8,21 +8,21 @@
 #include "core/random.h"
 #include "schedules/analysis/can_load.h"
 
-namespace ttf::wire {
+namespace ttf::bus::wire {
 namespace {
 
 // What is counted: start of frame to the end of the three bits of intermission. Lengths published without it are three
 // bits shorter: 111 bits unstuffed for 8 bytes are 108 and the intermission, 135 in the worst case 132 and it.
 
-schedules::CanBus classic() {
-  schedules::CanBus bus;
+schedules::model::CanBus classic() {
+  schedules::model::CanBus bus;
   bus.name = "classic";
   bus.nominal_bit_rate = bus.data_bit_rate = 1'000'000;
   return bus;
 }
 
-schedules::CanBus fast() {
-  schedules::CanBus bus = classic();
+schedules::model::CanBus fast() {
+  schedules::model::CanBus bus = classic();
   bus.name = "fast";
   bus.flexible_data_rate = true;
   bus.data_bit_rate = 5'000'000;
@@ -158,8 +158,8 @@ TEST(CanTiming, ClassicFramesBitByBit) {
     const auto id = static_cast<std::uint32_t>(stream.integer(0, 2047));
     const Duration exact = can_frame_duration(classic(), id, data);
     ASSERT_EQ(exact, WireFrame::classic_frame(id, data).at(1'000'000, 1'000'000)) << run;
-    ASSERT_GE(exact, schedules::can_best_case(classic(), static_cast<int>(data.size())));
-    ASSERT_LE(exact, schedules::can_worst_case(classic(), static_cast<int>(data.size())));
+    ASSERT_GE(exact, schedules::analysis::can_best_case(classic(), static_cast<int>(data.size())));
+    ASSERT_LE(exact, schedules::analysis::can_worst_case(classic(), static_cast<int>(data.size())));
   }
 }
 
@@ -170,8 +170,8 @@ TEST(CanTiming, FlexibleDataRateFramesBitByBit) {
     const auto id = static_cast<std::uint32_t>(stream.integer(0, 2047));
     const Duration exact = can_frame_duration(fast(), id, data);
     ASSERT_EQ(exact, WireFrame::fd_frame(id, data).at(1'000'000, 5'000'000)) << run << " " << data.size();
-    ASSERT_GE(exact, schedules::can_best_case(fast(), static_cast<int>(data.size())));
-    ASSERT_LE(exact, schedules::can_worst_case(fast(), static_cast<int>(data.size())));
+    ASSERT_GE(exact, schedules::analysis::can_best_case(fast(), static_cast<int>(data.size())));
+    ASSERT_LE(exact, schedules::analysis::can_worst_case(fast(), static_cast<int>(data.size())));
   }
 }
 
@@ -228,7 +228,7 @@ TEST(CanTiming, RatesSwitchAtBrsAndBackAtTheCrcDelimiter) {
 }
 
 TEST(CanTiming, RoundsUpToWholeNanoseconds) {
-  schedules::CanBus odd = classic();
+  schedules::model::CanBus odd = classic();
   odd.nominal_bit_rate = odd.data_bit_rate = 300'000;  // 3333.3 ns
   int rounded = 0;
   for (std::uint32_t id = 0; id < 64; ++id) {
@@ -240,4 +240,4 @@ TEST(CanTiming, RoundsUpToWholeNanoseconds) {
 }
 
 }  // namespace
-}  // namespace ttf::wire
+}  // namespace ttf::bus::wire

@@ -8,10 +8,10 @@
 #include "bus/wire/flexray_crc.h"
 #include "core/random.h"
 
-namespace ttf::wire {
+namespace ttf::bus::wire {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 using Bytes = std::vector<std::byte>;
 
 Bytes bytes_of(std::initializer_list<unsigned> values) {
@@ -290,7 +290,7 @@ TEST(Frame, ZeroIsNoCrc) {
 }
 
 TEST(Frame, LengthOnTheWire) {
-  schedules::GlobalParameters flexray;
+  schedules::model::GlobalParameters flexray;
   flexray.gdTSSTransmitter = 9;
   flexray.gdBit_ps = 100'000;
   EXPECT_EQ(frame_bits(flexray, 28), 9 + 1 + 80 + 560 + 2);
@@ -304,4 +304,4 @@ TEST(Frame, LengthOnTheWire) {
 }
 
 }  // namespace
-}  // namespace ttf::wire
+}  // namespace ttf::bus::wire

@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "tests/bus/layouts.h"
 
-namespace ttf::wire {
+namespace ttf::bus::wire {
 namespace {
 
 using bus::derive;
@@ -26,7 +26,7 @@ std::string bit_text(std::span<const std::byte> payload) {
 }
 
 TEST(PduCodec, SignalsAreMostSignificantBitFirstWithoutGaps) {
-  schedules::PduLayout layout;
+  schedules::model::PduLayout layout;
   layout.name = "packed";
   layout.elements_per_fragment = 2;
   layout.header = {signal("a", 3), signal("b", 7)};
@@ -54,7 +54,7 @@ TEST(PduCodec, RoundTripLeavesTheNeighboursAlone) {
   RandomStream stream({5, 0, Purpose::kTest, 1, 0});
   int shorter = 0, as_long = 0, longer = 0;  // than the 64 bits that are handled at once
   for (int run = 0; run < 600; ++run) {
-    schedules::PduLayout layout;
+    schedules::model::PduLayout layout;
     layout.name = "drawn";
     const auto elements = stream.integer(1, 3), signals = stream.integer(1, 5), widest = stream.integer(1, 32);
     layout.elements_per_fragment = static_cast<int>(elements);
@@ -71,7 +71,7 @@ TEST(PduCodec, RoundTripLeavesTheNeighboursAlone) {
     for (int write = 0; write < 20; ++write) {
       const int element = static_cast<int>(stream.integer(0, elements - 1));
       const auto s = static_cast<std::size_t>(stream.integer(0, signals - 1));
-      const schedules::Signal& chosen = layout.element[s];
+      const schedules::model::Signal& chosen = layout.element[s];
       const auto value = static_cast<std::uint32_t>(stream.integer(0, (std::int64_t{1} << chosen.bits) - 1));
       std::string expected = bit_text(payload);
       const auto first =
@@ -87,7 +87,7 @@ TEST(PduCodec, RoundTripLeavesTheNeighboursAlone) {
 }
 
 TEST(PduCodec, PhysicalValuesRoundToHalfAResolution) {
-  const schedules::Signal speed = signal("speed", 12, -20.0, 0.05);
+  const schedules::model::Signal speed = signal("speed", 12, -20.0, 0.05);
   RandomStream stream({5, 0, Purpose::kTest, 2, 0});
   for (int run = 0; run < 2000; ++run) {
     const double value = stream.uniform(speed.low, speed.high);
@@ -100,7 +100,7 @@ TEST(PduCodec, PhysicalValuesRoundToHalfAResolution) {
 TEST(PduCodec, RoundsHalfAwayFromZero) {
   RandomStream stream({5, 0, Purpose::kTest, 3, 0});
   for (int run = 0; run < 20'000; ++run) {
-    const schedules::Signal s = signal("s", 32, stream.uniform(-100.0, 100.0), run % 2 == 0 ? 0.25 : 0.01);
+    const schedules::model::Signal s = signal("s", 32, stream.uniform(-100.0, 100.0), run % 2 == 0 ? 0.25 : 0.01);
     const auto code = static_cast<double>(stream.integer(0, std::int64_t{1} << stream.integer(1, 32)));
     double value = s.low + (code + 0.5) * s.resolution;
     if (run % 3 > 0) value = std::nextafter(value, run % 3 == 1 ? s.low : s.high);
@@ -111,7 +111,7 @@ TEST(PduCodec, RoundsHalfAwayFromZero) {
 }
 
 TEST(PduCodec, SaturatesAndCounts) {
-  schedules::Signal s = signal("s", 8, -10.0, 0.1);
+  schedules::model::Signal s = signal("s", 8, -10.0, 0.1);
   s.high = 10.0;
   int saturated = 0;
   EXPECT_EQ(to_raw(s, -10.1, &saturated), 0u);
@@ -126,15 +126,15 @@ TEST(PduCodec, SaturatesAndCounts) {
 
 // The loader admits a `high` half a resolution above the last code; it must not wrap round to zero.
 TEST(PduCodec, TheTopOfTheRangeDoesNotWrap) {
-  schedules::Signal s = signal("s", 8);
+  schedules::model::Signal s = signal("s", 8);
   s.high = 255.5;
   EXPECT_EQ(to_raw(s, 255.5), 255u);
-  schedules::Signal widest = signal("w", 32);
+  schedules::model::Signal widest = signal("w", 32);
   EXPECT_EQ(to_raw(widest, 1e12), 0xFFFFFFFFu);
 }
 
 TEST(PduCodec, CodesAboveTheRangeAreReported) {
-  schedules::Signal s = signal("s", 8, -10.0, 0.1);
+  schedules::model::Signal s = signal("s", 8, -10.0, 0.1);
   s.high = 10.0;
   EXPECT_EQ(highest_code(s), 200u);
   for (std::uint32_t raw = 0; raw < 256; ++raw) {
@@ -154,7 +154,7 @@ TEST(PduCodec, CodesAboveTheRangeAreReported) {
 }
 
 TEST(PduCodecDeathTest, NotANumberAndWrongSizesAreOurBugs) {
-  const schedules::PduLayout layout = bus::list_layout();
+  const schedules::model::PduLayout layout = bus::list_layout();
   std::vector<std::byte> payload(static_cast<std::size_t>(layout.fragment_bytes) + 1);
   EXPECT_DEATH(to_raw(layout.element[0], std::numeric_limits<double>::quiet_NaN()), "not a number");
   EXPECT_DEATH(read_header_raw(layout, payload, 0), "bytes for list");
@@ -162,4 +162,4 @@ TEST(PduCodecDeathTest, NotANumberAndWrongSizesAreOurBugs) {
 }
 
 }  // namespace
-}  // namespace ttf::wire
+}  // namespace ttf::bus::wire

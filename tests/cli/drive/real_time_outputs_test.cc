@@ -16,13 +16,13 @@
 #include "recording/log/writer.h"
 #include "schedules/file/loader.h"
 
-namespace ttf::cli {
+namespace ttf::cli::drive {
 namespace {
 
 namespace fs = std::filesystem;
 
-records::BinnedDurations late_by(std::initializer_list<std::pair<std::int64_t, int>> us_and_times) {
-  records::BinnedDurations late;
+recording::records::BinnedDurations late_by(std::initializer_list<std::pair<std::int64_t, int>> us_and_times) {
+  recording::records::BinnedDurations late;
   for (const auto& [us, times] : us_and_times)
     for (int i = 0; i < times; ++i) late.add(Duration::microseconds(us));
   return late;
@@ -31,13 +31,13 @@ records::BinnedDurations late_by(std::initializer_list<std::pair<std::int64_t, i
 // Stretched ten times. Node 0: 1000 wake-ups. Node 2 told of nothing but had problems.
 StrategyResult a_run() {
   StrategyResult result;
-  result.strategy = fusion::StrategyKind::kTt;
-  result.cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  result.strategy = fusion::strategies::StrategyKind::kTt;
+  result.cluster = schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   result.summary.age_used_newest = late_by({{20'000, 98}, {30'000, 2}});
   result.summary.age_used_oldest = late_by({{25'000, 100}});
-  experiments::RealTimeFindings found;
+  evaluation::lateness::RealTimeFindings found;
   found.time_scale_ppm = 10'000'000;
-  recording::NodeLateness& late = found.lateness[NodeId{0}];
+  recording::exports::NodeLateness& late = found.lateness[NodeId{0}];
   late.wake_ups = late_by({{10, 500}, {20, 490}, {50, 9}, {3000, 1}});
   late.floor = late_by({{7, 1000}});
   late.arrivals = late_by({{40, 10}});
@@ -127,7 +127,7 @@ TEST(RealTimeOutputs, InVirtualTimeThereIsNothingToTell) {
   result.real_time.reset();
   EXPECT_EQ(real_time_text(result), "");
   EXPECT_TRUE(real_time_json(result).is_null());
-  const nodes::Scenario scenario;
+  const drives::Scenario scenario;
   EXPECT_FALSE(to_json(scenario, 1, {result})["strategies"][0].contains("real_time"));
   EXPECT_EQ(to_json(scenario, 1, {a_run()})["strategies"][0]["real_time"], real_time_json(a_run()));
 }
@@ -137,8 +137,8 @@ TEST(RealTimeOutputs, ThePageShowsTableAndPicture) {
   fs::create_directories(folder);
   const auto page_of = [&](StrategyResult result) {
     result.log_path = (folder / "tt.mcap").string();
-    recording::LogWriter(result.log_path, {}).close();
-    write_pictures(nodes::Scenario{}, {result}, folder.string());
+    recording::log::LogWriter(result.log_path, {}).close();
+    write_pictures(drives::Scenario{}, {result}, folder.string());
     std::ifstream file(folder / "index.html");
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
@@ -160,4 +160,4 @@ TEST(RealTimeOutputs, ThePageShowsTableAndPicture) {
 }
 
 }  // namespace
-}  // namespace ttf::cli
+}  // namespace ttf::cli::drive

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-namespace ttf::cli {
+namespace ttf::cli::launch {
 namespace {
 
-constexpr launch::Ending kWell{false, 0}, kKilled{true, 9};
+constexpr supervision::Ending kWell{false, 0}, kKilled{true, 9};
 const std::string kActive = "normal active", kLost = "integration listen";
 
 TEST(DriveEnd, SaysNothingWhereAllAreInOperation) {
@@ -53,11 +53,11 @@ TEST(DriveEnd, NobodyIsNobodyOnFlexRay) {
 }
 
 TEST(DriveEnd, InVirtualTimeTheRecordsSayTheStates) {
-  schedules::Cluster cluster;
+  schedules::model::Cluster cluster;
   cluster.nodes.resize(3);
   cluster.nodes[1].flexray.emplace();
   cluster.nodes[2].flexray.emplace();
-  experiments::NodeStartup off, active;
+  evaluation::cluster::NodeStartup off, active;
   off.node = NodeId{0};
   off.state = "off";
   active.node = NodeId{2};
@@ -70,16 +70,16 @@ TEST(DriveEnd, InVirtualTimeTheRecordsSayTheStates) {
 TEST(DriveEnd, IsOfTheLastProcessOfEachNode) {
   EndWatch watch(2);
   int told = 0;
-  launch::Hooks hooks;
-  hooks.on_gone = [&](std::size_t, const launch::Ending&, bool) { ++told; };
-  const launch::Hooks around = watch.around(hooks);
+  supervision::Hooks hooks;
+  hooks.on_gone = [&](std::size_t, const supervision::Ending&, bool) { ++told; };
+  const supervision::Hooks around = watch.around(hooks);
   EXPECT_FALSE(watch.begun());
   EXPECT_EQ(around.on_all_ready(), nlohmann::json::object());
   EXPECT_TRUE(watch.begun());
   around.on_gone(1, kKilled, true);
   around.on_gone(1, kWell, false);
   EXPECT_EQ(told, 2);
-  schedules::Cluster cluster;
+  schedules::model::Cluster cluster;
   cluster.nodes.resize(2);
   const std::vector<NodeAtEnd> nodes = watch.nodes(cluster, {"", kActive});
   EXPECT_FALSE(nodes[0].ending);
@@ -89,4 +89,4 @@ TEST(DriveEnd, IsOfTheLastProcessOfEachNode) {
 }
 
 }  // namespace
-}  // namespace ttf::cli
+}  // namespace ttf::cli::launch

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace ttf::cli {
+namespace ttf::cli::node {
 namespace {
 
 using Json = nlohmann::json;
@@ -19,19 +19,19 @@ class NodeEndingTest : public testing::Test {
   NodeEndingTest() {
     std::array<int, 2> ends{};
     EXPECT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()), 0);
-    supervisors_ = launch::Descriptor(ends[0]);
-    nodes_.emplace(launch::Descriptor(ends[1]));
+    supervisors_ = supervision::Descriptor(ends[0]);
+    nodes_.emplace(supervision::Descriptor(ends[1]));
   }
   std::vector<Json> heard() const {
     std::vector<Json> messages;
-    std::string message(launch::kLongestMessage, '\0');
+    std::string message(supervision::kLongestMessage, '\0');
     for (ssize_t got; (got = recv(supervisors_.get(), message.data(), message.size(), MSG_DONTWAIT)) > 0;)
       messages.push_back(Json::parse(message.substr(0, static_cast<std::size_t>(got))));
     return messages;
   }
 
-  launch::Descriptor supervisors_;
-  std::optional<launch::ControlLine> nodes_;
+  supervision::Descriptor supervisors_;
+  std::optional<supervision::ControlLine> nodes_;
 };
 
 TEST_F(NodeEndingTest, IsToldAsDone) {
@@ -52,7 +52,7 @@ TEST_F(NodeEndingTest, AFailedRunIsNotDone) {
 }
 
 TEST(NodeEnding, WithoutASupervisorItIsPrinted) {
-  std::optional<launch::ControlLine> nobody;
+  std::optional<supervision::ControlLine> nobody;
   testing::internal::CaptureStdout();
   tell_ending({{{"overruns", 3}}, {{"drops", 4}}, ""}, nobody, true);
   EXPECT_EQ(Json::parse(testing::internal::GetCapturedStdout()),
@@ -63,4 +63,4 @@ TEST(NodeEnding, WithoutASupervisorItIsPrinted) {
 }
 
 }  // namespace
-}  // namespace ttf::cli
+}  // namespace ttf::cli::node

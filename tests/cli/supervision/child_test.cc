@@ -8,11 +8,8 @@
 #include "cli/supervision/control.h"
 #include "tests/cli/supervision/launch_fixture.h"
 
-namespace ttf::test {
+namespace ttf::cli::supervision {
 namespace {
-
-using launch::Child;
-using launch::Ending;
 
 class ChildProcess : public Launching {
  protected:
@@ -47,7 +44,7 @@ class ChildProcess : public Launching {
 TEST_F(ChildProcess, HasARawTerminalAndASessionOfItsOwn) {
   auto command = child({"where"});
   command.environment = {{"MOOD", "good"}};
-  const launch::Descriptor leak(open("/dev/null", O_RDONLY));  // one that anybody would inherit
+  const Descriptor leak(open("/dev/null", O_RDONLY));  // one that anybody would inherit
   Child process(command);
   EXPECT_EQ(all_output(process),
             "input from nothing: yes\noutput on a terminal: yes\nraw: yes\nleads its session and group: yes\n"
@@ -90,7 +87,7 @@ TEST_F(ChildProcess, SaysWhyItDoesNotRun) {
     try {
       Child process({{program}, {}});
       ADD_FAILURE() << program << " runs";
-    } catch (const launch::StartFailure& failure) {
+    } catch (const StartFailure& failure) {
       EXPECT_EQ(failure.ending().exit_code(), code);
       EXPECT_EQ(failure.what(), program + ": cannot be started: " + why);
     }
@@ -113,10 +110,10 @@ TEST_F(ChildProcess, SpeaksOnItsControlLine) {
 
 TEST_F(ChildProcess, LineIsOnlyWhereASupervisorIs) {
   unsetenv("TTF_CONTROL_FD");
-  EXPECT_FALSE(launch::ControlLine::from_environment().has_value());
+  EXPECT_FALSE(ControlLine::from_environment().has_value());
   for (const char* const wrong : {"", "x", "-1", "1x", "9999", "0"}) {
     setenv("TTF_CONTROL_FD", wrong, 1);
-    EXPECT_THROW((void)launch::ControlLine::from_environment(), std::runtime_error) << wrong;
+    EXPECT_THROW((void)ControlLine::from_environment(), std::runtime_error) << wrong;
   }
   unsetenv("TTF_CONTROL_FD");
 }
@@ -158,7 +155,7 @@ TEST_F(ChildProcess, IsKilledWithItsObject) {
 
 // Started by who ignores and blocks signals, it does neither.
 TEST_F(ChildProcess, TakesSignalsWhateverItsParentDoes) {
-  const launch::SignalWatch blocked;
+  const SignalWatch blocked;
   signal(SIGUSR1, SIG_IGN);
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE}) {
     Child process(child({"raise:" + std::to_string(number), "exit:0"}));
@@ -168,4 +165,4 @@ TEST_F(ChildProcess, TakesSignalsWhateverItsParentDoes) {
 }
 
 }  // namespace
-}  // namespace ttf::test
+}  // namespace ttf::cli::supervision

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 using nlohmann::json;
@@ -81,4 +81,4 @@ TEST(HealthTable, LetsNobodyMoveTheCursor) {
 }
 
 }  // namespace
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

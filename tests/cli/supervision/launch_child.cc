@@ -27,7 +27,7 @@
 
 namespace {
 
-using ttf::launch::ControlLine;
+using ttf::cli::supervision::ControlLine;
 
 volatile sig_atomic_t reported = 0;
 int control_fd = -1;
@@ -72,7 +72,7 @@ void do_habit(const std::string& word, const std::string& value) {
     const auto facts = line().wait_for_start();
     print(facts ? "start " + facts->dump() + "\n" : "nobody says start\n");
   } else if (word == "tell") {
-    ttf::test::tell(control_fd, value);
+    ttf::cli::supervision::tell(control_fd, value);
   } else if (word == "print") {
     print(unhex(value));
   } else if (word == "flood") {
@@ -80,7 +80,7 @@ void do_habit(const std::string& word, const std::string& value) {
     for (long left = std::stol(value); left > 0; left -= 1000)
       print(std::string_view(piece).substr(0, static_cast<std::size_t>(std::min(left, 1000L))));
   } else if (word == "where") {
-    print(ttf::test::surroundings(control_fd));
+    print(ttf::cli::supervision::surroundings(control_fd));
   } else if (word == "ignore") {
     signal(signal_given(), SIG_IGN);
   } else if (word == "report") {
@@ -100,14 +100,14 @@ void do_habit(const std::string& word, const std::string& value) {
   } else if (word == "exit") {
     _exit(std::stoi(value));
   } else if (word == "pid") {
-    ttf::test::leave_number(value, getpid());
+    ttf::cli::supervision::leave_number(value, getpid());
   } else if (word == "descend") {
-    ttf::test::descend(value);
+    ttf::cli::supervision::descend(value);
   } else if (word == "try") {
     const std::size_t colon = value.rfind(':');
-    if (ttf::test::times(value.substr(0, colon)) != std::stoi(value.substr(colon + 1))) _exit(7);
+    if (ttf::cli::supervision::times(value.substr(0, colon)) != std::stoi(value.substr(colon + 1))) _exit(7);
   } else if (word == "supervise") {
-    _exit(ttf::test::supervise(value));
+    _exit(ttf::cli::supervision::supervise(value));
   } else {
     _exit(97);
   }

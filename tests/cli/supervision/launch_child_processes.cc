@@ -13,7 +13,7 @@
 
 #include "cli/supervision/supervisor.h"
 
-namespace ttf::test {
+namespace ttf::cli::supervision {
 
 void tell(int control_fd, const std::string& text) {
   if (send(control_fd, text.data(), text.size(), 0) < 0) _exit(96);
@@ -57,14 +57,14 @@ std::string surroundings(int control_fd) {
 }
 
 int supervise(const std::string& folder) {
-  launch::SupervisorConfig config;
+  SupervisorConfig config;
   config.screen = -1;
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   config.nodes.push_back(
       {"node",
-       launch::Policy::kRequired,
+       Policy::kRequired,
        {{self, "descend:" + folder + "/grandchild", "pid:" + folder + "/child", "ready", "wait"}, {}}});
-  return launch::Supervisor(std::move(config), {}).run().exit_code;
+  return Supervisor(std::move(config), {}).run().exit_code;
 }
 
-}  // namespace ttf::test
+}  // namespace ttf::cli::supervision

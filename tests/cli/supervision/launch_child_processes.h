@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace ttf::test {
+namespace ttf::cli::supervision {
 
 // Sends the text as it is on the control line.
 void tell(int control_fd, const std::string& text);
@@ -20,4 +20,4 @@ std::string surroundings(int control_fd);
 // Runs a supervisor of `DIR/child` and `DIR/grandchild`; its exit code.
 int supervise(const std::string& folder);
 
-}  // namespace ttf::test
+}  // namespace ttf::cli::supervision

@@ -20,7 +20,7 @@
 
 #include "cli/supervision/supervisor.h"
 
-namespace ttf::test {
+namespace ttf::cli::supervision {
 
 class Launching : public testing::Test {
  protected:
@@ -39,15 +39,15 @@ class Launching : public testing::Test {
     std::filesystem::remove_all(folder_);
   }
 
-  static launch::ChildCommand child(std::vector<std::string> habits) {
+  static ChildCommand child(std::vector<std::string> habits) {
     habits.insert(habits.begin(), TTF_LAUNCH_CHILD);
     return {std::move(habits), {}};
   }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
 
   // Nothing comes by itself in these: whatever is waited for must happen.
-  launch::SupervisorConfig config(std::vector<launch::NodeSpec> nodes) const {
-    launch::SupervisorConfig config;
+  SupervisorConfig config(std::vector<NodeSpec> nodes) const {
+    SupervisorConfig config;
     config.nodes = std::move(nodes);
     config.ready_timeout = config.optional_grace = kNever;
     config.grace = {kNever, kNever};
@@ -103,4 +103,4 @@ class Launching : public testing::Test {
   int screen_ = -1;
 };
 
-}  // namespace ttf::test
+}  // namespace ttf::cli::supervision

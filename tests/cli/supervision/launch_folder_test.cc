@@ -10,11 +10,9 @@
 #include "core/errors.h"
 #include "tests/cli/supervision/launch_fixture.h"
 
-namespace ttf::test {
+namespace ttf::cli::supervision {
 namespace {
 
-using launch::RunFolder;
-using launch::WallInstant;
 using nlohmann::json;
 
 class Folder : public Launching {
@@ -81,13 +79,13 @@ TEST_F(Folder, KeepsOutputAsItIs) {
 }
 
 TEST_F(Folder, IsLeftByNoName) {
-  EXPECT_EQ(launch::file_stem("laser_pre-2.b"), "laser_pre-2.b");
-  EXPECT_EQ(launch::file_stem("../x"), "%2E.%2Fx");
-  EXPECT_EQ(launch::file_stem(".."), "%2E%2E");
-  EXPECT_EQ(launch::file_stem("a%2Fb"), "a%252Fb");
-  EXPECT_EQ(launch::file_stem("a b\n"), "a%20b%0A");
-  EXPECT_EQ(launch::file_stem("\xc3\xbc"), "%C3%BC");
-  EXPECT_EQ(launch::file_stem(""), "%");
+  EXPECT_EQ(file_stem("laser_pre-2.b"), "laser_pre-2.b");
+  EXPECT_EQ(file_stem("../x"), "%2E.%2Fx");
+  EXPECT_EQ(file_stem(".."), "%2E%2E");
+  EXPECT_EQ(file_stem("a%2Fb"), "a%252Fb");
+  EXPECT_EQ(file_stem("a b\n"), "a%20b%0A");
+  EXPECT_EQ(file_stem("\xc3\xbc"), "%C3%BC");
+  EXPECT_EQ(file_stem(""), "%");
 }
 
 TEST_F(Folder, TakesNamesThatAreNoText) {
@@ -98,30 +96,30 @@ TEST_F(Folder, TakesNamesThatAreNoText) {
 }
 
 TEST_F(Folder, TellsWhoHasBeenInIt) {
-  EXPECT_FALSE(launch::earlier_launch(path("run")));
+  EXPECT_FALSE(earlier_launch(path("run")));
   {
     RunFolder run(path("run"), {{"strategy", "adva"}}, at(0));
     run.add_node({"a/b", "required", {"a"}});
     run.add_node({"c", "required", {"c"}});
     run.finish(0, "", at(1));
   }
-  const auto earlier = launch::earlier_launch(path("run"));
+  const auto earlier = earlier_launch(path("run"));
   ASSERT_TRUE(earlier);
   EXPECT_EQ(earlier->strategy, "adva");
   EXPECT_EQ(earlier->nodes, (std::vector<std::string>{"a/b", "c"}));
   // What is no launch's.
   for (const char* const other : {"", "{", "[]", "7", "{}", R"({"nodes": 3})"}) {
     std::ofstream(path("run/manifest.json")) << other;
-    EXPECT_FALSE(launch::earlier_launch(path("run"))) << other;
+    EXPECT_FALSE(earlier_launch(path("run"))) << other;
   }
   std::ofstream(path("run/manifest.json")) << R"({"strategy": 3, "nodes": [1, {"name": 2}, {"name": "d"}]})";
-  const auto odd = launch::earlier_launch(path("run"));
+  const auto odd = earlier_launch(path("run"));
   ASSERT_TRUE(odd);
   EXPECT_EQ(odd->strategy, "");
   EXPECT_EQ(odd->nodes, std::vector<std::string>{"d"});
   // Names of files are made of it.
   std::ofstream(path("run/manifest.json")) << R"({"strategy": "../elsewhere/buff", "nodes": []})";
-  EXPECT_EQ(launch::earlier_launch(path("run"))->strategy, "");
+  EXPECT_EQ(earlier_launch(path("run"))->strategy, "");
 }
 
 TEST_F(Folder, RemovesPlainFilesOnly) {
@@ -155,7 +153,7 @@ TEST_F(Folder, IsOfOneLaunchAtATime) {
     }
   };
   const auto another = [&] { RunFolder(path("run"), {{"seed", 8}}, at(1)); };
-  const auto look = [&] { launch::FolderLock::refuse_if_held(path("run")); };
+  const auto look = [&] { FolderLock::refuse_if_held(path("run")); };
   EXPECT_EQ(sentence_of(look), "");
   EXPECT_FALSE(std::filesystem::exists(path("run")));
   const std::string expected =
@@ -175,4 +173,4 @@ TEST_F(Folder, IsOfOneLaunchAtATime) {
 }
 
 }  // namespace
-}  // namespace ttf::test
+}  // namespace ttf::cli::supervision

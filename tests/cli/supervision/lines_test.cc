@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 using testing::ElementsAre;
@@ -83,4 +83,4 @@ TEST(Prefix, IsTimeNameAndText) {
 }
 
 }  // namespace
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 constexpr Duration ms(std::int64_t n) { return Duration::milliseconds(n); }
@@ -60,4 +60,4 @@ TEST(StopOrder, CanBeHurried) {
 }
 
 }  // namespace
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -8,7 +8,7 @@
 #include "cli/supervision/shell_text.h"
 #include "core/errors.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 using testing::ElementsAre;
@@ -98,4 +98,4 @@ TEST(ShellText, IsWhatAShellReads) {
 }
 
 }  // namespace
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

@@ -11,7 +11,7 @@
 
 #include "cli/supervision/signal_watch.h"
 
-namespace ttf::launch {
+namespace ttf::cli::supervision {
 namespace {
 
 struct Pipe {
@@ -103,4 +103,4 @@ TEST(Screen, IsColouredOnATerminalThatWantsIt) {
 }
 
 }  // namespace
-}  // namespace ttf::launch
+}  // namespace ttf::cli::supervision

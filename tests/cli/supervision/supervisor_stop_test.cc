@@ -5,13 +5,9 @@
 #include "cli/supervision/supervisor.h"
 #include "tests/cli/supervision/launch_fixture.h"
 
-namespace ttf::test {
+namespace ttf::cli::supervision {
 namespace {
 
-using launch::Hooks;
-using launch::Outcome;
-using launch::Policy;
-using launch::Supervisor;
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
@@ -21,7 +17,7 @@ constexpr Duration kShort = Duration::milliseconds(50);
 class Stopping : public Launching {
  protected:
   // Interrupted, as by Ctrl-C, as soon as all are ready.
-  Outcome run_interrupted(launch::SupervisorConfig given, Hooks hooks = {}, int signal = SIGINT) {
+  Outcome run_interrupted(SupervisorConfig given, Hooks hooks = {}, int signal = SIGINT) {
     hooks.on_all_ready = [signal] {
       kill(getpid(), signal);
       return json::object();
@@ -145,7 +141,7 @@ TEST_F(Stopping, TakesGrandchildrenAlong) {
 }
 
 TEST_F(Stopping, ManifestIsCompleteAllTheSame) {
-  launch::RunFolder folder(path("run"), json::object(), std::chrono::system_clock::now());
+  RunFolder folder(path("run"), json::object(), std::chrono::system_clock::now());
   auto given = config({{"a", Policy::kRequired, child({"ready", "wait"})}});
   given.folder = &folder;
   EXPECT_EQ(run_interrupted(std::move(given)).exit_code, 130);
@@ -191,4 +187,4 @@ TEST_F(Stopping, LeavesSignalsAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace ttf::test
+}  // namespace ttf::cli::supervision

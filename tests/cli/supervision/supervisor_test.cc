@@ -15,14 +15,9 @@
 #include "cli/supervision/control.h"
 #include "tests/cli/supervision/launch_fixture.h"
 
-namespace ttf::test {
+namespace ttf::cli::supervision {
 namespace {
 
-using launch::Ending;
-using launch::Hooks;
-using launch::Outcome;
-using launch::Policy;
-using launch::Supervisor;
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::MatchesRegex;
@@ -32,7 +27,7 @@ constexpr Duration kSoon = Duration::milliseconds(1);
 
 class Supervising : public Launching {
  protected:
-  Outcome run(launch::SupervisorConfig given, Hooks hooks = {}) {
+  Outcome run(SupervisorConfig given, Hooks hooks = {}) {
     Supervisor supervisor(std::move(given), std::move(hooks));
     const Outcome outcome = supervisor.run();
     health_ = supervisor.health().json();
@@ -257,7 +252,7 @@ TEST_F(Supervising, TimeStampsEveryLine) {
 }
 
 TEST_F(Supervising, AFloodWithoutNewlineIsShownInPieces) {
-  launch::RunFolder folder(path("run"), json::object(), std::chrono::system_clock::now());
+  RunFolder folder(path("run"), json::object(), std::chrono::system_clock::now());
   auto given = config({{"a", Policy::kRequired, child({"flood:300000", "ready"})}});
   given.folder = &folder;
   EXPECT_EQ(run(std::move(given)).exit_code, 0);
@@ -267,12 +262,12 @@ TEST_F(Supervising, AFloodWithoutNewlineIsShownInPieces) {
   for (std::istringstream lines(text); std::getline(lines, line);)
     if (line.starts_with("a      | ")) count += std::ranges::count(line, 'x');
   EXPECT_EQ(count, 300'000);
-  EXPECT_THAT(text, HasSubstr("a      | " + std::string(launch::kLongestLine, 'x') + " [...]\n"));
+  EXPECT_THAT(text, HasSubstr("a      | " + std::string(kLongestLine, 'x') + " [...]\n"));
   EXPECT_EQ(contents(path("run/a.txt")), std::string(300'000, 'x'));
 }
 
 TEST_F(Supervising, LeavesAFolderThatTellsAll) {
-  launch::RunFolder folder(path("run"), {{"scenario", "s.yaml"}}, std::chrono::system_clock::now());
+  RunFolder folder(path("run"), {{"scenario", "s.yaml"}}, std::chrono::system_clock::now());
   auto given =
       config({{"sensor", Policy::kRestart, child({"try:" + path("tries") + ":2", "print:ff0a", "ready", "start"})},
               {"fusion", Policy::kRequired, child({"ready", "start", "tell:{\"health\":{\"drops\":5}}", "raise:9"})}});
@@ -300,7 +295,7 @@ TEST_F(Supervising, LeavesAFolderThatTellsAll) {
 }
 
 TEST_F(Supervising, SaysWhatItDoesNotUnderstand) {
-  const std::string long_text(launch::kLongestMessage + 10, 'x');
+  const std::string long_text(kLongestMessage + 10, 'x');
   EXPECT_EQ(run(config({{"a", Policy::kRequired,
                          child({"tell:nonsense", "tell:[1]", "tell:" + long_text, "tell:{\"health\":{\"drops\":-1}}",
                                 "tell:{\"ready\":1}", "tell:{\"novelty\":1}", "ready", "ready"})}}))
@@ -322,9 +317,9 @@ TEST_F(Supervising, WhatAHookThrowsEndsTheLaunch) {
 
 // On a terminal that wants it: colours, and the table now and then, not only at the end.
 TEST_F(Supervising, OnATerminalTheTableComesAgain) {
-  const launch::Descriptor terminal(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK));
+  const Descriptor terminal(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK));
   ASSERT_TRUE(terminal.open() && unlockpt(terminal.get()) == 0);
-  const launch::Descriptor screen(ioctl(terminal.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY));
+  const Descriptor screen(ioctl(terminal.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY));
   ASSERT_TRUE(screen.open());
   unsetenv("NO_COLOR");
   const std::string lingers = TTF_LAUNCH_CHILD " ready start 'tell:{\"health\":{\"drops\":77}}'; sleep 0.3";
@@ -364,4 +359,4 @@ TEST_F(Supervising, SleepsWhileNothingHappens) {
 }
 
 }  // namespace
-}  // namespace ttf::test
+}  // namespace ttf::cli::supervision

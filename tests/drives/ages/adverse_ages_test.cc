@@ -17,25 +17,23 @@
 #include "tests/drives/dense_lists.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives::ages {
 namespace {
-
-using testing_support::Filling;
 
 constexpr std::uint32_t kMeasurement =
     30;  // when the cluster's rate has settled: the one that everything conspires for
-const TrueTime kEnd = sim::kFirstCycle + Duration::milliseconds(3000);
+const TrueTime kEnd = sim::crank::kFirstCycle + Duration::milliseconds(3000);
 
 // What happened to one of the laser's lists.
-struct Followed final : records::Sink {
-  using records::Sink::on;
-  const schedules::Cluster& cluster;
+struct Followed final : recording::records::Sink {
+  using recording::records::Sink::on;
+  const schedules::model::Cluster& cluster;
   PduId raw, objects, camera_objects;
   std::uint32_t list;
   std::optional<TrueTime> queued, written;  // on the observation CAN, for FlexRay
   TrueTime camera_before{};                 // the camera's lists queued next to it
   std::optional<TrueTime> camera_after;
-  records::CanFrameSent camera_frame;                    // the last one of the camera that began before
+  recording::records::CanFrameSent camera_frame;         // the last one of the camera that began before
   std::vector<std::pair<std::int64_t, TrueTime>> slots;  // of its first fragment: cycle, action point
   Duration missing{};                                    // what its frames stayed under their worst case
   Duration fused{}, used{};                              // its ages
@@ -43,12 +41,12 @@ struct Followed final : records::Sink {
   std::optional<std::uint32_t> image;                                        // the first one with the measurement in it
   std::pair<Duration, Duration> extremes{Duration::milliseconds(1000), {}};  // of all the laser's ages when fused
 
-  Followed(const schedules::Cluster& c, std::uint32_t sequence)
+  Followed(const schedules::model::Cluster& c, std::uint32_t sequence)
       : cluster(c), raw(*c.find_pdu("laser_scan")), objects(*c.find_pdu("laser_objects")),
         camera_objects(*c.find_pdu("camera_objects")), list(sequence) {}
 
-  void on(const records::ListHop& hop) override {
-    if (hop.hop != records::Hop::kWritten) return;
+  void on(const recording::records::ListHop& hop) override {
+    if (hop.hop != recording::records::Hop::kWritten) return;
     if (hop.pdu == camera_objects && hop.can_bus >= 0) {
       if (!queued) camera_before = hop.stamp.true_time;
       if (queued && !camera_after) camera_after = hop.stamp.true_time;
@@ -56,11 +54,11 @@ struct Followed final : records::Sink {
     if (hop.pdu != objects || hop.sequence != list) return;
     (hop.can_bus < 0 ? written : queued) = hop.stamp.true_time;
   }
-  void on(const records::SlotFrameSent& sent) override {
+  void on(const recording::records::SlotFrameSent& sent) override {
     if (sent.pdu == objects && sent.fragment == 0 && sent.channel == 0)
       slots.emplace_back(sent.cycle, sent.stamp.true_time);
   }
-  void on(const records::CanFrameSent& sent) override {
+  void on(const recording::records::CanFrameSent& sent) override {
     // Reported at its end, it may have been under way when the list was queued.
     if (sent.pdu == camera_objects && (!queued || sent.start.true_time <= *queued)) {
       camera_frame = sent;
@@ -68,7 +66,7 @@ struct Followed final : records::Sink {
     }
     if ((sent.pdu == raw || sent.pdu == objects) && sent.sequence == list) missing += under_worst(sent);
   }
-  void on(const records::ListFused& scan) override {
+  void on(const recording::records::ListFused& scan) override {
     if (scan.id.sensor != cluster.pdu(objects).sensor) return;
     const Duration age = scan.stamp.global - scan.measured;
     extremes = {std::min(extremes.first, age), std::max(extremes.second, age)};
@@ -76,14 +74,14 @@ struct Followed final : records::Sink {
     fused = age;
     measured = scan.measured;
   }
-  void on(const records::ImageWritten& written_image) override {
+  void on(const recording::records::ImageWritten& written_image) override {
     if (measured && !image) image = written_image.sequence;
   }
-  void on(const records::FeatureUsed& use) override {
+  void on(const recording::records::FeatureUsed& use) override {
     if (image && use.image_sequence == *image && used == Duration{}) used = use.stamp.global - *measured;
   }
-  Duration under_worst(const records::CanFrameSent& sent) const {
-    return schedules::can_worst_case(cluster.can_buses[sent.bus], static_cast<int>(sent.data.size())) -
+  Duration under_worst(const recording::records::CanFrameSent& sent) const {
+    return schedules::analysis::can_worst_case(cluster.can_buses[sent.bus], static_cast<int>(sent.data.size())) -
            (sent.end.true_time - sent.start.true_time);
   }
   TrueTime action_point(std::int64_t cycle) const {
@@ -94,29 +92,29 @@ struct Followed final : records::Sink {
 };
 
 struct Conspiracy {
-  nodes::Scenario scenario;
-  schedules::Cluster shipped, cluster;  // as loaded; as it is simulated
+  Scenario scenario;
+  schedules::model::Cluster shipped, cluster;  // as loaded; as it is simulated
   SensorId laser, camera;
   bool worst;
 
   explicit Conspiracy(bool for_worst)
-      : scenario(nodes::load_scenario(testing_support::shipped("scenarios/paper_scenario1.yaml"))),
-        shipped(schedules::load_cluster(testing_support::shipped("schedules/paper_unsynchronised.yaml"))),
+      : scenario(load_scenario(drives::shipped("scenarios/paper_scenario1.yaml"))),
+        shipped(schedules::file::load_cluster(drives::shipped("schedules/paper_unsynchronised.yaml"))),
         cluster(shipped), laser(*shipped.find_sensor("laser")), camera(*shipped.find_sensor("camera")),
         worst(for_worst) {
-    for (schedules::Node& node : cluster.nodes) {
+    for (schedules::model::Node& node : cluster.nodes) {
       const bool early = node.name == "laser" || node.name == "laser_pre";
       node.drift_ppb = early == worst ? -node.max_drift_ppb : node.max_drift_ppb;
-      for (schedules::Task& task : node.tasks) {
+      for (schedules::model::Task& task : node.tasks) {
         if (!worst) task.worst_case = task.best_case;
-        task.draw = schedules::ExecutionDraw::kWorst;
+        task.draw = schedules::model::ExecutionDraw::kWorst;
       }
     }
     for (const SensorId sensor : {laser, camera}) cluster.sensors[index_of(sensor)].phase = Duration{};
     // An identifier whose arbitration field takes as many stuff bits as any: 0 0000 [1] 1111 [0] 000 00 [1] 1 0 1; and
     // one that takes none. The order of the messages stays as it is.
-    for (schedules::CanBus& bus : cluster.can_buses)
-      for (schedules::CanMessage& message : bus.messages)
+    for (schedules::model::CanBus& bus : cluster.can_buses)
+      for (schedules::model::CanMessage& message : bus.messages)
         if (cluster.pdu(message.pdu).sensor == laser)
           message.identifier = worst ? 0x078 : 0x255;
         else
@@ -126,21 +124,21 @@ struct Conspiracy {
   // The sequence number's bits need stuff bits too: 1000 0111 1000 0111 at the measurement that counts.
   std::uint32_t first_sequence() const { return worst ? 0x8787 - kMeasurement : 0x5555 - kMeasurement; }
 
-  std::vector<std::shared_ptr<nodes::Step>> steps(NodeId id) const {
-    const schedules::Node& node = cluster.node(id);
-    const schedules::Task& task = node.tasks.at(0);
-    if (node.name == "camera" && !worst) return {std::make_shared<testing_support::SilentStep>()};
+  std::vector<std::shared_ptr<nodes::host::Step>> steps(NodeId id) const {
+    const schedules::model::Node& node = cluster.node(id);
+    const schedules::model::Task& task = node.tasks.at(0);
+    if (node.name == "camera" && !worst) return {std::make_shared<SilentStep>()};
     const Filling filling = worst ? Filling::kDense : Filling::kSparse;
     if (node.name == "laser" || node.name == "laser_pre")
-      return {std::make_shared<testing_support::FilledStep>(cluster, task, first_sequence(), filling)};
+      return {std::make_shared<FilledStep>(cluster, task, first_sequence(), filling)};
     if (node.name == "camera" || node.name == "camera_pre")
-      return {std::make_shared<testing_support::FilledStep>(cluster, task, 0, filling)};
-    return nodes::make_steps({&scenario, &cluster, fusion::StrategyKind::kAdva, 1, 0, nullptr, nullptr}, id);
+      return {std::make_shared<FilledStep>(cluster, task, 0, filling)};
+    return make_steps({&scenario, &cluster, fusion::strategies::StrategyKind::kAdva, 1, 0, nullptr, nullptr}, id);
   }
 
   Followed run() const {
     Followed seen(cluster, first_sequence() + kMeasurement);
-    sim::ClusterSimulation simulation({&cluster, 1, 0, [this](NodeId id) { return steps(id); }}, seen);
+    sim::crank::ClusterSimulation simulation({&cluster, 1, 0, [this](NodeId id) { return steps(id); }}, seen);
     simulation.run_until(kEnd);
     EXPECT_EQ(simulation.counts().deadlines_missed, 0u);
     EXPECT_EQ(simulation.counts().torn_lists, 0u);
@@ -175,12 +173,12 @@ struct Conspiracy {
 
   // By an amount of true time; phases are on the device's own clock.
   void move(SensorId id, Duration later) {
-    schedules::Sensor& sensor = cluster.sensors[index_of(id)];
+    schedules::model::Sensor& sensor = cluster.sensors[index_of(id)];
     *sensor.phase += later + Duration{later.ns / 1000 * *cluster.node(sensor.device).drift_ppb / 1'000'000};
   }
 
-  schedules::AgePath bounds() const {
-    for (const schedules::AgePath& path : schedules::measurement_ages(shipped))
+  schedules::analysis::AgePath bounds() const {
+    for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(shipped))
       if (path.sensor == laser) return path;
     return {};
   }
@@ -194,7 +192,7 @@ struct Conspiracy {
 //    4 us  each list's frames end in whole nanoseconds, microticks, a microsecond of the time stamp
 TEST(AdverseAges, TheWorstIsReached) {
   Conspiracy all(true);
-  const schedules::AgePath bound = all.bounds();
+  const schedules::analysis::AgePath bound = all.bounds();
   const Followed seen = all.closed_in();
   EXPECT_LE(seen.fused, bound.fused_worst);
   EXPECT_LE(seen.used, bound.use_worst);
@@ -209,7 +207,7 @@ TEST(AdverseAges, TheWorstIsReached) {
 // Lists of one fragment, nothing else on the CANs, and every oscillator off to the other side.
 TEST(AdverseAges, TheBestIsReached) {
   Conspiracy all(false);
-  const schedules::AgePath bound = all.bounds();
+  const schedules::analysis::AgePath bound = all.bounds();
   const Followed seen = all.closed_in();
   EXPECT_GE(seen.fused, bound.fused_best);
   EXPECT_GE(seen.used, bound.use_best);
@@ -219,4 +217,4 @@ TEST(AdverseAges, TheBestIsReached) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives::ages

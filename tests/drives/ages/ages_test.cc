@@ -8,14 +8,10 @@
 #include "tests/drives/ages/drive_ages.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives::ages {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::AgeRange;
-using testing_support::Ages;
-using testing_support::Drive;
-using testing_support::kStrategies;
+using fusion::strategies::StrategyKind;
 
 TEST(Ages, SimulatedAgesLieWithinTheBounds) {
   for (const StrategyKind strategy : kStrategies) {
@@ -28,10 +24,10 @@ TEST(Ages, SimulatedAgesLieWithinTheBounds) {
     }
     EXPECT_EQ(ages.uses_without_image, 0u);
     const bool buffered = strategy == StrategyKind::kBuff;
-    const auto paths = schedules::measurement_ages(drive.cluster);
+    const auto paths = schedules::analysis::measurement_ages(drive.cluster);
     ASSERT_EQ(paths.size(), 2u);
-    for (const schedules::AgePath& path : paths) {
-      SCOPED_TRACE(std::string(nodes::name_of(strategy)) + ", " + drive.cluster.sensor(path.sensor).name);
+    for (const schedules::analysis::AgePath& path : paths) {
+      SCOPED_TRACE(std::string(name_of(strategy)) + ", " + drive.cluster.sensor(path.sensor).name);
       const AgeRange &fused = ages.fused[path.sensor], &used = ages.used[path.sensor];
       EXPECT_GT(fused.count, kDrives * 30);
       EXPECT_GE(fused.best, path.fused_best);
@@ -47,4 +43,4 @@ TEST(Ages, SimulatedAgesLieWithinTheBounds) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives::ages

@@ -9,7 +9,7 @@
 
 #include "recording/records/records.h"
 
-namespace ttf::testing_support {
+namespace ttf::drives::ages {
 
 struct AgeRange {
   Duration best{}, worst{};
@@ -22,21 +22,22 @@ struct AgeRange {
 };
 
 // When fused: of every list. When used: of the newest measurement of each sensor in the used image, at every use.
-struct Ages final : records::Sink {
-  using records::Sink::on;
+struct Ages final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::map<SensorId, AgeRange> fused, used;
   std::size_t uses_without_image = 0;
 
-  void on(const records::ListFused& list) override {
-    if (list.disposition != records::Disposition::kFused && list.disposition != records::Disposition::kFusedLate)
+  void on(const recording::records::ListFused& list) override {
+    if (list.disposition != recording::records::Disposition::kFused &&
+        list.disposition != recording::records::Disposition::kFusedLate)
       return;
     fused[list.id.sensor].add(list.stamp.global - list.measured);
     measured_[list.id] = list.measured;
   }
-  void on(const records::ImageWritten& image) override {
+  void on(const recording::records::ImageWritten& image) override {
     newest_[image.sequence].assign(image.newest.begin(), image.newest.end());
   }
-  void on(const records::FeatureUsed& use) override {
+  void on(const recording::records::FeatureUsed& use) override {
     const auto image = newest_.find(use.image_sequence);
     if (image == newest_.end())
       ++uses_without_image;
@@ -54,4 +55,4 @@ struct Ages final : records::Sink {
   std::map<std::uint32_t, std::vector<MeasurementId>> newest_;
 };
 
-}  // namespace ttf::testing_support
+}  // namespace ttf::drives::ages

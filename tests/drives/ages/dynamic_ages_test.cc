@@ -11,16 +11,17 @@
 #include "schedules/check/checker.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives::ages {
 namespace {
 
-using fusion::StrategyKind;
+using fusion::strategies::StrategyKind;
 
-struct FusedAges final : records::Sink {
-  using records::Sink::on;
+struct FusedAges final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::map<SensorId, std::vector<Duration>> ages;
-  void on(const records::ListFused& list) override {
-    if (list.disposition == records::Disposition::kFused || list.disposition == records::Disposition::kFusedLate)
+  void on(const recording::records::ListFused& list) override {
+    if (list.disposition == recording::records::Disposition::kFused ||
+        list.disposition == recording::records::Disposition::kFusedLate)
       ages[list.id.sensor].push_back(list.stamp.global - list.measured);
   }
 };
@@ -29,14 +30,14 @@ class DynamicLists : public testing::TestWithParam<const char*> {};
 
 TEST_P(DynamicLists, AreFusedWithinTheirBounds) {
   for (const StrategyKind strategy : {StrategyKind::kBuff, StrategyKind::kAdva}) {
-    testing_support::Drive drive("scenarios/paper_scenario1.yaml", strategy);
-    drive.cluster = schedules::load_checked_cluster(testing_support::shipped(GetParam()));
+    Drive drive("scenarios/paper_scenario1.yaml", strategy);
+    drive.cluster = schedules::file::load_checked_cluster(shipped(GetParam()));
     FusedAges fused;
     constexpr std::uint64_t kDrives = 15;
     for (std::uint64_t seed = 1; seed <= kDrives; ++seed) drive.run(fused, seed);
-    const auto paths = schedules::measurement_ages(drive.cluster);
+    const auto paths = schedules::analysis::measurement_ages(drive.cluster);
     ASSERT_EQ(paths.size(), 2u);
-    for (const schedules::AgePath& path : paths) {
+    for (const schedules::analysis::AgePath& path : paths) {
       SCOPED_TRACE(drive.cluster.sensor(path.sensor).name);
       const auto& ages = fused.ages[path.sensor];
       ASSERT_GT(ages.size(), kDrives * 30);
@@ -54,16 +55,16 @@ INSTANTIATE_TEST_SUITE_P(Clusters, DynamicLists,
                          testing::Values("schedules/flexray_demo.yaml", "schedules/paper_dynamic.yaml"),
                          [](const auto& name) { return name.index == 0 ? "Demo" : "Paper"; });
 
-struct Problems final : records::Sink {
-  using records::Sink::on;
+struct Problems final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::size_t slots = 0, lists = 0;
-  void on(const records::SlotProblem&) override { ++slots; }
-  void on(const records::ListFused&) override { ++lists; }
+  void on(const recording::records::SlotProblem&) override { ++slots; }
+  void on(const recording::records::ListFused&) override { ++lists; }
 };
 
 // The camera's device on B only, in its key slot only; its lists on A only, the laser's behind a message id.
 TEST(DynamicAges, OneChannelMessageIdsAndKeySlotOnlyGoThroughADrive) {
-  std::ifstream file(testing_support::shipped("schedules/flexray_demo.yaml"));
+  std::ifstream file(shipped("schedules/flexray_demo.yaml"));
   std::string text{std::istreambuf_iterator<char>(file), {}};
   const auto change = [&](const std::string& from, const std::string& to) {
     const auto at = text.find(from);
@@ -75,9 +76,9 @@ TEST(DynamicAges, OneChannelMessageIdsAndKeySlotOnlyGoThroughADrive) {
   change("slot: 6, channels: AB", "slot: 6, channels: B");
   change("slot: 23, channels: AB", "slot: 23, channels: A");
   change("pdu: laser_objects, fragments: 2", "pdu: laser_objects, fragments: 2, message_id: 7");
-  testing_support::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kAdva);
-  drive.cluster = schedules::parse_cluster(text, "cluster.yaml");
-  ASSERT_TRUE(schedules::check(drive.cluster).empty());
+  Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kAdva);
+  drive.cluster = schedules::file::parse_cluster(text, "cluster.yaml");
+  ASSERT_TRUE(schedules::check::check(drive.cluster).empty());
   Problems problems;
   drive.run(problems);
   EXPECT_EQ(problems.slots, 0u);
@@ -85,4 +86,4 @@ TEST(DynamicAges, OneChannelMessageIdsAndKeySlotOnlyGoThroughADrive) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives::ages

@@ -11,21 +11,17 @@
 #include "tests/drives/ages/drive_ages.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives::ages {
 namespace {
 
-using testing_support::AgeRange;
-using testing_support::Ages;
-using testing_support::Drive;
-
-struct InOrder final : records::Sink {
-  using records::Sink::on;
+struct InOrder final : recording::records::Sink {
+  using recording::records::Sink::on;
   GlobalTime newest{};
   std::size_t fused = 0, behind = 0, held = 0;
-  void on(const records::ListFused& list) override {
-    held += list.disposition == records::Disposition::kHeld ? 1u : 0u;
-    fused += list.disposition == records::Disposition::kFused ? 1u : 0u;
-    behind += list.measured < newest || list.disposition == records::Disposition::kFusedLate ? 1u : 0u;
+  void on(const recording::records::ListFused& list) override {
+    held += list.disposition == recording::records::Disposition::kHeld ? 1u : 0u;
+    fused += list.disposition == recording::records::Disposition::kFused ? 1u : 0u;
+    behind += list.measured < newest || list.disposition == recording::records::Disposition::kFusedLate ? 1u : 0u;
     newest = std::max(newest, list.measured);
   }
 };
@@ -35,14 +31,14 @@ TEST(FittedSchedule, EveryUseFindsBothSensorsNewestListsAtTheSameAge) {
   for (const auto& [file, drives] :
        {std::pair{"scenarios/paper_scenario1.yaml", 20u}, std::pair{"scenarios/crowd_25.yaml", 2u}}) {
     SCOPED_TRACE(file);
-    Drive drive(file, fusion::StrategyKind::kTt);
-    drive.cluster = schedules::load_checked_cluster(testing_support::shipped("schedules/paper_fitted.yaml"));
+    Drive drive(file, fusion::strategies::StrategyKind::kTt);
+    drive.cluster = schedules::file::load_checked_cluster(shipped("schedules/paper_fitted.yaml"));
     drive.scenario.duration = Duration::milliseconds(2500);
     Ages ages;
     for (std::uint64_t seed = 1; seed <= drives; ++seed) {
       InOrder order;
-      records::Tee tee({&ages, &order});
-      const sim::DriveOutcome outcome = drive.run(tee, seed);
+      recording::records::Tee tee({&ages, &order});
+      const DriveOutcome outcome = drive.run(tee, seed);
       ages.next_drive();
       EXPECT_EQ(outcome.counts.overruns + outcome.counts.overwritten_lists + outcome.counts.deadlines_missed +
                     outcome.counts.discarded_lists,
@@ -52,9 +48,9 @@ TEST(FittedSchedule, EveryUseFindsBothSensorsNewestListsAtTheSameAge) {
       EXPECT_EQ(order.behind, 0u);
       EXPECT_EQ(order.held, 0u);
     }
-    const auto paths = schedules::measurement_ages(drive.cluster);
+    const auto paths = schedules::analysis::measurement_ages(drive.cluster);
     ASSERT_EQ(paths.size(), 2u);
-    for (const schedules::AgePath& path : paths) {
+    for (const schedules::analysis::AgePath& path : paths) {
       SCOPED_TRACE(drive.cluster.sensor(path.sensor).name);
       const AgeRange &fused = ages.fused[path.sensor], &used = ages.used[path.sensor];
       EXPECT_GE(fused.best, path.fused_best);
@@ -69,4 +65,4 @@ TEST(FittedSchedule, EveryUseFindsBothSensorsNewestListsAtTheSameAge) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives::ages

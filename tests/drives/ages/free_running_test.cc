@@ -9,18 +9,15 @@
 
 #include "core/errors.h"
 #include "schedules/analysis/ages.h"
-#include "schedules/check/checker.h"
 #include "schedules/analysis/responses.h"
+#include "schedules/check/checker.h"
 #include "tests/drives/ages/drive_ages.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives::ages {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::AgeRange;
-using testing_support::Ages;
-using testing_support::Drive;
+using fusion::strategies::StrategyKind;
 
 struct Medium {
   const char* name;
@@ -32,13 +29,13 @@ class FreeRunning : public testing::TestWithParam<Medium> {
  protected:
   static Drive free_running(StrategyKind strategy) {
     Drive drive("scenarios/paper_scenario1.yaml", strategy);
-    std::string text = schedules::load_cluster(testing_support::shipped(GetParam().file)).text;
+    std::string text = schedules::file::load_cluster(shipped(GetParam().file)).text;
     if (GetParam().in_static_slots) {
       text.replace(text.find("slot: 35"), 8, "slot: 6");
       text.replace(text.find("slot: 44"), 8, "slot: 15");
     }
-    drive.cluster = schedules::parse_cluster(text, "cluster.yaml");
-    EXPECT_TRUE(schedules::check(drive.cluster).empty());
+    drive.cluster = schedules::file::parse_cluster(text, "cluster.yaml");
+    EXPECT_TRUE(schedules::check::check(drive.cluster).empty());
     return drive;
   }
 };
@@ -49,13 +46,13 @@ INSTANTIATE_TEST_SUITE_P(Over, FreeRunning,
                          [](const auto& one) { return std::string(one.param.name); });
 
 // By node: when its only task's runs began and ended, in true time, and when its sensor measured.
-struct Rounds final : records::Sink {
-  using records::Sink::on;
+struct Rounds final : recording::records::Sink {
+  using recording::records::Sink::on;
   struct Run {
     TrueTime activated, end;
   };
   std::map<NodeId, std::vector<Run>> runs;
-  void on(const records::TaskRun& run) override {
+  void on(const recording::records::TaskRun& run) override {
     runs[run.start.node].push_back({run.activated.true_time, run.end.true_time});
   }
 };
@@ -63,8 +60,8 @@ struct Rounds final : records::Sink {
 TEST_P(FreeRunning, AMeasurementFollowsThePreprocessingOfTheLast) {
   const Drive drive = free_running(StrategyKind::kAdva);
   Rounds rounds;
-  const sim::DriveOutcome outcome = drive.run(rounds);
-  for (const schedules::Sensor& sensor : drive.cluster.sensors) {
+  const DriveOutcome outcome = drive.run(rounds);
+  for (const schedules::model::Sensor& sensor : drive.cluster.sensors) {
     SCOPED_TRACE(sensor.name);
     const auto& measured = rounds.runs[sensor.device];
     const auto& preprocessed = rounds.runs[sensor.host];
@@ -98,19 +95,19 @@ TEST_P(FreeRunning, AMeasurementFollowsThePreprocessingOfTheLast) {
 // What corrections may make of 5 ms.
 constexpr Duration kCorrections = Duration::microseconds(25);
 
-struct Fates final : records::Sink {
-  using records::Sink::on;
+struct Fates final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::map<MeasurementId, int> taken;  // by the fusion: how often
-  void on(const records::FusionInput& in) override { ++taken[{in.sensor, in.sequence}]; }
+  void on(const recording::records::FusionInput& in) override { ++taken[{in.sensor, in.sequence}]; }
 };
 
 // Of one node's tasks, by its global time.
-struct Responses final : records::Sink {
-  using records::Sink::on;
+struct Responses final : recording::records::Sink {
+  using recording::records::Sink::on;
   explicit Responses(NodeId which) : node(which) {}
   NodeId node;
   std::map<std::uint8_t, Duration> longest, closest;  // from activation to end; between activations
-  void on(const records::TaskRun& run) override {
+  void on(const recording::records::TaskRun& run) override {
     if (run.start.node != node) return;
     longest[run.task] = std::max(longest[run.task], run.end.global - run.activated.global);
     const auto last = last_.find(run.task);
@@ -135,8 +132,8 @@ TEST_P(FreeRunning, EveryListIsTakenOnceAndWithinItsBounds) {
     constexpr std::uint64_t kDrives = 20;
     for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
       Fates fates;
-      records::Tee tee({&ages, &fates, &responses});
-      const sim::DriveOutcome outcome = drive.run(tee, seed);
+      recording::records::Tee tee({&ages, &fates, &responses});
+      const DriveOutcome outcome = drive.run(tee, seed);
       ages.next_drive();
       responses.next_drive();
       EXPECT_EQ(outcome.counts.overruns + outcome.counts.overwritten_lists + outcome.counts.deadlines_missed, 0u);
@@ -147,10 +144,10 @@ TEST_P(FreeRunning, EveryListIsTakenOnceAndWithinItsBounds) {
       }
     }
     const bool buffered = strategy == StrategyKind::kBuff;
-    const auto paths = schedules::measurement_ages(drive.cluster);
+    const auto paths = schedules::analysis::measurement_ages(drive.cluster);
     ASSERT_EQ(paths.size(), 2u);
-    for (const schedules::AgePath& path : paths) {
-      SCOPED_TRACE(std::string(nodes::name_of(strategy)) + ", " + drive.cluster.sensor(path.sensor).name);
+    for (const schedules::analysis::AgePath& path : paths) {
+      SCOPED_TRACE(std::string(name_of(strategy)) + ", " + drive.cluster.sensor(path.sensor).name);
       const AgeRange &fused = ages.fused[path.sensor], &used = ages.used[path.sensor];
       EXPECT_GT(fused.count, kDrives * 60);
       EXPECT_GE(fused.best, path.fused_best);
@@ -162,7 +159,7 @@ TEST_P(FreeRunning, EveryListIsTakenOnceAndWithinItsBounds) {
         EXPECT_LT(fused.best, path.fused_best + Duration::milliseconds(2));
       }
     }
-    const auto bounds = schedules::worst_responses(drive.cluster, fusion);
+    const auto bounds = schedules::analysis::worst_responses(drive.cluster, fusion);
     ASSERT_TRUE(bounds.has_value());
     for (const auto& [task, longest] : responses.longest) {
       SCOPED_TRACE(drive.cluster.node(fusion).tasks[task].name);
@@ -175,7 +172,7 @@ TEST_P(FreeRunning, EveryListIsTakenOnceAndWithinItsBounds) {
 
 TEST_P(FreeRunning, TimeTriggeredFusionNeedsInstants) {
   const Drive drive = free_running(StrategyKind::kTt);
-  records::Sink nothing;
+  recording::records::Sink nothing;
   try {
     drive.run(nothing);
     FAIL() << "not refused";
@@ -188,4 +185,4 @@ TEST_P(FreeRunning, TimeTriggeredFusionNeedsInstants) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives::ages

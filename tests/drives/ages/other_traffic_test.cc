@@ -11,36 +11,34 @@
 #include "tests/drives/ages/drive_ages.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::drives::ages {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::Ages;
-using testing_support::Drive;
+using fusion::strategies::StrategyKind;
 
 constexpr std::size_t kObservationCan = 2;  // the third of the file's
 
 Drive with_other_load(const std::string& load) {
   Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kAdva);
-  std::string text = schedules::load_cluster(testing_support::shipped("schedules/paper_event_triggered.yaml")).text;
+  std::string text = schedules::file::load_cluster(shipped("schedules/paper_event_triggered.yaml")).text;
   const auto at = text.rfind("other_load: 0.0");
   text.replace(at, std::string("other_load: 0.0").size(), "other_load: " + load);
-  drive.cluster = schedules::parse_cluster(text, "cluster.yaml");
+  drive.cluster = schedules::file::parse_cluster(text, "cluster.yaml");
   EXPECT_EQ(drive.cluster.can_buses[kObservationCan].name, "observation_can");
-  EXPECT_TRUE(schedules::check(drive.cluster).empty());
+  EXPECT_TRUE(schedules::check::check(drive.cluster).empty());
   return drive;
 }
 
 // How long the lists of one drive were on their way from their preprocessing's end to the fusion node, at most.
-struct Transfers final : records::Sink {
-  using records::Sink::on;
+struct Transfers final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::map<std::pair<PduId, std::uint32_t>, TrueTime> written;
   Duration longest{}, sum{};
   std::int64_t count = 0;
-  void on(const records::ListHop& hop) override {
+  void on(const recording::records::ListHop& hop) override {
     if (hop.can_bus != static_cast<int>(kObservationCan)) return;
-    if (hop.hop == records::Hop::kWritten) written[{hop.pdu, hop.sequence}] = hop.stamp.true_time;
-    if (hop.hop != records::Hop::kReceived) return;
+    if (hop.hop == recording::records::Hop::kWritten) written[{hop.pdu, hop.sequence}] = hop.stamp.true_time;
+    if (hop.hop != recording::records::Hop::kReceived) return;
     const Duration took = hop.stamp.true_time - written.at({hop.pdu, hop.sequence});
     longest = std::max(longest, took);
     sum += took;
@@ -61,7 +59,7 @@ TEST(OtherTraffic, MakesListsWaitWithinTheBounds) {
     constexpr std::uint64_t kDrives = 10;
     for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
       among.written.clear();
-      records::Tee tee({&among, &ages});
+      recording::records::Tee tee({&among, &ages});
       busy += drive.run(tee, seed).can_load.at(kObservationCan) / static_cast<double>(kDrives);
       ages.next_drive();
     }
@@ -70,10 +68,10 @@ TEST(OtherTraffic, MakesListsWaitWithinTheBounds) {
     EXPECT_GT(among.sum.ns / among.count, before.sum.ns / before.count);
     before = among;
     int parts = 0;
-    for (const schedules::AgePath& path : schedules::measurement_ages(drive.cluster)) {
+    for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(drive.cluster)) {
       EXPECT_GE(ages.fused[path.sensor].best, path.fused_best);
       EXPECT_LE(ages.fused[path.sensor].worst, path.fused_worst);
-      for (const schedules::Contribution& part : path.to_fusion)
+      for (const schedules::analysis::Contribution& part : path.to_fusion)
         if (part.name.find("on observation_can") != std::string::npos && part.name.find("laser") != std::string::npos) {
           EXPECT_LE(among.longest, part.worst);
           ++parts;
@@ -84,4 +82,4 @@ TEST(OtherTraffic, MakesListsWaitWithinTheBounds) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::drives::ages

@@ -8,16 +8,16 @@
 #include "evaluation/accuracy/drive_measures.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 namespace {
 
 class Rows : public testing::TestWithParam<const char*> {};
 
 TEST_P(Rows, OfADriveComeToItsMeasures) {
-  const testing_support::Drive drive(GetParam(), fusion::StrategyKind::kAdva);
+  const drives::Drive drive(GetParam(), fusion::strategies::StrategyKind::kAdva);
   DriveRows rows;
   DriveMeasures measures(TrueTime{});
-  records::Tee both({&rows, &measures});
+  recording::records::Tee both({&rows, &measures});
   drive.run(both);
   rows.finish();
   const DriveSummary summary = measures.finish();
@@ -63,8 +63,8 @@ INSTANTIATE_TEST_SUITE_P(Drives, Rows, testing::Values("scenarios/paper_scenario
 
 TEST(DriveRows, AgesBelowZeroHaveBinsOfTheirOwn) {
   DriveRows rows;
-  records::ListFused fused;
-  fused.disposition = records::Disposition::kFused;
+  recording::records::ListFused fused;
+  fused.disposition = recording::records::Disposition::kFused;
   for (const std::int64_t ns : {-1, 0, 999'999, -1'000'000, -1'000'001}) {
     fused.measured = GlobalTime{-ns};
     rows.on(fused);
@@ -74,4 +74,4 @@ TEST(DriveRows, AgesBelowZeroHaveBinsOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

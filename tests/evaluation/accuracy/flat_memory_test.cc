@@ -5,7 +5,7 @@
 #include "tests/evaluation/accuracy/synthetic_uses.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 namespace {
 
 // 25 objects, a list every 20 ms, an image and a use every 40 ms, a fix every 100 ms.
@@ -15,12 +15,12 @@ void drive(DriveMeasures& measures, std::int64_t from_ms, std::int64_t to_ms, st
     const auto list = static_cast<std::uint32_t>(ms / 20);
     const MeasurementId id{SensorId{0}, list};
     const GlobalTime measured = GlobalTime{now.ns} - Duration::milliseconds(30);
-    measures.on(
-        records::FusionInput{{now, {}, GlobalTime{now.ns}, {}}, list, PduId{0}, SensorId{0}, list, measured, 25, {}});
-    measures.on(
-        records::ListFused{{now, {}, GlobalTime{now.ns}, {}}, list, id, measured, records::Disposition::kFused});
+    measures.on(recording::records::FusionInput{
+        {now, {}, GlobalTime{now.ns}, {}}, list, PduId{0}, SensorId{0}, list, measured, 25, {}});
+    measures.on(recording::records::ListFused{
+        {now, {}, GlobalTime{now.ns}, {}}, list, id, measured, recording::records::Disposition::kFused});
     if (ms % 100 == 0 && ms <= last_fix_ms) {
-      records::ReferenceFix fix;
+      recording::records::ReferenceFix fix;
       fix.measured_true = now - Duration::milliseconds(60);
       fix.x = 20;
       measures.on(fix);
@@ -53,4 +53,4 @@ TEST(Measures, WhatTheyKeepDoesNotGrowWithTheDrive) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

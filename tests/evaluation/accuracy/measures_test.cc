@@ -6,7 +6,7 @@
 
 #include "tests/evaluation/accuracy/synthetic_uses.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 namespace {
 
 GlobalTime global(std::int64_t ms) { return GlobalTime{} + Duration::milliseconds(ms); }
@@ -41,7 +41,7 @@ TEST(Measures, ErrorsAreOfThePairsAtTheUse) {
   truth_at(measures, at(40), 1, 10, 0);
   // Another node has recorded the same truth at that instant.
   for (const int object : {0, 1}) {
-    records::TruthState again{at(40), static_cast<ObjectId>(object), object == 0 ? 20.0 : 10.0, 0};
+    recording::records::TruthState again{at(40), static_cast<ObjectId>(object), object == 0 ? 20.0 : 10.0, 0};
     again.node = NodeId{3};
     measures.on(again);
   }
@@ -135,8 +135,8 @@ TEST(Measures, NothingBeforeTheStartIsJudged) {
   EXPECT_EQ(summary.matched, 1u);
 }
 
-void fuse(records::Sink& sink, std::uint8_t sensor, std::uint32_t sequence, std::int64_t measured_ms) {
-  records::ListFused fused;
+void fuse(recording::records::Sink& sink, std::uint8_t sensor, std::uint32_t sequence, std::int64_t measured_ms) {
+  recording::records::ListFused fused;
   fused.id = {SensorId{sensor}, sequence};
   fused.measured = global(measured_ms);
   fused.stamp.true_time = at(measured_ms + 30);
@@ -147,15 +147,15 @@ void fuse(records::Sink& sink, std::uint8_t sensor, std::uint32_t sequence, std:
 // Two lists are held back, one over three fusion instants and one over one; a third not at all.
 TEST(Measures, HowLongAListWasHeldBack) {
   DriveMeasures measures(TrueTime{});
-  const auto becomes = [&](std::uint32_t sequence, records::Disposition what, std::int64_t ms) {
-    records::ListFused list;
+  const auto becomes = [&](std::uint32_t sequence, recording::records::Disposition what, std::int64_t ms) {
+    recording::records::ListFused list;
     list.id = {SensorId{0}, sequence};
     list.measured = global(10 * sequence);
     list.disposition = what;
     list.stamp.global = global(ms);
     measures.on(list);
   };
-  using enum records::Disposition;
+  using enum recording::records::Disposition;
   for (const std::int64_t ms : {50, 60, 70}) becomes(1, kHeld, ms);
   becomes(2, kHeld, 70);
   becomes(2, kDuplicate, 75);
@@ -211,7 +211,7 @@ TEST(Measures, AnImageThatWasRefusedWasNotUsed) {
   write_image(measures, 0, global(40), {{10, 0, 1.0}}, {{SensorId{0}, 0}});
   use_image(measures, 0, at(40), {{10, 0}});
   truth_at(measures, at(40), 0, 10, 0);
-  records::FeatureUsed refused;
+  recording::records::FeatureUsed refused;
   refused.stamp.true_time = at(400);
   refused.stamp.global = global(400);
   refused.image_valid_at = global(40);
@@ -228,4 +228,4 @@ TEST(Measures, AnImageThatWasRefusedWasNotUsed) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

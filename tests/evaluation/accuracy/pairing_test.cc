@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 namespace {
 
 double distance(const PlanePosition& a, const PlanePosition& b) { return std::hypot(a.x - b.x, a.y - b.y); }
@@ -66,4 +66,4 @@ TEST(Pairing, DrawnScenesAreOneToOneAndComplete) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

@@ -11,11 +11,11 @@
 #include "sim/world/world.h"
 #include "tests/evaluation/accuracy/synthetic_uses.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 namespace {
 
-records::ReferenceFix fix(std::int64_t ms, double x, double vx) {
-  records::ReferenceFix fix;
+recording::records::ReferenceFix fix(std::int64_t ms, double x, double vx) {
+  recording::records::ReferenceFix fix;
   fix.measured_true = at(ms);
   fix.x = x;
   fix.vx = vx;
@@ -93,33 +93,33 @@ TEST(ReferenceJudge, AReferenceThatFallsSilentIsNotWaitedForForever) {
 // Estimates that are the truth, against the receiver as the simulator has it: what is found is the reference's own
 // error, all of it, and the expectation has it in its interval. A drive counts once.
 TEST(ReferenceJudge, ItsOwnErrorIsTheExpectedOne) {
-  world::WorldConfig drive;
+  sim::world::WorldConfig drive;
   drive.duration = Duration::milliseconds(4000);
-  world::ObjectConfig car;
+  sim::world::ObjectConfig car;
   car.x = 35.0;
   car.y = 3.0;
   car.heading = 0.3;
   car.speed = 8.0;
   car.reference = true;
   drive.objects.push_back(car);
-  world::ReferenceConfig often, clean, aligned;
+  sim::world::ReferenceConfig often, clean, aligned;
   often.excursion_probability = 0.2;
   clean.excursion_probability = 0.0;
   aligned.alignment_baseline_m = 1e4;
-  for (const world::ReferenceConfig& config : {world::ReferenceConfig{}, often, clean, aligned}) {
-    results::Moments off;
+  for (const sim::world::ReferenceConfig& config : {sim::world::ReferenceConfig{}, often, clean, aligned}) {
+    experiments::results::Moments off;
     double expected = 0.0;
     for (std::uint32_t replication = 0; replication < 1500; ++replication) {
-      const world::World world(drive, 5, replication);
-      const world::Reference reference(config, drive, 5, replication);
+      const sim::world::World world(drive, 5, replication);
+      const sim::world::Reference reference(config, drive, 5, replication);
       ReferenceJudge judge(8.0);
       for (std::uint32_t index = 0; index < 40; ++index) {
-        const world::Fix fix = reference.fix(index, world);
+        const sim::world::Fix fix = reference.fix(index, world);
         judge.fix({.measured_true = fix.measured, .x = fix.x, .y = fix.y, .vx = fix.vx, .vy = fix.vy});
         if (index < 10) continue;
         for (const int ms : {-90, -50, -10}) {
           const TrueTime use = fix.measured + Duration::milliseconds(ms);
-          const world::ObjectState truth = world.state_of(fix.object, use);
+          const sim::world::ObjectState truth = world.state_of(fix.object, use);
           judge.use(use, std::vector<PlaneEstimate>{{truth.x, truth.y, 0.0, 0.0}});
         }
       }
@@ -127,11 +127,11 @@ TEST(ReferenceJudge, ItsOwnErrorIsTheExpectedOne) {
       expected = expected_square(config, judge.weights());
       off.add(judge.position_rmse() * judge.position_rmse() - expected);
     }
-    const results::Interval interval = results::interval_of(off, 0.99);
+    const experiments::results::Interval interval = experiments::results::interval_of(off, 0.99);
     EXPECT_LT(std::abs(interval.mean), interval.half_width) << "of " << expected;
     EXPECT_LT(interval.half_width, 0.08 * expected) << "too wide to say anything";
   }
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

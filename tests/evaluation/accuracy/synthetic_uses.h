@@ -7,7 +7,7 @@
 
 #include "recording/records/records.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::accuracy {
 
 inline TrueTime at(std::int64_t ms) { return TrueTime{} + Duration::milliseconds(ms); }
 
@@ -16,18 +16,18 @@ struct Shown {
   double x = 0, y = 0, sigma = 1.0;
 };
 
-inline void write_image(records::Sink& sink, std::uint32_t sequence, GlobalTime valid_at,
+inline void write_image(recording::records::Sink& sink, std::uint32_t sequence, GlobalTime valid_at,
                         const std::vector<Shown>& shown, const std::vector<MeasurementId>& newest = {}) {
-  std::vector<records::ImageObject> objects;
+  std::vector<recording::records::ImageObject> objects;
   for (const Shown& object : shown) {
     const std::array<double, 6> state{object.x, object.y, 0, 0, 0, 0};
     std::array<double, 36> covariance{};
     for (std::size_t k = 0; k < 6; ++k) covariance[7 * k] = object.sigma * object.sigma;
-    records::TrackState track{{}, 1, TrackId{0}, valid_at, state, covariance, true};
+    recording::records::TrackState track{{}, 1, TrackId{0}, valid_at, state, covariance, true};
     sink.on(track);
     objects.push_back({TrackId{0}, object.x, object.y});
   }
-  records::ImageWritten image;
+  recording::records::ImageWritten image;
   image.sequence = sequence;
   image.valid_at = valid_at;
   image.objects = objects;
@@ -35,11 +35,11 @@ inline void write_image(records::Sink& sink, std::uint32_t sequence, GlobalTime 
   sink.on(image);
 }
 
-inline void use_image(records::Sink& sink, std::uint32_t sequence, TrueTime at, const std::vector<Shown>& shown,
-                      bool fresh = true) {
-  std::vector<records::FeatureObject> objects;
+inline void use_image(recording::records::Sink& sink, std::uint32_t sequence, TrueTime at,
+                      const std::vector<Shown>& shown, bool fresh = true) {
+  std::vector<recording::records::FeatureObject> objects;
   for (const Shown& object : shown) objects.push_back({{TrackId{0}, object.x, object.y}, 0, 0, false});
-  records::FeatureUsed used;
+  recording::records::FeatureUsed used;
   used.stamp = {at, {}, GlobalTime{at.ns}, {}};
   used.image_sequence = sequence;
   used.image_valid_at = GlobalTime{at.ns};
@@ -48,8 +48,8 @@ inline void use_image(records::Sink& sink, std::uint32_t sequence, TrueTime at, 
   sink.on(used);
 }
 
-inline void truth_at(records::Sink& sink, TrueTime at, std::uint16_t object, double x, double y) {
-  records::TruthState truth;
+inline void truth_at(recording::records::Sink& sink, TrueTime at, std::uint16_t object, double x, double y) {
+  recording::records::TruthState truth;
   truth.at = at;
   truth.object = ObjectId{object};
   truth.x = x;
@@ -57,4 +57,4 @@ inline void truth_at(records::Sink& sink, TrueTime at, std::uint16_t object, dou
   sink.on(truth);
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::accuracy

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-namespace ttf::experiments {
+namespace ttf::evaluation::cluster {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 
-records::Stamp at(std::int64_t true_ns, int node, std::int64_t global_ns) {
+recording::records::Stamp at(std::int64_t true_ns, int node, std::int64_t global_ns) {
   return {{true_ns}, {true_ns}, {global_ns}, static_cast<NodeId>(node)};
 }
 
@@ -15,17 +15,17 @@ records::Stamp at(std::int64_t true_ns, int node, std::int64_t global_ns) {
 // in what its new count calls cycle 21.
 TEST(StartupAccount, TellsTheFirstEntryIntoNormalActiveAndThePresentState) {
   StartupAccount account(Duration{5 * kMs});
-  account.on(records::PowerChanged{at(3 * kMs, 1, 3 * kMs), true});
-  account.on(
-      records::StateChanged{at(3 * kMs, 1, 3 * kMs), 0x01, 0x21, "ready", "coldstart listen", "RUN", "it may lead"});
-  account.on(records::StateChanged{at(52 * kMs, 1, 35 * kMs - 3'000), 0x25, 0x02, "coldstart join", "normal active",
-                                   "joined", ""});
-  account.on(records::PowerChanged{at(90 * kMs, 1, 73 * kMs), false});
+  account.on(recording::records::PowerChanged{at(3 * kMs, 1, 3 * kMs), true});
+  account.on(recording::records::StateChanged{at(3 * kMs, 1, 3 * kMs), 0x01, 0x21, "ready", "coldstart listen", "RUN",
+                                              "it may lead"});
+  account.on(recording::records::StateChanged{at(52 * kMs, 1, 35 * kMs - 3'000), 0x25, 0x02, "coldstart join",
+                                              "normal active", "joined", ""});
+  account.on(recording::records::PowerChanged{at(90 * kMs, 1, 73 * kMs), false});
   ASSERT_EQ(account.nodes().size(), 1u);
   EXPECT_EQ(account.nodes()[0].state, "off");
-  account.on(records::PowerChanged{at(95 * kMs, 1, 95 * kMs), true});
-  account.on(records::StateChanged{at(190 * kMs, 1, 105 * kMs), 0x25, 0x02, "coldstart join", "normal active", "again",
-                                   "so be it"});
+  account.on(recording::records::PowerChanged{at(95 * kMs, 1, 95 * kMs), true});
+  account.on(recording::records::StateChanged{at(190 * kMs, 1, 105 * kMs), 0x25, 0x02, "coldstart join",
+                                              "normal active", "again", "so be it"});
   const NodeStartup node = account.nodes()[0];
   EXPECT_EQ(node.powered, TrueTime{3 * kMs});
   ASSERT_TRUE(node.active.has_value());
@@ -39,9 +39,9 @@ TEST(StartupAccount, TellsTheFirstEntryIntoNormalActiveAndThePresentState) {
 
 TEST(StartupAccount, WhoNeverBecameActiveSaysWhatItWaitsFor) {
   StartupAccount account(Duration{5 * kMs});
-  account.on(records::StateChanged{at(3 * kMs, 2, 3 * kMs), 0x01, 0x27, "ready", "integration listen",
-                                   "the host commanded RUN",
-                                   "it is no coldstart node and waits for a running schedule"});
+  account.on(recording::records::StateChanged{at(3 * kMs, 2, 3 * kMs), 0x01, 0x27, "ready", "integration listen",
+                                              "the host commanded RUN",
+                                              "it is no coldstart node and waits for a running schedule"});
   const NodeStartup node = account.nodes()[0];
   EXPECT_FALSE(node.active.has_value());
   EXPECT_FALSE(node.powered.has_value());
@@ -51,4 +51,4 @@ TEST(StartupAccount, WhoNeverBecameActiveSaysWhatItWaitsFor) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::cluster

@@ -5,20 +5,20 @@
 
 #include "tests/sim/crank/bus_clusters.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 namespace {
 
-using nodes::Fault;
-using nodes::FaultKind;
-using schedules::Channels;
+using schedules::model::Channels;
+using ttf::faults::Fault;
+using ttf::faults::FaultKind;
 
 constexpr NodeId kAda{0}, kBen{1}, kCleo{2}, kDan{3};
 
 constexpr TrueTime us(std::int64_t count) { return TrueTime{count * 1'000}; }
 
 struct Plan {
-  schedules::Cluster cluster = sim::bus_cluster(4, 4, 4);
-  nodes::FaultPlan plan;
+  schedules::model::Cluster cluster = sim::crank::bus_cluster(4, 4, 4);
+  ttf::faults::FaultPlan plan;
   std::optional<FaultCauses> causes;
 
   // All of them begin and act at once.
@@ -158,4 +158,4 @@ TEST(FaultCauses, AFaultMayBeginAMicrotickAfterWhatItDid) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

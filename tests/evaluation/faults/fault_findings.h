@@ -8,17 +8,9 @@
 #include "evaluation/faults/fault_account.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf::testing_support {
+namespace ttf::evaluation::faults {
 
-using experiments::Check;
-using experiments::CheckSeen;
-using experiments::FaultEffects;
-using experiments::FaultFindings;
-using experiments::FaultReport;
-using experiments::FaultSeen;
-using experiments::Harm;
-using experiments::HarmSeen;
-using nodes::FaultKind;
+using ttf::faults::FaultKind;
 
 inline const CheckSeen& others(const FaultEffects& effects, Check check) {
   return effects.by_others[static_cast<std::size_t>(check)];
@@ -37,13 +29,13 @@ inline std::set<NodeId> harmed_nodes(const FaultEffects& effects, Harm kind) {
 
 // What the injector does to a drive, by a plan.
 struct Planned {
-  Drive drive;
+  drives::Drive drive;
   std::optional<FaultReport> report;
 
   explicit Planned(const char* scenario = "scenarios/paper_scenario1.yaml")
-      : drive(scenario, fusion::StrategyKind::kTt) {}
-  nodes::Fault& add(FaultKind kind, const char* node, std::int64_t from_ms, std::int64_t duration_ms) {
-    nodes::Fault& fault = drive.scenario.faults.faults.emplace_back();
+      : drive(scenario, fusion::strategies::StrategyKind::kTt) {}
+  ttf::faults::Fault& add(FaultKind kind, const char* node, std::int64_t from_ms, std::int64_t duration_ms) {
+    ttf::faults::Fault& fault = drive.scenario.faults.faults.emplace_back();
     fault.kind = kind;
     fault.node_name = node;
     fault.from = Duration::milliseconds(from_ms);
@@ -51,12 +43,13 @@ struct Planned {
     return fault;
   }
   FaultReport make_report() const {
-    return {drive.cluster, nodes::resolve(drive.scenario.faults, drive.cluster), !drive.scenario.startup.cold};
+    return {drive.cluster, ttf::faults::resolve(drive.scenario.faults, drive.cluster), !drive.scenario.startup.cold};
   }
   const FaultFindings& run() {
-    report.emplace(drive.cluster, nodes::resolve(drive.scenario.faults, drive.cluster), !drive.scenario.startup.cold);
+    report.emplace(drive.cluster, ttf::faults::resolve(drive.scenario.faults, drive.cluster),
+                   !drive.scenario.startup.cold);
     drive.run(*report);
-    report->finish(sim::drive_end(drive.scenario));
+    report->finish(drives::drive_end(drive.scenario));
     return report->findings();
   }
   NodeId node(const char* name) const { return *drive.cluster.find_node(name); }
@@ -68,4 +61,4 @@ struct Planned {
   }
 };
 
-}  // namespace ttf::testing_support
+}  // namespace ttf::evaluation::faults

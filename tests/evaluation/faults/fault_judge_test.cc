@@ -5,11 +5,11 @@
 
 #include "tests/sim/crank/bus_clusters.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 namespace {
 
-using bus::PocKind;
-using schedules::Channel;
+using bus::poc::PocKind;
+using schedules::model::Channel;
 
 constexpr NodeId kFaulty{0}, kAlice{1}, kBob{2};
 constexpr TrueTime kBegins{20'000'000};
@@ -34,16 +34,16 @@ class Story : public testing::Test {
   }
   // The frame of Alice's slot on a channel.
   std::vector<std::byte> frame(Channel channel, int cycle, unsigned content) const {
-    wire::FrameHeader header;
+    bus::wire::FrameHeader header;
     header.frame_id = 2;
     header.cycle = static_cast<std::uint8_t>(cycle);
     const std::vector<std::byte> payload(16, static_cast<std::byte>(content));
-    std::vector<std::byte> bytes(wire::kMaxFrameBytes);
-    bytes.resize(wire::encode_frame(header, channel, payload, bytes));
+    std::vector<std::byte> bytes(bus::wire::kMaxFrameBytes);
+    bytes.resize(bus::wire::encode_frame(header, channel, payload, bytes));
     return bytes;
   }
   void sends(NodeId node, int slot, Channel channel, const std::vector<std::byte>& bytes, TrueTime at) {
-    judge_.frame_sent(node, slot, channel, wire::decode_frame(channel, bytes), at);
+    judge_.frame_sent(node, slot, channel, bus::wire::decode_frame(channel, bytes), at);
   }
   void alice_sends(int cycle, unsigned content = 7) {
     for (const Channel channel : {Channel::kA, Channel::kB})
@@ -51,12 +51,12 @@ class Story : public testing::Test {
   }
   void bob_receives(int cycle, Channel channel, unsigned content = 7) {
     const auto bytes = frame(channel, cycle, content);
-    judge_.frame_received(kBob, 2, channel, wire::decode_frame(channel, bytes), in_cycle(cycle, 80));
+    judge_.frame_received(kBob, 2, channel, bus::wire::decode_frame(channel, bytes), in_cycle(cycle, 80));
   }
   const Judgement& end() { return judge_.finish(in_cycle(10)); }
   const std::optional<Judgement::Harmed>& harm(Harm harm) { return end().harms[static_cast<std::size_t>(harm)]; }
 
-  schedules::Cluster cluster_ = sim::bus_cluster(3, 3, 3);
+  schedules::model::Cluster cluster_ = sim::crank::bus_cluster(3, 3, 3);
   FaultJudge judge_;
 };
 
@@ -161,14 +161,17 @@ TEST_F(Story, H5AFrameThatWasNotSentInThisCycleIsForged) {
   alice_sends(4);
   bob_receives(4, Channel::kA);
   EXPECT_FALSE(judge_.finish(in_cycle(4, 100)).harmed());
-  judge_.frame_received(kBob, 2, Channel::kA, wire::decode_frame(Channel::kA, frame(Channel::kA, 4, 7)),
+  judge_.frame_received(kBob, 2, Channel::kA, bus::wire::decode_frame(Channel::kA, frame(Channel::kA, 4, 7)),
                         in_cycle(5, 80));
   EXPECT_TRUE(harm(Harm::kFrameForged));
 }
 
 TEST_F(Story, ChecksOfTheFaultyNodeAreKeptApart) {
-  judge_.slot_problem(kBob, bus::kNoFrame, in_cycle(5));
-  judge_.slot_problem(kBob, static_cast<bus::SlotStatus>(bus::kSyntaxError | bus::kBoundaryViolation), in_cycle(6));
+  judge_.slot_problem(kBob, bus::controller::kNoFrame, in_cycle(5));
+  judge_.slot_problem(
+      kBob,
+      static_cast<bus::controller::SlotStatus>(bus::controller::kSyntaxError | bus::controller::kBoundaryViolation),
+      in_cycle(6));
   judge_.clock_corrected(kFaulty, true, true, in_cycle(7));
   judge_.state_changed(kFaulty, PocKind::kNormalActive, PocKind::kHalt, in_cycle(7));
   judge_.guardian_intervened(in_cycle(8));
@@ -200,17 +203,17 @@ TEST_F(Story, ReintegrationCountsFromTheFaultsEndOrFromLeavingIfThatWasLater) {
 }
 
 TEST(FaultJudge, WhatStartUpShowsWithoutAFaultCountsOnceItIsOver) {
-  const schedules::Cluster cluster = sim::bus_cluster(3, 3, 3);
+  const schedules::model::Cluster cluster = sim::crank::bus_cluster(3, 3, 3);
   JudgeSettings settings;
   settings.faulty = {true, false, false};
   settings.settled = in_cycle(8);
   settings.usual[static_cast<std::size_t>(Check::kNoFrame)] = true;
   FaultJudge judge(cluster, settings);
-  judge.slot_problem(kBob, bus::kNoFrame, in_cycle(7));
+  judge.slot_problem(kBob, bus::controller::kNoFrame, in_cycle(7));
   EXPECT_FALSE(judge.finish(in_cycle(7)).detected());
-  judge.slot_problem(kBob, bus::kSyntaxError, in_cycle(7));
+  judge.slot_problem(kBob, bus::controller::kSyntaxError, in_cycle(7));
   EXPECT_TRUE(judge.finish(in_cycle(7)).detected()) << "a check that a start-up does not show";
-  judge.slot_problem(kBob, bus::kNoFrame, in_cycle(8));
+  judge.slot_problem(kBob, bus::controller::kNoFrame, in_cycle(8));
   EXPECT_TRUE(judge.finish(in_cycle(8)).seen_by_others[static_cast<std::size_t>(Check::kNoFrame)]);
 }
 
@@ -222,14 +225,14 @@ TEST(FaultNames, AreThoseWhoseBitsAreSetJoinedByPlus) {
 }
 
 TEST(NamedBy, IsTheFaultyNodeAndWhoseSupplyItTakes) {
-  const schedules::Cluster cluster = sim::bus_cluster(4, 2, 3);
-  nodes::Fault fault;
-  fault.kind = nodes::FaultKind::kNoise;
+  const schedules::model::Cluster cluster = sim::crank::bus_cluster(4, 2, 3);
+  ttf::faults::Fault fault;
+  fault.kind = ttf::faults::FaultKind::kNoise;
   EXPECT_EQ(named_by(fault, cluster), (std::vector{false, false, false, false}));
-  fault.kind = nodes::FaultKind::kOmission;
+  fault.kind = ttf::faults::FaultKind::kOmission;
   fault.node = NodeId{3};
   EXPECT_EQ(named_by(fault, cluster), (std::vector{false, false, false, true}));
-  fault.kind = nodes::FaultKind::kLoneColdstart;
+  fault.kind = ttf::faults::FaultKind::kLoneColdstart;
   fault.node = NodeId{1};
   EXPECT_EQ(named_by(fault, cluster), (std::vector{true, true, false, false}));
   fault.all_others = true;
@@ -237,8 +240,8 @@ TEST(NamedBy, IsTheFaultyNodeAndWhoseSupplyItTakes) {
 }
 
 TEST(OwnerOf, IsWhoSendsThereInThisCycleOnThisChannel) {
-  schedules::Cluster cluster = sim::bus_cluster(3, 3, 3);
-  cluster.frames.push_back({9, schedules::Channels::kA, 1, 4, NodeId{2}, kNoPdu, 0, 0});
+  schedules::model::Cluster cluster = sim::crank::bus_cluster(3, 3, 3);
+  cluster.frames.push_back({9, schedules::model::Channels::kA, 1, 4, NodeId{2}, kNoPdu, 0, 0});
   EXPECT_EQ(owner_of(cluster, 2, Channel::kB, 17), NodeId{1});
   EXPECT_EQ(owner_of(cluster, 9, Channel::kA, 5), NodeId{2});
   EXPECT_EQ(owner_of(cluster, 9, Channel::kA, 64 + 5), NodeId{2}) << "running cycles count on";
@@ -248,4 +251,4 @@ TEST(OwnerOf, IsWhoSendsThereInThisCycleOnThisChannel) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

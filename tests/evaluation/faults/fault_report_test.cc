@@ -10,23 +10,22 @@
 #include <vector>
 
 #include "sim/medium/disturbance.h"
-#include "tests/evaluation/faults/fault_findings.h"
 #include "tests/drives/living_drive.h"
+#include "tests/evaluation/faults/fault_findings.h"
 
-namespace ttf {
+namespace ttf::evaluation::faults {
 namespace {
 
-using fusion::StrategyKind;
-using schedules::Channel;
-using namespace testing_support;
+using fusion::strategies::StrategyKind;
+using schedules::model::Channel;
 
 // Frames of `sender` that `receiver` does not get, on some channels, between two instants.
-struct Deaf final : sim::Disturbance {
+struct Deaf final : sim::medium::Disturbance {
   NodeId sender{}, receiver{};
   std::vector<Channel> channels;
   TrueTime from{}, to{};
-  std::function<void(TrueTime)> acted;
-  bool arriving(sim::Arriving& signal) override {
+  std::function<void(ttf::TrueTime)> acted;
+  bool arriving(sim::medium::Arriving& signal) override {
     if (signal.sender != sender || signal.receiver != receiver || signal.start < from || signal.start >= to ||
         std::find(channels.begin(), channels.end(), signal.channel) == channels.end())
       return true;
@@ -37,24 +36,24 @@ struct Deaf final : sim::Disturbance {
 
 // A drive whose report is made while it runs. What is said of the fault is made up.
 struct Reported {
-  schedules::Cluster cluster;
+  schedules::model::Cluster cluster;
   FaultReport report;
-  LivingDrive drive;
+  drives::LivingDrive drive;
 
   explicit Reported(FaultKind kind, const char* node = nullptr)
-      : cluster(schedules::load_cluster(testing_support::shipped("schedules/paper_synchronised.yaml"))),
+      : cluster(schedules::file::load_cluster(drives::shipped("schedules/paper_synchronised.yaml"))),
         report(cluster, plan(kind, node), true), drive(StrategyKind::kTt, &report) {}
-  nodes::FaultPlan plan(FaultKind kind, const char* node) const {
-    nodes::FaultPlan plan;
-    nodes::Fault& fault = plan.faults.emplace_back();
+  ttf::faults::FaultPlan plan(FaultKind kind, const char* node) const {
+    ttf::faults::FaultPlan plan;
+    ttf::faults::Fault& fault = plan.faults.emplace_back();
     fault.kind = kind;
     fault.node_name = node == nullptr ? "" : node;
-    fault.direction = nodes::FaultDirection::kBoth;
-    return nodes::resolve(plan, cluster);
+    fault.direction = ttf::faults::FaultDirection::kBoth;
+    return ttf::faults::resolve(plan, cluster);
   }
   NodeId node(const char* name) const { return *cluster.find_node(name); }
   void says(std::uint8_t what, TrueTime at, NodeId faulty, const char* text) {
-    records::FaultActivity activity;
+    recording::records::FaultActivity activity;
     activity.at = at;
     activity.what = what;
     activity.node = faulty;
@@ -64,8 +63,8 @@ struct Reported {
   }
   void begins(double at, NodeId faulty = kNoNode) {
     drive.run_to(at);
-    says(records::kFaultBegins, at_s(at), faulty, "");
-    says(records::kFaultActs, at_s(at), faulty, "it acts");
+    says(recording::records::kFaultBegins, drives::at_s(at), faulty, "");
+    says(recording::records::kFaultActs, drives::at_s(at), faulty, "it acts");
   }
   const FaultSeen& fault() const { return report.findings().faults.at(0); }
   const FaultEffects& unattributed() const { return report.findings().unattributed; }
@@ -113,9 +112,9 @@ TEST(FaultReport, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
     deaf.sender = run.node("gateway");
     deaf.receiver = run.node("feature");
     deaf.channels = both ? std::vector{Channel::kA, Channel::kB} : std::vector{Channel::kB};
-    deaf.from = at_s(0.5) + Duration::milliseconds(1);
+    deaf.from = drives::at_s(0.5) + Duration::milliseconds(1);
     deaf.to = deaf.from + Duration::milliseconds(100);
-    deaf.acted = [&](TrueTime at) { run.says(records::kFaultActs, at, kNoNode, "it acts"); };
+    deaf.acted = [&](TrueTime at) { run.says(recording::records::kFaultActs, at, kNoNode, "it acts"); };
     run.drive.simulation->set_disturbance(&deaf);
     run.begins(0.5);
     run.drive.run_to(1.5);
@@ -142,7 +141,7 @@ TEST(FaultReport, WhatFitsNoFaultIsUnattributed) {
   deaf.sender = run.node("gateway");
   deaf.receiver = run.node("feature");
   deaf.channels = {Channel::kA, Channel::kB};
-  deaf.from = at_s(0.5) + Duration::milliseconds(1);
+  deaf.from = drives::at_s(0.5) + Duration::milliseconds(1);
   deaf.to = deaf.from + Duration::milliseconds(100);
   run.drive.simulation->set_disturbance(&deaf);
   run.begins(0.5, run.node("laser_pre"));
@@ -161,12 +160,13 @@ TEST(FaultReport, AFrameLostInTheLastCycleIsHarm) {
     deaf.sender = run.node("gateway");
     deaf.receiver = run.node("feature");
     deaf.channels = {Channel::kA, Channel::kB};
-    deaf.from = sim::kFirstCycle + run.cluster.cycle() * 200 - Duration::microseconds(100);
+    deaf.from = sim::crank::kFirstCycle + run.cluster.cycle() * 200 - Duration::microseconds(100);
     deaf.to = deaf.from + Duration::milliseconds(100);
-    deaf.acted = [&](TrueTime at) { run.says(records::kFaultActs, at, kNoNode, "it acts"); };
+    deaf.acted = [&](TrueTime at) { run.says(recording::records::kFaultActs, at, kNoNode, "it acts"); };
     run.drive.simulation->set_disturbance(&deaf);
     run.begins(0.5);
-    const TrueTime end = sim::kFirstCycle + run.cluster.cycle() * 200 + Duration::microseconds(told ? 3'500 : 3'000);
+    const TrueTime end =
+        sim::crank::kFirstCycle + run.cluster.cycle() * 200 + Duration::microseconds(told ? 3'500 : 3'000);
     run.drive.simulation->run_until(end);
     EXPECT_FALSE(run.harmed()) << "it is settled when the run is over";
     run.report.finish(end);
@@ -182,8 +182,8 @@ TEST(FaultReport, WhatTheFaultyNodeMissesHarmsNobody) {
   deaf.sender = run.node("gateway");
   deaf.receiver = run.node("feature");
   deaf.channels = {Channel::kA, Channel::kB};
-  deaf.from = at_s(0.5);
-  deaf.to = at_s(0.6);
+  deaf.from = drives::at_s(0.5);
+  deaf.to = drives::at_s(0.6);
   run.drive.simulation->set_disturbance(&deaf);
   run.begins(0.5, deaf.receiver);
   run.drive.run_to(1.5);
@@ -227,37 +227,38 @@ TEST(FaultReport, EveryNodeThatLeavesNormalActiveIsNamed) {
 
 // H5: as records are when a controller sends nothing on B in a slot of its own and somebody else does, with a valid
 // frame that the others take for its: the record of what it sent there is missing, and nobody complains.
-struct Forged final : records::Sink {
-  using records::Sink::on;
-  records::Sink* to = nullptr;
+struct Forged final : recording::records::Sink {
+  using recording::records::Sink::on;
+  recording::records::Sink* to = nullptr;
   NodeId sender{};
   TrueTime from{};
   TrueTime until{};
-  void on(const records::SlotFrameSent& frame) override {
+  void on(const recording::records::SlotFrameSent& frame) override {
     const bool taken = frame.stamp.node == sender && frame.channel == 1 && frame.stamp.true_time >= from &&
                        frame.stamp.true_time < until;
     if (!taken) to->on(frame);
   }
-  void on(const records::SlotProblem& problem) override { to->on(problem); }
+  void on(const recording::records::SlotProblem& problem) override { to->on(problem); }
 };
 
 TEST(FaultReport, AFrameThatItsOwnerDidNotSendIsForgedForAllWhoTookIt) {
   Forged forged;
-  LivingDrive drive(StrategyKind::kTt, &forged);
-  nodes::FaultPlan plan;
-  nodes::Fault& fault = plan.faults.emplace_back();
+  drives::LivingDrive drive(StrategyKind::kTt, &forged);
+  ttf::faults::FaultPlan plan;
+  ttf::faults::Fault& fault = plan.faults.emplace_back();
   fault.kind = FaultKind::kMasquerading;
   fault.node = *drive.drive.cluster.find_node("laser_pre");
-  fault.channels = schedules::Channels::kB;
+  fault.channels = schedules::model::Channels::kB;
   FaultReport report(drive.drive.cluster, plan, true);
   forged.to = &report;
   forged.sender = *drive.drive.cluster.find_node("gateway");
-  forged.from = sim::kFirstCycle + drive.drive.cluster.cycle() * 100;
+  forged.from = sim::crank::kFirstCycle + drive.drive.cluster.cycle() * 100;
   forged.until = forged.from + drive.drive.cluster.cycle();
   drive.simulation->run_until(forged.from);
-  records::FaultActivity activity{forged.from, 0, records::kFaultBegins, fault.node, "masquerading", ""};
+  recording::records::FaultActivity activity{forged.from,    0, recording::records::kFaultBegins, fault.node,
+                                             "masquerading", ""};
   report.on(activity);
-  activity.what = records::kFaultActs;
+  activity.what = recording::records::kFaultActs;
   for (int us = 0; us < 5'000; us += 50) {
     activity.at = forged.from + Duration::microseconds(us);
     report.on(activity);
@@ -273,4 +274,4 @@ TEST(FaultReport, AFrameThatItsOwnerDidNotSendIsForgedForAllWhoTookIt) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::evaluation::faults

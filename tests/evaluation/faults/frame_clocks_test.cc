@@ -9,31 +9,31 @@
 
 #include "tests/drives/living_drive.h"
 
-namespace ttf {
+namespace ttf::evaluation::faults {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::LivingDrive;
+using drives::LivingDrive;
+using fusion::strategies::StrategyKind;
 
 // The distance of the clocks as frames tell it, against the simulator's own, which looks at all of a double cycle.
-struct Spread final : records::Sink {
-  using records::Sink::on;
-  const schedules::Cluster& cluster;
-  experiments::FrameClocks clocks;
+struct Spread final : recording::records::Sink {
+  using recording::records::Sink::on;
+  const schedules::model::Cluster& cluster;
+  FrameClocks clocks;
   Duration since_sample{};
   std::vector<std::pair<Duration, Duration>> told_and_true;
-  explicit Spread(const schedules::Cluster& c) : cluster(c), clocks(c) {}
-  void on(const records::SlotFrameSent& frame) override {
+  explicit Spread(const schedules::model::Cluster& c) : cluster(c), clocks(c) {}
+  void on(const recording::records::SlotFrameSent& frame) override {
     if (const auto apart = clocks.sent(frame)) since_sample = std::max(since_sample, *apart);
   }
-  void on(const records::PrecisionSample& sample) override {
+  void on(const recording::records::PrecisionSample& sample) override {
     told_and_true.emplace_back(since_sample, sample.precision);
     since_sample = {};
   }
 };
 
 TEST(FrameClocks, TellTheDistanceOfTheClocks) {
-  const auto cluster = schedules::load_cluster(testing_support::shipped("schedules/paper_synchronised.yaml"));
+  const auto cluster = schedules::file::load_cluster(drives::shipped("schedules/paper_synchronised.yaml"));
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Spread spread(cluster);
     LivingDrive drive(StrategyKind::kTt, &spread, seed);
@@ -48,4 +48,4 @@ TEST(FrameClocks, TellTheDistanceOfTheClocks) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::evaluation::faults

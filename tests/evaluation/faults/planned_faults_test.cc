@@ -13,16 +13,16 @@
 #include "sim/medium/disturbance.h"
 #include "tests/evaluation/faults/fault_findings.h"
 
-namespace ttf {
+namespace ttf::evaluation::faults {
 namespace {
 
-using fusion::StrategyKind;
-using namespace testing_support;
+using fusion::strategies::StrategyKind;
 
 TEST(FaultReport, ATransientOnBothChannelsHarmsOnOneItDoesNot) {
   for (const bool both : {true, false}) {
     Planned run;
-    run.add(FaultKind::kTransient, "", 1'000, 20).channels = both ? schedules::Channels::kAB : schedules::Channels::kA;
+    run.add(FaultKind::kTransient, "", 1'000, 20).channels =
+        both ? schedules::model::Channels::kAB : schedules::model::Channels::kA;
     const FaultFindings& found = run.run();
     ASSERT_EQ(found.faults.size(), 1u);
     const FaultSeen& fault = found.faults[0];
@@ -111,16 +111,16 @@ TEST(FaultReport, WhatNeverActsHasNoEffects) {
 TEST(FaultReport, WhatABurstDoesIsItsFaults) {
   for (const FaultKind kind : {FaultKind::kNoise, FaultKind::kBabblingIdiot}) {
     Planned run;
-    nodes::Fault& fault = run.add(kind, kind == FaultKind::kNoise ? "" : "gateway", 1'000, 1);
+    ttf::faults::Fault& fault = run.add(kind, kind == FaultKind::kNoise ? "" : "gateway", 1'000, 1);
     fault.length = Duration::milliseconds(100);
     fault.interval = Duration::milliseconds(100);
     const FaultFindings& found = run.run();
     EXPECT_FALSE(found.faults.at(0).nothing());
-    EXPECT_TRUE(found.unattributed.nothing()) << nodes::name_of(kind);
+    EXPECT_TRUE(found.unattributed.nothing()) << ttf::faults::name_of(kind);
   }
   Planned run;
-  nodes::Fault& frame = run.add(FaultKind::kBabblingIdiot, "gateway", 1'000, 0);
-  frame.signal = nodes::FaultSignal::kFrame;
+  ttf::faults::Fault& frame = run.add(FaultKind::kBabblingIdiot, "gateway", 1'000, 0);
+  frame.signal = ttf::faults::FaultSignal::kFrame;
   frame.duration = Duration{1};
   const FaultFindings& found = run.run();
   EXPECT_EQ(found.faults.at(0).acts, 2u) << "on both channels, once";
@@ -131,7 +131,7 @@ TEST(FaultReport, WhatABurstDoesIsItsFaults) {
 // H2: noise that never ends keeps everybody from starting.
 TEST(FaultReport, WhoNeverStartsIsHarmed) {
   Planned run("scenarios/cold_start.yaml");
-  nodes::Fault& noise = run.add(FaultKind::kNoise, "", 0, 0);
+  ttf::faults::Fault& noise = run.add(FaultKind::kNoise, "", 0, 0);
   noise.length = Duration::milliseconds(1);
   noise.interval = Duration{};
   const FaultFindings& found = run.run();
@@ -144,8 +144,8 @@ TEST(FaultReport, OfSeveralFaultsEachIsToldItsOwn) {
   Planned run;
   run.add(FaultKind::kCrash, "camera_pre", 1'000, 0);
   run.add(FaultKind::kBitFlipPayload, "gateway", 1'200, 300);
-  nodes::Fault& noise = run.add(FaultKind::kNoise, "", 1'200, 300);
-  noise.channels = schedules::Channels::kA;
+  ttf::faults::Fault& noise = run.add(FaultKind::kNoise, "", 1'200, 300);
+  noise.channels = schedules::model::Channels::kA;
   noise.interval = Duration::milliseconds(100);
   run.add(FaultKind::kCrash, "laser_pre", 1'300, 0);
   const FaultFindings& found = run.run();
@@ -175,11 +175,11 @@ TEST(FaultReport, OfTwoFaultsOfOneNodeEachIsToldItsOwn) {
 }
 
 // The guardians keep a babbling idiot's noise from the others; they are the only ones to see it.
-struct Interventions final : records::Sink {
-  using records::Sink::on;
-  std::vector<records::GuardianIntervention> seen;
+struct Interventions final : recording::records::Sink {
+  using recording::records::Sink::on;
+  std::vector<recording::records::GuardianIntervention> seen;
   std::set<std::string> reasons;
-  void on(const records::GuardianIntervention& one) override {
+  void on(const recording::records::GuardianIntervention& one) override {
     reasons.emplace(one.why);
     seen.push_back(one);
     seen.back().why = {};
@@ -188,14 +188,14 @@ struct Interventions final : records::Sink {
 
 TEST(FaultReport, WhatGuardiansBlockIsTold) {
   Planned run;
-  run.drive.cluster.topology = schedules::Topology::kStar;
+  run.drive.cluster.topology = schedules::model::Topology::kStar;
   run.drive.cluster.guardian = true;
-  nodes::Fault& babble = run.add(FaultKind::kBabblingIdiot, "feature", 1'001, 50);
-  babble.channels = schedules::Channels::kB;
+  ttf::faults::Fault& babble = run.add(FaultKind::kBabblingIdiot, "feature", 1'001, 50);
+  babble.channels = schedules::model::Channels::kB;
   babble.interval = Duration::milliseconds(1);
   FaultReport report = run.make_report();
   Interventions interventions;
-  records::Tee tee({&report, &interventions});
+  recording::records::Tee tee({&report, &interventions});
   run.drive.run(tee);
   const FaultFindings& found = report.findings();
   const FaultSeen& fault = found.faults.at(0);
@@ -204,7 +204,7 @@ TEST(FaultReport, WhatGuardiansBlockIsTold) {
   for (const auto& one : interventions.seen) {
     EXPECT_EQ(one.branch, run.node("feature"));
     EXPECT_EQ(one.channel, 1);
-    EXPECT_EQ(one.signal, records::kSignalUndecodable);
+    EXPECT_EQ(one.signal, recording::records::kSignalUndecodable);
     EXPECT_FALSE(one.cut);
     EXPECT_EQ(one.until, one.at);
   }
@@ -228,30 +228,30 @@ TEST(FaultReport, WhatGuardiansBlockIsTold) {
 }
 
 // A frame that does not end: it goes through as far as one may last.
-struct Endless final : sim::Disturbance {
+struct Endless final : sim::medium::Disturbance {
   NodeId sender{};
   TrueTime from{}, to{};
-  bool leaving(sim::Leaving& signal) override {
+  bool leaving(sim::medium::Leaving& signal) override {
     if (signal.sender == sender && signal.start >= from && signal.start < to) signal.end += Duration::microseconds(200);
     return true;
   }
 };
 
 TEST(FaultReport, WhatGuardiansCutIsTold) {
-  testing_support::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
-  drive.cluster.topology = schedules::Topology::kStar;
+  drives::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
+  drive.cluster.topology = schedules::model::Topology::kStar;
   drive.cluster.guardian = true;
   Interventions interventions;
-  const auto scene = std::make_shared<nodes::WorldScene>(drive.scenario.world, 1, 0, sim::kFirstCycle);
-  const nodes::NodeSetConfig set{&drive.scenario, &drive.cluster, StrategyKind::kTt, 1, 0, scene, nullptr};
-  sim::SimulationConfig config;
+  const auto scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, 1, 0, sim::crank::kFirstCycle);
+  const drives::NodeSetConfig set{&drive.scenario, &drive.cluster, StrategyKind::kTt, 1, 0, scene, nullptr};
+  sim::crank::SimulationConfig config;
   config.cluster = &drive.cluster;
   config.seed = 1;
-  config.make_steps = [&](NodeId node) { return nodes::make_steps(set, node); };
-  sim::ClusterSimulation simulation(config, interventions);
+  config.make_steps = [&](NodeId node) { return drives::make_steps(set, node); };
+  sim::crank::ClusterSimulation simulation(config, interventions);
   Endless endless;
   endless.sender = *drive.cluster.find_node("laser_pre");
-  endless.from = sim::kFirstCycle + drive.cluster.cycle() * 20;
+  endless.from = sim::crank::kFirstCycle + drive.cluster.cycle() * 20;
   endless.to = endless.from + drive.cluster.cycle();
   simulation.set_disturbance(&endless);
   simulation.run_until(endless.from - Duration::microseconds(100));
@@ -262,7 +262,7 @@ TEST(FaultReport, WhatGuardiansCutIsTold) {
     if (!one.cut) continue;
     channels.insert(one.channel);
     EXPECT_EQ(one.branch, endless.sender);
-    EXPECT_EQ(one.signal, records::kSignalFrame);
+    EXPECT_EQ(one.signal, recording::records::kSignalFrame);
     EXPECT_EQ(one.reason, 0);
     EXPECT_GT(one.until, one.at);
     EXPECT_LT(one.until, one.at + Duration::microseconds(100)) << "a frame of 28 words lasts 66 us";
@@ -274,17 +274,17 @@ TEST(FaultReport, WhatGuardiansCutIsTold) {
 // A log tells what the run told.
 TEST(FaultReport, IsTheSameFromTheLog) {
   Planned run("scenarios/faulty_bus.yaml");
-  run.drive.cluster.topology = schedules::Topology::kStar;
+  run.drive.cluster.topology = schedules::model::Topology::kStar;
   run.drive.cluster.guardian = true;
   FaultReport live = run.make_report(), logged = run.make_report();
   const std::string path = testing::TempDir() + "/faulty_bus.mcap";
-  recording::LogWriter log(path, {});
-  records::Tee tee({&live, &log});
+  recording::log::LogWriter log(path, {});
+  recording::records::Tee tee({&live, &log});
   run.drive.run(tee);
   log.close();
-  recording::read_log(path, logged);
+  recording::log::read_log(path, logged);
   std::filesystem::remove(path);
-  for (FaultReport* report : {&live, &logged}) report->finish(sim::drive_end(run.drive.scenario));
+  for (FaultReport* report : {&live, &logged}) report->finish(drives::drive_end(run.drive.scenario));
   const FaultFindings &a = live.findings(), &b = logged.findings();
   ASSERT_EQ(a.faults.size(), run.drive.scenario.faults.faults.size());
   ASSERT_EQ(b.faults.size(), a.faults.size());
@@ -320,4 +320,4 @@ TEST(FaultReport, IsTheSameFromTheLog) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::evaluation::faults

@@ -5,7 +5,7 @@
 
 #include "tests/sim/crank/bus_clusters.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::faults {
 namespace {
 
 constexpr NodeId kSender{1}, kReceiver{2};
@@ -23,7 +23,7 @@ class Ledger : public testing::Test {
   Duration macroticks(int count) const { return {count * cluster_.flexray.gdMacrotick_ps / 1000}; }
 
   void sends(int cycle, std::uint8_t channel) {
-    records::SlotFrameSent frame;
+    recording::records::SlotFrameSent frame;
     frame.stamp = {frame_at(cycle), {}, {}, kSender};
     frame.cycle = cycle;
     frame.slot = 2;
@@ -31,7 +31,7 @@ class Ledger : public testing::Test {
     ledger_.on(frame);
   }
   void misses(int cycle, std::uint8_t channel) {
-    records::SlotProblem problem;
+    recording::records::SlotProblem problem;
     problem.stamp = {static_end(cycle), {}, {}, kReceiver};
     problem.cycle = cycle;
     problem.slot = 2;
@@ -45,7 +45,7 @@ class Ledger : public testing::Test {
       if (lost) misses(cycle, channel);
   }
 
-  schedules::Cluster cluster_ = sim::bus_cluster(3, 3, 3);
+  schedules::model::Cluster cluster_ = sim::crank::bus_cluster(3, 3, 3);
   std::vector<SlotLoss> losses_;
   SlotLedger ledger_{cluster_, [](NodeId) { return true; }, [this](const SlotLoss& loss) { losses_.push_back(loss); }};
 };
@@ -117,4 +117,4 @@ TEST_F(Ledger, AValidFrameThatWasNotSentIsForged) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::faults

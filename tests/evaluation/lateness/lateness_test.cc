@@ -18,7 +18,7 @@
 #include "recording/log/writer.h"
 #include "tests/evaluation/accuracy/synthetic_uses.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::lateness {
 namespace {
 
 constexpr std::int64_t kCycleNs = 5'000'000;
@@ -29,7 +29,7 @@ struct HandClock {
   NodeId node{};
   std::function<std::int64_t(std::int64_t)> ahead_ns;
 
-  records::Stamp at(std::int64_t host_ns) const {
+  recording::records::Stamp at(std::int64_t host_ns) const {
     return {TrueTime{host_ns}, LocalTime{-1}, GlobalTime{host_ns + ahead_ns(host_ns)}, node};
   }
 };
@@ -38,18 +38,18 @@ std::function<std::int64_t(std::int64_t)> always(std::int64_t ns) {
 }
 
 // A stamp of each in every double cycle, one node's after the other's, in the order of the host's clock.
-std::vector<records::Stamp> stamps_of(const std::vector<HandClock>& clocks, int double_cycles,
-                                      const std::function<bool(NodeId, int)>& there = {}) {
-  std::vector<records::Stamp> stamps;
+std::vector<recording::records::Stamp> stamps_of(const std::vector<HandClock>& clocks, int double_cycles,
+                                                 const std::function<bool(ttf::NodeId, int)>& there = {}) {
+  std::vector<recording::records::Stamp> stamps;
   for (int k = 0; k < double_cycles; ++k)
     for (std::size_t c = 0; c < clocks.size(); ++c)
       if (!there || there(clocks[c].node, k))
         stamps.push_back(clocks[c].at(2 * kCycleNs * k + static_cast<std::int64_t>(c) * 300'000));
   return stamps;
 }
-records::BinnedDurations apart(const std::vector<records::Stamp>& stamps) {
+recording::records::BinnedDurations apart(const std::vector<recording::records::Stamp>& stamps) {
   AchievedPrecision precision(Duration{kCycleNs});
-  for (const records::Stamp& stamp : stamps) precision.add(stamp);
+  for (const recording::records::Stamp& stamp : stamps) precision.add(stamp);
   return precision.finish();
 }
 
@@ -102,7 +102,7 @@ TEST(AchievedPrecision, OfOneClockOrOfNoneThereIsNone) {
   EXPECT_TRUE(apart(stamps_of({{NodeId{0}, always(7)}}, 20)).empty());
   // A node that has no global time shows its local time once more.
   auto stamps = stamps_of({{NodeId{0}, always(0)}, {NodeId{1}, always(5'000)}}, 20);
-  for (records::Stamp& stamp : stamps)
+  for (recording::records::Stamp& stamp : stamps)
     if (stamp.node == NodeId{1}) stamp.local.ns = stamp.global.ns;
   EXPECT_TRUE(apart(stamps).empty());
 }
@@ -141,11 +141,11 @@ TEST(AchievedPrecision, WhatNoRunCanHaveIsLeftOut) {
 
 // ----------------------------------------------------------------------------------------------------- account
 
-schedules::Cluster three_nodes() {
-  schedules::Cluster cluster;
+schedules::model::Cluster three_nodes() {
+  schedules::model::Cluster cluster;
   cluster.flexray.gMacroPerCycle = 5000;
   for (const char* name : {"laser", "fusion", "feature"}) {
-    schedules::Node node;
+    schedules::model::Node node;
     node.name = name;
     node.microtick_ps = 25'000;
     cluster.nodes.push_back(node);
@@ -153,36 +153,36 @@ schedules::Cluster three_nodes() {
   return cluster;
 }
 
-records::TimingProblem problem(int node, std::uint8_t what, std::uint32_t count = 1) {
-  records::TimingProblem one;
+recording::records::TimingProblem problem(int node, std::uint8_t what, std::uint32_t count = 1) {
+  recording::records::TimingProblem one;
   one.stamp.node = NodeId{static_cast<std::uint8_t>(node)};
   one.what = what;
   one.count = count;
   return one;
 }
-records::ClockCorrected corrected(const records::Stamp& stamp, std::int32_t offset_microticks) {
+recording::records::ClockCorrected corrected(const recording::records::Stamp& stamp, std::int32_t offset_microticks) {
   return {stamp, 1, offset_microticks, 0};
 }
 
 TEST(LatenessAccount, InVirtualTimeThereIsNothingToTell) {
-  const schedules::Cluster cluster = three_nodes();
+  const schedules::model::Cluster cluster = three_nodes();
   LatenessAccount account(cluster, {});
   account.on(corrected({{}, {}, {}, NodeId{1}}, 5));
   EXPECT_EQ(account.finish(), std::nullopt);
 }
 
 TEST(LatenessAccount, CountsWhatWasNotInItsTimeByNodeAndKind) {
-  const schedules::Cluster cluster = three_nodes();
+  const schedules::model::Cluster cluster = three_nodes();
   LatenessAccount account(cluster, {});
-  account.on(problem(0, records::kLateWakeUp));
-  account.on(problem(0, records::kLateWakeUp));
-  account.on(problem(0, records::kSlotMissed));
-  account.on(problem(1, records::kLateFrame));
-  account.on(problem(1, records::kEarlyFrame, 3));
-  account.on(problem(1, records::kFramesLost, 7));
-  account.on(problem(2, records::kFramesLost, 2));
-  account.on(problem(2, 200, 9));                    // of a later version
-  account.on(problem(77, records::kFramesLost, 9));  // of another cluster
+  account.on(problem(0, recording::records::kLateWakeUp));
+  account.on(problem(0, recording::records::kLateWakeUp));
+  account.on(problem(0, recording::records::kSlotMissed));
+  account.on(problem(1, recording::records::kLateFrame));
+  account.on(problem(1, recording::records::kEarlyFrame, 3));
+  account.on(problem(1, recording::records::kFramesLost, 7));
+  account.on(problem(2, recording::records::kFramesLost, 2));
+  account.on(problem(2, 200, 9));                               // of a later version
+  account.on(problem(77, recording::records::kFramesLost, 9));  // of another cluster
   const auto found = account.finish();
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->timing.size(), 3u);
@@ -195,7 +195,7 @@ TEST(LatenessAccount, CountsWhatWasNotInItsTimeByNodeAndKind) {
   EXPECT_FALSE(found->timing.at(NodeId{2}).largest_offset_correction.has_value());
 }
 
-records::MediumCounts counted(int node, std::int64_t local_ms, std::uint64_t of_each) {
+recording::records::MediumCounts counted(int node, std::int64_t local_ms, std::uint64_t of_each) {
   const NodeId id{static_cast<std::uint8_t>(node)};
   return {{{}, LocalTime{local_ms * 1'000'000}, {}, id},
           of_each,
@@ -208,7 +208,7 @@ records::MediumCounts counted(int node, std::int64_t local_ms, std::uint64_t of_
 }
 
 TEST(LatenessAccount, WhatMediaCountedIsOfTheWholeRun) {
-  const schedules::Cluster cluster = three_nodes();
+  const schedules::model::Cluster cluster = three_nodes();
   LatenessAccount account(cluster, {});
   account.on(counted(0, 100, 10));
   account.on(counted(0, 200, 20));  // since the process began
@@ -236,18 +236,18 @@ TEST(LatenessAccount, WhatMediaCountedIsOfTheWholeRun) {
 
 // One frame of two that never came was withheld: told by its sender in another log.
 TEST(LatenessAccount, WhatSendersWithheldIsToldApart) {
-  schedules::Cluster cluster = three_nodes();
-  schedules::FrameSlot frame;
+  schedules::model::Cluster cluster = three_nodes();
+  schedules::model::FrameSlot frame;
   frame.slot = 4;
   frame.sender = NodeId{0};
   cluster.frames.push_back(frame);
   LatenessAccount account(cluster, {});
-  auto missed = problem(0, records::kSlotMissed), lost = problem(1, records::kFramesLost, 2);
+  auto missed = problem(0, recording::records::kSlotMissed), lost = problem(1, recording::records::kFramesLost, 2);
   missed.slot = lost.slot = 4;
   missed.cycle = 10;
-  missed.stamp.true_time = at(50);
+  missed.stamp.true_time = accuracy::at(50);
   lost.cycle = 12;
-  lost.stamp.true_time = at(60);
+  lost.stamp.true_time = accuracy::at(60);
   account.on(lost);
   account.on(missed);
   const auto found = account.finish();
@@ -259,10 +259,10 @@ TEST(LatenessAccount, WhatSendersWithheldIsToldApart) {
 }
 
 TEST(LatenessAccount, TheLargestCorrectionIsBySizeAndInRealTime) {
-  const schedules::Cluster cluster = three_nodes();
+  const schedules::model::Cluster cluster = three_nodes();
   for (const auto& [ppm, expected_ns] : {std::pair(1'000'000, 10'000), std::pair(20'000'000, 200'000)}) {
     LatenessAccount account(cluster, {ppm, {}});
-    account.on(problem(0, records::kLateWakeUp));
+    account.on(problem(0, recording::records::kLateWakeUp));
     for (const std::int32_t microticks : {12, -400, 399}) account.on(corrected({{}, {}, {}, NodeId{1}}, microticks));
     account.on(corrected({{}, {}, {}, NodeId{2}}, 0));
     const auto found = account.finish();
@@ -272,13 +272,13 @@ TEST(LatenessAccount, TheLargestCorrectionIsBySizeAndInRealTime) {
 }
 
 TEST(LatenessAccount, ClocksAreComparedOnTheirOwnHostOnly) {
-  const schedules::Cluster cluster = three_nodes();
+  const schedules::model::Cluster cluster = three_nodes();
   const std::vector<HandClock> clocks{
       {NodeId{0}, always(0)}, {NodeId{1}, always(9'000'000)}, {NodeId{2}, always(3'000)}};
   const auto precision_on = [&](const std::map<NodeId, std::string>& hosts) {
     LatenessAccount account(cluster, {1'000'000, hosts});
-    account.on(problem(0, records::kLateWakeUp));
-    for (const records::Stamp& stamp : stamps_of(clocks, 20)) account.on(corrected(stamp, 1));
+    account.on(problem(0, recording::records::kLateWakeUp));
+    for (const recording::records::Stamp& stamp : stamps_of(clocks, 20)) account.on(corrected(stamp, 1));
     return account.finish()->precision;
   };
   const auto apart_hosts = precision_on({{NodeId{0}, "ash"}, {NodeId{1}, "elm"}, {NodeId{2}, "ash"}});
@@ -305,22 +305,23 @@ TEST(LatenessAccount, MergedLogsOfSeveralNodesTellOfTheWholeRun) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("ttf_test_lateness." + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
-  const schedules::Cluster cluster = three_nodes();
+  const schedules::model::Cluster cluster = three_nodes();
   ASSERT_EQ(cluster.cycle(), Duration{kCycleNs});
   // The far host's clock is 40 ms behind.
   const std::vector<std::int64_t> behind_ns{0, 0, 40'000'000};
   const std::vector<std::int64_t> ahead_ns{0, 6'000, 0};
   std::vector<std::string> paths;
   for (std::uint8_t n = 0; n < 3; ++n) {
-    recording::LogManifest manifest;
+    recording::log::LogManifest manifest;
     manifest.cycle_ns = kCycleNs;
-    manifest.clock = recording::kWallClock;
+    manifest.clock = recording::log::kWallClock;
     manifest.host = n < 2 ? "near" : "far";
     manifest.time_scale_ppm = 10'000'000;
     paths.push_back((folder / (std::to_string(n) + ".mcap")).string());
-    recording::LogWriter log(paths.back(), manifest);
+    recording::log::LogWriter log(paths.back(), manifest);
     const auto stamp = [&](std::int64_t ns) {
-      return records::Stamp{TrueTime{ns - behind_ns[n]}, LocalTime{ns - 1}, GlobalTime{ns + ahead_ns[n]}, NodeId{n}};
+      return recording::records::Stamp{TrueTime{ns - behind_ns[n]}, LocalTime{ns - 1}, GlobalTime{ns + ahead_ns[n]},
+                                       NodeId{n}};
     };
     for (std::int64_t k = 0; k < 30; ++k) {
       log.on(corrected(stamp(2 * kCycleNs * k + 100'000 * n), n == 1 ? -8 : 0));
@@ -328,16 +329,17 @@ TEST(LatenessAccount, MergedLogsOfSeveralNodesTellOfTheWholeRun) {
       // What has come since the beginning: k wake-ups of (10 + n) us, one of 100 us.
       std::vector<std::uint64_t> counts(100);
       counts[10u + n] = static_cast<std::uint64_t>(k);
-      counts[records::lateness_bin(Duration::microseconds(100))] = 1;
-      log.on(records::LatenessHistogram{stamp(2 * kCycleNs * k + 500'000), records::kLatenessOfWakeUps,
-                                        Duration::microseconds(100), counts});
+      counts[recording::records::lateness_bin(Duration::microseconds(100))] = 1;
+      log.on(recording::records::LatenessHistogram{stamp(2 * kCycleNs * k + 500'000),
+                                                   recording::records::kLatenessOfWakeUps, Duration::microseconds(100),
+                                                   counts});
     }
-    auto lost = problem(n, records::kFramesLost, n);
+    auto lost = problem(n, recording::records::kFramesLost, n);
     lost.stamp = stamp(70'000'000);
     if (n > 0) log.on(lost);
     log.close();
   }
-  const recording::MergedLogs merged(paths);
+  const recording::merge::MergedLogs merged(paths);
   EXPECT_EQ(merged.warnings(), std::vector<std::string>{});
   const RealTimeRun run = real_time_run(merged);
   EXPECT_EQ(run.time_scale_ppm, 10'000'000);
@@ -366,11 +368,11 @@ TEST(LatenessAccount, MergedLogsOfSeveralNodesTellOfTheWholeRun) {
 // The ages that the measures know, as distributions: of the oldest and the newest that are fused in what was used.
 TEST(Measures, AgesOfTheOldestAndTheNewestUsedAreTheSortedLists) {
   RandomStream stream({.seed = 5, .purpose = Purpose::kTest});
-  DriveMeasures measures(TrueTime{});
+  accuracy::DriveMeasures measures(TrueTime{});
   std::vector<Duration> oldest, newest;
-  AgeStatistics all;
+  accuracy::AgeStatistics all;
   for (std::uint32_t k = 0; k < 400; ++k) {
-    const TrueTime now = at(100 + 40 * k);
+    const TrueTime now = accuracy::at(100 + 40 * k);
     std::vector<MeasurementId> ids;
     std::vector<Duration> ages;
     for (std::uint8_t sensor = 0; sensor < 3; ++sensor) {
@@ -378,8 +380,11 @@ TEST(Measures, AgesOfTheOldestAndTheNewestUsedAreTheSortedLists) {
       ages.push_back(age);
       all.add(age);
       ids.push_back({SensorId{sensor}, k});
-      measures.on(records::ListFused{
-          {now, {}, GlobalTime{now.ns}, {}}, k, ids.back(), GlobalTime{now.ns} - age, records::Disposition::kFused});
+      measures.on(recording::records::ListFused{{now, {}, GlobalTime{now.ns}, {}},
+                                                k,
+                                                ids.back(),
+                                                GlobalTime{now.ns} - age,
+                                                recording::records::Disposition::kFused});
     }
     write_image(measures, k, GlobalTime{now.ns}, {{10, 0}}, ids);
     use_image(measures, k, now, {{10, 0}});
@@ -387,12 +392,12 @@ TEST(Measures, AgesOfTheOldestAndTheNewestUsedAreTheSortedLists) {
     newest.push_back(*std::min_element(ages.begin(), ages.end()));
   }
   // An image too old to be used has no age.
-  records::FeatureUsed stale;
-  stale.stamp.true_time = at(20'000);
+  recording::records::FeatureUsed stale;
+  stale.stamp.true_time = accuracy::at(20'000);
   stale.image_sequence = 399;
   stale.stale = true;
   measures.on(stale);
-  const DriveSummary summary = measures.finish();
+  const accuracy::DriveSummary summary = measures.finish();
   EXPECT_EQ(summary.age_used.count, all.count);
   EXPECT_EQ(summary.age_used.worst, all.worst);
   for (auto [list, found] : {std::pair(oldest, summary.age_used_oldest), std::pair(newest, summary.age_used_newest)}) {
@@ -408,4 +413,4 @@ TEST(Measures, AgesOfTheOldestAndTheNewestUsedAreTheSortedLists) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::lateness

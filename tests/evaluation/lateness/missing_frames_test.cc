@@ -10,7 +10,7 @@
 
 #include "core/random.h"
 
-namespace ttf::experiments {
+namespace ttf::evaluation::lateness {
 namespace {
 
 constexpr std::int64_t kTurnNs = 5'000'000;  // a cycle
@@ -18,12 +18,12 @@ constexpr NodeId kTalker{0}, kListener{1}, kSecondTalker{2};
 
 // Slot 1 is kTalker's in every cycle, on both channels; slot 2 in cycles 1, 5, 9, ... on A only, and kSecondTalker's
 // in cycles 3, 7, ...
-schedules::Cluster cluster_of_two_slots() {
-  schedules::Cluster cluster;
+schedules::model::Cluster cluster_of_two_slots() {
+  schedules::model::Cluster cluster;
   cluster.flexray.gMacroPerCycle = 5000;
   cluster.nodes.resize(3);
-  const auto frame = [&](int slot, schedules::Channels channels, int base, int repetition, NodeId sender) {
-    schedules::FrameSlot one;
+  const auto frame = [&](int slot, schedules::model::Channels channels, int base, int repetition, NodeId sender) {
+    schedules::model::FrameSlot one;
     one.slot = slot;
     one.channels = channels;
     one.base_cycle = base;
@@ -31,17 +31,17 @@ schedules::Cluster cluster_of_two_slots() {
     one.sender = sender;
     cluster.frames.push_back(one);
   };
-  frame(1, schedules::Channels::kAB, 0, 1, kTalker);
-  frame(2, schedules::Channels::kA, 1, 4, kTalker);
-  frame(2, schedules::Channels::kA, 3, 4, kSecondTalker);
+  frame(1, schedules::model::Channels::kAB, 0, 1, kTalker);
+  frame(2, schedules::model::Channels::kA, 1, 4, kTalker);
+  frame(2, schedules::model::Channels::kA, 3, 4, kSecondTalker);
   return cluster;
 }
 
 class MissingFramesTest : public testing::Test {
  protected:
-  static records::TimingProblem of(NodeId node, std::uint8_t what, int slot, std::int64_t cycle,
-                                   std::int64_t at_cycle) {
-    records::TimingProblem problem;
+  static recording::records::TimingProblem of(NodeId node, std::uint8_t what, int slot, std::int64_t cycle,
+                                              std::int64_t at_cycle) {
+    recording::records::TimingProblem problem;
     problem.stamp.true_time = TrueTime{at_cycle * kTurnNs + slot * 50'000};
     problem.stamp.node = node;
     problem.what = what;
@@ -51,7 +51,7 @@ class MissingFramesTest : public testing::Test {
   }
   // In cycle `at` of true time, which the node counts as `at + ahead`.
   void missed(std::int64_t at, std::int64_t ahead = 0, int slot = 1, NodeId sender = kTalker, int channel = 0) {
-    auto problem = of(sender, records::kSlotMissed, slot, at + ahead, at);
+    auto problem = of(sender, recording::records::kSlotMissed, slot, at + ahead, at);
     problem.channel = static_cast<std::uint8_t>(channel);
     // Noticed when it was 700 us late in real time.
     problem.late = Duration::microseconds(700);
@@ -60,14 +60,14 @@ class MissingFramesTest : public testing::Test {
   }
   void lost(std::int64_t at, std::uint32_t count, std::int64_t ahead = 0, int slot = 1, int channel = 0,
             NodeId receiver = kListener) {
-    auto problem = of(receiver, records::kFramesLost, slot, at + ahead, at);
+    auto problem = of(receiver, recording::records::kFramesLost, slot, at + ahead, at);
     problem.channel = static_cast<std::uint8_t>(channel);
     problem.count = count;
     told_.push_back(problem);
   }
   // Left in cycle `at`, and is in the sender's log.
   void sent(std::int64_t at, std::int64_t ahead = 0, int slot = 1, NodeId sender = kTalker) {
-    records::SlotFrameSent frame;
+    recording::records::SlotFrameSent frame;
     frame.stamp.true_time = TrueTime{at * kTurnNs + slot * 50'000 + 300'000};
     frame.stamp.node = sender;
     frame.cycle = at + ahead;
@@ -84,10 +84,10 @@ class MissingFramesTest : public testing::Test {
   std::uint64_t withheld(NodeId receiver = kListener) const { return missing(receiver).withheld; }
   std::uint64_t away(NodeId receiver = kListener) const { return missing(receiver).away; }
 
-  const schedules::Cluster cluster_ = cluster_of_two_slots();
+  const schedules::model::Cluster cluster_ = cluster_of_two_slots();
   std::int64_t scale_ppm_ = 1'000'000;
-  std::vector<records::TimingProblem> told_;
-  std::vector<records::SlotFrameSent> sent_;
+  std::vector<recording::records::TimingProblem> told_;
+  std::vector<recording::records::SlotFrameSent> sent_;
 };
 
 TEST_F(MissingFramesTest, WithheldOnly) {
@@ -302,8 +302,8 @@ TEST_F(MissingFramesTest, DrawnRunsAreCountedTurnByTurn) {
 TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
   constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
   for (const std::int64_t far : {-kFar - 1, std::int64_t{-1}, kFar}) {
-    auto miss = of(kTalker, records::kSlotMissed, 1, far, 0);
-    auto loss = of(kListener, records::kFramesLost, 1, ~far, 0);  // -far - 1
+    auto miss = of(kTalker, recording::records::kSlotMissed, 1, far, 0);
+    auto loss = of(kListener, recording::records::kFramesLost, 1, ~far, 0);  // -far - 1
     loss.count = std::numeric_limits<std::uint32_t>::max();
     for (const std::int64_t late : {-kFar - 1, kFar}) {
       miss.stamp.true_time.ns = far;
@@ -320,13 +320,14 @@ TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
     EXPECT_LE(withheld(), 6u * 6u);  // no more for each loss than were missed
     EXPECT_LE(away(), 6 * std::uint64_t{std::numeric_limits<std::uint32_t>::max()});
   }
-  told_ = {of(kTalker, records::kSlotMissed, 7, 1, 1), of(kListener, records::kFramesLost, 7, 2, 2)};
+  told_ = {of(kTalker, recording::records::kSlotMissed, 7, 1, 1),
+           of(kListener, recording::records::kFramesLost, 7, 2, 2)};
   EXPECT_EQ(withheld(), 0u) << "a slot that nobody has";
-  const schedules::Cluster nothing;
+  const schedules::model::Cluster nothing;
   MissingFrames frames(nothing, 1'000'000);
   for (const auto& problem : told_) frames.add(problem);
   EXPECT_EQ(frames.by_receiver().at(kListener).withheld, 0u);
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::evaluation::lateness

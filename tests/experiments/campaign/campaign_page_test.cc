@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/file_bytes.h"
-#include "experiments/campaign/coverage.h"
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/coverage.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 namespace {
 
 // Of every line "class [A+B] [*] number ..." of the page: each class as often as the page has it (a table per variant).
@@ -48,4 +48,4 @@ TEST(CampaignPage, ShowsTheFaultsThatAreDrawn) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

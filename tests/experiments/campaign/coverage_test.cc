@@ -5,14 +5,14 @@
 
 #include "tests/experiments/campaign/small_campaign.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 namespace {
 
-const ClassCoverage& row(const Coverage& coverage, nodes::FaultKind kind) {
+const ClassCoverage& row(const Coverage& coverage, faults::FaultKind kind) {
   for (const ClassCoverage& one : coverage.classes)
     if (one.kind == kind && one.in_hypothesis) return one;
   static const ClassCoverage none;
-  ADD_FAILURE() << nodes::name_of(kind) << " is not in the table";
+  ADD_FAILURE() << faults::name_of(kind) << " is not in the table";
   return none;
 }
 
@@ -26,25 +26,30 @@ TEST(Coverage, OfTwoThousandSingleFaults) {
   std::uint64_t injected = 0;
   for (const ClassCoverage& one : guarded.classes) {
     injected += one.injected;
-    EXPECT_GT(one.activated, 0u) << nodes::name_of(one.kind);
-    EXPECT_GT(one.detected, 0u) << nodes::name_of(one.kind);
+    EXPECT_GT(one.activated, 0u) << faults::name_of(one.kind);
+    EXPECT_GT(one.detected, 0u) << faults::name_of(one.kind);
     EXPECT_EQ(one.without, 0u) << "every start-up succeeds without the fault";
   }
   EXPECT_EQ(injected, 2000u);
 
   // The observable that every class must have, on the bus, where nothing is kept from the others.
-  using nodes::FaultKind;
-  for (const auto& [kind, check] :
-       {std::pair{FaultKind::kCrash, Check::kNoFrame}, std::pair{FaultKind::kOmission, Check::kNoFrame},
-        std::pair{FaultKind::kBabblingIdiot, Check::kBoundary}, std::pair{FaultKind::kMasquerading, Check::kContent},
-        std::pair{FaultKind::kSosValue, Check::kSyntax}, std::pair{FaultKind::kBitFlipHeader, Check::kSyntax},
-        std::pair{FaultKind::kBitFlipPayload, Check::kSyntax}, std::pair{FaultKind::kBitFlipTrailer, Check::kSyntax},
-        std::pair{FaultKind::kChannelSwap, Check::kSyntax}, std::pair{FaultKind::kDrift, Check::kBoundary},
-        std::pair{FaultKind::kWrongSchedule, Check::kContent}, std::pair{FaultKind::kNoise, Check::kSyntax},
-        std::pair{FaultKind::kTransient, Check::kSyntax}})
-    EXPECT_GT(row(bus, kind).by_check[static_cast<std::size_t>(check)], 0u) << nodes::name_of(kind);
+  using faults::FaultKind;
+  for (const auto& [kind, check] : {std::pair{FaultKind::kCrash, evaluation::faults::Check::kNoFrame},
+                                    std::pair{FaultKind::kOmission, evaluation::faults::Check::kNoFrame},
+                                    std::pair{FaultKind::kBabblingIdiot, evaluation::faults::Check::kBoundary},
+                                    std::pair{FaultKind::kMasquerading, evaluation::faults::Check::kContent},
+                                    std::pair{FaultKind::kSosValue, evaluation::faults::Check::kSyntax},
+                                    std::pair{FaultKind::kBitFlipHeader, evaluation::faults::Check::kSyntax},
+                                    std::pair{FaultKind::kBitFlipPayload, evaluation::faults::Check::kSyntax},
+                                    std::pair{FaultKind::kBitFlipTrailer, evaluation::faults::Check::kSyntax},
+                                    std::pair{FaultKind::kChannelSwap, evaluation::faults::Check::kSyntax},
+                                    std::pair{FaultKind::kDrift, evaluation::faults::Check::kBoundary},
+                                    std::pair{FaultKind::kWrongSchedule, evaluation::faults::Check::kContent},
+                                    std::pair{FaultKind::kNoise, evaluation::faults::Check::kSyntax},
+                                    std::pair{FaultKind::kTransient, evaluation::faults::Check::kSyntax}})
+    EXPECT_GT(row(bus, kind).by_check[static_cast<std::size_t>(check)], 0u) << faults::name_of(kind);
   EXPECT_EQ(row(guarded, FaultKind::kBabblingIdiot).detected, row(guarded, FaultKind::kBabblingIdiot).activated);
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

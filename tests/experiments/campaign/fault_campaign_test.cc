@@ -7,17 +7,17 @@
 #include <set>
 
 #include "core/errors.h"
-#include "experiments/campaign/csv.h"
 #include "experiments/campaign/coverage.h"
+#include "experiments/campaign/csv.h"
 #include "tests/experiments/campaign/small_campaign.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 namespace {
 
 using testing::HasSubstr;
 
 std::vector<FaultResult> run(const CampaignFile& campaign, const CampaignClusters& clusters, unsigned workers,
-                             Shard shard = {}) {
+                             results::Shard shard = {}) {
   return run_campaign(campaign, clusters, shard, workers, nullptr);
 }
 
@@ -63,42 +63,42 @@ TEST(FaultCampaign, MistakesInTheFileAreNamed) {
 TEST(FaultCampaign, EveryClassIsDrawnAndEveryFaultCanBeInjected) {
   const CampaignFile campaign = small_campaign(1);
   const CampaignClusters clusters(campaign);
-  std::set<nodes::FaultKind> kinds;
+  std::set<faults::FaultKind> kinds;
   for (std::uint32_t index = 0; index < 4000; ++index) {
     const DrawnFault drawn = draw_fault(campaign, clusters.base, index);
     kinds.insert(drawn.fault.kind);
-    EXPECT_NO_THROW(nodes::resolve({"", {drawn.fault}}, clusters.base)) << "fault " << index;
+    EXPECT_NO_THROW(faults::resolve({"", {drawn.fault}}, clusters.base)) << "fault " << index;
     EXPECT_EQ(parameters_text(drawn.fault, clusters.base).find(','), std::string::npos);
     EXPECT_EQ(drawn.fault, draw_fault(campaign, clusters.base, index).fault);
   }
-  EXPECT_EQ(kinds.size(), nodes::kAllFaultKinds.size());
+  EXPECT_EQ(kinds.size(), faults::kAllFaultKinds.size());
 }
 
 // What is printed of a fault is an entry of a fault plan, and the same fault when it is read again.
 TEST(FaultCampaign, WhatIsPrintedOfAFaultIsReadAgain) {
   const CampaignFile campaign = small_campaign(1);
   const CampaignClusters clusters(campaign);
-  const auto read_again = [&](const nodes::Fault& fault) {
-    const std::string entry = nodes::entry_of(fault, clusters.base);
+  const auto read_again = [&](const faults::Fault& fault) {
+    const std::string entry = faults::entry_of(fault, clusters.base);
     const StrictYaml yaml = StrictYaml::parse("faults:\n  - " + entry + "\n", "printed.yaml");
     Findings findings;
     YamlMap root = yaml.root(findings);
-    nodes::FaultPlan plan = nodes::load_fault_plan(root, Duration::milliseconds(3'600'000));
+    faults::FaultPlan plan = faults::load_fault_plan(root, Duration::milliseconds(3'600'000));
     root.finish();
     findings.throw_if_any();
-    plan = nodes::resolve(plan, clusters.base);
-    nodes::Fault again = plan.faults.at(0);
+    plan = faults::resolve(plan, clusters.base);
+    faults::Fault again = plan.faults.at(0);
     again.node_name.clear();
     again.receiver_names.clear();
     again.line = 0;
     return again;
   };
   for (std::uint32_t index = 0; index < 4000; ++index) {
-    const nodes::Fault fault = draw_fault(campaign, clusters.base, index).fault;
-    EXPECT_EQ(read_again(fault), fault) << nodes::entry_of(fault, clusters.base);
+    const faults::Fault fault = draw_fault(campaign, clusters.base, index).fault;
+    EXPECT_EQ(read_again(fault), fault) << faults::entry_of(fault, clusters.base);
   }
-  nodes::Fault bits;
-  bits.kind = nodes::FaultKind::kBitFlipPayload;
+  faults::Fault bits;
+  bits.kind = faults::FaultKind::kBitFlipPayload;
   bits.node = NodeId{0};
   bits.bits = {0, 7, 15};
   bits.receivers = {NodeId{1}, NodeId{2}};
@@ -111,15 +111,15 @@ TEST(FaultCampaign, WhatIsPrintedOfAFaultIsReadAgain) {
 
 TEST(FaultCampaign, DrawsNoFaultThatTheClusterHasNoRoomFor) {
   const CampaignFile campaign = small_campaign(1, "classes: {wrong_schedule: 1, duplicate_coldstart: 1}\n");
-  schedules::Cluster cluster = CampaignClusters(campaign).base;
+  schedules::model::Cluster cluster = CampaignClusters(campaign).base;
   cluster.flexray.gPayloadLengthStatic = 127;
   cluster.flexray.gdNIT = cluster.flexray.gMacroPerCycle - cluster.flexray.gOffsetCorrectionStart + 2;
-  std::set<nodes::WrongSchedule> wrong;
+  std::set<faults::WrongSchedule> wrong;
   for (std::uint32_t index = 0; index < 1000; ++index) {
-    const nodes::Fault fault = draw_fault(campaign, cluster, index).fault;
-    if (fault.kind == nodes::FaultKind::kWrongSchedule) wrong.insert(fault.wrong);
+    const faults::Fault fault = draw_fault(campaign, cluster, index).fault;
+    if (fault.kind == faults::FaultKind::kWrongSchedule) wrong.insert(fault.wrong);
   }
-  using nodes::WrongSchedule;
+  using faults::WrongSchedule;
   EXPECT_EQ(wrong, (std::set{WrongSchedule::kShiftedSlots, WrongSchedule::kCycleLength, WrongSchedule::kKeySlot}));
 }
 
@@ -128,9 +128,9 @@ TEST(FaultCampaign, WeightsSayHowManyOfWhichClass) {
   const CampaignClusters clusters(campaign);
   int crashes = 0, others = 0;
   for (std::uint32_t index = 0; index < 4000; ++index) {
-    const nodes::FaultKind kind = draw_fault(campaign, clusters.base, index).fault.kind;
-    crashes += kind == nodes::FaultKind::kCrash;
-    others += kind != nodes::FaultKind::kCrash && kind != nodes::FaultKind::kNoise;
+    const faults::FaultKind kind = draw_fault(campaign, clusters.base, index).fault.kind;
+    crashes += kind == faults::FaultKind::kCrash;
+    others += kind != faults::FaultKind::kCrash && kind != faults::FaultKind::kNoise;
   }
   EXPECT_EQ(others, 0);
   EXPECT_NEAR(crashes, 3000, 150);
@@ -174,9 +174,9 @@ TEST(FaultCampaign, CountsAndTimesOfTheTable) {
   for (std::uint32_t index = 0; index < 4; ++index) {
     FaultOutcome outcome;
     outcome.activated = index != 3;
-    outcome.seen_by_others = index == 2 ? 0 : 1u << static_cast<unsigned>(Check::kNoFrame);
+    outcome.seen_by_others = index == 2 ? 0 : 1u << static_cast<unsigned>(evaluation::faults::Check::kNoFrame);
     if (index < 2) outcome.detected_after = 2'000'000 * (index + 1);
-    outcome.harms = index == 1 ? 1u << static_cast<unsigned>(Harm::kFrameLost) : 0;
+    outcome.harms = index == 1 ? 1u << static_cast<unsigned>(evaluation::faults::Harm::kFrameLost) : 0;
     results.push_back({index, draw_fault(campaign, clusters.base, index), {outcome, {}}});
   }
   const Coverage coverage = coverage_of(campaign, results, kGuardian);
@@ -185,7 +185,7 @@ TEST(FaultCampaign, CountsAndTimesOfTheTable) {
   EXPECT_EQ(crash.injected, 4u);
   EXPECT_EQ(crash.activated, 3u);
   EXPECT_EQ(crash.detected, 2u) << "of the activated";
-  EXPECT_EQ(crash.by_check[static_cast<std::size_t>(Check::kNoFrame)], 2u);
+  EXPECT_EQ(crash.by_check[static_cast<std::size_t>(evaluation::faults::Check::kNoFrame)], 2u);
   EXPECT_EQ(crash.detect.median_ns, 2'000'000);
   EXPECT_EQ(crash.detect.worst_ns, 4'000'000);
   EXPECT_EQ(crash.passive.count, 0u);
@@ -194,4 +194,4 @@ TEST(FaultCampaign, CountsAndTimesOfTheTable) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

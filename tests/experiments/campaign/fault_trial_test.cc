@@ -5,7 +5,7 @@
 
 #include "tests/experiments/campaign/small_campaign.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 namespace {
 
 constexpr Duration kCycle = Duration::milliseconds(2);
@@ -13,12 +13,12 @@ constexpr NodeId kFusion{2}, kCamera{5};
 
 class FaultTrial : public testing::Test {
  protected:
-  FaultOutcome run(std::size_t variant, const nodes::Fault& fault, bool starts_up = false,
+  FaultOutcome run(std::size_t variant, const faults::Fault& fault, bool starts_up = false,
                    std::uint32_t index = 3) const {
     return run_trial(campaign_, clusters_.variants[variant], {fault, starts_up}, index);
   }
-  static nodes::Fault fault(nodes::FaultKind kind, NodeId node) {
-    nodes::Fault fault;
+  static faults::Fault fault(faults::FaultKind kind, NodeId node) {
+    faults::Fault fault;
     fault.kind = kind;
     fault.node = node;
     fault.from = kCycle * 5;
@@ -30,7 +30,7 @@ class FaultTrial : public testing::Test {
 
 // A fault that begins with the run and never does anything.
 TEST_F(FaultTrial, WithoutAFaultNobodyNoticesAnythingOrIsHarmed) {
-  nodes::Fault nothing = fault(nodes::FaultKind::kOmission, kCamera);
+  faults::Fault nothing = fault(faults::FaultKind::kOmission, kCamera);
   nothing.from = Duration{};
   nothing.probability = 0.0;
   for (const std::size_t variant : {kGuardian, kBus})
@@ -47,69 +47,73 @@ TEST_F(FaultTrial, WithoutAFaultNobodyNoticesAnythingOrIsHarmed) {
 }
 
 TEST_F(FaultTrial, ACrashIsAnEmptySlotAndTheNodeComesBack) {
-  nodes::Fault crash = fault(nodes::FaultKind::kCrash, kFusion);
+  faults::Fault crash = fault(faults::FaultKind::kCrash, kFusion);
   crash.duration = kCycle * 4;
   for (const std::size_t variant : {kGuardian, kBus}) {
     const FaultOutcome outcome = run(variant, crash);
     EXPECT_TRUE(outcome.activated);
-    EXPECT_TRUE(seen(outcome.seen_by_others, Check::kNoFrame));
+    EXPECT_TRUE(seen(outcome.seen_by_others, evaluation::faults::Check::kNoFrame));
     EXPECT_EQ(outcome.harms, 0);
     ASSERT_TRUE(outcome.detected_after && outcome.reintegrated_after);
     EXPECT_LE(*outcome.detected_after, kCycle.ns * 2);
     EXPECT_LE(*outcome.reintegrated_after, kCycle.ns * 12);
     EXPECT_EQ(outcome.still_out, 0);
   }
-  crash.duration = nodes::Fault::kToTheEnd;
+  crash.duration = faults::Fault::kToTheEnd;
   EXPECT_EQ(run(kBus, crash).still_out, 1);
 }
 
 TEST_F(FaultTrial, ABabblingIdiotTakesTheBusAndNotTheStar) {
-  nodes::Fault babbling = fault(nodes::FaultKind::kBabblingIdiot, kCamera);
+  faults::Fault babbling = fault(faults::FaultKind::kBabblingIdiot, kCamera);
   babbling.length = Duration::microseconds(100);
   babbling.interval = Duration::microseconds(150);
   const FaultOutcome bus = run(kBus, babbling), star = run(kGuardian, babbling);
-  EXPECT_TRUE(does(bus.harms, Harm::kFrameLost) && does(bus.harms, Harm::kLeftActive));
+  EXPECT_TRUE(does(bus.harms, evaluation::faults::Harm::kFrameLost) &&
+              does(bus.harms, evaluation::faults::Harm::kLeftActive));
   EXPECT_TRUE(bus.passive_after && bus.halt_after);
   EXPECT_EQ(star.harms, 0);
-  EXPECT_EQ(star.seen_by_others, 1u << static_cast<unsigned>(Check::kGuardian)) << "the others hear nothing of it";
+  EXPECT_EQ(star.seen_by_others, 1u << static_cast<unsigned>(evaluation::faults::Check::kGuardian))
+      << "the others hear nothing of it";
 }
 
 // A frame more in another's slot, with the right header and a right CRC.
 TEST_F(FaultTrial, AMasqueradeCollidesOnTheBusAndDoesNotGetThroughTheStar) {
-  nodes::Fault masquerade = fault(nodes::FaultKind::kMasquerading, kCamera);
+  faults::Fault masquerade = fault(faults::FaultKind::kMasquerading, kCamera);
   masquerade.slot = 3;
   const FaultOutcome bus = run(kBus, masquerade), star = run(kGuardian, masquerade);
-  EXPECT_TRUE(does(bus.harms, Harm::kFrameLost)) << "both send at once";
+  EXPECT_TRUE(does(bus.harms, evaluation::faults::Harm::kFrameLost)) << "both send at once";
   EXPECT_EQ(star.harms, 0);
-  EXPECT_TRUE(seen(star.seen_by_others, Check::kGuardian));
+  EXPECT_TRUE(seen(star.seen_by_others, evaluation::faults::Check::kGuardian));
 }
 
 TEST_F(FaultTrial, ADriftBeyondTheLimitEndsInPassiveAndHalt) {
-  nodes::Fault drift = fault(nodes::FaultKind::kDrift, kCamera);
+  faults::Fault drift = fault(faults::FaultKind::kDrift, kCamera);
   drift.drift_ppb = 20'000'000;
   const FaultOutcome star = run(kGuardian, drift);
-  EXPECT_TRUE(seen(star.seen_by_itself, Check::kPassive) || seen(star.seen_by_itself, Check::kHalt));
+  EXPECT_TRUE(seen(star.seen_by_itself, evaluation::faults::Check::kPassive) ||
+              seen(star.seen_by_itself, evaluation::faults::Check::kHalt));
   EXPECT_TRUE(star.halt_after);
   EXPECT_EQ(star.harms, 0);
 }
 
 TEST_F(FaultTrial, AStartUpWithoutASecondColdstartNodeHarmsWhoWaitsForIt) {
-  nodes::Fault lone = fault(nodes::FaultKind::kLoneColdstart, kFusion);
+  faults::Fault lone = fault(faults::FaultKind::kLoneColdstart, kFusion);
   lone.from = Duration{};
   for (const std::size_t variant : {kGuardian, kBus})
-    EXPECT_TRUE(does(run(variant, lone, true).harms, Harm::kNotStarted));
+    EXPECT_TRUE(does(run(variant, lone, true).harms, evaluation::faults::Harm::kNotStarted));
   EXPECT_FALSE(in_hypothesis(lone));
 }
 
 TEST_F(FaultTrial, NoiseOnOneChannelLeavesTheOther) {
-  nodes::Fault noise = fault(nodes::FaultKind::kNoise, kNoNode);
+  faults::Fault noise = fault(faults::FaultKind::kNoise, kNoNode);
   noise.length = Duration::microseconds(300);
   noise.interval = Duration::microseconds(310);
-  noise.channels = schedules::Channels::kB;
+  noise.channels = schedules::model::Channels::kB;
   for (const std::size_t variant : {kGuardian, kBus}) EXPECT_EQ(run(variant, noise).harms, 0);
   EXPECT_TRUE(in_hypothesis(noise));
-  noise.channels = schedules::Channels::kAB;
-  for (const std::size_t variant : {kGuardian, kBus}) EXPECT_TRUE(does(run(variant, noise).harms, Harm::kLeftActive));
+  noise.channels = schedules::model::Channels::kAB;
+  for (const std::size_t variant : {kGuardian, kBus})
+    EXPECT_TRUE(does(run(variant, noise).harms, evaluation::faults::Harm::kLeftActive));
   EXPECT_FALSE(in_hypothesis(noise));
 }
 
@@ -118,10 +122,10 @@ TEST_F(FaultTrial, OnATransparentMediumEveryFaultHasTheSameOutcome) {
   int activated = 0;
   for (std::uint32_t index = 0; index < 400; ++index) {
     const DrawnFault drawn = draw_fault(campaign_, clusters_.base, index);
-    for (const schedules::Cluster& cluster : clusters_.variants) {
+    for (const schedules::model::Cluster& cluster : clusters_.variants) {
       const FaultOutcome outcome = run_trial(campaign_, cluster, drawn, index);
       EXPECT_EQ(outcome, run_trial(campaign_, cluster, drawn, index, nullptr, true))
-          << "fault " << index << ": " << nodes::entry_of(drawn.fault, clusters_.base);
+          << "fault " << index << ": " << faults::entry_of(drawn.fault, clusters_.base);
       activated += outcome.activated ? 1 : 0;
     }
   }
@@ -129,4 +133,4 @@ TEST_F(FaultTrial, OnATransparentMediumEveryFaultHasTheSameOutcome) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

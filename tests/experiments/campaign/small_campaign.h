@@ -8,7 +8,7 @@
 
 #include "experiments/campaign/campaign.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::campaign {
 
 inline std::string campaign_text(int faults, std::string_view more = "") {
   return fmt::format(
@@ -31,7 +31,11 @@ inline CampaignFile small_campaign(int faults, std::string_view more = "") {
 }
 inline constexpr std::size_t kGuardian = 0, kBus = 1;  // its variants
 
-inline bool seen(std::uint16_t checks, Check check) { return (checks >> static_cast<unsigned>(check) & 1u) != 0; }
-inline bool does(std::uint8_t harms, Harm harm) { return (harms >> static_cast<unsigned>(harm) & 1u) != 0; }
+inline bool seen(std::uint16_t checks, evaluation::faults::Check check) {
+  return (checks >> static_cast<unsigned>(check) & 1u) != 0;
+}
+inline bool does(std::uint8_t harms, evaluation::faults::Harm harm) {
+  return (harms >> static_cast<unsigned>(harm) & 1u) != 0;
+}
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::campaign

@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 
-namespace ttf::results {
+namespace ttf::experiments::results {
 namespace {
 
 TEST(Moments, AreThoseOfTheTextbook) {
@@ -65,4 +65,4 @@ TEST(Interval, CoversWhatItSays) {
 }
 
 }  // namespace
-}  // namespace ttf::results
+}  // namespace ttf::experiments::results

@@ -11,7 +11,7 @@
 
 #include "core/errors.h"
 
-namespace ttf::results {
+namespace ttf::experiments::results {
 namespace {
 
 class StoreTest : public testing::Test {
@@ -28,7 +28,7 @@ class StoreTest : public testing::Test {
       third_{{2, 0, 0}, "it's broken: \"so\"", {std::nan(""), std::nan("")}};
 };
 
-void expect_same(const Run& run, const Run& other) {
+void expect_same(const results::Run& run, const Run& other) {
   EXPECT_EQ(run.key, other.key);
   EXPECT_EQ(run.status, other.status);
   ASSERT_EQ(run.values.size(), other.values.size());
@@ -122,4 +122,4 @@ TEST_F(StoreTest, AFullDiskTakesNothingThatWasThere) {
 }
 
 }  // namespace
-}  // namespace ttf::results
+}  // namespace ttf::experiments::results

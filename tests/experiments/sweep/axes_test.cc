@@ -15,7 +15,7 @@
 #include "experiments/sweep/run.h"
 #include "tests/experiments/sweep/small_sweep.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 // By name, as they stand in the list.
@@ -298,4 +298,4 @@ TEST(Axes, LateMethod) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

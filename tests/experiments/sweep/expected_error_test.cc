@@ -14,15 +14,15 @@
 #include <vector>
 
 #include "core/random.h"
+#include "drives/scenario.h"
 #include "experiments/results/statistics.h"
 #include "fusion/strategies/strategy.h"
-#include "drives/scenario.h"
 #include "tests/experiments/sweep/known_lists.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
-using fusion::StrategyKind;
+using fusion::strategies::StrategyKind;
 
 GlobalTime at_ms(double ms) { return GlobalTime{static_cast<std::int64_t>(std::llround(ms * 1e6))}; }
 Look look_at(double ms, double variance) { return {at_ms(ms), variance * Eigen::Matrix2d::Identity()}; }
@@ -120,11 +120,11 @@ class Sampled {
   Sampled(StrategyKind kind, const Drawn& drawn) : drawn_(drawn) {
     tracker_.process_noise = kDensity;
     tracker_.gate_probability = 0.9999999;  // what a gate refuses is no part of the recursion
-    std::vector<fusion::SensorTiming> timings;
+    std::vector<fusion::strategies::SensorTiming> timings;
     for (std::size_t s = 0; s < 2; ++s)
-      timings.push_back({static_cast<SensorId>(s), fusion::Settling::after(drawn.longest[s]), true,
+      timings.push_back({static_cast<SensorId>(s), fusion::strategies::Settling::after(drawn.longest[s]), true,
                          at_ms(3.0 * static_cast<double>(s)), drawn.periods[s]});
-    strategy_ = fusion::make_strategy(kind, tracker_, timings);
+    strategy_ = fusion::strategies::make_strategy(kind, tracker_, timings);
   }
 
   // The instants at which lists are fused, as drawn.lists, and the squares of the errors at the uses.
@@ -132,7 +132,7 @@ class Sampled {
              std::vector<std::optional<double>>& squares) {
     draw(replication, uses);
     fused.assign(drawn_.lists.size(), GlobalTime{});
-    std::vector<fusion::TrackView> image;
+    std::vector<fusion::tracks::TrackView> image;
     auto use = uses.begin();
     std::size_t next = 0;
     while (next < drawn_.lists.size() || strategy_->next_release()) {
@@ -142,8 +142,8 @@ class Sampled {
       for (; use != uses.end() && use->known < now; ++use) squares.push_back(square_at(*use, image));
       for (; next < drawn_.lists.size() && drawn_.lists[next].arrival == now; ++next) accept(next);
       strategy_->fuse(now);
-      for (const fusion::FusedScan& scan : strategy_->last_fused())
-        if (scan.disposition != fusion::Disposition::kHeld) fused[scan.id.sequence] = now;
+      for (const fusion::strategies::FusedScan& scan : strategy_->last_fused())
+        if (scan.disposition != fusion::strategies::Disposition::kHeld) fused[scan.id.sequence] = now;
     }
     for (; use != uses.end(); ++use) squares.push_back(square_at(*use, image));
   }
@@ -181,7 +181,7 @@ class Sampled {
     RandomStream noise(
         {12, replication_, Purpose::kTest, static_cast<std::uint16_t>(list.sensor), static_cast<std::uint32_t>(l)});
     const double variance = drawn_.variances[index_of(list.sensor)];
-    fusion::Observation observation;
+    fusion::sensors::Observation observation;
     observation.sensor = list.sensor;
     observation.z.head<2>() =
         truth_at(list.measured) + std::sqrt(variance) * Eigen::Vector2d(noise.normal(), noise.normal());
@@ -189,15 +189,15 @@ class Sampled {
     strategy_->accept({{list.sensor, static_cast<std::uint32_t>(l)}, list.measured, {&observation, 1}});
   }
 
-  std::optional<double> square_at(const Use& use, std::vector<fusion::TrackView>& image) const {
+  std::optional<double> square_at(const Use& use, std::vector<fusion::tracks::TrackView>& image) const {
     strategy_->image(use.at, image);
     if (image.size() != 1) return std::nullopt;
     return (image.front().state.head<2>() - truth_at(use.at)).squaredNorm();
   }
 
   const Drawn& drawn_;
-  fusion::TrackerConfig tracker_;
-  std::unique_ptr<fusion::Strategy> strategy_;
+  fusion::config::TrackerConfig tracker_;
+  std::unique_ptr<fusion::strategies::Strategy> strategy_;
   std::vector<std::pair<GlobalTime, Eigen::Vector2d>> truth_;
   std::uint32_t replication_ = 0;
 };
@@ -261,7 +261,7 @@ TEST_P(AgainstStrategies, TheErrorIsTheExpectedOne) {
 
 INSTANTIATE_TEST_SUITE_P(Strategies, AgainstStrategies,
                          testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
-                         [](const auto& one) { return std::string(nodes::name_of(one.param)); });
+                         [](const auto& one) { return std::string(drives::name_of(one.param)); });
 
 // Two equal sensors of one period, the other one `phase` (0 to 1) of it behind: the variance of the predicted position,
 // averaged over time, when both have settled. A list is known when it has been under way for `delay_ms`.
@@ -336,4 +336,4 @@ TEST(SchedulePhases, AskedAtOneInstantOnlySynchronousSensorsAreBetter) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

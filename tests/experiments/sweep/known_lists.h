@@ -14,7 +14,7 @@
 #include "experiments/sweep/expected_error.h"
 #include "fusion/strategies/strategy.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
 // A list on its way, and when a strategy lets it in.
 struct ListTimes {
@@ -24,12 +24,12 @@ struct ListTimes {
 // By list, where fusion may take place at any instant and all lists arrive. ADVA: as it arrives. TT: when all have that
 // were measured before, for the schedule says which there are. BUFF: when besides, of every other sensor, one has that
 // is not older, or none can be any more: `longest`, by sensor, how long a list is under way at most.
-inline std::vector<GlobalTime> fused_at(fusion::StrategyKind strategy, std::span<const ListTimes> lists,
+inline std::vector<GlobalTime> fused_at(fusion::strategies::StrategyKind strategy, std::span<const ListTimes> lists,
                                         std::span<const Duration> longest) {
   // Each on its own, then behind all that are older.
   const auto certain = [&](const ListTimes& list) {
     GlobalTime at = list.arrival;
-    if (strategy != fusion::StrategyKind::kBuff) return at;
+    if (strategy != fusion::strategies::StrategyKind::kBuff) return at;
     for (std::size_t s = 0; s < longest.size(); ++s) {
       if (s == index_of(list.sensor)) continue;
       GlobalTime there = list.measured + longest[s];
@@ -41,7 +41,7 @@ inline std::vector<GlobalTime> fused_at(fusion::StrategyKind strategy, std::span
   };
   std::vector<GlobalTime> fused;
   for (const ListTimes& list : lists) fused.push_back(certain(list));
-  if (strategy == fusion::StrategyKind::kAdva) return fused;
+  if (strategy == fusion::strategies::StrategyKind::kAdva) return fused;
   std::vector<std::size_t> order(lists.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -72,4 +72,4 @@ inline std::vector<Eigen::Matrix4d> expected_errors(const PointMotion& motion, s
   return errors;
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

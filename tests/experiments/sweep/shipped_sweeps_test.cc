@@ -12,7 +12,7 @@
 #include "experiments/results/statistics.h"
 #include "experiments/sweep/run.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 const std::string kFolder = TTF_SOURCE_DIR "/experiments/";
@@ -72,7 +72,7 @@ TEST(ShippedSweeps, WhatIsToBeExpectedSurvivesACrashOfTheFusionNode) {
   const SweepDrives drives(sweep);
   PreparedDrive drive = drives.prepare({0, 0, 2});
   std::string text = drive.scenario.text + "faults:\n  - {kind: crash, node: fusion, from: 700 ms, duration: 300 ms}\n";
-  drive.scenario = nodes::parse_scenario(std::move(text), sweep.scenario_file);
+  drive.scenario = drives::parse_scenario(std::move(text), sweep.scenario_file);
   const results::Run run = drives.run({0, 0, 2}, drive);
   ASSERT_EQ(run.status, results::kDone);
   const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), "position_mse_expected");
@@ -82,4 +82,4 @@ TEST(ShippedSweeps, WhatIsToBeExpectedSurvivesACrashOfTheFusionNode) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -8,7 +8,7 @@
 
 #include "experiments/sweep/file.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 
 // Two points, two paradigms; `more` goes behind.
 inline std::string sweep_text(int replications, std::string_view more = "") {
@@ -32,4 +32,4 @@ inline SweepFile small_sweep(int replications, std::string_view more = "") {
   return parse_sweep(sweep_text(replications, more), TTF_SOURCE_DIR "/experiments/small.yaml");
 }
 
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

@@ -13,7 +13,7 @@
 #include "experiments/sweep/text.h"
 #include "tests/experiments/sweep/small_sweep.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 class SweepEngine : public testing::Test {
@@ -256,4 +256,4 @@ TEST_F(SweepEngine, AFailedRunIsARow) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

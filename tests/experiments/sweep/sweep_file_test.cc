@@ -7,7 +7,7 @@
 #include "experiments/sweep/run.h"
 #include "tests/experiments/sweep/small_sweep.h"
 
-namespace ttf::experiments {
+namespace ttf::experiments::sweep {
 namespace {
 
 using testing::HasSubstr;
@@ -164,4 +164,4 @@ TEST(SweepFile, TooManyPointsAreRefused) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments
+}  // namespace ttf::experiments::sweep

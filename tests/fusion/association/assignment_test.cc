@@ -9,7 +9,7 @@
 
 #include "core/random.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::association {
 namespace {
 
 // Best sum of gains over every way to leave a row alone or give it a free column.
@@ -81,4 +81,4 @@ TEST(Assignment, FullSizeDenseProblem) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::association

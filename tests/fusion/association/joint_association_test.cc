@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::association {
 namespace {
 
 struct Table {
@@ -209,4 +209,4 @@ TEST(JointAssociation, AllocatesNothingAfterConstruction) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::association

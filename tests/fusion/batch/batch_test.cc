@@ -11,7 +11,7 @@
 #include "tests/fusion/motion/drawn.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::batch {
 namespace {
 
 using sensors::Measurement;
@@ -21,24 +21,24 @@ constexpr int kSteps = 60;
 const motion::ConstantVelocity kModel(3.0);
 
 // Whatever a filter of the form may hold, and may be told.
-template <template <class> class Form> Gaussian<4> prior(RandomStream& stream) {
-  Gaussian<4> state;
-  state.x = drawn<4>(Vector<4>::Zero(), 100.0 * Matrix<4>::Identity(), stream);
-  state.p = drawn_covariance<4>(stream, 5.0);
+template <template <class> class Form> linear::Gaussian<4> prior(RandomStream& stream) {
+  linear::Gaussian<4> state;
+  state.x = motion::drawn<4>(linear::Vector<4>::Zero(), 100.0 * linear::Matrix<4>::Identity(), stream);
+  state.p = motion::drawn_covariance<4>(stream, 5.0);
   for (int r = 0; r < 4; ++r)
     for (int c = 0; c < 4; ++c)
       if (std::is_same_v<Form<double>, batch::Axes<double>> && (r + c) % 2 == 1) state.p(r, c) = 0.0;
   return state;
 }
-template <template <class> class Form> Measurement<2> seen(RandomStream& stream) {
-  Measurement<2> z;
-  z.z = drawn<2>(Vector<2>::Zero(), 100.0 * Matrix<2>::Identity(), stream);
-  z.r = drawn_covariance<2>(stream, 0.3);
+template <template <class> class Form> sensors::Measurement<2> seen(RandomStream& stream) {
+  sensors::Measurement<2> z;
+  z.z = motion::drawn<2>(linear::Vector<2>::Zero(), 100.0 * linear::Matrix<2>::Identity(), stream);
+  z.r = motion::drawn_covariance<2>(stream, 0.3);
   if (std::is_same_v<Form<double>, batch::Axes<double>>) z.r(0, 1) = z.r(1, 0) = 0.0;
   return z;
 }
 
-bool same_bits(const Gaussian<4>& a, const Gaussian<4>& b) {
+bool same_bits(const linear::Gaussian<4>& a, const linear::Gaussian<4>& b) {
   // A zero has no sign here.
   return a.x == b.x && a.p == b.p;
 }
@@ -47,7 +47,7 @@ bool same_bits(const Gaussian<4>& a, const Gaussian<4>& b) {
 template <template <class> class Form, class Step> void equals_one_at_a_time(const Step& step) {
   RandomStream stream({.seed = 5});
   batch::Batch<Form> batch(kFilters);
-  std::vector<Gaussian<4>> alone;
+  std::vector<linear::Gaussian<4>> alone;
   for (std::size_t i = 0; i < kFilters; ++i) {
     alone.push_back(prior<Form>(stream));
     batch.set(i, alone.back());
@@ -63,7 +63,7 @@ template <template <class> class Form, class Step> void equals_one_at_a_time(con
         z.clear(i);
         continue;
       }
-      const Measurement<2> one = seen<Form>(stream);
+      const sensors::Measurement<2> one = seen<Form>(stream);
       z.set(i, one);
       filter.update(kModel, sensors::Position{}, one, alone[i]);
     }
@@ -89,8 +89,8 @@ TEST(Batch, TheNisIsThatOfTheFilterAlone) {
   RandomStream stream({.seed = 6});
   const filters::Kalman filter;
   for (int i = 0; i < 200; ++i) {
-    Gaussian<4> alone = prior<batch::Joint>(stream);
-    const Measurement<2> z = seen<batch::Joint>(stream);
+    linear::Gaussian<4> alone = prior<batch::Joint>(stream);
+    const sensors::Measurement<2> z = seen<batch::Joint>(stream);
     batch::Joint<double> joint;
     for (int c = 0; c < 4; ++c) {
       joint.x[c] = alone.x(c);
@@ -106,7 +106,7 @@ TEST(Batch, TheNisIsThatOfTheFilterAlone) {
 TEST(Batch, L3_NoHeap) {
   batch::Batch<batch::Joint> batch(kFilters);
   batch::Positions z(kFilters);
-  Gaussian<4> state;
+  linear::Gaussian<4> state;
   state.p.setIdentity();
   const auto before = support::allocations();
   for (std::size_t i = 0; i < kFilters; ++i) batch.set(i, state), z.set(i, {});
@@ -116,11 +116,11 @@ TEST(Batch, L3_NoHeap) {
 
 TEST(BatchDeathTest, AxesThatAreCorrelatedAreNoAxes) {
   batch::Batch<batch::Axes> batch(1);
-  Gaussian<4> state;
+  linear::Gaussian<4> state;
   state.p.setIdentity();
   state.p(0, 3) = state.p(3, 0) = 0.1;
   EXPECT_DEATH(batch.set(0, state), "axes that are correlated");
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::batch

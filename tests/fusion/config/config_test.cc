@@ -10,7 +10,7 @@
 #include "core/errors.h"
 #include "fusion/config/tracker_config.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::config {
 namespace {
 
 TrackerConfig load(const std::string& text, std::vector<std::string>* sentences = nullptr) {
@@ -253,4 +253,4 @@ TEST(TrackerConfig, CoastingComesBeforeTheEnd) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::config

@@ -15,15 +15,15 @@
 #include "tests/fusion/drives.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::estimators {
 namespace {
 
 constexpr int kLaser = 0, kRadar = 1;
 constexpr double kNoise = 0.5;  // of the motion [m^2/s^3]
 
 // A laser on the front, turned a little, and a radar on the side: seven biases.
-std::vector<KnownSensor> laser_and_radar_biases() {
-  std::vector<KnownSensor> sensors(2);
+std::vector<sensors::KnownSensor> laser_and_radar_biases() {
+  std::vector<sensors::KnownSensor> sensors(2);
   sensors[kLaser].mounting = {.position = {3.5, 0.5}, .yaw = 0.2};
   sensors[kLaser].errors.sigma << 0.3, 0.015, 0.0, 0.03;
   sensors[kRadar].mounting = {.position = {1.0, -0.9}, .yaw = -0.4};
@@ -31,9 +31,10 @@ std::vector<KnownSensor> laser_and_radar_biases() {
   return sensors;
 }
 
-TrackerConfig config_with(SystematicErrorsAre answer, std::vector<KnownSensor> sensors = laser_and_radar_biases(),
-                          MotionModel motion = MotionModel::kConstantVelocity) {
-  TrackerConfig config = config_of(motion, kNoise);
+config::TrackerConfig config_with(config::SystematicErrorsAre answer,
+                                  std::vector<sensors::KnownSensor> sensors = laser_and_radar_biases(),
+                                  config::MotionModel motion = config::MotionModel::kConstantVelocity) {
+  config::TrackerConfig config = config_of(motion, kNoise);
   config.systematic = answer;
   config.sensors = std::move(sensors);
   config.initial_velocity_sigma = 4.0;
@@ -42,17 +43,18 @@ TrackerConfig config_with(SystematicErrorsAre answer, std::vector<KnownSensor> s
 }
 
 // What this sensor says of x, its errors being b and its stamp's x(3); in its own axes.
-Observation seen(const State& x, int sensor, const KnownSensor& known, const Vector<4>& b, RandomStream& stream) {
-  Kinematics k{.position = x.head<2>() + b(3) * x.segment<2>(2), .velocity = x.segment<2>(2)};
+sensors::Observation seen(const State& x, int sensor, const sensors::KnownSensor& known, const linear::Vector<4>& b,
+                          RandomStream& stream) {
+  motion::Kinematics k{.position = x.head<2>() + b(3) * x.segment<2>(2), .velocity = x.segment<2>(2)};
   const double c = std::cos(known.mounting.yaw), s = std::sin(known.mounting.yaw);
-  Matrix<2> back;
+  linear::Matrix<2> back;
   back << c, s, -s, c;
   k.position = (back * (k.position - known.mounting.position)).eval();
   k.velocity = (back * k.velocity).eval();
-  Vector<3> z = sensors::RangeBearingRate{}.expected(k) + b.head<3>();
+  linear::Vector<3> z = sensors::RangeBearingRate{}.expected(k) + b.head<3>();
   if (sensor == kLaser)
     return position(z(0) * std::cos(z(1)) + 0.2 * stream.normal(), z(0) * std::sin(z(1)) + 0.2 * stream.normal(), 0.2);
-  Observation o = radar(0, 0, 0, 0.25, 0.006, 0.1);
+  sensors::Observation o = radar(0, 0, 0, 0.25, 0.006, 0.1);
   for (int i = 0; i < 3; ++i) o.z(i) = z(i) + std::sqrt(o.r(i, i)) * stream.normal();
   return o;
 }
@@ -61,22 +63,22 @@ struct BiasedDrive {
   std::vector<OwnedScan> scans;  // of one object, laser and radar in turn, 40 ms apart; `first` is the first
   std::vector<State> truth;      // at the stamps
 };
-BiasedDrive drawn_biased(std::uint64_t seed, int run, int scans, MotionModel motion = MotionModel::kConstantVelocity,
-                         int first = kLaser) {
-  const std::vector<KnownSensor> sensors = laser_and_radar_biases();
+BiasedDrive drawn_biased(std::uint64_t seed, int run, int scans,
+                         config::MotionModel motion = config::MotionModel::kConstantVelocity, int first = kLaser) {
+  const std::vector<sensors::KnownSensor> sensors = laser_and_radar_biases();
   RandomStream stream({.seed = seed, .replication = static_cast<std::uint32_t>(run)});
-  Vector<4> bias[2];
+  linear::Vector<4> bias[2];
   for (int s = 0; s < 2; ++s)
     for (int i = 0; i < 4; ++i) bias[s](i) = sensors[static_cast<std::size_t>(s)].errors.sigma(i) * stream.normal();
   BiasedDrive drive;
   State x = State::Zero();
   x.head<4>() << 45.0, 15.0, 4.0 * stream.normal(), 4.0 * stream.normal();
-  if (motion == MotionModel::kConstantAcceleration) x.tail<2>() << 2.0 * stream.normal(), 2.0 * stream.normal();
+  if (motion == config::MotionModel::kConstantAcceleration) x.tail<2>() << 2.0 * stream.normal(), 2.0 * stream.normal();
   for (int k = 0; k < scans; ++k) {
     if (k > 0) x = draw(transition(motion, 0.04) * x, driving_noise(motion, kNoise, 0.04), stream);
     const int sensor = (k + first) % 2;
-    const KnownSensor& known = sensors[static_cast<std::size_t>(sensor)];
-    Observation o = seen(x, sensor, known, bias[sensor], stream);
+    const sensors::KnownSensor& known = sensors[static_cast<std::size_t>(sensor)];
+    sensors::Observation o = seen(x, sensor, known, bias[sensor], stream);
     place(o, static_cast<SensorId>(sensor), known);
     drive.scans.push_back(
         scan(static_cast<std::uint8_t>(sensor), static_cast<std::uint32_t>(k / 2), at_ms(40 * k), {o}));
@@ -90,29 +92,30 @@ struct Judged {
   metrics::Consistency nees;
   double position_squared = 0.0, velocity_squared = 0.0;  // means
 };
-Judged judged(const TrackerConfig& config, std::uint64_t seed, int runs, int scans, int first) {
+Judged judged(const config::TrackerConfig& config, std::uint64_t seed, int runs, int scans, int first) {
   Judged out;
-  Tracker tracker(config, 2);
-  const int n = config.motion == MotionModel::kConstantVelocity ? 4 : 6;
+  tracks::Tracker tracker(config, 2);
+  const int n = config.motion == config::MotionModel::kConstantVelocity ? 4 : 6;
   for (int run = 0; run < runs; ++run) {
     const BiasedDrive drive = drawn_biased(seed, run, scans, config.motion, first);
-    TrackSet set(tracker.max_tracks());
+    tracks::TrackSet set(tracker.max_tracks());
     for (const OwnedScan& one : drive.scans) tracker.step(set, one.view());
     const Cartesian end = tracker.estimator().cartesian(set.tracks.front().estimate);
     const State error = drive.truth.back() - end.x;
     const Eigen::VectorXd part = error.head(n);
-    out.nees.add(dense::norm_squared(part, end.p.topLeftCorner(n, n)), n);
+    out.nees.add(norm_squared(part, end.p.topLeftCorner(n, n)), n);
     out.position_squared += error.head<2>().squaredNorm() / runs;
     out.velocity_squared += error.segment<2>(2).squaredNorm() / runs;
   }
   return out;
 }
 
-constexpr SystematicErrorsAre kIgnored = SystematicErrorsAre::kIgnored, kConsidered = SystematicErrorsAre::kConsidered;
+constexpr config::SystematicErrorsAre kIgnored = config::SystematicErrorsAre::kIgnored,
+                                      kConsidered = config::SystematicErrorsAre::kConsidered;
 
-void expect_only_the_considering_one_consistent(MotionModel motion, int scans, int first = kLaser) {
+void expect_only_the_considering_one_consistent(config::MotionModel motion, int scans, int first = kLaser) {
   constexpr int kRuns = 400;
-  const std::vector<KnownSensor> sensors = laser_and_radar_biases();
+  const std::vector<sensors::KnownSensor> sensors = laser_and_radar_biases();
   for (const std::uint64_t seed : {1u, 2u}) {
     const Judged considered = judged(config_with(kConsidered, sensors, motion), seed, kRuns, scans, first);
     EXPECT_TRUE(considered.nees.consistent()) << considered.nees.mean() << " of " << considered.nees.expected();
@@ -127,34 +130,34 @@ void expect_only_the_considering_one_consistent(MotionModel motion, int scans, i
 
 TEST(Considering, IsConsistentFromBirthOnWhereIgnoringIsNot) {
   for (const int scans : {1, 2, 3, 10, 60})
-    expect_only_the_considering_one_consistent(MotionModel::kConstantVelocity, scans);
+    expect_only_the_considering_one_consistent(config::MotionModel::kConstantVelocity, scans);
   for (const int scans : {10, 60})
-    expect_only_the_considering_one_consistent(MotionModel::kConstantVelocity, scans, kRadar);
+    expect_only_the_considering_one_consistent(config::MotionModel::kConstantVelocity, scans, kRadar);
 }
 TEST(Considering, IsConsistentWithAccelerations) {
   for (const int scans : {1, 2, 60})
-    expect_only_the_considering_one_consistent(MotionModel::kConstantAcceleration, scans);
+    expect_only_the_considering_one_consistent(config::MotionModel::kConstantAcceleration, scans);
 }
 
 // A sensor's first sight of an object nobody knows anything of is an update of a state that may be anywhere.
 TEST(Considering, ABirthIsAnUpdateOfAlmostNothing) {
   using M = motion::ConstantVelocity;
-  std::vector<KnownSensor> sensors = laser_and_radar_biases();
-  for (const ErrorAxes axes : {ErrorAxes::kPolar, ErrorAxes::kCartesian})
+  std::vector<sensors::KnownSensor> sensors = laser_and_radar_biases();
+  for (const sensors::ErrorAxes axes : {sensors::ErrorAxes::kPolar, sensors::ErrorAxes::kCartesian})
     for (const int sensor : {kLaser, kRadar}) {
-      for (KnownSensor& one : sensors) {
+      for (sensors::KnownSensor& one : sensors) {
         one.errors.axes = axes;
-        if (axes == ErrorAxes::kCartesian) one.errors.sigma << 0.3, 0.2, 0.0, 0.0;
+        if (axes == sensors::ErrorAxes::kCartesian) one.errors.sigma << 0.3, 0.2, 0.0, 0.0;
         // The stamp's error counts to second order here, and the cross velocity of a radar is not known.
         one.errors.sigma(3) = 0.0;
       }
-      const TrackerConfig config = config_with(kConsidered, sensors);
-      Observation z = sensor == kLaser ? position(30.0, 8.0, 0.2) : radar(30.0, 0.3, 0.0, 0.25, 0.006, 0.1);
+      const config::TrackerConfig config = config_with(kConsidered, sensors);
+      sensors::Observation z = sensor == kLaser ? position(30.0, 8.0, 0.2) : radar(30.0, 0.3, 0.0, 0.25, 0.006, 0.1);
       place(z, static_cast<SensorId>(sensor), sensors[static_cast<std::size_t>(sensor)]);
       const auto born = std::get<WithBiases<4>>(make_estimator(config)->initial(z));
 
       const estimators::AllBiases biases(sensors);
-      const filters::Consider<kMostBiases> filter{.bias = biases.covariance()};
+      const filters::Consider<sensors::kMostBiases> filter{.bias = biases.covariance()};
       WithBiases<4> vague;
       vague.state.x = born.state.x;
       vague.state.p.diagonal() << 1e7, 1e7, 16.0, 16.0;
@@ -167,21 +170,22 @@ TEST(Considering, ABirthIsAnUpdateOfAlmostNothing) {
                           sensors::Mounted<sensors::RangeBearingRate>(sensors[kRadar].mounting), biases.of(z.sensor)},
                       sensors::Measurement<3>{z.z, z.r}, vague);
       EXPECT_LT((vague.state.x - born.state.x).norm(), 1e-6);
-      const Matrix<2> p = vague.state.p.topLeftCorner<2, 2>() - born.state.p.topLeftCorner<2, 2>();
+      const linear::Matrix<2> p = vague.state.p.topLeftCorner<2, 2>() - born.state.p.topLeftCorner<2, 2>();
       EXPECT_LT(p.norm(), 1e-5) << "sensor " << sensor;
-      const Matrix<2, kMostBiases> cross = vague.cross.topRows<2>() - born.cross.topRows<2>();
+      const linear::Matrix<2, sensors::kMostBiases> cross = vague.cross.topRows<2>() - born.cross.topRows<2>();
       EXPECT_LT(cross.norm(), 1e-5) << "sensor " << sensor;
       EXPECT_GT(born.cross.topRows<2>().norm(), 1e-3);
     }
 }
 
 TEST(Considering, NothingToConsiderIsIgnoring) {
-  std::vector<KnownSensor> sensors = laser_and_radar_biases();
-  for (KnownSensor& sensor : sensors) sensor.errors.sigma.setZero();
-  for (const MotionModel motion : {MotionModel::kConstantVelocity, MotionModel::kConstantAcceleration}) {
-    Tracker ignoring(config_with(kIgnored, sensors, motion), 2);
-    Tracker considering(config_with(kConsidered, sensors, motion), 2);
-    TrackSet a(ignoring.max_tracks()), b(considering.max_tracks());
+  std::vector<sensors::KnownSensor> sensors = laser_and_radar_biases();
+  for (sensors::KnownSensor& sensor : sensors) sensor.errors.sigma.setZero();
+  for (const config::MotionModel motion :
+       {config::MotionModel::kConstantVelocity, config::MotionModel::kConstantAcceleration}) {
+    tracks::Tracker ignoring(config_with(kIgnored, sensors, motion), 2);
+    tracks::Tracker considering(config_with(kConsidered, sensors, motion), 2);
+    tracks::TrackSet a(ignoring.max_tracks()), b(considering.max_tracks());
     for (const OwnedScan& one : drawn_biased(3, 0, 100, motion).scans) {
       ignoring.step(a, one.view());
       considering.step(b, one.view());
@@ -198,14 +202,15 @@ TEST(Considering, NothingToConsiderIsIgnoring) {
 
 // A second sensor, turned by its bias at 60 m: outside the gate of who ignores it.
 TEST(Considering, GatesAreAsWideAsTheBiases) {
-  std::vector<KnownSensor> sensors(2);
+  std::vector<sensors::KnownSensor> sensors(2);
   sensors[1].errors.sigma << 0.0, 0.05, 0.0, 0.0;
-  Observation first = position(60.0, 0.0, 0.2), turned = position(60.0 * std::cos(0.1), 60.0 * std::sin(0.1), 0.2);
+  sensors::Observation first = position(60.0, 0.0, 0.2),
+                       turned = position(60.0 * std::cos(0.1), 60.0 * std::sin(0.1), 0.2);
   place(first, SensorId{0}, sensors[0]);
   place(turned, SensorId{1}, sensors[1]);
-  for (const SystematicErrorsAre answer : {kIgnored, kConsidered}) {
-    Tracker tracker(config_with(answer, sensors), 2);
-    TrackSet set(tracker.max_tracks());
+  for (const config::SystematicErrorsAre answer : {kIgnored, kConsidered}) {
+    tracks::Tracker tracker(config_with(answer, sensors), 2);
+    tracks::TrackSet set(tracker.max_tracks());
     for (std::uint32_t k = 0; k < 5; ++k) tracker.step(set, scan(0, k, at_ms(40 * k), {first}).view());
     tracker.step(set, scan(1, 0, at_ms(180), {turned}).view());
     EXPECT_EQ(set.tracks.size(), answer == kIgnored ? 2u : 1u);
@@ -215,16 +220,16 @@ TEST(Considering, GatesAreAsWideAsTheBiases) {
 
 // The search by x leaves out nothing that a gate would let in: the same as asking for every distance.
 TEST(Considering, TheExpectedPositionIsThatOfTheGate) {
-  const TrackerConfig config = config_with(kConsidered);
+  const config::TrackerConfig config = config_with(kConsidered);
   const auto estimator = make_estimator(config);
   const BiasedDrive drive = drawn_biased(4, 0, 9);
   Estimate estimate = estimator->initial(drive.scans[0].observations[0]);
   for (std::size_t k = 1; k < drive.scans.size(); ++k) {
     estimator->predict(estimate, 0.04);
-    const Observation& z = drive.scans[k].observations[0];
-    if (z.kind == ObservationKind::kPosition) {
-      const Gaussian<2> expected = estimator->seen_position(estimate, z.sensor);
-      const Matrix<2> s = expected.p + z.r.topLeftCorner<2, 2>();
+    const sensors::Observation& z = drive.scans[k].observations[0];
+    if (z.kind == sensors::ObservationKind::kPosition) {
+      const linear::Gaussian<2> expected = estimator->seen_position(estimate, z.sensor);
+      const linear::Matrix<2> s = expected.p + z.r.topLeftCorner<2, 2>();
       const double squared = metrics::normalised_squared<2>(z.z.head<2>() - expected.x, s);
       EXPECT_NEAR(estimator->distance_squared(estimate, z).value() / squared, 1.0, 1e-9);
       EXPECT_GT((expected.p - estimator->position(estimate).p).norm(), 1e-3) << "biases count";
@@ -234,29 +239,29 @@ TEST(Considering, TheExpectedPositionIsThatOfTheGate) {
 }
 
 // Twenty-five objects seen by both: late lists leave the bits of arrival in order, and nothing allocates.
-TrackerConfig config_of_crowd() {
-  std::vector<KnownSensor> sensors(2);
+config::TrackerConfig config_of_crowd() {
+  std::vector<sensors::KnownSensor> sensors(2);
   sensors[0].errors.sigma << 0.2, 0.01, 0.0, 0.01;
-  sensors[1].errors.axes = ErrorAxes::kCartesian;
+  sensors[1].errors.axes = sensors::ErrorAxes::kCartesian;
   sensors[1].errors.sigma << 0.3, 0.3, 0.0, 0.0;
-  TrackerConfig config = config_with(kConsidered, sensors);
-  config.gate_probability = TrackerConfig{}.gate_probability;
+  config::TrackerConfig config = config_with(kConsidered, sensors);
+  config.gate_probability = config::TrackerConfig{}.gate_probability;
   config.process_noise = 3.0;
   return config;
 }
 std::vector<Arrival> crowd_arrivals(std::uint64_t seed) {
   std::vector<Arrival> arrivals = drawn_drive(seed, 40);
   for (Arrival& arrival : arrivals)
-    for (Observation& z : arrival.scan.observations) z.sensor = arrival.scan.id.sensor;
+    for (sensors::Observation& z : arrival.scan.observations) z.sensor = arrival.scan.id.sensor;
   return arrivals;
 }
 TEST(Considering, LateListsGiveTheBitsOfArrivalInOrder) {
-  const TrackerConfig config = config_of_crowd();
+  const config::TrackerConfig config = config_of_crowd();
   std::vector<Arrival> arrivals = crowd_arrivals(7);
   std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
-    return before(a.scan.id, a.scan.measured, b.scan.id, b.scan.measured);
+    return tracks::before(a.scan.id, a.scan.measured, b.scan.id, b.scan.measured);
   });
-  Timeline in_order(config, 64);
+  tracks::Timeline in_order(config, 64);
   for (const Arrival& arrival : arrivals) in_order.insert(arrival.scan.view());
   ASSERT_GE(in_order.current().tracks.size(), 25u);
   EXPECT_GT(std::get<WithBiases<4>>(in_order.current().tracks[0].estimate).cross.norm(), 1e-3);
@@ -267,9 +272,10 @@ TEST(Considering, LateListsGiveTheBitsOfArrivalInOrder) {
       std::swap(shuffled[i - 1], shuffled[i - 1 -
                                           static_cast<std::size_t>(stream.integer(
                                               0, static_cast<std::int64_t>(std::min<std::size_t>(i - 1, 20))))]);
-    Timeline timeline(config, 64);
+    tracks::Timeline timeline(config, 64);
     int late = 0;
-    for (const Arrival& arrival : shuffled) late += timeline.insert(arrival.scan.view()) == Timeline::Insertion::kLate;
+    for (const Arrival& arrival : shuffled)
+      late += timeline.insert(arrival.scan.view()) == tracks::Timeline::Insertion::kLate;
     EXPECT_GT(late, 20);
     EXPECT_TRUE(same_bits(timeline.current(), in_order.current())) << "draw " << draw;
   }
@@ -277,8 +283,8 @@ TEST(Considering, LateListsGiveTheBitsOfArrivalInOrder) {
 TEST(Considering, AllocatesNothingAfterConstruction) {
   std::vector<Arrival> arrivals = crowd_arrivals(9);
   sort_by_arrival(arrivals);
-  const auto strategy = make_strategy(StrategyKind::kAdva, config_of_crowd(), laser_and_camera());
-  std::vector<TrackView> image;
+  const auto strategy = make_strategy(strategies::StrategyKind::kAdva, config_of_crowd(), laser_and_camera());
+  std::vector<tracks::TrackView> image;
   image.reserve(64);
   const std::int64_t before = support::allocations();
   for (const Arrival& arrival : arrivals) {
@@ -293,14 +299,15 @@ TEST(Considering, AllocatesNothingAfterConstruction) {
 // Laser and radar at the back, looking backwards, see what they would see from the origin: the tracks are the same, and
 // so is what is to be considered.
 TEST(Mounting, BackwardsTheSameTracks) {
-  std::vector<KnownSensor> ahead(2), behind(2);
-  for (std::vector<KnownSensor>* sensors : {&ahead, &behind})
-    for (KnownSensor& sensor : *sensors) sensor.errors.sigma << 0.2, 0.01, 0.0, 0.01;
-  for (KnownSensor& sensor : behind) sensor.mounting = {.position = {-1.5, 0.4}, .yaw = std::numbers::pi};
-  for (KnownSensor& sensor : ahead) sensor.mounting.position = {-1.5, 0.4};  // polar errors are seen from there
-  for (const SystematicErrorsAre answer : {kIgnored, kConsidered}) {
-    Tracker one(config_with(answer, ahead), 2), other(config_with(answer, behind), 2);
-    TrackSet a(one.max_tracks()), b(other.max_tracks());
+  std::vector<sensors::KnownSensor> ahead(2), behind(2);
+  for (std::vector<sensors::KnownSensor>* sensors : {&ahead, &behind})
+    for (sensors::KnownSensor& sensor : *sensors) sensor.errors.sigma << 0.2, 0.01, 0.0, 0.01;
+  for (sensors::KnownSensor& sensor : behind) sensor.mounting = {.position = {-1.5, 0.4}, .yaw = std::numbers::pi};
+  for (sensors::KnownSensor& sensor : ahead)
+    sensor.mounting.position = {-1.5, 0.4};  // polar errors are seen from there
+  for (const config::SystematicErrorsAre answer : {kIgnored, kConsidered}) {
+    tracks::Tracker one(config_with(answer, ahead), 2), other(config_with(answer, behind), 2);
+    tracks::TrackSet a(one.max_tracks()), b(other.max_tracks());
     RandomStream stream({.seed = 5});
     State x = State::Zero();
     x.head<4>() << -40.0, 6.0, 3.0, 1.0;
@@ -309,8 +316,8 @@ TEST(Mounting, BackwardsTheSameTracks) {
       const int sensor = static_cast<int>(k % 2);
       const auto s = static_cast<std::size_t>(sensor);
       const auto id = static_cast<SensorId>(sensor);
-      Observation z = seen(x, sensor, ahead[s], Vector<4>::Zero(), stream);
-      Observation turned = z;
+      sensors::Observation z = seen(x, sensor, ahead[s], linear::Vector<4>::Zero(), stream);
+      sensors::Observation turned = z;
       if (sensor == kLaser)
         turned.z.head<2>() *= -1.0;
       else
@@ -336,4 +343,4 @@ TEST(Mounting, BackwardsTheSameTracks) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::estimators

@@ -11,19 +11,19 @@
 #include "tests/fusion/dense.h"
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::estimators {
 namespace {
 
 struct Statistics {
   double nees = 0.0, nis = 0.0;                  // means over the runs
   double nees_degrees = 0.0, nis_degrees = 0.0;  // of the sums
   int runs = 0;
-  double low(double degrees) const { return chi_square_quantile(0.025, degrees) / runs; }
-  double high(double degrees) const { return chi_square_quantile(0.975, degrees) / runs; }
+  double low(double degrees) const { return metrics::chi_square_quantile(0.025, degrees) / runs; }
+  double high(double degrees) const { return metrics::chi_square_quantile(0.975, degrees) / runs; }
 };
 
 struct Case {
-  MotionModel motion = MotionModel::kConstantVelocity;
+  config::MotionModel motion = config::MotionModel::kConstantVelocity;
   double true_noise = 3.0, assumed_noise = 3.0;
   double true_sigma = 0.3, assumed_sigma = 0.3;
   bool with_radar = false;
@@ -33,7 +33,7 @@ struct Case {
 Statistics simulate(const Case& c, int runs, std::uint64_t seed) {
   Statistics s;
   s.runs = runs;
-  const int n = c.motion == MotionModel::kConstantVelocity ? 4 : 6;
+  const int n = c.motion == config::MotionModel::kConstantVelocity ? 4 : 6;
   const double dt = 0.05;
   const auto estimator = make_estimator(config_of(c.motion, c.assumed_noise));
   for (int run = 0; run < runs; ++run) {
@@ -47,7 +47,7 @@ Statistics simulate(const Case& c, int runs, std::uint64_t seed) {
     for (int k = 1; k <= 40; ++k) {
       truth = draw(transition(c.motion, dt) * truth, driving_noise(c.motion, c.true_noise, dt), stream);
       estimator->predict(estimate, dt);
-      Observation z;
+      sensors::Observation z;
       if (c.with_radar && k % 2 == 0) {
         z = radar(0, 0, 0, 0.3, 0.01, 0.2);
         z.z = sensors::RangeBearingRate{}.expected({.position = truth.head<2>(), .velocity = truth.segment<2>(2)});
@@ -64,7 +64,7 @@ Statistics simulate(const Case& c, int runs, std::uint64_t seed) {
     }
     const Cartesian end = seen_as(estimate);
     const Eigen::VectorXd error = (truth - end.x).head(n);
-    s.nees += dense::norm_squared(error, end.p.topLeftCorner(n, n)) / runs;
+    s.nees += norm_squared(error, end.p.topLeftCorner(n, n)) / runs;
     s.nees_degrees += n;
   }
   return s;
@@ -82,7 +82,7 @@ void expect_consistent(const Case& c, std::uint64_t seed) {
 
 TEST(Consistency, ConstantVelocity) { expect_consistent({}, 1); }
 TEST(Consistency, ConstantAcceleration) {
-  expect_consistent({.motion = MotionModel::kConstantAcceleration, .true_noise = 2.0, .assumed_noise = 2.0}, 1);
+  expect_consistent({.motion = config::MotionModel::kConstantAcceleration, .true_noise = 2.0, .assumed_noise = 2.0}, 1);
 }
 // Far enough away for the linearisation to hold.
 TEST(Consistency, LaserAndRadarInTurn) { expect_consistent({.with_radar = true}, 1); }
@@ -104,4 +104,4 @@ TEST(Consistency, WrongMeasurementNoiseShows) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::estimators

@@ -14,10 +14,11 @@
 #include "tests/fusion/dense.h"
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::estimators {
 namespace {
 
-const MotionModel kStraight[] = {MotionModel::kConstantVelocity, MotionModel::kConstantAcceleration};
+const config::MotionModel kStraight[] = {config::MotionModel::kConstantVelocity,
+                                         config::MotionModel::kConstantAcceleration};
 
 // What a constant-velocity estimate knows nothing of is zero and certain.
 Cartesian without_acceleration(Cartesian c) {
@@ -29,14 +30,14 @@ Cartesian without_acceleration(Cartesian c) {
 
 TEST(Predict, MatchesTheIntegratedNoise) {
   RandomStream stream({.seed = 1});
-  for (const MotionModel motion : kStraight)
+  for (const config::MotionModel motion : kStraight)
     for (const double dt : {0.0, 0.001, 0.01, 0.7, 3.0}) {
       Eigen::Matrix<double, 6, 6> root;
       for (int i = 0; i < 36; ++i) root.data()[i] = stream.normal();
       Cartesian start;
       start.p = root * root.transpose();
       for (int i = 0; i < 6; ++i) start.x(i) = stream.normal();
-      if (motion == MotionModel::kConstantVelocity) start = without_acceleration(start);
+      if (motion == config::MotionModel::kConstantVelocity) start = without_acceleration(start);
       const Covariance f = transition(motion, dt);
       const State x = f * start.x;
       const Covariance p = f * start.p * f.transpose() + driving_noise(motion, 2.5, dt);
@@ -51,7 +52,7 @@ TEST(Predict, MatchesTheIntegratedNoise) {
 }
 
 TEST(Predict, TwoStepsAreOne) {
-  for (const MotionModel motion : kStraight) {
+  for (const config::MotionModel motion : kStraight) {
     const auto estimator = make_estimator(config_of(motion));
     Estimate once = estimate_of(motion, State::Zero(), Covariance::Identity()), twice = once;
     estimator->predict(once, 0.5);
@@ -66,17 +67,17 @@ TEST(Predict, TwoStepsAreOne) {
 // filter's mean of prior and posterior comes to it as dt goes to 0.
 TEST(Kalman, ReachesTheSteadyStateOfTheRiccatiEquation) {
   constexpr double q = 3.0, rho = 0.02, dt = 1e-3;
-  for (const MotionModel motion : kStraight) {
+  for (const config::MotionModel motion : kStraight) {
     const auto estimator = make_estimator(config_of(motion, q));
     Estimate posterior = estimate_of(motion, State::Zero(), Covariance::Identity()), prior;
-    const Observation z = position(0.0, 0.0, std::sqrt(rho / dt));
+    const sensors::Observation z = position(0.0, 0.0, std::sqrt(rho / dt));
     for (int i = 0; i < 10'000; ++i) {
       estimator->predict(posterior, dt);
       prior = posterior;
       estimator->update(posterior, z);
     }
     const Covariance p = 0.5 * (seen_as(prior).p + seen_as(posterior).p);
-    if (motion == MotionModel::kConstantVelocity) {
+    if (motion == config::MotionModel::kConstantVelocity) {
       EXPECT_NEAR(p(0, 0) / (std::sqrt(2.0) * std::pow(q, 0.25) * std::pow(rho, 0.75)), 1.0, 1e-4);
       EXPECT_NEAR(p(0, 2) / std::sqrt(q * rho), 1.0, 1e-4);
       EXPECT_NEAR(p(2, 2) / (std::sqrt(2.0) * std::pow(q, 0.75) * std::pow(rho, 0.25)), 1.0, 1e-4);
@@ -99,8 +100,8 @@ TEST(Kalman, ReachesTheSteadyStateOfTheRiccatiEquation) {
 // transitions weighed with Q^-1 and the measurements with R^-1. The last state and its covariance are what
 // the filter must have.
 TEST(Kalman, EqualsBatchLeastSquares) {
-  for (const MotionModel motion : kStraight) {
-    const int per_axis = motion == MotionModel::kConstantVelocity ? 2 : 3, n = 2 * per_axis, steps = 9;
+  for (const config::MotionModel motion : kStraight) {
+    const int per_axis = motion == config::MotionModel::kConstantVelocity ? 2 : 3, n = 2 * per_axis, steps = 9;
     RandomStream stream({.seed = 3});
     Cartesian start;
     for (int i = 0; i < n; ++i) {
@@ -111,27 +112,27 @@ TEST(Kalman, EqualsBatchLeastSquares) {
     Estimate estimate = estimate_of(motion, start.x, start.p);
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero((steps + 1) * n, (steps + 1) * n);
     Eigen::VectorXd right = Eigen::VectorXd::Zero((steps + 1) * n);
-    information.topLeftCorner(n, n) = dense::inverse(start.p.topLeftCorner(n, n));
+    information.topLeftCorner(n, n) = inverse(start.p.topLeftCorner(n, n));
     right.head(n) = information.topLeftCorner(n, n) * start.x.head(n);
     for (int k = 1; k <= steps; ++k) {
       const double dt = 0.2 + 0.3 * stream.uniform();
       const Eigen::MatrixXd f = transition(motion, dt).topLeftCorner(n, n);
-      const Eigen::MatrixXd weight = dense::inverse(driving_noise(motion, 2.0, dt).topLeftCorner(n, n));
+      const Eigen::MatrixXd weight = inverse(driving_noise(motion, 2.0, dt).topLeftCorner(n, n));
       information.block((k - 1) * n, (k - 1) * n, n, n) += f.transpose() * weight * f;
       information.block((k - 1) * n, k * n, n, n) -= f.transpose() * weight;
       information.block(k * n, (k - 1) * n, n, n) -= weight * f;
       information.block(k * n, k * n, n, n) += weight;
-      Observation z = position(stream.normal(), stream.normal(), 0.4);
+      sensors::Observation z = position(stream.normal(), stream.normal(), 0.4);
       z.r(0, 1) = z.r(1, 0) = 0.05;
-      const Eigen::MatrixXd r_inverse = dense::inverse(z.r.topLeftCorner<2, 2>());
+      const Eigen::MatrixXd r_inverse = inverse(z.r.topLeftCorner<2, 2>());
       const Eigen::VectorXd measured = z.z.head<2>();
       information.block(k * n, k * n, 2, 2) += r_inverse;
       right.segment(k * n, 2) += r_inverse * measured;
       estimator->predict(estimate, dt);
       estimator->update(estimate, z);
     }
-    const Eigen::VectorXd solution = dense::solve(information, right);
-    const Eigen::MatrixXd covariance = dense::inverse(information).bottomRightCorner(n, n);
+    const Eigen::VectorXd solution = solve(information, right);
+    const Eigen::MatrixXd covariance = inverse(information).bottomRightCorner(n, n);
     EXPECT_LT((seen_as(estimate).x.head(n) - solution.tail(n)).norm(), 1e-8);
     EXPECT_LT((seen_as(estimate).p.topLeftCorner(n, n) - covariance).norm(), 1e-8 * covariance.norm());
   }
@@ -146,18 +147,18 @@ TEST(Kalman, CovarianceStaysSymmetricAndPositive) {
     estimator->predict(estimate, i % 7 == 0 ? 0.0 : std::pow(10.0, stream.uniform(-5.0, 0.5)));
     estimator->update(estimate, i % 2 ? position(5.0 + 1e-4 * stream.normal(), 5.0, 1e-4)
                                       : radar(7.07, kPi / 4.0, 0.0, 1e-3, 1e-4, 1e-3));
-    const Matrix<4> p = seen_as(estimate).p.topLeftCorner<4, 4>();
+    const linear::Matrix<4> p = seen_as(estimate).p.topLeftCorner<4, 4>();
     ASSERT_EQ(p, p.transpose().eval());
-    ASSERT_GT(dense::least_eigenvalue(p), 0.0) << i;
+    ASSERT_GT(least_eigenvalue(p), 0.0) << i;
   }
 }
 
 TEST(Radar, BearingIsWrappedBehindTheSensor) {
   // Expected just above +pi, measured just below -pi: 0.02 rad apart, not 2 pi.
   const auto estimator = make_estimator({});
-  const Vector<4> x(10.0 * std::cos(kPi - 0.01), 10.0 * std::sin(kPi - 0.01), 0.0, 0.0);
-  Estimate estimate = Gaussian<4>{x, Matrix<4>::Identity()};
-  const Observation z = radar(10.0, -kPi + 0.01, 0.0, 0.3, 0.03, 0.3);
+  const linear::Vector<4> x(10.0 * std::cos(kPi - 0.01), 10.0 * std::sin(kPi - 0.01), 0.0, 0.0);
+  Estimate estimate = linear::Gaussian<4>{x, linear::Matrix<4>::Identity()};
+  const sensors::Observation z = radar(10.0, -kPi + 0.01, 0.0, 0.3, 0.03, 0.3);
   EXPECT_NEAR(estimator->distance_squared(estimate, z).value(), 0.02 * 0.02 / (0.01 + 0.03 * 0.03), 1e-6);
   estimator->update(estimate, z);
   EXPECT_LT(seen_as(estimate).x(1), 0.1) << "moved across the axis, the short way";
@@ -165,7 +166,7 @@ TEST(Radar, BearingIsWrappedBehindTheSensor) {
 }
 
 TEST(InitialEstimate, RadarKnowsTheVelocityAlongItsBeam) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   const double bearing = 0.6;
   const Cartesian estimate = seen_as(make_estimator(config)->initial(radar(20.0, bearing, -4.0, 0.3, 0.03, 0.2)));
   const Eigen::Vector2d along(std::cos(bearing), std::sin(bearing)), across(-along(1), along(0));
@@ -179,7 +180,7 @@ TEST(InitialEstimate, RadarKnowsTheVelocityAlongItsBeam) {
 }
 
 TEST(InitialEstimate, PositionAloneLeavesVelocityOpen) {
-  const auto estimator = make_estimator(config_of(MotionModel::kConstantAcceleration));
+  const auto estimator = make_estimator(config_of(config::MotionModel::kConstantAcceleration));
   const Cartesian estimate = estimator->cartesian(estimator->initial(position(3.0, -2.0, 0.25)));
   State variances;
   variances << 0.0625, 0.0625, 64.0, 64.0, 4.0, 4.0;
@@ -191,17 +192,18 @@ TEST(InitialEstimate, PositionAloneLeavesVelocityOpen) {
 // The laws, and how an object that turns starts.
 class EveryEstimator : public testing::TestWithParam<Choice> {
  protected:
-  const TrackerConfig config = config_of(std::get<0>(GetParam()), 1.0, std::get<1>(GetParam()));
+  const config::TrackerConfig config = config_of(std::get<0>(GetParam()), 1.0, std::get<1>(GetParam()));
   const std::shared_ptr<const Estimator> estimator = make_estimator(config);
   bool needs_course() const {
-    return config.motion != MotionModel::kConstantVelocity && config.motion != MotionModel::kConstantAcceleration;
+    return config.motion != config::MotionModel::kConstantVelocity &&
+           config.motion != config::MotionModel::kConstantAcceleration;
   }
   void expect_lawful(const Estimate& estimate, int step) const {
     const Cartesian all = estimator->cartesian(estimate);
-    const Gaussian<2> position = estimator->position(estimate);
+    const linear::Gaussian<2> position = estimator->position(estimate);
     ASSERT_TRUE(all.x.allFinite() && all.p.allFinite()) << step;
     ASSERT_EQ(all.p, all.p.transpose().eval()) << step;
-    ASSERT_GT(dense::least_eigenvalue(all.p), -1e-9 * all.p.trace()) << step;
+    ASSERT_GT(least_eigenvalue(all.p), -1e-9 * all.p.trace()) << step;
     ASSERT_EQ(position.x, all.x.head<2>().eval()) << step;
     ASSERT_EQ(position.p, (all.p.topLeftCorner<2, 2>().eval())) << step;
   }
@@ -212,13 +214,13 @@ INSTANTIATE_TEST_SUITE_P(All, EveryEstimator, every_choice(), name_of_choice);
 // and a radar's measurements in turn.
 TEST_P(EveryEstimator, KeepsItsLaws) {
   RandomStream stream({.seed = 6});
-  Vector<2> at(30.0, -8.0);
+  linear::Vector<2> at(30.0, -8.0);
   Estimate estimate = estimator->initial(position(at(0), at(1), 0.3));
   double heading = 2.5, speed = 0.0;
   for (int k = 1; k <= 600; ++k) {
     speed = k < 100 ? 0.0 : k < 500 ? std::min(10.0, speed + 0.2) : std::max(0.0, speed - 0.3);
     if (k >= 200 && k < 320) heading += 0.02;
-    const Vector<2> velocity = speed * Vector<2>(std::cos(heading), std::sin(heading));
+    const linear::Vector<2> velocity = speed * linear::Vector<2>(std::cos(heading), std::sin(heading));
     at += 0.05 * velocity;
     const Estimate kept = estimate;
     Estimate unmoved = estimate;
@@ -228,10 +230,10 @@ TEST_P(EveryEstimator, KeepsItsLaws) {
     expect_lawful(estimate, k);
     if (k >= 400 && k < 440) continue;
     const double range = at.norm();
-    const Observation z = k % 2
-                              ? position(at(0) + 0.2 * stream.normal(), at(1) + 0.2 * stream.normal(), 0.2)
-                              : radar(range + 0.3 * stream.normal(), std::atan2(at(1), at(0)) + 0.02 * stream.normal(),
-                                      at.dot(velocity) / range + 0.3 * stream.normal(), 0.3, 0.02, 0.3);
+    const sensors::Observation z =
+        k % 2 ? position(at(0) + 0.2 * stream.normal(), at(1) + 0.2 * stream.normal(), 0.2)
+              : radar(range + 0.3 * stream.normal(), std::atan2(at(1), at(0)) + 0.02 * stream.normal(),
+                      at.dot(velocity) / range + 0.3 * stream.normal(), 0.3, 0.02, 0.3);
     const std::optional<double> distance_squared = estimator->distance_squared(estimate, z);
     ASSERT_TRUE(!distance_squared || *distance_squared >= 0.0) << k;
     estimator->update(estimate, z);
@@ -247,9 +249,9 @@ TEST_P(EveryEstimator, KeepsItsLaws) {
 }
 
 TEST_P(EveryEstimator, AnObservationExplainsWhatItMade) {
-  for (const Observation& z : {position(20.0, -7.0, 0.2), radar(25.0, 2.0, -6.0, 0.3, 0.02, 0.2)}) {
+  for (const sensors::Observation& z : {position(20.0, -7.0, 0.2), radar(25.0, 2.0, -6.0, 0.3, 0.02, 0.2)}) {
     const double distance_squared = estimator->distance_squared(estimator->initial(z), z).value();
-    if (config.filter == FilterKind::kExtended)
+    if (config.filter == config::FilterKind::kExtended)
       EXPECT_LT(distance_squared, 1e-20);
     else
       EXPECT_LT(distance_squared, 0.05) << "sigma points know that ranges around a position are longer";
@@ -259,7 +261,7 @@ TEST_P(EveryEstimator, AnObservationExplainsWhatItMade) {
 TEST_P(EveryEstimator, NothingIsLearntAtTheOrigin) {
   Estimate estimate = estimator->initial(position(0.0, 0.0, 0.5));
   const Estimate before = estimate;
-  const Observation z = radar(0.1, 0.0, 0.0, 0.3, 0.03, 0.3);
+  const sensors::Observation z = radar(0.1, 0.0, 0.0, 0.3, 0.03, 0.3);
   EXPECT_FALSE(estimator->distance_squared(estimate, z).has_value());
   estimator->update(estimate, z);
   EXPECT_TRUE(same_bits(estimate, before));
@@ -277,7 +279,7 @@ TEST_P(EveryEstimator, WhatStoodForAMinuteDrivesOff) {
     estimator->predict(estimate, 0.05);
     estimator->update(estimate, position(20.0 + 0.2 * stream.normal(), y + 0.2 * stream.normal(), 0.2));
     expect_lawful(estimate, k);
-    if (const auto* polar = std::get_if<Gaussian<5>>(&estimate)) {
+    if (const auto* polar = std::get_if<linear::Gaussian<5>>(&estimate)) {
       ASSERT_LE(polar->p(2, 2), kPi * kPi / 3.0 * (1.0 + 1e-12)) << k;
     }
     if (k == 60 || k == 1500) {
@@ -288,8 +290,8 @@ TEST_P(EveryEstimator, WhatStoodForAMinuteDrivesOff) {
     }
     if (k < 100) continue;
     const State x = estimator->cartesian(estimate).x;
-    ASSERT_LT((x.head<2>() - Vector<2>(20.0, y)).norm(), 1.0) << k;
-    ASSERT_LT((x.segment<2>(2) - Vector<2>(0.0, speed)).norm(), 3.0) << k;
+    ASSERT_LT((x.head<2>() - linear::Vector<2>(20.0, y)).norm(), 1.0) << k;
+    ASSERT_LT((x.segment<2>(2) - linear::Vector<2>(0.0, speed)).norm(), 3.0) << k;
   }
 }
 
@@ -311,4 +313,4 @@ TEST_P(EveryEstimator, ACourseIsKnownBeforeItIsBelieved) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::estimators

@@ -1,5 +1,5 @@
-// The update by several explanations (law 5 of fusion/estimators/estimator.h) for every motion model and filter, and for linear
-// ones against the equations of probabilistic data association.
+// The update by several explanations (law 5 of fusion/estimators/estimator.h) for every motion model and filter, and
+// for linear ones against the equations of probabilistic data association.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -13,12 +13,12 @@
 #include "tests/fusion/dense.h"
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::estimators {
 namespace {
 
 class MixtureUpdate : public testing::TestWithParam<Choice> {
  protected:
-  const TrackerConfig config = config_of(std::get<0>(GetParam()), 1.0, std::get<1>(GetParam()));
+  const config::TrackerConfig config = config_of(std::get<0>(GetParam()), 1.0, std::get<1>(GetParam()));
   const std::shared_ptr<const Estimator> estimator = make_estimator(config);
 };
 INSTANTIATE_TEST_SUITE_P(All, MixtureUpdate, every_choice(), name_of_choice);
@@ -26,13 +26,13 @@ INSTANTIATE_TEST_SUITE_P(All, MixtureUpdate, every_choice(), name_of_choice);
 // Along a drive that stands, drives off and turns: positions and a radar's measurements in turn, with an echo beside.
 TEST_P(MixtureUpdate, KeepsTheLawsAlongADrive) {
   RandomStream stream({.seed = 11});
-  Vector<2> at(30.0, -8.0);
+  linear::Vector<2> at(30.0, -8.0);
   Estimate estimate = estimator->initial(position(at(0), at(1), 0.3));
   double heading = 2.5, speed = 0.0;
   for (int k = 1; k <= 500; ++k) {
     speed = k < 60 ? 0.0 : k < 400 ? std::min(10.0, speed + 0.2) : std::max(0.0, speed - 0.3);
     if (k >= 150 && k < 280) heading += 0.02;
-    const Vector<2> velocity = speed * Vector<2>(std::cos(heading), std::sin(heading));
+    const linear::Vector<2> velocity = speed * linear::Vector<2>(std::cos(heading), std::sin(heading));
     at += 0.05 * velocity;
     estimator->predict(estimate, 0.05);
     const double range = at.norm(), bearing = std::atan2(at(1), at(0)), rate = at.dot(velocity) / range;
@@ -41,7 +41,7 @@ TEST_P(MixtureUpdate, KeepsTheLawsAlongADrive) {
       return k % 2 ? position(at(0) + a, at(1) + b, 0.2)
                    : radar(range + a, bearing + 0.1 * b, rate + b, 0.3, 0.02, 0.3);
     };
-    const std::array<Observation, 2> z{see(0.0), see(0.7)};
+    const std::array<sensors::Observation, 2> z{see(0.0), see(0.7)};
     const Estimate before = estimate;
 
     Estimate by_one = before, by_weight = before;
@@ -64,7 +64,7 @@ TEST_P(MixtureUpdate, KeepsTheLawsAlongADrive) {
     ASSERT_LT((one.x - other.x).norm(), 1e-6 * (1.0 + one.x.norm())) << k;
     ASSERT_TRUE(one.x.allFinite() && one.p.allFinite()) << k;
     ASSERT_EQ(one.p, one.p.transpose().eval()) << k;
-    ASSERT_GT(dense::least_eigenvalue(one.p), -1e-9 * one.p.trace()) << k;
+    ASSERT_GT(least_eigenvalue(one.p), -1e-9 * one.p.trace()) << k;
 
     const auto fit = estimator->fit(before, z[0]);
     const auto distance = estimator->distance_squared(before, z[0]);
@@ -82,14 +82,14 @@ TEST(MixtureUpdate, OfALinearFilterIsProbabilisticDataAssociation) {
   RandomStream stream({.seed = 12});
   const auto estimator = make_estimator({});
   for (int draw_number = 0; draw_number < 200; ++draw_number) {
-    Matrix<4> root;
+    linear::Matrix<4> root;
     for (int i = 0; i < 16; ++i) root.data()[i] = stream.normal();
-    Gaussian<4> prior;
+    linear::Gaussian<4> prior;
     prior.p = root * root.transpose();
     for (int i = 0; i < 4; ++i) prior.x(i) = stream.normal();
-    symmetrise<4>(prior.p);
+    linear::symmetrise<4>(prior.p);
     const auto count = static_cast<std::size_t>(stream.integer(1, 4));
-    std::vector<Observation> z;
+    std::vector<sensors::Observation> z;
     std::vector<double> beta{stream.uniform(0.1, 1.0)};
     for (std::size_t i = 0; i < count; ++i) {
       z.push_back(position(stream.normal(), stream.normal(), 0.6));
@@ -103,20 +103,20 @@ TEST(MixtureUpdate, OfALinearFilterIsProbabilisticDataAssociation) {
     Estimate estimate = prior;
     estimator->update(estimate, explanations);
 
-    const Matrix<2> s = prior.p.topLeftCorner<2, 2>() + 0.36 * Matrix<2>::Identity();
-    const Matrix<4, 2> gain = prior.p.leftCols<2>() * Matrix<2>(dense::inverse(s));
-    const Matrix<4> conditional = prior.p - gain * s * gain.transpose();
-    Vector<2> combined = Vector<2>::Zero();
-    Matrix<2> spread = Matrix<2>::Zero();
+    const linear::Matrix<2> s = prior.p.topLeftCorner<2, 2>() + 0.36 * linear::Matrix<2>::Identity();
+    const linear::Matrix<4, 2> gain = prior.p.leftCols<2>() * linear::Matrix<2>(inverse(s));
+    const linear::Matrix<4> conditional = prior.p - gain * s * gain.transpose();
+    linear::Vector<2> combined = linear::Vector<2>::Zero();
+    linear::Matrix<2> spread = linear::Matrix<2>::Zero();
     for (std::size_t i = 0; i < count; ++i) {
-      const Vector<2> nu = z[i].z.head<2>() - prior.x.head<2>();
+      const linear::Vector<2> nu = z[i].z.head<2>() - prior.x.head<2>();
       combined += beta[i + 1] * nu;
       spread += beta[i + 1] * nu * nu.transpose();
     }
     spread -= combined * combined.transpose();
-    const Vector<4> x = prior.x + gain * combined;
-    const Matrix<4> p = beta[0] * prior.p + (1.0 - beta[0]) * conditional + gain * spread * gain.transpose();
-    const auto& found = std::get<Gaussian<4>>(estimate);
+    const linear::Vector<4> x = prior.x + gain * combined;
+    const linear::Matrix<4> p = beta[0] * prior.p + (1.0 - beta[0]) * conditional + gain * spread * gain.transpose();
+    const auto& found = std::get<linear::Gaussian<4>>(estimate);
     EXPECT_LT((found.x - x).norm(), 1e-12 * (1.0 + x.norm()));
     EXPECT_LT((found.p - p).norm(), 1e-12 * p.norm());
   }
@@ -124,11 +124,11 @@ TEST(MixtureUpdate, OfALinearFilterIsProbabilisticDataAssociation) {
 
 TEST(Fit, DensityIsThatOfTheInnovation) {
   const auto estimator = make_estimator({});
-  const Estimate estimate = Gaussian<4>{Vector<4>(10.0, 2.0, 0.0, 0.0), Matrix<4>::Identity()};
+  const Estimate estimate = linear::Gaussian<4>{linear::Vector<4>(10.0, 2.0, 0.0, 0.0), linear::Matrix<4>::Identity()};
   const Fit fit = estimator->fit(estimate, position(11.0, 2.0, 1.0)).value();
   EXPECT_DOUBLE_EQ(fit.distance_squared, 0.5);
   EXPECT_NEAR(fit.density, std::exp(-0.25) / (2.0 * kPi * 2.0), 1e-15);
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::estimators

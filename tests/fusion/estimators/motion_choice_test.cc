@@ -19,15 +19,15 @@
 #include "tests/fusion/scenes.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::estimators {
 namespace {
 
 constexpr int kRuns = 300, kSteps = 100;
 constexpr double kDt = 0.05, kSigma = 0.2;
 constexpr double kAlong = 0.5, kTurn = 0.05;  // densities of the drawn drives
 
-TrackerConfig alone(MotionModel motion, double process_noise, FilterKind filter) {
-  TrackerConfig config = config_of(motion, process_noise, filter);
+config::TrackerConfig alone(config::MotionModel motion, double process_noise, config::FilterKind filter) {
+  config::TrackerConfig config = config_of(motion, process_noise, filter);
   config.turn_noise = kTurn;
   config.initial_turn_rate_sigma = 0.5;
   config.confirm_hits = config.confirm_window = 1;
@@ -40,32 +40,33 @@ TrackerConfig alone(MotionModel motion, double process_noise, FilterKind filter)
 struct Judged {
   double nees = 0.0, position = 0.0, velocity = 0.0;
   int lost = 0;
-  static double lower() { return chi_square_quantile(1e-4, 4.0 * kRuns) / kRuns; }
-  static double upper() { return chi_square_quantile(1.0 - 1e-4, 4.0 * kRuns) / kRuns; }
+  static double lower() { return metrics::chi_square_quantile(1e-4, 4.0 * kRuns) / kRuns; }
+  static double upper() { return metrics::chi_square_quantile(1.0 - 1e-4, 4.0 * kRuns) / kRuns; }
 };
 
-template <class M> Judged judge(const TrackerConfig& config, const M& truth, const Vector<M::kStates>& start) {
+template <class M>
+Judged judge(const config::TrackerConfig& config, const M& truth, const linear::Vector<M::kStates>& start) {
   Judged judged;
   for (int run = 0; run < kRuns; ++run) {
     RandomStream stream({.seed = 31, .replication = static_cast<std::uint32_t>(run)});
-    Tracker tracker(config, 1);
-    TrackSet set(tracker.max_tracks());
-    Vector<M::kStates> x = start;
+    tracks::Tracker tracker(config, 1);
+    tracks::TrackSet set(tracker.max_tracks());
+    linear::Vector<M::kStates> x = start;
     for (int k = 0; k < kSteps; ++k) {
-      x = drawn<M::kStates>(truth.move(x, kDt), truth.noise(x, kDt), stream);
+      x = motion::drawn<M::kStates>(truth.move(x, kDt), truth.noise(x, kDt), stream);
       tracker.step(set, scan(0, static_cast<std::uint32_t>(k), at_ms(50 * k),
                              {position(x(0) + kSigma * stream.normal(), x(1) + kSigma * stream.normal(), kSigma)})
                             .view());
       judged.lost += set.tracks.size() != 1;
       if (k < kSteps / 2 || set.tracks.empty()) continue;
       const Cartesian seen = tracker.estimator().cartesian(set.tracks[0].estimate);
-      const Kinematics there = M::template kinematics<kWithVelocity>(x);
-      Vector<4> error;
+      const motion::Kinematics there = M::template kinematics<motion::kWithVelocity>(x);
+      linear::Vector<4> error;
       error << seen.x.head<2>() - there.position, seen.x.segment<2>(2) - there.velocity;
       judged.position += error.head<2>().squaredNorm() / (kRuns * kSteps / 2);
       judged.velocity += error.tail<2>().squaredNorm() / (kRuns * kSteps / 2);
-      const Matrix<4> p = seen.p.topLeftCorner<4, 4>();
-      if (k + 1 == kSteps) judged.nees += dense::norm_squared(error, p) / kRuns;
+      const linear::Matrix<4> p = seen.p.topLeftCorner<4, 4>();
+      if (k + 1 == kSteps) judged.nees += norm_squared(error, p) / kRuns;
     }
   }
   judged.position = std::sqrt(judged.position);
@@ -73,13 +74,13 @@ template <class M> Judged judge(const TrackerConfig& config, const M& truth, con
   return judged;
 }
 
-Judged on_a_bend(MotionModel motion, double process_noise, FilterKind filter) {
-  Vector<5> start;
+Judged on_a_bend(config::MotionModel motion, double process_noise, config::FilterKind filter) {
+  linear::Vector<5> start;
   start << 40.0, 0.0, 1.0, 10.0, 0.5;
   return judge(alone(motion, process_noise, filter), motion::Ctrv(kTurn, kAlong), start);
 }
-Judged on_a_bend_faster_and_faster(MotionModel motion, double process_noise, FilterKind filter) {
-  Vector<6> start;
+Judged on_a_bend_faster_and_faster(config::MotionModel motion, double process_noise, config::FilterKind filter) {
+  linear::Vector<6> start;
   start << 40.0, 0.0, 1.0, 4.0, 0.5, 2.5;
   return judge(alone(motion, process_noise, filter), motion::Ctra(kTurn, kAlong), start);
 }
@@ -101,24 +102,26 @@ template <class Straight> void expect_right(const Judged& right, const Straight&
   }
 }
 
-class OnABend : public testing::TestWithParam<FilterKind> {};
-INSTANTIATE_TEST_SUITE_P(Filter, OnABend, testing::Values(FilterKind::kExtended, FilterKind::kUnscented),
+class OnABend : public testing::TestWithParam<config::FilterKind> {};
+INSTANTIATE_TEST_SUITE_P(Filter, OnABend,
+                         testing::Values(config::FilterKind::kExtended, config::FilterKind::kUnscented),
                          [](const auto& filter) {
-                           return filter.param == FilterKind::kExtended ? "Extended" : "Unscented";
+                           return filter.param == config::FilterKind::kExtended ? "Extended" : "Unscented";
                          });
 
 TEST_P(OnABend, CtrvIsRight) {
-  const Judged right = on_a_bend(MotionModel::kCtrv, kAlong, GetParam());
+  const Judged right = on_a_bend(config::MotionModel::kCtrv, kAlong, GetParam());
   std::cout << "ctrv: nees " << right.nees << ", " << right.position << " m, " << right.velocity << " m/s\n";
-  expect_right(right, [](double q) { return on_a_bend(MotionModel::kConstantVelocity, q, GetParam()); });
+  expect_right(right, [](double q) { return on_a_bend(config::MotionModel::kConstantVelocity, q, GetParam()); });
 }
 
 TEST_P(OnABend, CtraIsRightWithAccelerationToo) {
-  const Judged right = on_a_bend_faster_and_faster(MotionModel::kCtra, kAlong, GetParam());
+  const Judged right = on_a_bend_faster_and_faster(config::MotionModel::kCtra, kAlong, GetParam());
   std::cout << "ctra: nees " << right.nees << ", " << right.position << " m, " << right.velocity << " m/s\n";
-  expect_right(right,
-               [](double q) { return on_a_bend_faster_and_faster(MotionModel::kConstantVelocity, q, GetParam()); });
-  const Judged constant_speed = on_a_bend_faster_and_faster(MotionModel::kCtrv, kAlong, GetParam());
+  expect_right(right, [](double q) {
+    return on_a_bend_faster_and_faster(config::MotionModel::kConstantVelocity, q, GetParam());
+  });
+  const Judged constant_speed = on_a_bend_faster_and_faster(config::MotionModel::kCtrv, kAlong, GetParam());
   std::cout << "ctrv: nees " << constant_speed.nees << ", " << constant_speed.position << " m\n";
   EXPECT_GT(constant_speed.nees, Judged::upper()) << "it accelerates";
 }
@@ -127,16 +130,16 @@ TEST_P(OnABend, CtraIsRightWithAccelerationToo) {
 struct Legs {
   double straight = 0.0, bend = 0.0;  // root mean squares of the velocity's error
 };
-Legs on_two_legs(MotionModel motion, FilterKind filter) {
+Legs on_two_legs(config::MotionModel motion, config::FilterKind filter) {
   Legs legs;
   const motion::Ctrv way(1e-9, 1e-9);
   for (std::uint32_t run = 0; run < 30; ++run) {
     RandomStream stream({.seed = 32, .replication = run});
-    TrackerConfig config = alone(motion, 0.1, filter);
+    config::TrackerConfig config = alone(motion, 0.1, filter);
     config.turn_noise = 0.2;
-    Tracker tracker(config, 1);
-    TrackSet set(tracker.max_tracks());
-    Vector<5> x;
+    tracks::Tracker tracker(config, 1);
+    tracks::TrackSet set(tracker.max_tracks());
+    linear::Vector<5> x;
     x << 40.0, 0.0, 1.0, 10.0, 0.0;
     for (int k = 0; k < 200; ++k) {
       x(4) = k < 100 ? 0.0 : 0.5;
@@ -146,7 +149,7 @@ Legs on_two_legs(MotionModel motion, FilterKind filter) {
                             .view());
       if (k % 100 < 50 || set.tracks.empty()) continue;
       const Cartesian seen = tracker.estimator().cartesian(set.tracks[0].estimate);
-      const Vector<2> velocity = motion::Ctrv::kinematics<kWithVelocity>(x).velocity;
+      const linear::Vector<2> velocity = motion::Ctrv::kinematics<motion::kWithVelocity>(x).velocity;
       (k < 100 ? legs.straight : legs.bend) += (seen.x.segment<2>(2) - velocity).squaredNorm() / 1500.0;
     }
   }
@@ -154,9 +157,9 @@ Legs on_two_legs(MotionModel motion, FilterKind filter) {
 }
 
 TEST_P(OnABend, InteractingModelsTakeTheBetterOne) {
-  const Legs cv = on_two_legs(MotionModel::kConstantVelocity, GetParam()),
-             ctrv = on_two_legs(MotionModel::kCtrv, GetParam()),
-             both = on_two_legs(MotionModel::kInteracting, GetParam());
+  const Legs cv = on_two_legs(config::MotionModel::kConstantVelocity, GetParam()),
+             ctrv = on_two_legs(config::MotionModel::kCtrv, GetParam()),
+             both = on_two_legs(config::MotionModel::kInteracting, GetParam());
   std::cout << "straight, bend [m/s]: cv " << cv.straight << " " << cv.bend << ", ctrv " << ctrv.straight << " "
             << ctrv.bend << ", both " << both.straight << " " << both.bend << "\n";
   EXPECT_LT(both.straight, 0.5 * ctrv.straight);
@@ -165,7 +168,7 @@ TEST_P(OnABend, InteractingModelsTakeTheBetterOne) {
 
 class EveryChoice : public testing::TestWithParam<Choice> {
  protected:
-  TrackerConfig config = config_of(std::get<0>(GetParam()), 3.0, std::get<1>(GetParam()));
+  config::TrackerConfig config = config_of(std::get<0>(GetParam()), 3.0, std::get<1>(GetParam()));
 };
 INSTANTIATE_TEST_SUITE_P(All, EveryChoice, every_choice(), name_of_choice);
 
@@ -174,15 +177,16 @@ std::vector<OwnedScan> scans_of_two_cars(std::uint32_t count) {
   RandomStream stream({.seed = 33});
   std::vector<OwnedScan> scans;
   const motion::Ctrv way(1e-9, 1e-9);
-  Vector<5> cars[2];
+  linear::Vector<5> cars[2];
   cars[0] << 30.0, 5.0, 0.2, 12.0, 0.6;
   cars[1] << 25.0, -6.0, 3.0, 8.0, 0.0;
   for (std::uint32_t k = 0; k < count; ++k) {
     const bool tie = k % 7 == 2 || k % 7 == 3;  // at the instant of the one before
-    std::vector<Observation> seen;
-    for (Vector<5>& car : cars) {
+    std::vector<sensors::Observation> seen;
+    for (linear::Vector<5>& car : cars) {
       if (!tie) car = way.move(car, 0.05);
-      const Vector<2> velocity = motion::Ctrv::kinematics<kWithVelocity>(car).velocity, at = car.head<2>();
+      const linear::Vector<2> velocity = motion::Ctrv::kinematics<motion::kWithVelocity>(car).velocity,
+                              at = car.head<2>();
       if (k % 3 == 1)
         seen.push_back(radar(at.norm() + 0.2 * stream.normal(), std::atan2(at(1), at(0)) + 0.01 * stream.normal(),
                              at.dot(velocity) / at.norm() + 0.2 * stream.normal(), 0.2, 0.01, 0.2));
@@ -195,19 +199,19 @@ std::vector<OwnedScan> scans_of_two_cars(std::uint32_t count) {
   return scans;
 }
 
-void expect_the_same_in_every_order(const TrackerConfig& config, const std::vector<OwnedScan>& scans,
-                                    const std::vector<std::size_t>& order, const TrackSet& in_order) {
-  Timeline timeline(config, 4);
+void expect_the_same_in_every_order(const config::TrackerConfig& config, const std::vector<OwnedScan>& scans,
+                                    const std::vector<std::size_t>& order, const tracks::TrackSet& in_order) {
+  tracks::Timeline timeline(config, 4);
   for (const std::size_t s : order) timeline.insert(scans[s].view());
   ASSERT_TRUE(same_bits(timeline.current(), in_order));
 }
 
 TEST_P(EveryChoice, AnyOrderOfArrivalGivesTheSameBits) {
   const std::vector<OwnedScan> scans = scans_of_two_cars(60);
-  Timeline in_order(config, 4);
+  tracks::Timeline in_order(config, 4);
   for (const OwnedScan& s : scans) in_order.insert(s.view());
   ASSERT_EQ(in_order.current().tracks.size(), 2u);
-  if (config.motion == MotionModel::kInteracting) {
+  if (config.motion == config::MotionModel::kInteracting) {
     EXPECT_TRUE(std::holds_alternative<StraightOrTurning>(in_order.current().tracks[0].estimate));
   }
   std::vector<std::size_t> order(scans.size());
@@ -222,15 +226,15 @@ TEST_P(EveryChoice, AnyOrderOfArrivalGivesTheSameBits) {
 
 // All 5,040 orders of the seven scans around the birth of the polar state.
 TEST(MotionChoice, EveryOrderOfSevenScansUnderCtrvUnscented) {
-  const TrackerConfig config = config_of(MotionModel::kCtrv, 3.0, FilterKind::kUnscented);
+  const config::TrackerConfig config = config_of(config::MotionModel::kCtrv, 3.0, config::FilterKind::kUnscented);
   const std::vector<OwnedScan> all = scans_of_two_cars(14);
   std::vector<OwnedScan> scans;
   for (std::size_t i = 0; i < all.size(); i += 2) scans.push_back(all[i]);
-  Timeline in_order(config, 4);
+  tracks::Timeline in_order(config, 4);
   std::size_t young = 0, polar = 0;
   for (const OwnedScan& s : scans) {
     in_order.insert(s.view());
-    for (const Track& track : in_order.current().tracks) ++(track.estimate.index() == 0 ? young : polar);
+    for (const tracks::Track& track : in_order.current().tracks) ++(track.estimate.index() == 0 ? young : polar);
   }
   ASSERT_GT(young, 2u);
   ASSERT_GT(polar, 2u);
@@ -245,8 +249,8 @@ TEST(MotionChoice, EveryOrderOfSevenScansUnderCtrvUnscented) {
 TEST_P(EveryChoice, AllocatesNothingAfterConstruction) {
   std::vector<Arrival> arrivals = drawn_drive(9, 30);
   sort_by_arrival(arrivals);
-  const auto strategy = make_strategy(StrategyKind::kAdva, config, laser_and_camera());
-  std::vector<TrackView> image;
+  const auto strategy = make_strategy(strategies::StrategyKind::kAdva, config, laser_and_camera());
+  std::vector<tracks::TrackView> image;
   image.reserve(64);
   const std::int64_t before = support::allocations();
   for (const Arrival& arrival : arrivals) {
@@ -259,4 +263,4 @@ TEST_P(EveryChoice, AllocatesNothingAfterConstruction) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::estimators

@@ -14,10 +14,9 @@
 #include "tests/fusion/textbook.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::filters {
 namespace {
 
-using namespace filters;
 using sensors::Measurement;
 using sensors::Mounted;
 using sensors::Position;
@@ -28,22 +27,23 @@ using sensors::Systematic;
 TEST(SmallLdl, SolvesAndMeasures) {
   RandomStream stream({.seed = 10});
   for (int i = 0; i < 50; ++i) {
-    const Matrix<3> a = drawn_covariance<3>(stream, 2.0);
-    const Vector<3> v = drawn<3>(Vector<3>::Zero(), a, stream);
+    const linear::Matrix<3> a = motion::drawn_covariance<3>(stream, 2.0);
+    const linear::Vector<3> v = motion::drawn<3>(linear::Vector<3>::Zero(), a, stream);
     const Ldl<3> ldl(a);
-    const Vector<3> x = ldl.divide<1>(v.transpose()).transpose(), back = times<3, 3, 1>(a, x);
-    EXPECT_LT((apart<3, 1>(back, v)), 1e-13);
+    const linear::Vector<3> x = ldl.divide<1>(v.transpose()).transpose(), back = motion::times<3, 3, 1>(a, x);
+    EXPECT_LT((motion::apart<3, 1>(back, v)), 1e-13);
     EXPECT_NEAR(ldl.norm_squared(v), v.dot(x), 1e-11);
     EXPECT_NEAR(ldl.determinant() / a.determinant(), 1.0, 1e-12);
   }
-  EXPECT_DEATH(Ldl<3>(-Matrix<3>::Identity()), "not positive definite");
+  EXPECT_DEATH(Ldl<3>(-linear::Matrix<3>::Identity()), "not positive definite");
 }
 TEST(PositiveDefinite, IsWhatCanBeFactored) {
   RandomStream stream({.seed = 15});
-  for (int i = 0; i < 50; ++i) EXPECT_TRUE(positive_definite<3>(drawn_covariance<3>(stream, 0.01)));
-  EXPECT_TRUE(positive_definite<2>(Matrix<2>(Vector<2>(1e12, 1e-12).asDiagonal()))) << "units do not matter";
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(positive_definite<3>(motion::drawn_covariance<3>(stream, 0.01)));
+  EXPECT_TRUE(positive_definite<2>(linear::Matrix<2>(linear::Vector<2>(1e12, 1e-12).asDiagonal())))
+      << "units do not matter";
   const auto of = [](double a, double b, double c, double d) {
-    Matrix<2> m;
+    linear::Matrix<2> m;
     m << a, b, c, d;
     return positive_definite<2>(m);
   };
@@ -60,32 +60,34 @@ TEST(PositiveDefinite, IsWhatCanBeFactored) {
   EXPECT_FALSE(of(1.0, infinity, infinity, 1.0));
 }
 TEST(SquareRoot, OfWhatIsCertainInPart) {
-  Matrix<3> p;
+  linear::Matrix<3> p;
   p << 4.0, 2.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0;  // two components that move as one, a third that is known
-  const Matrix<3> a = square_root<3>(p);
-  EXPECT_LT((apart<3, 3>(times_transposed<3, 3, 3>(a, a), p)), 1e-15);
+  const linear::Matrix<3> a = square_root<3>(p);
+  EXPECT_LT((motion::apart<3, 3>(motion::times_transposed<3, 3, 3>(a, a), p)), 1e-15);
   EXPECT_EQ(a.col(2).norm(), 0.0);
 }
 
 // The steady state of a scalar random walk, Q = 0.7 per step, R = 1.3: P = (sqrt(Q^2 + 4 Q R) - Q) / 2 after an update.
 TEST(JosephUpdate, ReachesTheRiccatiEquationsFixedPoint) {
   const double q = 0.7, r = 1.3;
-  Gaussian<1> state{Vector<1>::Zero(), Matrix<1>::Constant(100.0)};
+  linear::Gaussian<1> state{linear::Vector<1>::Zero(), linear::Matrix<1>::Constant(100.0)};
   for (int k = 0; k < 100; ++k) {
     state.p(0, 0) += q;
-    correct<true, 1, 1, 1>(state, Vector<1>::Zero(), Matrix<1>::Identity(), Matrix<1>::Constant(r));
+    correct<true, 1, 1, 1>(state, linear::Vector<1>::Zero(), linear::Matrix<1>::Identity(),
+                           linear::Matrix<1>::Constant(r));
   }
   EXPECT_NEAR(state.p(0, 0), 0.5 * (std::sqrt(q * q + 4.0 * q * r) - q), 1e-15);
 }
 // A thing that stands still and is known to: the mean of its measurements, R / n.
 TEST(JosephUpdate, OfWhatStandsIsTheMean) {
   motion::ConstantVelocity model(0.0);
-  Gaussian<4> state;
+  linear::Gaussian<4> state;
   state.p(0, 0) = state.p(1, 1) = 1e12;
   double sum = 0.0;
   for (int k = 1; k <= 50; ++k) {
     Kalman{}.predict(model, state, 0.1);
-    Kalman{}.update(model, Position{}, Measurement<2>{{std::sin(k), 0.0}, 0.25 * Matrix<2>::Identity()}, state);
+    Kalman{}.update(model, Position{},
+                    sensors::Measurement<2>{{std::sin(k), 0.0}, 0.25 * linear::Matrix<2>::Identity()}, state);
     sum += std::sin(k);
   }
   EXPECT_NEAR(state.x(0), sum / 50.0, 1e-9);
@@ -94,13 +96,13 @@ TEST(JosephUpdate, OfWhatStandsIsTheMean) {
 // A millimetre's measurement of what was anywhere within 100 m: the covariance stays positive and symmetric.
 TEST(JosephUpdate, StaysPositiveWhereNumbersAreFarApart) {
   motion::ConstantVelocity model(1e-3);
-  Gaussian<4> state;
-  state.p = 1e4 * Matrix<4>::Identity();
-  const Measurement<2> z{{1.0, 2.0}, 1e-6 * Matrix<2>::Identity()};
+  linear::Gaussian<4> state;
+  state.p = 1e4 * linear::Matrix<4>::Identity();
+  const sensors::Measurement<2> z{{1.0, 2.0}, 1e-6 * linear::Matrix<2>::Identity()};
   for (int k = 0; k < 20; ++k) {
     Kalman{}.predict(model, state, 0.05);
     Kalman{}.update(model, Position{}, z, state);
-    EXPECT_TRUE(symmetric<4>(state.p));
+    EXPECT_TRUE(motion::symmetric<4>(state.p));
     EXPECT_GT(state.p(0, 0), 1e-7);
     EXPECT_LT(state.p(0, 0), 1.001e-6);
     for (int i = 0; i < 4; ++i) EXPECT_GT(state.p(i, i), 0.0);
@@ -110,21 +112,22 @@ TEST(JosephUpdate, StaysPositiveWhereNumbersAreFarApart) {
 
 // H of all components, as the textbook has it.
 template <class M, class S>
-LinearMeasurement<M::kStates, S::kDimension> linearised(const S& sensor, const Measurement<S::kDimension>& z,
-                                                        const Vector<M::kStates>& x) {
-  const Kinematics k = M::template kinematics<kWithHeading>(x);
-  LinearMeasurement<M::kStates, S::kDimension> out;
-  Matrix<S::kDimension, 5> h = Matrix<S::kDimension, 5>::Zero();
+linear::LinearMeasurement<M::kStates, S::kDimension> linearised(const S& sensor,
+                                                                const sensors::Measurement<S::kDimension>& z,
+                                                                const linear::Vector<M::kStates>& x) {
+  const motion::Kinematics k = M::template kinematics<motion::kWithHeading>(x);
+  linear::LinearMeasurement<M::kStates, S::kDimension> out;
+  linear::Matrix<S::kDimension, 5> h = linear::Matrix<S::kDimension, 5>::Zero();
   h.template leftCols<S::kParts>() = sensor.jacobian(k);
-  out.h.template leftCols<4>() = times<S::kDimension, 5, 4>(h, M::kinematics_jacobian(x));
-  out.z = sensor.residual(z.z, sensor.expected(k)) + times<S::kDimension, M::kStates, 1>(out.h, x);
+  out.h.template leftCols<4>() = motion::times<S::kDimension, 5, 4>(h, M::kinematics_jacobian(x));
+  out.z = sensor.residual(z.z, sensor.expected(k)) + motion::times<S::kDimension, M::kStates, 1>(out.h, x);
   out.r = z.r;
   return out;
 }
 
 // To the bit: what a gate is told is what an update finds.
 template <int M> void expect_same(const Innovation<M>& a, const Innovation<M>& b) {
-  EXPECT_TRUE((same<M, 1>(a.nu, b.nu) && same<M, M>(a.s, b.s)));
+  EXPECT_TRUE((motion::same<M, 1>(a.nu, b.nu) && motion::same<M, M>(a.s, b.s)));
   EXPECT_EQ(a.nis, b.nis);
   EXPECT_EQ(a.determinant, b.determinant);
   EXPECT_EQ(a.used, b.used);
@@ -134,29 +137,29 @@ template <int M> void expect_same(const Innovation<M>& a, const Innovation<M>& b
 template <class F, class M, class S> void is_the_dense_filter(const M& model, const S& sensor, double tolerance) {
   constexpr int kN = M::kStates, kM = S::kDimension;
   RandomStream stream({.seed = 11});
-  Gaussian<kN> state;
+  linear::Gaussian<kN> state;
   state.x.template head<4>() << 30.0, 8.0, 1.0, 2.0;
-  state.p = drawn_covariance<kN>(stream, 0.3);
-  Gaussian<kN> dense = state;
+  state.p = motion::drawn_covariance<kN>(stream, 0.3);
+  linear::Gaussian<kN> dense = state;
   for (int k = 0; k < 40; ++k) {
     const double dt = stream.uniform(0.0, 0.2);
-    LinearStep<kN> step{model.jacobian(dense.x, dt), model.noise(dense.x, dt)};
-    const Vector<kN> moved = model.move(dense.x, dt);
-    predict<kN>(dense, step);
+    linear::LinearStep<kN> step{model.jacobian(dense.x, dt), model.noise(dense.x, dt)};
+    const linear::Vector<kN> moved = model.move(dense.x, dt);
+    linear::predict<kN>(dense, step);
     dense.x = moved;
     F{}.predict(model, state, dt);
-    Measurement<kM> z;
-    z.r = drawn_covariance<kM>(stream, 0.2);
-    z.z = drawn<kM>(sensor.expected(M::template kinematics<S::kParts>(dense.x)), z.r, stream);
+    sensors::Measurement<kM> z;
+    z.r = motion::drawn_covariance<kM>(stream, 0.2);
+    z.z = motion::drawn<kM>(sensor.expected(M::template kinematics<S::kParts>(dense.x)), z.r, stream);
     const auto expected = update<kN, kM>(dense, linearised<M>(sensor, z, dense.x));
     const Innovation<kM> asked = F{}.innovate(model, sensor, z, state);
     const Innovation<kM> innovation = F{}.update(model, sensor, z, state);
     ASSERT_TRUE(innovation.used);
     expect_same<kM>(asked, innovation);
-    EXPECT_LT((apart<kM, 1>(innovation.nu, expected.nu)), tolerance);
-    EXPECT_LT((apart<kM, kM>(innovation.s, expected.s)), tolerance);
+    EXPECT_LT((motion::apart<kM, 1>(innovation.nu, expected.nu)), tolerance);
+    EXPECT_LT((motion::apart<kM, kM>(innovation.s, expected.s)), tolerance);
     EXPECT_LT(M::difference(state.x, dense.x).norm() / dense.x.norm(), tolerance) << k;
-    EXPECT_LT((apart<kN, kN>(state.p, dense.p)), tolerance) << k;
+    EXPECT_LT((motion::apart<kN, kN>(state.p, dense.p)), tolerance) << k;
     EXPECT_NEAR(innovation.nis, Ldl<kM>(expected.s).norm_squared(expected.nu), 1e-9);
   }
 }
@@ -164,49 +167,50 @@ const sensors::Mounting kPlace{.position = {3.5, -0.4}, .yaw = 0.3};
 
 TEST(KalmanFilter, IsTheDenseFilter) {
   is_the_dense_filter<Kalman>(motion::ConstantVelocity(2.0), Position{}, 1e-13);
-  is_the_dense_filter<Kalman>(motion::ConstantAcceleration(2.0), Mounted<Position>(kPlace), 1e-13);
+  is_the_dense_filter<Kalman>(motion::ConstantAcceleration(2.0), sensors::Mounted<Position>(kPlace), 1e-13);
 }
 TEST(ExtendedFilter, IsTheDenseFilterLinearised) {
-  is_the_dense_filter<Extended>(motion::Ctra(0.3, 2.0), Mounted<RangeBearingRate>(kPlace), 1e-12);
+  is_the_dense_filter<Extended>(motion::Ctra(0.3, 2.0), sensors::Mounted<RangeBearingRate>(kPlace), 1e-12);
 }
 TEST(ExtendedFilter, IsTheKalmanFilterOnLinearModels) {
   is_the_dense_filter<Extended>(motion::ConstantVelocity(2.0), Position{}, 1e-13);
 }
 TEST(UnscentedFilter, IsTheKalmanFilterOnLinearModels) {
-  is_the_dense_filter<Unscented>(motion::ConstantVelocity(2.0), Mounted<Position>(kPlace), 1e-12);
+  is_the_dense_filter<Unscented>(motion::ConstantVelocity(2.0), sensors::Mounted<Position>(kPlace), 1e-12);
 }
 
 TEST(KalmanFilter, IsTheInformationForm) {
   motion::ConstantVelocity model;
   RandomStream stream({.seed = 12});
   for (int i = 0; i < 20; ++i) {
-    Gaussian<4> state{drawn_state<motion::ConstantVelocity>(stream, i), drawn_covariance<4>(stream, 1.0)};
-    const Measurement<2> z{{1.0, 2.0}, drawn_covariance<2>(stream, 0.5)};
-    Matrix<4> information = dense::inverse(state.p);
-    Vector<4> vector = information * state.x;
-    const Matrix<2> r_inverse = dense::inverse(z.r);
+    linear::Gaussian<4> state{motion::drawn_state<motion::ConstantVelocity>(stream, i),
+                              motion::drawn_covariance<4>(stream, 1.0)};
+    const sensors::Measurement<2> z{{1.0, 2.0}, motion::drawn_covariance<2>(stream, 0.5)};
+    linear::Matrix<4> information = inverse(state.p);
+    linear::Vector<4> vector = information * state.x;
+    const linear::Matrix<2> r_inverse = inverse(z.r);
     information.topLeftCorner<2, 2>() += r_inverse;
     vector.head<2>() += r_inverse * z.z;
     Kalman{}.update(model, Position{}, z, state);
-    const Matrix<4> p = dense::inverse(information);
-    EXPECT_LT((apart<4, 4>(state.p, p)), 1e-11);
-    EXPECT_LT((apart<4, 1>(state.x, p * vector)), 1e-10);
+    const linear::Matrix<4> p = inverse(information);
+    EXPECT_LT((motion::apart<4, 4>(state.p, p)), 1e-11);
+    EXPECT_LT((motion::apart<4, 1>(state.x, p * vector)), 1e-10);
   }
 }
 
 // A heading just below half a turn and just above it are neighbours, for points and for what comes of them.
 TEST(UnscentedFilter, HeadingsAverageAsAngles) {
   const motion::Ctrv model(0.01, 0.01);
-  Gaussian<5> state;
+  linear::Gaussian<5> state;
   state.x << 10.0, 0.0, 3.13, 5.0, 0.1;
-  state.p = Vector<5>(0.01, 0.01, 0.04, 0.01, 0.01).asDiagonal();
-  Gaussian<5> turned = state;
+  state.p = linear::Vector<5>(0.01, 0.01, 0.04, 0.01, 0.01).asDiagonal();
+  linear::Gaussian<5> turned = state;
   turned.x(2) = 0.13;  // the same, but for a turn of three radians
   Unscented{}.predict(model, state, 0.5);
   Unscented{}.predict(model, turned, 0.5);
-  EXPECT_NEAR(to_half_turn(state.x(2) - turned.x(2)), 3.0, 1e-13);
+  EXPECT_NEAR(motion::to_half_turn(state.x(2) - turned.x(2)), 3.0, 1e-13);
   EXPECT_NEAR(state.p(2, 2), turned.p(2, 2), 1e-13);
-  Measurement<3> z{{state.x(0), state.x(1), 0.05}, 0.01 * Matrix<3>::Identity()};
+  sensors::Measurement<3> z{{state.x(0), state.x(1), 0.05}, 0.01 * linear::Matrix<3>::Identity()};
   const Innovation<3> asked = Unscented{}.innovate(model, PositionHeading{}, z, state);
   const Innovation<3> innovation = Unscented{}.update(model, PositionHeading{}, z, state);
   expect_same<3>(asked, innovation);
@@ -216,10 +220,10 @@ TEST(UnscentedFilter, HeadingsAverageAsAngles) {
 // The mean of a bearing and range over a wide sector pulls inwards: E[r cos b] = r exp(-s^2 / 2).
 TEST(UnscentedFilter, KnowsTheMeanOfABend) {
   const motion::Ctrv model(0.0, 0.0);
-  Gaussian<5> start;
+  linear::Gaussian<5> start;
   start.x << 0.0, 0.0, 0.0, 10.0, 0.0;
   start.p(2, 2) = 0.09;
-  Gaussian<5> state = start, extended = start;
+  linear::Gaussian<5> state = start, extended = start;
   Unscented{}.predict(model, state, 1.0);
   Extended{}.predict(model, extended, 1.0);
   const double exact = 10.0 * std::exp(-0.045);
@@ -229,18 +233,19 @@ TEST(UnscentedFilter, KnowsTheMeanOfABend) {
   EXPECT_GT(state.p(0, 0), variance) << "the default errs to the safe side";
   EXPECT_LT(state.p(0, 0), 2.5 * variance);
   EXPECT_EQ(extended.p(0, 0), 0.0);
-  Gaussian<5> near = start;
+  linear::Gaussian<5> near = start;
   Unscented{.alpha = 0.1, .beta = 2.0}.predict(model, near, 1.0);
   EXPECT_NEAR(near.x(0), exact, 0.02);
   EXPECT_NEAR(near.p(0, 0), variance, 0.05);
 }
 
 template <class F, class S>
-void refuses(const F& filter, const S& sensor, Gaussian<4> state = {Vector<4>::Zero(), Matrix<4>::Identity()}) {
-  const Gaussian<4> before = state;
+void refuses(const F& filter, const S& sensor,
+             linear::Gaussian<4> state = {linear::Vector<4>::Zero(), linear::Matrix<4>::Identity()}) {
+  const linear::Gaussian<4> before = state;
   EXPECT_FALSE(filter.update(motion::ConstantVelocity{}, sensor, {}, state).used);
-  EXPECT_TRUE((same<4, 1>(state.x, before.x)));
-  EXPECT_TRUE((same<4, 4>(state.p, before.p)));
+  EXPECT_TRUE((motion::same<4, 1>(state.x, before.x)));
+  EXPECT_TRUE((motion::same<4, 4>(state.p, before.p)));
 }
 TEST(Filters, DoNotUseWhatTheyCannotSee) {
   refuses(Extended{}, RangeBearingRate{});  // at the sensor
@@ -248,10 +253,11 @@ TEST(Filters, DoNotUseWhatTheyCannotSee) {
 }
 // At 0.5 m/s it has a course; a sigma point, two sigmas off, of the speed 0.09 m/s has not.
 TEST(UnscentedFilter, DoesNotUseWhatOneOfItsPointsCannotSee) {
-  Gaussian<4> slow{{10.0, 2.0, 0.5, 0.0}, Matrix<4>(Vector<4>(0.01, 0.01, 0.205 * 0.205, 0.01).asDiagonal())};
+  linear::Gaussian<4> slow{{10.0, 2.0, 0.5, 0.0},
+                           linear::Matrix<4>(linear::Vector<4>(0.01, 0.01, 0.205 * 0.205, 0.01).asDiagonal())};
   refuses(Unscented{}, PositionHeading{}, slow);
-  const Measurement<3> z{{10.0, 2.0, 0.1}, 0.01 * Matrix<3>::Identity()};
-  Gaussian<4> linearised = slow;
+  const sensors::Measurement<3> z{{10.0, 2.0, 0.1}, 0.01 * linear::Matrix<3>::Identity()};
+  linear::Gaussian<4> linearised = slow;
   EXPECT_TRUE(Extended{}.update(motion::ConstantVelocity{}, PositionHeading{}, z, linearised).used);
   slow.p(2, 2) = 0.195 * 0.195;  // 0.11 m/s
   EXPECT_TRUE(Unscented{}.update(motion::ConstantVelocity{}, PositionHeading{}, z, slow).used);
@@ -263,73 +269,75 @@ TEST(ConsiderFilter, IsTheAugmentedFilterWithoutTheBiasesGain) {
   using M = motion::ConstantVelocity;
   constexpr int kB = 7, kA = 4 + kB;
   const M model(0.5);
-  const Systematic<Position> laser{{}, {0.1, 0.0}, 0.01};
-  const Systematic<RangeBearingRate> radar{{}, {0.2, 0.01, 0.0}, -0.02};
+  const sensors::Systematic<Position> laser{{}, {0.1, 0.0}, 0.01};
+  const sensors::Systematic<RangeBearingRate> radar{{}, {0.2, 0.01, 0.0}, -0.02};
   RandomStream stream({.seed = 13});
   Considered<4, kB> considered;
   considered.state.x << 30.0, 8.0, 5.0, 2.0;
-  considered.state.p = drawn_covariance<4>(stream, 1.0);
-  const Consider<kB> filter{.bias = drawn_covariance<kB>(stream, 0.05)};
-  Matrix<kA> p = Matrix<kA>::Zero();
+  considered.state.p = motion::drawn_covariance<4>(stream, 1.0);
+  const Consider<kB> filter{.bias = motion::drawn_covariance<kB>(stream, 0.05)};
+  linear::Matrix<kA> p = linear::Matrix<kA>::Zero();
   p.topLeftCorner<4, 4>() = considered.state.p;
   p.bottomRightCorner<kB, kB>() = filter.bias;
-  Vector<4> x = considered.state.x;
+  linear::Vector<4> x = considered.state.x;
 
   const auto one = [&]<int First>(const auto& sensor) {
     using S = std::decay_t<decltype(sensor)>;
     constexpr int kM = S::kDimension;
     filter.predict(model, considered, 0.1);
-    Matrix<kA> f = Matrix<kA>::Identity();
+    linear::Matrix<kA> f = linear::Matrix<kA>::Identity();
     f.topLeftCorner<4, 4>() = model.step(0.1).f;
-    p = sandwich<kA, kA>(f, p);
+    p = motion::sandwich<kA, kA>(f, p);
     p.topLeftCorner<4, 4>() += model.step(0.1).q;
     x = model.move(x, 0.1);
 
-    Measurement<kM> z;
-    const Kinematics k = M::kinematics<kWithVelocity>(x);
-    z.r = drawn_covariance<kM>(stream, 0.05);
-    z.z = drawn<kM>(sensor.expected(k), z.r, stream);
-    Matrix<kM, kA> h = Matrix<kM, kA>::Zero();
+    sensors::Measurement<kM> z;
+    const motion::Kinematics k = M::kinematics<motion::kWithVelocity>(x);
+    z.r = motion::drawn_covariance<kM>(stream, 0.05);
+    z.z = motion::drawn<kM>(sensor.expected(k), z.r, stream);
+    linear::Matrix<kM, kA> h = linear::Matrix<kM, kA>::Zero();
     h.template leftCols<4>() = sensor.jacobian(k);
     h.template middleCols<S::kBiases>(4 + First) = sensor.bias_jacobian(k);
-    const Matrix<kM, kA> hp = times<kM, kA, kA>(h, p);
-    const Matrix<kM> s = sandwich<kM, kA>(h, p) + z.r;
-    Matrix<kA, kM> gain = Ldl<kM>(s).template divide<kA>(hp.transpose());
+    const linear::Matrix<kM, kA> hp = motion::times<kM, kA, kA>(h, p);
+    const linear::Matrix<kM> s = motion::sandwich<kM, kA>(h, p) + z.r;
+    linear::Matrix<kA, kM> gain = Ldl<kM>(s).template divide<kA>(hp.transpose());
     gain.template bottomRows<kB>().setZero();
-    const Vector<kM> nu = sensor.residual(z.z, sensor.expected(k));
-    x += times<4, kM, 1>(Matrix<4, kM>(gain.template topRows<4>()), nu);
-    Matrix<kA> a = Matrix<kA>::Identity();
-    add_scaled<kA, kA>(a, -1.0, times<kA, kM, kA>(gain, h));
-    p = sandwich<kA, kA>(a, p);
-    add_scaled<kA, kA>(p, 1.0, sandwich<kA, kM>(gain, z.r));
+    const linear::Vector<kM> nu = sensor.residual(z.z, sensor.expected(k));
+    x += motion::times<4, kM, 1>(linear::Matrix<4, kM>(gain.template topRows<4>()), nu);
+    linear::Matrix<kA> a = linear::Matrix<kA>::Identity();
+    motion::add_scaled<kA, kA>(a, -1.0, motion::times<kA, kM, kA>(gain, h));
+    p = motion::sandwich<kA, kA>(a, p);
+    motion::add_scaled<kA, kA>(p, 1.0, motion::sandwich<kA, kM>(gain, z.r));
 
     const Innovation<kM> asked = filter.template innovate<First>(model, sensor, z, considered);
     const Innovation<kM> innovation = filter.template update<First>(model, sensor, z, considered);
-    EXPECT_TRUE((same<kM, kM>(asked.s, innovation.s))) << "what a gate asks is what an update finds";
+    EXPECT_TRUE((motion::same<kM, kM>(asked.s, innovation.s))) << "what a gate asks is what an update finds";
     EXPECT_EQ(asked.nis, innovation.nis);
-    EXPECT_LT((apart<kM, kM>(innovation.s, s)), 1e-12);
+    EXPECT_LT((motion::apart<kM, kM>(innovation.s, s)), 1e-12);
   };
   for (int k = 0; k < 30; ++k) {
     one.template operator()<0>(laser);
     one.template operator()<3>(radar);
-    EXPECT_LT((apart<4, 1>(considered.state.x, x)), 1e-11);
-    EXPECT_LT((apart<4, 4>(considered.state.p, Matrix<4>(p.topLeftCorner<4, 4>()))), 1e-11);
-    EXPECT_LT((apart<4, kB>(considered.cross, Matrix<4, kB>(p.topRightCorner<4, kB>()))), 1e-11);
-    EXPECT_LT((apart<kB, kB>(filter.bias, Matrix<kB>(p.bottomRightCorner<kB, kB>()))), 1e-15) << "never learned";
+    EXPECT_LT((motion::apart<4, 1>(considered.state.x, x)), 1e-11);
+    EXPECT_LT((motion::apart<4, 4>(considered.state.p, linear::Matrix<4>(p.topLeftCorner<4, 4>()))), 1e-11);
+    EXPECT_LT((motion::apart<4, kB>(considered.cross, linear::Matrix<4, kB>(p.topRightCorner<4, kB>()))), 1e-11);
+    EXPECT_LT((motion::apart<kB, kB>(filter.bias, linear::Matrix<kB>(p.bottomRightCorner<kB, kB>()))), 1e-15)
+        << "never learned";
   }
 }
 
 TEST(Filters, DoNotAllocate) {
   RandomStream stream({.seed = 14});
-  Gaussian<6> state{drawn_state<motion::Ctra>(stream, 1), drawn_covariance<6>(stream, 0.3)};
-  Gaussian<4> linear{drawn_state<motion::ConstantVelocity>(stream, 1), drawn_covariance<4>(stream, 0.3)};
+  linear::Gaussian<6> state{motion::drawn_state<motion::Ctra>(stream, 1), motion::drawn_covariance<6>(stream, 0.3)};
+  linear::Gaussian<4> linear{motion::drawn_state<motion::ConstantVelocity>(stream, 1),
+                             motion::drawn_covariance<4>(stream, 0.3)};
   const motion::Ctra model;
   const std::int64_t before = support::allocations();
   for (int i = 0; i < 10; ++i) {
     Extended{}.predict(model, state, 0.1);
-    Extended{}.update(model, Mounted<RangeBearingRate>(kPlace), {}, state);
+    Extended{}.update(model, sensors::Mounted<RangeBearingRate>(kPlace), {}, state);
     Unscented{}.predict(motion::ConstantVelocity{}, linear, 0.1);
-    Unscented{}.update(motion::ConstantVelocity{}, Mounted<Position>(kPlace), {}, linear);
+    Unscented{}.update(motion::ConstantVelocity{}, sensors::Mounted<Position>(kPlace), {}, linear);
     Kalman{}.predict(motion::ConstantVelocity{}, linear, 0.1);
     Kalman{}.update(motion::ConstantVelocity{}, Position{}, {}, linear);
   }
@@ -337,4 +345,4 @@ TEST(Filters, DoNotAllocate) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::filters

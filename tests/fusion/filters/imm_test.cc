@@ -7,31 +7,30 @@
 #include "tests/fusion/motion/drawn.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::filters {
 namespace {
 
-using namespace filters;
 using motion::ConstantVelocity, motion::Ctrv;
 using sensors::Measurement;
 using sensors::Position;
 
-const Measurement<2> kSeen{{1.0, -0.5}, 0.04 * Matrix<2>::Identity()};
+const sensors::Measurement<2> kSeen{{1.0, -0.5}, 0.04 * linear::Matrix<2>::Identity()};
 
 TEST(Imm, WithOneModelIsThatFilter) {
   const ConstantVelocity model(0.5);
   const Imm<Kalman, ConstantVelocity> imm({}, model);
   Modes<ConstantVelocity> modes;
-  Gaussian<4>& one = std::get<0>(modes.estimates);
+  linear::Gaussian<4>& one = std::get<0>(modes.estimates);
   one.x << 1.0, 2.0, 3.0, 4.0;
   one.p.setIdentity();
-  Gaussian<4> alone = one;
+  linear::Gaussian<4> alone = one;
   for (int k = 0; k < 10; ++k) {
     imm.predict(modes, 0.1);
     Kalman{}.predict(model, alone, 0.1);
     const Innovation<2> a = imm.update(Position{}, kSeen, modes), b = Kalman{}.update(model, Position{}, kSeen, alone);
-    EXPECT_TRUE((same<4, 1>(one.x, alone.x)));
-    EXPECT_TRUE((same<4, 4>(one.p, alone.p)));
-    EXPECT_TRUE((same<2, 1>(a.nu, b.nu)));
+    EXPECT_TRUE((motion::same<4, 1>(one.x, alone.x)));
+    EXPECT_TRUE((motion::same<4, 4>(one.p, alone.p)));
+    EXPECT_TRUE((motion::same<2, 1>(a.nu, b.nu)));
     EXPECT_EQ(a.nis, b.nis);
     EXPECT_EQ(modes.probability(0), 1.0);
   }
@@ -44,8 +43,8 @@ Two two_at(double first, double second) {
   Two modes;
   std::get<0>(modes.estimates).x << first, 0.0, 0.0, 0.0;
   std::get<1>(modes.estimates).x << second, 0.0, 0.0, 0.0;
-  std::get<0>(modes.estimates).p = 1.0 * Matrix<4>::Identity();
-  std::get<1>(modes.estimates).p = 4.0 * Matrix<4>::Identity();
+  std::get<0>(modes.estimates).p = 1.0 * linear::Matrix<4>::Identity();
+  std::get<1>(modes.estimates).p = 4.0 * linear::Matrix<4>::Identity();
   modes.probability << 0.6, 0.4;
   return modes;
 }
@@ -53,7 +52,7 @@ Two two_at(double first, double second) {
 // By hand: c_1 = 0.9 0.6 + 0.2 0.4 = 0.62, c_2 = 0.38; mode 1 starts from 0.54/0.62 of itself and 0.08/0.62 of mode 2.
 TEST(Imm, MixesAsByHand) {
   Two modes = two_at(0.0, 3.0);
-  Matrix<2> p;
+  linear::Matrix<2> p;
   p << 0.9, 0.1, 0.2, 0.8;
   kTwo.mix(modes, p);
   EXPECT_NEAR(modes.probability(0), 0.62, 1e-15);
@@ -104,16 +103,16 @@ TEST(Imm, BearingsAverageAsAngles) {
     Two modes = two_at(50.0 * std::cos(0.01), 50.0 * std::cos(0.01));
     std::get<0>(modes.estimates).x(1) = 50.0 * std::sin(0.01);
     std::get<1>(modes.estimates).x(1) = -50.0 * std::sin(0.01);
-    const Measurement<2> z{{50.0, bearing}, Vector<2>(0.01, 0.0001).asDiagonal()};
+    const sensors::Measurement<2> z{{50.0, bearing}, linear::Vector<2>(0.01, 0.0001).asDiagonal()};
     return imm.update(sensors::RangeBearing{}, z, modes);
   };
   const Innovation<2> aside = measured(1.0), behind = measured(std::numbers::pi);
   EXPECT_NEAR(aside.nu(1), 1.0 - 0.6 * 0.01 + 0.4 * 0.01, 1e-14);
   EXPECT_NEAR(behind.nu(1), std::numbers::pi - 0.6 * 0.01 + 0.4 * 0.01, 1e-14);
-  EXPECT_LT((apart<2, 2>(behind.s, aside.s)), 1e-14);
+  EXPECT_LT((motion::apart<2, 2>(behind.s, aside.s)), 1e-14);
   const Innovation<2> beyond = measured(-std::numbers::pi + 0.004);
   EXPECT_NEAR(beyond.nu(1), -std::numbers::pi + 0.002, 1e-14) << "their mean is beyond half a turn";
-  EXPECT_LT((apart<2, 2>(beyond.s, aside.s)), 1e-14);
+  EXPECT_LT((motion::apart<2, 2>(beyond.s, aside.s)), 1e-14);
 }
 TEST(Imm, NothingChangesWithinNoTime) {
   Two modes = two_at(0.0, 3.0);
@@ -126,10 +125,13 @@ TEST(Imm, NothingChangesWithinNoTime) {
 
 TEST(ModeChain, OneStepIsTwoSteps) {
   const ModeChain<3> chain{{0.5, 0.3, 0.2}, 2.0};
-  const Matrix<3> twice = times<3, 3, 3>(chain.transition(0.3), chain.transition(0.9)), once = chain.transition(1.2);
-  EXPECT_LT((apart<3, 3>(twice, once)), 1e-15);
+  const linear::Matrix<3> twice = motion::times<3, 3, 3>(chain.transition(0.3), chain.transition(0.9)),
+                          once = chain.transition(1.2);
+  EXPECT_LT((motion::apart<3, 3>(twice, once)), 1e-15);
   EXPECT_NEAR(once.row(1).sum(), 1.0, 1e-15);
-  EXPECT_LT((apart<1, 3>(Matrix<1, 3>(chain.share.transpose() * once), Matrix<1, 3>(chain.share.transpose()))), 1e-15);
+  EXPECT_LT((motion::apart<1, 3>(linear::Matrix<1, 3>(chain.share.transpose() * once),
+                                 linear::Matrix<1, 3>(chain.share.transpose()))),
+            1e-15);
 }
 
 // Ten seconds straight on, ten along a bend of 0.4 rad/s, seen every 0.1 s: the mode follows, and the mixture is nearer
@@ -140,28 +142,28 @@ TEST(Imm, FollowsTheManoeuvre) {
   const Ctrv bend(0.3, 0.1);
   const Imm<Extended, ConstantVelocity, Ctrv> imm({.seconds = 5.0}, straight, bend);
   RandomStream stream({.seed = 20});
-  Vector<5> truth;
+  linear::Vector<5> truth;
   truth << 0.0, 0.0, 0.3, 10.0, 0.0;
   All modes;
-  Gaussian<4>& on_straight = std::get<0>(modes.estimates);
+  linear::Gaussian<4>& on_straight = std::get<0>(modes.estimates);
   on_straight.x << 0.0, 0.0, 10.0 * std::cos(0.3), 10.0 * std::sin(0.3);
   on_straight.p.setIdentity();
   std::get<1>(modes.estimates).x = truth;
-  std::get<1>(modes.estimates).p = Vector<5>(1.0, 1.0, 0.01, 1.0, 0.25).asDiagonal();
-  Gaussian<4> only_straight = on_straight;
+  std::get<1>(modes.estimates).p = linear::Vector<5>(1.0, 1.0, 0.01, 1.0, 0.25).asDiagonal();
+  linear::Gaussian<4> only_straight = on_straight;
   double off_mixed = 0.0, off_straight = 0.0, turning[2] = {};
   std::int64_t allocations = 0;
   for (int k = 0; k < 200; ++k) {
     truth(4) = k < 100 ? 0.0 : 0.4;
     truth = bend.move(truth, 0.1);
-    Measurement<2> z{truth.head<2>(), 0.01 * Matrix<2>::Identity()};
+    sensors::Measurement<2> z{truth.head<2>(), 0.01 * linear::Matrix<2>::Identity()};
     for (int i = 0; i < 2; ++i) z.z(i) += 0.1 * stream.normal();
     const std::int64_t before = support::allocations();
     imm.predict(modes, 0.1);
     const double asked = imm.innovate(Position{}, z, modes).nis;
     const Innovation<2> innovation = imm.update(Position{}, z, modes);
     EXPECT_EQ(asked, innovation.nis);
-    const Gaussian<6> mixed = imm.whole(modes);
+    const linear::Gaussian<6> mixed = imm.whole(modes);
     allocations += support::allocations() - before;
     Extended{}.predict(straight, only_straight, 0.1);
     Extended{}.update(straight, Position{}, z, only_straight);
@@ -177,4 +179,4 @@ TEST(Imm, FollowsTheManoeuvre) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::filters

@@ -13,10 +13,9 @@
 #include "tests/fusion/motion/drawn.h"
 #include "tests/support/recordings.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::filters {
 namespace {
 
-using namespace filters;
 using sensors::Measurement;
 using sensors::Position;
 using sensors::RangeBearingRate;
@@ -24,8 +23,8 @@ using sensors::RangeBearingRate;
 struct Seen {
   bool radar = false;
   double seconds = 0.0;
-  Vector<3> z = Vector<3>::Zero();
-  Vector<4> truth = Vector<4>::Zero();  // x, y, vx, vy
+  linear::Vector<3> z = linear::Vector<3>::Zero();
+  linear::Vector<4> truth = linear::Vector<4>::Zero();  // x, y, vx, vy
 };
 
 std::vector<Seen> read_drive(const std::string& path) {
@@ -51,17 +50,17 @@ std::vector<Seen> read_drive(const std::string& path) {
 
 // Figures of one filter over a drive. The truth goes into rmse only.
 struct Result {
-  Vector<4> rmse = Vector<4>::Zero();
+  linear::Vector<4> rmse = linear::Vector<4>::Zero();
   double laser_nis = 0.0, radar_nis = 0.0;  // means
   double log_likelihood = 0.0;              // of all innovations
 };
 
 template <class F> Result follow(const F& filter, const motion::Ctrv& model, const std::vector<Seen>& drive) {
   using M = motion::Ctrv;
-  const Matrix<2> laser_r = 0.0225 * Matrix<2>::Identity();
-  const Matrix<3> radar_r = Vector<3>(0.09, 0.0009, 0.09).asDiagonal();
+  const linear::Matrix<2> laser_r = 0.0225 * linear::Matrix<2>::Identity();
+  const linear::Matrix<3> radar_r = linear::Vector<3>(0.09, 0.0009, 0.09).asDiagonal();
   Result result;
-  Gaussian<5> state;
+  linear::Gaussian<5> state;
   int laser = 0, radar = 0;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     const Seen& seen = drive[i];
@@ -72,20 +71,20 @@ template <class F> Result follow(const F& filter, const motion::Ctrv& model, con
       filter.predict(model, state, seen.seconds - drive[i - 1].seconds);
       if (seen.radar) {
         const Innovation<3> innovation =
-            filter.update(model, RangeBearingRate{}, Measurement<3>{seen.z, radar_r}, state);
+            filter.update(model, RangeBearingRate{}, sensors::Measurement<3>{seen.z, radar_r}, state);
         result.radar_nis += innovation.nis;
         result.log_likelihood += innovation.log_likelihood();
         ++radar;
       } else {
         const Innovation<2> innovation =
-            filter.update(model, Position{}, Measurement<2>{seen.z.head<2>(), laser_r}, state);
+            filter.update(model, Position{}, sensors::Measurement<2>{seen.z.head<2>(), laser_r}, state);
         result.laser_nis += innovation.nis;
         result.log_likelihood += innovation.log_likelihood();
         ++laser;
       }
     }
-    const Kinematics k = M::kinematics<kWithVelocity>(state.x);
-    Vector<4> estimated;
+    const motion::Kinematics k = M::kinematics<motion::kWithVelocity>(state.x);
+    linear::Vector<4> estimated;
     estimated << k.position, k.velocity;
     result.rmse += (estimated - seen.truth).cwiseAbs2();
   }
@@ -122,12 +121,12 @@ template <class F> void expect_consistent(const F& filter, const Result& chosen,
       EXPECT_LE(follow(filter, motion::Ctrv(kTurnDensity * turn, kAlongDensity * along), drive).log_likelihood,
                 chosen.log_likelihood)
           << turn << " " << along;
-  EXPECT_GT(chosen.laser_nis, chi_square_quantile(0.025, 249.0 * 2.0) / 249.0);
-  EXPECT_LT(chosen.laser_nis, chi_square_quantile(0.975, 249.0 * 2.0) / 249.0);
-  EXPECT_GT(chosen.radar_nis, chi_square_quantile(0.025, 250.0 * 3.0) / 250.0);
-  EXPECT_LT(chosen.radar_nis, chi_square_quantile(0.975, 250.0 * 3.0) / 250.0);
+  EXPECT_GT(chosen.laser_nis, metrics::chi_square_quantile(0.025, 249.0 * 2.0) / 249.0);
+  EXPECT_LT(chosen.laser_nis, metrics::chi_square_quantile(0.975, 249.0 * 2.0) / 249.0);
+  EXPECT_GT(chosen.radar_nis, metrics::chi_square_quantile(0.025, 250.0 * 3.0) / 250.0);
+  EXPECT_LT(chosen.radar_nis, metrics::chi_square_quantile(0.975, 250.0 * 3.0) / 250.0);
 }
-void expect_within(const Vector<4>& rmse, const Vector<4>& limits) {
+void expect_within(const linear::Vector<4>& rmse, const linear::Vector<4>& limits) {
   for (int i = 0; i < 4; ++i) EXPECT_LT(rmse(i), limits(i)) << i;
 }
 
@@ -144,4 +143,4 @@ TEST_F(LaserRadar, Unscented) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::filters

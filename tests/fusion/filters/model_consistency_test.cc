@@ -12,10 +12,9 @@
 #include "fusion/sensors/systematic.h"
 #include "tests/fusion/motion/drawn.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::filters {
 namespace {
 
-using namespace filters;
 using sensors::Measurement;
 using sensors::Mounted;
 using sensors::Position;
@@ -31,7 +30,7 @@ struct Consistency {
   double nees = 0.0, nis = 0.0;
   int states = 0, dimension = 0;
   static double quantile(double probability, int degrees) {
-    return chi_square_quantile(probability, static_cast<double>(kRuns) * degrees) / kRuns;
+    return metrics::chi_square_quantile(probability, static_cast<double>(kRuns) * degrees) / kRuns;
   }
   static double lower(int degrees) { return quantile(kTail, degrees); }
   static double upper(int degrees) { return quantile(1.0 - kTail, degrees); }
@@ -57,22 +56,23 @@ INSTANTIATE_TEST_SUITE_P(Seed, ModelConsistency, testing::ValuesIn(kSeeds));
 // told of.
 template <class F, class M, class S>
 Consistency simulate(std::uint64_t seed, const F& filter, const M& truth, const M& model, const S& sensor,
-                     const Measurement<S::kDimension>& noise, const Gaussian<M::kStates>& start, double factor = 1.0) {
+                     const sensors::Measurement<S::kDimension>& noise, const linear::Gaussian<M::kStates>& start,
+                     double factor = 1.0) {
   constexpr int kN = M::kStates, kM = S::kDimension;
   Consistency c{.states = kN, .dimension = kM};
   for (int run = 0; run < kRuns; ++run) {
     RandomStream stream({.seed = seed, .replication = static_cast<std::uint32_t>(run)});
-    Gaussian<kN> state = start;
-    Vector<kN> x = drawn<kN>(start.x, start.p, stream);
+    linear::Gaussian<kN> state = start;
+    linear::Vector<kN> x = motion::drawn<kN>(start.x, start.p, stream);
     Innovation<kM> innovation;
     for (int k = 0; k < kSteps; ++k) {
-      const Matrix<kN> driving = truth.noise(x, kDt);
-      x = drawn<kN>(truth.move(x, kDt), driving, stream);
+      const linear::Matrix<kN> driving = truth.noise(x, kDt);
+      x = motion::drawn<kN>(truth.move(x, kDt), driving, stream);
       M::normalise(x);
-      const Vector<kM> seen = sensor.expected(M::template kinematics<S::kParts>(x));
+      const linear::Vector<kM> seen = sensor.expected(M::template kinematics<S::kParts>(x));
       filter.predict(model, state, kDt);
-      const Matrix<kM> r = factor * factor * noise.r;
-      innovation = filter.update(model, sensor, {drawn<kM>(seen, r, stream), noise.r}, state);
+      const linear::Matrix<kM> r = factor * factor * noise.r;
+      innovation = filter.update(model, sensor, {motion::drawn<kM>(seen, r, stream), noise.r}, state);
     }
     c.nis += innovation.nis / kRuns;
     c.nees += Ldl<kN>(state.p).norm_squared(M::difference(x, state.x)) / kRuns;
@@ -80,11 +80,11 @@ Consistency simulate(std::uint64_t seed, const F& filter, const M& truth, const 
   return c;
 }
 
-const Measurement<2> kLaser{.r = 0.09 * Matrix<2>::Identity()};
-const Measurement<3> kRadar{.r = Vector<3>(0.09, 0.0001, 0.04).asDiagonal()};
+const sensors::Measurement<2> kLaser{.r = 0.09 * linear::Matrix<2>::Identity()};
+const sensors::Measurement<3> kRadar{.r = linear::Vector<3>(0.09, 0.0001, 0.04).asDiagonal()};
 
-Gaussian<4> driving_start() {
-  Gaussian<4> start;
+linear::Gaussian<4> driving_start() {
+  linear::Gaussian<4> start;
   start.x << 40.0, 10.0, -2.0, 1.0;
   start.p.diagonal() << 0.25, 0.25, 4.0, 4.0;
   return start;
@@ -108,13 +108,13 @@ TEST_P(ModelConsistency, WrongMeasurementNoiseShows) {
 }
 
 // Known well enough for linearisations to hold.
-Gaussian<5> turning_start() {
-  Gaussian<5> start;
+linear::Gaussian<5> turning_start() {
+  linear::Gaussian<5> start;
   start.x << 40.0, 10.0, 2.0, 8.0, 0.3;
   start.p.diagonal() << 0.04, 0.04, 0.0025, 0.25, 0.0025;
   return start;
 }
-const Mounted<RangeBearingRate> kFromTheBumper({.position = {3.5, 0.5}, .yaw = 0.2});
+const sensors::Mounted<RangeBearingRate> kFromTheBumper({.position = {3.5, 0.5}, .yaw = 0.2});
 template <class F> Consistency turning(std::uint64_t seed, const F& filter, double assumed) {
   const motion::Ctrv truth(0.02, 0.5), model(0.02 * assumed, 0.5 * assumed);
   return simulate(seed, filter, truth, model, kFromTheBumper, kRadar, turning_start());
@@ -131,37 +131,37 @@ TEST_P(ModelConsistency, UnscentedAlongBends) {
 // A laser 0.2 m beside its place whose stamps are 20 ms late, sigma; drawn anew for every drive, constant during it.
 struct WithBias {
   Consistency considered, ignored;
-  Matrix<4> mse = Matrix<4>::Zero(), p = Matrix<4>::Zero();
+  linear::Matrix<4> mse = linear::Matrix<4>::Zero(), p = linear::Matrix<4>::Zero();
 };
 WithBias simulate_bias(std::uint64_t seed) {
   WithBias out{.considered = {.states = 4, .dimension = 2}, .ignored = {.states = 4, .dimension = 2}};
   const ConstantVelocity model(0.5);
-  const Systematic<Position> as_known{};
+  const sensors::Systematic<Position> as_known{};
   for (int run = 0; run < kRuns; ++run) {
     RandomStream stream({.seed = seed, .replication = static_cast<std::uint32_t>(run)});
     Considered<4, 3> considered{.state = driving_start()};
-    const Consider<3> filter{.bias = Matrix<3>(Vector<3>(0.04, 0.04, 0.0004).asDiagonal())};
-    Gaussian<4> ignorant = considered.state;
-    Vector<4> x = drawn<4>(ignorant.x, ignorant.p, stream);
-    const Vector<3> bias = drawn<3>(Vector<3>::Zero(), filter.bias, stream);
-    const Systematic<Position> as_it_is{{}, bias.head<2>(), bias(2)};
+    const Consider<3> filter{.bias = linear::Matrix<3>(linear::Vector<3>(0.04, 0.04, 0.0004).asDiagonal())};
+    linear::Gaussian<4> ignorant = considered.state;
+    linear::Vector<4> x = motion::drawn<4>(ignorant.x, ignorant.p, stream);
+    const linear::Vector<3> bias = motion::drawn<3>(linear::Vector<3>::Zero(), filter.bias, stream);
+    const sensors::Systematic<Position> as_it_is{{}, bias.head<2>(), bias(2)};
     Innovation<2> a, b;
     for (int k = 0; k < kSteps; ++k) {
-      x = drawn<4>(model.move(x, kDt), model.noise(x, kDt), stream);
-      const Vector<2> seen = as_it_is.expected(ConstantVelocity::kinematics<kWithVelocity>(x));
-      const Measurement<2> z{drawn<2>(seen, kLaser.r, stream), kLaser.r};
+      x = motion::drawn<4>(model.move(x, kDt), model.noise(x, kDt), stream);
+      const linear::Vector<2> seen = as_it_is.expected(ConstantVelocity::kinematics<motion::kWithVelocity>(x));
+      const sensors::Measurement<2> z{motion::drawn<2>(seen, kLaser.r, stream), kLaser.r};
       filter.predict(model, considered, kDt);
       a = filter.update(model, as_known, z, considered);
       Kalman{}.predict(model, ignorant, kDt);
       b = Kalman{}.update(model, Position{}, z, ignorant);
     }
-    const Vector<4> error = x - considered.state.x;
+    const linear::Vector<4> error = x - considered.state.x;
     out.considered.nis += a.nis / kRuns;
     out.considered.nees += Ldl<4>(considered.state.p).norm_squared(error) / kRuns;
     out.ignored.nis += b.nis / kRuns;
     out.ignored.nees += Ldl<4>(ignorant.p).norm_squared(x - ignorant.x) / kRuns;
-    add_outer<4>(out.mse, 1.0 / kRuns, error);
-    add_scaled<4, 4>(out.p, 1.0 / kRuns, considered.state.p);
+    motion::add_outer<4>(out.mse, 1.0 / kRuns, error);
+    motion::add_scaled<4, 4>(out.p, 1.0 / kRuns, considered.state.p);
   }
   return out;
 }
@@ -177,4 +177,4 @@ TEST_P(ModelConsistency, ConsideredBiasIsInTheCovariance) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::filters

@@ -17,12 +17,12 @@ namespace {
 
 TEST(NormalisedSquared, ByHand) {
   // [4 2; 2 3]^-1 = [3 -2; -2 4] / 8
-  const Matrix<2> p{{4.0, 2.0}, {2.0, 3.0}};
-  EXPECT_NEAR(normalised_squared<2>(Vector<2>(1.0, 1.0), p), 3.0 / 8.0, 1e-15);
-  EXPECT_NEAR(normalised_squared<2>(Vector<2>(1.0, -1.0), p), 11.0 / 8.0, 1e-15);
-  const Gaussian<2> estimate{.x = Vector<2>(5.0, 7.0), .p = p};
-  EXPECT_NEAR(nees<2>(estimate, Vector<2>(6.0, 6.0)), 11.0 / 8.0, 1e-15);
-  EXPECT_DOUBLE_EQ(normalised_squared<1>(Vector<1>(3.0), Matrix<1>(4.0)), 2.25);
+  const linear::Matrix<2> p{{4.0, 2.0}, {2.0, 3.0}};
+  EXPECT_NEAR(normalised_squared<2>(linear::Vector<2>(1.0, 1.0), p), 3.0 / 8.0, 1e-15);
+  EXPECT_NEAR(normalised_squared<2>(linear::Vector<2>(1.0, -1.0), p), 11.0 / 8.0, 1e-15);
+  const linear::Gaussian<2> estimate{.x = linear::Vector<2>(5.0, 7.0), .p = p};
+  EXPECT_NEAR(nees<2>(estimate, linear::Vector<2>(6.0, 6.0)), 11.0 / 8.0, 1e-15);
+  EXPECT_DOUBLE_EQ(normalised_squared<1>(linear::Vector<1>(3.0), linear::Matrix<1>(4.0)), 2.25);
 }
 
 // Abramowitz and Stegun, table 26.8, over the number of samples: 50 samples of 2 and of 1 degrees.
@@ -78,18 +78,18 @@ Judged judged(double true_q, double assumed_q, std::uint32_t runs) {
   Judged result;
   for (std::uint32_t run = 0; run < runs; ++run) {
     RandomStream stream({.seed = 51, .replication = run, .purpose = Purpose::kTest});
-    LinearStep<2> step;
+    linear::LinearStep<2> step;
     step.f << 1.0, 1.0, 0.0, 1.0;
     step.q << assumed_q / 3.0, assumed_q / 2.0, assumed_q / 2.0, assumed_q;
-    Gaussian<2> estimate;
+    linear::Gaussian<2> estimate;
     estimate.p.diagonal() << 1.0, 4.0;
-    Vector<2> truth(stream.normal(), 2.0 * stream.normal());
+    linear::Vector<2> truth(stream.normal(), 2.0 * stream.normal());
     for (int k = 1; k <= 20; ++k) {
       // The Cholesky factor of q [1/3 1/2; 1/2 1] is sqrt(q) [1/sqrt 3, 0; sqrt 3 / 2, 1/2].
       const double a = std::sqrt(true_q) * stream.normal(), b = std::sqrt(true_q) * stream.normal();
-      truth = (step.f * truth + Vector<2>(a / std::sqrt(3.0), a * std::sqrt(0.75) + 0.5 * b)).eval();
+      truth = (step.f * truth + linear::Vector<2>(a / std::sqrt(3.0), a * std::sqrt(0.75) + 0.5 * b)).eval();
       predict<2>(estimate, step);
-      LinearMeasurement<2, 1> z;
+      linear::LinearMeasurement<2, 1> z;
       z.h << 1.0, 0.0;
       z.z << truth(0) + stream.normal();
       const Correction<2, 1> correction = update<2, 1>(estimate, z);
@@ -113,7 +113,7 @@ TEST(Consistency, RightModelInsideWrongOnesOutside) {
 TEST(Consistency, AllocatesNothing) {
   const std::int64_t before = support::allocations();
   Consistency sum;
-  sum.add(normalised_squared<4>(Vector<4>::Ones(), Matrix<4>::Identity()), 4);
+  sum.add(normalised_squared<4>(linear::Vector<4>::Ones(), linear::Matrix<4>::Identity()), 4);
   EXPECT_TRUE(sum.consistent());
   EXPECT_EQ(support::allocations(), before);
 }

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace ttf::fusion {
+namespace ttf::fusion::metrics {
 namespace {
 
 TEST(IncompleteGamma, MatchesItsClosedForms) {
@@ -36,4 +36,4 @@ TEST(ChiSquare, InvertsTheDistribution) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::metrics

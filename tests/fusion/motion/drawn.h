@@ -15,14 +15,14 @@
 #include "fusion/motion/ctrv.h"
 #include "fusion/motion/kernels.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::motion {
 
 using AllMotions = testing::Types<motion::ConstantVelocity, motion::ConstantAcceleration, motion::Ctrv, motion::Ctra>;
 
 // A vehicle somewhere within 100 m: up to 20 m/s, 1 rad/s, 3 m/s^2; every third draw turns at a rate where formulas
 // change hands or cancel.
-template <class M> Vector<M::kStates> drawn_state(RandomStream& stream, int draw) {
-  Vector<M::kStates> x;
+template <class M> linear::Vector<M::kStates> drawn_state(RandomStream& stream, int draw) {
+  linear::Vector<M::kStates> x;
   x(0) = stream.uniform(-100.0, 100.0);
   x(1) = stream.uniform(-100.0, 100.0);
   if constexpr (M::kCartesian) {
@@ -38,39 +38,41 @@ template <class M> Vector<M::kStates> drawn_state(RandomStream& stream, int draw
 }
 
 // Positive definite, of the size of `sigma`.
-template <int N> Matrix<N> drawn_covariance(RandomStream& stream, double sigma) {
-  Matrix<N> a;
+template <int N> linear::Matrix<N> drawn_covariance(RandomStream& stream, double sigma) {
+  linear::Matrix<N> a;
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) a(i, j) = sigma * stream.normal();
-  Matrix<N> p = sandwich<N, N>(a, Matrix<N>::Identity());
+  linear::Matrix<N> p = sandwich<N, N>(a, linear::Matrix<N>::Identity());
   for (int i = 0; i < N; ++i) p(i, i) += 0.1 * sigma * sigma;
   return p;
 }
 
 // From N(mean, covariance).
-template <int N> Vector<N> drawn(const Vector<N>& mean, const Matrix<N>& covariance, RandomStream& stream) {
-  Vector<N> white;
+template <int N>
+linear::Vector<N> drawn(const linear::Vector<N>& mean, const linear::Matrix<N>& covariance, RandomStream& stream) {
+  linear::Vector<N> white;
   for (int i = 0; i < N; ++i) white(i) = stream.normal();
-  return mean + times<N, N, 1>(square_root<N>(covariance), white);
+  return mean + times<N, N, 1>(filters::square_root<N>(covariance), white);
 }
 
 // d f / d x by central differences with the step 1e-5 max(1, |x_i|): errors of about 1e-10 |f'''| + 1e-11 |f|.
 template <int Rows, int N, class Function, class Difference>
-Matrix<Rows, N> numerical_jacobian(const Function& f, const Vector<N>& x, const Difference& difference) {
-  Matrix<Rows, N> j;
+linear::Matrix<Rows, N> numerical_jacobian(const Function& f, const linear::Vector<N>& x,
+                                           const Difference& difference) {
+  linear::Matrix<Rows, N> j;
   for (int i = 0; i < N; ++i) {
     const double step = 1e-5 * std::max(1.0, std::abs(x(i)));
-    Vector<N> above = x, below = x;
+    linear::Vector<N> above = x, below = x;
     above(i) += step;
     below(i) -= step;
-    const Vector<Rows> column = difference(f(above), f(below));
+    const linear::Vector<Rows> column = difference(f(above), f(below));
     j.col(i) = column / (above(i) - below(i));
   }
   return j;
 }
 
 // Largest difference, relative to the larger of 1 and the largest of b.
-template <int R, int C> double apart(const Matrix<R, C>& a, const Matrix<R, C>& b) {
+template <int R, int C> double apart(const linear::Matrix<R, C>& a, const linear::Matrix<R, C>& b) {
   double difference = 0.0, size = 1.0;
   for (int i = 0; i < R; ++i)
     for (int j = 0; j < C; ++j) {
@@ -82,17 +84,17 @@ template <int R, int C> double apart(const Matrix<R, C>& a, const Matrix<R, C>& 
 }
 
 // To the last bit.
-template <int R, int C> bool same(const Matrix<R, C>& a, const Matrix<R, C>& b) {
+template <int R, int C> bool same(const linear::Matrix<R, C>& a, const linear::Matrix<R, C>& b) {
   for (int i = 0; i < R; ++i)
     for (int j = 0; j < C; ++j)
       if (a(i, j) != b(i, j)) return false;
   return true;
 }
-template <int N> bool symmetric(const Matrix<N>& a) {
+template <int N> bool symmetric(const linear::Matrix<N>& a) {
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < i; ++j)
       if (a(i, j) != a(j, i)) return false;
   return true;
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::motion

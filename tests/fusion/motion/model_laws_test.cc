@@ -4,7 +4,7 @@
 #include "fusion/motion/ego_motion.h"
 #include "tests/fusion/motion/drawn.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::motion {
 namespace {
 
 constexpr int kDraws = 300;
@@ -21,9 +21,9 @@ TYPED_TEST(MotionLaws, OneStepIsTwoSteps) {
   for (int i = 0; i < kDraws; ++i) {
     const auto x = drawn_state<M>(this->stream, i);
     const double a = this->stream.uniform(0.0, 1.0), b = this->stream.uniform(0.0, 1.0);
-    const Vector<M::kStates> at_once = this->model.move(x, a + b);
-    const Vector<M::kStates> halting = this->model.move(this->model.move(x, a), b);
-    const Vector<M::kStates> difference = M::difference(at_once, halting);
+    const linear::Vector<M::kStates> at_once = this->model.move(x, a + b);
+    const linear::Vector<M::kStates> halting = this->model.move(this->model.move(x, a), b);
+    const linear::Vector<M::kStates> difference = M::difference(at_once, halting);
     EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-12) << "x = " << x.transpose();
   }
 }
@@ -34,8 +34,8 @@ TYPED_TEST(MotionLaws, JacobianIsTheDerivative) {
   for (int i = 0; i < kDraws; ++i) {
     const auto x = drawn_state<M>(this->stream, i);
     const double dt = i % 5 == 0 ? 1.0 : this->stream.uniform(0.0, 1.5);
-    const Matrix<kN> numerical =
-        numerical_jacobian<kN, kN>([&](const Vector<kN>& at) { return this->model.move(at, dt); }, x, M::difference);
+    const linear::Matrix<kN> numerical = numerical_jacobian<kN, kN>(
+        [&](const linear::Vector<kN>& at) { return this->model.move(at, dt); }, x, M::difference);
     EXPECT_LT((apart<kN, kN>(this->model.jacobian(x, dt), numerical)), 2e-9)
         << "x = " << x.transpose() << ", dt = " << dt;
   }
@@ -57,15 +57,15 @@ TYPED_TEST(MotionLaws, NoiseIsTheSumOfManySmallSteps) {
     auto x = drawn_state<M>(this->stream, i);
     if constexpr (!M::kCartesian) x(4) = std::clamp(x(4), -1.0, 1.0);  // |w dt| <= 0.5
     const double dt = this->stream.uniform(0.02, 0.5), h = dt / kSteps;
-    Matrix<kN> sum = Matrix<kN>::Zero();
-    Vector<kN> at = x;
+    linear::Matrix<kN> sum = linear::Matrix<kN>::Zero();
+    linear::Vector<kN> at = x;
     for (int k = 0; k < kSteps; ++k) {
       sum = sandwich<kN, kN>(this->model.jacobian(at, h), sum);
-      const Matrix<kN> rest = this->model.jacobian(this->model.move(at, 0.5 * h), 0.5 * h);
+      const linear::Matrix<kN> rest = this->model.jacobian(this->model.move(at, 0.5 * h), 0.5 * h);
       for (const int which : driven<M>()) add_outer<kN>(sum, h, rest.col(which));  // spectral densities of 1
       at = this->model.move(at, h);
     }
-    const Matrix<kN> q = this->model.noise(x, dt);
+    const linear::Matrix<kN> q = this->model.noise(x, dt);
     for (int r = 0; r < kN; ++r)
       for (int c = 0; c < kN; ++c)
         EXPECT_NEAR(q(r, c), sum(r, c), 2e-5 * std::sqrt(sum(r, r) * sum(c, c))) << r << c << ", x = " << x.transpose();
@@ -75,8 +75,8 @@ TYPED_TEST(MotionLaws, NoiseIsTheSumOfManySmallSteps) {
 // Linear: two steps' noise is one step's, exactly.
 TEST(IntegratorChain, NoiseOfTwoSteps) {
   const motion::ConstantAcceleration model(0.7);
-  const LinearStep<6> a = model.step(0.3), b = model.step(0.45), whole = model.step(0.75);
-  const Matrix<6> joined = sandwich<6, 6>(b.f, a.q) + b.q;
+  const linear::LinearStep<6> a = model.step(0.3), b = model.step(0.45), whole = model.step(0.75);
+  const linear::Matrix<6> joined = sandwich<6, 6>(b.f, a.q) + b.q;
   EXPECT_LT((apart<6, 6>(joined, whole.q)), 1e-15);
   EXPECT_NEAR(whole.q(0, 0), 0.7 * std::pow(0.75, 5) / 20.0, 1e-15);
   EXPECT_NEAR(whole.q(0, 2), 0.7 * std::pow(0.75, 4) / 8.0, 1e-15);
@@ -88,11 +88,11 @@ template <class M> void advance_is_the_product(M model) {
   constexpr int kN = M::kStates;
   RandomStream stream({.seed = 2});
   for (int i = 0; i < 50; ++i) {
-    Gaussian<kN> state{drawn_state<M>(stream, i), drawn_covariance<kN>(stream, 3.0)};
+    linear::Gaussian<kN> state{drawn_state<M>(stream, i), drawn_covariance<kN>(stream, 3.0)};
     const double dt = stream.uniform(0.0, 2.0);
-    const LinearStep<kN> step = model.step(dt);
-    const Matrix<kN> p = sandwich<kN, kN>(step.f, state.p) + step.q;
-    const Vector<kN> x = times<kN, kN, 1>(step.f, state.x);
+    const linear::LinearStep<kN> step = model.step(dt);
+    const linear::Matrix<kN> p = sandwich<kN, kN>(step.f, state.p) + step.q;
+    const linear::Vector<kN> x = times<kN, kN, 1>(step.f, state.x);
     model.advance(state, dt);
     EXPECT_LT((apart<kN, kN>(state.p, p)), 1e-14);
     EXPECT_LT((apart<kN, 1>(state.x, x)), 1e-14);
@@ -134,9 +134,9 @@ TEST(TurnMoments, AreContinuousWhereTheSeriesEnds) {
 
 // With no turn at all a polar model drives as the Cartesian one does.
 TEST(CoordinatedTurn, StraightOnIsConstantAcceleration) {
-  Vector<6> x;
+  linear::Vector<6> x;
   x << 3.0, -2.0, 0.4, 7.0, 0.0, 1.5;
-  const Vector<6> moved = motion::Ctra().move(x, 2.0);
+  const linear::Vector<6> moved = motion::Ctra().move(x, 2.0);
   const double way = 7.0 * 2.0 + 0.5 * 1.5 * 4.0;
   EXPECT_NEAR(moved(0), 3.0 + way * std::cos(0.4), 1e-14);
   EXPECT_NEAR(moved(1), -2.0 + way * std::sin(0.4), 1e-14);
@@ -144,9 +144,9 @@ TEST(CoordinatedTurn, StraightOnIsConstantAcceleration) {
 }
 // A quarter of a circle of 20 m.
 TEST(CoordinatedTurn, DrivesAroundACircle) {
-  Vector<5> x;
+  linear::Vector<5> x;
   x << 0.0, 0.0, 0.0, 10.0, 0.5;
-  const Vector<5> moved = motion::Ctrv().move(x, std::numbers::pi);
+  const linear::Vector<5> moved = motion::Ctrv().move(x, std::numbers::pi);
   EXPECT_NEAR(moved(0), 20.0, 1e-13);
   EXPECT_NEAR(moved(1), 20.0, 1e-13);
   EXPECT_NEAR(moved(2), 0.5 * std::numbers::pi, 1e-15);
@@ -156,23 +156,23 @@ TEST(CoordinatedTurn, DrivesAroundACircle) {
 template <class From, class To> void conversion_is_first_order() {
   constexpr int kFrom = From::kStates, kTo = To::kStates;
   RandomStream stream({.seed = 3});
-  Gaussian<kTo> own{Vector<kTo>::Constant(0.25), 2.0 * Matrix<kTo>::Identity()};
+  linear::Gaussian<kTo> own{linear::Vector<kTo>::Constant(0.25), 2.0 * linear::Matrix<kTo>::Identity()};
   constexpr int kKnown = From::kCartesian && kFrom == 4 ? 4 : kTo;
   for (int draw = 0; draw < 60; ++draw) {
-    Gaussian<kFrom> from{.x = drawn_state<From>(stream, draw)};
+    linear::Gaussian<kFrom> from{.x = drawn_state<From>(stream, draw)};
     if constexpr (!From::kCartesian)
       from.x(3) = stream.uniform(3.0, 20.0);
     else if (from.x.template segment<2>(2).norm() < 2.0)
       continue;
-    const Matrix<kTo, kFrom> j = numerical_jacobian<kTo, kFrom>(
-        [&](const Vector<kFrom>& at) {
+    const linear::Matrix<kTo, kFrom> j = numerical_jacobian<kTo, kFrom>(
+        [&](const linear::Vector<kFrom>& at) {
           return motion::converted<From, To>({at, from.p}, own).x;
         },
         from.x, To::difference);
     for (int i = 0; i < kFrom; ++i) {
       from.p.setZero();
       from.p(i, i) = 1.0;
-      const Gaussian<kTo> to = motion::converted<From, To>(from, own);
+      const linear::Gaussian<kTo> to = motion::converted<From, To>(from, own);
       for (int r = 0; r < kKnown; ++r)
         for (int c = 0; c < kKnown; ++c)
           EXPECT_NEAR(to.p(r, c), j(r, i) * j(c, i), 1e-7 * (1.0 + std::abs(to.p(r, c)))) << i << r << c;
@@ -192,22 +192,22 @@ TEST(Conversion, ThereAndBackIsTheSame) {
   using motion::ConstantAcceleration, motion::Ctra;
   RandomStream stream({.seed = 4});
   for (int draw = 0; draw < 60; ++draw) {
-    Gaussian<6> from{drawn_state<Ctra>(stream, draw), drawn_covariance<6>(stream, 0.3)};
+    linear::Gaussian<6> from{drawn_state<Ctra>(stream, draw), drawn_covariance<6>(stream, 0.3)};
     from.x(3) = (draw % 2 == 0 ? 1.0 : -1.0) * stream.uniform(2.0, 20.0);  // reversing, too
-    const Gaussian<6> there = motion::converted<Ctra, ConstantAcceleration>(from, {});
-    const Gaussian<6> back = motion::converted<ConstantAcceleration, Ctra>(there, from);
+    const linear::Gaussian<6> there = motion::converted<Ctra, ConstantAcceleration>(from, {});
+    const linear::Gaussian<6> back = motion::converted<ConstantAcceleration, Ctra>(there, from);
     EXPECT_LT(Ctra::difference(back.x, from.x).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT((apart<6, 6>(back.p, from.p)), 1e-11);
   }
 }
 TEST(Conversion, WhatStandsKeepsItsHeading) {
-  Gaussian<4> standing;
+  linear::Gaussian<4> standing;
   standing.x << 5.0, 6.0, 0.01, 0.0;
   standing.p.setIdentity();
-  Gaussian<5> own;
+  linear::Gaussian<5> own;
   own.x << 0.0, 0.0, 1.2, 0.02, 0.3;
-  own.p = 4.0 * Matrix<5>::Identity();
-  const Gaussian<5> to = motion::converted<motion::ConstantVelocity, motion::Ctrv>(standing, own);
+  own.p = 4.0 * linear::Matrix<5>::Identity();
+  const linear::Gaussian<5> to = motion::converted<motion::ConstantVelocity, motion::Ctrv>(standing, own);
   EXPECT_EQ(to.x(0), 5.0);
   for (int i = 2; i < 5; ++i) EXPECT_EQ(to.x(i), own.x(i));
   EXPECT_EQ(to.p(2, 2), 4.0);
@@ -221,10 +221,11 @@ TYPED_TEST_SUITE(EgoMotion, AllMotions);
 TYPED_TEST(EgoMotion, ThereAndBackIsTheSame) {
   using M = TypeParam;
   for (int i = 0; i < 50; ++i) {
-    const Gaussian<M::kStates> state{drawn_state<M>(this->stream, i), drawn_covariance<M::kStates>(this->stream, 0.5)};
+    const linear::Gaussian<M::kStates> state{drawn_state<M>(this->stream, i),
+                                             drawn_covariance<M::kStates>(this->stream, 0.5)};
     const double yaw = this->stream.uniform(-3.0, 3.0), x = this->stream.uniform(-5.0, 5.0);
     const double c = std::cos(yaw), s = std::sin(yaw);
-    Gaussian<M::kStates> moved = state;
+    linear::Gaussian<M::kStates> moved = state;
     motion::compensate<M>(moved, {.translation = {x, 1.0}, .yaw = yaw});
     const Kinematics before = M::template kinematics<kWithHeading>(state.x);
     const Kinematics after = M::template kinematics<kWithHeading>(moved.x);
@@ -242,19 +243,19 @@ TYPED_TEST(EgoMotion, ThereAndBackIsTheSame) {
 TYPED_TEST(EgoMotion, OdometryIsNotCertain) {
   using M = TypeParam;
   constexpr int kN = M::kStates;
-  const Gaussian<kN> state{.x = drawn_state<M>(this->stream, 1)};
-  const Vector<3> pose(2.0, -1.0, 0.7);
-  const auto after = [&](const Vector<3>& p) {
-    Gaussian<kN> moved = state;
+  const linear::Gaussian<kN> state{.x = drawn_state<M>(this->stream, 1)};
+  const linear::Vector<3> pose(2.0, -1.0, 0.7);
+  const auto after = [&](const linear::Vector<3>& p) {
+    linear::Gaussian<kN> moved = state;
     motion::compensate<M>(moved, {.translation = p.template head<2>(), .yaw = p(2)});
     return moved.x;
   };
-  const Matrix<kN, 3> g = numerical_jacobian<kN, 3>(after, pose, M::difference);
-  const Matrix<3> odometry = drawn_covariance<3>(this->stream, 0.1);
-  Gaussian<kN> moved = state;
+  const linear::Matrix<kN, 3> g = numerical_jacobian<kN, 3>(after, pose, M::difference);
+  const linear::Matrix<3> odometry = drawn_covariance<3>(this->stream, 0.1);
+  linear::Gaussian<kN> moved = state;
   motion::compensate<M>(moved, {.translation = pose.template head<2>(), .yaw = pose(2), .covariance = odometry});
   EXPECT_LT((apart<kN, kN>(moved.p, sandwich<kN, 3>(g, odometry))), 1e-8);
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::motion

@@ -26,7 +26,7 @@ TEST(AnyMethod, SaysHowExactTheChosenOneIs) {
 
 template <class X> void expect_the_same(Kind kind) {
   RandomStream stream({.seed = 9});
-  const Gaussian<2> prior = drawn_prior<2>(stream);
+  const linear::Gaussian<2> prior = drawn_prior<2>(stream);
   const auto events = delayed(stream, drawn_timeline<2, 1>(stream, 30), 3);
   X method(Line{});
   OnLine any(kind, Line{});

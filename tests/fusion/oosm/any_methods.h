@@ -18,11 +18,11 @@ template <int N, int M, Motion<N> Model, int Capacity> class Compiled {
   static constexpr Exactness kExactness = Exactness::kApproximate;
 
   Compiled(Kind kind, const Model& motion);
-  void start(GlobalTime time, const Gaussian<N>& prior);
+  void start(GlobalTime time, const linear::Gaussian<N>& prior);
   bool announce(const Stamp& stamp);
-  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement);
-  std::optional<Gaussian<N>> at(const Stamp& stamp) const;
-  const Gaussian<N>& state() const;
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement);
+  std::optional<linear::Gaussian<N>> at(const Stamp& stamp) const;
+  const linear::Gaussian<N>& state() const;
   GlobalTime time() const;
   Exactness exactness() const;
   Kind kind() const;

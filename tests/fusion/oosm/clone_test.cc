@@ -10,11 +10,13 @@ namespace {
 
 class Announced : public testing::Test {
  protected:
-  static LinearMeasurement<2, 1> position(double z) { return {Vector<1>(z), Matrix<1, 2>(1.0, 0.0), Matrix<1>(1.0)}; }
+  static linear::LinearMeasurement<2, 1> position(double z) {
+    return {linear::Vector<1>(z), linear::Matrix<1, 2>(1.0, 0.0), linear::Matrix<1>(1.0)};
+  }
   static Stamp scan(int i) { return stamp_at(after_ms(100 * i)); }
   static Stamp between(int i) { return stamp_at(after_ms(100 * i + 50), 1); }
 
-  Announced() { method_.start(GlobalTime{}, {Vector<2>::Zero(), Matrix<2>::Identity()}); }
+  Announced() { method_.start(GlobalTime{}, {linear::Vector<2>::Zero(), linear::Matrix<2>::Identity()}); }
 
   Clone<2, 1, ConstantVelocity<1>, 2> method_{ConstantVelocity<1>{}};
 };
@@ -22,7 +24,7 @@ class Announced : public testing::Test {
 TEST_F(Announced, LateWithoutAWordIsNotTaken) {
   method_.take(scan(1), position(1));
   method_.take(scan(2), position(2));
-  const Gaussian<2> before = method_.state();
+  const linear::Gaussian<2> before = method_.state();
   EXPECT_FALSE(method_.announce(between(1)));  // too late
   EXPECT_EQ(method_.take(between(1), position(1)), Taken::kUnannounced);
   EXPECT_TRUE(same_bits<2>(method_.state(), before));

@@ -23,23 +23,24 @@ constexpr std::uint64_t kSeeds[] = {1, 2};
 template <int M> struct Setting {
   Line motion;
   int lag = 1;
-  Matrix<M, 2> h;
-  Vector<M> r;  // variances
+  linear::Matrix<M, 2> h;
+  linear::Vector<M> r;  // variances
 };
-const Setting<1> kPosition{Line{}, 1, Matrix<1, 2>(1.0, 0.0), Vector<1>(0.5)};
+const Setting<1> kPosition{Line{}, 1, linear::Matrix<1, 2>(1.0, 0.0), linear::Vector<1>(0.5)};
 
 // One run's measurements in the order of arrival; `truth` is the state at the last scan.
 template <int M>
-Timeline<2, M> run_of(std::uint64_t seed, const Setting<M>& setting, std::uint32_t replication, Vector<2>& truth) {
+Timeline<2, M> run_of(std::uint64_t seed, const Setting<M>& setting, std::uint32_t replication,
+                      linear::Vector<2>& truth) {
   RandomStream stream({.seed = seed, .replication = replication});
   truth = drawn<2, 1>(stream);
-  const LinearStep<2> half = setting.motion.step(0.5);
-  const Matrix<2> root = half.q.llt().matrixL();
+  const linear::LinearStep<2> half = setting.motion.step(0.5);
+  const linear::Matrix<2> root = half.q.llt().matrixL();
   Timeline<2, M> arrivals;
   Event<2, M> late;
   for (int i = 1; i <= 2 * kScans; ++i) {
     truth = (half.f * truth + root * drawn<2, 1>(stream)).eval();
-    LinearMeasurement<2, M> seen;
+    linear::LinearMeasurement<2, M> seen;
     seen.h = setting.h;
     seen.r = setting.r.asDiagonal();
     seen.z = setting.h * truth + setting.r.cwiseSqrt().asDiagonal() * drawn<M, 1>(stream);
@@ -50,16 +51,16 @@ Timeline<2, M> run_of(std::uint64_t seed, const Setting<M>& setting, std::uint32
   return arrivals;
 }
 
-using Estimator = std::function<Gaussian<2>(const Timeline<2, 1>&)>;
+using Estimator = std::function<linear::Gaussian<2>(const ttf::fusion::oosm::Timeline<2, 1>&)>;
 
-double squared_error(const Gaussian<2>& estimate, const Vector<2>& truth) {
-  const Vector<2> e = truth - estimate.x;
-  return dense::norm_squared(e, estimate.p);
+double squared_error(const linear::Gaussian<2>& estimate, const linear::Vector<2>& truth) {
+  const linear::Vector<2> e = truth - estimate.x;
+  return norm_squared(e, estimate.p);
 }
 double average_nees(std::uint64_t seed, const Setting<1>& setting, const Estimator& estimate) {
   double sum = 0.0;
   for (std::uint32_t run = 0; run < kRuns; ++run) {
-    Vector<2> truth;
+    linear::Vector<2> truth;
     const Timeline<2, 1> arrivals = run_of(seed, setting, run, truth);
     sum += squared_error(estimate(arrivals), truth);
   }
@@ -68,7 +69,7 @@ double average_nees(std::uint64_t seed, const Setting<1>& setting, const Estimat
 double nees_of(std::uint64_t seed, Kind kind, const Setting<1>& setting) {
   return average_nees(seed, setting, [&](const Timeline<2, 1>& arrivals) {
     OnLine method(kind, setting.motion);
-    method.start(GlobalTime{}, {Vector<2>::Zero(), Matrix<2>::Identity()});
+    method.start(GlobalTime{}, {linear::Vector<2>::Zero(), linear::Matrix<2>::Identity()});
     take_all(method, arrivals);
     return method.state();
   });
@@ -76,8 +77,8 @@ double nees_of(std::uint64_t seed, Kind kind, const Setting<1>& setting) {
 
 // Of the average of chi-squares of two degrees of freedom.
 void expect_inside(double nees) {
-  EXPECT_GT(nees, chi_square_quantile(1e-4, 2.0 * kRuns) / kRuns);
-  EXPECT_LT(nees, chi_square_quantile(1.0 - 1e-4, 2.0 * kRuns) / kRuns);
+  EXPECT_GT(nees, metrics::chi_square_quantile(1e-4, 2.0 * kRuns) / kRuns);
+  EXPECT_LT(nees, metrics::chi_square_quantile(1.0 - 1e-4, 2.0 * kRuns) / kRuns);
 }
 constexpr double kFarOutside = 2.5;  // eight sigmas
 
@@ -113,13 +114,13 @@ TEST_P(Consistency, OfAAndBAtOneLag) {
 // Position and velocity measured, as in table IV of Bar-Shalom 2002: the more noise, the more C believes what it
 // should not.
 TEST_P(Consistency, CIsOutsideAtHighNoise) {
-  Setting<2> setting{Line{4.0}, 1, Matrix<2>::Identity(), Vector<2>(1.0, 0.1)};
+  Setting<2> setting{Line{4.0}, 1, linear::Matrix<2>::Identity(), linear::Vector<2>(1.0, 0.1)};
   double sum_a = 0.0, sum_c = 0.0;
   for (std::uint32_t run = 0; run < kRuns; ++run) {
-    Vector<2> truth;
+    linear::Vector<2> truth;
     const Timeline<2, 2> arrivals = run_of(GetParam(), setting, run, truth);
     const auto error = [&](auto method) {
-      method.start(GlobalTime{}, {Vector<2>::Zero(), Matrix<2>::Identity()});
+      method.start(GlobalTime{}, {linear::Vector<2>::Zero(), linear::Matrix<2>::Identity()});
       take_all(method, arrivals);
       return squared_error(method.state(), truth);
     };
@@ -134,7 +135,7 @@ TEST_P(Consistency, CIsOutsideAtHighNoise) {
 TEST_P(Consistency, TheMixOfAl1AndBl1IsOutside) {
   const Setting<1> setting = positions_with(4.0, 5);
   const double mixed = average_nees(GetParam(), setting, [&](const Timeline<2, 1>& arrivals) {
-    Gaussian<2> now{Vector<2>::Zero(), Matrix<2>::Identity()}, before;
+    linear::Gaussian<2> now{linear::Vector<2>::Zero(), linear::Matrix<2>::Identity()}, before;
     GlobalTime time{};
     const auto& late = arrivals.back();
     for (auto event = arrivals.begin(); event + 1 != arrivals.end(); ++event) {
@@ -144,7 +145,7 @@ TEST_P(Consistency, TheMixOfAl1AndBl1IsOutside) {
       if (event->stamp < late.stamp) before = now;
     }
     predict<2>(before, setting.motion.step(5.0));
-    const LinearStep<2> step = setting.motion.step(4.5);
+    const linear::LinearStep<2> step = setting.motion.step(4.5);
     Retrodicted<2> mix = retrodict_collapsed<2>(now, before, step, Noise::kRetrodicted);
     mix.then.x = retrodict_collapsed<2>(now, before, step, Noise::kIgnored).then.x;
     fuse_retrodicted<2, 1>(now, mix, late.measurement);

@@ -16,7 +16,7 @@ template <class X, class Model>
 void expect_exact(Kind kind, RandomStream& stream, const Timeline<X::kStates, X::kDimension>& arrivals, int late) {
   constexpr int kN = X::kStates, kM = X::kDimension;
   const Model motion{2.0};
-  const Gaussian<kN> prior = drawn_prior<kN>(stream);
+  const linear::Gaussian<kN> prior = drawn_prior<kN>(stream);
   X method(kind, motion);
   method.start(GlobalTime{}, prior);
   const std::vector<Taken> taken = take_all(method, arrivals);
@@ -85,14 +85,15 @@ TEST_P(ExactAtOneLag, EveryOtherLateOnAPlane) { expect_exact_with_every_other_la
 
 // x(tau) given all of `events` (Rauch, Tung, Striebel 1965), which are in order; tau is of no instant of theirs.
 template <int N, int M, Motion<N> Model>
-Gaussian<N> smoothed(const Model& motion, const Gaussian<N>& prior, const Timeline<N, M>& events, GlobalTime tau) {
+linear::Gaussian<N> smoothed(const Model& motion, const linear::Gaussian<N>& prior, const Timeline<N, M>& events,
+                             GlobalTime tau) {
   struct Node {
-    Gaussian<N> predicted, filtered;
-    Matrix<N> f = Matrix<N>::Identity();
+    linear::Gaussian<N> predicted, filtered;
+    linear::Matrix<N> f = linear::Matrix<N>::Identity();
   };
   std::vector<Node> nodes;
   std::size_t of_tau = 0;
-  Gaussian<N> state = prior;
+  linear::Gaussian<N> state = prior;
   GlobalTime time{};
   const auto reach = [&](GlobalTime to) {
     Node node;
@@ -113,7 +114,7 @@ Gaussian<N> smoothed(const Model& motion, const Gaussian<N>& prior, const Timeli
   }
   for (std::size_t i = nodes.size() - 1; i-- > of_tau;) {
     Node &here = nodes[i], &next = nodes[i + 1];
-    const Matrix<N> gain = dense::solve(next.predicted.p, next.f * here.filtered.p).transpose();
+    const linear::Matrix<N> gain = solve(next.predicted.p, next.f * here.filtered.p).transpose();
     here.filtered.x += gain * (next.filtered.x - next.predicted.x);
     here.filtered.p += gain * (next.filtered.p - next.predicted.p) * gain.transpose();
   }
@@ -135,12 +136,12 @@ TEST_P(SeesWhatASmootherSees, OfALateInstant) {
       events[i].stamp = stamp_at(events[i].stamp.time() + Duration::milliseconds(static_cast<std::int64_t>(i) + 1));
     const auto last = events.end() - lag;
     const Stamp late = stamp_at(GlobalTime{((last - 1)->stamp.time().ns + last->stamp.time().ns) / 2}, 1);
-    const Gaussian<4> prior = drawn_prior<4>(stream);
+    const linear::Gaussian<4> prior = drawn_prior<4>(stream);
     OnPlane method(kind, Plane{2.0});
     method.start(GlobalTime{}, prior);
     method.announce(late);
     for (const auto& event : events) method.take(event.stamp, event.measurement);
-    const std::optional<Gaussian<4>> then = method.at(late);
+    const std::optional<linear::Gaussian<4>> then = method.at(late);
     ASSERT_TRUE(then.has_value());
     EXPECT_LT((relative_difference<4>(*then, smoothed<4, 2>(Plane{2.0}, prior, events, late.time()))), 1e-8)
         << "the smoother divides by what is nearly singular over a millisecond";
@@ -156,7 +157,7 @@ TEST_P(ExactWithoutNoise, EveryOtherLate) {
     RandomStream stream({.seed = seed});
     auto events = drawn_timeline<2, 1>(stream, 20);
     for (std::size_t i = 0; i < 20; i += 2) std::swap(events[i], events[i + 1]);
-    const Gaussian<2> prior = drawn_prior<2>(stream);
+    const linear::Gaussian<2> prior = drawn_prior<2>(stream);
     OnLine method(GetParam(), Line{0.0});
     method.start(GlobalTime{}, prior);
     take_all(method, events);

@@ -23,17 +23,18 @@
 namespace ttf::fusion::oosm {
 namespace {
 
-using report::Area;
-using report::Point;
+using report::drawing::Area;
+using report::drawing::Point;
 
 constexpr int kLags[] = {1, 3, 5, 10};
 constexpr double kNoises[] = {0.001, 0.01, 0.1, 1.0, 10.0, 100.0};
 constexpr Kind kLateKinds[] = {Kind::kC, Kind::kB, Kind::kA, Kind::kBl1, Kind::kAl1};
 
 std::string colour_of(Kind kind) {
-  constexpr std::string_view kColours[] = {report::kBlack,  report::kGrey,    report::kGreen,
-                                           report::kPurple, report::kBlue,    report::kVermilion,
-                                           report::kYellow, report::kSkyBlue, report::kOrange};
+  constexpr std::string_view kColours[] = {
+      report::drawing::kBlack,  report::drawing::kGrey,    report::drawing::kGreen,
+      report::drawing::kPurple, report::drawing::kBlue,    report::drawing::kVermilion,
+      report::drawing::kYellow, report::drawing::kSkyBlue, report::drawing::kOrange};
   return std::string(kColours[static_cast<std::size_t>(kind)]);
 }
 
@@ -74,7 +75,8 @@ std::string cost_table(const Costs& costs) {
 // The standard deviation of the position's error [m].
 double sigma(Kind kind, double noise, const Timeline<2, 1>& arrivals) {
   const Line motion{noise};
-  return std::sqrt(true_error(OnLine(kind, motion), motion, Matrix<2>(Matrix<2>::Identity()), arrivals)(0, 0));
+  return std::sqrt(
+      true_error(OnLine(kind, motion), motion, linear::Matrix<2>(linear::Matrix<2>::Identity()), arrivals)(0, 0));
 }
 
 // In percent of the best there is: rewinding. Nothing: the late measurement is left out.
@@ -111,26 +113,26 @@ struct Curve {
 
 struct Panel {
   std::string title, x, y;
-  report::Extent x_extent, y_extent;
+  report::drawing::Extent x_extent, y_extent;
   std::vector<Curve> curves;
 };
 
 std::string picture(std::string_view title, const std::vector<Panel>& panels) {
   constexpr double kLeft = 70, kWidth = 380, kHeight = 280, kTop = 100;
-  std::map<std::string, report::LegendEntry> entries;
-  std::vector<report::LegendEntry> legend;
+  std::map<std::string, report::drawing::LegendEntry> entries;
+  std::vector<report::drawing::LegendEntry> legend;
   for (const Panel& panel : panels)
     for (const Curve& curve : panel.curves)
       if (entries.try_emplace(curve.name).second)
-        legend.push_back({report::LegendEntry::Kind::kLine, curve.name, curve.colour, {}, false, curve.dash});
+        legend.push_back({report::drawing::LegendEntry::Kind::kLine, curve.name, curve.colour, {}, false, curve.dash});
   const double width = static_cast<double>(panels.size()) * (kLeft + kWidth) + 24;
-  report::Svg svg(width, kTop + kHeight + 54, title);
+  report::drawing::Svg svg(width, kTop + kHeight + 54, title);
   svg.text({24, 24}, title, {.size = 14, .bold = true});
-  report::draw_legend(svg, {24, 36}, width - 48, legend);
+  report::drawing::draw_legend(svg, {24, 36}, width - 48, legend);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const Panel& panel = panels[i];
     const Area area{kLeft + static_cast<double>(i) * (kLeft + kWidth), kTop, kWidth, kHeight};
-    const report::PlotFrame frame(area, panel.x_extent, panel.y_extent);
+    const report::drawing::PlotFrame frame(area, panel.x_extent, panel.y_extent);
     frame.draw(svg, panel.x, panel.y);
     svg.text({area.x, area.y - 8}, panel.title, {.size = 12});
     svg.open_group("curves", area);
@@ -174,7 +176,7 @@ std::string error_picture() {
           made.points.push_back({0.1 * step, std::log10(worse)});
       if (!made.points.empty()) panel.curves.push_back(std::move(made));
     };
-    curve("left out", {}, std::string(report::kBlack));
+    curve("left out", {}, std::string(report::drawing::kBlack));
     for (const Kind kind : kLateKinds)
       if (lag == 1 || !one_lag_only(kind)) curve(name_of(kind), kind, colour_of(kind));
     panels.push_back(std::move(panel));

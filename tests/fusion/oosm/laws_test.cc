@@ -19,7 +19,7 @@ class OosmLaws : public testing::TestWithParam<Kind> {
     method.start(GlobalTime{}, prior());
     return method;
   }
-  static Gaussian<2> prior() {
+  static linear::Gaussian<2> prior() {
     RandomStream stream({.seed = 21});
     return drawn_prior<2>(stream);
   }
@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(EveryMethod, OosmLaws, every_kind(), kind_of);
 
 TEST_P(OosmLaws, L1InOrder) {
   OnLine method = started();
-  Gaussian<2> expected = prior();
+  linear::Gaussian<2> expected = prior();
   GlobalTime time{};
   for (const auto& event : in_time(1)) {
     advance<2>(expected, Line{}, event.stamp.time() - time);
@@ -84,14 +84,14 @@ TEST_P(OosmLaws, L4Gains) {
     for (auto event = arrivals.begin(); event != arrivals.end(); ++event) {
       for (auto later = event + 1; later != arrivals.end(); ++later)
         if (later->stamp < event->stamp) method.announce(later->stamp);
-      const Matrix<2> before = method.state().p;
+      const linear::Matrix<2> before = method.state().p;
       const Taken taken = method.take(event->stamp, event->measurement);
-      const Matrix<2> p = method.state().p;
+      const linear::Matrix<2> p = method.state().p;
       ASSERT_EQ(p, p.transpose().eval());
-      ASSERT_GE(dense::least_eigenvalue(p), 0.0);
+      ASSERT_GE(least_eigenvalue(p), 0.0);
       if (taken != Taken::kLate) continue;
       ++late;
-      ASSERT_GE(dense::least_eigenvalue(before - p), -1e-12 * before.norm());
+      ASSERT_GE(least_eigenvalue(before - p), -1e-12 * before.norm());
       ASSERT_LT(p.trace(), before.trace());
     }
   }
@@ -117,16 +117,16 @@ TEST_P(OosmLaws, L4GainsOfPreciseMeasurements) {
     std::swap(late, newest);
     method.announce(newest.stamp);
     for (auto& event : events) {
-      const Matrix<2> before = method.state().p;
+      const linear::Matrix<2> before = method.state().p;
       const bool precise = &event == &late || &event == &newest;
       if (precise) event.measurement.r = kPrecise * event.measurement.h * before * event.measurement.h.transpose();
       const Taken taken = method.take(event.stamp, event.measurement);
       ASSERT_EQ(taken, &event == &newest ? Taken::kLate : Taken::kInOrder);
       if (taken != Taken::kLate) continue;
-      const Matrix<2> p = method.state().p;
+      const linear::Matrix<2> p = method.state().p;
       ASSERT_EQ(p, p.transpose().eval());
-      least = std::min(least, dense::least_eigenvalue(p) / before.norm());
-      gain = std::min(gain, dense::least_eigenvalue(before - p) / before.norm());
+      least = std::min(least, least_eigenvalue(p) / before.norm());
+      gain = std::min(gain, least_eigenvalue(before - p) / before.norm());
     }
   }
   EXPECT_GE(least, -kRounding);
@@ -139,7 +139,7 @@ TEST_P(OosmLaws, L5Value) {
   const std::size_t half = arrivals.size() / 2;
   for (std::size_t i = 0; i < half; ++i) one.take(arrivals[i].stamp, arrivals[i].measurement);
   OnLine other = one;
-  const Gaussian<2> then = one.state();
+  const linear::Gaussian<2> then = one.state();
   for (std::size_t i = half; i < arrivals.size(); ++i) other.take(arrivals[i].stamp, arrivals[i].measurement);
   EXPECT_TRUE(same_bits<2>(one.state(), then));
   EXPECT_FALSE(same_bits<2>(one.state(), other.state()));
@@ -179,7 +179,7 @@ TEST_P(OosmLaws, L9Sight) {
     const Stamp between = stamp_at(GlobalTime{(event.stamp.time().ns + newest.time().ns) / 2}, 3);
     for (const Stamp& stamp : {event.stamp, between, newest}) {
       const OnLine before = method;
-      const std::optional<Gaussian<2>> then = method.at(stamp);
+      const std::optional<linear::Gaussian<2>> then = method.at(stamp);
       ASSERT_TRUE(same_bits<2>(method.state(), before.state()));
       OnLine would = method;
       const Taken taken = would.take(stamp, event.measurement);

@@ -22,32 +22,33 @@ namespace {
 
 constexpr double kThree = 0.5e-3, kFour = 0.5e-4;  // half a unit of the last digit printed
 
-template <int N> Timeline<N, N> interval(const Matrix<N>& r) {
-  const LinearMeasurement<N, N> all{Vector<N>::Ones(), Matrix<N>::Identity(), r};
+template <int N> Timeline<N, N> interval(const linear::Matrix<N>& r) {
+  const linear::LinearMeasurement<N, N> all{linear::Vector<N>::Ones(), linear::Matrix<N>::Identity(), r};
   return {{stamp_at(after_ms(1000)), all}, {stamp_at(after_ms(500)), all}};
 }
 
 template <class X, int N, class Model>
-Matrix<N> calculated(const Model& motion, const Matrix<N>& prior, const Matrix<N>& r) {
+linear::Matrix<N> calculated(const Model& motion, const linear::Matrix<N>& prior, const linear::Matrix<N>& r) {
   X method(motion);
-  method.start(GlobalTime{}, {Vector<N>::Zero(), prior});
+  method.start(GlobalTime{}, {linear::Vector<N>::Zero(), prior});
   EXPECT_EQ(take_all(method, interval<N>(r)), (std::vector<Taken>{Taken::kInOrder, Taken::kLate}));
   return method.state().p;
 }
 
 // Of the scalar random walk.
 template <class Memory> Retrodicted<1> retrodicted(double q) {
-  Gaussian<1> state{Vector<1>(0.0), Matrix<1>(1.0 + q)};
-  const Matrix<1> predicted = state.p;
+  linear::Gaussian<1> state{linear::Vector<1>(0.0), linear::Matrix<1>(1.0 + q)};
+  const linear::Matrix<1> predicted = state.p;
   Memory memory;
-  memory.corrected(predicted, correct<1, 1>(state, {Vector<1>(0.0), Matrix<1>(1.0), Matrix<1>(1.0)}));
+  memory.corrected(predicted,
+                   correct<1, 1>(state, {linear::Vector<1>(0.0), linear::Matrix<1>(1.0), linear::Matrix<1>(1.0)}));
   return memory.retrodict(state, RandomWalk{q}.step(0.5));
 }
 template <class X> double scalar_p(double q) {
-  return calculated<X, 1>(RandomWalk{q}, Matrix<1>(1.0), Matrix<1>(1.0))(0, 0);
+  return calculated<X, 1>(RandomWalk{q}, linear::Matrix<1>(1.0), linear::Matrix<1>(1.0))(0, 0);
 }
 template <class X> double scalar_error(double q) {
-  return true_error(X(RandomWalk{q}), RandomWalk{q}, Matrix<1>(1.0), interval<1>(Matrix<1>(1.0)))(0, 0);
+  return true_error(X(RandomWalk{q}), RandomWalk{q}, linear::Matrix<1>(1.0), interval<1>(linear::Matrix<1>(1.0)))(0, 0);
 }
 
 using ScalarA = AlgorithmA<1, 1, RandomWalk>;
@@ -66,8 +67,8 @@ TEST(Published, TableI) {
   expect_column<ScalarA, MemoryA<1>>(0.750, 0.286, 0.524, 0.524);
   expect_column<ScalarB, MemoryB<1>>(0.833, 0.273, 0.530, 0.530);
   expect_column<ScalarC, MemoryC<1>>(0.667, 0.400, 0.400, 0.560);
-  const Gaussian<1> optimal =
-      in_order<1, 1>(RandomWalk{}, {Vector<1>(0.0), Matrix<1>(1.0)}, interval<1>(Matrix<1>(1.0)));
+  const linear::Gaussian<1> optimal = in_order<1, 1>(RandomWalk{}, {linear::Vector<1>(0.0), linear::Matrix<1>(1.0)},
+                                                     interval<1>(linear::Matrix<1>(1.0)));
   EXPECT_NEAR(optimal.p(0, 0), 0.524, kThree);
 }
 
@@ -89,7 +90,7 @@ using Axis = ConstantVelocity<1>;
 
 // Position and velocity measured; variances of the velocity.
 void expect_row(double q, double optimal, double p_c, double error_c) {
-  const Matrix<2> r = Vector<2>(1.0, 0.1).asDiagonal();
+  const linear::Matrix<2> r = linear::Vector<2>(1.0, 0.1).asDiagonal();
   EXPECT_NEAR((calculated<AlgorithmA<2, 2, Axis>, 2>(Axis{q}, r, r)(1, 1)), optimal, kFour);
   EXPECT_NEAR((calculated<AlgorithmC<2, 2, Axis>, 2>(Axis{q}, r, r)(1, 1)), p_c, kFour);
   EXPECT_NEAR((true_error(AlgorithmC<2, 2, Axis>(Axis{q}), Axis{q}, r, interval<2>(r))(1, 1)), error_c, kFour);

@@ -21,7 +21,7 @@
 #include "tests/fusion/drives.h"
 #include "tests/fusion/motion/drawn.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::oosm {
 namespace {
 
 using metrics::Consistency;
@@ -34,14 +34,14 @@ constexpr double kWrong = 1.0 / 30.0;
 
 struct Case {
   std::string name;
-  StrategyKind strategy = StrategyKind::kAdva;
-  MotionModel motion = MotionModel::kConstantVelocity;
-  FilterKind filter = FilterKind::kExtended;
+  strategies::StrategyKind strategy = strategies::StrategyKind::kAdva;
+  config::MotionModel motion = config::MotionModel::kConstantVelocity;
+  config::FilterKind filter = config::FilterKind::kExtended;
   oosm::Kind late = oosm::Kind::kRewind;
 };
 
-TrackerConfig config_for(const Case& c, double noise_times) {
-  TrackerConfig config = config_of(c.motion, kAlong * noise_times, c.filter);
+config::TrackerConfig config_for(const Case& c, double noise_times) {
+  config::TrackerConfig config = config_of(c.motion, kAlong * noise_times, c.filter);
   config.turn_noise = kTurn * noise_times;
   config.initial_turn_rate_sigma = 0.5;
   config.confirm_hits = config.confirm_window = 1;
@@ -51,9 +51,9 @@ TrackerConfig config_for(const Case& c, double noise_times) {
 }
 
 // Every 100 ms each of two sensors, in turn; on a schedule where somebody has to know it.
-std::vector<SensorTiming> sensors(const Case& c) {
-  const bool known = c.strategy == StrategyKind::kTt || c.late == oosm::Kind::kClone;
-  std::vector<SensorTiming> both;
+std::vector<strategies::SensorTiming> sensors(const Case& c) {
+  const bool known = c.strategy == strategies::StrategyKind::kTt || c.late == oosm::Kind::kClone;
+  std::vector<strategies::SensorTiming> both;
   for (std::uint8_t s = 0; s < 2; ++s)
     both.push_back(known ? scheduled(s, kLatest, s * kEvery, 2 * kEvery) : free_running(s, kLatest));
   return both;
@@ -65,18 +65,18 @@ struct Judged {
 };
 
 template <class M>
-void judge_one(const Case& c, const M& truth, Vector<M::kStates> x, double noise_times, std::uint32_t drive,
+void judge_one(const Case& c, const M& truth, linear::Vector<M::kStates> x, double noise_times, std::uint32_t drive,
                Judged& judged) {
   RandomStream stream({.seed = 11, .replication = drive});
   const auto seen = [&] {
-    const Kinematics at = M::template kinematics<kWithVelocity>(x);
+    const motion::Kinematics at = M::template kinematics<motion::kWithVelocity>(x);
     return position(at.position.x() + kSigma * stream.normal(), at.position.y() + kSigma * stream.normal(), kSigma);
   };
   std::vector<Arrival> arrivals;
-  Kinematics last;
+  motion::Kinematics last;
   for (std::uint32_t k = 0; k < kLists; ++k) {
-    if (k > 0) x = drawn<M::kStates>(truth.move(x, 1e-3 * kEvery), truth.noise(x, 1e-3 * kEvery), stream);
-    last = M::template kinematics<kWithVelocity>(x);
+    if (k > 0) x = motion::drawn<M::kStates>(truth.move(x, 1e-3 * kEvery), truth.noise(x, 1e-3 * kEvery), stream);
+    last = M::template kinematics<motion::kWithVelocity>(x);
     const std::int64_t at = kEvery * k;
     // The first few are in time, so that all methods have a track to begin with.
     const std::int64_t delay = k < 4 ? 0 : stream.integer(0, kLatest - 10);
@@ -85,21 +85,21 @@ void judge_one(const Case& c, const M& truth, Vector<M::kStates> x, double noise
   sort_by_arrival(arrivals);
   const auto strategy = make_strategy(c.strategy, config_for(c, noise_times), sensors(c));
   run(*strategy, arrivals, kEvery * kLists + 300);
-  std::vector<TrackView> image;
+  std::vector<tracks::TrackView> image;
   strategy->image(at_ms(kEvery * kLists), image);
   if (strategy->tracks().size() != 1 || image.size() != 1) {
     ++judged.lost;
     return;
   }
-  const TrackView& track = strategy->tracks()[0];
-  Vector<4> error = track.state.head<4>();
+  const tracks::TrackView& track = strategy->tracks()[0];
+  linear::Vector<4> error = track.state.head<4>();
   error.head<2>() -= last.position;
   error.tail<2>() -= last.velocity;
   judged.nees.add(metrics::normalised_squared<4>(error, track.covariance.topLeftCorner<4, 4>()), 4);
-  x = drawn<M::kStates>(truth.move(x, 1e-3 * kEvery), truth.noise(x, 1e-3 * kEvery), stream);
-  const Observation next = seen();
-  const Vector<2> innovation = next.z.head<2>() - image[0].state.head<2>();
-  const Matrix<2> spread = image[0].covariance.topLeftCorner<2, 2>() + next.r.topLeftCorner<2, 2>();
+  x = motion::drawn<M::kStates>(truth.move(x, 1e-3 * kEvery), truth.noise(x, 1e-3 * kEvery), stream);
+  const sensors::Observation next = seen();
+  const linear::Vector<2> innovation = next.z.head<2>() - image[0].state.head<2>();
+  const linear::Matrix<2> spread = image[0].covariance.topLeftCorner<2, 2>() + next.r.topLeftCorner<2, 2>();
   judged.nis.add(metrics::normalised_squared<2>(innovation, spread), 2);
 }
 
@@ -108,15 +108,19 @@ Judged judge(const Case& c, double noise_times, std::uint32_t drives) {
   for (std::uint32_t drive = 0; drive < drives; ++drive) {
     const auto from = [&](const auto& truth, auto start) { judge_one(c, truth, start, noise_times, drive, judged); };
     switch (c.motion) {
-      case MotionModel::kConstantVelocity:
-        from(motion::ConstantVelocity(kAlong), Vector<4>(40.0, 0.0, 5.4, 8.4));
+      case config::MotionModel::kConstantVelocity:
+        from(motion::ConstantVelocity(kAlong), linear::Vector<4>(40.0, 0.0, 5.4, 8.4));
         break;
-      case MotionModel::kConstantAcceleration:
-        from(motion::ConstantAcceleration(kAlong), Vector<6>(40.0, 0.0, 5.4, 8.4, 0.5, -0.5));
+      case config::MotionModel::kConstantAcceleration:
+        from(motion::ConstantAcceleration(kAlong), linear::Vector<6>(40.0, 0.0, 5.4, 8.4, 0.5, -0.5));
         break;
-      case MotionModel::kCtrv: from(motion::Ctrv(kTurn, kAlong), Vector<5>(40.0, 0.0, 1.0, 10.0, 0.5)); break;
-      case MotionModel::kCtra: from(motion::Ctra(kTurn, kAlong), Vector<6>(40.0, 0.0, 1.0, 6.0, 0.5, 1.0)); break;
-      case MotionModel::kInteracting: break;  // no drive is drawn from it: motion_choice_test.cc
+      case config::MotionModel::kCtrv:
+        from(motion::Ctrv(kTurn, kAlong), linear::Vector<5>(40.0, 0.0, 1.0, 10.0, 0.5));
+        break;
+      case config::MotionModel::kCtra:
+        from(motion::Ctra(kTurn, kAlong), linear::Vector<6>(40.0, 0.0, 1.0, 6.0, 0.5, 1.0));
+        break;
+      case config::MotionModel::kInteracting: break;  // no drive is drawn from it: motion_choice_test.cc
     }
   }
   return judged;
@@ -124,22 +128,26 @@ Judged judge(const Case& c, double noise_times, std::uint32_t drives) {
 
 std::vector<Case> every_case() {
   std::vector<Case> all;
-  const std::pair<StrategyKind, std::string> strategies[] = {
-      {StrategyKind::kBuff, "buff"}, {StrategyKind::kAdva, "adva"}, {StrategyKind::kTt, "tt"}};
-  const std::pair<MotionModel, std::string> motions[] = {{MotionModel::kConstantVelocity, "constant_velocity"},
-                                                         {MotionModel::kConstantAcceleration, "constant_acceleration"},
-                                                         {MotionModel::kCtrv, "ctrv"},
-                                                         {MotionModel::kCtra, "ctra"}};
+  const std::pair<strategies::StrategyKind, std::string> strategies[] = {{strategies::StrategyKind::kBuff, "buff"},
+                                                                         {strategies::StrategyKind::kAdva, "adva"},
+                                                                         {strategies::StrategyKind::kTt, "tt"}};
+  const std::pair<config::MotionModel, std::string> motions[] = {
+      {config::MotionModel::kConstantVelocity, "constant_velocity"},
+      {config::MotionModel::kConstantAcceleration, "constant_acceleration"},
+      {config::MotionModel::kCtrv, "ctrv"},
+      {config::MotionModel::kCtra, "ctra"}};
   for (const auto& [strategy, how] : strategies)
     for (const auto& [motion, model] : motions)
-      for (const FilterKind filter : {FilterKind::kExtended, FilterKind::kUnscented}) {
-        all.push_back({how + " " + model + (filter == FilterKind::kExtended ? " extended" : " unscented"), strategy,
-                       motion, filter, oosm::Kind::kRewind});
-        const bool straight = motion == MotionModel::kConstantVelocity || motion == MotionModel::kConstantAcceleration;
-        if (filter != FilterKind::kExtended || !straight || strategy == StrategyKind::kBuff) continue;
+      for (const config::FilterKind filter : {config::FilterKind::kExtended, config::FilterKind::kUnscented}) {
+        all.push_back({how + " " + model + (filter == config::FilterKind::kExtended ? " extended" : " unscented"),
+                       strategy, motion, filter, oosm::Kind::kRewind});
+        const bool straight =
+            motion == config::MotionModel::kConstantVelocity || motion == config::MotionModel::kConstantAcceleration;
+        if (filter != config::FilterKind::kExtended || !straight || strategy == strategies::StrategyKind::kBuff)
+          continue;
         for (const oosm::NamedKind& method : oosm::kKinds)
           if (method.kind != oosm::Kind::kRewind &&
-              (strategy == StrategyKind::kAdva || method.kind == oosm::Kind::kClone))
+              (strategy == strategies::StrategyKind::kAdva || method.kind == oosm::Kind::kClone))
             all.push_back({how + " " + model + " " + std::string(method.name), strategy, motion, filter, method.kind});
       }
   return all;
@@ -167,4 +175,4 @@ TEST(ThousandDrives, AWrongModelShowsInEveryCombination) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::oosm

@@ -16,13 +16,13 @@ namespace ttf::fusion::oosm {
 // second.
 struct RandomWalk {
   double q = 1.0;
-  LinearStep<1> step(double dt) const { return {Matrix<1>(1.0), Matrix<1>(q * dt)}; }
+  linear::LinearStep<1> step(double dt) const { return {linear::Matrix<1>(1.0), linear::Matrix<1>(q * dt)}; }
 };
 
 template <int Axes> struct ConstantVelocity {
   double q = 1.0;
-  LinearStep<2 * Axes> step(double dt) const {  // position, velocity, position, ...
-    LinearStep<2 * Axes> step;
+  linear::LinearStep<2 * Axes> step(double dt) const {  // position, velocity, position, ...
+    linear::LinearStep<2 * Axes> step;
     for (int i = 0; i < 2 * Axes; i += 2) {
       step.f(i, i + 1) = dt;
       step.q.template block<2, 2>(i, i) << q * dt * dt * dt / 3, q * dt * dt / 2, q * dt * dt / 2, q * dt;
@@ -38,19 +38,19 @@ constexpr Stamp stamp_at(GlobalTime time, std::uint8_t sensor = 0, std::uint32_t
 
 template <int N, int M> struct Event {
   Stamp stamp;
-  LinearMeasurement<N, M> measurement;
+  linear::LinearMeasurement<N, M> measurement;
 };
 template <int N, int M> using Timeline = std::vector<Event<N, M>>;
 
-template <int Rows, int Columns> Matrix<Rows, Columns> drawn(RandomStream& stream) {
-  Matrix<Rows, Columns> result;
+template <int Rows, int Columns> linear::Matrix<Rows, Columns> drawn(RandomStream& stream) {
+  linear::Matrix<Rows, Columns> result;
   for (int i = 0; i < Rows * Columns; ++i) result.data()[i] = stream.normal();
   return result;
 }
 
-template <int N> Gaussian<N> drawn_prior(RandomStream& stream) {
-  const Matrix<N> root = drawn<N, N>(stream);
-  return {drawn<N, 1>(stream), Matrix<N>(root * root.transpose() + Matrix<N>::Identity())};
+template <int N> linear::Gaussian<N> drawn_prior(RandomStream& stream) {
+  const linear::Matrix<N> root = drawn<N, N>(stream);
+  return {drawn<N, 1>(stream), linear::Matrix<N>(root * root.transpose() + linear::Matrix<N>::Identity())};
 }
 
 // `count` measurements in order, of two sensors, 1 ns to 200 ms apart or (one in eight) at the same instant, all of
@@ -65,8 +65,8 @@ template <int N, int M> Timeline<N, M> drawn_timeline(RandomStream& stream, int 
     event.stamp = stamp_at(time, sensor, sequence++);
     event.measurement.z = drawn<M, 1>(stream);
     event.measurement.h = drawn<M, N>(stream);
-    const Matrix<M> root = drawn<M, M>(stream);
-    event.measurement.r = root * root.transpose() + 0.1 * Matrix<M>::Identity();
+    const linear::Matrix<M> root = drawn<M, M>(stream);
+    event.measurement.r = root * root.transpose() + 0.1 * linear::Matrix<M>::Identity();
   }
   std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   return events;
@@ -102,7 +102,7 @@ template <Method X, int N, int M> std::vector<Taken> take_all(X& method, const T
 
 // The textbook's filter, in order (tests/fusion/textbook.h).
 template <int N, int M, Motion<N> Model>
-Gaussian<N> in_order(const Model& motion, Gaussian<N> state, Timeline<N, M> events) {
+linear::Gaussian<N> in_order(const Model& motion, linear::Gaussian<N> state, Timeline<N, M> events) {
   std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   GlobalTime time{};
   for (const auto& event : events) {
@@ -113,17 +113,18 @@ Gaussian<N> in_order(const Model& motion, Gaussian<N> state, Timeline<N, M> even
   return state;
 }
 
-template <int N> double relative_difference(const Gaussian<N>& a, const Gaussian<N>& b) {
+template <int N> double relative_difference(const linear::Gaussian<N>& a, const linear::Gaussian<N>& b) {
   return std::max((a.x - b.x).norm() / b.x.norm(), (a.p - b.p).norm() / b.p.norm());
 }
 
-template <int N> bool same_bits(const Gaussian<N>& a, const Gaussian<N>& b) {
+template <int N> bool same_bits(const linear::Gaussian<N>& a, const linear::Gaussian<N>& b) {
   return a.x == b.x && a.p == b.p;  // no zeros of either sign and no NaN are at stake
 }
 
 // Positions once a second, the last late measurement from the middle of an interval.
 inline Timeline<2, 1> positions(int lag) {
-  const LinearMeasurement<2, 1> position{Vector<1>(0.0), Matrix<1, 2>(1.0, 0.0), Matrix<1>(0.5)};
+  const linear::LinearMeasurement<2, 1> position{linear::Vector<1>(0.0), linear::Matrix<1, 2>(1.0, 0.0),
+                                                 linear::Matrix<1>(0.5)};
   Timeline<2, 1> arrivals;
   for (int i = 1; i <= 12; ++i) arrivals.push_back({stamp_at(after_ms(1000 * i)), position});
   arrivals.push_back({stamp_at(after_ms(12'500 - 1000 * lag), 1), position});

@@ -11,8 +11,8 @@ namespace ttf::fusion::oosm {
 
 // `method` as it is made, not started.
 template <Method X, class Model>
-Matrix<X::kStates> true_error(const X& method, const Model& motion, const Matrix<X::kStates>& prior,
-                              const Timeline<X::kStates, X::kDimension>& arrivals) {
+linear::Matrix<X::kStates> true_error(const X& method, const Model& motion, const linear::Matrix<X::kStates>& prior,
+                                      const Timeline<X::kStates, X::kDimension>& arrivals) {
   constexpr int kN = X::kStates, kM = X::kDimension;
   const int count = static_cast<int>(arrivals.size());
   std::vector<int> order;
@@ -22,31 +22,32 @@ Matrix<X::kStates> true_error(const X& method, const Model& motion, const Matrix
 
   // One part: component c of the prior (at = -1), of the noise before the at-th instant, or of its measurement.
   const auto error = [&](int at, bool measured, int component) {
-    Vector<kN> truth = Vector<kN>::Zero();
-    if (at < 0) truth = Matrix<kN>(prior.llt().matrixL()).col(component);
+    linear::Vector<kN> truth = linear::Vector<kN>::Zero();
+    if (at < 0) truth = linear::Matrix<kN>(prior.llt().matrixL()).col(component);
     Timeline<kN, kM> seen = arrivals;
     GlobalTime time{};
     for (int k = 0; k < count; ++k) {
       auto& here = seen[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])];
       if (here.stamp.time() > time) {
-        const LinearStep<kN> step = motion.step((here.stamp.time() - time).seconds());
+        const linear::LinearStep<kN> step = motion.step((here.stamp.time() - time).seconds());
         truth = (step.f * truth).eval();
-        if (k == at && !measured) truth += Matrix<kN>(step.q.llt().matrixL()).col(component);
+        if (k == at && !measured) truth += linear::Matrix<kN>(step.q.llt().matrixL()).col(component);
         time = here.stamp.time();
       }
       here.measurement.z = here.measurement.h * truth;
-      if (k == at && measured) here.measurement.z += Matrix<kM>(here.measurement.r.llt().matrixL()).col(component);
+      if (k == at && measured)
+        here.measurement.z += linear::Matrix<kM>(here.measurement.r.llt().matrixL()).col(component);
     }
     X run = method;
-    run.start(GlobalTime{}, {Vector<kN>::Zero(), prior});
+    run.start(GlobalTime{}, {linear::Vector<kN>::Zero(), prior});
     take_all(run, seen);
-    return Vector<kN>(truth - run.state().x);
+    return linear::Vector<kN>(truth - run.state().x);
   };
 
-  Matrix<kN> sum = Matrix<kN>::Zero();
+  linear::Matrix<kN> sum = linear::Matrix<kN>::Zero();
   const auto add = [&](int at, bool measured, int components) {
     for (int c = 0; c < components; ++c) {
-      const Vector<kN> e = error(at, measured, c);
+      const linear::Vector<kN> e = error(at, measured, c);
       sum += e * e.transpose();
     }
   };

@@ -8,12 +8,14 @@
 namespace ttf::fusion::oosm {
 namespace {
 
-Matrix<2> error_of(Kind kind, const Line& motion, const Matrix<2>& prior, const Timeline<2, 1>& arrivals) {
+linear::Matrix<2> error_of(Kind kind, const Line& motion, const linear::Matrix<2>& prior,
+                           const Timeline<2, 1>& arrivals) {
   return true_error(OnLine(kind, motion), motion, prior, arrivals);
 }
-Matrix<2> said_by(Kind kind, const Line& motion, const Matrix<2>& prior, const Timeline<2, 1>& arrivals) {
+linear::Matrix<2> said_by(Kind kind, const Line& motion, const linear::Matrix<2>& prior,
+                          const Timeline<2, 1>& arrivals) {
   OnLine method(kind, motion);
-  method.start(GlobalTime{}, {Vector<2>::Zero(), prior});
+  method.start(GlobalTime{}, {linear::Vector<2>::Zero(), prior});
   take_all(method, arrivals);
   return method.state().p;
 }
@@ -22,10 +24,10 @@ Matrix<2> said_by(Kind kind, const Line& motion, const Matrix<2>& prior, const T
 //   E = F^-1 [P + Q - Pxv - Pxv'] F'^-1,  Pxz = (P - Pxv) F'^-1 H',  Pxv = Q - P- U Q,
 //   M = P - W Pxz' - Pxz W' + W (H E H' + R) W'.
 template <class Memory>
-Matrix<2> closed_form(const Line& motion, const Matrix<2>& prior, const Timeline<2, 1>& arrivals) {
-  Gaussian<2> state{Vector<2>::Zero(), prior};
+linear::Matrix<2> closed_form(const Line& motion, const linear::Matrix<2>& prior, const Timeline<2, 1>& arrivals) {
+  linear::Gaussian<2> state{linear::Vector<2>::Zero(), prior};
   GlobalTime time{};
-  Matrix<2> predicted, information;
+  linear::Matrix<2> predicted, information;
   Memory memory;
   for (std::size_t i = 0; i + 1 < arrivals.size(); ++i) {
     advance<2>(state, motion, arrivals[i].stamp.time() - time);
@@ -36,28 +38,29 @@ Matrix<2> closed_form(const Line& motion, const Matrix<2>& prior, const Timeline
     memory.corrected(predicted, correct<2, 1>(state, z));
   }
   const auto& [stamp, late] = arrivals.back();
-  const LinearStep<2> step = motion.step((time - stamp.time()).seconds());
+  const linear::LinearStep<2> step = motion.step((time - stamp.time()).seconds());
   const Retrodicted<2> used = memory.retrodict(state, step);
-  const Vector<2> w = used.cross * late.h.transpose() / (late.h * used.then.p * late.h.transpose() + late.r)(0, 0);
+  const linear::Vector<2> w =
+      used.cross * late.h.transpose() / (late.h * used.then.p * late.h.transpose() + late.r)(0, 0);
 
-  const Matrix<2> back = step.f.inverse(), pxv = step.q - predicted * information * step.q;
-  const Matrix<2> e = back * (state.p + step.q - pxv - pxv.transpose()) * back.transpose();
-  const Vector<2> pxz = (state.p - pxv) * back.transpose() * late.h.transpose();
-  const Matrix<1> s = late.h * e * late.h.transpose() + late.r;
+  const linear::Matrix<2> back = step.f.inverse(), pxv = step.q - predicted * information * step.q;
+  const linear::Matrix<2> e = back * (state.p + step.q - pxv - pxv.transpose()) * back.transpose();
+  const linear::Vector<2> pxz = (state.p - pxv) * back.transpose() * late.h.transpose();
+  const linear::Matrix<1> s = late.h * e * late.h.transpose() + late.r;
   return state.p - w * pxz.transpose() - pxz * w.transpose() + w * s * w.transpose();
 }
 
 TEST(TrueError, OfBAndCIsTheClosedForm) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream stream({.seed = seed});
-    const Matrix<2> prior = drawn_prior<2>(stream).p;
+    const linear::Matrix<2> prior = drawn_prior<2>(stream).p;
     auto events = drawn_timeline<2, 1>(stream, 8);
     for (std::size_t i = 0; i < 8; ++i) events[i].stamp = stamp_at(after_ms(300 * static_cast<std::int64_t>(i) + 100));
     const auto arrivals = one_late(events, 1);
     for (const double q : {0.1, 4.0, 100.0}) {
       const Line motion{q};
-      const Matrix<2> b = closed_form<MemoryB<2>>(motion, prior, arrivals);
-      const Matrix<2> c = closed_form<MemoryC<2>>(motion, prior, arrivals);
+      const linear::Matrix<2> b = closed_form<MemoryB<2>>(motion, prior, arrivals);
+      const linear::Matrix<2> c = closed_form<MemoryC<2>>(motion, prior, arrivals);
       EXPECT_LT((error_of(Kind::kB, motion, prior, arrivals) - b).norm(), 1e-10 * b.norm());
       EXPECT_LT((error_of(Kind::kC, motion, prior, arrivals) - c).norm(), 1e-10 * c.norm());
     }
@@ -67,10 +70,10 @@ TEST(TrueError, OfBAndCIsTheClosedForm) {
 TEST(TrueError, IsWhatExactMethodsSayInAnyOrder) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     RandomStream stream({.seed = seed});
-    const Matrix<2> prior = drawn_prior<2>(stream).p;
+    const linear::Matrix<2> prior = drawn_prior<2>(stream).p;
     const auto arrivals = delayed(stream, drawn_timeline<2, 1>(stream, 24), 8);
     for (const Kind kind : {Kind::kRewind, Kind::kAugmented, Kind::kClone}) {
-      const Matrix<2> error = error_of(kind, Line{2.0}, prior, arrivals);
+      const linear::Matrix<2> error = error_of(kind, Line{2.0}, prior, arrivals);
       EXPECT_LT((said_by(kind, Line{2.0}, prior, arrivals) - error).norm(), 1e-10 * error.norm());
     }
   }
@@ -80,7 +83,7 @@ TEST(TrueError, IsWhatExactMethodsSayInAnyOrder) {
 TEST(TrueError, OfAl1AndBl1IsALittleAboveTheBest) {
   for (const double q : {0.1, 1.0, 4.0})
     for (int lag = 1; lag <= 5; ++lag) {
-      const Matrix<2> prior = Matrix<2>::Identity();
+      const linear::Matrix<2> prior = linear::Matrix<2>::Identity();
       const double best = error_of(Kind::kRewind, Line{q}, prior, positions(lag)).trace();
       for (const Kind kind : {Kind::kAl1, Kind::kBl1}) {
         const double error = error_of(kind, Line{q}, prior, positions(lag)).trace();
@@ -89,13 +92,13 @@ TEST(TrueError, OfAl1AndBl1IsALittleAboveTheBest) {
       }
     }
   for (const double q : {0.1, 1.0, 4.0}) {
-    const double a = error_of(Kind::kA, Line{q}, Matrix<2>::Identity(), positions(1)).trace();
-    EXPECT_NEAR(error_of(Kind::kB, Line{q}, Matrix<2>::Identity(), positions(1)).trace(), a, 1e-3 * a);
+    const double a = error_of(Kind::kA, Line{q}, linear::Matrix<2>::Identity(), positions(1)).trace();
+    EXPECT_NEAR(error_of(Kind::kB, Line{q}, linear::Matrix<2>::Identity(), positions(1)).trace(), a, 1e-3 * a);
   }
 }
 
 TEST(TrueError, OfCIsAboveWhatItSays) {
-  const Matrix<2> prior = Matrix<2>::Identity();
+  const linear::Matrix<2> prior = linear::Matrix<2>::Identity();
   EXPECT_GT(error_of(Kind::kC, Line{4.0}, prior, positions(1)).trace(),
             1.05 * said_by(Kind::kC, Line{4.0}, prior, positions(1)).trace());
 }

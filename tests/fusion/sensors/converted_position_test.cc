@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "fusion/sensors/converted_position.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::sensors {
 namespace {
 
 // As printed (Longbin et al. 1998), in Cartesian axes.
@@ -60,4 +60,4 @@ TEST(ConvertedPosition, LittleNoiseFarAwayIsNotLost) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::sensors

@@ -10,7 +10,7 @@
 #include "core/errors.h"
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::sensors {
 namespace {
 
 KnownSensor load(const std::string& text, std::vector<std::string>* sentences = nullptr) {
@@ -112,4 +112,4 @@ TEST(KnownSensor, OfNothingKnownNothingChanges) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::sensors

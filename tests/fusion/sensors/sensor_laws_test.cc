@@ -8,15 +8,13 @@
 #include "fusion/sensors/systematic.h"
 #include "tests/fusion/motion/drawn.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::sensors {
 namespace {
 
-using namespace sensors;
+motion::Kinematics from_numbers(const linear::Vector<5>& n) { return {n.head<2>(), n.segment<2>(2), n(4), true}; }
 
-Kinematics from_numbers(const Vector<5>& n) { return {n.head<2>(), n.segment<2>(2), n(4), true}; }
-
-Vector<5> drawn_kinematics(RandomStream& stream) {
-  Vector<5> n;
+linear::Vector<5> drawn_kinematics(RandomStream& stream) {
+  linear::Vector<5> n;
   for (int i = 0; i < 4; ++i) n(i) = stream.uniform(-20.0, 20.0);
   n(4) = stream.uniform(-3.0, 3.0);
   return n;
@@ -35,7 +33,7 @@ template <class S> struct OnAVehicle {
 };
 template <class S> struct Wrong {
   using Sensor = Mounted<Systematic<S>>;
-  static Sensor make() { return with({{}, Vector<S::kDimension>::Constant(0.1), -0.03}); }
+  static Sensor make() { return with({{}, linear::Vector<S::kDimension>::Constant(0.1), -0.03}); }
   static Sensor with(const Systematic<S>& sensor) { return Sensor(kOnAVehicle, sensor); }
 };
 
@@ -51,14 +49,14 @@ TYPED_TEST(SensorLaws, JacobianIsTheDerivative) {
   const S sensor = TypeParam::make();
   RandomStream stream({.seed = 5});
   for (int i = 0; i < 200; ++i) {
-    const Vector<5> at = drawn_kinematics(stream);
+    const linear::Vector<5> at = drawn_kinematics(stream);
     if (!sensor.sees(from_numbers(at)) || at.head<2>().norm() < 8.0) continue;  // near, the difference is not small
-    const Matrix<kM, 5> numerical =
-        numerical_jacobian<kM, 5>([&](const Vector<5>& n) { return sensor.expected(from_numbers(n)); }, at,
-                                  [&](const auto& a, const auto& b) { return sensor.residual(a, b); });
-    Matrix<kM, 5> h = Matrix<kM, 5>::Zero();
+    const linear::Matrix<kM, 5> numerical =
+        motion::numerical_jacobian<kM, 5>([&](const linear::Vector<5>& n) { return sensor.expected(from_numbers(n)); },
+                                          at, [&](const auto& a, const auto& b) { return sensor.residual(a, b); });
+    linear::Matrix<kM, 5> h = linear::Matrix<kM, 5>::Zero();
     h.template leftCols<S::kParts>() = sensor.jacobian(from_numbers(at));
-    EXPECT_LT((apart<kM, 5>(h, numerical)), 1e-7) << at.transpose();
+    EXPECT_LT((motion::apart<kM, 5>(h, numerical)), 1e-7) << at.transpose();
   }
 }
 TYPED_TEST(SensorLaws, NothingIsLeftOfWhatWasExpected) {
@@ -89,19 +87,19 @@ TEST(Sees, NotAtRangeZeroNorWhatHasNoHeading) {
 // A radar 2 m ahead and 1 m left of the origin that looks to the left; the vehicle drives at 5 m/s.
 TEST(MountedSensor, SeesFromItsPlace) {
   const Mounting place = carried({.position = {2.0, 1.0}, .yaw = 0.5 * std::numbers::pi}, {5.0, 0.0}, 0.0);
-  const Kinematics ahead_of_it{{2.0, 11.0}, {5.0, 3.0}, 0.0, true};
-  const Vector<3> z = Mounted<RangeBearingRate>(place).expected(ahead_of_it);
+  const motion::Kinematics ahead_of_it{{2.0, 11.0}, {5.0, 3.0}, 0.0, true};
+  const linear::Vector<3> z = Mounted<RangeBearingRate>(place).expected(ahead_of_it);
   EXPECT_NEAR(z(0), 10.0, 1e-14);
   EXPECT_NEAR(z(1), 0.0, 1e-14);
   EXPECT_NEAR(z(2), 3.0, 1e-14) << "what drives along has no speed of its own";
-  const Vector<2> as_it_turns = carried({.position = {2.0, 1.0}}, {5.0, 0.0}, 0.1).velocity;
+  const linear::Vector<2> as_it_turns = carried({.position = {2.0, 1.0}}, {5.0, 0.0}, 0.1).velocity;
   EXPECT_NEAR(as_it_turns.x(), 4.9, 1e-15);
   EXPECT_NEAR(as_it_turns.y(), 0.2, 1e-15);
 }
 
 TEST(SystematicErrors, ShiftByVelocityTimesTimeBias) {
   const Systematic<Position> laser{{}, {0.2, -0.1}, 0.05};
-  const Vector<2> z = laser.expected({{10.0, 5.0}, {20.0, -4.0}, 0.0, true});
+  const linear::Vector<2> z = laser.expected({{10.0, 5.0}, {20.0, -4.0}, 0.0, true});
   EXPECT_NEAR(z(0), 10.0 + 1.0 + 0.2, 1e-14);
   EXPECT_NEAR(z(1), 5.0 - 0.2 - 0.1, 1e-14);
 }
@@ -109,15 +107,15 @@ template <class S> void bias_jacobian_is_the_derivative() {
   constexpr int kB = Mounted<Systematic<S>>::kBiases, kM = S::kDimension;
   RandomStream stream({.seed = 7});
   for (int i = 0; i < 50; ++i) {
-    const Vector<5> at = drawn_kinematics(stream);
+    const linear::Vector<5> at = drawn_kinematics(stream);
     if (at.head<2>().norm() < 8.0) continue;
-    Vector<kB> biases;
+    linear::Vector<kB> biases;
     for (int k = 0; k < kB; ++k) biases(k) = stream.uniform(-0.05, 0.05);
-    const auto with = [&](const Vector<kB>& b) { return Wrong<S>::with({{}, b.template head<kM>(), b(kM)}); };
-    const Matrix<kM, kB> numerical =
-        numerical_jacobian<kM, kB>([&](const Vector<kB>& b) { return with(b).expected(from_numbers(at)); }, biases,
-                                   [&](const auto& a, const auto& b) { return with(biases).residual(a, b); });
-    EXPECT_LT((apart<kM, kB>(with(biases).bias_jacobian(from_numbers(at)), numerical)), 1e-7);
+    const auto with = [&](const linear::Vector<kB>& b) { return Wrong<S>::with({{}, b.template head<kM>(), b(kM)}); };
+    const linear::Matrix<kM, kB> numerical = motion::numerical_jacobian<kM, kB>(
+        [&](const linear::Vector<kB>& b) { return with(b).expected(from_numbers(at)); }, biases,
+        [&](const auto& a, const auto& b) { return with(biases).residual(a, b); });
+    EXPECT_LT((motion::apart<kM, kB>(with(biases).bias_jacobian(from_numbers(at)), numerical)), 1e-7);
   }
 }
 TEST(SystematicErrors, BiasJacobianIsTheDerivative) {
@@ -127,10 +125,10 @@ TEST(SystematicErrors, BiasJacobianIsTheDerivative) {
 
 // The vehicle and what it follows drive alike: whenever it was seen, it was at the same place ahead.
 template <class S> void late_stamps_do_not_matter() {
-  const Vector<2> velocity(22.0, 0.5);
+  const linear::Vector<2> velocity(22.0, 0.5);
   const Mounting place = carried({.position = {3.5, -0.4}, .yaw = 0.3}, velocity, 0.0);
-  const Systematic<S> late{{}, Vector<S::kDimension>::Zero(), 0.05};
-  const Kinematics followed{{30.0, 2.0}, velocity, 0.02, true};
+  const Systematic<S> late{{}, linear::Vector<S::kDimension>::Zero(), 0.05};
+  const motion::Kinematics followed{{30.0, 2.0}, velocity, 0.02, true};
   EXPECT_EQ(Mounted<Systematic<S>>(place, late).expected(followed), Mounted<S>(place).expected(followed));
   EXPECT_EQ((Mounted<Systematic<S>>(place, late).bias_jacobian(followed).col(S::kDimension).norm()), 0.0);
 }
@@ -139,7 +137,7 @@ TEST(SystematicErrors, TimeBiasIsOfTheMotionRelativeToTheSensor) {
   late_stamps_do_not_matter<PositionHeading>();
   late_stamps_do_not_matter<RangeBearingRate>();
   // What stands comes nearer by the vehicle's way.
-  const Mounted<Systematic<Position>> laser(carried({}, {20.0, 0.0}, 0.0), {{}, Vector<2>::Zero(), 0.05});
+  const Mounted<Systematic<Position>> laser(carried({}, {20.0, 0.0}, 0.0), {{}, linear::Vector<2>::Zero(), 0.05});
   EXPECT_NEAR(laser.expected({.position = {30.0, 2.0}}).x(), 29.0, 1e-14);
   EXPECT_NEAR(laser.bias_jacobian({.position = {30.0, 2.0}})(0, 2), -20.0, 1e-14);
 }
@@ -155,22 +153,22 @@ template <class M> class ChainRule : public testing::Test {
  protected:
   // What the measurement matrix says of the leading components is the derivative; of the others it does not depend.
   template <class S> void check(const S& sensor) {
-    constexpr int kN = M::kStates, kM = S::kDimension, kC = leading_columns(S::kParts);
+    constexpr int kN = M::kStates, kM = S::kDimension, kC = motion::leading_columns(S::kParts);
     RandomStream stream({.seed = 8});
     for (int i = 0; i < 100; ++i) {
-      const Vector<kN> x = drawn_state<M>(stream, i);
-      const Kinematics k = M::template kinematics<S::kParts>(x);
+      const linear::Vector<kN> x = motion::drawn_state<M>(stream, i);
+      const motion::Kinematics k = M::template kinematics<S::kParts>(x);
       if (k.position.norm() < 8.0 || std::hypot(x(2), x(3)) < 1.0) continue;
-      const Matrix<kM, kN> numerical = numerical_jacobian<kM, kN>(
-          [&](const Vector<kN>& at) { return sensor.expected(M::template kinematics<S::kParts>(at)); }, x,
+      const linear::Matrix<kM, kN> numerical = motion::numerical_jacobian<kM, kN>(
+          [&](const linear::Vector<kN>& at) { return sensor.expected(M::template kinematics<S::kParts>(at)); }, x,
           [&](const auto& a, const auto& b) { return sensor.residual(a, b); });
-      Matrix<kM, kN> h = Matrix<kM, kN>::Zero();
+      linear::Matrix<kM, kN> h = linear::Matrix<kM, kN>::Zero();
       h.template leftCols<kC>() = filters::measurement_matrix<M>(sensor, k, x);
-      EXPECT_LT((apart<kM, kN>(h, numerical)), 1e-7) << x.transpose();
+      EXPECT_LT((motion::apart<kM, kN>(h, numerical)), 1e-7) << x.transpose();
     }
   }
 };
-TYPED_TEST_SUITE(ChainRule, AllMotions);
+TYPED_TEST_SUITE(ChainRule, motion::AllMotions);
 
 TYPED_TEST(ChainRule, MeasurementMatrixIsTheDerivative) {
   this->check(RangeBearingRate{});
@@ -178,4 +176,4 @@ TYPED_TEST(ChainRule, MeasurementMatrixIsTheDerivative) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::sensors

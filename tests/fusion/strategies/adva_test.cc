@@ -3,7 +3,7 @@
 
 #include "tests/fusion/drives.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 namespace {
 
 // Everything at the fusion instant after its arrival, the older one as late:
@@ -29,7 +29,7 @@ TEST(Adva, WhatArrivesTogetherIsFusedInOrder) {
 }
 
 TEST(Adva, OlderThanTheHistoryIsDropped) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.history_scans = 2;
   const auto strategy = make_strategy(StrategyKind::kAdva, config, std::vector{free_running(0, 60)});
   std::vector<Arrival> arrivals;
@@ -41,4 +41,4 @@ TEST(Adva, OlderThanTheHistoryIsDropped) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

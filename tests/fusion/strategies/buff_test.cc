@@ -8,7 +8,7 @@
 
 #include "tests/fusion/drives.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 namespace {
 
 // Worst delays: sensor 0 60 ms, sensor 1 30 ms.
@@ -44,10 +44,10 @@ TEST(Buff, OfOneInstantTheSmallerSensorIsFirst) {
 
 TEST(Buff, SaysWhenItLetsGoIfNothingArrives) {
   const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
-  TrackerConfig fixed, measured;
-  fixed.buff_waits = BuffWaiting::kFixedLag;
-  measured.buff_waits = BuffWaiting::kMeasured;
-  const std::pair<TrackerConfig, std::int64_t> releases[] = {{{}, 70}, {fixed, 110}, {measured, 70}};
+  config::TrackerConfig fixed, measured;
+  fixed.buff_waits = config::BuffWaiting::kFixedLag;
+  measured.buff_waits = config::BuffWaiting::kMeasured;
+  const std::pair<config::TrackerConfig, std::int64_t> releases[] = {{{}, 70}, {fixed, 110}, {measured, 70}};
   for (const auto& [config, ms] : releases) {
     const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
     EXPECT_FALSE(strategy->next_release());
@@ -66,8 +66,8 @@ TEST(Buff, SaysWhenItLetsGoIfNothingArrives) {
 // However often it is looked at, what waits was on its way for as long as it was.
 TEST(Buff, WaitingIsNoDelay) {
   const std::vector<SensorTiming> sensors{free_running(0, 1000), free_running(1, 1000)};
-  TrackerConfig config;
-  config.buff_waits = BuffWaiting::kMeasured;
+  config::TrackerConfig config;
+  config.buff_waits = config::BuffWaiting::kMeasured;
   const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
   strategy->accept(scan(1, 0, at_ms(0)).view());
   for (int ms = 1; ms <= 600; ++ms) strategy->fuse(at_ms(ms));
@@ -119,8 +119,8 @@ TEST(Buff, RepairsABrokenPromise) {
 //   fused                             1/0       0/0 late
 TEST(Buff, WithAFixedLagWaitsNoLongerAndRepairsWhatComesLater) {
   const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
-  TrackerConfig config;
-  config.buff_waits = BuffWaiting::kFixedLag;
+  config::TrackerConfig config;
+  config.buff_waits = config::BuffWaiting::kFixedLag;
   config.fixed_lag = Duration::milliseconds(25);
   const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
   EXPECT_EQ(run(*strategy, {{55, scan(0, 0, at_ms(0))}, {30, scan(1, 0, at_ms(10))}}, 150),
@@ -136,8 +136,8 @@ TEST(Buff, WithAFixedLagWaitsNoLongerAndRepairsWhatComesLater) {
 //   fused                 0/0   1/0               .           1/1        0/1 late                      1/2
 TEST(Buff, WithMeasuredDelaysWaitsForTheLongestSoFar) {
   const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
-  TrackerConfig config;
-  config.buff_waits = BuffWaiting::kMeasured;
+  config::TrackerConfig config;
+  config.buff_waits = config::BuffWaiting::kMeasured;
   const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
   EXPECT_EQ(run(*strategy,
                 {{15, scan(0, 0, at_ms(0))},
@@ -184,4 +184,4 @@ TEST(Buff, IsInOrderAndNeverWaitsLongerThanTheWorstDelay) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

@@ -10,12 +10,12 @@
 #include "tests/fusion/drives.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 namespace {
 
 class EveryStrategy : public testing::TestWithParam<StrategyKind> {};
 INSTANTIATE_TEST_SUITE_P(All, EveryStrategy,
-                         testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt), name_of);
+                         testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt), tracks::name_of);
 
 TEST_P(EveryStrategy, EndsWithTheBitsOfInOrderProcessing) {
   const std::vector<Arrival> arrivals = drawn_drive(1, 40);
@@ -32,11 +32,11 @@ TEST_P(EveryStrategy, EndsWithTheBitsOfInOrderProcessing) {
   std::vector<OwnedScan> in_order;
   for (const Arrival& a : arrivals) in_order.push_back(a.scan);
   std::sort(in_order.begin(), in_order.end(),
-            [](const OwnedScan& a, const OwnedScan& b) { return before(a.id, a.measured, b.id, b.measured); });
-  Timeline timeline(TrackerConfig{}, TrackerConfig{}.max_observations);
+            [](const OwnedScan& a, const OwnedScan& b) { return tracks::before(a.id, a.measured, b.id, b.measured); });
+  tracks::Timeline timeline(config::TrackerConfig{}, config::TrackerConfig{}.max_observations);
   for (const OwnedScan& s : in_order) timeline.insert(s.view());
-  std::vector<TrackView> expected, image;
-  for (const Track& track : timeline.current().tracks)
+  std::vector<tracks::TrackView> expected, image;
+  for (const tracks::Track& track : timeline.current().tracks)
     if (track.confirmed) expected.push_back(shown(track, timeline.current().time, at_ms(3300)));
   strategy->image(at_ms(3300), image);
   EXPECT_EQ(image.size(), 25u);
@@ -53,7 +53,7 @@ TEST_P(EveryStrategy, AnImageLeavesNoTrace) {
   std::vector<Arrival> arrivals = drawn_drive(2, 10);
   sort_by_arrival(arrivals);
   std::size_t next = 0;
-  std::vector<TrackView> image, again, others;
+  std::vector<tracks::TrackView> image, again, others;
   for (std::int64_t now = 0; now <= 900; now += 10) {
     for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) {
       looked_at->accept(arrivals[next].scan.view());
@@ -81,7 +81,7 @@ TEST_P(EveryStrategy, AnImageIsAPrediction) {
     strategy->accept(scan(1, k, at_ms(40 * k), {position(20.0 + 0.4 * k, 0.0, 0.2)}).view());
     strategy->fuse(at_ms(40 * k + 200));
   }
-  std::vector<TrackView> near, far;
+  std::vector<tracks::TrackView> near, far;
   strategy->image(at_ms(400), near);
   strategy->image(at_ms(900), far);
   ASSERT_EQ(near.size(), 1u);
@@ -105,7 +105,7 @@ TEST_P(EveryStrategy, ADuplicateIsReportedAndChangesNothing) {
   EXPECT_EQ(static_cast<std::size_t>(std::count_if(
                 result.begin(), result.end(), [](const Fused& f) { return f.disposition == Disposition::kDuplicate; })),
             2 * count);
-  std::vector<TrackView> a, b;
+  std::vector<tracks::TrackView> a, b;
   once->image(at_ms(1000), a);
   twice->image(at_ms(1000), b);
   EXPECT_FALSE(a.empty());
@@ -155,7 +155,7 @@ TEST_P(EveryStrategy, AllocatesNothingAfterConstruction) {
   std::vector<Arrival> arrivals = drawn_drive(4, 60);
   for (std::size_t i = 0; i < 20; ++i) arrivals.push_back({arrivals[i].ms + 50, arrivals[i].scan});  // duplicates too
   sort_by_arrival(arrivals);
-  std::vector<TrackView> image;
+  std::vector<tracks::TrackView> image;
   image.reserve(25);
   const auto strategy = make_strategy(GetParam(), {}, laser_and_camera());
   std::size_t next = 0;
@@ -174,4 +174,4 @@ TEST_P(EveryStrategy, AllocatesNothingAfterConstruction) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

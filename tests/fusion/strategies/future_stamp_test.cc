@@ -4,7 +4,7 @@
 #include "fusion/strategies/strategy.h"
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 namespace {
 
 // sensor 0 (worst 60)   x0 (stamped 30 s)   x10 ---------------> 62
@@ -34,4 +34,4 @@ TEST_P(FutureStamp, EndsNobodysWaiting) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

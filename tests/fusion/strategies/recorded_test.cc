@@ -14,7 +14,7 @@
 #include "tests/fusion/scenes.h"
 #include "tests/support/recordings.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 namespace {
 
 struct Row {
@@ -48,29 +48,30 @@ std::vector<Row> read_rows(const std::string& path) {
 // What a motion model is told of the vehicle, and the limits of its error [m, m/s].
 struct Told {
   const char* name;
-  MotionModel motion;
-  FilterKind filter;
+  config::MotionModel motion;
+  config::FilterKind filter;
   double process_noise;
-  Vector<4> limits;
+  linear::Vector<4> limits;
 };
 
 // Published limits for a good extended and a good unscented filter on this set, over the whole run.
-const Vector<4> kExtendedLimits{0.11, 0.11, 0.52, 0.52}, kUnscentedLimits{0.09, 0.10, 0.40, 0.30};
+const linear::Vector<4> kExtendedLimits{0.11, 0.11, 0.52, 0.52}, kUnscentedLimits{0.09, 0.10, 0.40, 0.30};
 
 // 5 m/s and up to 0.55 rad/s: accelerations of 2.8 m/s^2 that last for seconds, and reach it within seconds. On bends
-// the densities under which the innovations are likeliest (tests/fusion/filters/laser_radar_test.cc); of the models that
-// interact, one drives straight on.
+// the densities under which the innovations are likeliest (tests/fusion/filters/laser_radar_test.cc); of the models
+// that interact, one drives straight on.
 const Told kTold[] = {
-    {"ConstantVelocity", MotionModel::kConstantVelocity, FilterKind::kExtended, 4.0, kExtendedLimits},
-    {"ConstantAcceleration", MotionModel::kConstantAcceleration, FilterKind::kExtended, 2.0, kExtendedLimits},
-    {"CtrvExtended", MotionModel::kCtrv, FilterKind::kExtended, 0.01, kExtendedLimits},
-    {"CtrvUnscented", MotionModel::kCtrv, FilterKind::kUnscented, 0.01, kUnscentedLimits},
-    {"CtraExtended", MotionModel::kCtra, FilterKind::kExtended, 0.01, kExtendedLimits},
-    {"CtraUnscented", MotionModel::kCtra, FilterKind::kUnscented, 0.01, kUnscentedLimits},
-    {"Interacting", MotionModel::kInteracting, FilterKind::kUnscented, 0.01, kUnscentedLimits}};
+    {"ConstantVelocity", config::MotionModel::kConstantVelocity, config::FilterKind::kExtended, 4.0, kExtendedLimits},
+    {"ConstantAcceleration", config::MotionModel::kConstantAcceleration, config::FilterKind::kExtended, 2.0,
+     kExtendedLimits},
+    {"CtrvExtended", config::MotionModel::kCtrv, config::FilterKind::kExtended, 0.01, kExtendedLimits},
+    {"CtrvUnscented", config::MotionModel::kCtrv, config::FilterKind::kUnscented, 0.01, kUnscentedLimits},
+    {"CtraExtended", config::MotionModel::kCtra, config::FilterKind::kExtended, 0.01, kExtendedLimits},
+    {"CtraUnscented", config::MotionModel::kCtra, config::FilterKind::kUnscented, 0.01, kUnscentedLimits},
+    {"Interacting", config::MotionModel::kInteracting, config::FilterKind::kUnscented, 0.01, kUnscentedLimits}};
 
-TrackerConfig config_for(const Told& told) {
-  TrackerConfig config = config_of(told.motion, told.process_noise, told.filter);
+config::TrackerConfig config_for(const Told& told) {
+  config::TrackerConfig config = config_of(told.motion, told.process_noise, told.filter);
   config.turn_noise = 0.01;
   config.confirm_hits = 1;
   config.confirm_window = 1;
@@ -96,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Models, Recorded, testing::ValuesIn(kTold),
 TEST_P(Recorded, FollowsTheVehicle) {
   const auto strategy = make_strategy(StrategyKind::kAdva, config_for(GetParam()), sensors);
   Eigen::Vector4d squares = Eigen::Vector4d::Zero();
-  std::vector<TrackView> image;
+  std::vector<tracks::TrackView> image;
   for (const Row& row : rows) {
     strategy->accept(row.scan.view());
     strategy->fuse(row.scan.measured);
@@ -130,7 +131,7 @@ TEST_P(Recorded, LateRadarEndsWithTheSameBits) {
     late += strategy->last_fused()[0].disposition == Disposition::kFusedLate;
   }
   EXPECT_EQ(late, 249) << "all 250 radar lists but the last, after which no laser comes";
-  std::vector<TrackView> a, b;
+  std::vector<tracks::TrackView> a, b;
   in_order->image(at_ms(25'500), a);
   strategy->image(at_ms(25'500), b);
   ASSERT_EQ(a.size(), 1u);
@@ -138,4 +139,4 @@ TEST_P(Recorded, LateRadarEndsWithTheSameBits) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

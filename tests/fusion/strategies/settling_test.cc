@@ -5,7 +5,7 @@
 
 #include "tests/fusion/drives.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 namespace {
 
 constexpr Duration kNanosecond{1};
@@ -91,4 +91,4 @@ TEST(MissingList, TimeTriggeredGoesOnAtTheStepThatSettlesItsInstant) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

@@ -4,7 +4,7 @@
 
 #include "tests/fusion/drives.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies {
 namespace {
 
 // Laser (80 ms from 0, worst delay 60) and camera (40 ms from 20, worst delay 35):
@@ -53,7 +53,7 @@ TEST(TimeTriggered, RepairsABrokenPromise) {
   EXPECT_EQ(strategy->tentative_count(), 3);
   EXPECT_EQ(strategy->newest_measured(), at_ms(20));
   // Confirm both with the same further scans: the images must be the same to the last bit.
-  std::vector<TrackView> image[2];
+  std::vector<tracks::TrackView> image[2];
   int i = 0;
   for (Strategy* s : {strategy.get(), in_order.get()}) {
     for (std::uint32_t k = 1; k <= 3; ++k)
@@ -101,4 +101,4 @@ TEST(TimeTriggered, TheScheduleHasABeginning) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies

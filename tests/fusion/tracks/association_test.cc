@@ -15,21 +15,21 @@
 #include "tests/fusion/drives.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
 // Which: the association, the birth, and whether twins are united.
-using Options = std::tuple<Association, Birth, bool>;
+using Options = std::tuple<config::Association, config::Birth, bool>;
 
 std::string name_of_options(const Options& options) {
-  return std::string(std::get<0>(options) == Association::kNearest ? "Nearest" : "Jpda") +
-         (std::get<1>(options) == Birth::kMOfN ? "MOfN" : "Existence") + (std::get<2>(options) ? "United" : "");
+  return std::string(std::get<0>(options) == config::Association::kNearest ? "Nearest" : "Jpda") +
+         (std::get<1>(options) == config::Birth::kMOfN ? "MOfN" : "Existence") + (std::get<2>(options) ? "United" : "");
 }
 
 class EveryOption : public testing::TestWithParam<Options> {
  protected:
-  TrackerConfig config(MotionModel motion = MotionModel::kConstantVelocity) const {
-    TrackerConfig config;
+  config::TrackerConfig config(config::MotionModel motion = config::MotionModel::kConstantVelocity) const {
+    config::TrackerConfig config;
     config.motion = motion;
     config.association = std::get<0>(GetParam());
     config.birth = std::get<1>(GetParam());
@@ -40,8 +40,9 @@ class EveryOption : public testing::TestWithParam<Options> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(All, EveryOption,
-                         testing::Combine(testing::Values(Association::kNearest, Association::kJpda),
-                                          testing::Values(Birth::kMOfN, Birth::kExistence), testing::Bool()),
+                         testing::Combine(testing::Values(config::Association::kNearest, config::Association::kJpda),
+                                          testing::Values(config::Birth::kMOfN, config::Birth::kExistence),
+                                          testing::Bool()),
                          [](const testing::TestParamInfo<Options>& options) { return name_of_options(options.param); });
 
 // Two crossing objects in clutter, of which sensor 1 sees what sensor 0 does a little further on: gates are shared,
@@ -51,7 +52,7 @@ std::vector<OwnedScan> crossing_lists(std::uint64_t seed) {
   std::vector<OwnedScan> scans;
   for (std::uint32_t k = 0; k < 60; ++k) {
     const double t = 0.05 * k, off = k % 2 ? 0.8 : 0.0;
-    std::vector<Observation> list{
+    std::vector<sensors::Observation> list{
         position(20 + 6 * t + off + 0.3 * stream.normal(), -3 + 2 * t + 0.3 * stream.normal(), 0.3),
         position(20 + 6 * t + off + 0.3 * stream.normal(), 3 - 2 * t + 0.3 * stream.normal(), 0.3)};
     while (stream.uniform() < 0.7) list.push_back(position(stream.uniform(10, 50), stream.uniform(-8, 8), 0.3));
@@ -62,7 +63,8 @@ std::vector<OwnedScan> crossing_lists(std::uint64_t seed) {
 }
 
 TEST_P(EveryOption, EveryOrderOfArrivalGivesTheSameBits) {
-  for (const MotionModel motion : {MotionModel::kConstantVelocity, MotionModel::kCtrv, MotionModel::kInteracting}) {
+  for (const config::MotionModel motion :
+       {config::MotionModel::kConstantVelocity, config::MotionModel::kCtrv, config::MotionModel::kInteracting}) {
     const std::vector<OwnedScan> scans = crossing_lists(3);
     Timeline in_order(config(motion), 32);
     for (const OwnedScan& s : scans) in_order.insert(s.view());
@@ -93,7 +95,8 @@ TEST_P(EveryOption, EveryStrategyEndsWithTheBitsOfInOrderProcessing) {
   std::vector<TrackView> expected, image;
   for (const Track& track : timeline.current().tracks)
     if (track.confirmed) expected.push_back(shown(track, timeline.current().time, at_ms(1700)));
-  for (const StrategyKind kind : {StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt}) {
+  for (const strategies::StrategyKind kind :
+       {strategies::StrategyKind::kBuff, strategies::StrategyKind::kAdva, strategies::StrategyKind::kTt}) {
     const auto strategy = make_strategy(kind, config(), laser_and_camera());
     run(*strategy, arrivals, 2000);
     strategy->image(at_ms(1700), image);
@@ -105,7 +108,7 @@ TEST_P(EveryOption, EveryStrategyEndsWithTheBitsOfInOrderProcessing) {
 }
 
 TEST_P(EveryOption, AllocatesNothingAfterConstruction) {
-  for (const MotionModel motion : {MotionModel::kConstantVelocity, MotionModel::kInteracting}) {
+  for (const config::MotionModel motion : {config::MotionModel::kConstantVelocity, config::MotionModel::kInteracting}) {
     const std::vector<OwnedScan> scans = crossing_lists(5);
     Timeline timeline(config(motion), 32);
     const std::int64_t before_all = support::allocations();
@@ -119,11 +122,12 @@ TEST_P(EveryOption, AllocatesNothingAfterConstruction) {
 
 // Certain to be seen and nothing else about: what JPDA makes of one observation is the Kalman update.
 TEST(Association, JpdaOfACertainObservationIsTheNearests) {
-  for (const MotionModel motion : {MotionModel::kConstantVelocity, MotionModel::kCtrv, MotionModel::kInteracting}) {
-    TrackerConfig nearest;
+  for (const config::MotionModel motion :
+       {config::MotionModel::kConstantVelocity, config::MotionModel::kCtrv, config::MotionModel::kInteracting}) {
+    config::TrackerConfig nearest;
     nearest.motion = motion;
-    TrackerConfig jpda = nearest;
-    jpda.association = Association::kJpda;
+    config::TrackerConfig jpda = nearest;
+    jpda.association = config::Association::kJpda;
     jpda.detection_probability = 0.999999;
     jpda.clutter_density = 1e-9;
     Tracker first(nearest, 4), second(jpda, 4);
@@ -136,10 +140,11 @@ TEST(Association, JpdaOfACertainObservationIsTheNearests) {
       first.step(a, list.view());
       second.step(b, list.view());
       ASSERT_EQ(a.tracks.size(), b.tracks.size()) << k;
-      const auto estimator = make_estimator(nearest);
+      const auto estimator = estimators::make_estimator(nearest);
       for (std::size_t i = 0; i < a.tracks.size(); ++i) {
         ASSERT_EQ(a.tracks[i].hits, b.tracks[i].hits);
-        const Cartesian x = estimator->cartesian(a.tracks[i].estimate), y = estimator->cartesian(b.tracks[i].estimate);
+        const estimators::Cartesian x = estimator->cartesian(a.tracks[i].estimate),
+                                    y = estimator->cartesian(b.tracks[i].estimate);
         ASSERT_LT((x.x - y.x).norm(), 1e-6) << k;
         ASSERT_LT((x.p - y.p).norm(), 1e-6 * x.p.norm()) << k;
       }
@@ -149,8 +154,8 @@ TEST(Association, JpdaOfACertainObservationIsTheNearests) {
 
 // Between two observations that are as likely, it waits: the mean is between, and the covariance says so.
 TEST(Association, JpdaDoesNotDecideWhatNobodyKnows) {
-  TrackerConfig config;
-  config.association = Association::kJpda;
+  config::TrackerConfig config;
+  config.association = config::Association::kJpda;
   config.clutter_density = 0.01;
   Tracker tracker(config, 4);
   TrackSet set(tracker.max_tracks());
@@ -158,22 +163,22 @@ TEST(Association, JpdaDoesNotDecideWhatNobodyKnows) {
     tracker.step(set, scan(0, k, at_ms(50 * k), {position(20.0, 0.0, 0.3)}).view());
   ASSERT_EQ(set.tracks.size(), 1u);
   const double before = seen_as(set.tracks[0].estimate).p(1, 1);
-  const State x = state_of(set.tracks[0]);
+  const estimators::State x = state_of(set.tracks[0]);
   tracker.step(set, scan(0, 10, at_ms(500), {position(x(0), x(1) + 0.6, 0.3), position(x(0), x(1) - 0.6, 0.3)}).view());
-  const Cartesian after = seen_as(set.tracks[0].estimate);
+  const estimators::Cartesian after = seen_as(set.tracks[0].estimate);
   EXPECT_NEAR(after.x(1), x(1), 0.02);
   EXPECT_GT(after.p(1, 1), before) << "the spread of the innovations";
 }
 
 TEST(Association, ACrowdIsApproximatedAndSaysSo) {
-  TrackerConfig config;
-  config.association = Association::kJpda;
+  config::TrackerConfig config;
+  config.association = config::Association::kJpda;
   config.initial_velocity_sigma = 100.0;
   Tracker tracker(config, 32);
   TrackSet set(tracker.max_tracks());
   RandomStream stream({.seed = 9});
   for (std::uint32_t k = 0; k < 3; ++k) {
-    std::vector<Observation> list;
+    std::vector<sensors::Observation> list;
     for (int i = 0; i < 25; ++i) list.push_back(position(20.0 + stream.normal(), stream.normal(), 0.2));
     tracker.step(set, scan(0, k, at_ms(50 * k), list).view());
   }
@@ -181,25 +186,25 @@ TEST(Association, ACrowdIsApproximatedAndSaysSo) {
   for (const Track& track : set.tracks) EXPECT_TRUE(state_of(track).allFinite());
 }
 
-Followed follow_by(Association association, Birth birth, double clutter_density, int runs) {
+Followed follow_by(config::Association association, config::Birth birth, double clutter_density, int runs) {
   Crossing crossing;
   crossing.clutter_density = clutter_density;
-  TrackerConfig config = crossing.config();
+  config::TrackerConfig config = crossing.config();
   config.association = association;
   config.birth = birth;
   const Followed followed = follow(crossing, config, runs);
-  std::cout << (association == Association::kNearest ? "nearest" : "jpda")
-            << (birth == Birth::kMOfN ? ", m_of_n" : ", existence") << " at " << clutter_density << " per m^2: NEES "
-            << followed.nees << " of 4, GOSPA " << followed.gospa << " m, " << followed.switches << " switches, "
-            << followed.misses << " misses, " << followed.false_tracks << " false\n";
+  std::cout << (association == config::Association::kNearest ? "nearest" : "jpda")
+            << (birth == config::Birth::kMOfN ? ", m_of_n" : ", existence") << " at " << clutter_density
+            << " per m^2: NEES " << followed.nees << " of 4, GOSPA " << followed.gospa << " m, " << followed.switches
+            << " switches, " << followed.misses << " misses, " << followed.false_tracks << " false\n";
   return followed;
 }
 
 // 36 observations of nothing to a list. Who decides believes too much; who weighs says what is true. The band is that
 // of 300 runs of one independent judgement each, twice as wide: 4 +- 2 x 1.96 sqrt(8 / 300).
 TEST(Association, CrossingInClutterIsConsistentWithJpdaOnly) {
-  const Followed nearest = follow_by(Association::kNearest, Birth::kExistence, 0.03, 300);
-  const Followed jpda = follow_by(Association::kJpda, Birth::kExistence, 0.03, 300);
+  const Followed nearest = follow_by(config::Association::kNearest, config::Birth::kExistence, 0.03, 300);
+  const Followed jpda = follow_by(config::Association::kJpda, config::Birth::kExistence, 0.03, 300);
   EXPECT_GT(jpda.nees, 3.4);
   EXPECT_LT(jpda.nees, 4.6);
   EXPECT_GT(nearest.nees, 4.7);
@@ -213,13 +218,13 @@ TEST(Association, CrossingInClutterIsConsistentWithJpdaOnly) {
 
 // M of N counts observations, of which clutter has enough; existence knows how many to expect.
 TEST(Association, CrossingInClutterExistenceBelievesLittleOfIt) {
-  for (const Association association : {Association::kNearest, Association::kJpda}) {
-    const Followed counted = follow_by(association, Birth::kMOfN, 0.01, 20);
-    const Followed believed = follow_by(association, Birth::kExistence, 0.01, 20);
+  for (const config::Association association : {config::Association::kNearest, config::Association::kJpda}) {
+    const Followed counted = follow_by(association, config::Birth::kMOfN, 0.01, 20);
+    const Followed believed = follow_by(association, config::Birth::kExistence, 0.01, 20);
     EXPECT_LT(100 * believed.false_tracks, counted.false_tracks);
     EXPECT_LT(believed.gospa, 0.1 * counted.gospa);
   }
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

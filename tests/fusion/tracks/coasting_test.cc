@@ -9,25 +9,29 @@
 
 #include "tests/fusion/drives.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
-class Coasting : public testing::TestWithParam<StrategyKind> {};
-std::string name_of(const testing::TestParamInfo<StrategyKind>& kind) {
-  return kind.param == StrategyKind::kBuff ? "Buff" : kind.param == StrategyKind::kAdva ? "Adva" : "Tt";
+class Coasting : public testing::TestWithParam<strategies::StrategyKind> {};
+std::string name_of(const testing::TestParamInfo<strategies::StrategyKind>& kind) {
+  return kind.param == strategies::StrategyKind::kBuff   ? "Buff"
+         : kind.param == strategies::StrategyKind::kAdva ? "Adva"
+                                                         : "Tt";
 }
-INSTANTIATE_TEST_SUITE_P(All, Coasting, testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
+INSTANTIATE_TEST_SUITE_P(All, Coasting,
+                         testing::Values(strategies::StrategyKind::kBuff, strategies::StrategyKind::kAdva,
+                                         strategies::StrategyKind::kTt),
                          name_of);
 
 constexpr std::int64_t kLast = 760;  // [ms], of the newest measurement
 
 // A car at 10 m/s, seen every 40 ms until kLast, then no more lists of anybody. All is fused, whatever the strategy.
 struct Drive {
-  TrackerConfig config;
-  std::unique_ptr<Strategy> strategy;
+  config::TrackerConfig config;
+  std::unique_ptr<strategies::Strategy> strategy;
   std::vector<TrackView> shown;
 
-  Drive(StrategyKind kind, const TrackerConfig& tracker)
+  Drive(strategies::StrategyKind kind, const config::TrackerConfig& tracker)
       : config(tracker), strategy(make_strategy(kind, tracker, laser_and_camera())) {
     for (std::uint32_t k = 0; 40 * k <= kLast; ++k) {
       strategy->accept(scan(1, k, at_ms(40 * k), {car(40 * k)}).view());
@@ -35,7 +39,7 @@ struct Drive {
     }
     EXPECT_EQ(held(*strategy), 0u);
   }
-  static Observation car(std::int64_t ms) { return position(20.0 + 0.01 * static_cast<double>(ms), 1.0, 0.2); }
+  static sensors::Observation car(std::int64_t ms) { return position(20.0 + 0.01 * static_cast<double>(ms), 1.0, 0.2); }
   std::optional<TrackView> at(GlobalTime t) {
     strategy->image(t, shown);
     EXPECT_LE(shown.size(), 1u);
@@ -45,8 +49,9 @@ struct Drive {
 
 // Against prediction by numerical integration, from what is known at the newest measurement.
 TEST_P(Coasting, CovarianceGrowsAsTheMotionModelSays) {
-  for (const MotionModel motion : {MotionModel::kConstantVelocity, MotionModel::kConstantAcceleration}) {
-    TrackerConfig config;
+  for (const config::MotionModel motion :
+       {config::MotionModel::kConstantVelocity, config::MotionModel::kConstantAcceleration}) {
+    config::TrackerConfig config;
     config.motion = motion;
     config.delete_position_sigma = 100.0;
     Drive drive(GetParam(), config);
@@ -59,8 +64,8 @@ TEST_P(Coasting, CovarianceGrowsAsTheMotionModelSays) {
       EXPECT_GT(view->covariance.trace(), trace) << ms;
       trace = view->covariance.trace();
       const double dt = 1e-3 * static_cast<double>(ms);
-      const Covariance f = transition(motion, dt);
-      const Covariance expected =
+      const estimators::Covariance f = transition(motion, dt);
+      const estimators::Covariance expected =
           f * known->covariance * f.transpose() + driving_noise(motion, config.process_noise, dt);
       EXPECT_LT((view->covariance - expected).norm(), 1e-9 * expected.norm()) << ms;
       EXPECT_LT((view->state - f * known->state).norm(), 1e-9) << ms;
@@ -69,7 +74,7 @@ TEST_P(Coasting, CovarianceGrowsAsTheMotionModelSays) {
 }
 
 TEST_P(Coasting, IsMarkedAndEndsToTheNanosecond) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.delete_position_sigma = 100.0;
   Drive drive(GetParam(), config);
   const GlobalTime seen = at_ms(kLast);
@@ -96,7 +101,7 @@ TEST_P(Coasting, IsMarkedAndEndsToTheNanosecond) {
 
 // Too uncertain before it is too old: at the first instant at which the position's spread is above the limit.
 TEST_P(Coasting, EndsWhenItsPositionIsTooUncertain) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.delete_position_sigma = 0.6;
   Drive drive(GetParam(), config);
   const auto known = drive.at(at_ms(kLast));
@@ -104,8 +109,9 @@ TEST_P(Coasting, EndsWhenItsPositionIsTooUncertain) {
   std::int64_t limit = 1;
   const auto sigma = [&](std::int64_t ms) {
     const double dt = 1e-3 * static_cast<double>(ms);
-    const Covariance f = transition(config.motion, dt);
-    const Covariance p = f * known->covariance * f.transpose() + driving_noise(config.motion, config.process_noise, dt);
+    const estimators::Covariance f = transition(config.motion, dt);
+    const estimators::Covariance p =
+        f * known->covariance * f.transpose() + driving_noise(config.motion, config.process_noise, dt);
     return std::sqrt(std::max(p(0, 0), p(1, 1)));
   };
   while (sigma(limit) <= config.delete_position_sigma) ++limit;
@@ -117,7 +123,7 @@ TEST_P(Coasting, EndsWhenItsPositionIsTooUncertain) {
 
 // Lists come again when the track is no more: what they show is new, and no track until enough of them did.
 TEST_P(Coasting, WhatHasEndedDoesNotComeBack) {
-  const TrackerConfig config;
+  const config::TrackerConfig config;
   Drive drive(GetParam(), config);
   const TrackId old = drive.at(at_ms(kLast))->id;
   const std::int64_t again = kLast + 1'040;
@@ -134,7 +140,7 @@ TEST_P(Coasting, WhatHasEndedDoesNotComeBack) {
 
 // The same gap, a little shorter: the track takes the observation, and is as certain as before.
 TEST_P(Coasting, WhatHasNotEndedGoesOn) {
-  const TrackerConfig config;
+  const config::TrackerConfig config;
   Drive drive(GetParam(), config);
   const TrackId old = drive.at(at_ms(kLast))->id;
   const double coasting = drive.at(at_ms(kLast + 960))->covariance.trace();
@@ -151,7 +157,7 @@ TEST_P(Coasting, WhatHasNotEndedGoesOn) {
 // The sensor that sees the car dies; the other goes on and does not see it: coasting with its third scan, ended with
 // its eighth.
 TEST_P(Coasting, ScansThatDoNotSeeItEndATrackSooner) {
-  const TrackerConfig config;
+  const config::TrackerConfig config;
   Drive drive(GetParam(), config);
   double trace = drive.at(at_ms(kLast))->covariance.trace();
   for (std::uint32_t k = 1; k <= 8; ++k) {
@@ -171,7 +177,7 @@ TEST_P(Coasting, ScansThatDoNotSeeItEndATrackSooner) {
 
 // Tentative tracks are nobody's knowledge yet: they end by the same rule.
 TEST(CoastingTracker, ATentativeTrackDoesNotSurviveSilence) {
-  const TrackerConfig config;
+  const config::TrackerConfig config;
   Tracker tracker(config, 4);
   TrackSet set(tracker.max_tracks());
   tracker.step(set, scan(0, 0, at_ms(0), {position(20.0, 0.0, 0.2)}).view());
@@ -184,4 +190,4 @@ TEST(CoastingTracker, ATentativeTrackDoesNotSurviveSilence) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

@@ -12,13 +12,13 @@
 #include "tests/fusion/dense.h"
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
-TrackerConfig by_existence(Association association) {
-  TrackerConfig config;
+config::TrackerConfig by_existence(config::Association association) {
+  config::TrackerConfig config;
   config.association = association;
-  config.birth = Birth::kExistence;
+  config.birth = config::Birth::kExistence;
   config.detection_probability = 0.8;
   config.clutter_density = 0.01;
   config.initial_existence = 0.3;
@@ -26,28 +26,29 @@ TrackerConfig by_existence(Association association) {
   return config;
 }
 
-class EveryAssociation : public testing::TestWithParam<Association> {};
-INSTANTIATE_TEST_SUITE_P(All, EveryAssociation, testing::Values(Association::kNearest, Association::kJpda),
-                         [](const testing::TestParamInfo<Association>& kind) {
-                           return kind.param == Association::kNearest ? "Nearest" : "Jpda";
+class EveryAssociation : public testing::TestWithParam<config::Association> {};
+INSTANTIATE_TEST_SUITE_P(All, EveryAssociation,
+                         testing::Values(config::Association::kNearest, config::Association::kJpda),
+                         [](const testing::TestParamInfo<config::Association>& kind) {
+                           return kind.param == config::Association::kNearest ? "Nearest" : "Jpda";
                          });
 
 // One track, one observation or none to a list, an independent filter for the density: for both associations
 //   e <- e exp(-dt/tau);  L = 1 - P_D P_G + P_D f / lambda;  e <- L e / (1 - e + L e).
 TEST_P(EveryAssociation, ExistenceFollowsTheClosedForm) {
-  TrackerConfig config = by_existence(GetParam());
+  config::TrackerConfig config = by_existence(GetParam());
   config.delete_existence = 1e-8;
   Tracker tracker(config, 4);
   TrackSet set(tracker.max_tracks());
   RandomStream stream({.seed = 1});
   const double dt = 0.05, p_d = 0.8, p_g = config.gate_probability, sigma = 0.2;
   const std::string pattern = "hhh-hh--h-----h---hhh";
-  Gaussian<4> by_hand;
-  const Matrix<4> f = transition(config.motion, dt).topLeftCorner<4, 4>();
-  const Matrix<4> q = driving_noise(config.motion, config.process_noise, dt).topLeftCorner<4, 4>();
+  linear::Gaussian<4> by_hand;
+  const linear::Matrix<4> f = transition(config.motion, dt).topLeftCorner<4, 4>();
+  const linear::Matrix<4> q = driving_noise(config.motion, config.process_noise, dt).topLeftCorner<4, 4>();
   double existence = 0.0;
   for (std::size_t k = 0; k < pattern.size(); ++k) {
-    std::vector<Observation> list;
+    std::vector<sensors::Observation> list;
     const bool hit = pattern[k] == 'h';
     if (hit) list.push_back(position(20.0 + sigma * stream.normal(), 3.0 + sigma * stream.normal(), sigma));
     tracker.step(set, scan(0, static_cast<std::uint32_t>(k), at_ms(50 * static_cast<std::int64_t>(k)), list).view());
@@ -61,17 +62,17 @@ TEST_P(EveryAssociation, ExistenceFollowsTheClosedForm) {
       by_hand.p = f * by_hand.p * f.transpose() + q;
       double likelihood = 1.0 - p_d * p_g;
       if (hit) {
-        const Matrix<2> s = by_hand.p.topLeftCorner<2, 2>() + sigma * sigma * Matrix<2>::Identity();
-        const Vector<2> nu = list[0].z.head<2>() - by_hand.x.head<2>();
-        const Matrix<2> s_inverse = dense::inverse(s);
+        const linear::Matrix<2> s = by_hand.p.topLeftCorner<2, 2>() + sigma * sigma * linear::Matrix<2>::Identity();
+        const linear::Vector<2> nu = list[0].z.head<2>() - by_hand.x.head<2>();
+        const linear::Matrix<2> s_inverse = inverse(s);
         const double determinant = s(0, 0) * s(1, 1) - s(0, 1) * s(1, 0);
         const double density = std::exp(-0.5 * nu.dot(s_inverse * nu)) / (2.0 * kPi * std::sqrt(determinant));
         const double ratio = p_d * density / 0.01;
         likelihood += ratio;
         // What the estimate takes in of it: all, or with its probability given that the object exists.
-        const double beta = GetParam() == Association::kNearest ? 1.0 : ratio / (1.0 - p_d * p_g + ratio);
-        const Matrix<4, 2> gain = by_hand.p.leftCols<2>() * s_inverse;
-        const Vector<4> moved = gain * nu;
+        const double beta = GetParam() == config::Association::kNearest ? 1.0 : ratio / (1.0 - p_d * p_g + ratio);
+        const linear::Matrix<4, 2> gain = by_hand.p.leftCols<2>() * s_inverse;
+        const linear::Vector<4> moved = gain * nu;
         by_hand.x += beta * moved;
         by_hand.p += beta * ((1.0 - beta) * moved * moved.transpose() - gain * s * gain.transpose());
       }
@@ -86,13 +87,13 @@ TEST_P(EveryAssociation, ExistenceFollowsTheClosedForm) {
 
 // Two tracks share an observation: by hand, the four events of JIPDA.
 TEST(Existence, OfTwoTracksThatShareAnObservation) {
-  const TrackerConfig config = by_existence(Association::kJpda);
+  const config::TrackerConfig config = by_existence(config::Association::kJpda);
   const double gated = seen_in_gate(config), e1 = 0.7, e2 = 0.4, r1 = 5.0, r2 = 2.0;
   // Unnormalised: none, of the first, of the second.
   const double none = (1.0 - gated * e1) * (1.0 - gated * e2), first = e1 * r1 * (1.0 - gated * e2),
                second = (1.0 - gated * e1) * e2 * r2, all = none + first + second;
-  JointAssociation joint(1, 2);
-  const Pair pairs[] = {{0, 0, joint_weight(e1, r1, config)}, {0, 1, joint_weight(e2, r2, config)}};
+  association::JointAssociation joint(1, 2);
+  const association::Pair pairs[] = {{0, 0, joint_weight(e1, r1, config)}, {0, 1, joint_weight(e2, r2, config)}};
   joint.solve(pairs, 1, 2);
   EXPECT_NEAR(joint.of_column(0)[0].probability, first / all, 1e-15);
   EXPECT_NEAR(joint.of_column(1)[0].probability, second / all, 1e-15);
@@ -100,14 +101,14 @@ TEST(Existence, OfTwoTracksThatShareAnObservation) {
   const double by_hand = (first + (none + second) * e1 * (1.0 - gated) / (1.0 - gated * e1)) / all;
   EXPECT_NEAR(exists, by_hand, 1e-15);
   // Alone, the joint form is the single track's.
-  const Pair lone[] = {{0, 0, joint_weight(e1, r1, config)}};
+  const association::Pair lone[] = {{0, 0, joint_weight(e1, r1, config)}};
   joint.solve(lone, 1, 1);
   EXPECT_NEAR(joint.of_column(0)[0].probability + joint.none_of_column(0) * exists_unseen(e1, config),
               after_list(e1, r1, config), 1e-15);
 }
 
 TEST(Existence, ClutterOfARadarIsThatOfThePlane) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.clutter_density = 0.02;
   config.initial_velocity_sigma = 5.0;
   EXPECT_EQ(clutter_at(position(30.0, 2.0, 0.1), config), 0.02);
@@ -123,12 +124,12 @@ TEST(Existence, ClutterOfARadarIsThatOfThePlane) {
 
 // Confirmed from confirm_existence on; ended below delete_existence; nothing else is asked.
 TEST_P(EveryAssociation, ATrackIsBornAndEndsByItsExistence) {
-  const TrackerConfig config = by_existence(GetParam());
+  const config::TrackerConfig config = by_existence(GetParam());
   Tracker tracker(config, 8);
   TrackSet set(tracker.max_tracks());
   bool was_confirmed = false, ended = false;
   for (std::uint32_t k = 0; k < 40; ++k) {
-    std::vector<Observation> list;
+    std::vector<sensors::Observation> list;
     if (k < 10) list.push_back(position(20.0, 3.0, 0.2));
     tracker.step(set, scan(0, k, at_ms(50 * k), list).view());
     if (set.tracks.empty()) {
@@ -148,7 +149,7 @@ TEST_P(EveryAssociation, ATrackIsBornAndEndsByItsExistence) {
 // What is seen once and never again ends in a few lists; in clutter as dense as was assumed, few false tracks are
 // believed, with a true one among them that is.
 TEST_P(EveryAssociation, ClutterIsSeldomBelieved) {
-  TrackerConfig config = by_existence(GetParam());
+  config::TrackerConfig config = by_existence(GetParam());
   config.clutter_density = 0.01;
   config.initial_existence = 0.05;
   Tracker tracker(config, 64);
@@ -156,7 +157,7 @@ TEST_P(EveryAssociation, ClutterIsSeldomBelieved) {
   RandomStream stream({.seed = 5});
   int false_confirmed = 0, true_confirmed = 0, lists = 0;
   for (std::uint32_t k = 0; k < 400; ++k) {
-    std::vector<Observation> list;
+    std::vector<sensors::Observation> list;
     if (stream.uniform() < 0.8) list.push_back(position(30.0 + 0.2 * stream.normal(), 0.2 * stream.normal(), 0.2));
     // 60 m by 20 m: 12 to a list.
     for (int i = 0; i < 12; ++i) list.push_back(position(stream.uniform(0.0, 60.0), stream.uniform(-10.0, 10.0), 0.2));
@@ -165,7 +166,7 @@ TEST_P(EveryAssociation, ClutterIsSeldomBelieved) {
     ++lists;
     for (const Track& track : set.tracks) {
       if (!track.confirmed) continue;
-      const State x = state_of(track);
+      const estimators::State x = state_of(track);
       (std::hypot(x(0) - 30.0, x(1)) < 1.0 ? true_confirmed : false_confirmed) += 1;
     }
   }
@@ -176,4 +177,4 @@ TEST_P(EveryAssociation, ClutterIsSeldomBelieved) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

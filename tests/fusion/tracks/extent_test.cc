@@ -10,7 +10,7 @@
 
 #include "core/random.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
 // Oracle: the outline walked along, in the sensor's frame.
@@ -129,4 +129,4 @@ TEST(Extent, ForgetsAtTheStatedRate) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

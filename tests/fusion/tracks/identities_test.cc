@@ -10,7 +10,7 @@
 #include "fusion/tracks/timeline.h"
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
 std::map<TrackId, ObservationId> births(const TrackSet& set) {
@@ -105,10 +105,10 @@ TEST(Identities, ALateScanMayMoveTheBirthButNotTheId) {
 
 // A track that ended lives on when a late scan shows it was seen after all.
 TEST(Identities, WhoComesBackToLifeHasItsOldName) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.delete_misses = 3;
   Timeline timeline(config, 4);
-  const std::vector<Observation> car{position(20.0, 0.0, 0.2)}, other{position(40.0, 9.0, 0.2)};
+  const std::vector<sensors::Observation> car{position(20.0, 0.0, 0.2)}, other{position(40.0, 9.0, 0.2)};
   for (std::uint32_t k = 0; k < 3; ++k) timeline.insert(scan(0, k, at_ms(40 * k), car).view());
   const TrackId id = timeline.current().tracks[0].id;
   for (std::uint32_t k = 3; k < 6; ++k) timeline.insert(scan(0, k, at_ms(40 * k), other).view());
@@ -123,7 +123,7 @@ TEST(Identities, WhoComesBackToLifeHasItsOldName) {
 
 // Thousands of tracks that come and go: names are not given again, and storage stays what it was.
 TEST(Identities, AreNotGivenAgain) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.delete_misses = 2;
   config.history_scans = 4;
   Timeline timeline(config, 4);
@@ -142,4 +142,4 @@ TEST(Identities, AreNotGivenAgain) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

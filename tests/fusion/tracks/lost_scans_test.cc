@@ -11,11 +11,13 @@
 #include "fusion/tracks/timeline.h"
 #include "tests/fusion/drives.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
-class LostScans : public testing::TestWithParam<StrategyKind> {};
-INSTANTIATE_TEST_SUITE_P(All, LostScans, testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
+class LostScans : public testing::TestWithParam<strategies::StrategyKind> {};
+INSTANTIATE_TEST_SUITE_P(All, LostScans,
+                         testing::Values(strategies::StrategyKind::kBuff, strategies::StrategyKind::kAdva,
+                                         strategies::StrategyKind::kTt),
                          name_of);
 
 // A span of the drive in which a sensor is dead; its last list may be on its way still.
@@ -43,7 +45,7 @@ std::vector<TrackView> in_order(std::vector<Arrival> arrivals, GlobalTime at) {
   std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
     return before(a.scan.id, a.scan.measured, b.scan.id, b.scan.measured);
   });
-  Timeline timeline(TrackerConfig{}, TrackerConfig{}.max_observations);
+  Timeline timeline(config::TrackerConfig{}, config::TrackerConfig{}.max_observations);
   for (const Arrival& arrival : arrivals) timeline.insert(arrival.scan.view());
   const TrackSet& set = timeline.current();
   std::vector<TrackView> views;
@@ -53,7 +55,7 @@ std::vector<TrackView> in_order(std::vector<Arrival> arrivals, GlobalTime at) {
   return views;
 }
 
-void expect_as_if_never_sent(StrategyKind kind, const std::vector<Arrival>& arrivals, std::size_t tracks) {
+void expect_as_if_never_sent(strategies::StrategyKind kind, const std::vector<Arrival>& arrivals, std::size_t tracks) {
   constexpr std::int64_t kEnd = 4'200, kLongestWay = 60;  // [ms]
   const auto strategy = make_strategy(kind, {}, laser_and_camera());
   const std::vector<Fused> result = run(*strategy, arrivals, kEnd);
@@ -63,11 +65,13 @@ void expect_as_if_never_sent(StrategyKind kind, const std::vector<Arrival>& arri
   for (const Fused& f : result) {
     ASSERT_TRUE(times.contains(f.id)) << "invented";
     const auto [measured, arrived] = times[f.id];
-    const bool late = f.disposition == Disposition::kFusedLate;
-    ASSERT_TRUE(f.disposition == Disposition::kFused || (late && kind == StrategyKind::kAdva))
+    const bool late = f.disposition == strategies::Disposition::kFusedLate;
+    ASSERT_TRUE(f.disposition == strategies::Disposition::kFused || (late && kind == strategies::StrategyKind::kAdva))
         << "promises were kept: " << f;
     // The first of the fusion instants, every 10 ms, at which nothing older can come.
-    ASSERT_LT(f.ms, (kind == StrategyKind::kAdva ? arrived : std::max(arrived, measured + kLongestWay)) + 10) << f;
+    ASSERT_LT(f.ms,
+              (kind == strategies::StrategyKind::kAdva ? arrived : std::max(arrived, measured + kLongestWay)) + 10)
+        << f;
   }
   std::vector<TrackView> shown, expected = in_order(arrivals, at_ms(kEnd));
   strategy->image(at_ms(kEnd), shown);
@@ -124,7 +128,7 @@ TEST_P(LostScans, ASensorThatRestartsCountsAnewAndIsNotTakenForItself) {
   }
   const std::vector<Fused> result = run(*strategy, arrivals, 1'800);
   EXPECT_EQ(result.size(), 20u);
-  for (const Fused& f : result) EXPECT_EQ(f.disposition, Disposition::kFused) << f;
+  for (const Fused& f : result) EXPECT_EQ(f.disposition, strategies::Disposition::kFused) << f;
   ASSERT_EQ(strategy->newest().size(), 1u);
   EXPECT_EQ(strategy->newest()[0].sequence, 9u);
   EXPECT_EQ(strategy->newest_measured(), at_ms(1'720));
@@ -145,4 +149,4 @@ TEST_P(LostScans, TheNewestOfARestartedSensorIsToldByItsInstant) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

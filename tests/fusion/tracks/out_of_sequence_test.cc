@@ -10,7 +10,7 @@
 #include "tests/fusion/dense.h"
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -37,14 +37,14 @@ AtK update_at_k(const Vector& prior_x, const Matrix& prior_p, const Vector& z, c
   k.h = h;
   k.s = h * prior_p * h.transpose() + r;
   k.nu = z - h * prior_x;
-  const Matrix gain = prior_p * h.transpose() * dense::inverse(k.s);
+  const Matrix gain = prior_p * h.transpose() * inverse(k.s);
   k.x = prior_x + gain * k.nu;
   k.p = prior_p - gain * k.s * gain.transpose();
   return k;
 }
 
 Updated algorithm(char which, const AtK& k, const Late& late) {
-  const Matrix s_inverse = dense::inverse(k.s), b = k.h.transpose() * s_inverse * k.h;
+  const Matrix s_inverse = inverse(k.s), b = k.h.transpose() * s_inverse * k.h;
   const Matrix p_xv = late.q - k.prior_p * b * late.q;
   Updated u;
   Vector x_tau = late.fb * k.x;
@@ -61,7 +61,7 @@ Updated algorithm(char which, const AtK& k, const Late& late) {
     c = k.p * late.fb.transpose() * late.h.transpose();
   }
   const Matrix s = late.h * u.p_tau * late.h.transpose() + late.r;
-  u.w = c * dense::inverse(s);
+  u.w = c * inverse(s);
   u.x = k.x + u.w * (late.z - late.h * x_tau);
   u.p = k.p - u.w * s * u.w.transpose();
   const Matrix e =
@@ -120,23 +120,23 @@ TEST(OutOfSequence, InOrderProcessingIsAlgorithmA) {
 //
 // Against algorithm A, which never goes back: the same estimate although not one step is the same.
 TEST(OutOfSequence, RewindingEqualsAlgorithmA) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.gate_probability = 0.999999;
   config.initial_velocity_sigma = 3.0;
   config.process_noise = 2.0;
   for (const std::int64_t tau : {0, 1, 250, 500, 750, 999}) {
-    const Observation first = position(10.0, 4.0, 0.3), between = position(10.4, 4.3, 0.2),
-                      last = position(11.5, 3.6, 0.4);
+    const sensors::Observation first = position(10.0, 4.0, 0.3), between = position(10.4, 4.3, 0.2),
+                               last = position(11.5, 3.6, 0.4);
     Timeline timeline(config, 4);
     ASSERT_EQ(timeline.insert(scan(0, 0, at_ms(0), {first}).view()), Timeline::Insertion::kInOrder);
     ASSERT_EQ(timeline.insert(scan(0, 1, at_ms(1000), {last}).view()), Timeline::Insertion::kInOrder);
     ASSERT_EQ(timeline.insert(scan(1, 0, at_ms(tau), {between}).view()), Timeline::Insertion::kLate);
     ASSERT_EQ(timeline.current().tracks.size(), 1u);
-    const Cartesian rewound = seen_as(timeline.current().tracks[0].estimate);
+    const estimators::Cartesian rewound = seen_as(timeline.current().tracks[0].estimate);
 
-    const MotionModel motion = config.motion;
+    const config::MotionModel motion = config.motion;
     const double whole = 1.0, back = 1.0 - 1e-3 * static_cast<double>(tau);
-    const Cartesian start = seen_as(timeline.estimator().initial(first));
+    const estimators::Cartesian start = seen_as(timeline.estimator().initial(first));
     const Matrix f = transition(motion, whole).topLeftCorner<4, 4>();
     const Matrix prior_p = f * Matrix(start.p.topLeftCorner<4, 4>()) * f.transpose() +
                            Matrix(driving_noise(motion, config.process_noise, whole).topLeftCorner<4, 4>());
@@ -159,4 +159,4 @@ TEST(OutOfSequence, RewindingEqualsAlgorithmA) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

@@ -9,7 +9,7 @@
 #include "tests/fusion/scenes.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
 constexpr int kObjects = 1000;
@@ -19,14 +19,15 @@ constexpr std::uint32_t kCycles = 14;
 TEST(Thousand, ObjectsAreTrackedEachByOneTrackWithoutAllocation) {
   const Lanes laser{.objects = kObjects, .across = 40, .sigma = 0.2, .seed = 1};
   const Lanes camera{.objects = kObjects, .across = 40, .sigma = 0.4, .seed = 2};
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.max_objects = kObjects;
   config.max_observations = kObjects;
   config.history_scans = 8;
-  const SensorTiming sensors[] = {
-      {SensorId{0}, Settling::after(Duration::milliseconds(60)), true, at_ms(0), Duration::milliseconds(40)},
-      {SensorId{1}, Settling::after(Duration::milliseconds(35)), true, at_ms(20), Duration::milliseconds(40)}};
-  const auto strategy = make_strategy(StrategyKind::kAdva, config, sensors);
+  const strategies::SensorTiming sensors[] = {{SensorId{0}, strategies::Settling::after(Duration::milliseconds(60)),
+                                               true, at_ms(0), Duration::milliseconds(40)},
+                                              {SensorId{1}, strategies::Settling::after(Duration::milliseconds(35)),
+                                               true, at_ms(20), Duration::milliseconds(40)}};
+  const auto strategy = make_strategy(strategies::StrategyKind::kAdva, config, sensors);
   std::vector<OwnedScan> early, late;
   for (std::uint32_t k = 0; k < kCycles; ++k) {
     late.push_back(scan(0, k, at_ms(40 * k), laser.see(at_ms(40 * k), k)));
@@ -43,7 +44,7 @@ TEST(Thousand, ObjectsAreTrackedEachByOneTrackWithoutAllocation) {
     strategy->accept(late[k].view());
     strategy->fuse(early[k].measured);
     allocations += support::allocations() - before;
-    EXPECT_EQ(strategy->last_fused()[0].disposition, Disposition::kFusedLate) << k;
+    EXPECT_EQ(strategy->last_fused()[0].disposition, strategies::Disposition::kFusedLate) << k;
   }
   strategy->image(end, image);
   EXPECT_EQ(allocations, 0);
@@ -52,7 +53,7 @@ TEST(Thousand, ObjectsAreTrackedEachByOneTrackWithoutAllocation) {
   double sum = 0.0;
   for (const TrackView& track : image) {
     for (int object = 0; object < kObjects; ++object) {
-      const State apart = track.state - laser.truth(object, end);
+      const estimators::State apart = track.state - laser.truth(object, end);
       if (std::hypot(apart(0), apart(1)) > 1.0) continue;
       tracked.insert(object);
       sum += apart(0) * apart(0) + apart(1) * apart(1);
@@ -64,4 +65,4 @@ TEST(Thousand, ObjectsAreTrackedEachByOneTrackWithoutAllocation) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

@@ -9,7 +9,7 @@
 
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
 // In chronological order, with three scans of one instant: by sensor, then by sequence.
@@ -26,7 +26,7 @@ std::vector<OwnedScan> six_scans() {
 
 TEST(Timeline, EveryOrderOfSixScansGivesTheSameBits) {
   const std::vector<OwnedScan> scans = six_scans();
-  TrackerConfig config;
+  config::TrackerConfig config;
   Timeline in_order(config, 16);
   for (const OwnedScan& s : scans) ASSERT_EQ(in_order.insert(s.view()), Timeline::Insertion::kInOrder);
   ASSERT_GE(in_order.current().tracks.size(), 6u);
@@ -64,7 +64,7 @@ TEST(Timeline, EveryOrderOfSixScansGivesTheSameBits) {
 //        o 0
 //       0 s         1 s              2 s
 TEST(Timeline, ALateScanReopensAssociations) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.initial_velocity_sigma = 2.0;
   config.process_noise = 4.0;
   config.delete_position_sigma = 50.0;
@@ -85,7 +85,7 @@ TEST(Timeline, ALateScanReopensAssociations) {
 //               ^     ^
 //            199 no  201 yes
 TEST(Timeline, HistoryHasAnEnd) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.history_scans = 4;
   const Lanes lanes{.objects = 3};
   const auto lanes_scan = [&](std::uint8_t sensor, std::uint32_t sequence, std::int64_t ms) {
@@ -109,7 +109,7 @@ TEST(Timeline, HistoryHasAnEnd) {
 
 TEST(Timeline, LongDrivesInDisorder) {
   // 200 scans of two sensors, each up to 12 places late, objects that appear and get lost.
-  TrackerConfig config;
+  config::TrackerConfig config;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     RandomStream stream({.seed = seed});
     const Lanes lanes{.objects = 10, .miss_probability = 0.4, .seed = seed};
@@ -135,8 +135,9 @@ TEST(Timeline, CrossingObjectsInClutterShuffled) {
   std::vector<OwnedScan> scans;
   for (std::uint32_t k = 0; k < 40; ++k) {
     const double t = 0.05 * k;
-    std::vector<Observation> list{position(20 + 6 * t + 0.3 * stream.normal(), -3 + 3 * t + 0.3 * stream.normal(), 0.3),
-                                  position(32 - 6 * t + 0.3 * stream.normal(), 3 - 3 * t + 0.3 * stream.normal(), 0.3)};
+    std::vector<sensors::Observation> list{
+        position(20 + 6 * t + 0.3 * stream.normal(), -3 + 3 * t + 0.3 * stream.normal(), 0.3),
+        position(32 - 6 * t + 0.3 * stream.normal(), 3 - 3 * t + 0.3 * stream.normal(), 0.3)};
     if (stream.uniform() < 0.4) list.push_back(position(stream.uniform(10, 40), stream.uniform(-8, 8), 0.2));
     scans.push_back(scan(static_cast<std::uint8_t>(k % 3), k / 3, at_ms(50 * k), std::move(list)));
   }
@@ -154,4 +155,4 @@ TEST(Timeline, CrossingObjectsInClutterShuffled) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

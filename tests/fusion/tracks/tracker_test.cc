@@ -13,7 +13,7 @@
 #include "fusion/motion/angles.h"
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
 int confirmed(const TrackSet& set) {
@@ -22,13 +22,13 @@ int confirmed(const TrackSet& set) {
 }
 
 struct Bench {
-  TrackerConfig config;
+  config::TrackerConfig config;
   Tracker tracker;
   TrackSet set;
   std::uint32_t sequence = 0;
 
-  explicit Bench(TrackerConfig c = {}) : config(c), tracker(c, 64), set(tracker.max_tracks()) {}
-  void step(std::int64_t ms, std::vector<Observation> observations) {
+  explicit Bench(config::TrackerConfig c = {}) : config(c), tracker(c, 64), set(tracker.max_tracks()) {}
+  void step(std::int64_t ms, std::vector<sensors::Observation> observations) {
     tracker.step(set, scan(0, sequence++, at_ms(ms), std::move(observations)).view());
   }
 };
@@ -37,7 +37,7 @@ struct Bench {
 // a track; it is confirmed as soon as 3 of its last 5 scans are hits; tentative, it ends as soon as 3 of 5
 // cannot be reached any more; confirmed, it ends with the 4th miss in a row.
 TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.confirm_hits = 3;
   config.confirm_window = 5;
   config.delete_misses = 4;
@@ -50,7 +50,7 @@ TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
     unsigned born = 0;
     for (int k = 0; k < 10; ++k) {
       const bool hit = pattern >> k & 1u;
-      bench.step(50 * k, hit ? std::vector{position(20.0, 3.0, 0.1)} : std::vector<Observation>{});
+      bench.step(50 * k, hit ? std::vector{position(20.0, 3.0, 0.1)} : std::vector<sensors::Observation>{});
       if (!history && hit) {
         history = "";
         is_confirmed = false;
@@ -76,7 +76,7 @@ TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
 }
 
 TEST(Tracker, TooUncertainAPositionEndsATrack) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.delete_misses = 1000;
   config.delete_after = Duration::milliseconds(100'000);
   config.delete_position_sigma = 2.0;
@@ -110,7 +110,7 @@ TEST(Tracker, Follows25ObjectsEachWithItsOwnTrack) {
     if (k < 15) continue;
     ASSERT_EQ(confirmed(bench.set), 25) << "scan " << k;
     for (int object = 0; object < 25; ++object) {
-      const State truth = lanes.truth(object, t);
+      const estimators::State truth = lanes.truth(object, t);
       const auto nearest =
           std::min_element(bench.set.tracks.begin(), bench.set.tracks.end(), [&](const Track& a, const Track& b) {
             return (state_of(a) - truth).head<2>().squaredNorm() < (state_of(b) - truth).head<2>().squaredNorm();
@@ -157,7 +157,7 @@ TEST(Tracker, AConfirmedTrackKeepsItsObservationFromATentativeOne) {
 }
 
 TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.heading_noise = 0.0;
   config.extent_noise = 0.0;
   Bench bench(config);
@@ -165,9 +165,9 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
   double length_sum = 0.0;
   const int n = 200;
   for (int k = 0; k < n; ++k) {
-    Observation z = position(20.0, 0.0, 0.1);
+    sensors::Observation z = position(20.0, 0.0, 0.1);
     z.has_heading = z.has_length = true;
-    z.heading = to_half_turn(3.1 + 0.05 * stream.normal() + (stream.uniform() < 0.5 ? 0.0 : std::numbers::pi));
+    z.heading = motion::to_half_turn(3.1 + 0.05 * stream.normal() + (stream.uniform() < 0.5 ? 0.0 : std::numbers::pi));
     z.sigma_heading = 0.05;
     z.length = 4.0 + 0.3 * stream.normal();
     z.sigma_length = 0.3;
@@ -176,7 +176,7 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
   }
   ASSERT_EQ(bench.set.tracks.size(), 1u);
   const Track& track = bench.set.tracks[0];
-  const double off = to_half_turn(track.heading.value - 3.1);
+  const double off = motion::to_half_turn(track.heading.value - 3.1);
   EXPECT_LT(std::min(std::abs(off), std::numbers::pi - std::abs(off)), 4.0 * 0.05 / std::sqrt(n));
   EXPECT_NEAR(track.heading.variance, 0.05 * 0.05 / n, 1e-12);
   EXPECT_NEAR(track.extent.size(0), length_sum / n, 0.3) << "half of the variance may be common to all";
@@ -188,7 +188,8 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
 Track moving_track(double vx, double vy, double sigma_v) {
   Track track;
   const double v = sigma_v * sigma_v;
-  track.estimate = Gaussian<4>{Vector<4>(10.0, 2.0, vx, vy), Vector<4>(0.1, 0.1, v, v).asDiagonal()};
+  track.estimate =
+      linear::Gaussian<4>{linear::Vector<4>(10.0, 2.0, vx, vy), linear::Vector<4>(0.1, 0.1, v, v).asDiagonal()};
   return track;
 }
 
@@ -216,10 +217,10 @@ TEST(View, AxisTellsTheHeadingOfWhatStandsAndCourseTellsItsFront) {
 }
 
 TEST(View, AccelerationIsAlongTheHeading) {
-  TrackerConfig config;
-  config.motion = MotionModel::kConstantAcceleration;
+  config::TrackerConfig config;
+  config.motion = config::MotionModel::kConstantAcceleration;
   Track track = moving_track(0.0, 10.0, 0.1);
-  Gaussian<6> accelerating = seen_as(track.estimate);
+  linear::Gaussian<6> accelerating = seen_as(track.estimate);
   accelerating.x.tail<2>() << 5.0, -2.0;
   accelerating.p(4, 4) = 9.0;
   accelerating.p(5, 5) = 0.25;
@@ -230,7 +231,7 @@ TEST(View, AccelerationIsAlongTheHeading) {
 }
 
 TEST(View, IsPredictedButNeverBackwards) {
-  const TrackerConfig config;
+  const config::TrackerConfig config;
   Track track = moving_track(2.0, -1.0, 0.5);
   track.extent.size(0) = 4.0;
   track.extent.covariance(0, 0) = 0.04;
@@ -246,4 +247,4 @@ TEST(View, IsPredictedButNeverBackwards) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

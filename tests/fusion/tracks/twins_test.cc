@@ -10,11 +10,11 @@
 #include "fusion/tracks/timeline.h"
 #include "tests/fusion/scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
-TrackerConfig uniting(double probability = 0.99) {
-  TrackerConfig config;
+config::TrackerConfig uniting(double probability = 0.99) {
+  config::TrackerConfig config;
   config.merge_probability = probability;
   config.merge_scans = 4;
   config.delete_misses = 30;
@@ -46,9 +46,9 @@ std::vector<OwnedScan> two_views() {
 }
 
 TEST(Twins, LasersAndCamerasViewsOfOneObjectBecomeOne) {
-  for (const Association association : {Association::kNearest, Association::kJpda})
-    for (const Birth birth : {Birth::kMOfN, Birth::kExistence}) {
-      TrackerConfig config = uniting();
+  for (const config::Association association : {config::Association::kNearest, config::Association::kJpda})
+    for (const config::Birth birth : {config::Birth::kMOfN, config::Birth::kExistence}) {
+      config::TrackerConfig config = uniting();
       config.association = association;
       config.birth = birth;
       config.detection_probability = 0.5;  // every other list is one sensor's (fusion/tracks/existence.h)
@@ -72,7 +72,7 @@ TEST(Twins, LasersAndCamerasViewsOfOneObjectBecomeOne) {
                                << static_cast<int>(birth);
       ASSERT_EQ(confirmed(united.current()), 1);
       EXPECT_EQ(united.current().tracks[0].id, first) << "the older identity stays";
-      const State x = state_of(united.current().tracks[0]);
+      const estimators::State x = state_of(united.current().tracks[0]);
       EXPECT_NEAR(x(0), 20.0 + 5.0 * 0.02 * 199, 0.3);
       EXPECT_NEAR(x(2), 5.0, 1.5);
     }
@@ -80,8 +80,8 @@ TEST(Twins, LasersAndCamerasViewsOfOneObjectBecomeOne) {
 
 // Two cars 2 m apart, one sensor that tells them apart: over hundreds of lists, with gates wide enough to touch.
 TEST(Twins, CarsSideBySideStayTwo) {
-  for (const Association association : {Association::kNearest, Association::kJpda}) {
-    TrackerConfig config = uniting(0.999999);
+  for (const config::Association association : {config::Association::kNearest, config::Association::kJpda}) {
+    config::TrackerConfig config = uniting(0.999999);
     config.association = association;
     config.merge_scans = 1;
     Tracker tracker(config, 8);
@@ -89,7 +89,7 @@ TEST(Twins, CarsSideBySideStayTwo) {
     RandomStream stream({.seed = 6});
     for (std::uint32_t k = 0; k < 400; ++k) {
       const double x = 20.0 + 0.2 * k, sigma = 0.3;
-      std::vector<Observation> list;
+      std::vector<sensors::Observation> list;
       for (const double y : {-1.0, 1.0})
         list.push_back(position(x + sigma * stream.normal(), y + sigma * stream.normal(), sigma));
       tracker.step(set, scan(0, k, at_ms(40 * k), list).view());
@@ -104,28 +104,28 @@ TEST(Twins, CarsSideBySideStayTwo) {
 Track track_at(double x, double y, double sigma, std::uint32_t birth) {
   Track track;
   track.birth = track.newest = {{SensorId{0}, birth}, 0, at_ms(static_cast<std::int64_t>(birth))};
-  Matrix<4> p = Matrix<4>::Identity() * sigma * sigma;
-  track.estimate = Gaussian<4>{Vector<4>(x, y, 3.0, 0.0), p};
+  linear::Matrix<4> p = linear::Matrix<4>::Identity() * sigma * sigma;
+  track.estimate = linear::Gaussian<4>{linear::Vector<4>(x, y, 3.0, 0.0), p};
   track.confirmed = true;
   track.scans = 10;
   return track;
 }
 
 TEST(Twins, TheElderStaysAndTheMoreCertainEstimateIsKept) {
-  TrackerConfig config = uniting();
+  config::TrackerConfig config = uniting();
   config.merge_scans = 2;
-  const auto estimator = make_estimator(config);
+  const auto estimator = estimators::make_estimator(config);
   Twins twins(config, 8);
   std::vector<Track> tracks{track_at(20.0, 0.0, 0.4, 1), track_at(50.0, 5.0, 0.4, 2), track_at(20.2, 0.1, 0.1, 3)};
-  tracks[0].unfiltered.classes.add(ClassId{2}, 1.5);
-  tracks[2].unfiltered.classes.add(ClassId{2}, 2.0);
+  tracks[0].unfiltered.classes.add(sensors::ClassId{2}, 1.5);
+  tracks[2].unfiltered.classes.add(sensors::ClassId{2}, 2.0);
   tracks[2].unfiltered.third = {.z = 1.25, .height = 0.0, .has_z = true, .has_height = false};
   tracks[0].existence = 0.9;
   tracks[2].existence = 0.99;
   tracks[0].misses = 5;
   tracks[2].hits = 0b111;
   correct_width(tracks[2].extent, 1.9, 0.1);
-  const Estimate certain = tracks[2].estimate;
+  const estimators::Estimate certain = tracks[2].estimate;
   twins.unite(tracks, *estimator);
   ASSERT_EQ(tracks.size(), 3u) << "one list is not enough";
   EXPECT_EQ(tracks[2].twin_scans, 1);
@@ -143,9 +143,9 @@ TEST(Twins, TheElderStaysAndTheMoreCertainEstimateIsKept) {
 }
 
 TEST(Twins, AListThatShowsBothBeginsTheCountAnew) {
-  TrackerConfig config = uniting();
+  config::TrackerConfig config = uniting();
   config.merge_scans = 3;
-  const auto estimator = make_estimator(config);
+  const auto estimator = estimators::make_estimator(config);
   Twins twins(config, 8);
   std::vector<Track> tracks{track_at(20.0, 0.0, 0.4, 1), track_at(20.2, 0.1, 0.4, 2)};
   const auto list = [&](bool elder, bool younger) {
@@ -168,9 +168,9 @@ TEST(Twins, AListThatShowsBothBeginsTheCountAnew) {
 }
 
 TEST(Twins, AnotherSizeIsAnotherObject) {
-  TrackerConfig config = uniting();
+  config::TrackerConfig config = uniting();
   config.merge_scans = 1;
-  const auto estimator = make_estimator(config);
+  const auto estimator = estimators::make_estimator(config);
   Twins twins(config, 8);
   std::vector<Track> lorry_and_car{track_at(20.0, 0.0, 0.4, 1), track_at(20.2, 0.1, 0.4, 2)};
   correct_length(lorry_and_car[0].extent, 9.0, 0.1);
@@ -185,4 +185,4 @@ TEST(Twins, AnotherSizeIsAnotherObject) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

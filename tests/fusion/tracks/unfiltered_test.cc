@@ -3,11 +3,11 @@
 
 #include "fusion/tracks/unfiltered.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::tracks {
 namespace {
 
-Observation told(ClassId what, double score) {
-  Observation observation;
+sensors::Observation told(sensors::ClassId what, double score) {
+  sensors::Observation observation;
   observation.class_id = what;
   observation.score = score;
   return observation;
@@ -15,26 +15,26 @@ Observation told(ClassId what, double score) {
 
 TEST(Unfiltered, TheLargestSumCountsAndOfEqualOnesTheFirst) {
   Unfiltered unfiltered;
-  EXPECT_EQ(unfiltered.classes.best(), kNoClass);
+  EXPECT_EQ(unfiltered.classes.best(), sensors::kNoClass);
   EXPECT_EQ(unfiltered.classes.share(), 0.0);
-  carry(unfiltered, told(ClassId{3}, 0.0));
-  EXPECT_EQ(unfiltered.classes.best(), kNoClass) << "a score of zero tells nothing";
-  carry(unfiltered, told(ClassId{15}, 0.5));
-  EXPECT_EQ(unfiltered.classes.best(), ClassId{15});
-  carry(unfiltered, told(ClassId{2}, 0.25));
-  carry(unfiltered, told(ClassId{2}, 0.25));
-  EXPECT_EQ(unfiltered.classes.best(), ClassId{2}) << "of equal sums the first";
+  carry(unfiltered, told(sensors::ClassId{3}, 0.0));
+  EXPECT_EQ(unfiltered.classes.best(), sensors::kNoClass) << "a score of zero tells nothing";
+  carry(unfiltered, told(sensors::ClassId{15}, 0.5));
+  EXPECT_EQ(unfiltered.classes.best(), sensors::ClassId{15});
+  carry(unfiltered, told(sensors::ClassId{2}, 0.25));
+  carry(unfiltered, told(sensors::ClassId{2}, 0.25));
+  EXPECT_EQ(unfiltered.classes.best(), sensors::ClassId{2}) << "of equal sums the first";
   EXPECT_EQ(unfiltered.classes.share(), 0.5);
-  carry(unfiltered, told(kNoClass, 7.0));
+  carry(unfiltered, told(sensors::kNoClass, 7.0));
   EXPECT_EQ(unfiltered.classes.share(), 0.5);
-  carry(unfiltered, told(ClassId{15}, 1.0));
-  EXPECT_EQ(unfiltered.classes.best(), ClassId{15});
+  carry(unfiltered, told(sensors::ClassId{15}, 1.0));
+  EXPECT_EQ(unfiltered.classes.best(), sensors::ClassId{15});
   EXPECT_EQ(unfiltered.classes.share(), 0.75);
 }
 
 TEST(Unfiltered, TheThirdAxisIsTheNewestThatWasTold) {
   Unfiltered unfiltered;
-  Observation observation;
+  sensors::Observation observation;
   observation.third = {0.5, 1.5, true, true};
   carry(unfiltered, observation);
   observation.third = {0.75, 0.0, true, false};
@@ -47,4 +47,4 @@ TEST(Unfiltered, TheThirdAxisIsTheNewestThatWasTold) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::tracks

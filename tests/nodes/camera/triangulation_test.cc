@@ -10,7 +10,7 @@
 #include "sim/world/camera.h"
 #include "tests/nodes/laser/emulated_scan.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::camera {
 namespace {
 
 TEST(Triangulation, UndoesTheProjection) {
@@ -104,11 +104,11 @@ TEST(Triangulation, AVanishingDisparityIsFarAndUncertainButFinite) {
 // Against the sensor model: the error of a car's centre, weighed by the stated covariance, has mean 2 where
 // it is honest.
 TEST(Triangulation, CovarianceIsHonestForTheEmulatedCamera) {
-  world::CameraConfig camera;
+  sim::world::CameraConfig camera;
   camera.miss_probability = camera.clutter_per_frame = 0.0;
   const CameraCalibration calibration;
   RandomStream draw({23, 0, Purpose::kTest, 0, 0});
-  std::vector<world::CameraDetection> detections;
+  std::vector<sim::world::CameraDetection> detections;
   std::vector<ObjectId> truth;
   double sum = 0.0;
   int n = 0, outside = 0;
@@ -117,8 +117,8 @@ TEST(Triangulation, CovarianceIsHonestForTheEmulatedCamera) {
     // Every second car is followed or met, the others are turned anyhow.
     const double heading =
         azimuth + (frame % 2 == 0 ? draw.uniform(-0.05, 0.05) : draw.uniform(-std::numbers::pi, std::numbers::pi));
-    const auto car = car_at(range * std::cos(azimuth), range * std::sin(azimuth), heading);
-    world::measure_camera(camera, std::vector<world::ObjectState>{car}, 1, 0, 1, frame, detections, truth);
+    const auto car = laser::car_at(range * std::cos(azimuth), range * std::sin(azimuth), heading);
+    sim::world::measure_camera(camera, std::vector<sim::world::ObjectState>{car}, 1, 0, 1, frame, detections, truth);
     ASSERT_EQ(detections.size(), 1U);
     const CameraObject o =
         triangulate(calibration, detections[0].bearing, detections[0].disparity, detections[0].width_px);
@@ -134,4 +134,4 @@ TEST(Triangulation, CovarianceIsHonestForTheEmulatedCamera) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::camera

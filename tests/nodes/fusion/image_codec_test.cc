@@ -8,28 +8,29 @@
 #include "core/random.h"
 #include "schedules/file/loader.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::fusion {
 namespace {
 
 struct Image {
-  schedules::Cluster cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  schedules::model::Cluster cluster =
+      schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   PduId pdu = *cluster.find_pdu("image");
-  const schedules::PduLayout& layout = cluster.pdu(pdu);
+  const schedules::model::PduLayout& layout = cluster.pdu(pdu);
   ImageSignals signals = bind_image(cluster, layout);
-  Output out{"image", pdu, layout};
+  host::Output out{"image", pdu, layout};
 
-  records::ImageObject carried(const fusion::TrackView& view, int index = 0) {
+  recording::records::ImageObject carried(const ttf::fusion::tracks::TrackView& view, int index = 0) {
     out.begin(1, layout.max_elements, GlobalTime{});
     encode_image_object(view, out, index, signals);
     return decode_image_object(layout, out.view(), index, signals);
   }
   double resolution(std::string_view name) const {
-    return layout.element[*schedules::find_signal(layout.element, name)].resolution;
+    return layout.element[*schedules::model::find_signal(layout.element, name)].resolution;
   }
 };
 
-fusion::TrackView drawn_view(RandomStream& draw) {
-  fusion::TrackView view;
+ttf::fusion::tracks::TrackView drawn_view(RandomStream& draw) {
+  ttf::fusion::tracks::TrackView view;
   view.id = static_cast<TrackId>(draw.integer(0, 0xffff));
   view.state(0) = draw.uniform(-160, 160);
   view.state(1) = draw.uniform(-160, 160);
@@ -54,8 +55,8 @@ TEST(ImageCodec, CarriesEveryValueWithinHalfItsResolution) {
   Image image;
   RandomStream draw({.seed = 3});
   for (int k = 0; k < 500; ++k) {
-    const fusion::TrackView v = drawn_view(draw);
-    const records::ImageObject o = image.carried(v, k % image.layout.max_elements);
+    const ttf::fusion::tracks::TrackView v = drawn_view(draw);
+    const recording::records::ImageObject o = image.carried(v, k % image.layout.max_elements);
     EXPECT_EQ(o.track, v.id);
     const auto near = [&](double value, double expected, std::string_view name) {
       EXPECT_LE(std::abs(value - expected), 0.5 * image.resolution(name) + 1e-9) << name;
@@ -83,25 +84,25 @@ TEST(ImageCodec, CarriesEveryStatus) {
   Image image;
   RandomStream draw({.seed = 4});
   for (int bits = 0; bits < 16; ++bits) {
-    fusion::TrackView view = drawn_view(draw);
+    ttf::fusion::tracks::TrackView view = drawn_view(draw);
     view.confirmed = bits & 1;
     view.coasting = bits & 2;
     view.has_length = bits & 4;
     view.has_width = bits & 8;
     EXPECT_EQ(image.carried(view).status, bits);
   }
-  static_assert(records::kImageConfirmed == 1 && records::kImageCoasting == 2 && records::kImageHasLength == 4 &&
-                records::kImageHasWidth == 8);
+  static_assert(recording::records::kImageConfirmed == 1 && recording::records::kImageCoasting == 2 &&
+                recording::records::kImageHasLength == 4 && recording::records::kImageHasWidth == 8);
 }
 
 TEST(ImageCodec, SaturatesWhatIsOutOfRangeAndCountsIt) {
   Image image;
   RandomStream draw({.seed = 5});
-  fusion::TrackView view = drawn_view(draw);
+  ttf::fusion::tracks::TrackView view = drawn_view(draw);
   view.state(0) = 1000.0;
   view.state(1) = -1000.0;
   view.sigma_length = 1e6;
-  const records::ImageObject o = image.carried(view);
+  const recording::records::ImageObject o = image.carried(view);
   EXPECT_NEAR(o.x, 163.84, 0.01);
   EXPECT_EQ(o.y, -163.84);
   EXPECT_NEAR(o.sigma_length, 5.1, 1e-9);
@@ -111,7 +112,7 @@ TEST(ImageCodec, SaturatesWhatIsOutOfRangeAndCountsIt) {
 // A layout that lacks a signal, or has one the code does not know, is refused at start-up.
 TEST(ImageCodec, BindsAllSignalsOrNone) {
   Image image;
-  schedules::PduLayout layout = image.layout;
+  schedules::model::PduLayout layout = image.layout;
   std::swap(layout.element.front(), layout.element.back());
   EXPECT_EQ(bind_image(image.cluster, layout).back(), 0u) << "by name, in any order";
   layout.element.front().name = "mood";
@@ -120,19 +121,19 @@ TEST(ImageCodec, BindsAllSignalsOrNone) {
 
 // What a view says of a track's state.
 TEST(ImageStatus, CoastsAfterScansWithoutAnObservation) {
-  const fusion::TrackerConfig config;
-  const auto estimator = fusion::make_estimator(config);
-  fusion::Track track;
+  const ttf::fusion::config::TrackerConfig config;
+  const auto estimator = ttf::fusion::estimators::make_estimator(config);
+  ttf::fusion::tracks::Track track;
   track.confirmed = true;
   for (int misses = 0; misses < 8; ++misses) {
     track.misses = misses;
-    const fusion::TrackView view = view_of(track, GlobalTime{}, GlobalTime{}, config, *estimator);
+    const ttf::fusion::tracks::TrackView view = view_of(track, GlobalTime{}, GlobalTime{}, config, *estimator);
     EXPECT_EQ(view.coasting, misses >= config.coast_misses);
     EXPECT_FALSE(view.has_length || view.has_width) << "nothing was measured";
-    EXPECT_EQ(view.sigma_length, fusion::Extent::kTypicalLengthSigma) << "and the uncertainty says so too";
-    EXPECT_EQ(view.sigma_width, fusion::Extent::kTypicalWidthSigma);
+    EXPECT_EQ(view.sigma_length, ttf::fusion::tracks::Extent::kTypicalLengthSigma) << "and the uncertainty says so too";
+    EXPECT_EQ(view.sigma_width, ttf::fusion::tracks::Extent::kTypicalWidthSigma);
   }
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::fusion

@@ -8,10 +8,10 @@
 
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::nodes::fusion {
 namespace {
 
-using testing_support::Drive;
+using drives::Drive;
 
 // A size as the image tells it, from the instant on at which drives are judged.
 struct Told {
@@ -27,21 +27,21 @@ struct Told {
   }
   double rms() const { return std::sqrt(error_squares / known); }
 };
-struct Sizes final : records::Sink {
-  using records::Sink::on;
+struct Sizes final : recording::records::Sink {
+  using recording::records::Sink::on;
   TrueTime from{};
-  std::vector<records::FeatureObject> objects;
+  std::vector<recording::records::FeatureObject> objects;
   TrueTime used_at{-1};
   Told length, width;
 
-  void on(const records::FeatureUsed& used) override {
+  void on(const recording::records::FeatureUsed& used) override {
     objects.assign(used.objects.begin(), used.objects.end());
     used_at = used.stamp.true_time;
   }
-  void on(const records::TruthState& truth) override {
+  void on(const recording::records::TruthState& truth) override {
     if (truth.at != used_at || truth.at < from) return;
-    for (const records::FeatureObject& object : objects) {
-      const records::ImageObject& image = object.image;
+    for (const recording::records::FeatureObject& object : objects) {
+      const recording::records::ImageObject& image = object.image;
       if (std::hypot(image.x - truth.x, image.y - truth.y) > 3.0) continue;
       length.add(image.sigma_length <= 1.0, image.length - truth.length, image.sigma_length);
       width.add(image.sigma_width <= 0.25, image.width - truth.width, image.sigma_width);
@@ -51,7 +51,7 @@ struct Sizes final : records::Sink {
 
 Sizes driven(const Drive& drive) {
   Sizes sizes;
-  sizes.from = sim::kFirstCycle + Duration::milliseconds(800);
+  sizes.from = sim::crank::kFirstCycle + Duration::milliseconds(800);
   for (std::uint64_t seed = 1; seed <= 12; ++seed) drive.run(sizes, seed);
   return sizes;
 }
@@ -64,9 +64,9 @@ void expect_honest(const Told& told) {
   EXPECT_LE(told.outside_3, 0.01 * told.uses);
 }
 
-class ImageExtent : public testing::TestWithParam<fusion::StrategyKind> {};
-INSTANTIATE_TEST_SUITE_P(All, ImageExtent, testing::ValuesIn(testing_support::kStrategies),
-                         [](const auto& kind) { return std::string(nodes::name_of(kind.param)); });
+class ImageExtent : public testing::TestWithParam<ttf::fusion::strategies::StrategyKind> {};
+INSTANTIATE_TEST_SUITE_P(All, ImageExtent, testing::ValuesIn(drives::kStrategies),
+                         [](const auto& kind) { return std::string(drives::name_of(kind.param)); });
 
 TEST_P(ImageExtent, IsHonestForACarThatDrivesAhead) {
   const Sizes sizes = driven(Drive("scenarios/paper_scenario1.yaml", GetParam()));
@@ -90,7 +90,7 @@ TEST_P(ImageExtent, IsHonestForACarThatComesAndTurnsOff) {
 TEST_P(ImageExtent, IsHonestForACarThatCrosses) {
   for (const bool from_left : {false, true}) {
     Drive drive("scenarios/paper_scenario1.yaml", GetParam());
-    world::ObjectConfig& car = drive.scenario.world.objects[0];
+    sim::world::ObjectConfig& car = drive.scenario.world.objects[0];
     car.segments.clear();
     car.x = 22.0;
     car.y = from_left ? 14.0 : -14.0;
@@ -107,4 +107,4 @@ TEST_P(ImageExtent, IsHonestForACarThatCrosses) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::nodes::fusion

@@ -10,19 +10,20 @@
 #include "schedules/file/loader.h"
 #include "tests/nodes/host/one_node.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 namespace {
 
-struct NoCan final : bus::CanPort {
-  void send(const bus::CanFrame&) override {}
+struct NoCan final : bus::ports::CanPort {
+  void send(const bus::ports::CanFrame&) override {}
 };
 
 // The paper's camera host with its own step, on wires of its own.
 struct CameraHost {
-  schedules::Cluster cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  schedules::model::Cluster cluster =
+      schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   NodeId id = *cluster.find_node("camera_pre");
   SensorId camera = *cluster.find_sensor("camera");
-  const schedules::PduLayout& layout = cluster.pdu(*cluster.find_pdu("camera_frame"));
+  const schedules::model::PduLayout& layout = cluster.pdu(*cluster.find_pdu("camera_frame"));
   std::size_t camera_can = 0;
   bus::NoPort port;
   NoCan can;
@@ -32,14 +33,15 @@ struct CameraHost {
   Microticks now{1000};
 
   // Integrated from the start, or (without a clock) starting up on a silent bus, which lasts.
-  explicit CameraHost(std::optional<bus::InitialClock> clock = bus::InitialClock{{1000}, 0}) {
+  explicit CameraHost(std::optional<bus::controller::InitialClock> clock = bus::controller::InitialClock{{1000}, 0}) {
     while (cluster.can_buses[camera_can].name != "camera_can") ++camera_can;
-    const schedules::Task& task = cluster.node(id).tasks[0];
+    const schedules::model::Task& task = cluster.node(id).tasks[0];
     const ExecutiveConfig config{&cluster, id, timebase::Oscillator(25'000, 0, 0), clock, 1, 0, {}};
     executive = std::make_unique<Executive>(
         config,
-        std::vector<std::shared_ptr<Step>>{std::make_shared<CameraPreprocessing>(cluster, task, CameraCalibration{})},
-        &port, std::vector<bus::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
+        std::vector<std::shared_ptr<Step>>{
+            std::make_shared<sensing::CameraPreprocessing>(cluster, task, camera::CameraCalibration{})},
+        &port, std::vector<bus::ports::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
   }
   void wait(Duration duration) {
     const Microticks end = now + Microticks{duration.ns / 25};
@@ -55,7 +57,7 @@ struct CameraHost {
     for (std::size_t s = 0; s < 3; ++s) raw.set(0, s, values[s]);
     executive->receive_can(camera_can, {272, false, raw.view().bytes}, now);
   }
-  long hops(records::Hop what) const {
+  long hops(recording::records::Hop what) const {
     return std::count_if(heard.hops.begin(), heard.hops.end(), [&](const Runs::Hop& h) { return h.what == what; });
   }
 };
@@ -66,10 +68,10 @@ TEST(ExecutiveLists, AListIsReadOnceAndItsResultWritten) {
   host.wait(Duration::milliseconds(1));
   host.frame(0);
   host.wait(Duration::milliseconds(60));
-  EXPECT_EQ(host.hops(records::Hop::kReceived), 1);
-  EXPECT_EQ(host.hops(records::Hop::kRead), 1);
-  EXPECT_EQ(host.hops(records::Hop::kWritten), 1);
-  EXPECT_EQ(host.hops(records::Hop::kDiscarded), 0);
+  EXPECT_EQ(host.hops(recording::records::Hop::kReceived), 1);
+  EXPECT_EQ(host.hops(recording::records::Hop::kRead), 1);
+  EXPECT_EQ(host.hops(recording::records::Hop::kWritten), 1);
+  EXPECT_EQ(host.hops(recording::records::Hop::kDiscarded), 0);
   EXPECT_EQ(host.executive->counts().discarded_lists, 0u);
 }
 
@@ -79,15 +81,15 @@ TEST(ExecutiveLists, AListWithoutAStrobeIsDiscardedCountedAndRecorded) {
   host.wait(Duration::milliseconds(1));
   host.frame(1);  // of which the strobe was lost
   host.wait(Duration::milliseconds(60));
-  EXPECT_EQ(host.hops(records::Hop::kRead), 1);
-  EXPECT_EQ(host.hops(records::Hop::kWritten), 0);
-  ASSERT_EQ(host.hops(records::Hop::kDiscarded), 1);
+  EXPECT_EQ(host.hops(recording::records::Hop::kRead), 1);
+  EXPECT_EQ(host.hops(recording::records::Hop::kWritten), 0);
+  ASSERT_EQ(host.hops(recording::records::Hop::kDiscarded), 1);
   EXPECT_EQ(host.heard.hops.back().sequence, 1u);
   EXPECT_EQ(host.executive->counts().discarded_lists, 1u);
   host.executive->strobe(host.camera, 2, host.now);
   host.frame(2);
   host.wait(Duration::milliseconds(60));
-  EXPECT_EQ(host.hops(records::Hop::kWritten), 1) << "the next one is used again";
+  EXPECT_EQ(host.hops(recording::records::Hop::kWritten), 1) << "the next one is used again";
   EXPECT_EQ(host.executive->counts().discarded_lists, 1u);
 }
 
@@ -101,9 +103,9 @@ TEST(ExecutiveLists, TheDevicesRestartIsNoReasonToDiscard) {
   };
   measured(3000);
   for (std::uint32_t k = 0; k < 3; ++k) measured(k);
-  EXPECT_EQ(host.hops(records::Hop::kDiscarded), 0);
-  EXPECT_EQ(host.hops(records::Hop::kWritten), 4);
-  EXPECT_EQ(host.heard.hops.back().what, records::Hop::kWritten);
+  EXPECT_EQ(host.hops(recording::records::Hop::kDiscarded), 0);
+  EXPECT_EQ(host.hops(recording::records::Hop::kWritten), 4);
+  EXPECT_EQ(host.heard.hops.back().what, recording::records::Hop::kWritten);
   EXPECT_EQ(host.heard.hops.back().sequence, 2u) << "under the device's own number";
 }
 
@@ -113,9 +115,9 @@ TEST(ExecutiveLists, WithoutGlobalTimeThereIsNoTimeOfMeasuring) {
   host.executive->strobe(host.camera, 0, host.now);
   host.frame(0);
   host.wait(Duration::milliseconds(60));
-  EXPECT_EQ(host.hops(records::Hop::kRead), 1);
-  EXPECT_EQ(host.hops(records::Hop::kDiscarded), 1);
-  EXPECT_EQ(host.hops(records::Hop::kWritten), 0);
+  EXPECT_EQ(host.hops(recording::records::Hop::kRead), 1);
+  EXPECT_EQ(host.hops(recording::records::Hop::kDiscarded), 1);
+  EXPECT_EQ(host.hops(recording::records::Hop::kWritten), 0);
 }
 
 TEST(ExecutiveLists, WhatANewerListReplacesUnreadIsCounted) {
@@ -126,11 +128,11 @@ TEST(ExecutiveLists, WhatANewerListReplacesUnreadIsCounted) {
     host.wait(Duration::milliseconds(1));  // the first is being processed
   }
   host.wait(Duration::milliseconds(120));
-  EXPECT_EQ(host.hops(records::Hop::kReceived), 3);
-  EXPECT_EQ(host.hops(records::Hop::kOverwritten), 1);
+  EXPECT_EQ(host.hops(recording::records::Hop::kReceived), 3);
+  EXPECT_EQ(host.hops(recording::records::Hop::kOverwritten), 1);
   EXPECT_EQ(host.executive->counts().overwritten_lists, 1u);
-  EXPECT_EQ(host.hops(records::Hop::kRead), 2);
+  EXPECT_EQ(host.hops(recording::records::Hop::kRead), 2);
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

@@ -9,11 +9,11 @@
 
 #include "tests/nodes/host/one_node.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 namespace {
 
 // Records outlive the call here, so their words are copied.
-struct Told final : records::Sink {
+struct Told final : recording::records::Sink {
   struct Change {
     std::int64_t at;  // us of true time since power-on
     int from, to;
@@ -33,36 +33,36 @@ struct Told final : records::Sink {
   std::vector<std::int64_t> powered;  // us
   int of_the_cluster = 0;             // records with a global time of their own
 
-  using records::Sink::on;
-  void on(const records::StateChanged& r) override {
+  using recording::records::Sink::on;
+  void on(const recording::records::StateChanged& r) override {
     changes.push_back({r.stamp.true_time.ns / 1000, r.from, r.to, std::string(r.from_name), std::string(r.to_name),
                        std::string(r.why), std::string(r.consequence)});
     of_the_cluster += r.stamp.global.ns != r.stamp.local.ns ? 1 : 0;
   }
-  void on(const records::PowerChanged& r) override {
+  void on(const recording::records::PowerChanged& r) override {
     EXPECT_TRUE(r.on);
     powered.push_back(r.stamp.true_time.ns / 1000);
   }
-  void on(const records::SymbolSent& r) override {
+  void on(const recording::records::SymbolSent& r) override {
     symbols.push_back({r.stamp.true_time.ns / 1000, r.end.true_time.ns / 1000, r.channel, r.kind});
     of_the_cluster += r.end.global.ns != r.end.local.ns ? 1 : 0;
   }
 };
 
 struct ColdNode {
-  schedules::Cluster cluster = bus::small_cluster(4);  // node 0 is a coldstart node
+  schedules::model::Cluster cluster = bus::small_cluster(4);  // node 0 is a coldstart node
   bus::NoPort port;
   NoLines lines;
   Told told;
   std::unique_ptr<Executive> executive;
 
-  explicit ColdNode(std::optional<bus::InitialClock> clock = std::nullopt, ColdStart cold = ColdStart::kStarts,
-                    Duration boots = {}) {
+  explicit ColdNode(std::optional<bus::controller::InitialClock> clock = std::nullopt,
+                    ColdStart cold = ColdStart::kStarts, Duration boots = {}) {
     cluster.flexray.gColdStartAttempts = 2;
     cluster.nodes[0].flexray->pdListenTimeout = 2 * (bus::kMicroPerCycle + 121);
     const ExecutiveConfig config{&cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), clock, 1, 0, {}, cold, boots};
     executive = std::make_unique<Executive>(config, std::vector<std::shared_ptr<Step>>{}, &port,
-                                            std::vector<bus::CanPort*>{}, lines, told);
+                                            std::vector<bus::ports::CanPort*>{}, lines, told);
   }
   void run_to(std::int64_t us) {
     const Microticks end{40 * us};
@@ -102,10 +102,10 @@ TEST(ExecutiveStartup, EveryChangeOfStateIsReportedWithItsReason) {
 TEST(ExecutiveStartup, SymbolsAreReportedOnEachChannelTheyLeaveOn) {
   ColdNode node;
   node.run_to(60'000);
-  EXPECT_EQ(node.told.symbols, (std::vector<Told::Symbol>{{2'006, 2'009, 0, records::kSymbolCas},
-                                                          {2'006, 2'009, 1, records::kSymbolCas},
-                                                          {8'010, 8'014, 0, records::kSymbolCas},
-                                                          {8'010, 8'014, 1, records::kSymbolCas}}));
+  EXPECT_EQ(node.told.symbols, (std::vector<Told::Symbol>{{2'006, 2'009, 0, recording::records::kSymbolCas},
+                                                          {2'006, 2'009, 1, recording::records::kSymbolCas},
+                                                          {8'010, 8'014, 0, recording::records::kSymbolCas},
+                                                          {8'010, 8'014, 1, recording::records::kSymbolCas}}));
 }
 
 // It has no global time then, and says so: its own once more.
@@ -115,8 +115,8 @@ TEST(ExecutiveStartup, WhatHappensBeforeNormalOperationHasLocalTimeForGlobalTime
   EXPECT_EQ(node.told.of_the_cluster, 0);
 }
 
-bus::Reception heard_until(std::int64_t us, bus::Signal signal) {
-  return {schedules::Channel::kA, signal, {40 * (us - 50)}, {40 * us}, {}};
+bus::ports::Reception heard_until(std::int64_t us, bus::ports::Signal signal) {
+  return {schedules::model::Channel::kA, signal, {40 * (us - 50)}, {40 * us}, {}};
 }
 
 // Two patterns of 60 bits and 180 idle ones, 48 us, after the listen timeout of 2006 us; then start-up, which listens
@@ -125,9 +125,9 @@ TEST(ExecutiveStartup, WhoWakesSendsThePatternOnOneChannelAndStartsUpAfterwards)
   ColdNode node(std::nullopt, ColdStart::kWakes);
   node.run_to(4'500);
   ASSERT_EQ(node.told.symbols.size(), 3u);
-  EXPECT_EQ(node.told.symbols[0], (Told::Symbol{2'006, 2'054, 0, records::kSymbolWakeup}));
+  EXPECT_EQ(node.told.symbols[0], (Told::Symbol{2'006, 2'054, 0, recording::records::kSymbolWakeup}));
   EXPECT_EQ(node.told.symbols[1].start, 2'054 + 2'006);
-  EXPECT_EQ(node.told.symbols[1].kind, records::kSymbolCas);
+  EXPECT_EQ(node.told.symbols[1].kind, recording::records::kSymbolCas);
   std::vector<std::string> states;
   for (const Told::Change& change : node.told.changes) states.push_back(change.to_name);
   EXPECT_EQ(states, (std::vector<std::string>{"config", "ready", "wakeup listen", "wakeup send", "ready",
@@ -138,7 +138,7 @@ TEST(ExecutiveStartup, WhoWakesSendsThePatternOnOneChannelAndStartsUpAfterwards)
 TEST(ExecutiveStartup, WhoWakesStartsUpAtOnceWhenSomebodyElseWasFaster) {
   ColdNode node(std::nullopt, ColdStart::kWakes);
   node.run_to(1'000);
-  node.executive->receive(heard_until(1'000, bus::Signal::kWakeup));
+  node.executive->receive(heard_until(1'000, bus::ports::Signal::kWakeup));
   ASSERT_EQ(node.told.changes.size(), 5u);
   EXPECT_EQ(node.told.changes[3].why, "somebody else sent a wake-up pattern first");
   EXPECT_EQ(node.told.changes[4].to_name, "coldstart listen");
@@ -147,14 +147,14 @@ TEST(ExecutiveStartup, WhoWakesStartsUpAtOnceWhenSomebodyElseWasFaster) {
 
 TEST(ExecutiveStartup, WhoSleepsHearsNothingButAWakeupPattern) {
   ColdNode node(std::nullopt, ColdStart::kSleeps, Duration::milliseconds(3));
-  node.executive->receive(heard_until(100, bus::Signal::kCas));
-  node.executive->receive(heard_until(300, bus::Signal::kUndecodable));
+  node.executive->receive(heard_until(100, bus::ports::Signal::kCas));
+  node.executive->receive(heard_until(300, bus::ports::Signal::kUndecodable));
   node.run_to(20'000);
   EXPECT_TRUE(node.told.changes.empty());
   EXPECT_EQ(node.executive->clock(), nullptr);
 
-  node.executive->receive(heard_until(20'000, bus::Signal::kWakeup));
-  node.executive->receive(heard_until(21'000, bus::Signal::kWakeup));
+  node.executive->receive(heard_until(20'000, bus::ports::Signal::kWakeup));
+  node.executive->receive(heard_until(21'000, bus::ports::Signal::kWakeup));
   node.run_to(22'999);
   EXPECT_TRUE(node.told.powered.empty());
   node.run_to(24'000);
@@ -165,11 +165,11 @@ TEST(ExecutiveStartup, WhoSleepsHearsNothingButAWakeupPattern) {
 }
 
 TEST(ExecutiveStartup, ANodeThatBeginsIntegratedHasNothingToReport) {
-  ColdNode node(bus::InitialClock{{1000}, 0});
+  ColdNode node(bus::controller::InitialClock{{1000}, 0});
   node.run_to(60'000);
   EXPECT_TRUE(node.told.changes.empty());
   EXPECT_TRUE(node.told.symbols.empty());
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

@@ -8,7 +8,7 @@
 
 #include "tests/nodes/host/one_node.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 namespace {
 
 using Ran = Runs::Run;
@@ -42,7 +42,7 @@ TEST(Executive, HasOneProcessorAndStartsInOrderOfActivation) {
 
 // At 150 three are activated at once: by the end of a, by the schedule, and by the schedule again.
 TEST(Executive, OfOneInstantTheEarlierInTheFileIsFirstWhateverActivatesIt) {
-  const auto order = [](std::vector<schedules::Task> tasks) {
+  const auto order = [](std::vector<schedules::model::Task> tasks) {
     OneNode node(std::move(tasks));
     node.run_to(1, 0);
     std::vector<int> started;
@@ -87,10 +87,10 @@ TEST(Executive, AMissedDeadlineIsRecordedAndCounted) {
 }
 
 TEST(Executive, ExecutionTimesAreDrawnBetweenTheirBoundsAlikeForASeed) {
-  schedules::Task drawn = at(100, task("drawn", 0));
+  schedules::model::Task drawn = at(100, task("drawn", 0));
   drawn.best_case = Duration::microseconds(100);
   drawn.worst_case = Duration::microseconds(300);
-  drawn.draw = schedules::ExecutionDraw::kUniform;
+  drawn.draw = schedules::model::ExecutionDraw::kUniform;
   OneNode first({drawn}), second({drawn});
   first.run_to(200, 0);
   second.run_to(200, 0);
@@ -107,7 +107,7 @@ TEST(Executive, ExecutionTimesAreDrawnBetweenTheirBoundsAlikeForASeed) {
 
 // The law: what a task writes is there at its end, not when it was computed.
 TEST(Executive, OutputsBecomeVisibleAtTheEnd) {
-  schedules::Task writer = at(100, task("writer", 40));
+  schedules::model::Task writer = at(100, task("writer", 40));
   writer.writes = {{"out", bus::kList, std::nullopt, 0}};
   const auto write = std::make_shared<Scripted>([](StepContext& context) {
     context.outputs[0].begin(7, 3, GlobalTime{});
@@ -118,10 +118,10 @@ TEST(Executive, OutputsBecomeVisibleAtTheEnd) {
   EXPECT_TRUE(node.heard.hops.empty());
   node.run_to(0, 140);
   ASSERT_EQ(node.heard.hops.size(), 1u);
-  EXPECT_EQ(node.heard.hops[0].what, records::Hop::kWritten);
+  EXPECT_EQ(node.heard.hops[0].what, recording::records::Hop::kWritten);
   EXPECT_EQ(node.heard.hops[0].sequence, 7u);
   EXPECT_EQ(node.heard.hops[0].at, 140);
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

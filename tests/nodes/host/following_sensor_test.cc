@@ -9,7 +9,7 @@
 #include "schedules/file/loader.h"
 #include "tests/nodes/host/one_node.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 namespace {
 
 struct Lines final : SensorLines {
@@ -19,14 +19,15 @@ struct Lines final : SensorLines {
   void strobe(SensorId, std::uint32_t) override { strobes.push_back(now); }
 };
 
-struct SilentCan final : bus::CanPort {
-  void send(const bus::CanFrame&) override {}
+struct SilentCan final : bus::ports::CanPort {
+  void send(const bus::ports::CanFrame&) override {}
 };
 
 // One of the two nodes around the camera of the cluster with following sensors. Exact clocks: 40 microticks are a
 // microsecond.
 struct OneEnd {
-  schedules::Cluster cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_free_running.yaml");
+  schedules::model::Cluster cluster =
+      schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_free_running.yaml");
   SensorId camera = *cluster.find_sensor("camera");
   std::size_t camera_can = 0;
   bus::NoPort port;
@@ -40,18 +41,19 @@ struct OneEnd {
     while (cluster.can_buses[camera_can].name != "camera_can") ++camera_can;
     cluster.sensors[index_of(camera)].phase = Duration::milliseconds(3);
     const NodeId id = *cluster.find_node(name);
-    for (schedules::Task& task : cluster.nodes[index_of(id)].tasks) task.draw = schedules::ExecutionDraw::kWorst;
+    for (schedules::model::Task& task : cluster.nodes[index_of(id)].tasks)
+      task.draw = schedules::model::ExecutionDraw::kWorst;
     const bool on_flexray = cluster.node(id).flexray.has_value();
     const ExecutiveConfig config{&cluster,
                                  id,
                                  timebase::Oscillator(25'000, 0, 0),
-                                 on_flexray ? std::optional(bus::InitialClock{{1000}, 0}) : std::nullopt,
+                                 on_flexray ? std::optional(bus::controller::InitialClock{{1000}, 0}) : std::nullopt,
                                  1,
                                  0,
                                  {}};
-    executive = std::make_unique<Executive>(config, std::vector<std::shared_ptr<Step>>{std::make_shared<Scripted>()},
-                                            on_flexray ? &port : nullptr,
-                                            std::vector<bus::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
+    executive = std::make_unique<Executive>(
+        config, std::vector<std::shared_ptr<Step>>{std::make_shared<Scripted>()}, on_flexray ? &port : nullptr,
+        std::vector<bus::ports::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
   }
   static Microticks ms(double time) { return {static_cast<std::int64_t>(time * 40'000)}; }
   void run_to(Microticks end) {
@@ -113,4 +115,4 @@ TEST(FollowingSensor, IsNotTriggeredWhileANewerListWaits) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

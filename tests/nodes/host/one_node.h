@@ -13,16 +13,17 @@
 #include "nodes/host/executive.h"
 #include "tests/bus/alone.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 
 // A step that is what the test says.
 class Scripted final : public Step {
  public:
-  explicit Scripted(std::function<void(StepContext&)> what = [](StepContext&) {}) : what_(std::move(what)) {}
+  explicit Scripted(std::function<void(ttf::nodes::host::StepContext&)> what = [](StepContext&) {})
+      : what_(std::move(what)) {}
   void run(StepContext& context) override { what_(context); }
 
  private:
-  std::function<void(StepContext&)> what_;
+  std::function<void(ttf::nodes::host::StepContext&)> what_;
 };
 
 struct NoLines final : SensorLines {
@@ -30,8 +31,8 @@ struct NoLines final : SensorLines {
   void strobe(SensorId, std::uint32_t) override {}
 };
 
-struct Runs final : records::Sink {
-  using records::Sink::on;
+struct Runs final : recording::records::Sink {
+  using recording::records::Sink::on;
   struct Run {
     int task;
     std::int64_t activated, start, end;  // us of true time from the start of cycle 0
@@ -39,7 +40,7 @@ struct Runs final : records::Sink {
     bool operator==(const Run&) const = default;
   };
   struct Hop {
-    records::Hop what;
+    recording::records::Hop what;
     std::uint32_t sequence;
     std::int64_t at;
   };
@@ -48,45 +49,47 @@ struct Runs final : records::Sink {
 
   // Cycle 0 starts at microtick 1000.
   static std::int64_t us(TrueTime t) { return (t.ns - 25'000) / 1000; }
-  void on(const records::TaskRun& run) override {
+  void on(const recording::records::TaskRun& run) override {
     runs.push_back(
         {run.task, us(run.activated.true_time), us(run.start.true_time), us(run.end.true_time), run.deadline_met});
   }
-  void on(const records::ListHop& hop) override { hops.push_back({hop.hop, hop.sequence, us(hop.stamp.true_time)}); }
+  void on(const recording::records::ListHop& hop) override {
+    hops.push_back({hop.hop, hop.sequence, us(hop.stamp.true_time)});
+  }
 };
 
 // [us], always the worst case.
-inline schedules::Task task(std::string name, std::int64_t execution, std::int64_t deadline = 100'000) {
-  schedules::Task t;
+inline schedules::model::Task task(std::string name, std::int64_t execution, std::int64_t deadline = 100'000) {
+  schedules::model::Task t;
   t.name = std::move(name);
   t.best_case = t.worst_case = Duration::microseconds(execution);
-  t.draw = schedules::ExecutionDraw::kWorst;
+  t.draw = schedules::model::ExecutionDraw::kWorst;
   t.deadline = Duration::microseconds(deadline);
   return t;
 }
-inline schedules::Task at(int macrotick, schedules::Task t, int repetition = 1) {
-  t.activation = {schedules::ActivationKind::kTime, {0, repetition, Macroticks{macrotick}}, "", kNoSensor, ""};
+inline schedules::model::Task at(int macrotick, schedules::model::Task t, int repetition = 1) {
+  t.activation = {schedules::model::ActivationKind::kTime, {0, repetition, Macroticks{macrotick}}, "", kNoSensor, ""};
   return t;
 }
-inline schedules::Task after(std::string other, schedules::Task t) {
-  t.activation = {schedules::ActivationKind::kCompletion, {}, "", kNoSensor, std::move(other)};
+inline schedules::model::Task after(std::string other, schedules::model::Task t) {
+  t.activation = {schedules::model::ActivationKind::kCompletion, {}, "", kNoSensor, std::move(other)};
   return t;
 }
 
 struct OneNode {
-  schedules::Cluster cluster = bus::small_cluster(4);
+  schedules::model::Cluster cluster = bus::small_cluster(4);
   bus::NoPort port;
   NoLines lines;
   Runs heard;
   std::unique_ptr<Executive> executive;
 
-  explicit OneNode(std::vector<schedules::Task> tasks, std::vector<std::shared_ptr<Step>> steps = {}) {
+  explicit OneNode(std::vector<schedules::model::Task> tasks, std::vector<std::shared_ptr<Step>> steps = {}) {
     while (steps.size() < tasks.size()) steps.push_back(std::make_shared<Scripted>());
     cluster.nodes[0].tasks = std::move(tasks);
     const ExecutiveConfig config{
-        &cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), bus::InitialClock{{1000}, 0}, 1, 0, {}};
+        &cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), bus::controller::InitialClock{{1000}, 0}, 1, 0, {}};
     executive =
-        std::make_unique<Executive>(config, std::move(steps), &port, std::vector<bus::CanPort*>{}, lines, heard);
+        std::make_unique<Executive>(config, std::move(steps), &port, std::vector<bus::ports::CanPort*>{}, lines, heard);
   }
   // From event to event, as a crank does.
   void run_to(std::int64_t cycle, std::int64_t macrotick = 0) {
@@ -98,4 +101,4 @@ struct OneNode {
   }
 };
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

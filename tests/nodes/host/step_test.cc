@@ -8,7 +8,7 @@
 #include "schedules/file/loader.h"
 #include "tests/bus/layouts.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::host {
 namespace {
 
 constexpr int kAllBits = 32;
@@ -50,8 +50,8 @@ TEST(StrobeLatch, ListsAreRecognisedByTheBitsTheBusCarries) {
   EXPECT_EQ(latch.find(4098, 12)->at.ns, 10'002) << "the newest of those it may be";
 }
 
-schedules::PduLayout stamped(int bits) {
-  schedules::PduLayout layout = bus::list_layout(8, 10, 3);
+schedules::model::PduLayout stamped(int bits) {
+  schedules::model::PduLayout layout = bus::list_layout(8, 10, 3);
   layout.header.push_back(bus::signal("timestamp", bits));
   bus::derive(layout.header, layout.header_bits);
   layout.header_bits = (layout.header_bits + 7) / 8 * 8;
@@ -67,7 +67,7 @@ constexpr Duration kSameRounds{std::int64_t{1} << 50};
 TEST(TimeStamp, UnwrapsToTheNearestInstant) {
   RandomStream draw({.seed = 9});
   for (const int bits : {16, 24, 32}) {
-    const schedules::PduLayout layout = stamped(bits);
+    const schedules::model::PduLayout layout = stamped(bits);
     const std::int64_t half = (std::int64_t{1} << bits) / 2;
     Output out("out", PduId{0}, layout);
     for (int k = 0; k < 2000; ++k) {
@@ -81,7 +81,7 @@ TEST(TimeStamp, UnwrapsToTheNearestInstant) {
 }
 
 TEST(TimeStamp, RoundsToTheNearestMicrosecondAlsoBeforeTheStart) {
-  const schedules::PduLayout layout = stamped(32);
+  const schedules::model::PduLayout layout = stamped(32);
   Output out("out", PduId{0}, layout);
   for (const auto& [ns, us] : {std::pair{1499, 1}, {1500, 2}, {-499, 0}, {-501, -1}, {-1501, -2}}) {
     out.begin(0, 1, GlobalTime{ns});
@@ -93,7 +93,7 @@ TEST(TimeStamp, RoundsToTheNearestMicrosecondAlsoBeforeTheStart) {
 // found on the reader's count, whatever instant within half a round it is looked at from.
 TEST(TimeStamp, IsUnderstoodModuloARoundOfTheCycleCounter) {
   RandomStream draw({.seed = 10});
-  const schedules::PduLayout layout = stamped(32);
+  const schedules::model::PduLayout layout = stamped(32);
   Output out("out", PduId{0}, layout);
   for (const std::int64_t cycle_us : {1'000, 2'000, 5'000, 16'000}) {
     const std::int64_t round_us = 64 * cycle_us, half = round_us / 2;
@@ -113,9 +113,9 @@ TEST(TimeStamp, IsUnderstoodModuloARoundOfTheCycleCounter) {
 
 // Sequence numbers keep their low bits on the bus; the list in the CNI counts on.
 TEST(Output, SequenceNumbersWrapInTheHeaderOnly) {
-  const schedules::PduLayout layout = bus::list_layout(4, 10, 3);
+  const schedules::model::PduLayout layout = bus::list_layout(4, 10, 3);
   Output out("out", PduId{0}, layout);
-  bus::IncomingList incoming(layout);
+  bus::cni::IncomingList incoming(layout);
   for (std::uint32_t k = 0; k < 100; ++k) {
     out.begin(k, 5, GlobalTime{});
     EXPECT_EQ(out.view().sequence, k);
@@ -128,7 +128,7 @@ TEST(Output, SequenceNumbersWrapInTheHeaderOnly) {
 }
 
 TEST(Output, HoldsWhatWasSetAndNothingOfTheListBefore) {
-  const schedules::PduLayout layout = bus::list_layout();
+  const schedules::model::PduLayout layout = bus::list_layout();
   Output out("out", PduId{0}, layout);
   out.begin(1, 10, GlobalTime{});
   for (int i = 0; i < 10; ++i) out.set(i, 0, 100.0 + i);
@@ -145,7 +145,7 @@ TEST(Output, HoldsWhatWasSetAndNothingOfTheListBefore) {
 
 // Counts of rounds as lists come: which of them are of a known age.
 TEST(RoundsBelieved, AnotherCountTakesTwoListsInARow) {
-  RoundsBelieved rounds;
+  fusion::RoundsBelieved rounds;
   for (const auto& [count, believed] : {std::pair{0, true},
                                         {0, true},
                                         {5, false},
@@ -163,7 +163,7 @@ TEST(RoundsBelieved, AnotherCountTakesTwoListsInARow) {
 }
 
 TEST(Output, SaturatesAndCounts) {
-  const schedules::PduLayout layout = bus::list_layout();
+  const schedules::model::PduLayout layout = bus::list_layout();
   Output out("out", PduId{0}, layout);
   out.begin(1, 3, GlobalTime{});
   out.set(0, 0, 1e9);
@@ -176,4 +176,4 @@ TEST(Output, SaturatesAndCounts) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::host

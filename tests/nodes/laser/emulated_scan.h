@@ -7,13 +7,13 @@
 #include "nodes/laser/scan_point.h"
 #include "sim/world/laser.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 
 inline constexpr std::size_t kMostPoints = 1300;  // four layers of 325 beams
 
-inline world::ObjectState car_at(double x, double y, double heading, double length = 4.4, double width = 1.8,
-                                 std::uint16_t id = 0) {
-  world::ObjectState state;
+inline sim::world::ObjectState car_at(double x, double y, double heading, double length = 4.4, double width = 1.8,
+                                      std::uint16_t id = 0) {
+  sim::world::ObjectState state;
   state.id = ObjectId{id};
   state.x = x;
   state.y = y;
@@ -23,14 +23,15 @@ inline world::ObjectState car_at(double x, double y, double heading, double leng
   return state;
 }
 
-inline std::vector<ScanPoint> emulated_scan(const world::LaserConfig& config,
-                                            const std::vector<world::ObjectState>& objects, std::uint32_t sequence) {
-  std::vector<world::HitPoint> hits;
+inline std::vector<ScanPoint> emulated_scan(const sim::world::LaserConfig& config,
+                                            const std::vector<sim::world::ObjectState>& objects,
+                                            std::uint32_t sequence) {
+  std::vector<sim::world::HitPoint> hits;
   std::vector<ObjectId> truth;
-  world::measure_laser(config, objects, 1, 0, 0, sequence, hits, truth);
+  sim::world::measure_laser(config, objects, 1, 0, 0, sequence, hits, truth);
   std::vector<ScanPoint> scan;
-  for (const world::HitPoint& hit : hits) scan.push_back({hit.layer, hit.azimuth, hit.range});
+  for (const sim::world::HitPoint& hit : hits) scan.push_back({hit.layer, hit.azimuth, hit.range});
   return scan;
 }
 
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

@@ -11,11 +11,11 @@
 #include "tests/nodes/laser/emulated_scan.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 namespace {
 
-std::vector<world::ObjectState> fan() {
-  std::vector<world::ObjectState> cars;
+std::vector<sim::world::ObjectState> fan() {
+  std::vector<sim::world::ObjectState> cars;
   for (int k = 0; k < 12; ++k) {
     const double azimuth = 0.072 * (k - 5.5), range = k % 2 == 0 ? 35.0 : 22.0;
     cars.push_back(
@@ -26,8 +26,8 @@ std::vector<world::ObjectState> fan() {
 
 TEST(LaserPreprocessor, FindsEachCarOnce) {
   LaserPreprocessor preprocessor({}, kMostPoints);
-  const std::vector<world::ObjectState> cars = {car_at(20.0, -6.0, 0.0), car_at(35.0, 0.0, 0.3, 4.4, 1.8, 1),
-                                                car_at(15.0, 6.0, std::numbers::pi / 2, 4.4, 1.8, 2)};
+  const std::vector<sim::world::ObjectState> cars = {car_at(20.0, -6.0, 0.0), car_at(35.0, 0.0, 0.3, 4.4, 1.8, 1),
+                                                     car_at(15.0, 6.0, std::numbers::pi / 2, 4.4, 1.8, 2)};
   std::vector<LaserObject> objects;
   for (std::uint32_t sequence = 0; sequence < 20; ++sequence) {
     preprocessor.process(emulated_scan({}, cars, sequence), objects);
@@ -102,4 +102,4 @@ TEST(LaserPreprocessor, ItsKeysAreChecked) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

@@ -13,7 +13,7 @@
 #include "nodes/laser/segmentation.h"
 #include "tests/nodes/laser/emulated_scan.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -99,4 +99,4 @@ TEST(OrientationSearch, TakesTheFirstOfEqualAngles) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

@@ -12,11 +12,12 @@
 #include "nodes/laser/segmentation.h"
 #include "tests/nodes/laser/emulated_scan.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 namespace {
 
 // Through segmentation: a car is one object, whatever its aspect.
-LaserObject fitted(const world::ObjectState& car, std::uint32_t sequence, const world::LaserConfig& laser = {}) {
+LaserObject fitted(const sim::world::ObjectState& car, std::uint32_t sequence,
+                   const sim::world::LaserConfig& laser = {}) {
   LaserPreprocessor preprocessor({}, kMostPoints);
   std::vector<LaserObject> objects;
   preprocessor.process(emulated_scan(laser, {car}, sequence), objects);
@@ -39,7 +40,7 @@ void expect_positive_definite(const LaserObject& o) {
 }
 
 TEST(RectangleFit, AnLShapeGivesPoseAndSize) {
-  world::LaserConfig exact;
+  sim::world::LaserConfig exact;
   exact.range_sigma_m = exact.miss_at_100m = 0.0;
   for (const double heading : {0.5, 0.8, 1.1, -0.6, -0.9}) {
     const auto car = car_at(15.0, 0.0, heading);
@@ -153,4 +154,4 @@ TEST(RectangleFit, TheCentresCovarianceIsHonestFromEveryAspect) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

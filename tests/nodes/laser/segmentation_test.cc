@@ -9,7 +9,7 @@
 
 #include "tests/nodes/laser/emulated_scan.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 namespace {
 
 struct Cut {
@@ -84,4 +84,4 @@ TEST(Segmentation, TheOrderOfTheListDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

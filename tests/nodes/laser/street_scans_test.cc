@@ -12,7 +12,7 @@
 #include "recording/rows/laser_radar_file.h"
 #include "tests/support/recordings.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::laser {
 namespace {
 
 constexpr const char* kScans = "lidar_scans/scans.csv";
@@ -21,9 +21,10 @@ std::vector<std::vector<ScanPoint>> street_scans() {
   const std::string path = support::recording_path(kScans);
   std::vector<std::vector<ScanPoint>> scans;
   if (!std::filesystem::exists(path)) return scans;
-  for (const recording::RecordedScan& recorded : recording::read_lidar_scans(path)) {
+  for (const recording::rows::RecordedScan& recorded : recording::rows::read_lidar_scans(path)) {
     std::vector<ScanPoint>& scan = scans.emplace_back();
-    for (const recording::RecordedReturn& hit : recorded.returns) scan.push_back({0, hit.azimuth_rad, hit.range_m});
+    for (const recording::rows::RecordedReturn& hit : recorded.returns)
+      scan.push_back({0, hit.azimuth_rad, hit.range_m});
   }
   return scans;
 }
@@ -72,4 +73,4 @@ TEST(StreetScans, YieldPlausibleVehicles) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::laser

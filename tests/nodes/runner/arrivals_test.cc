@@ -11,11 +11,11 @@
 #include "schedules/file/loader.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 namespace {
 
-using bus::LiveArrival;
-using schedules::Channel;
+using bus::ports::LiveArrival;
+using schedules::model::Channel;
 
 struct Told final : ArrivalEvents {
   struct Missed {
@@ -50,13 +50,13 @@ class ArrivalsTest : public testing::Test {
 
   void arrive(int slot, std::int64_t at, bool sync, std::int64_t cycle = kCycle, std::optional<std::int64_t> late = {},
               bool clock = true) {
-    wire::FrameHeader header;
+    bus::wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>(slot);
     header.cycle = static_cast<std::uint8_t>(cycle % 64);
     header.sync = header.startup = sync;
     const std::array<std::byte, 56> payload{};
-    std::array<std::byte, wire::kMaxFrameBytes> bytes;
-    const std::size_t size = wire::encode_frame(header, Channel::kA, payload, bytes);
+    std::array<std::byte, bus::wire::kMaxFrameBytes> bytes;
+    const std::size_t size = bus::wire::encode_frame(header, Channel::kA, payload, bytes);
     LiveArrival arrival;
     arrival.signal.slot = slot;
     arrival.signal.bytes = std::span<const std::byte>(bytes).first(size);
@@ -78,7 +78,8 @@ class ArrivalsTest : public testing::Test {
 
   static constexpr std::int64_t kCycle = 130;  // its counter is 2
   static constexpr std::int64_t kCompensation = 50;
-  const schedules::Cluster cluster_ = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  const schedules::model::Cluster cluster_ =
+      schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   timebase::CycleClock clock_;
   Told told_;
   Arrivals arrivals_{cluster_, *cluster_.find_node("feature"), {Microticks{4000}, Microticks{16'000}}, told_};
@@ -97,7 +98,7 @@ TEST_F(ArrivalsTest, AFrameWithinItsWindowIsHandedOverAtItsActionPoint) {
     EXPECT_EQ(due->reception.start.value, action_point(6) + kCompensation);
     EXPECT_EQ(due->reception.end.value, end);
     EXPECT_EQ(due->reception.frame.header.frame_id, 6);
-    EXPECT_EQ(due->reception.frame.error, wire::FrameError::kNone);
+    EXPECT_EQ(due->reception.frame.error, bus::wire::FrameError::kNone);
     EXPECT_EQ(told_.behind.back(), behind);
   }
   EXPECT_TRUE(told_.missed.empty());
@@ -313,7 +314,7 @@ TEST_F(ArrivalsTest, NothingAllocatesAfterTheStart) {
 
 TEST_F(ArrivalsTest, ASymbolIsCarriedUntilItEnds) {
   LiveArrival symbol;
-  symbol.signal.signal = bus::Signal::kCas;
+  symbol.signal.signal = bus::ports::Signal::kCas;
   symbol.signal.channel = Channel::kB;
   arrivals_.arrive(symbol, Microticks{500}, {}, Microticks{400}, nullptr);
   EXPECT_TRUE(arrivals_.carrier(Channel::kB, Microticks{899}));
@@ -321,7 +322,7 @@ TEST_F(ArrivalsTest, ASymbolIsCarriedUntilItEnds) {
   EXPECT_FALSE(arrivals_.carrier(Channel::kB, Microticks{900}));
   const auto due = arrivals_.take(Microticks{900}, nullptr);
   ASSERT_TRUE(due);
-  EXPECT_EQ(due->reception.signal, bus::Signal::kCas);
+  EXPECT_EQ(due->reception.signal, bus::ports::Signal::kCas);
   EXPECT_EQ(due->reception.start.value, 500);
 }
 
@@ -332,4 +333,4 @@ TEST_F(ArrivalsTest, WhatThereIsNoRoomForIsCounted) {
 }
 
 }  // namespace
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 namespace {
 
 Health health_of(std::uint64_t number) {
@@ -22,10 +22,10 @@ Health health_of(std::uint64_t number) {
 }
 
 TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
-  std::promise<std::pair<Health, bus::HostTime>> told;
+  std::promise<std::pair<Health, bus::ports::HostTime>> told;
   std::promise<std::thread::id> who;
-  const bus::HostTime before = bus::host_now();
-  HealthTeller teller([&](const Health& health, bus::HostTime at) {
+  const bus::ports::HostTime before = bus::ports::host_now();
+  HealthTeller teller([&](const Health& health, bus::ports::HostTime at) {
     told.set_value({health, at});
     who.set_value(std::this_thread::get_id());
   });
@@ -36,7 +36,7 @@ TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
   EXPECT_EQ(health.wakeup_longest, Duration::microseconds(7));
   EXPECT_EQ(health.state, "normal active");
   EXPECT_GE(at, before);
-  EXPECT_LE(at, bus::host_now());
+  EXPECT_LE(at, bus::ports::host_now());
   EXPECT_NE(who.get_future().get(), std::this_thread::get_id());
 }
 
@@ -45,7 +45,7 @@ TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
 TEST(HealthTeller, WhoHandsOverNeverWaits) {
   std::promise<void> begun, go_on;
   std::vector<std::uint64_t> told;
-  HealthTeller teller([&](const Health& health, bus::HostTime) {
+  HealthTeller teller([&](const Health& health, bus::ports::HostTime) {
     told.push_back(health.dropped);
     if (told.size() > 1) return;
     begun.set_value();
@@ -68,7 +68,7 @@ TEST(HealthTeller, WhoHandsOverNeverWaits) {
 TEST(HealthTeller, WhatWasHandedOverIsToldBeforeItIsClosed) {
   for (std::uint64_t i = 0; i < 200; ++i) {
     std::uint64_t told = 0;
-    HealthTeller teller([&](const Health& health, bus::HostTime) { told = health.timing.late_wakeups; });
+    HealthTeller teller([&](const Health& health, bus::ports::HostTime) { told = health.timing.late_wakeups; });
     ASSERT_TRUE(teller.hand_over(health_of(i + 1)));
     teller.close();
     ASSERT_EQ(told, i + 1);
@@ -78,7 +78,7 @@ TEST(HealthTeller, WhatWasHandedOverIsToldBeforeItIsClosed) {
 // Whenever it is handed over, each is whole: never half of one and half of the next.
 TEST(HealthTeller, WhatIsToldIsWholeAndInOrder) {
   std::uint64_t last = 0, told = 0;
-  HealthTeller teller([&](const Health& health, bus::HostTime) {
+  HealthTeller teller([&](const Health& health, bus::ports::HostTime) {
     EXPECT_EQ(health.dropped, 2 * health.timing.late_wakeups);
     EXPECT_GT(health.timing.late_wakeups, last);
     last = health.timing.late_wakeups;
@@ -92,4 +92,4 @@ TEST(HealthTeller, WhatIsToldIsWholeAndInOrder) {
 }
 
 }  // namespace
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -18,7 +18,7 @@
 #include <functional>
 #include <string>
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 namespace {
 
 constexpr std::size_t kPlace = 1'000'000;  // nobody's: no processor is taken
@@ -151,4 +151,4 @@ TEST(RealTimeMemory, WithoutALimitAllIsLocked) {
 }
 
 }  // namespace
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

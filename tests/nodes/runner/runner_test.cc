@@ -16,75 +16,78 @@
 #include <vector>
 
 #include "bus/wire/strobe.h"
-#include "drives/step_catalog.h"
-#include "nodes/runner/floor.h"
 #include "drives/scenario.h"
+#include "drives/step_catalog.h"
+#include "drives/surroundings.h"
+#include "nodes/runner/floor.h"
 #include "recording/records/records.h"
 #include "schedules/file/loader.h"
 #include "schedules/model/ports.h"
 #include "sim/crank/cluster_simulation.h"
-#include "drives/surroundings.h"
 #include "tests/support/memory_live_medium.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 namespace {
 
-struct Counted final : records::Sink {
-  using records::Sink::on;
-  void on(const records::FeatureUsed& used) override { fresh += used.fresh && !used.stale; }
-  void on(const records::ListHop& hop) override { discarded += hop.hop == records::Hop::kDiscarded; }
-  void on(const records::Measured&) override { ++measured; }
-  void on(const records::SlotFrameSent&) override { ++frames; }
-  void on(const records::TimingProblem& problem) override { problems[problem.what] += problem.count; }
-  void on(const records::ClockCorrected& corrected) override {
+struct Counted final : recording::records::Sink {
+  using recording::records::Sink::on;
+  void on(const recording::records::FeatureUsed& used) override { fresh += used.fresh && !used.stale; }
+  void on(const recording::records::ListHop& hop) override {
+    discarded += hop.hop == recording::records::Hop::kDiscarded;
+  }
+  void on(const recording::records::Measured&) override { ++measured; }
+  void on(const recording::records::SlotFrameSent&) override { ++frames; }
+  void on(const recording::records::TimingProblem& problem) override { problems[problem.what] += problem.count; }
+  void on(const recording::records::ClockCorrected& corrected) override {
     shown[corrected.cycle] = corrected.stamp;
     // The first pairs are what the initial clocks are apart by.
     if (corrected.cycle > 8) largest = std::max(largest, std::abs(corrected.offset_microticks));
   }
-  void on(const records::StateChanged& changed) override {
+  void on(const recording::records::StateChanged& changed) override {
     states.emplace_back(changed.to_name);
     first_state = std::min(first_state, changed.stamp.true_time);
   }
-  void on(const records::LatenessHistogram& histogram) override {
+  void on(const recording::records::LatenessHistogram& histogram) override {
     std::uint64_t sum = 0;
     for (const std::uint64_t count : histogram.counts) sum += count;
     lateness[histogram.of] = sum;
   }
-  void on(const records::MediumCounts& counts) override { medium = counts; }
-  records::MediumCounts medium;  // the last
+  void on(const recording::records::MediumCounts& counts) override { medium = counts; }
+  recording::records::MediumCounts medium;  // the last
   int fresh = 0, discarded = 0, measured = 0, frames = 0, largest = 0;
   std::map<int, std::uint64_t> problems, lateness;
   std::vector<std::string> states;
   TrueTime first_state{std::numeric_limits<std::int64_t>::max()};
-  std::map<std::int64_t, records::Stamp> shown;  // by cycle
+  std::map<std::int64_t, recording::records::Stamp> shown;  // by cycle
 };
 
 // Sleeps before it sends a sync frame: as late as a kernel may be, and more regularly. And stops its node for a while,
 // and hears nothing at first.
-class Sluggish final : public bus::LiveMedium {
+class Sluggish final : public bus::ports::LiveMedium {
  public:
   struct Stop {
-    bus::HostTime at{};
+    bus::ports::HostTime at{};
     Duration lasts{};
   };
-  Sluggish(std::unique_ptr<bus::LiveMedium> medium, Duration by, std::optional<Stop> stop, bus::HostTime hears_from)
+  Sluggish(std::unique_ptr<bus::ports::LiveMedium> medium, Duration by, std::optional<Stop> stop,
+           bus::ports::HostTime hears_from)
       : medium_(std::move(medium)), by_(by), stop_(stop), hears_from_(hears_from) {}
-  bus::LiveStatus send(const bus::LiveSignal& signal, bus::HostTime due) override {
+  bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::HostTime due) override {
     if (signal.tells_late) pause(by_);
     return medium_->send(signal, due);
   }
-  bus::LiveStatus send_can(std::size_t can_bus, const bus::CanFrame& frame) override {
+  bus::ports::LiveStatus send_can(std::size_t can_bus, const bus::ports::CanFrame& frame) override {
     return medium_->send_can(can_bus, frame);
   }
-  std::optional<bus::LiveArrival> receive() override {
-    if (stop_ && bus::host_now() >= stop_->at) pause(std::exchange(stop_, {})->lasts);
-    while (bus::host_now() < hears_from_)
+  std::optional<bus::ports::LiveArrival> receive() override {
+    if (stop_ && bus::ports::host_now() >= stop_->at) pause(std::exchange(stop_, {})->lasts);
+    while (bus::ports::host_now() < hears_from_)
       if (!medium_->receive()) return std::nullopt;
     return medium_->receive();
   }
-  int descriptor(bus::Line line) const override { return medium_->descriptor(line); }
-  void watch(bus::Line line, bool on) override { medium_->watch(line, on); }
-  bus::LiveCounts counts() const override { return medium_->counts(); }
+  int descriptor(bus::ports::Line line) const override { return medium_->descriptor(line); }
+  void watch(bus::ports::Line line, bool on) override { medium_->watch(line, on); }
+  bus::ports::LiveCounts counts() const override { return medium_->counts(); }
   const std::string& failure() const override { return medium_->failure(); }
 
  private:
@@ -92,10 +95,10 @@ class Sluggish final : public bus::LiveMedium {
     const timespec time{lasts.ns / 1'000'000'000, lasts.ns % 1'000'000'000};
     if (lasts.ns > 0) nanosleep(&time, nullptr);
   }
-  std::unique_ptr<bus::LiveMedium> medium_;
+  std::unique_ptr<bus::ports::LiveMedium> medium_;
   Duration by_;
   std::optional<Stop> stop_;
-  bus::HostTime hears_from_;
+  bus::ports::HostTime hears_from_;
 };
 
 constexpr Duration kYardstick = Duration::microseconds(500);  // its period
@@ -103,14 +106,15 @@ constexpr Duration kYardstick = Duration::microseconds(500);  // its period
 class RunnerTest : public testing::Test {
  protected:
   RunnerTest() {
-    schedules::bind_ports(cluster_, nodes::step_ports());
+    schedules::model::bind_ports(cluster_, drives::step_ports());
     // As long as the schedule has room for, stretched four times: other tests run beside this one.
-    cluster_.arrival_window = schedules::ArrivalWindow{Duration::milliseconds(1), Duration::milliseconds(2)};
-    around_ = sim::surroundings_of(scenario_, cluster_, 1, 0, nullptr);
+    cluster_.arrival_window = schedules::model::ArrivalWindow{Duration::milliseconds(1), Duration::milliseconds(2)};
+    around_ = drives::surroundings_of(scenario_, cluster_, 1, 0, nullptr);
   }
-  const nodes::Scenario scenario_ = nodes::load_scenario(TTF_SOURCE_DIR "/scenarios/paper_scenario1.yaml");
-  schedules::Cluster cluster_ = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
-  sim::Surroundings around_;
+  const drives::Scenario scenario_ = drives::load_scenario(TTF_SOURCE_DIR "/scenarios/paper_scenario1.yaml");
+  schedules::model::Cluster cluster_ =
+      schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  drives::Surroundings around_;
   std::vector<Counted> counted_;
   std::vector<Health> health_;
 
@@ -119,7 +123,7 @@ class RunnerTest : public testing::Test {
     std::int64_t scale_ppm = 4'000'000;
     test::Told told = test::Told::kWithTheFrame;
     Duration sluggish{};  // every second node
-    std::function<std::optional<TrueTime>(NodeId)> power_on = {};
+    std::function<std::optional<TrueTime>(ttf::NodeId)> power_on = {};
     // A node that is stopped, when and for how long in the drive's time.
     std::optional<NodeId> stopped = {};
     Duration stopped_at{}, stopped_for{};
@@ -131,7 +135,8 @@ class RunnerTest : public testing::Test {
     constexpr int kTries = 3;
     for (int i = 0; i < kTries; ++i) {
       counted_.clear();
-      const Floor first(kYardstick, bus::host_now()), second(kYardstick, bus::host_now() + Duration{kYardstick.ns / 2});
+      const Floor first(kYardstick, bus::ports::host_now()),
+          second(kYardstick, bus::ports::host_now() + Duration{kYardstick.ns / 2});
       drive_once(how);
       const Duration held_up = std::max(first.lateness().longest(), second.lateness().longest());
       if (HasFailure() || held_up < cluster_.arrival_window->late) return true;
@@ -141,21 +146,22 @@ class RunnerTest : public testing::Test {
   }
   void drive_once(const Drive& how) {
     test::MemoryLiveBusOptions options;
-    for (const schedules::CanBus& can : cluster_.can_buses) options.can_buses.push_back(can.flexible_data_rate);
+    for (const schedules::model::CanBus& can : cluster_.can_buses) options.can_buses.push_back(can.flexible_data_rate);
     options.told = how.told;
     options.room = how.room;
     test::MemoryLiveBus bus(options);
     const std::size_t nodes = cluster_.nodes.size();
     counted_.resize(nodes);
     health_.resize(nodes);
-    const DriveClock clock(bus::host_now() + Duration::milliseconds(50), how.scale_ppm);
-    std::vector<std::unique_ptr<bus::LiveMedium>> media;
-    const Sluggish::Stop stop{clock.host_time(sim::kFirstCycle + how.stopped_at), clock.in_real(how.stopped_for)};
+    const DriveClock clock(bus::ports::host_now() + Duration::milliseconds(50), how.scale_ppm);
+    std::vector<std::unique_ptr<bus::ports::LiveMedium>> media;
+    const Sluggish::Stop stop{clock.host_time(sim::crank::kFirstCycle + how.stopped_at),
+                              clock.in_real(how.stopped_for)};
     for (std::size_t n = 0; n < nodes; ++n)
       media.push_back(
           std::make_unique<Sluggish>(bus.join(), n % 2 == 1 ? how.sluggish : Duration{},
                                      how.stopped == static_cast<NodeId>(n) ? std::optional(stop) : std::nullopt,
-                                     clock.host_time(sim::kFirstCycle + how.deaf_for)));
+                                     clock.host_time(sim::crank::kFirstCycle + how.deaf_for)));
     std::vector<std::thread> threads;
     for (std::size_t n = 0; n < nodes; ++n)
       threads.emplace_back([&, n] {
@@ -164,11 +170,12 @@ class RunnerTest : public testing::Test {
         config.node = static_cast<NodeId>(n);
         config.clock = clock;
         config.seed = 1;
-        config.first_cycle = sim::kFirstCycle;
-        config.end = sim::kFirstCycle + how.lasts;
+        config.first_cycle = sim::crank::kFirstCycle;
+        config.end = sim::crank::kFirstCycle + how.lasts;
         if (how.power_on) config.power_on = how.power_on(config.node);
-        const nodes::NodeSetConfig code{&scenario_, &cluster_, fusion::StrategyKind::kTt, 1, 0, around_.scene, nullptr};
-        Runner runner(config, nodes::make_steps(code, config.node), *media[n], counted_[n]);
+        const drives::NodeSetConfig code{&scenario_,    &cluster_, ttf::fusion::strategies::StrategyKind::kTt, 1, 0,
+                                         around_.scene, nullptr};
+        Runner runner(config, drives::make_steps(code, config.node), *media[n], counted_[n]);
         EXPECT_EQ(runner.run(), RunnerEnd::kDone);
         health_[n] = runner.health();
       });
@@ -194,11 +201,11 @@ TEST_F(RunnerTest, ANodeSetDrivesInRealTime) {
   EXPECT_TRUE(missed > 0 || lost == 0) << lost;
   for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) {
     EXPECT_EQ(health_of(node).state, "normal active") << node;
-    EXPECT_GT(of(node).lateness[records::kLatenessOfWakeUps], 100u) << node;
-    EXPECT_GT(of(node).lateness[records::kLatenessOfFloor], 10u) << node;
-    EXPECT_GT(of(node).lateness[records::kLatenessOfDepartures], 100u) << node;
-    EXPECT_GT(of(node).lateness[records::kLatenessOfArrivals], 100u) << node;
-    EXPECT_EQ(of(node).lateness[records::kLatenessOfTransits], health_of(node).medium.received) << node;
+    EXPECT_GT(of(node).lateness[recording::records::kLatenessOfWakeUps], 100u) << node;
+    EXPECT_GT(of(node).lateness[recording::records::kLatenessOfFloor], 10u) << node;
+    EXPECT_GT(of(node).lateness[recording::records::kLatenessOfDepartures], 100u) << node;
+    EXPECT_GT(of(node).lateness[recording::records::kLatenessOfArrivals], 100u) << node;
+    EXPECT_EQ(of(node).lateness[recording::records::kLatenessOfTransits], health_of(node).medium.received) << node;
     EXPECT_EQ(of(node).medium.sent, health_of(node).medium.sent) << node;
     EXPECT_EQ(of(node).medium.received, health_of(node).medium.received) << node;
   }
@@ -232,7 +239,7 @@ TEST_F(RunnerTest, WhatClocksShowIsOfOneInstant) {
     for (const char* node : {"camera_pre", "gateway", "fusion", "feature"}) {
       const auto other = of(node).shown.find(cycle);
       if (other == of(node).shown.end()) continue;
-      const records::Stamp& second = other->second;
+      const recording::records::Stamp& second = other->second;
       const std::int64_t apart = (second.global.ns - second.true_time.ns) - (first.global.ns - first.true_time.ns);
       EXPECT_LE(std::abs(apart), 10'000) << node << ", cycle " << cycle;
       ++compared;
@@ -243,7 +250,7 @@ TEST_F(RunnerTest, WhatClocksShowIsOfOneInstant) {
 
 TEST_F(RunnerTest, AClusterStartsUpInRealTime) {
   const auto one_by_one = [](NodeId node) {
-    return std::optional(sim::kFirstCycle + Duration::milliseconds(3 * static_cast<int>(index_of(node))));
+    return std::optional(sim::crank::kFirstCycle + Duration::milliseconds(3 * static_cast<int>(index_of(node))));
   };
   if (!drive({.lasts = Duration::milliseconds(900), .power_on = one_by_one})) return;
   for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"})
@@ -254,7 +261,7 @@ TEST_F(RunnerTest, AClusterStartsUpInRealTime) {
 // only listen stays silent for good.
 TEST_F(RunnerTest, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSame) {
   cluster_.flexray.gColdStartAttempts = 2;
-  const auto together = [](NodeId) { return std::optional(sim::kFirstCycle); };
+  const auto together = [](NodeId) { return std::optional(sim::crank::kFirstCycle); };
   if (!drive({.lasts = Duration::milliseconds(1000), .power_on = together, .deaf_for = Duration::milliseconds(200)}))
     return;
   int exhausted = 0;
@@ -270,7 +277,7 @@ TEST_F(RunnerTest, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSame)
 
 TEST_F(RunnerTest, ANodeThatComesLaterIntegrates) {
   const NodeId late = *cluster_.find_node("feature");
-  const TrueTime comes = sim::kFirstCycle + Duration::milliseconds(200);
+  const TrueTime comes = sim::crank::kFirstCycle + Duration::milliseconds(200);
   const auto power_on = [=](NodeId node) { return node == late ? std::optional(comes) : std::nullopt; };
   if (!drive({.lasts = Duration::milliseconds(900), .power_on = power_on})) return;
   EXPECT_EQ(health_of("feature").state, "normal active");
@@ -304,10 +311,10 @@ TEST_F(RunnerTest, ANodeThatWasStoppedForLongIntegratesAnew) {
 TEST_F(RunnerTest, WhatIsTooLateIsNotSentAndToldSo) {
   cluster_.arrival_window->late = Duration::microseconds(1);  // no kernel is that good
   if (!drive({.lasts = Duration::milliseconds(100)})) return;
-  EXPECT_GT(of("gateway").problems[records::kSlotMissed], 0u);
-  EXPECT_EQ(of("gateway").problems[records::kSlotMissed], health_of("gateway").timing.slots_missed);
-  EXPECT_GT(of("gateway").problems[records::kLateWakeUp], 0u);
+  EXPECT_GT(of("gateway").problems[recording::records::kSlotMissed], 0u);
+  EXPECT_EQ(of("gateway").problems[recording::records::kSlotMissed], health_of("gateway").timing.slots_missed);
+  EXPECT_GT(of("gateway").problems[recording::records::kLateWakeUp], 0u);
 }
 
 }  // namespace
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -14,23 +14,23 @@
 #include "nodes/runner/wake_up.h"
 #include "schedules/file/loader.h"
 
-namespace ttf::runner {
+namespace ttf::nodes::runner {
 namespace {
 
 TEST(DriveClock, StretchesTheDrive) {
-  const DriveClock clock(bus::HostTime{1'000}, 2'500'000);
-  EXPECT_EQ(clock.drive_time(bus::HostTime{1'000}).ns, 0);
-  EXPECT_EQ(clock.drive_time(bus::HostTime{1'000 + 250}).ns, 100);
+  const DriveClock clock(bus::ports::HostTime{1'000}, 2'500'000);
+  EXPECT_EQ(clock.drive_time(bus::ports::HostTime{1'000}).ns, 0);
+  EXPECT_EQ(clock.drive_time(bus::ports::HostTime{1'000 + 250}).ns, 100);
   EXPECT_EQ(clock.host_time(TrueTime{100}).ns, 1'250);
-  EXPECT_EQ(clock.drive_time(bus::HostTime{0}).ns, -400);
+  EXPECT_EQ(clock.drive_time(bus::ports::HostTime{0}).ns, -400);
 }
 
 TEST(DriveClock, AnInstantOfTheDriveIsReachedAtItsHostTimeAndNotBefore) {
   for (const std::int64_t scale : {100'000, 999'999, 1'000'000, 1'000'003, 7'000'000, 1'000'000'000}) {
-    const DriveClock clock(bus::HostTime{123'456'789}, scale);
+    const DriveClock clock(bus::ports::HostTime{123'456'789}, scale);
     for (const std::int64_t ns : {std::int64_t{-7}, std::int64_t{0}, std::int64_t{1}, std::int64_t{999'999'937},
                                   std::int64_t{86'400'000'000'007}}) {
-      const bus::HostTime at = clock.host_time(TrueTime{ns});
+      const bus::ports::HostTime at = clock.host_time(TrueTime{ns});
       EXPECT_GE(clock.drive_time(at).ns, ns) << scale;
       EXPECT_LT(clock.drive_time(at - Duration{1}).ns, ns) << scale;
     }
@@ -39,8 +39,10 @@ TEST(DriveClock, AnInstantOfTheDriveIsReachedAtItsHostTimeAndNotBefore) {
 
 // A turn every 10 ns, 3 behind the origin at 1000: at ..., 993, 1003, 1013, ...; the drive's scale has no part in it.
 TEST(DriveClock, TurnsAreWhereTheyAreFromTheOrigin) {
-  const DriveClock clock(bus::HostTime{1'000}, 2'500'000);
-  const auto next = [&](std::int64_t now) { return clock.next_turn(Duration{10}, Duration{3}, bus::HostTime{now}).ns; };
+  const DriveClock clock(bus::ports::HostTime{1'000}, 2'500'000);
+  const auto next = [&](std::int64_t now) {
+    return clock.next_turn(Duration{10}, Duration{3}, bus::ports::HostTime{now}).ns;
+  };
   EXPECT_EQ(next(1'000), 1'003);
   EXPECT_EQ(next(1'002), 1'003);
   EXPECT_EQ(next(1'003), 1'013);
@@ -52,11 +54,12 @@ TEST(DriveClock, TurnsAreWhereTheyAreFromTheOrigin) {
 
 class PacedCanTest : public testing::Test {
  protected:
-  records::Stamp now() const { return {now_, {}, {}, NodeId{}}; }
+  recording::records::Stamp now() const { return {now_, {}, {}, NodeId{}}; }
   Duration length(std::uint32_t identifier, std::span<const std::byte> data) const {
-    return wire::can_frame_duration(cluster_.can_buses[0], identifier, data);
+    return bus::wire::can_frame_duration(cluster_.can_buses[0], identifier, data);
   }
-  const schedules::Cluster cluster_ = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  const schedules::model::Cluster cluster_ =
+      schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   TrueTime now_{1'000};
   PacedCan can_{cluster_, 0, 4, [this] { return now(); }};
   const std::array<std::byte, 64> data_{};
@@ -89,20 +92,20 @@ TEST_F(PacedCanTest, WhatThereIsNoRoomForIsCounted) {
 
 TEST(SensorLines, AStrobeCarriesItsNumber) {
   for (const std::uint32_t number : {0u, 1u, 0x01020304u, 0xFFFFFFFFu})
-    EXPECT_EQ(wire::strobe_sequence(wire::strobe_data(number)), number);
-  EXPECT_EQ(wire::strobe_data(0x01020304u)[0], std::byte{1});
-  EXPECT_FALSE(wire::strobe_sequence(std::array<std::byte, 3>{}));
-  EXPECT_NE(schedules::strobe_identifier(SensorId{1}), schedules::trigger_identifier(SensorId{0}));
+    EXPECT_EQ(bus::wire::strobe_sequence(bus::wire::strobe_data(number)), number);
+  EXPECT_EQ(bus::wire::strobe_data(0x01020304u)[0], std::byte{1});
+  EXPECT_FALSE(bus::wire::strobe_sequence(std::array<std::byte, 3>{}));
+  EXPECT_NE(schedules::model::strobe_identifier(SensorId{1}), schedules::model::trigger_identifier(SensorId{0}));
 }
 
 TEST(WakeUp, SleepsUntilAnInstantAndNotLess) {
   WakeUp wake_up(1);
   for (const std::int64_t us : {0, 1, 300, 20'000}) {
-    const bus::HostTime until = bus::host_now() + Duration::microseconds(us);
+    const bus::ports::HostTime until = bus::ports::host_now() + Duration::microseconds(us);
     wake_up.sleep_until(until);
-    EXPECT_GE(bus::host_now(), until);
+    EXPECT_GE(bus::ports::host_now(), until);
   }
-  wake_up.sleep_until(bus::HostTime{-5});  // over long ago
+  wake_up.sleep_until(bus::ports::HostTime{-5});  // over long ago
 }
 
 TEST(WakeUp, WakesForADescriptor) {
@@ -110,24 +113,24 @@ TEST(WakeUp, WakesForADescriptor) {
   const int event = eventfd(1, EFD_CLOEXEC);
   wake_up.watch(event);
   wake_up.watch(-1);
-  const bus::HostTime until = bus::host_now() + Duration::milliseconds(60'000);
+  const bus::ports::HostTime until = bus::ports::host_now() + Duration::milliseconds(60'000);
   wake_up.sleep_until(until);
-  EXPECT_LT(bus::host_now(), until);
+  EXPECT_LT(bus::ports::host_now(), until);
   wake_up.clear();
-  const bus::HostTime soon = bus::host_now() + Duration::milliseconds(2);
+  const bus::ports::HostTime soon = bus::ports::host_now() + Duration::milliseconds(2);
   wake_up.sleep_until(soon);
-  EXPECT_GE(bus::host_now(), soon);
+  EXPECT_GE(bus::ports::host_now(), soon);
   close(event);
 }
 
 TEST(Floor, CountsEveryWakeUpOnce) {
-  Floor floor(Duration::milliseconds(1), bus::host_now() + Duration::milliseconds(1));
+  Floor floor(Duration::milliseconds(1), bus::ports::host_now() + Duration::milliseconds(1));
   WakeUp wake_up(0);
-  wake_up.sleep_until(bus::host_now() + Duration::milliseconds(50));
-  const records::BinnedDurations lateness = floor.lateness();
+  wake_up.sleep_until(bus::ports::host_now() + Duration::milliseconds(50));
+  const recording::records::BinnedDurations lateness = floor.lateness();
   EXPECT_GE(lateness.count(), 1u);
   EXPECT_LE(lateness.count(), 51u);
 }
 
 }  // namespace
-}  // namespace ttf::runner
+}  // namespace ttf::nodes::runner

@@ -10,24 +10,24 @@
 #include "nodes/host/step.h"
 #include "schedules/file/loader.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::sensing {
 namespace {
 
 struct List {
-  schedules::Cluster cluster;
+  schedules::model::Cluster cluster;
   PduId pdu;
-  const schedules::PduLayout& layout;
+  const schedules::model::PduLayout& layout;
   ObservationCodec codec;
-  Output out;
+  host::Output out;
 
   List(const std::string& file, std::string_view name)
-      : cluster(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + file)), pdu(*cluster.find_pdu(name)),
+      : cluster(schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/" + file)), pdu(*cluster.find_pdu(name)),
         layout(cluster.pdu(pdu)), codec(cluster, pdu), out("objects", pdu, layout) {}
   void set(int index, std::string_view signal, double value) {
-    out.set(index, *schedules::find_signal(layout.element, signal), value);
+    out.set(index, *schedules::model::find_signal(layout.element, signal), value);
   }
-  std::vector<fusion::Observation> decoded() const {
-    std::vector<fusion::Observation> observations;
+  std::vector<ttf::fusion::sensors::Observation> decoded() const {
+    std::vector<ttf::fusion::sensors::Observation> observations;
     codec.decode(out.view(), observations);
     return observations;
   }
@@ -41,7 +41,7 @@ TEST(ObservationCodec, ACamerasSilhouetteIsASpanNotAWidth) {
   list.set(1, "sigma_span", 0.002);
   const auto observations = list.decoded();
   ASSERT_EQ(observations.size(), 2u);
-  const fusion::Observation& z = observations[1];
+  const ttf::fusion::sensors::Observation& z = observations[1];
   EXPECT_EQ(z.z(0), 20.0);
   EXPECT_TRUE(z.has_span);
   EXPECT_NEAR(z.span, 0.22, 0.00025 + 1e-12);
@@ -55,7 +55,7 @@ TEST(ObservationCodec, ALasersValidBitsAreThree) {
   for (int bits = 0; bits < 8; ++bits) list.set(bits, "valid", bits);
   const auto observations = list.decoded();
   for (int bits = 0; bits < 8; ++bits) {
-    const fusion::Observation& z = observations[static_cast<std::size_t>(bits)];
+    const ttf::fusion::sensors::Observation& z = observations[static_cast<std::size_t>(bits)];
     EXPECT_EQ(z.has_heading, (bits & 1) != 0);
     EXPECT_EQ(z.has_length, (bits & 2) != 0);
     EXPECT_EQ(z.has_width, (bits & 4) != 0);
@@ -74,12 +74,12 @@ TEST(ObservationCodec, AnyBytesMakeUsableObservations) {
       list.out.begin(0, list.layout.max_elements, GlobalTime{});
       for (int i = 0; i < list.layout.max_elements; ++i)
         for (std::size_t s = 0; s < list.layout.element.size(); ++s) {
-          const schedules::Signal& signal = list.layout.element[s];
+          const schedules::model::Signal& signal = list.layout.element[s];
           const double extreme[] = {signal.low, signal.high, draw.uniform(signal.low, signal.high)};
           list.out.set(i, s, extreme[draw.integer(0, 2)]);
         }
-      for (const fusion::Observation& z : list.decoded()) {
-        const int n = fusion::dimension_of(z.kind);
+      for (const ttf::fusion::sensors::Observation& z : list.decoded()) {
+        const int n = ttf::fusion::sensors::dimension_of(z.kind);
         ASSERT_TRUE(z.z.allFinite() && z.r.allFinite());
         ASSERT_EQ(Eigen::LLT<Eigen::MatrixXd>(z.r.topLeftCorner(n, n)).info(), Eigen::Success) << name;
         ASSERT_TRUE(!z.has_heading || z.sigma_heading > 0.0);
@@ -92,4 +92,4 @@ TEST(ObservationCodec, AnyBytesMakeUsableObservations) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::sensing

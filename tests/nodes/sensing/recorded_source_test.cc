@@ -8,11 +8,11 @@
 #include "nodes/sensing/recorded.h"
 #include "schedules/file/loader.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::sensing {
 namespace {
 
-using recording::RecordedInput;
-using recording::RecordedObservation;
+using recording::rows::RecordedInput;
+using recording::rows::RecordedObservation;
 using testing::HasSubstr;
 
 RecordedInput one_row(const std::string& sensor, RecordedObservation::Kind kind) {
@@ -24,9 +24,10 @@ RecordedInput one_row(const std::string& sensor, RecordedObservation::Kind kind)
 
 // What is said of this recording as the source of the shipped cluster's sensor; empty if it fits.
 std::string refusal(const std::string& sensor, RecordedInput input) {
-  static const schedules::Cluster cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/laser_radar.yaml");
+  static const schedules::model::Cluster cluster =
+      schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/laser_radar.yaml");
   const SensorId id = *cluster.find_sensor(sensor);
-  const schedules::Task& task = cluster.node(cluster.sensor(id).device).tasks.front();
+  const schedules::model::Task& task = cluster.node(cluster.sensor(id).device).tasks.front();
   try {
     const RecordedSource source(cluster, task, id, std::make_shared<const RecordedInput>(std::move(input)));
   } catch (const InputError& error) {
@@ -53,7 +54,7 @@ TEST(RecordedScene, HasNoTruthBeyondTheRecording) {
   input.truth.push_back({.time_us_from_start = 100'001, .x = 21.0, .vx = 10.0});
   const TrueTime start{5'000'000};
   const RecordedScene scene(input, start);
-  std::vector<world::ObjectState> states(3);
+  std::vector<sim::world::ObjectState> states(3);
   const auto at = [&](std::int64_t ns) {
     scene.states_at(start + Duration{ns}, states);
     return states.size();
@@ -70,4 +71,4 @@ TEST(RecordedScene, HasNoTruthBeyondTheRecording) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::sensing

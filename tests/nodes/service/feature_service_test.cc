@@ -8,20 +8,21 @@
 
 #include "fusion/tracks/extent.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::service {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-records::ImageObject car(double x, double y, double heading, double speed) {
-  records::ImageObject object;
+recording::records::ImageObject car(double x, double y, double heading, double speed) {
+  recording::records::ImageObject object;
   object.x = x;
   object.y = y;
   object.heading = heading;
   object.speed = speed;
   object.length = 4.0;
   object.width = 2.0;
-  object.status = records::kImageConfirmed | records::kImageHasLength | records::kImageHasWidth;
+  object.status =
+      recording::records::kImageConfirmed | recording::records::kImageHasLength | recording::records::kImageHasWidth;
   return object;
 }
 FeatureConfig driving(double own_speed) {
@@ -33,7 +34,7 @@ FeatureConfig driving(double own_speed) {
 // Rear edge 20 m ahead, closing with 10 m/s: 2 s, whoever of the two it is that moves.
 TEST(FeatureService, TimeToCollisionIsClearanceByClosingSpeed) {
   for (const double own : {0.0, 10.0, 25.0}) {
-    const records::FeatureObject f = judge(car(22.0, 0.0, kPi, 10.0), driving(own));
+    const recording::records::FeatureObject f = judge(car(22.0, 0.0, kPi, 10.0), driving(own));
     EXPECT_NEAR(f.time_to_collision_s, 2.0, 1e-12)
         << "own speed " << own << ": the image's velocity is relative already";
     EXPECT_TRUE(f.warning);
@@ -42,7 +43,7 @@ TEST(FeatureService, TimeToCollisionIsClearanceByClosingSpeed) {
 
 TEST(FeatureService, TimeGapIsClearanceByOwnSpeed) {
   // Following at the same speed: no closing, no collision, 20 m at 10 m/s.
-  const records::FeatureObject f = judge(car(22.0, 0.0, 0.0, 0.0), driving(10.0));
+  const recording::records::FeatureObject f = judge(car(22.0, 0.0, 0.0, 0.0), driving(10.0));
   EXPECT_NEAR(f.time_gap_s, 2.0, 1e-12);
   EXPECT_TRUE(std::isinf(f.time_to_collision_s));
   EXPECT_FALSE(f.warning);
@@ -59,7 +60,7 @@ TEST(FeatureService, WhatOpensOrStandsIsNoCollision) {
 // 30 m away under 30 degrees, driving straight at the sensor: along the line of sight, not along x.
 TEST(FeatureService, ClosesAlongTheLineOfSight) {
   const double bearing = kPi / 6.0;
-  const records::FeatureObject f =
+  const recording::records::FeatureObject f =
       judge(car(30.0 * std::cos(bearing), 30.0 * std::sin(bearing), bearing + kPi, 7.0), driving(0.0));
   EXPECT_NEAR(f.time_to_collision_s, 28.0 / 7.0, 1e-9);
   EXPECT_FALSE(f.warning) << "15 m beside the line of travel";
@@ -80,10 +81,10 @@ TEST(FeatureService, ClearanceEndsAtTheOutline) {
 }
 
 TEST(FeatureService, WhatWasNotMeasuredIsAsTypicalAsTheImageSays) {
-  records::ImageObject object = car(22.0, 0.0, 0.0, 0.0);
-  object.status = records::kImageConfirmed;
-  object.length = fusion::Extent::kTypicalLength;
-  object.width = fusion::Extent::kTypicalWidth;
+  recording::records::ImageObject object = car(22.0, 0.0, 0.0, 0.0);
+  object.status = recording::records::kImageConfirmed;
+  object.length = ttf::fusion::tracks::Extent::kTypicalLength;
+  object.width = ttf::fusion::tracks::Extent::kTypicalWidth;
   EXPECT_NEAR(10.0 * judge(object, driving(10.0)).time_gap_s, 22.0 - 0.5 * object.length, 1e-9);
   object.heading = kPi / 2;
   EXPECT_NEAR(10.0 * judge(object, driving(10.0)).time_gap_s, 22.0 - 0.5 * object.width, 1e-9);
@@ -99,4 +100,4 @@ TEST(FeatureService, WarnsInTheCorridorOnly) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::service

@@ -8,7 +8,7 @@
 #include "nodes/service/feature_service.h"
 #include "schedules/file/loader.h"
 
-namespace ttf::nodes {
+namespace ttf::nodes::service {
 namespace {
 
 constexpr GlobalTime at_us(std::int64_t us) { return GlobalTime{us * 1000}; }
@@ -23,35 +23,36 @@ struct Use {
 };
 
 // The paper's feature service with images by hand, each with one car 22 m ahead.
-struct Service final : records::Sink {
-  schedules::Cluster cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
-  const schedules::Task& task = cluster.node(*cluster.find_node("feature")).tasks[0];
+struct Service final : recording::records::Sink {
+  schedules::model::Cluster cluster =
+      schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  const schedules::model::Task& task = cluster.node(*cluster.find_node("feature")).tasks[0];
   PduId pdu = *cluster.find_pdu("image");
   FeatureService step;
-  Output image{"image", pdu, cluster.pdu(pdu)};
-  std::optional<bus::ListView> newest;
+  host::Output image{"image", pdu, cluster.pdu(pdu)};
+  std::optional<bus::cni::ListView> newest;
   bool fresh = false;
   std::optional<Use> used;
 
   explicit Service(const FeatureConfig& config = {}) : step(cluster, task, config) {}
 
-  using records::Sink::on;
-  void on(const records::FeatureUsed& use) override {
+  using recording::records::Sink::on;
+  void on(const recording::records::FeatureUsed& use) override {
     used = {use.image_sequence, use.image_valid_at, use.fresh, use.stale, use.objects.size()};
   }
   void receive(std::uint32_t sequence, GlobalTime valid_at) {
-    const ImageSignals signals = bind_image(cluster, cluster.pdu(pdu));
-    fusion::TrackView car;
+    const fusion::ImageSignals signals = fusion::bind_image(cluster, cluster.pdu(pdu));
+    ttf::fusion::tracks::TrackView car;
     car.state(0) = 22.0;
     car.covariance.setIdentity();
     image.begin(sequence, 1, valid_at);
-    encode_image_object(car, image, 0, signals);
+    fusion::encode_image_object(car, image, 0, signals);
     newest = image.view();
     fresh = true;
   }
   std::optional<Use> use(GlobalTime now) {
-    std::vector<Input> inputs{{"image", pdu, &cluster.pdu(pdu), newest, fresh}};
-    StepContext context;
+    std::vector<host::Input> inputs{{"image", pdu, &cluster.pdu(pdu), newest, fresh}};
+    host::StepContext context;
     context.stamp.global = now;
     context.inputs = inputs;
     context.sink = this;
@@ -107,4 +108,4 @@ TEST(StaleImage, TheLargestAgeIsTheScenarios) {
 }
 
 }  // namespace
-}  // namespace ttf::nodes
+}  // namespace ttf::nodes::service

@@ -6,7 +6,7 @@
 #include "core/errors.h"
 #include "tests/recording/capture/capture_verdict.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
 using testing::ElementsAre;
@@ -26,7 +26,7 @@ TEST(CaptureCheck, ABusThatObeysItsScheduleContradictsNothing) {
 
 TEST(CaptureCheck, EveryShippedScheduleHolds) {
   for (const char* name : {"paper_unsynchronised", "laser_radar", "laser_radar_synchronised"}) {
-    const schedules::Cluster other = shipped_cluster(name);
+    const schedules::model::Cluster other = shipped_cluster(name);
     const Capture capture = capture_of(scheduled_frames(other, 70));
     EXPECT_EQ(check_capture(capture, "bus.pcapng", other, {}).contradictions(), 0u) << name;
   }
@@ -74,9 +74,9 @@ TEST(CaptureCheck, AFrameInASlotNobodyOwns) {
 }
 
 TEST(CaptureCheck, AFrameOnTheWrongChannel) {
-  schedules::Cluster one_channel = paper();
-  for (schedules::FrameSlot& frame : one_channel.frames)
-    if (frame.slot == 3) frame.channels = schedules::Channels::kA;
+  schedules::model::Cluster one_channel = paper();
+  for (schedules::model::FrameSlot& frame : one_channel.frames)
+    if (frame.slot == 3) frame.channels = schedules::model::Channels::kA;
   std::vector<BusFrame> frames = scheduled_frames(one_channel, 4);
   const std::size_t at = place_of(frames, 3, Channel::kA, 1);
   frames[at].channel = Channel::kB;
@@ -131,8 +131,8 @@ TEST(CaptureCheck, APayloadOfAnotherLength) {
 
 TEST(CaptureCheck, APacketThatWasCutWhenCaptured) {
   std::string bytes;
-  const CaptureInterface interface { LinkType::kFlexRay, "" };
-  CaptureWriter writer(bytes, {&interface, 1}, "");
+  const exports::CaptureInterface interface { LinkType::kFlexRay, "" };
+  exports::CaptureWriter writer(bytes, {&interface, 1}, "");
   const std::vector<BusFrame> frames = scheduled_frames(paper(), 2);
   for (std::size_t i = 0; i < frames.size(); ++i)
     writer.packet(0, frames[i].time_ns, frames[i].packet().substr(0, i == 10 ? 40 : i == 12 ? 5 : 400), "");
@@ -145,10 +145,10 @@ TEST(CaptureCheck, AFlaggedFrameWithoutAHeaderIsACodingErrorAndMissingInItsSlot)
   std::vector<BusFrame> frames = scheduled_frames(paper(), 6);
   const std::size_t at = place_of(frames, 12, Channel::kB, 3);
   frames[at].errors = kCodingError;
-  const CaptureInterface interface { LinkType::kFlexRay, "FlexRay" };
+  const exports::CaptureInterface interface { LinkType::kFlexRay, "FlexRay" };
   for (const std::size_t bytes_left : {2u, 4u, 6u}) {
     std::string bytes;
-    CaptureWriter writer(bytes, {&interface, 1}, "");
+    exports::CaptureWriter writer(bytes, {&interface, 1}, "");
     for (std::size_t i = 0; i < frames.size(); ++i)
       writer.packet(0, frames[i].time_ns, frames[i].packet().substr(0, i == at ? bytes_left : 400), "");
     const CaptureVerdict verdict = check_capture(parse_capture(bytes, "bus.pcapng"), "bus.pcapng", paper(), {});
@@ -193,7 +193,8 @@ TEST(CaptureCheck, AStartupFrameThatIsNoSyncFrame) {
   frames[at].header.sync = frames[at].header.startup = false;
   // The indicators 0 and 1 with the header CRC that goes with them.
   std::string header = frames[at].packet();
-  const std::uint32_t crc = wire::header_crc(false, true, 2, static_cast<std::uint8_t>(frames[at].payload.size() / 2));
+  const std::uint32_t crc =
+      bus::wire::header_crc(false, true, 2, static_cast<std::uint8_t>(frames[at].payload.size() / 2));
   header[2] = static_cast<char>(header[2] | 0x08);
   header[4] = static_cast<char>((header[4] & 0xfe) | (crc >> 10));
   header[5] = static_cast<char>(crc >> 2);
@@ -210,7 +211,7 @@ TEST(CaptureCheck, OneChannelAloneIsCheckedWhenAskedFor) {
   // All but those beside the first and the last frame, where the capture may have begun and ended.
   EXPECT_EQ(verdict_on(frames).counts, counts({{Contradiction::kMissing, of_b - 2}}));
   CaptureCheckOptions options;
-  options.channels = schedules::Channels::kA;
+  options.channels = schedules::model::Channels::kA;
   EXPECT_THAT(texts(verdict_on(frames, options)), IsEmpty());
 }
 
@@ -238,9 +239,9 @@ TEST(CaptureCheck, PacketsOutOfOrderAndWithoutStampsAreCheckedToo) {
 
 TEST(CaptureCheck, NothingIsSaidOfACaptureWithoutFlexRayFrames) {
   EXPECT_THROW(verdict_on({}), InputError);
-  const CaptureInterface interface { LinkType::kCan, "can0" };
+  const exports::CaptureInterface interface { LinkType::kCan, "can0" };
   std::string bytes;
-  CaptureWriter writer(bytes, {&interface, 1}, "");
+  exports::CaptureWriter writer(bytes, {&interface, 1}, "");
   writer.packet(0, 0, scheduled_frames(paper(), 1)[0].packet(), "");
   EXPECT_THROW(check_capture(parse_capture(bytes, "bus.pcapng"), "bus.pcapng", paper(), {}), InputError);
 }
@@ -254,4 +255,4 @@ TEST(CaptureCheck, FindingsAreCountedBeyondThoseThatAreListed) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

@@ -3,7 +3,7 @@
 
 #include "tests/recording/capture_fixture.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
 std::vector<std::byte> bytes_of(std::initializer_list<int> values) {
@@ -53,7 +53,7 @@ TEST(CapturePacket, FramesCutShortFailWhatCannotBeChecked) {
   const std::vector<std::byte> sound = known_frame();
   for (std::size_t size = 0; size < sound.size(); ++size) {
     const CheckedFlexRayFrame frame = check_flexray_frame(Channel::kA, std::span(sound).first(size));
-    EXPECT_EQ(frame.errors, kFrameCrcError | (size < wire::kHeaderBytes ? kHeaderCrcError : 0)) << size;
+    EXPECT_EQ(frame.errors, kFrameCrcError | (size < bus::wire::kHeaderBytes ? kHeaderCrcError : 0)) << size;
     EXPECT_LE(frame.header_and_payload.size(), size);
   }
 }
@@ -63,14 +63,14 @@ TEST(CapturePacket, OfAFrameThatBreaksOffOnlyWhatIsThereIsChecked) {
   for (std::size_t size = 0; size <= sound.size(); ++size) {
     const CheckedFlexRayFrame frame = check_broken_frame(Channel::kA, std::span(sound).first(size));
     EXPECT_EQ(frame.errors, 0) << size;
-    EXPECT_EQ(frame.header_and_payload.size(), std::min(size, sound.size() - wire::kTrailerBytes));
-    EXPECT_EQ(frame.header.frame_id, size < wire::kHeaderBytes ? 0 : 1);
+    EXPECT_EQ(frame.header_and_payload.size(), std::min(size, sound.size() - bus::wire::kTrailerBytes));
+    EXPECT_EQ(frame.header.frame_id, size < bus::wire::kHeaderBytes ? 0 : 1);
     std::vector<std::byte> bytes(sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(size));
     if (size < 2) continue;
     bytes[1] ^= std::byte{1};
     const bool whole = size == sound.size();
     EXPECT_EQ(check_broken_frame(Channel::kA, bytes).errors,
-              (size < wire::kHeaderBytes ? 0 : kHeaderCrcError) | (whole ? kFrameCrcError : 0));
+              (size < bus::wire::kHeaderBytes ? 0 : kHeaderCrcError) | (whole ? kFrameCrcError : 0));
   }
 }
 
@@ -127,4 +127,4 @@ TEST(CapturePacket, CanPacketsHaveTheirIdentifierInBigEndianAndTheFlagsOfFd) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

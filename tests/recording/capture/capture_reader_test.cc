@@ -5,7 +5,7 @@
 #include "core/errors.h"
 #include "tests/recording/capture_fixture.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
 using testing::HasSubstr;
@@ -56,9 +56,10 @@ std::string refusal(const std::string& bytes) {
 }
 
 std::string two_packets() {
-  const std::vector<CaptureInterface> interfaces{{LinkType::kFlexRay, "FlexRay"}, {LinkType::kCan, "laser_can"}};
+  const std::vector<exports::CaptureInterface> interfaces{{LinkType::kFlexRay, "FlexRay"},
+                                                          {LinkType::kCan, "laser_can"}};
   std::string bytes;
-  CaptureWriter writer(bytes, interfaces, "a run");
+  exports::CaptureWriter writer(bytes, interfaces, "a run");
   writer.packet(0, 1, "abc", "");
   writer.packet(1, 1'700'000'000'123'456'789, "defgh", "measurement laser 12");
   return bytes;
@@ -84,9 +85,9 @@ TEST(CaptureReader, ReadsWhatTheWriterWrote) {
 }
 
 TEST(CaptureReader, CommentsAreKeptPrintableAndShort) {
-  const CaptureInterface interface { LinkType::kCan, "a\nb" };
+  const exports::CaptureInterface interface { LinkType::kCan, "a\nb" };
   std::string bytes;
-  CaptureWriter writer(bytes, {&interface, 1}, "");
+  exports::CaptureWriter writer(bytes, {&interface, 1}, "");
   writer.packet(0, -5, "", "one\ttwo");
   writer.packet(0, 0, "", std::string(999, 'x') + "\xc3\xa4");
   const Capture capture = parse_capture(bytes, "bus.pcapng");
@@ -247,4 +248,4 @@ TEST(CaptureReader, AnyChangedByteIsReadOrRefusedWithASentence) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

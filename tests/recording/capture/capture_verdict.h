@@ -12,12 +12,12 @@
 #include "recording/capture/check.h"
 #include "tests/recording/capture_fixture.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 
 using Counts = std::array<std::uint64_t, kContradictions>;
 
-inline const schedules::Cluster& paper() {
-  static const schedules::Cluster kCluster = shipped_cluster();
+inline const schedules::model::Cluster& paper() {
+  static const schedules::model::Cluster kCluster = shipped_cluster();
   return kCluster;
 }
 
@@ -65,4 +65,4 @@ inline Capture without_stamps(const std::vector<BusFrame>& frames) {
   return parse_capture(bytes, "bus.pcapng");
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

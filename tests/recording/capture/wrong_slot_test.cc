@@ -12,7 +12,7 @@
 #include "recording/capture/wrong_slots.h"
 #include "tests/recording/capture/capture_verdict.h"
 
-namespace ttf::recording {
+namespace ttf::recording::capture {
 namespace {
 
 using testing::Each;
@@ -111,7 +111,7 @@ TEST(WrongSlot, AStaticFrameOutsideOfItsSegmentAndADynamicOneInItAreWrong) {
 }
 
 TEST(WrongSlot, ASmallClusterIsEnough) {
-  const schedules::Cluster demo = shipped_cluster("flexray_demo");  // six senders, some dynamic frames
+  const schedules::model::Cluster demo = shipped_cluster("flexray_demo");  // six senders, some dynamic frames
   std::vector<BusFrame> frames = without(scheduled_frames(demo, 12), 6);
   for (BusFrame& frame : frames)
     if (frame.header.frame_id == 5 && frame.header.cycle >= 4 && frame.header.cycle <= 6) frame.header.frame_id = 6;
@@ -120,8 +120,8 @@ TEST(WrongSlot, ASmallClusterIsEnough) {
 
 // Of two senders either may be the one in the wrong slot.
 TEST(WrongSlot, TwoSendersDoNotTell) {
-  schedules::Cluster two = paper();
-  std::erase_if(two.frames, [](const schedules::FrameSlot& frame) { return frame.slot > 2; });
+  schedules::model::Cluster two = paper();
+  std::erase_if(two.frames, [](const schedules::model::FrameSlot& frame) { return frame.slot > 2; });
   std::vector<BusFrame> frames = scheduled_frames(two, 40);
   for (BusFrame& frame : frames)
     if (frame.header.frame_id == 2 && frame.header.cycle > 10) frame.time_ns += kSlot;
@@ -230,4 +230,4 @@ TEST(WrongSlot, S3FewOrDisagreeingWitnessesSayNothing) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::capture

@@ -5,20 +5,20 @@
 #include "recording/exports/captures.h"
 #include "tests/recording/capture_fixture.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
 using testing::HasSubstr;
 
 struct Exported {
   FrameCollector collector;
-  LogManifest manifest;
+  log::LogManifest manifest;
   Exported() {
-    const schedules::Cluster cluster = shipped_cluster();
+    const schedules::model::Cluster cluster = shipped_cluster();
     manifest.scenario_name = "drive";
-    for (const schedules::Node& node : cluster.nodes) manifest.node_names.push_back(node.name);
-    for (const schedules::PduLayout& pdu : cluster.pdus) manifest.pdu_names.push_back(pdu.name);
-    for (const schedules::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
+    for (const schedules::model::Node& node : cluster.nodes) manifest.node_names.push_back(node.name);
+    for (const schedules::model::PduLayout& pdu : cluster.pdus) manifest.pdu_names.push_back(pdu.name);
+    for (const schedules::model::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
     manifest.can_bus_names = {"laser_can", "a name with spaces", "odd,\"name\""};
     nodes = cluster;
   }
@@ -42,14 +42,14 @@ struct Exported {
   }
   void flexray(std::int64_t start_ns, int slot, std::uint8_t channel, PduId pdu, bool null_frame,
                int flipped_bit = -1) {
-    wire::FrameHeader header;
+    bus::wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>(slot);
     header.cycle = 9;
     header.null_frame = null_frame;
     header.sync = header.startup = slot == 1;
     const std::byte payload[]{std::byte{1}, std::byte{0xab}};
     std::array<std::byte, 10> bytes{};
-    wire::encode_frame(header, static_cast<Channel>(channel), payload, bytes);
+    bus::wire::encode_frame(header, static_cast<Channel>(channel), payload, bytes);
     if (flipped_bit >= 0)
       bytes[static_cast<std::size_t>(flipped_bit / 8)] ^= static_cast<std::byte>(0x80 >> flipped_bit % 8);
     records::SlotFrameSent sent;
@@ -84,10 +84,10 @@ struct Exported {
   }
   std::string csv() const { return export_csv(collector, collector.in_order(), LogNames(manifest)); }
   std::string candump() const { return export_candump(collector, collector.in_order(), LogNames(manifest)); }
-  Capture capture() const {
-    return parse_capture(export_pcapng(collector, collector.in_order(), LogNames(manifest)), "drive.pcapng");
+  capture::Capture capture() const {
+    return capture::parse_capture(export_pcapng(collector, collector.in_order(), LogNames(manifest)), "drive.pcapng");
   }
-  schedules::Cluster nodes;
+  schedules::model::Cluster nodes;
 };
 
 TEST(CaptureExport, CandumpLinesAreThoseCanplayerReads) {
@@ -126,13 +126,13 @@ TEST(CaptureExport, PacketsCarryTheMeasurementInTheirComments) {
   log.flexray(7, 7, 1, *log.nodes.find_pdu("laser_objects"), true);
   log.flexray(8, 22, 0, *log.nodes.find_pdu("image"), false);
   log.can(0, 4, 0x100, true, "laser_scan", 12);
-  const Capture capture = log.capture();
+  const capture::Capture capture = log.capture();
   ASSERT_EQ(capture.interfaces.size(), 4u);
   EXPECT_EQ(capture.interfaces[0].link_type, 210u);
   EXPECT_EQ(capture.interfaces[2].link_type, 227u);
   EXPECT_EQ(capture.interfaces[2].name, "a name with spaces");
   std::vector<std::string> comments;
-  for (const CapturedPacket& packet : capture.packets) comments.push_back(packet.comment);
+  for (const capture::CapturedPacket& packet : capture.packets) comments.push_back(packet.comment);
   EXPECT_THAT(comments,
               testing::ElementsAre("measurement laser 12: laser_scan, fragment 2", "",
                                    "measurement laser 12: laser_objects, fragment 0", "", "image 12, fragment 0"));
@@ -145,12 +145,12 @@ Exported disturbed() {
   Exported log;
   const PduId list = *log.nodes.find_pdu("laser_objects");
   for (const int slot : {6, 7, 8, 9, 10}) log.flexray(slot, slot, 0, list, false);
-  wire::FrameHeader header;
+  bus::wire::FrameHeader header;
   header.frame_id = 6;
   header.cycle = 9;
   const std::array payload{std::byte{1}, std::byte{0xab}};
   std::array<std::byte, 10> bytes{};
-  wire::encode_frame(header, Channel::kA, payload, bytes);
+  bus::wire::encode_frame(header, Channel::kA, payload, bytes);
   log.on_channel(16, 6, 6, 0, 0, bytes);  // late
   bytes[6] = std::byte{0xaa};
   log.on_channel(7, 7, 7, 0, records::kChannelFrameCrc, bytes);
@@ -175,13 +175,13 @@ TEST(CaptureExport, FramesAreAsTheyWereOnTheChannel) {
 }
 
 TEST(CaptureExport, PacketsOfFramesThatWereNotAsTheyWereSentSayWhoseTheyAre) {
-  const Capture capture = disturbed().capture();
+  const capture::Capture capture = disturbed().capture();
   std::vector<std::string> comments;
   std::vector<int> errors;
   std::vector<std::size_t> sizes;
-  for (const CapturedPacket& packet : capture.packets) {
+  for (const capture::CapturedPacket& packet : capture.packets) {
     comments.push_back(packet.comment);
-    errors.push_back(parse_flexray_packet(capture.data(packet)).errors);
+    errors.push_back(capture::parse_flexray_packet(capture.data(packet)).errors);
     sizes.push_back(packet.data_size);
   }
   const std::string list = "measurement laser 12: laser_objects, fragment 0";
@@ -189,8 +189,8 @@ TEST(CaptureExport, PacketsOfFramesThatWereNotAsTheyWereSentSayWhoseTheyAre) {
               testing::ElementsAre("slot 7 of gateway; " + list, "slot 8 of gateway; " + list,
                                    "slot 10 of gateway; " + list, "the controller of gateway did not send it",
                                    "the controller of gateway did not send it", "slot 6 of gateway; " + list));
-  EXPECT_THAT(errors,
-              testing::ElementsAre(kFrameCrcError, kCodingError | kFrameEndError, kCodingError, 0, kCodingError, 0));
+  EXPECT_THAT(errors, testing::ElementsAre(capture::kFrameCrcError, capture::kCodingError | capture::kFrameEndError,
+                                           capture::kCodingError, 0, capture::kCodingError, 0));
   EXPECT_THAT(sizes, testing::ElementsAre(9u, 8u, 2u, 9u, 2u, 9u));
 }
 
@@ -219,13 +219,13 @@ TEST(CaptureExport, SymbolsArePacketsOfTheirOwnKind) {
   for (const std::int64_t bit_ps : {0, 100'000, 200'000}) {
     Exported log = with_symbols();
     log.manifest.bit_ps = bit_ps;
-    const Capture capture = log.capture();
+    const capture::Capture capture = log.capture();
     ASSERT_EQ(capture.packets.size(), 5u);
     std::vector<int> bits;
     std::vector<std::string> comments;
-    for (const CapturedPacket& packet : capture.packets) {
-      const FlexRayPacket parsed = parse_flexray_packet(capture.data(packet));
-      if (parsed.kind != FlexRayPacket::Kind::kSymbol) continue;
+    for (const capture::CapturedPacket& packet : capture.packets) {
+      const capture::FlexRayPacket parsed = capture::parse_flexray_packet(capture.data(packet));
+      if (parsed.kind != capture::FlexRayPacket::Kind::kSymbol) continue;
       bits.push_back(parsed.symbol_bits);
       comments.push_back(packet.comment);
       EXPECT_EQ(packet.data_size, 2u);
@@ -251,4 +251,4 @@ TEST(CaptureExport, NumbersWithoutANameAreWrittenOut) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -9,7 +9,7 @@
 #include "recording/capture/check.h"
 #include "tests/recording/exports/tshark.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
 // Of a drive with faults: what was sent, and of what became of it which bits are not those that were sent.
@@ -104,8 +104,8 @@ class FaultyExpectation final : public Expectation {
   std::vector<Packet> foreign_;
 };
 
-nodes::Fault fault(nodes::FaultKind kind, const char* node, int from_ms, int for_ms) {
-  nodes::Fault fault;
+faults::Fault fault(faults::FaultKind kind, const char* node, int from_ms, int for_ms) {
+  faults::Fault fault;
   fault.kind = kind;
   fault.node_name = node;
   fault.from = Duration::milliseconds(from_ms);
@@ -114,7 +114,7 @@ nodes::Fault fault(nodes::FaultKind kind, const char* node, int from_ms, int for
 }
 
 // When a node's first frame after `from` begins.
-TrueTime next_frame(const testing_support::Drive& drive, NodeId node, TrueTime from) {
+TrueTime next_frame(const drives::Drive& drive, NodeId node, TrueTime from) {
   struct First final : records::Sink {
     using records::Sink::on;
     NodeId node{};
@@ -132,38 +132,38 @@ TrueTime next_frame(const testing_support::Drive& drive, NodeId node, TrueTime f
 
 TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
   if (!has_tshark()) GTEST_SKIP() << "tshark is not installed (tools/install_deps.sh)";
-  using nodes::FaultKind;
-  testing_support::Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kTt);
+  using faults::FaultKind;
+  drives::Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kTt);
   // A node dies twenty microseconds, or some twenty bytes, into a frame.
   const NodeId camera_pre = *drive.cluster.find_node("camera_pre");
-  const TrueTime dies = next_frame(drive, camera_pre, sim::kFirstCycle + Duration::milliseconds(1'600));
-  std::vector<nodes::Fault> faults = {fault(FaultKind::kBitFlipHeader, "gateway", 1'000, 40),
-                                      fault(FaultKind::kBitFlipPayload, "gateway", 1'200, 40),
-                                      fault(FaultKind::kBitFlipTrailer, "gateway", 1'400, 40),
-                                      fault(FaultKind::kCrash, "camera_pre", 0, 50),
-                                      fault(FaultKind::kNoise, "", 2'000, 50),
-                                      fault(FaultKind::kChannelSwap, "gateway", 2'200, 10),
-                                      fault(FaultKind::kOmission, "gateway", 2'300, 10),
-                                      fault(FaultKind::kMasquerading, "feature", 2'400, 50),
-                                      fault(FaultKind::kSosTiming, "laser_pre", 2'500, 50),
-                                      fault(FaultKind::kTransient, "", 2'600, 5)};
+  const TrueTime dies = next_frame(drive, camera_pre, sim::crank::kFirstCycle + Duration::milliseconds(1'600));
+  std::vector<faults::Fault> faults = {fault(FaultKind::kBitFlipHeader, "gateway", 1'000, 40),
+                                       fault(FaultKind::kBitFlipPayload, "gateway", 1'200, 40),
+                                       fault(FaultKind::kBitFlipTrailer, "gateway", 1'400, 40),
+                                       fault(FaultKind::kCrash, "camera_pre", 0, 50),
+                                       fault(FaultKind::kNoise, "", 2'000, 50),
+                                       fault(FaultKind::kChannelSwap, "gateway", 2'200, 10),
+                                       fault(FaultKind::kOmission, "gateway", 2'300, 10),
+                                       fault(FaultKind::kMasquerading, "feature", 2'400, 50),
+                                       fault(FaultKind::kSosTiming, "laser_pre", 2'500, 50),
+                                       fault(FaultKind::kTransient, "", 2'600, 5)};
   faults[0].probability = faults[1].probability = faults[2].probability = 0.3;
   faults[0].flips = 2;
-  faults[3].from = dies + Duration::microseconds(20) - sim::kFirstCycle;
+  faults[3].from = dies + Duration::microseconds(20) - sim::crank::kFirstCycle;
   faults[7].slot = drive.cluster.flexray.gNumberOfStaticSlots;
   faults[8].shift = Duration::microseconds(5);
   drive.scenario.faults.faults = faults;
 
   const std::string path = drive_log(drive);
   records::Sink nobody;
-  const LogInfo info = read_log(path, nobody);
+  const log::LogInfo info = log::read_log(path, nobody);
   std::vector<SensorId> sensors;
-  for (const schedules::PduLayout& pdu : drive.cluster.pdus) sensors.push_back(pdu.sensor);
+  for (const schedules::model::PduLayout& pdu : drive.cluster.pdus) sensors.push_back(pdu.sensor);
   FrameCollector collector;
   FaultyExpectation expected(collector, info.manifest, sensors, 0);
-  read_log(path, expected);
+  log::read_log(path, expected);
   const std::string bytes = export_pcapng(collector, collector.in_order(), LogNames(info.manifest));
-  const std::string file = scratch("faulty.pcapng");
+  const std::string file = log::scratch("faulty.pcapng");
   std::ofstream(file, std::ios::binary) << bytes;
 
   // By what tshark should say of them: several are alike at most in what they say.
@@ -200,21 +200,21 @@ TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
   EXPECT_GE(coding, expected.acts["noise"] + expected.acts["transient"]);
 
   // And the schedule is held against it, packet by packet.
-  const CaptureVerdict verdict =
-      check_capture(parse_capture(bytes, "faulty.pcapng"), "faulty.pcapng", drive.cluster, {});
-  ASSERT_LT(verdict.findings.size(), kMostFindings);
-  std::set<std::pair<Contradiction, std::uint64_t>> found;
-  for (const CaptureFinding& finding : verdict.findings) found.emplace(finding.kind, finding.packet);
+  const capture::CaptureVerdict verdict =
+      capture::check_capture(capture::parse_capture(bytes, "faulty.pcapng"), "faulty.pcapng", drive.cluster, {});
+  ASSERT_LT(verdict.findings.size(), capture::kMostFindings);
+  std::set<std::pair<capture::Contradiction, std::uint64_t>> found;
+  for (const capture::CaptureFinding& finding : verdict.findings) found.emplace(finding.kind, finding.packet);
   for (std::size_t i = 0; i < flags.size(); ++i)
-    for (const auto& [flagged, kind] :
-         {std::pair{flags[i].header_crc, Contradiction::kHeaderCrc},
-          std::pair{flags[i].frame_crc, Contradiction::kFrameCrc}, std::pair{flags[i].coding, Contradiction::kCoding}})
+    for (const auto& [flagged, kind] : {std::pair{flags[i].header_crc, capture::Contradiction::kHeaderCrc},
+                                        std::pair{flags[i].frame_crc, capture::Contradiction::kFrameCrc},
+                                        std::pair{flags[i].coding, capture::Contradiction::kCoding}})
       EXPECT_EQ(found.count({kind, i + 1}) == 1, flagged)
-          << "packet " << i + 1 << ": " << kContradictionNames[static_cast<std::size_t>(kind)];
-  EXPECT_EQ(verdict.counts[static_cast<std::size_t>(Contradiction::kMalformed)], 0u);
-  EXPECT_GE(verdict.counts[static_cast<std::size_t>(Contradiction::kUnownedSlot)],
+          << "packet " << i + 1 << ": " << capture::kContradictionNames[static_cast<std::size_t>(kind)];
+  EXPECT_EQ(verdict.counts[static_cast<std::size_t>(capture::Contradiction::kMalformed)], 0u);
+  EXPECT_GE(verdict.counts[static_cast<std::size_t>(capture::Contradiction::kUnownedSlot)],
             static_cast<std::uint64_t>(expected.acts["masquerading"]));
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

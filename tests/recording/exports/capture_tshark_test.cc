@@ -4,30 +4,30 @@
 
 #include "tests/recording/exports/tshark.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
-testing_support::Drive paper_drive() { return {"scenarios/paper_scenario1.yaml", fusion::StrategyKind::kTt}; }
+drives::Drive paper_drive() { return {"scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kTt}; }
 
 struct SymbolCounts {
   int cas = 0, wakeup = 0;
 };
 
-SymbolCounts compare(const testing_support::Drive& drive, std::size_t flip_every, std::size_t at_least) {
+SymbolCounts compare(const drives::Drive& drive, std::size_t flip_every, std::size_t at_least) {
   const std::string path = drive_log(drive);
   records::Sink nobody;
-  const LogInfo info = read_log(path, nobody);
+  const log::LogInfo info = log::read_log(path, nobody);
   std::vector<SensorId> sensors;
-  for (const schedules::PduLayout& pdu : drive.cluster.pdus) sensors.push_back(pdu.sensor);
+  for (const schedules::model::PduLayout& pdu : drive.cluster.pdus) sensors.push_back(pdu.sensor);
   FrameCollector collector;
   Expectation expected(collector, info.manifest, sensors, flip_every);
-  read_log(path, expected);
+  log::read_log(path, expected);
   if (flip_every > 0) {
     EXPECT_GT(expected.flipped(), 512u) << "every bit of a frame";
   }
   EXPECT_GT(expected.lines.size(), at_least);
 
-  const std::string file = scratch("drive.pcapng");
+  const std::string file = log::scratch("drive.pcapng");
   {
     std::ofstream out(file, std::ios::binary);
     out << export_pcapng(collector, collector.in_order(), LogNames(info.manifest));
@@ -58,7 +58,7 @@ TEST(CaptureTshark, EveryFrameWithAFlippedBitCarriesTheFlagsOfTheChecksItFails) 
 
 TEST(CaptureTshark, TheSymbolsOfAStartUpArePacketsOfTheirOwn) {
   if (!has_tshark()) GTEST_SKIP() << "tshark is not installed (tools/install_deps.sh)";
-  testing_support::Drive drive("scenarios/cold_start.yaml", fusion::StrategyKind::kTt);
+  drives::Drive drive("scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kTt);
   drive.scenario.startup.wake_up = "fusion";
   const SymbolCounts symbols = compare(drive, 0, 1'000);
   EXPECT_EQ(symbols.cas, 2) << "on both channels";
@@ -66,4 +66,4 @@ TEST(CaptureTshark, TheSymbolsOfAStartUpArePacketsOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

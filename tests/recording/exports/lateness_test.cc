@@ -10,7 +10,7 @@
 #include "recording/exports/lateness_sums.h"
 #include "recording/records/binned_durations.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
 using records::BinnedDurations;
@@ -147,4 +147,4 @@ TEST(LatenessSums, NodesAndWhatItIsOfAreKeptApart) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

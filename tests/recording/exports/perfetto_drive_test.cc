@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <set>
 
-#include "recording/merge/merge.h"
 #include "recording/exports/perfetto.h"
-#include "tests/recording/log/log_fixture.h"
-#include "tests/recording/exports/perfetto_trace.h"
+#include "recording/merge/merge.h"
 #include "tests/drives/drive_fixture.h"
+#include "tests/recording/exports/perfetto_trace.h"
+#include "tests/recording/log/log_fixture.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
-using testing_support::Drive;
+using drives::Drive;
 
 // Which measurements were the newest of their sensor in an image that was used: only the first of their images counts.
 struct Used final : records::Sink {
@@ -35,15 +35,15 @@ struct Used final : records::Sink {
   }
 };
 
-LogManifest manifest_of(const schedules::Cluster& cluster) {
-  LogManifest manifest;
-  for (const schedules::Node& node : cluster.nodes) {
+log::LogManifest manifest_of(const schedules::model::Cluster& cluster) {
+  log::LogManifest manifest;
+  for (const schedules::model::Node& node : cluster.nodes) {
     manifest.node_names.push_back(node.name);
     manifest.task_names.emplace_back();
     for (const auto& task : node.tasks) manifest.task_names.back().push_back(task.name);
   }
-  for (const schedules::PduLayout& pdu : cluster.pdus) manifest.pdu_names.push_back(pdu.name);
-  for (const schedules::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
+  for (const schedules::model::PduLayout& pdu : cluster.pdus) manifest.pdu_names.push_back(pdu.name);
+  for (const schedules::model::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
   for (const auto& bus : cluster.can_buses) manifest.can_bus_names.push_back(bus.name);
   return manifest;
 }
@@ -54,15 +54,15 @@ struct Exported {
   Used used;
 };
 
-Exported exported(const std::string& scenario, fusion::StrategyKind strategy) {
+Exported exported(const std::string& scenario, fusion::strategies::StrategyKind strategy) {
   Drive drive(scenario, strategy);
-  const std::string path = scratch("drive.mcap");
+  const std::string path = log::scratch("drive.mcap");
   {
-    LogWriter writer(path, manifest_of(drive.cluster));
+    log::LogWriter writer(path, manifest_of(drive.cluster));
     drive.run(writer);
     writer.close();
   }
-  const MergedLogs log(std::vector<std::string>{path});
+  const merge::MergedLogs log(std::vector<std::string>{path});
   Exported result;
   PerfettoExport trace(LogNames(log.manifest()), [&](std::string_view more) { result.bytes += more; });
   log.read(trace);
@@ -71,7 +71,7 @@ Exported exported(const std::string& scenario, fusion::StrategyKind strategy) {
   return result;
 }
 
-class PerfettoDrive : public testing::TestWithParam<fusion::StrategyKind> {};
+class PerfettoDrive : public testing::TestWithParam<fusion::strategies::StrategyKind> {};
 
 TEST_P(PerfettoDrive, EveryUsedMeasurementsWayIsThereFromSensorToFeatureService) {
   const Exported drive = exported("scenarios/paper_scenario1.yaml", GetParam());
@@ -99,16 +99,16 @@ TEST_P(PerfettoDrive, EveryUsedMeasurementsWayIsThereFromSensorToFeatureService)
   EXPECT_EQ(in("FlexRay"), drive.used.slot_frames);
   EXPECT_EQ(trace.slices.size(), drive.counts.slices + drive.counts.instants);
 }
-INSTANTIATE_TEST_SUITE_P(Strategies, PerfettoDrive, testing::ValuesIn(testing_support::kStrategies));
+INSTANTIATE_TEST_SUITE_P(Strategies, PerfettoDrive, testing::ValuesIn(drives::kStrategies));
 
 TEST(PerfettoDrives, AFaultyDriveIsASoundTraceAndTheSameEachTime) {
-  const Exported drive = exported("scenarios/faulty_bus.yaml", fusion::StrategyKind::kTt);
+  const Exported drive = exported("scenarios/faulty_bus.yaml", fusion::strategies::StrategyKind::kTt);
   const PerfettoTrace trace(drive.bytes);
   EXPECT_THAT(trace.problems, testing::IsEmpty());
   EXPECT_TRUE(std::ranges::any_of(trace.slices, [](const auto& s) { return s.group == "faults"; }));
   EXPECT_TRUE(std::ranges::any_of(trace.slices, [](const auto& s) { return s.lane == "slot problems"; }));
-  EXPECT_EQ(drive.bytes, exported("scenarios/faulty_bus.yaml", fusion::StrategyKind::kTt).bytes);
+  EXPECT_EQ(drive.bytes, exported("scenarios/faulty_bus.yaml", fusion::strategies::StrategyKind::kTt).bytes);
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -6,7 +6,7 @@
 #include "tests/recording/exports/perfetto_trace.h"
 #include "tests/recording/record_text.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 namespace {
 
 using testing::Contains;
@@ -25,8 +25,8 @@ struct Drive {
   PerfettoExport trace{LogNames(manifest()), [this](std::string_view more) { bytes += more; }};
   TraceCounts counts;
 
-  static LogManifest manifest() {
-    LogManifest names;
+  static log::LogManifest manifest() {
+    log::LogManifest names;
     names.node_names = {"laser", "fusion", "feature"};
     names.task_names = {{"preprocess"}, {"fuse", "predict"}, {"assess"}};
     names.pdu_names = {"laser_objects", "image"};
@@ -241,7 +241,7 @@ TEST(PerfettoExport, RecordsNoRunCanHaveStillMakeATrace) {
   std::uint32_t n = 0;
   for (const Values values : {Values::kSmallest, Values::kZero, Values::kDrawn, Values::kLargest, Values::kDrawn})
     for (int round = 0; round < 20; ++round)
-      for (int kind = 1; kind <= static_cast<int>(kRecordKinds); ++kind, ++n)
+      for (int kind = 1; kind <= static_cast<int>(log::kRecordKinds); ++kind, ++n)
         emit(drive.trace, kind, values, n, std::int64_t{n} * 3 * kMs);
   const PerfettoTrace trace = drive.finished();
   EXPECT_THAT(trace.problems, IsEmpty());
@@ -249,4 +249,4 @@ TEST(PerfettoExport, RecordsNoRunCanHaveStillMakeATrace) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -11,7 +11,7 @@
 
 #include "recording/exports/perfetto.pb.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 struct PerfettoTrace {
   struct Slice {
@@ -122,4 +122,4 @@ struct PerfettoTrace {
   std::uint64_t now_ = 0;
 };
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

@@ -16,10 +16,10 @@
 #include "bus/wire/flexray_frame.h"
 #include "recording/exports/captures.h"
 #include "recording/log/reader.h"
-#include "tests/recording/log/log_fixture.h"
 #include "tests/drives/drive_fixture.h"
+#include "tests/recording/log/log_fixture.h"
 
-namespace ttf::recording {
+namespace ttf::recording::exports {
 
 // What tshark is asked for, in the order of the lines that are compared.
 inline constexpr char kFields[] =
@@ -48,8 +48,8 @@ inline std::string flexray_text(const std::string& comment, int channel, std::sp
       fmt::format("{:d}\t{:d}\t{:d}\t{:d}\t0", flags.header_crc, flags.frame_crc, flags.frame_end, flags.coding);
   if (bytes.empty())
     return fmt::format("FlexRay\t{}\t{}{}{}{}", comment, channel, std::string(9, '\t'), errors, std::string(8, '\t'));
-  const wire::FrameHeader h = wire::header_of(bytes).value();
-  const std::size_t payload = bytes.size() - wire::kHeaderBytes - (flags.frame_end ? 0 : wire::kTrailerBytes);
+  const bus::wire::FrameHeader h = bus::wire::header_of(bytes).value();
+  const std::size_t payload = bytes.size() - bus::wire::kHeaderBytes - (flags.frame_end ? 0 : bus::wire::kTrailerBytes);
   return fmt::format("FlexRay\t{}\t{}\t{}\t{}\t{:d}\t{:d}\t{:d}\t{:d}\t{}\t{}\t{}\t{}\t{}\t\t\t\t\t\t", comment,
                      channel, h.frame_id, h.cycle, h.payload_preamble, !h.null_frame, h.sync, h.startup,
                      h.payload_words, h.header_crc, errors, payload == 2U * h.payload_words ? "" : "1",
@@ -63,7 +63,7 @@ inline bool in_header_crc(std::size_t bit) { return bit >= 3 && bit <= 33; }
 // `flip_every`-th FlexRay frame one bit is flipped, as if it had been disturbed on the wire.
 class Expectation : public records::Sink {
  public:
-  Expectation(FrameCollector& collector, const LogManifest& manifest, std::vector<SensorId> pdu_sensors,
+  Expectation(FrameCollector& collector, const log::LogManifest& manifest, std::vector<SensorId> pdu_sensors,
               std::size_t flip_every)
       : collector_(collector), manifest_(manifest), pdu_sensors_(std::move(pdu_sensors)), flip_every_(flip_every) {}
 
@@ -84,7 +84,8 @@ class Expectation : public records::Sink {
                      flexray_text(comment(record.pdu, record.sequence, record.fragment, record.null_frame),
                                   record.channel, bytes, flags)});
     if (flags.frame_crc) return;
-    const wire::FrameHeader h = wire::decode_frame(static_cast<schedules::Channel>(record.channel), bytes).header;
+    const bus::wire::FrameHeader h =
+        bus::wire::decode_frame(static_cast<schedules::model::Channel>(record.channel), bytes).header;
     // The wire says what the log's fields say.
     EXPECT_EQ(h.frame_id, record.slot);
     EXPECT_EQ(h.cycle, record.cycle % 64);
@@ -127,7 +128,7 @@ class Expectation : public records::Sink {
   FrameCollector& collector_;
 
  private:
-  const LogManifest& manifest_;
+  const log::LogManifest& manifest_;
   std::vector<SensorId> pdu_sensors_;
   std::size_t flip_every_, frames_ = 0, flipped_ = 0;
   int cas_ = 0, wakeup_ = 0;
@@ -151,19 +152,19 @@ inline std::vector<std::string> tshark(const std::string& file) {
 inline bool has_tshark() { return std::system("tshark --version >/dev/null 2>&1") == 0; }
 
 // A log of the paper's first scenario.
-inline std::string drive_log(const testing_support::Drive& drive) {
-  LogManifest manifest;
+inline std::string drive_log(const drives::Drive& drive) {
+  log::LogManifest manifest;
   manifest.scenario_name = drive.scenario.name;
   manifest.bit_ps = drive.cluster.flexray.gdBit_ps;
-  for (const schedules::Node& node : drive.cluster.nodes) manifest.node_names.push_back(node.name);
-  for (const schedules::PduLayout& pdu : drive.cluster.pdus) manifest.pdu_names.push_back(pdu.name);
-  for (const schedules::Sensor& sensor : drive.cluster.sensors) manifest.sensor_names.push_back(sensor.name);
-  for (const schedules::CanBus& bus : drive.cluster.can_buses) manifest.can_bus_names.push_back(bus.name);
-  const std::string path = scratch("drive.mcap");
-  LogWriter log(path, manifest);
+  for (const schedules::model::Node& node : drive.cluster.nodes) manifest.node_names.push_back(node.name);
+  for (const schedules::model::PduLayout& pdu : drive.cluster.pdus) manifest.pdu_names.push_back(pdu.name);
+  for (const schedules::model::Sensor& sensor : drive.cluster.sensors) manifest.sensor_names.push_back(sensor.name);
+  for (const schedules::model::CanBus& bus : drive.cluster.can_buses) manifest.can_bus_names.push_back(bus.name);
+  const std::string path = log::scratch("drive.mcap");
+  log::LogWriter log(path, manifest);
   drive.run(log);
   log.close();
   return path;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::exports

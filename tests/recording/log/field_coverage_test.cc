@@ -13,7 +13,7 @@
 #include "recording/records/every.h"
 #include "tests/recording/log/log_fixture.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 namespace {
 
 using google::protobuf::FieldDescriptor;
@@ -200,4 +200,4 @@ TEST(LogFields, ARecordHasAsManyFieldsAsItsPayload) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -12,7 +12,7 @@
 
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 namespace {
 
 constexpr std::uint32_t kSeed = 41;
@@ -122,4 +122,4 @@ TEST(LogBehind, KeepsWhatThereIsNoRoomFor) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -11,7 +11,7 @@
 #include "tests/recording/log/log_fixture.h"
 #include "tests/recording/record_text.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 namespace {
 
 struct Result {
@@ -222,4 +222,4 @@ TEST(LogDamage, AHugeClaimedSizeIsNotAllocated) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

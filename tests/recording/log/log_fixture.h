@@ -13,7 +13,7 @@
 #include "recording/log/writer.h"
 #include "tests/recording/record_text.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 
 // A path for this process alone, in a folder that is removed at the end.
 inline std::string scratch(const std::string& name) {
@@ -62,7 +62,7 @@ inline void emit_drive(records::Sink& sink, std::uint32_t count) {
   for (std::uint32_t i = 0; i < count; ++i) emit(sink, kind_of(i), Values::kDrawn, i, std::int64_t{i} * 1'000'000);
 }
 
-inline std::string log_of(const std::function<void(records::Sink&)>& drive) {
+inline std::string log_of(const std::function<void(ttf::recording::records::Sink&)>& drive) {
   const std::string path = scratch("log_of.mcap");
   LogWriter writer(path, sample_manifest());
   writer.attach("cluster.yaml", "application/yaml", "name: paper\n");
@@ -72,4 +72,4 @@ inline std::string log_of(const std::function<void(records::Sink&)>& drive) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

@@ -8,16 +8,16 @@
 
 #include "core/errors.h"
 #include "recording/log/codec.h"
+#include "recording/log/manifest_codec.h"
 #include "recording/log/reader.h"
 #include "recording/log/writer.h"
-#include "recording/log/manifest_codec.h"
 #include "recording/records/lateness_bins.h"
 #include "recording/records/tee.h"
 #include "tests/recording/log/log_fixture.h"
 #include "tests/recording/record_text.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::recording {
+namespace ttf::recording::log {
 
 namespace {
 
@@ -286,4 +286,4 @@ TEST(Log, RecordingDoesNotAllocatePerRecord) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::log

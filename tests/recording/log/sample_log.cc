@@ -12,6 +12,7 @@
 int main(int argc, char** argv) {
   using namespace ttf;
   using namespace ttf::recording;
+  using namespace ttf::recording::log;
   if (argc != 2) return 2;
   LogWriter writer(argv[1], sample_manifest());
   writer.attach("cluster.yaml", "application/yaml", "name: paper\n");

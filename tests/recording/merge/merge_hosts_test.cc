@@ -10,15 +10,15 @@
 #include "recording/merge/common_time.h"
 #include "recording/merge/merge.h"
 #include "recording/merge/record_place.h"
+#include "tests/drives/drive_fixture.h"
 #include "tests/recording/log/log_fixture.h"
 #include "tests/recording/merge/split_log.h"
-#include "tests/drives/drive_fixture.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 namespace {
 
-using fusion::StrategyKind;
-using testing_support::Drive;
+using drives::Drive;
+using fusion::strategies::StrategyKind;
 
 TrueTime ms(std::int64_t n) { return TrueTime{} + Duration::milliseconds(n); }
 
@@ -43,7 +43,7 @@ TEST(CommonTime, MovesEveryKindOfRecord) {
     void placed(const RecordPlace& place) override { at = place.at; }
   };
   const CommonTime later({{ms(0), ms(1000)}});
-  for (int kind = 1; kind <= static_cast<int>(kRecordKinds); ++kind) {
+  for (int kind = 1; kind <= static_cast<int>(log::kRecordKinds); ++kind) {
     Where before, after;
     OnCommonTime moved(later, after);
     emit(before, kind, Values::kDrawn, 3, 5'000'000);
@@ -76,15 +76,15 @@ struct Hosts {
   Runs truth;
   std::vector<std::string> paths;
 
-  Hosts(const Drive& drive, const std::vector<Host>& hosts, const std::function<std::size_t(NodeId)>& host_of) {
-    std::vector<std::unique_ptr<LogWriter>> writers;
+  Hosts(const Drive& drive, const std::vector<Host>& hosts, const std::function<std::size_t(ttf::NodeId)>& host_of) {
+    std::vector<std::unique_ptr<log::LogWriter>> writers;
     std::vector<std::unique_ptr<OnCommonTime>> clocks;
     for (const Host& host : hosts) {
-      LogManifest manifest = sample_manifest();
+      log::LogManifest manifest = log::sample_manifest();
       manifest.cycle_ns = drive.cluster.cycle().ns;
       manifest.host = host.name;
-      paths.push_back(scratch(host.name + ".mcap"));
-      writers.push_back(std::make_unique<LogWriter>(paths.back(), manifest));
+      paths.push_back(log::scratch(host.name + ".mcap"));
+      writers.push_back(std::make_unique<log::LogWriter>(paths.back(), manifest));
       clocks.push_back(std::make_unique<OnCommonTime>(host.clock, *writers.back()));
     }
     std::vector<records::Sink*> of_node;
@@ -98,7 +98,7 @@ struct Hosts {
 
   // How far apart the times of what happened within the same 20 ms are, at most: what they gained on the simulator's
   // time.
-  Duration most_apart(const std::function<void(records::Sink&)>& read) const {
+  Duration most_apart(const std::function<void(ttf::recording::records::Sink&)>& read) const {
     Runs runs;
     read(runs);
     EXPECT_EQ(runs.starts.size(), truth.starts.size());
@@ -123,22 +123,22 @@ TEST(MergeHosts, ClocksOfDifferentHostsAreBroughtTogether) {
                                 {"oak", host_clock(Duration::milliseconds(-40), -50)}};
   const Hosts hosts(drive, three, [](NodeId node) { return index_of(node) % 3; });
   const auto as_logged = [&](records::Sink& sink) {
-    for (const std::string& path : hosts.paths) read_log(path, sink);
+    for (const std::string& path : hosts.paths) log::read_log(path, sink);
   };
   EXPECT_GT(hosts.most_apart(as_logged), Duration::milliseconds(46));
   const MergedLogs merged(hosts.paths);
   EXPECT_EQ(merged.warnings(), std::vector<std::string>{});
   EXPECT_LT(hosts.most_apart([&](records::Sink& sink) { merged.read(sink); }), Duration::microseconds(5));
-  EXPECT_EQ(merged.manifest().clock, kCommonClock);
+  EXPECT_EQ(merged.manifest().clock, log::kCommonClock);
   EXPECT_EQ(merged.manifest().host, "");
 
   // The same whatever the order; and on one time it stays.
-  write_merged(merged, scratch("forest.mcap"));
-  write_merged(MergedLogs({hosts.paths[2], hosts.paths[0], hosts.paths[1]}), scratch("other.mcap"));
-  const std::string bytes = read_file(scratch("forest.mcap"));
-  EXPECT_TRUE(bytes == read_file(scratch("other.mcap")));
-  write_merged(MergedLogs(std::vector<std::string>{scratch("forest.mcap")}), scratch("other.mcap"));
-  EXPECT_TRUE(bytes == read_file(scratch("other.mcap")));
+  write_merged(merged, log::scratch("forest.mcap"));
+  write_merged(MergedLogs({hosts.paths[2], hosts.paths[0], hosts.paths[1]}), log::scratch("other.mcap"));
+  const std::string bytes = read_file(log::scratch("forest.mcap"));
+  EXPECT_TRUE(bytes == read_file(log::scratch("other.mcap")));
+  write_merged(MergedLogs(std::vector<std::string>{log::scratch("forest.mcap")}), log::scratch("other.mcap"));
+  EXPECT_TRUE(bytes == read_file(log::scratch("other.mcap")));
 }
 
 // A node that restarts counts whole rounds of 64 cycles less than before.
@@ -157,7 +157,7 @@ TEST(MergeHosts, OnOneHostOrWithoutSynchronisationTimesStayAsTheyAre) {
   const std::vector<Host> one{{"ash", host_clock(Duration::milliseconds(3), 10)}};
   const Hosts alone(drive, one, [](NodeId) { return std::size_t{0}; });
   const MergedLogs merged(alone.paths);
-  EXPECT_EQ(merged.manifest().clock, kWallClock);
+  EXPECT_EQ(merged.manifest().clock, log::kWallClock);
   EXPECT_EQ(merged.manifest().host, "ash");
   Runs runs;
   merged.read(runs);
@@ -178,4 +178,4 @@ TEST(MergeHosts, OnOneHostOrWithoutSynchronisationTimesStayAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

@@ -14,7 +14,7 @@
 #include "tests/recording/log/log_fixture.h"
 #include "tests/recording/merge/split_log.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 namespace {
 
 std::vector<std::string> lines_of(const MergedLogs& merged) {
@@ -24,14 +24,14 @@ std::vector<std::string> lines_of(const MergedLogs& merged) {
 }
 
 // Logs in memory, by what is emitted into each.
-using Emission = std::function<void(std::vector<records::Sink*>&)>;
+using Emission = std::function<void(std::vector<ttf::recording::records::Sink*>&)>;
 std::vector<StoredLog> logs_of(std::size_t count, const Emission& emission,
-                               const LogManifest& manifest = sample_manifest()) {
-  std::vector<std::unique_ptr<LogWriter>> writers;
+                               const log::LogManifest& manifest = log::sample_manifest()) {
+  std::vector<std::unique_ptr<log::LogWriter>> writers;
   std::vector<records::Sink*> sinks;
-  const auto path = [](std::size_t i) { return scratch("part" + std::to_string(i) + ".mcap"); };
+  const auto path = [](std::size_t i) { return log::scratch("part" + std::to_string(i) + ".mcap"); };
   for (std::size_t i = 0; i < count; ++i) {
-    writers.push_back(std::make_unique<LogWriter>(path(i), manifest));
+    writers.push_back(std::make_unique<log::LogWriter>(path(i), manifest));
     writers.back()->attach("cluster.yaml", "application/yaml", "name: paper\n");
     sinks.push_back(writers.back().get());
   }
@@ -47,7 +47,7 @@ std::vector<StoredLog> logs_of(std::size_t count, const Emission& emission,
 // Records of all kinds, 40 within each 10 us, 20 ms apart: many of the same instant, and in no order within the 10 us.
 void emit_crowd(records::Sink& sink) {
   for (std::uint32_t i = 0; i < 4000; ++i)
-    emit(sink, kind_of(i), Values::kDrawn, i, std::int64_t{i / 40} * 20'000'000 - 5'000);
+    emit(sink, log::kind_of(i), Values::kDrawn, i, std::int64_t{i / 40} * 20'000'000 - 5'000);
 }
 Emission crowd() {
   return [](std::vector<records::Sink*>& sinks) {
@@ -56,7 +56,7 @@ Emission crowd() {
   };
 }
 
-struct MessageTimes final : McapHandler {
+struct MessageTimes final : mcap::McapHandler {
   std::vector<std::uint64_t> times;
   void on_metadata(std::string_view, const std::vector<std::pair<std::string, std::string>>&) override {}
   void on_attachment(std::string_view, std::string_view, std::string_view) override {}
@@ -79,7 +79,7 @@ TEST(Merge, ManyLogsOrOneTheSequenceIsTheSame) {
     EXPECT_EQ(lines_of(parts), expected) << count;
     EXPECT_EQ(lines_of(parts), expected) << count << ", once more";
     EXPECT_EQ(parts.content_hash().value(), whole.logs()[0].info().content_hash);
-    EXPECT_EQ(parts.manifest(), sample_manifest());
+    EXPECT_EQ(parts.manifest(), log::sample_manifest());
     EXPECT_EQ(parts.warnings(), std::vector<std::string>{});
   }
 }
@@ -96,7 +96,7 @@ TEST(Merge, TheOrderInWhichLogsAreGivenDoesNotMatter) {
 
 TEST(Merge, AMergedLogIsTheSameFileWhateverItIsMergedOf) {
   const auto merged_bytes = [](std::vector<StoredLog> logs) {
-    const std::string path = scratch("merged.mcap");
+    const std::string path = log::scratch("merged.mcap");
     write_merged(MergedLogs(std::move(logs)), path);
     return read_file(path);
   };
@@ -111,9 +111,9 @@ TEST(Merge, AMergedLogIsTheSameFileWhateverItIsMergedOf) {
   for (std::size_t i = 1; i < times.times.size(); ++i)
     EXPECT_GE(times.times[i] + 100, times.times[i - 1]) << "faults alone stand before their time";
   records::Sink nobody;
-  const LogInfo info = read_log_bytes(whole, "merged.mcap", nobody);
+  const log::LogInfo info = log::read_log_bytes(whole, "merged.mcap", nobody);
   EXPECT_EQ(info.warning, "");
-  EXPECT_EQ(info.attachments, (std::vector<Attachment>{{"cluster.yaml", "application/yaml", "name: paper\n"}}));
+  EXPECT_EQ(info.attachments, (std::vector<log::Attachment>{{"cluster.yaml", "application/yaml", "name: paper\n"}}));
 }
 
 constexpr NodeId kA{0}, kB{1};
@@ -183,36 +183,36 @@ std::string refused(const std::function<void()>& action) {
   return "";
 }
 
-std::vector<StoredLog> pair_with(const std::function<void(LogManifest&)>& change) {
+std::vector<StoredLog> pair_with(const std::function<void(ttf::recording::log::LogManifest&)>& change) {
   std::vector<StoredLog> logs = logs_of(2, crowd());
-  LogManifest manifest = sample_manifest();
+  log::LogManifest manifest = log::sample_manifest();
   change(manifest);
   logs[1] = std::move(logs_of(2, crowd(), manifest)[1]);
   return logs;
 }
 
 TEST(Merge, LogsOfDifferentRunsAreRefusedByFileAndKey) {
-  const auto sentence = [](const std::function<void(LogManifest&)>& change) {
+  const auto sentence = [](const std::function<void(ttf::recording::log::LogManifest&)>& change) {
     return refused([&] { MergedLogs{pair_with(change)}; });
   };
-  EXPECT_EQ(sentence([](LogManifest&) {}), "");
-  EXPECT_EQ(sentence([](LogManifest& m) { m.seed = 4; }),
+  EXPECT_EQ(sentence([](log::LogManifest&) {}), "");
+  EXPECT_EQ(sentence([](log::LogManifest& m) { m.seed = 4; }),
             "part1.mcap: seed = 4: must be 18446744073709551615 as in part0.mcap: only logs of one run are merged");
-  EXPECT_EQ(sentence([](LogManifest& m) { m.strategy = "adva"; }),
+  EXPECT_EQ(sentence([](log::LogManifest& m) { m.strategy = "adva"; }),
             "part1.mcap: strategy = adva: must be tt as in part0.mcap: only logs of one run are merged");
-  EXPECT_EQ(sentence([](LogManifest& m) { m.hashes[0].second = "00fe"; }),
+  EXPECT_EQ(sentence([](log::LogManifest& m) { m.hashes[0].second = "00fe"; }),
             "part1.mcap: hash.cluster = 00fe: must be 00ff as in part0.mcap: only logs of one run are merged");
-  EXPECT_EQ(sentence([](LogManifest& m) { m.recording_name.clear(); }),
+  EXPECT_EQ(sentence([](log::LogManifest& m) { m.recording_name.clear(); }),
             "part1.mcap: recording: must be street.txt as in part0.mcap: only logs of one run are merged");
-  EXPECT_EQ(sentence([](LogManifest& m) { m.can_bus_names.push_back("third"); }),
+  EXPECT_EQ(sentence([](log::LogManifest& m) { m.can_bus_names.push_back("third"); }),
             "part1.mcap: can_bus.2 = third: is not in part0.mcap: only logs of one run are merged");
 }
 
 TEST(Merge, ByRunLogsOfEachRunComeTogether) {
-  std::vector<StoredLog> logs = pair_with([](LogManifest& m) { m.strategy = "adva"; });
+  std::vector<StoredLog> logs = pair_with([](log::LogManifest& m) { m.strategy = "adva"; });
   for (std::size_t i = 1; i < 3; ++i) {
     const std::string name = logs_of(3, crowd())[i].name();
-    logs.emplace_back(read_file(scratch(name)), "more " + name);
+    logs.emplace_back(read_file(log::scratch(name)), "more " + name);
   }
   const std::vector<MergedLogs> runs = merge_by_run(std::move(logs));
   ASSERT_EQ(runs.size(), 2u);
@@ -228,21 +228,21 @@ TEST(Merge, TheSameLogTwiceIsRefused) {
       "copy.mcap: holds the same records as part1.mcap: each log may be given once, and a merged one without its parts";
   const auto copied = [](const std::string& bytes) {
     std::vector<StoredLog> logs = logs_of(2, crowd());
-    logs.emplace_back(bytes.empty() ? read_file(scratch("part1.mcap")) : bytes, "copy.mcap");
+    logs.emplace_back(bytes.empty() ? read_file(log::scratch("part1.mcap")) : bytes, "copy.mcap");
     return logs;
   };
   EXPECT_EQ(refused([&] { MergedLogs{copied("")}; }), kTwice);
   // A copy that was cut off is another log by its hash: its records tell.
-  const std::string cut = read_file(scratch("part1.mcap")).substr(0, 200'000);
+  const std::string cut = read_file(log::scratch("part1.mcap")).substr(0, 200'000);
   const MergedLogs merged(copied(cut));
   EXPECT_EQ(refused([&] { lines_of(merged); }), kTwice);
-  EXPECT_EQ(refused([&] { write_merged(merged, scratch("none.mcap")); }), kTwice);
-  EXPECT_FALSE(std::filesystem::exists(scratch("none.mcap")));
+  EXPECT_EQ(refused([&] { write_merged(merged, log::scratch("none.mcap")); }), kTwice);
+  EXPECT_FALSE(std::filesystem::exists(log::scratch("none.mcap")));
 }
 
 // What a folder holds whose logs have been merged.
 TEST(Merge, TheWholeAmongItsPartsIsPassedOver) {
-  const std::string path = scratch("whole_among_parts.mcap");
+  const std::string path = log::scratch("whole_among_parts.mcap");
   const MergedLogs parts(logs_of(3, crowd()));
   write_merged(parts, path);
   for (const std::size_t place : {0u, 2u, 3u}) {
@@ -270,14 +270,14 @@ TEST(Merge, TheWholeAmongItsPartsIsPassedOver) {
 }
 
 TEST(Merge, NoLogIsWrittenOver) {
-  const std::string path = scratch("whole.mcap");
-  std::filesystem::copy_file((logs_of(1, crowd()), scratch("part0.mcap")), path);
+  const std::string path = log::scratch("whole.mcap");
+  std::filesystem::copy_file((logs_of(1, crowd()), log::scratch("part0.mcap")), path);
   const std::string before = read_file(path);
   const MergedLogs merged(std::vector<std::string>{path});
   EXPECT_EQ(refused([&] { write_merged(merged, path); }),
             path + ": must be another file than the logs that are merged");
   EXPECT_TRUE(read_file(path) == before);
-  EXPECT_THROW(write_merged(merged, scratch("no/such/folder.mcap")), std::runtime_error);
+  EXPECT_THROW(write_merged(merged, log::scratch("no/such/folder.mcap")), std::runtime_error);
 }
 
 // Damage in one log costs records of that log only, and is told of by its name.
@@ -285,7 +285,7 @@ TEST(Merge, ADamagedLogLosesWhatWasDamagedAndTheOthersNothing) {
   constexpr std::size_t kDamaged = 1;
   const std::vector<StoredLog> sound = logs_of(3, crowd());
   std::vector<std::string> bytes;
-  for (std::size_t i = 0; i < 3; ++i) bytes.push_back(read_file(scratch("part" + std::to_string(i) + ".mcap")));
+  for (std::size_t i = 0; i < 3; ++i) bytes.push_back(read_file(log::scratch("part" + std::to_string(i) + ".mcap")));
   const auto merged = [&](const std::string& damaged) {
     std::vector<StoredLog> logs;
     for (std::size_t i = 0; i < 3; ++i)
@@ -294,7 +294,7 @@ TEST(Merge, ADamagedLogLosesWhatWasDamagedAndTheOthersNothing) {
   };
   const std::vector<std::string> whole = lines_of(merged(bytes[kDamaged]));
   TextSink own_lines;
-  read_log_bytes(bytes[kDamaged], "", own_lines);
+  log::read_log_bytes(bytes[kDamaged], "", own_lines);
   const std::multiset<std::string> own(own_lines.lines.begin(), own_lines.lines.end());
 
   int lost_some = 0;
@@ -312,7 +312,7 @@ TEST(Merge, ADamagedLogLosesWhatWasDamagedAndTheOthersNothing) {
     const std::vector<std::string> warnings = result.warnings();
     ASSERT_EQ(warnings.size(), 1u) << seed;
     EXPECT_EQ(warnings[0].substr(0, 12), "part1.mcap: ") << seed;
-    EXPECT_EQ(result.manifest(), sample_manifest()) << seed;
+    EXPECT_EQ(result.manifest(), log::sample_manifest()) << seed;
     // The whole without some lines of the damaged log, in the same order.
     const std::vector<std::string> lines = lines_of(result);
     lost_some += lines.size() < whole.size() ? 1 : 0;
@@ -330,12 +330,12 @@ TEST(Merge, ADamagedLogLosesWhatWasDamagedAndTheOthersNothing) {
 
 TEST(Merge, ALogWithoutManifestBelongsToTheOthers) {
   std::vector<StoredLog> logs = logs_of(2, crowd());
-  std::string torn = read_file(scratch("part0.mcap"));
+  std::string torn = read_file(log::scratch("part0.mcap"));
   const std::size_t manifest = torn.find("leading car");
   torn[manifest] = 'L';
   logs[0] = StoredLog(torn, "part0.mcap");
   const MergedLogs merged(std::move(logs));
-  EXPECT_EQ(merged.manifest(), sample_manifest()) << "the sound one";
+  EXPECT_EQ(merged.manifest(), log::sample_manifest()) << "the sound one";
   EXPECT_EQ(merged.warnings(),
             std::vector<std::string>{"part0.mcap: bytes outside the chunks are damaged (checksum of the data section); "
                                      "all records are read\n"
@@ -344,4 +344,4 @@ TEST(Merge, ALogWithoutManifestBelongsToTheOthers) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

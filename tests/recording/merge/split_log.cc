@@ -8,7 +8,7 @@
 int main(int argc, char** argv) {
   if (argc != 4) return 2;
   try {
-    ttf::recording::split_log(argv[1], argv[3], std::strtoul(argv[2], nullptr, 10));
+    ttf::recording::merge::split_log(argv[1], argv[3], std::strtoul(argv[2], nullptr, 10));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -11,7 +11,7 @@
 #include "recording/log/writer.h"
 #include "recording/records/every.h"
 
-namespace ttf::recording {
+namespace ttf::recording::merge {
 
 // Node n is in process n modulo how many there are.
 class ByNode final : public records::Every<ByNode> {
@@ -35,20 +35,20 @@ class ByNode final : public records::Every<ByNode> {
 // The logs of `count` processes, in `folder`: node0.mcap and so on.
 inline std::vector<std::string> split_log(const std::string& path, const std::string& folder, std::size_t count) {
   records::Sink nobody;
-  const LogInfo info = read_log(path, nobody);
+  const log::LogInfo info = log::read_log(path, nobody);
   std::vector<std::string> paths;
-  std::vector<std::unique_ptr<LogWriter>> writers;
+  std::vector<std::unique_ptr<log::LogWriter>> writers;
   std::vector<records::Sink*> sinks;
   for (std::size_t i = 0; i < count; ++i) {
     paths.push_back(folder + "/node" + std::to_string(i) + ".mcap");
-    writers.push_back(std::make_unique<LogWriter>(paths.back(), info.manifest));
-    for (const Attachment& one : info.attachments) writers.back()->attach(one.name, one.media_type, one.bytes);
+    writers.push_back(std::make_unique<log::LogWriter>(paths.back(), info.manifest));
+    for (const log::Attachment& one : info.attachments) writers.back()->attach(one.name, one.media_type, one.bytes);
     sinks.push_back(writers.back().get());
   }
   ByNode by_node(sinks);
-  read_log(path, by_node);
+  log::read_log(path, by_node);
   for (auto& writer : writers) writer->close();
   return paths;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf::recording::merge

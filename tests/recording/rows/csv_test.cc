@@ -4,7 +4,7 @@
 
 #include "recording/rows/csv.h"
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 namespace {
 
 using testing::ElementsAre;
@@ -59,4 +59,4 @@ TEST(Csv, AFieldIsReadAsItWasWritten) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

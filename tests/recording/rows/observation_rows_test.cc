@@ -4,7 +4,7 @@
 
 #include "recording/rows/observation_rows.h"
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 namespace {
 
 using testing::ElementsAre;
@@ -196,4 +196,4 @@ TEST(ObservationRows, LaserAndRadarRecordingsAreSuchRows) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

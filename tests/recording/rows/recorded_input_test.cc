@@ -11,7 +11,7 @@
 #include "recording/rows/laser_radar_file.h"
 #include "tests/recording/log/log_fixture.h"
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 namespace {
 
 const std::string kLaserRow = "L\t3.1e-01\t-5.8\t1000\t0.6\t0.7\t5.2\t-0.1\t0.01\t6.9e-03\n";
@@ -131,7 +131,7 @@ TEST(LidarScans, BrokenLinesAreNamed) {
 
 TEST(Sniff, TellsTheFormatByTheBeginning) {
   const auto sniff = [](const std::string& text) {
-    const std::string path = scratch("sniff");
+    const std::string path = log::scratch("sniff");
     std::ofstream(path, std::ios::binary) << text;
     return sniff_recording(path);
   };
@@ -139,7 +139,7 @@ TEST(Sniff, TellsTheFormatByTheBeginning) {
   EXPECT_EQ(sniff("# a drive\n" + kRadarRow), RecordingFormat::kLaserRadar);
   EXPECT_EQ(sniff("# frame,azimuth_rad,range_m,intensity\n0,1,2,3\n"), RecordingFormat::kLidarScans);
   EXPECT_EQ(sniff("0,1,2,3\n"), RecordingFormat::kLidarScans);
-  EXPECT_EQ(sniff(log_of([](records::Sink&) {})), RecordingFormat::kLog);
+  EXPECT_EQ(sniff(log::log_of([](records::Sink&) {})), RecordingFormat::kLog);
   // The head decides, however long the recording; a heading that never ends is none.
   const std::string comment = "#" + std::string(1022, ' ') + "\n";
   std::string head;
@@ -199,4 +199,4 @@ TEST(LidarScans, ReadsTheStreetNobodyHereDrew) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

@@ -6,7 +6,7 @@
 #include "recording/rows/csv.h"
 #include "recording/rows/track_rows.h"
 
-namespace ttf::recording {
+namespace ttf::recording::rows {
 namespace {
 
 TEST(TrackRows, OneCellForEachColumn) {
@@ -53,4 +53,4 @@ TEST(TrackRows, OneCellForEachColumn) {
 }
 
 }  // namespace
-}  // namespace ttf::recording
+}  // namespace ttf::recording::rows

@@ -12,14 +12,14 @@
 
 #include "core/errors.h"
 #include "report/drawing/axes.h"
-#include "report/plots/boxes_picture.h"
-#include "report/page/index_page.h"
 #include "report/drawing/names.h"
 #include "report/drawing/render.h"
 #include "report/drawing/tables.h"
+#include "report/page/index_page.h"
+#include "report/plots/boxes_picture.h"
 #include "tests/report/layout.h"
 
-namespace ttf::report {
+namespace ttf::report::drawing {
 
 namespace {
 std::string scratch(const std::string& name) {
@@ -205,7 +205,7 @@ TEST(Tables, CountCharactersAndFillShortRows) {
 }
 
 TEST(IndexPage, ListsPicturesAndTables) {
-  const std::vector<IndexEntry> entries{{"Timing <1>", "a b.svg", "caption & more", "x  y\n1  2\n", {"a.pdf"}}};
+  const std::vector<page::IndexEntry> entries{{"Timing <1>", "a b.svg", "caption & more", "x  y\n1  2\n", {"a.pdf"}}};
   const std::string dir = scratch("index");
   std::filesystem::create_directories(dir);
   write_index(dir, "A \"run\"", entries);
@@ -221,15 +221,15 @@ TEST(IndexPage, ListsPicturesAndTables) {
 
 TEST(BoxesPicture, DrawsEveryPointAndBox) {
   const std::vector<Point> points{{1, 1}, {2, 1}, {30, -5}, {std::numeric_limits<double>::quiet_NaN(), 0}};
-  const std::vector<Box> boxes{{1.5, 1, 0.3, 4, 2, "car"}, {30, -5, 0, 1, 1, "car"}};
-  const std::string svg = boxes_svg(points, boxes, "Boxes");
+  const std::vector<plots::Box> boxes{{1.5, 1, 0.3, 4, 2, "car"}, {30, -5, 0, 1, 1, "car"}};
+  const std::string svg = plots::boxes_svg(points, boxes, "Boxes");
   EXPECT_EQ(count_class(svg, "point"), 3u);
   EXPECT_EQ(count_class(svg, "box"), 2u);
   EXPECT_NE(svg.find("ISO 8855"), std::string::npos);
   expect_no_overlaps(svg);
   expect_inside(svg);
   expect_renders(svg);
-  EXPECT_NE(boxes_svg({}, {}, "Boxes").find("no points"), std::string::npos);
+  EXPECT_NE(plots::boxes_svg({}, {}, "Boxes").find("no points"), std::string::npos);
 }
 
 TEST(NamesOf, UnknownIdsShowTheirNumber) {
@@ -246,4 +246,4 @@ TEST(NamesOf, UnknownIdsShowTheirNumber) {
 }
 
 }  // namespace
-}  // namespace ttf::report
+}  // namespace ttf::report::drawing

@@ -9,7 +9,7 @@
 #include "report/experiment/plots.h"
 #include "report/experiment/report.h"
 
-namespace ttf::report {
+namespace ttf::report::experiment {
 namespace {
 
 constexpr const char* kPoint = R"({"point": %, "axes": {"road": "dry", "noise": "$"}, "paradigms": {
@@ -32,14 +32,15 @@ class ExperimentReport : public testing::Test {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
     write(answer_of(point(0, "0.1 m", "1.0") + "," + point(1, "40 m", "1.9")));
-    results::Store store = results::Store::create(folder_ + "/results.sqlite", {"e", "id", "v", "text <&>", {"error"}});
-    std::vector<results::Run> runs;
+    experiments::results::Store store =
+        experiments::results::Store::create(folder_ + "/results.sqlite", {"e", "id", "v", "text <&>", {"error"}});
+    std::vector<experiments::results::Run> runs;
     for (std::uint32_t r = 0; r < 3; ++r) {
       const double draw = r;
-      runs.push_back({{0, r, 0}, results::kDone, {draw + 2.0}});
-      runs.push_back({{0, r, 1}, results::kDone, {draw + 1.0 + 0.001 * draw}});
-      runs.push_back({{1, r, 0}, results::kDone, {draw}});
-      runs.push_back({{1, r, 1}, results::kDone, {2.0 - draw}});
+      runs.push_back({{0, r, 0}, experiments::results::kDone, {draw + 2.0}});
+      runs.push_back({{0, r, 1}, experiments::results::kDone, {draw + 1.0 + 0.001 * draw}});
+      runs.push_back({{1, r, 0}, experiments::results::kDone, {draw}});
+      runs.push_back({{1, r, 1}, experiments::results::kDone, {2.0 - draw}});
     }
     store.add(runs);
   }
@@ -116,9 +117,9 @@ TEST_F(ExperimentReport, AnExpectationMayFailNowhereInParticular) {
 // The last page of the file is of rows that nobody reads to open it.
 TEST_F(ExperimentReport, ADamagedStoreIsRefused) {
   const std::string path = folder_ + "/results.sqlite";
-  std::vector<results::Run> runs;
-  for (std::uint32_t r = 3; r < 2000; ++r) runs.push_back({{1, r, 0}, results::kDone, {0.5 + r}});
-  results::Store::open(path).add(runs);
+  std::vector<experiments::results::Run> runs;
+  for (std::uint32_t r = 3; r < 2000; ++r) runs.push_back({{1, r, 0}, experiments::results::kDone, {0.5 + r}});
+  experiments::results::Store::open(path).add(runs);
   EXPECT_EQ(refusal(), "");
   constexpr std::size_t kPage = 4096;
   ASSERT_GT(std::filesystem::file_size(path), 8 * kPage);
@@ -130,7 +131,7 @@ TEST_F(ExperimentReport, ADamagedStoreIsRefused) {
 
 TEST_F(ExperimentReport, PlotsGoOverTheNumericAxis) {
   const ExperimentFolder folder = read_experiment_folder(folder_);
-  const Plot means = means_plot(folder);
+  const page::Plot means = means_plot(folder);
   EXPECT_EQ(means.x, "noise [m]");
   EXPECT_TRUE(means.logarithmic_x);
   ASSERT_EQ(means.views.size(), 1u);
@@ -161,4 +162,4 @@ TEST_F(ExperimentReport, WhatIsWrongIsNamed) {
 }
 
 }  // namespace
-}  // namespace ttf::report
+}  // namespace ttf::report::experiment

@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "report/experiment/plots.h"
 #include "report/drawing/figures.h"
+#include "report/experiment/plots.h"
 #include "report/page/page.h"
 #include "report/run/plots.h"
 #include "report/timing/diagram.h"
 #include "tests/report/layout.h"
 #include "tests/report/synthetic_run.h"
 
-namespace ttf::report {
+namespace ttf::report::page {
 namespace {
 
 const std::string kHostile = "\"><img src=x onerror=\"broken=1\"></script><script>broken=1</script><!--";
@@ -113,20 +113,20 @@ TEST(Page, AShellTakesWordsBack) {
 }
 
 TEST(Figures, HaveTheDigitsTheirIntervalHas) {
-  EXPECT_EQ(with_interval(0.0123456, 0.00042), "0.01235 ± 0.00042");
-  EXPECT_EQ(with_interval(72.04, 3.21), "72.0 ± 3.2");
-  EXPECT_EQ(with_interval(1234.0, 56.0, true), "+1234 ± 56");
-  EXPECT_EQ(with_interval(-0.5, 0.0, true), "-0.500 ± 0");
-  EXPECT_EQ(with_interval(0.115, std::nan("")), "0.115");
-  EXPECT_EQ(with_interval(std::nan(""), 1.0), "-");
-  EXPECT_EQ(verdict(-1.0, 0.5), "less");
-  EXPECT_EQ(verdict(1.0, 0.5), "more");
-  EXPECT_EQ(verdict(1.0, 1.5), "undecided");
-  EXPECT_EQ(verdict(1.0, std::nan("")), "undecided");
+  EXPECT_EQ(drawing::with_interval(0.0123456, 0.00042), "0.01235 ± 0.00042");
+  EXPECT_EQ(drawing::with_interval(72.04, 3.21), "72.0 ± 3.2");
+  EXPECT_EQ(drawing::with_interval(1234.0, 56.0, true), "+1234 ± 56");
+  EXPECT_EQ(drawing::with_interval(-0.5, 0.0, true), "-0.500 ± 0");
+  EXPECT_EQ(drawing::with_interval(0.115, std::nan("")), "0.115");
+  EXPECT_EQ(drawing::with_interval(std::nan(""), 1.0), "-");
+  EXPECT_EQ(drawing::verdict(-1.0, 0.5), "less");
+  EXPECT_EQ(drawing::verdict(1.0, 0.5), "more");
+  EXPECT_EQ(drawing::verdict(1.0, 1.5), "undecided");
+  EXPECT_EQ(drawing::verdict(1.0, std::nan("")), "undecided");
 }
 
 TEST(Histogram, HoldsEveryValueOnceOverCommonBins) {
-  const auto curves = histogram({{"a", 0, {10, 11, 11, 40}}, {"none", 1, {}}, {"b", 2, {25, std::nan("")}}}, 10);
+  const auto curves = run::histogram({{"a", 0, {10, 11, 11, 40}}, {"none", 1, {}}, {"b", 2, {25, std::nan("")}}}, 10);
   ASSERT_EQ(curves.size(), 2u);
   EXPECT_EQ(curves[0].x, curves[1].x);
   double sum = 0;
@@ -136,12 +136,12 @@ TEST(Histogram, HoldsEveryValueOnceOverCommonBins) {
   EXPECT_EQ(curves[0].y.back(), 0.0);
   EXPECT_GE(curves[0].x.back(), 40.0);
   EXPECT_EQ(curves[1].colour, 2);
-  EXPECT_EQ(histogram({{"same", 0, {5, 5, 5}}}, 10).at(0).y.front(), 100.0);
-  EXPECT_TRUE(histogram({{"none", 0, {}}}, 10).empty());
+  EXPECT_EQ(run::histogram({{"same", 0, {5, 5, 5}}}, 10).at(0).y.front(), 100.0);
+  EXPECT_TRUE(run::histogram({{"none", 0, {}}}, 10).empty());
 }
 
 TEST(Histogram, TakesValuesThatAreFarApart) {
-  const auto curves = histogram({{"a", 0, {-1.7e308, 0.0, 1.7e308}}, {"b", 1, {1e300, 1.0}}}, 10);
+  const auto curves = run::histogram({{"a", 0, {-1.7e308, 0.0, 1.7e308}}, {"b", 1, {1e300, 1.0}}}, 10);
   ASSERT_EQ(curves.size(), 2u);
   for (const Curve& curve : curves) {
     double sum = 0;
@@ -150,13 +150,13 @@ TEST(Histogram, TakesValuesThatAreFarApart) {
   }
 }
 
-ExperimentFolder experiment_of(const std::vector<std::string>& delays) {
-  ExperimentFolder folder;
+experiment::ExperimentFolder experiment_of(const std::vector<std::string>& delays) {
+  experiment::ExperimentFolder folder;
   folder.axes = {"delay"};
   folder.paradigms = {"tt"};
   folder.measures = {{"age", "ms", ""}};
   for (const std::string& delay : delays) {
-    ExperimentPoint& point = folder.points.emplace_back();
+    experiment::ExperimentPoint& point = folder.points.emplace_back();
     point.point = static_cast<std::uint32_t>(folder.points.size() - 1);
     point.settings = {delay};
     point.estimates = {{{{4, 1.0, 0.5}, std::nullopt}}};
@@ -175,10 +175,10 @@ TEST(ExperimentPlots, AnAxisIsNumericInOneUnitOnly) {
 }
 
 TEST(TimingDiagram, InAPageEverythingThatStandsInTimeSaysWhen) {
-  TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
+  timing::TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
   SyntheticRun{}.drive(d, 1'500'000);
-  const std::string picture = d.svg(), page = d.svg(TimingUse::kPage);
-  EXPECT_EQ(picture, d.svg(TimingUse::kPicture));
+  const std::string picture = d.svg(), page = d.svg(timing::TimingUse::kPage);
+  EXPECT_EQ(picture, d.svg(timing::TimingUse::kPicture));
   EXPECT_EQ(count(picture, "data-"), 0u);
   EXPECT_EQ(count(page, "class=\"plot\" data-a") + count(page, "data-a=\"200\" data-b=\"350\""), 1u);
   for (const char* kind : {"class=\"frame\"", "class=\"task\"", "class=\"measured\"", "class=\"arrow\""})
@@ -192,4 +192,4 @@ TEST(TimingDiagram, InAPageEverythingThatStandsInTimeSaysWhen) {
 }
 
 }  // namespace
-}  // namespace ttf::report
+}  // namespace ttf::report::page

@@ -10,7 +10,7 @@
 #include "core/errors.h"
 #include "report/paper/run.h"
 
-namespace ttf::report {
+namespace ttf::report::paper {
 namespace {
 
 using testing::AllOf;
@@ -122,4 +122,4 @@ TEST(PaperExperiment, TextIsQuotedForGnuplot) {
 }
 
 }  // namespace
-}  // namespace ttf::report
+}  // namespace ttf::report::paper

@@ -8,14 +8,14 @@
 #include "report/plots/lateness_picture.h"
 #include "tests/report/layout.h"
 
-namespace ttf::report {
+namespace ttf::report::plots {
 namespace {
 
-using records::BinnedDurations;
-using LatenessOfNodes = std::map<NodeId, recording::NodeLateness>;
+using recording::records::BinnedDurations;
+using LatenessOfNodes = std::map<NodeId, recording::exports::NodeLateness>;
 
-Names three_names() {
-  Names names;
+drawing::Names three_names() {
+  drawing::Names names;
   names.run = "drive <1>";
   names.nodes = {"laser", "fusion", "feature"};
   return names;
@@ -29,7 +29,7 @@ BinnedDurations late_by(std::initializer_list<std::pair<std::int64_t, int>> us_a
 }
 
 struct DrawnCurve {
-  std::vector<Point> points;
+  std::vector<drawing::Point> points;
   std::string hover;
   bool dashed = false;
 };
@@ -65,7 +65,7 @@ TEST(LatenessPicture, CurvesShowTheShareThatIsAsLate) {
   EXPECT_NEAR(curve.points.front().x, left, 0.01);
   const auto share_at = [&](double us) {  // on the last point that is not beyond
     double y = top;
-    for (const Point& p : curve.points)
+    for (const drawing::Point& p : curve.points)
       if (p.x <= left + decade_x * std::log10(us) + 0.01) y = p.y;
     return std::pow(10.0, -(y - top) / decade_y);
   };
@@ -122,8 +122,8 @@ TEST(LatenessPicture, WithoutWakeUpsItSaysSo) {
 }
 
 TEST(LatenessPicture, NumbersThatNoRunHasAreDrawnAllTheSame) {
-  const std::vector<std::uint64_t> full(records::kLatenessBins, std::numeric_limits<std::uint64_t>::max());
-  std::vector<std::uint64_t> last(records::kLatenessBins);
+  const std::vector<std::uint64_t> full(recording::records::kLatenessBins, std::numeric_limits<std::uint64_t>::max());
+  std::vector<std::uint64_t> last(recording::records::kLatenessBins);
   last.back() = 1;
   LatenessOfNodes nodes;
   std::uint8_t n = 0;
@@ -132,7 +132,7 @@ TEST(LatenessPicture, NumbersThatNoRunHasAreDrawnAllTheSame) {
     nodes[NodeId{n++}].wake_ups = BinnedDurations(full, Duration{longest_ns});
     nodes[NodeId{n++}].wake_ups = BinnedDurations(last, Duration{longest_ns});
   }
-  const std::string svg = lateness_svg(nodes, Names{});
+  const std::string svg = lateness_svg(nodes, drawing::Names{});
   EXPECT_EQ(curves_in(svg).size(), 6u);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
@@ -141,4 +141,4 @@ TEST(LatenessPicture, NumbersThatNoRunHasAreDrawnAllTheSame) {
 }
 
 }  // namespace
-}  // namespace ttf::report
+}  // namespace ttf::report::plots

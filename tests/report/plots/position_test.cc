@@ -10,7 +10,7 @@
 #include "tests/report/synthetic_cluster.h"
 #include "tests/report/synthetic_run.h"
 
-namespace ttf::report {
+namespace ttf::report::plots {
 namespace {
 
 constexpr std::int64_t kEnd = 1'500'000;
@@ -44,7 +44,7 @@ TEST(PositionPlots, InstantsOfADamagedLogDoNotOverflow) {
   PositionPlots plots(synthetic_names(), {});
   constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min(),
                          kHighest = std::numeric_limits<std::int64_t>::max();
-  records::ObservationSeen seen;
+  recording::records::ObservationSeen seen;
   seen.stamp = {{kHighest}, {0}, {kLowest}, NodeId{0}};
   seen.measured = {kHighest};
   plots.on(seen);
@@ -91,16 +91,16 @@ TEST(PositionPlots, ShowEverythingTheyPromise) {
 }
 
 // Passes on what happened but some of what the feature service did.
-class FewerUses final : public records::Sink {
+class FewerUses final : public recording::records::Sink {
  public:
   FewerUses(PositionPlots& out, std::uint32_t stale_from, std::uint32_t none_from)
       : out_(out), stale_from_(stale_from), none_from_(none_from) {}
-  using records::Sink::on;
-  void on(const records::FusionStep& r) override { out_.on(r); }
-  void on(const records::ImageWritten& r) override { out_.on(r); }
-  void on(const records::TruthState& r) override { out_.on(r); }
-  void on(const records::FeatureUsed& r) override {
-    records::FeatureUsed used = r;
+  using recording::records::Sink::on;
+  void on(const recording::records::FusionStep& r) override { out_.on(r); }
+  void on(const recording::records::ImageWritten& r) override { out_.on(r); }
+  void on(const recording::records::TruthState& r) override { out_.on(r); }
+  void on(const recording::records::FeatureUsed& r) override {
+    recording::records::FeatureUsed used = r;
     used.stale = r.image_sequence >= stale_from_;
     if (r.image_sequence < none_from_) out_.on(used);
   }
@@ -135,8 +135,8 @@ TEST(PositionPlots, ImagesThatNobodyUsedAreNotShownAsUsed) {
 TEST(PositionPlots, AUseBelongsToTheImageJustBefore) {
   PositionPlots plots(synthetic_names(), {});
   const SyntheticRun run;
-  records::ImageObject object;
-  records::ImageWritten image;
+  recording::records::ImageObject object;
+  recording::records::ImageWritten image;
   image.objects = {&object, 1};
   image.sequence = 3;
   for (const std::int64_t us : {100'000, 5'000'000}) {
@@ -144,7 +144,7 @@ TEST(PositionPlots, AUseBelongsToTheImageJustBefore) {
     image.valid_at = {(us + 37'000) * 1000};
     plots.on(image);
   }
-  records::FeatureUsed used;
+  recording::records::FeatureUsed used;
   used.stamp = run.stamp(5'037'000, 6);
   used.image_sequence = 3;
   plots.on(used);
@@ -167,7 +167,7 @@ TEST(PositionPlots, KeepToTheWindow) {
 TEST(PositionPlots, WithoutTruthTheReferenceGuidesAndWithoutBothAllIsShown) {
   PositionPlots plots(synthetic_names(), {});
   const SyntheticRun run;
-  records::ObservationSeen o;
+  recording::records::ObservationSeen o;
   o.stamp = run.stamp(60'000, 5);
   o.measured = {50'000'000};
   o.x = 30;
@@ -175,7 +175,7 @@ TEST(PositionPlots, WithoutTruthTheReferenceGuidesAndWithoutBothAllIsShown) {
   o.x = 50;
   plots.on(o);
   EXPECT_EQ(plots.select().observations[0].size(), 2u);
-  records::ReferenceFix fix;
+  recording::records::ReferenceFix fix;
   fix.measured_true = at_us(40'000);
   fix.x = 49;
   plots.on(fix);
@@ -227,7 +227,7 @@ TEST(SchedulePicture, DrawsEveryShippedClusterLegibly) {
        {"paper_unsynchronised", "paper_synchronised", "laser_radar", "laser_radar_synchronised", "flexray_demo"}) {
     SCOPED_TRACE(name);
     const std::string svg =
-        schedule_svg(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + std::string(name) + ".yaml"));
+        schedule_svg(schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/" + std::string(name) + ".yaml"));
     expect_no_overlaps(svg);
     expect_inside(svg);
     expect_renders(svg);
@@ -239,10 +239,10 @@ TEST(SchedulePicture, DrawsEveryShippedClusterLegibly) {
 }
 
 TEST(SchedulePicture, AnEmptyClusterSaysSo) {
-  schedules::Cluster c;
+  schedules::model::Cluster c;
   c.name = "none";
   EXPECT_NE(schedule_svg(c).find("no nodes and no frames"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace ttf::report
+}  // namespace ttf::report::plots

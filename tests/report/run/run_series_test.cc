@@ -10,15 +10,15 @@
 
 #include "report/run/tables.h"
 
-namespace ttf::report {
+namespace ttf::report::run {
 namespace {
 
-records::Stamp stamp(std::int64_t us, int node = 0) {
+recording::records::Stamp stamp(std::int64_t us, int node = 0) {
   return {TrueTime{us * 1000}, LocalTime{us * 1000}, GlobalTime{us * 1000}, NodeId(static_cast<std::uint8_t>(node))};
 }
 
-records::TruthState truth(std::int64_t us, int object, double x, double y, int node = 0) {
-  records::TruthState state;
+recording::records::TruthState truth(std::int64_t us, int object, double x, double y, int node = 0) {
+  recording::records::TruthState state;
   state.at = TrueTime{us * 1000};
   state.object = ObjectId(static_cast<std::uint16_t>(object));
   state.x = x;
@@ -29,13 +29,13 @@ records::TruthState truth(std::int64_t us, int object, double x, double y, int n
 
 void use(RunSeriesSink& sink, std::int64_t us, std::vector<std::pair<double, double>> positions,
          std::uint32_t image = 0, bool stale = false) {
-  std::vector<records::FeatureObject> objects;
+  std::vector<recording::records::FeatureObject> objects;
   for (const auto& [x, y] : positions) {
-    records::FeatureObject& object = objects.emplace_back();
+    recording::records::FeatureObject& object = objects.emplace_back();
     object.image.x = x;
     object.image.y = y;
   }
-  records::FeatureUsed used;
+  recording::records::FeatureUsed used;
   used.stamp = stamp(us);
   used.image_sequence = image;
   used.objects = objects;
@@ -75,17 +75,18 @@ TEST(RunSeries, WhatIsTooFarOrStaleIsNotCompared) {
 TEST(RunSeries, AgesAreOfWhatIsInTheImageThatIsUsed) {
   RunSeriesSink sink;
   const auto fused = [&](int sensor, std::uint32_t sequence, std::int64_t measured_us, std::int64_t at_us) {
-    sink.on(records::ListFused{stamp(at_us),
-                               1,
-                               {SensorId(static_cast<std::uint8_t>(sensor)), sequence},
-                               GlobalTime{measured_us * 1000},
-                               records::Disposition::kFused});
+    sink.on(recording::records::ListFused{stamp(at_us),
+                                          1,
+                                          {SensorId(static_cast<std::uint8_t>(sensor)), sequence},
+                                          GlobalTime{measured_us * 1000},
+                                          recording::records::Disposition::kFused});
   };
   fused(0, 4, 10'000, 40'000);
   fused(1, 9, 25'000, 41'000);
-  sink.on(records::ListFused{stamp(42'000), 1, {SensorId{1}, 10}, GlobalTime{30'000'000}, records::Disposition::kHeld});
+  sink.on(recording::records::ListFused{
+      stamp(42'000), 1, {SensorId{1}, 10}, GlobalTime{30'000'000}, recording::records::Disposition::kHeld});
   const std::vector<MeasurementId> newest{{SensorId{0}, 4}, {SensorId{1}, 9}};
-  records::ImageWritten image;
+  recording::records::ImageWritten image;
   image.stamp = stamp(43'000);
   image.sequence = 7;
   image.newest = newest;
@@ -103,9 +104,12 @@ TEST(RunSeries, AgesAreOfWhatIsInTheImageThatIsUsed) {
 
 TEST(RunSeries, AFaultIsToldByItsFirstAct) {
   RunSeriesSink sink;
-  sink.on(records::FaultActivity{TrueTime{1'000'000}, 3, records::kFaultBegins, NodeId{2}, "omission", "it begins"});
-  sink.on(records::FaultActivity{TrueTime{2'000'000}, 3, records::kFaultActs, NodeId{2}, "omission", "the first"});
-  sink.on(records::FaultActivity{TrueTime{3'000'000}, 3, records::kFaultActs, NodeId{2}, "omission", "the second"});
+  sink.on(recording::records::FaultActivity{TrueTime{1'000'000}, 3, recording::records::kFaultBegins, NodeId{2},
+                                            "omission", "it begins"});
+  sink.on(recording::records::FaultActivity{TrueTime{2'000'000}, 3, recording::records::kFaultActs, NodeId{2},
+                                            "omission", "the first"});
+  sink.on(recording::records::FaultActivity{TrueTime{3'000'000}, 3, recording::records::kFaultActs, NodeId{2},
+                                            "omission", "the second"});
   const FaultTold fault = sink.finish().faults.at(3);
   EXPECT_EQ(fault.acts, 2u);
   EXPECT_EQ(fault.text, "the first");
@@ -175,4 +179,4 @@ TEST(RunAnswer, AStrategyWithoutAFigureWinsNothing) {
 }
 
 }  // namespace
-}  // namespace ttf::report
+}  // namespace ttf::report::run

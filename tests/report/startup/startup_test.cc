@@ -8,7 +8,7 @@
 #include "report/startup/states.h"
 #include "tests/report/layout.h"
 
-namespace ttf::report {
+namespace ttf::report::startup {
 namespace {
 
 // A start-up by the book, in milliseconds: 5 ms cycles, cycle 0 from 20 ms on. Node 0 leads, node 1 follows, node 2
@@ -16,19 +16,19 @@ namespace {
 struct SyntheticStartup {
   static constexpr std::int64_t kCycle0_us = 20'000;
 
-  static records::Stamp stamp(std::int64_t us, int node) {
+  static recording::records::Stamp stamp(std::int64_t us, int node) {
     return {{us * 1000}, {us * 1000}, {us * 1000}, static_cast<NodeId>(node)};
   }
   static std::int64_t cycle(int c) { return kCycle0_us + 5'000 * c; }
 
-  static void change(records::Sink& sink, std::int64_t us, int node, int from, const char* from_name, int to,
+  static void change(recording::records::Sink& sink, std::int64_t us, int node, int from, const char* from_name, int to,
                      const char* to_name, const char* why, const char* consequence = "") {
-    sink.on(records::StateChanged{stamp(us, node), static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
-                                  from_name, to_name, why, consequence});
+    sink.on(recording::records::StateChanged{stamp(us, node), static_cast<std::uint8_t>(from),
+                                             static_cast<std::uint8_t>(to), from_name, to_name, why, consequence});
   }
-  static void frame(records::Sink& sink, int c, int slot, int node, bool startup, bool null) {
+  static void frame(recording::records::Sink& sink, int c, int slot, int node, bool startup, bool null) {
     const std::array<std::byte, 5> header{startup ? std::byte{0x18} : std::byte{}};
-    records::SlotFrameSent f;
+    recording::records::SlotFrameSent f;
     f.stamp = stamp(cycle(c) + 84 * (slot - 1) + 7, node);
     f.end = stamp(cycle(c) + 84 * (slot - 1) + 74, node);
     f.cycle = c;
@@ -37,13 +37,13 @@ struct SyntheticStartup {
     f.bytes = header;
     for (f.channel = 0; f.channel < 2; ++f.channel) sink.on(f);
   }
-  static void powered(records::Sink& sink, std::int64_t us, int node) {
-    sink.on(records::PowerChanged{stamp(us, node), true});
+  static void powered(recording::records::Sink& sink, std::int64_t us, int node) {
+    sink.on(recording::records::PowerChanged{stamp(us, node), true});
     change(sink, us, node, 0x00, "default config", 0x0F, "config", "the host commanded CONFIG");
     change(sink, us, node, 0x0F, "config", 0x01, "ready", "the host completed the configuration");
   }
 
-  static void drive(records::Sink& sink) {
+  static void drive(recording::records::Sink& sink) {
     powered(sink, 3'000, 0);
     change(sink, 3'000, 0, 0x01, "ready", 0x21, "coldstart listen", "RUN", "it may start the cluster");
     powered(sink, 5'000, 1);
@@ -51,7 +51,8 @@ struct SyntheticStartup {
     powered(sink, 12'000, 2);
     change(sink, 12'000, 2, 0x01, "ready", 0x27, "integration listen", "RUN", "it is no coldstart node");
     for (std::uint8_t channel = 0; channel < 2; ++channel)
-      sink.on(records::SymbolSent{stamp(cycle(0) - 4, 0), stamp(cycle(0), 0), channel, records::kSymbolCas});
+      sink.on(recording::records::SymbolSent{stamp(cycle(0) - 4, 0), stamp(cycle(0), 0), channel,
+                                             recording::records::kSymbolCas});
     change(sink, cycle(0) - 4, 0, 0x21, "coldstart listen", 0x22, "coldstart collision resolution", "silence");
     for (int c = 0; c < 10; ++c) {
       if (c == 0)
@@ -79,8 +80,8 @@ struct SyntheticStartup {
   }
 };
 
-Names four() {
-  Names names;
+drawing::Names four() {
+  drawing::Names names;
   names.run = "cold_start, tt";
   names.nodes = {"laser_pc", "camera_pc", "gateway", "fusion & co"};
   return names;
@@ -137,12 +138,14 @@ TEST(StartupDiagram, DrawsFramesSymbolsAndPower) {
 TEST(StartupDiagram, AFaultHasALaneFromItsBeginToItsEnd) {
   StartupDiagram d(four(), Duration::milliseconds(5), {}, {70'000'000});
   SyntheticStartup::drive(d);
-  d.on(
-      records::FaultActivity{{10'000'000}, 0, records::kFaultBegins, NodeId{1}, "babbling_idiot", "camera_pc babbles"});
-  d.on(records::FaultActivity{{11'000'000}, 0, records::kFaultActs, NodeId{1}, "babbling_idiot", "it sends in slot 3"});
-  d.on(records::FaultActivity{
-      {30'000'000}, 0, records::kFaultEnds, NodeId{1}, "babbling_idiot", "camera_pc is quiet again"});
-  d.on(records::FaultActivity{{40'000'000}, 1, records::kFaultBegins, kNoNode, "noise", "noise on channel A"});
+  d.on(recording::records::FaultActivity{
+      {10'000'000}, 0, recording::records::kFaultBegins, NodeId{1}, "babbling_idiot", "camera_pc babbles"});
+  d.on(recording::records::FaultActivity{
+      {11'000'000}, 0, recording::records::kFaultActs, NodeId{1}, "babbling_idiot", "it sends in slot 3"});
+  d.on(recording::records::FaultActivity{
+      {30'000'000}, 0, recording::records::kFaultEnds, NodeId{1}, "babbling_idiot", "camera_pc is quiet again"});
+  d.on(recording::records::FaultActivity{
+      {40'000'000}, 1, recording::records::kFaultBegins, kNoNode, "noise", "noise on channel A"});
   const std::string svg = d.svg();
   EXPECT_EQ(count(svg, ">babbling_idiot, camera_pc</text>"), 1u);
   EXPECT_EQ(count(svg, ">noise</text>"), 1u);
@@ -179,15 +182,15 @@ TEST(StartupDiagram, ALogWithoutAStartupSaysSo) {
 
 //   node 0    normal active ---------------------------------------------------------------->
 //   node 1    normal active ---| 120 off      300 on | ready, listen --| 330 active --------->
-void integrated_drive(records::Sink& sink, bool comes_back) {
+void integrated_drive(recording::records::Sink& sink, bool comes_back) {
   using S = SyntheticStartup;
   for (int c = 0; c < 80; ++c) {
     S::frame(sink, c, 1, 0, true, false);
     if (S::cycle(c) < 120'000 || (comes_back && S::cycle(c) >= 330'000)) S::frame(sink, c, 2, 1, true, false);
   }
-  sink.on(records::PowerChanged{S::stamp(120'000, 1), false});
+  sink.on(recording::records::PowerChanged{S::stamp(120'000, 1), false});
   if (!comes_back) return;
-  sink.on(records::PowerChanged{S::stamp(300'000, 1), true});
+  sink.on(recording::records::PowerChanged{S::stamp(300'000, 1), true});
   S::powered(sink, 300'000, 1);
   S::change(sink, 300'000, 1, 0x01, "ready", 0x27, "integration listen", "RUN");
   S::change(sink, 330'000, 1, 0x27, "integration listen", 0x02, "normal active", "integrated");
@@ -196,11 +199,15 @@ void integrated_drive(records::Sink& sink, bool comes_back) {
 std::string integrated_diagram(bool comes_back, std::int64_t from_ms, std::int64_t to_ms) {
   StartupDiagram d(four(), Duration::milliseconds(5), {from_ms * 1'000'000}, {to_ms * 1'000'000});
   integrated_drive(d, comes_back);
-  d.on(records::FaultActivity{{120'000'000}, 0, records::kFaultBegins, NodeId{1}, "crash", "camera_pc goes off"});
-  d.on(records::FaultActivity{{300'000'000}, 0, records::kFaultEnds, NodeId{1}, "crash", "camera_pc comes on"});
-  d.on(records::FaultActivity{{20'000'000}, 1, records::kFaultBegins, kNoNode, "noise", "noise"});
-  d.on(records::FaultActivity{{40'000'000}, 1, records::kFaultEnds, kNoNode, "noise", "no noise"});
-  d.on(records::FaultActivity{{390'000'000}, 2, records::kFaultBegins, kNoNode, "transient", "a transient"});
+  d.on(recording::records::FaultActivity{
+      {120'000'000}, 0, recording::records::kFaultBegins, NodeId{1}, "crash", "camera_pc goes off"});
+  d.on(recording::records::FaultActivity{
+      {300'000'000}, 0, recording::records::kFaultEnds, NodeId{1}, "crash", "camera_pc comes on"});
+  d.on(recording::records::FaultActivity{{20'000'000}, 1, recording::records::kFaultBegins, kNoNode, "noise", "noise"});
+  d.on(
+      recording::records::FaultActivity{{40'000'000}, 1, recording::records::kFaultEnds, kNoNode, "noise", "no noise"});
+  d.on(recording::records::FaultActivity{
+      {390'000'000}, 2, recording::records::kFaultBegins, kNoNode, "transient", "a transient"});
   return d.svg();
 }
 
@@ -234,10 +241,10 @@ TEST(StartupExtent, IsTheStartUpOrTheReturnOfANodeOrItsLoss) {
   };
   using Window = std::pair<TrueTime, TrueTime>;
   const auto ms = [](std::int64_t from, std::int64_t to) { return Window{{from * 1'000'000}, {to * 1'000'000}}; };
-  EXPECT_EQ(window([](records::Sink& sink) { SyntheticStartup::drive(sink); }), ms(2, 60 + 11));
-  EXPECT_EQ(window([](records::Sink& sink) { integrated_drive(sink, true); }), ms(299, 330 + 11));
-  EXPECT_EQ(window([](records::Sink& sink) { integrated_drive(sink, false); }), ms(119, 120 + 11));
-  EXPECT_FALSE(window([](records::Sink& sink) { SyntheticStartup::frame(sink, 0, 1, 0, true, false); }));
+  EXPECT_EQ(window([](recording::records::Sink& sink) { SyntheticStartup::drive(sink); }), ms(2, 60 + 11));
+  EXPECT_EQ(window([](recording::records::Sink& sink) { integrated_drive(sink, true); }), ms(299, 330 + 11));
+  EXPECT_EQ(window([](recording::records::Sink& sink) { integrated_drive(sink, false); }), ms(119, 120 + 11));
+  EXPECT_FALSE(window([](recording::records::Sink& sink) { SyntheticStartup::frame(sink, 0, 1, 0, true, false); }));
 }
 
 // ---- what it is made of
@@ -283,8 +290,9 @@ TEST(StartupStates, FaultsAreThereFromBeginToEnd) {
     return StartupData::Fault{{at}, fault, what, kNoNode, "noise", ""};
   };
   const std::vector<StartupData::Fault> faults = {
-      record(10, 0, records::kFaultBegins), record(20, 0, records::kFaultEnds),   record(10, 1, records::kFaultBegins),
-      record(60, 1, records::kFaultEnds),   record(30, 2, records::kFaultBegins), record(90, 3, records::kFaultBegins)};
+      record(10, 0, recording::records::kFaultBegins), record(20, 0, recording::records::kFaultEnds),
+      record(10, 1, recording::records::kFaultBegins), record(60, 1, recording::records::kFaultEnds),
+      record(30, 2, recording::records::kFaultBegins), record(90, 3, recording::records::kFaultBegins)};
   EXPECT_EQ(faults_within(faults, {40}, {80}).size(), 3u);
   EXPECT_EQ(faults_within(faults, {0}, {100}).size(), faults.size());
   EXPECT_EQ(faults_within(faults, {0}, {10}).size(), 0u);
@@ -304,10 +312,10 @@ TEST(StartupStates, ANodeThatBeganIntegratedWasInItsFirstStateFromTheBeginningOn
 // Two nodes send a CAS; the one that is active out of the consistency check leads, by its own CAS.
 TEST(StartupCycles, TheLeadingNodeIsTheOneThatWasActiveOutOfTheConsistencyCheck) {
   StartupData data;
-  data.symbols = {{{90}, {100}, NodeId{1}, 0, records::kSymbolCas},
-                  {{290}, {300}, NodeId{0}, 0, records::kSymbolCas},
-                  {{340}, {350}, NodeId{0}, 0, records::kSymbolWakeup},
-                  {{390}, {400}, NodeId{1}, 0, records::kSymbolCas}};
+  data.symbols = {{{90}, {100}, NodeId{1}, 0, recording::records::kSymbolCas},
+                  {{290}, {300}, NodeId{0}, 0, recording::records::kSymbolCas},
+                  {{340}, {350}, NodeId{0}, 0, recording::records::kSymbolWakeup},
+                  {{390}, {400}, NodeId{1}, 0, recording::records::kSymbolCas}};
   EXPECT_EQ(leading_node(data)->node, NodeId{1}) << "the last one while nobody is active";
   data.changes = {change(350, 2, kStateIntegrationConsistencyCheck, kStateNormalActive),
                   change(380, 0, kStateConsistencyCheck, kStateNormalActive)};
@@ -336,4 +344,4 @@ TEST(StartupCycles, BeginWhereTheLeadingNodesFramesSay) {
 }
 
 }  // namespace
-}  // namespace ttf::report
+}  // namespace ttf::report::startup

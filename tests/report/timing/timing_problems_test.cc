@@ -5,7 +5,7 @@
 #include "tests/report/layout.h"
 #include "tests/report/synthetic_run.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 namespace {
 
 TEST(TimingDiagram, WhatWasNotInItsTimeIsMarked) {
@@ -13,18 +13,18 @@ TEST(TimingDiagram, WhatWasNotInItsTimeIsMarked) {
   SyntheticRun{}.drive(d, 500'000);
   const auto problem = [&](std::int64_t ms, int node, std::uint8_t what, std::int64_t late_us, std::uint16_t slot,
                            std::uint32_t count = 1) {
-    d.on(records::TimingProblem{SyntheticRun{}.stamp(ms * 1000, node), what, Duration::microseconds(late_us), 43, slot,
-                                1, count});
+    d.on(recording::records::TimingProblem{SyntheticRun{}.stamp(ms * 1000, node), what, Duration::microseconds(late_us),
+                                           43, slot, 1, count});
   };
-  problem(210, 5, records::kLateWakeUp, 812, 0);
-  problem(215, 4, records::kSlotMissed, 900, 1);
-  problem(220, 6, records::kLateFrame, 1234, 2);
-  problem(225, 6, records::kEarlyFrame, -77, 2);
-  problem(230, 6, records::kFramesLost, 0, 2, 3);
-  problem(235, 6, records::kFramesLost, 0, 3, 1);
-  problem(240, 99, records::kLateWakeUp, 5, 0);  // a node without a lane
-  problem(100, 5, records::kLateWakeUp, 6, 0);   // before the window
-  problem(350, 5, records::kLateWakeUp, 7, 0);   // after it
+  problem(210, 5, recording::records::kLateWakeUp, 812, 0);
+  problem(215, 4, recording::records::kSlotMissed, 900, 1);
+  problem(220, 6, recording::records::kLateFrame, 1234, 2);
+  problem(225, 6, recording::records::kEarlyFrame, -77, 2);
+  problem(230, 6, recording::records::kFramesLost, 0, 2, 3);
+  problem(235, 6, recording::records::kFramesLost, 0, 3, 1);
+  problem(240, 99, recording::records::kLateWakeUp, 5, 0);  // a node without a lane
+  problem(100, 5, recording::records::kLateWakeUp, 6, 0);   // before the window
+  problem(350, 5, recording::records::kLateWakeUp, 7, 0);   // after it
   const std::string svg = d.svg();
   EXPECT_EQ(count_class(svg, "problem"), 6u);
   for (const char* words : {"fusion: woken up 812 us late", "gateway: missed its slot 1 of cycle 43, 900 us late",
@@ -42,4 +42,4 @@ TEST(TimingDiagram, WhatWasNotInItsTimeIsMarked) {
 }
 
 }  // namespace
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

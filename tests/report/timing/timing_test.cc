@@ -9,10 +9,10 @@
 #include "tests/report/layout.h"
 #include "tests/report/synthetic_run.h"
 
-namespace ttf::report {
+namespace ttf::report::timing {
 namespace {
 
-using records::Disposition;
+using recording::records::Disposition;
 
 std::string timing_diagram(std::int64_t from_ms, std::int64_t to_ms) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(from_ms * 1000), at_us(to_ms * 1000));
@@ -52,7 +52,7 @@ TEST(TimingDiagram, NumbersTheCyclesOfTheWindow) {
 // A startup frame of cycle 3, sent at 202 ms by a node that has no global time yet: its own once more.
 TEST(TimingDiagram, FramesSentWithoutGlobalTimeSayNothingOfTheCycles) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
-  records::SlotFrameSent early;
+  recording::records::SlotFrameSent early;
   early.stamp = {at_us(202'000), {202'000'000}, {202'000'000}, NodeId{5}};
   early.end = {at_us(202'074), {202'074'000}, {202'074'000}, NodeId{5}};
   early.cycle = 3;
@@ -66,13 +66,13 @@ TEST(TimingDiagram, FramesSentWithoutGlobalTimeSayNothingOfTheCycles) {
 }
 
 // Lets nodes start anew: from then on they count `rounds` of 64 cycles less.
-class Restarted final : public records::Sink {
+class Restarted final : public recording::records::Sink {
  public:
-  Restarted(records::Sink& out, std::vector<NodeId> nodes, TrueTime at, std::int64_t rounds)
+  Restarted(recording::records::Sink& out, std::vector<NodeId> nodes, TrueTime at, std::int64_t rounds)
       : out_(out), nodes_(std::move(nodes)), at_(at), rounds_(rounds) {}
-  using records::Sink::on;
-  void on(const records::SlotFrameSent& r) override {
-    records::SlotFrameSent frame = r;
+  using recording::records::Sink::on;
+  void on(const recording::records::SlotFrameSent& r) override {
+    recording::records::SlotFrameSent frame = r;
     if (r.stamp.true_time >= at_ && std::find(nodes_.begin(), nodes_.end(), r.stamp.node) != nodes_.end()) {
       frame.cycle -= rounds_ * 64;
       frame.stamp.global.ns -= rounds_ * 64 * 5'000'000;
@@ -81,7 +81,7 @@ class Restarted final : public records::Sink {
   }
 
  private:
-  records::Sink& out_;
+  recording::records::Sink& out_;
   std::vector<NodeId> nodes_;
   TrueTime at_;
   std::int64_t rounds_;
@@ -117,25 +117,26 @@ TEST(TimingDiagram, FaultsHaveLanesAndWhatBecameOfFramesIsMarked) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
   SyntheticRun{}.drive(d, 1'500'000);
   const auto fault = [&](std::int64_t ms, std::uint32_t index, std::uint8_t what, const char* kind, const char* text) {
-    d.on(records::FaultActivity{at_us(ms * 1000), index, what, index == 1 ? kNoNode : NodeId{4}, kind, text});
+    d.on(
+        recording::records::FaultActivity{at_us(ms * 1000), index, what, index == 1 ? kNoNode : NodeId{4}, kind, text});
   };
-  fault(10, 0, records::kFaultBegins, "bit_flips", "bits flip");
-  fault(20, 0, records::kFaultActs, "bit_flips", "long before");
-  fault(210, 0, records::kFaultActs, "bit_flips", "bit 7 is inverted");
-  fault(220, 1, records::kFaultBegins, "noise", "noise on channel A");
-  fault(240, 1, records::kFaultEnds, "noise", "quiet again");
-  fault(260, 2, records::kFaultBegins, "omission", "frames are lost");
-  fault(30, 3, records::kFaultBegins, "crash", "off");
-  fault(40, 3, records::kFaultEnds, "crash", "on again: before the window");
-  fault(400, 4, records::kFaultBegins, "drift", "after the window");
+  fault(10, 0, recording::records::kFaultBegins, "bit_flips", "bits flip");
+  fault(20, 0, recording::records::kFaultActs, "bit_flips", "long before");
+  fault(210, 0, recording::records::kFaultActs, "bit_flips", "bit 7 is inverted");
+  fault(220, 1, recording::records::kFaultBegins, "noise", "noise on channel A");
+  fault(240, 1, recording::records::kFaultEnds, "noise", "quiet again");
+  fault(260, 2, recording::records::kFaultBegins, "omission", "frames are lost");
+  fault(30, 3, recording::records::kFaultBegins, "crash", "off");
+  fault(40, 3, recording::records::kFaultEnds, "crash", "on again: before the window");
+  fault(400, 4, recording::records::kFaultBegins, "drift", "after the window");
   const auto channel = [&](std::int64_t us, std::uint8_t state, NodeId sender, std::uint16_t slot) {
-    d.on(records::ChannelFrame{at_us(us), at_us(us + 74), sender, 0, state, slot, 1, at_us(us), 0, {}});
+    d.on(recording::records::ChannelFrame{at_us(us), at_us(us + 74), sender, 0, state, slot, 1, at_us(us), 0, {}});
   };
-  channel(210'004, records::kChannelFrameCrc, NodeId{4}, 1);
-  channel(225'000, records::kChannelCoding, kNoNode, 0);
+  channel(210'004, recording::records::kChannelFrameCrc, NodeId{4}, 1);
+  channel(225'000, recording::records::kChannelCoding, kNoNode, 0);
   channel(230'000, 0, NodeId{6}, 0);
-  channel(265'004, records::kChannelNothing, NodeId{4}, 1);
-  channel(500'000, records::kChannelNothing, NodeId{4}, 1);
+  channel(265'004, recording::records::kChannelNothing, NodeId{4}, 1);
+  channel(500'000, recording::records::kChannelNothing, NodeId{4}, 1);
   const std::string svg = d.svg();
   for (const char* lane : {"bit_flips, gateway", "noise", "omission, gateway"})
     EXPECT_EQ(count(svg, std::string(">") + lane + "</text>"), 1u) << lane;
@@ -192,8 +193,9 @@ TEST(TimingDiagram, AnEmptyWindowSaysSo) {
 
 TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
   TimingDiagram d({}, {}, at_us(0), at_us(100'000));
-  d.on(records::Measured{SyntheticRun{}.stamp(5000, 0), {SensorId{1}, 0}, {}});
-  d.on(records::ListFused{SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
+  d.on(recording::records::Measured{SyntheticRun{}.stamp(5000, 0), {SensorId{1}, 0}, {}});
+  d.on(recording::records::ListFused{
+      SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
   const std::string svg = d.svg();
   EXPECT_NE(svg.find(">sensor 1</text>"), std::string::npos);
   EXPECT_EQ(count_class(svg, "arrow"), 1u);
@@ -202,7 +204,8 @@ TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
 
 TEST(TimingDiagram, WhatIsFusedAloneMakesNoLane) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(0), at_us(100'000));
-  d.on(records::ListFused{SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
+  d.on(recording::records::ListFused{
+      SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
   EXPECT_NE(d.svg().find("no records"), std::string::npos);
   expect_renders(d.svg());
 }
@@ -214,9 +217,9 @@ TEST(TimingDiagram, ImpossibleTimesChangeNothing) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
   SyntheticRun{}.drive(d, 1'500'000);
   for (const std::int64_t ns : {kLowest, kHighest}) {
-    const records::Stamp inside = SyntheticRun{}.stamp(250'000, 1);
-    const records::Stamp beyond{{ns}, {ns}, {ns}, NodeId{1}};
-    records::SlotFrameSent frame;
+    const recording::records::Stamp inside = SyntheticRun{}.stamp(250'000, 1);
+    const recording::records::Stamp beyond{{ns}, {ns}, {ns}, NodeId{1}};
+    recording::records::SlotFrameSent frame;
     frame.stamp = inside;
     frame.end.true_time = at_us(250'074);
     frame.cycle = ns;
@@ -224,9 +227,9 @@ TEST(TimingDiagram, ImpossibleTimesChangeNothing) {
     frame.cycle = 50;
     frame.stamp.global = {ns};
     d.on(frame);
-    d.on(records::Measured{beyond, {SensorId{0}, 0}, {}});
-    d.on(records::ListFused{inside, 1, {SensorId{0}, 3}, {ns}, Disposition::kFused});
-    d.on(records::ListFused{beyond, 1, {SensorId{0}, 3}, {0}, Disposition::kFused});
+    d.on(recording::records::Measured{beyond, {SensorId{0}, 0}, {}});
+    d.on(recording::records::ListFused{inside, 1, {SensorId{0}, 3}, {ns}, Disposition::kFused});
+    d.on(recording::records::ListFused{beyond, 1, {SensorId{0}, 3}, {0}, Disposition::kFused});
   }
   EXPECT_EQ(d.svg(), timing_diagram(200, 350));
 }
@@ -236,7 +239,7 @@ TEST(TimingDiagram, AFrameOfAnotherCycleMovesNoLine) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
   SyntheticRun{}.drive(d, 1'500'000);
   SyntheticRun{}.slot(d, 45, 1, 5, kNoPdu, 0, 0, true);
-  records::SlotFrameSent frame;
+  recording::records::SlotFrameSent frame;
   frame.stamp = SyntheticRun{}.stamp(250'000, 5);
   frame.end.true_time = at_us(250'074);
   frame.cycle = 4000;
@@ -269,7 +272,7 @@ TEST_F(Ways, LeadFromTheSensorThroughEveryHop) {
   // measured 0 -> CAN 1..3 -> task of node 2, 4..9 -> slots 10..11 on A and B -> fused at 13
   data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
   data_.can_frames = {{0, at_us(1000), at_us(2000), PduId{0}, 7}, {0, at_us(2500), at_us(3000), PduId{0}, 7}};
-  data_.hops = {{at_us(4000), NodeId{2}, records::Hop::kRead, PduId{0}, 7}};
+  data_.hops = {{at_us(4000), NodeId{2}, recording::records::Hop::kRead, PduId{0}, 7}};
   data_.runs = {{at_us(3000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
                 {at_us(13000), at_us(13000), at_us(14000), NodeId{5}, 0, true}};
   for (std::uint8_t channel : {0, 1})
@@ -349,7 +352,7 @@ TEST_F(Ways, HoweverManyStepsHoldAListItWaitsOnce) {
 TEST_F(Ways, ADroppedOrOverwrittenListEndsThere) {
   data_.measurements = {{at_us(0), {SensorId{0}, 0}}, {at_us(80000), {SensorId{0}, 1}}};
   data_.fused = {fused(13000, 0, 0, Disposition::kDroppedTooOld)};
-  data_.hops = {{at_us(90000), NodeId{2}, records::Hop::kOverwritten, PduId{0}, 1}};
+  data_.hops = {{at_us(90000), NodeId{2}, recording::records::Hop::kOverwritten, PduId{0}, 1}};
   const auto all = ways();
   EXPECT_TRUE(all[0].dropped);
   EXPECT_TRUE(all[1].dropped);
@@ -384,4 +387,4 @@ TEST_F(Ways, AnImageGoesOverItsSlotsToTheFeatureService) {
 }
 
 }  // namespace
-}  // namespace ttf::report
+}  // namespace ttf::report::timing

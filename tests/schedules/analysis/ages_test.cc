@@ -9,7 +9,7 @@
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/small_cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 // Measured at 0, written at 1 ms, sent in the next cycle's slot 3: at worst until its end, 5.252 ms; at best the
@@ -43,8 +43,8 @@ TEST(Ages, OfAFreeSensorAreTheAdversePhases) {
 // Oscillators 1500 ppm off to either side: 3000 ppm of the execution, and 3000 ppm of the wait on the grid, but the
 // execution's once only.
 TEST(Ages, DriftCountsOnceOnEachStretch) {
-  Cluster cluster = small(false);
-  for (Node& node : cluster.nodes) node.drift_ppb = 1'500'000;
+  model::Cluster cluster = small(false);
+  for (model::Node& node : cluster.nodes) node.drift_ppb = 1'500'000;
   const auto ages = measurement_ages(cluster);
   EXPECT_EQ(ages[0].fusion_worst.ns, 1'000'000 + 3'001 + kRounding + 5'084'000 - 1 + kApart + 15'251);
 }
@@ -63,7 +63,7 @@ TEST(Ages, ContributionsComeInTheOrderOfTheWay) {
 
 // Sent within the clocks' distance before the fusion begins: at worst it misses it, at best it does not.
 TEST(Ages, ClocksThatDifferCountAtCloseInstants) {
-  Cluster cluster = small(true);
+  model::Cluster cluster = small(true);
   cluster.nodes[1].tasks[0].activation.at.offset = Macroticks{255};  // slot 3 ends at 252 us
   const auto ages = measurement_ages(cluster);
   EXPECT_EQ(ages[0].fused_best.ns, 5'255'000 - kClocks);
@@ -72,9 +72,9 @@ TEST(Ages, ClocksThatDifferCountAtCloseInstants) {
 
 // Two of a node's tasks are activated by messages: each may have to wait for the other.
 TEST(Ages, ATaskInTheWayCountsOnce) {
-  Cluster cluster = small(false);
-  Task other = timed("other", {}, Duration::milliseconds(3));
-  other.activation.kind = ActivationKind::kMessage;
+  model::Cluster cluster = small(false);
+  model::Task other = timed("other", {}, Duration::milliseconds(3));
+  other.activation.kind = model::ActivationKind::kMessage;
   cluster.nodes[2].tasks.push_back(other);
   const auto plain = measurement_ages(small(false)), delayed = measurement_ages(cluster);
   EXPECT_EQ(delayed[0].use_best, plain[0].use_best);
@@ -85,7 +85,7 @@ TEST(Ages, ATaskInTheWayCountsOnce) {
 // execution when the laser's list is there: that list took nine frames since the camera's last one. The other way round
 // it is one frame.
 TEST(Ages, ListsOnOneCanComeOneAfterTheOther) {
-  Cluster cluster = load_cluster(shipped_path("paper_unsynchronised"));
+  model::Cluster cluster = file::load_cluster(shipped_path("paper_unsynchronised"));
   const auto waits = [&](const std::string& sensor) {
     for (const AgePath& path : measurement_ages(cluster))
       if (cluster.sensor(path.sensor).name == sensor)
@@ -93,8 +93,8 @@ TEST(Ages, ListsOnOneCanComeOneAfterTheOther) {
           if (part.name.find("waits for other tasks") != std::string::npos) return part.worst;
     return Duration{};
   };
-  const CanBus bus = *std::find_if(cluster.can_buses.begin(), cluster.can_buses.end(),
-                                   [](const CanBus& b) { return b.name == "observation_can"; });
+  const model::CanBus bus = *std::find_if(cluster.can_buses.begin(), cluster.can_buses.end(),
+                                          [](const model::CanBus& b) { return b.name == "observation_can"; });
   const Duration frame = can_worst_case(bus, 56);
   const Duration unsure = Duration::microseconds(20);  // 3000 ppm and rounding
   ASSERT_GT(Duration::microseconds(200), frame);
@@ -102,16 +102,16 @@ TEST(Ages, ListsOnOneCanComeOneAfterTheOther) {
   EXPECT_GT(waits("camera"), Duration::microseconds(200) - frame);
   EXPECT_LT(waits("camera"), Duration::microseconds(200) - frame + unsure);
   const NodeId gateway = *cluster.find_node("gateway");
-  for (Task& task : cluster.nodes[index_of(gateway)].tasks) task.worst_case = Duration::milliseconds(3);
+  for (model::Task& task : cluster.nodes[index_of(gateway)].tasks) task.worst_case = Duration::milliseconds(3);
   EXPECT_GT(waits("laser"), Duration::milliseconds(3) - frame * 9);
   EXPECT_LT(waits("laser"), Duration::milliseconds(3) - frame * 9 + unsure);
   EXPECT_GT(waits("camera"), Duration::milliseconds(3) - frame);
   // Lists of another CAN may be there at the same time.
   cluster.can_buses.push_back(bus);
-  for (Node& node : cluster.nodes)
-    for (Task& task : node.tasks)
+  for (model::Node& node : cluster.nodes)
+    for (model::Task& task : node.tasks)
       for (auto* bindings : {&task.reads, &task.writes})
-        for (PortBinding& binding : *bindings)
+        for (model::PortBinding& binding : *bindings)
           if (binding.can_bus && cluster.pdu(binding.pdu).name == "camera_objects")
             binding.can_bus = cluster.can_buses.size() - 1;
   EXPECT_GT(waits("laser"), Duration::milliseconds(3));
@@ -133,21 +133,21 @@ TEST(Ages, OfHeldMeasurements) {
 //   device:  measure 1 ms -> CAN;  gateway: forward, on the list's arrival, 0.2 to 0.5 ms -> list in slot 3 of every
 //   cycle fusion:  fuse 2 ms at 1 ms of odd cycles; publish 0.1 ms when it ends -> image in slot 4 of every cycle user:
 //   use, on the image's arrival
-Cluster over_can(bool scheduled) {
-  Cluster cluster = small(scheduled);
-  PduLayout raw;
+model::Cluster over_can(bool scheduled) {
+  model::Cluster cluster = small(scheduled);
+  model::PduLayout raw;
   raw.fragment_bytes = 8;
   raw.max_elements = raw.elements_per_fragment = 1;
   raw.sensor = SensorId{0};
   cluster.pdus.push_back(raw);  // PduId 2
-  CanBus bus;
+  model::CanBus bus;
   bus.name = "can";
   bus.nominal_bit_rate = bus.data_bit_rate = 1'000'000;
   bus.messages = {{PduId{2}, 100, NodeId{0}, Duration::milliseconds(9), 0}};
   cluster.can_buses = {bus};
   cluster.nodes[0].tasks[0].writes = {{"raw", PduId{2}, 0, 0}};
-  Task forward = timed("forward", {}, Duration::microseconds(500));
-  forward.activation.kind = ActivationKind::kMessage;
+  model::Task forward = timed("forward", {}, Duration::microseconds(500));
+  forward.activation.kind = model::ActivationKind::kMessage;
   forward.activation.port = "in";
   forward.best_case = Duration::microseconds(200);
   forward.reads = {{"in", PduId{2}, 0, 0}};
@@ -157,13 +157,13 @@ Cluster over_can(bool scheduled) {
   cluster.frames[0].sender = NodeId{3};
   cluster.frames[1].base_cycle = 0;
   cluster.frames[1].repetition = 1;
-  Task& publish = cluster.nodes[1].tasks[1];
+  model::Task& publish = cluster.nodes[1].tasks[1];
   publish.activation = {};
-  publish.activation.kind = ActivationKind::kCompletion;
+  publish.activation.kind = model::ActivationKind::kCompletion;
   publish.activation.after = "fuse";
-  Task& use = cluster.nodes[2].tasks[0];
+  model::Task& use = cluster.nodes[2].tasks[0];
   use.activation = {};
-  use.activation.kind = ActivationKind::kMessage;
+  use.activation.kind = model::ActivationKind::kMessage;
   use.activation.port = "image";
   return cluster;
 }
@@ -181,7 +181,7 @@ TEST(Ages, OverACanAndATaskThatAMessageActivates) {
 
 // Another message of lower priority: a frame of it has just begun.
 TEST(Ages, AFrameOfLowerPriorityOnTheCanIsWaitedFor) {
-  Cluster cluster = over_can(false);
+  model::Cluster cluster = over_can(false);
   cluster.pdus.push_back(cluster.pdus[2]);
   cluster.pdus[3].sensor = kNoSensor;
   cluster.can_buses[0].messages.push_back({PduId{3}, 200, NodeId{3}, Duration::milliseconds(9), 0});
@@ -202,8 +202,8 @@ TEST(Ages, PublishedWhenTheFusionEndsAndUsedWhenTheImageArrives) {
 
 // Set off by the sensor's list instead: one of those comes within two periods of 10 ms.
 TEST(Ages, AListWaitsForTheOneThatActivatesItsReader) {
-  Cluster cluster = over_can(true);
-  Task& use = cluster.nodes[2].tasks[0];
+  model::Cluster cluster = over_can(true);
+  model::Task& use = cluster.nodes[2].tasks[0];
   use.reads.push_back({"tick", PduId{0}, std::nullopt, 0});
   use.activation.port = "tick";
   const auto ages = measurement_ages(cluster);
@@ -214,11 +214,11 @@ TEST(Ages, AListWaitsForTheOneThatActivatesItsReader) {
 // The fusion itself follows a task of 0.3 ms that time activates every 10 ms: a list that just missed it waits for the
 // next one, a period and that task's end later.
 TEST(Ages, AListWaitsForTheBeginningOfAChain) {
-  Cluster cluster = small(true);
-  Task prepare = timed("prepare", {1, 2, Macroticks{1000}}, Duration::microseconds(300));
-  Task& fuse = cluster.nodes[1].tasks[0];
+  model::Cluster cluster = small(true);
+  model::Task prepare = timed("prepare", {1, 2, Macroticks{1000}}, Duration::microseconds(300));
+  model::Task& fuse = cluster.nodes[1].tasks[0];
   fuse.activation = {};
-  fuse.activation.kind = ActivationKind::kCompletion;
+  fuse.activation.kind = model::ActivationKind::kCompletion;
   fuse.activation.after = "prepare";
   cluster.nodes[1].tasks.insert(cluster.nodes[1].tasks.begin(), prepare);
   const auto ages = measurement_ages(cluster);
@@ -227,10 +227,10 @@ TEST(Ages, AListWaitsForTheBeginningOfAChain) {
 }
 
 TEST(Ages, ASensorNobodyFusesIsLeftOut) {
-  Cluster cluster = small(true);
+  model::Cluster cluster = small(true);
   cluster.nodes[1].tasks[0].reads.clear();
   EXPECT_TRUE(measurement_ages(cluster).empty());
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -13,26 +13,26 @@
 #include "schedules/analysis/slot_groups.h"
 #include "tests/schedules/check/mutation.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 constexpr WritersOfLists kKnown = WritersOfLists::kKnown, kUnknown = WritersOfLists::kUnknown;
 
 // Lists in the dynamic segment, or in every cycle's static slots.
-Cluster over_flexray(bool dynamic) {
+model::Cluster over_flexray(bool dynamic) {
   std::string text = shipped_text("paper_free_flexray");
   if (!dynamic) {
     text.replace(text.find("slot: 35"), 8, "slot: 6");
     text.replace(text.find("slot: 44"), 8, "slot: 15");
   }
-  const Cluster cluster = parse_cluster(text, "cluster.yaml");
-  EXPECT_EQ(sentences(check(cluster)), "");
+  const model::Cluster cluster = file::parse_cluster(text, "cluster.yaml");
+  EXPECT_EQ(sentences(check::check(cluster)), "");
   return cluster;
 }
 
-const Task& task_of(const Cluster& cluster, const std::string& node, const std::string& name) {
+const model::Task& task_of(const model::Cluster& cluster, const std::string& node, const std::string& name) {
   const auto& tasks = cluster.node(*cluster.find_node(node)).tasks;
-  return *std::find_if(tasks.begin(), tasks.end(), [&](const Task& task) { return task.name == name; });
+  return *std::find_if(tasks.begin(), tasks.end(), [&](const model::Task& task) { return task.name == name; });
 }
 
 std::int64_t drawn(RandomStream& draws, std::int64_t low, std::int64_t high) {
@@ -42,7 +42,8 @@ std::int64_t drawn(RandomStream& draws, std::int64_t low, std::int64_t high) {
 
 // When lists are complete that are written at least `apart`, all clocks alike: each goes out in the first cycle whose
 // slots begin after it, or while it waits for the first of them.
-std::vector<std::int64_t> arrivals_drawn(const Cluster& cluster, PduId pdu, std::int64_t apart, RandomStream& draws) {
+std::vector<std::int64_t> arrivals_drawn(const model::Cluster& cluster, PduId pdu, std::int64_t apart,
+                                         RandomStream& draws) {
   const auto groups = slot_groups(cluster, pdu);
   EXPECT_EQ(groups.size(), 1u);
   const auto at = [&](std::int64_t cycle, Macroticks offset) { return time_of(cluster.flexray, cycle, offset).ns; };
@@ -69,7 +70,7 @@ std::vector<std::int64_t> arrivals_drawn(const Cluster& cluster, PduId pdu, std:
 TEST(Arrivals, NoDrawnListsComeMoreOftenThanTheirBounds) {
   RandomStream draws({3, 0, Purpose::kTest, 0, 0});
   for (const bool dynamic : {true, false}) {
-    const Cluster cluster = over_flexray(dynamic);
+    const model::Cluster cluster = over_flexray(dynamic);
     for (const std::string sensor : {"laser", "camera"}) {
       SCOPED_TRACE(sensor + (dynamic ? ", dynamic" : ", static"));
       const ArrivalBounds bounds = arrivals_of(cluster, task_of(cluster, "fusion", "fuse_" + sensor), kKnown);
@@ -94,8 +95,8 @@ TEST(Arrivals, NoDrawnListsComeMoreOftenThanTheirBounds) {
 // Written 12.4 ms apart, a list of the camera that has just missed its slots is complete 5 ms and the length of seven
 // slots later, so that two may come 6.8 ms apart; of their slots alone one would fear 4.4.
 TEST(Arrivals, OverFlexRayTheWriterSaysHowOften) {
-  const Cluster cluster = over_flexray(false);
-  const Task& fuse = task_of(cluster, "fusion", "fuse_camera");
+  const model::Cluster cluster = over_flexray(false);
+  const model::Task& fuse = task_of(cluster, "fusion", "fuse_camera");
   const auto near = [](std::int64_t found, double expected_us) {
     EXPECT_NEAR(static_cast<double>(found), expected_us * 1e3, 50e3);
   };
@@ -113,12 +114,12 @@ TEST(Arrivals, OfWhatIsUnknownThereIsOne) {
 
 // Two nodes whose tasks set each other off over FlexRay: each is taken to be as fast as the other's slots.
 TEST(Arrivals, WritersMayWaitForEachOther) {
-  Cluster cluster = over_flexray(false);
+  model::Cluster cluster = over_flexray(false);
   const PduId to = *cluster.find_pdu("laser_objects"), back = *cluster.find_pdu("camera_objects");
   const auto answer = [&](const char* node, PduId reads, PduId writes) {
-    Task task;
+    model::Task task;
     task.name = "answer";
-    task.activation = {ActivationKind::kMessage, {}, "in", kNoSensor, ""};
+    task.activation = {model::ActivationKind::kMessage, {}, "in", kNoSensor, ""};
     task.best_case = Duration::microseconds(100);
     task.worst_case = Duration::microseconds(300);
     task.reads = {{"in", reads, std::nullopt, 0}};
@@ -137,23 +138,23 @@ TEST(Arrivals, WritersMayWaitForEachOther) {
 
 // A writer that is wrong itself: the reader's findings do not go round with it.
 TEST(Arrivals, OfAWriterThatGoesRoundAndRoundNothingIsKnown) {
-  Cluster cluster = over_flexray(true);
-  Task& preprocess = cluster.nodes[index_of(*cluster.find_node("camera_pre"))].tasks[0];
-  preprocess.activation = {ActivationKind::kCompletion, {}, "", kNoSensor, preprocess.name};
+  model::Cluster cluster = over_flexray(true);
+  model::Task& preprocess = cluster.nodes[index_of(*cluster.find_node("camera_pre"))].tasks[0];
+  preprocess.activation = {model::ActivationKind::kCompletion, {}, "", kNoSensor, preprocess.name};
   EXPECT_FALSE(worst_responses(cluster, *cluster.find_node("camera_pre")).has_value());
   EXPECT_EQ(arrivals_of(cluster, task_of(cluster, "fusion", "fuse_camera"), kKnown).all.size(), 1u);
 }
 
 TEST(Mutations, OfListsThatComeTooOftenOverFlexRay) {
-  expect_named(
+  check::expect_named(
       {
           {"camera_often",
-           inside("camera_pre", "best_case") + "12 ms",
+           check::inside("camera_pre", "best_case") + "12 ms",
            "$016 ms",
            {"worst_case: 2 ms", "nodes.fusion.tasks.fuse_camera.worst_case", "2 ms",
             "before the next one, at the shortest 3.49"}},
           {"fusing_long",
-           inside("fuse_laser", "worst_case") + "2 ms([^~]*?deadline: )5 ms",
+           check::inside("fuse_laser", "worst_case") + "2 ms([^~]*?deadline: )5 ms",
            "$017 ms$0215 ms",
            {"worst_case: 2 ms", "nodes.fusion.tasks.fuse_camera.worst_case", "2 ms",
             "must let the task end, at worst 9.5 ms"}},
@@ -162,4 +163,4 @@ TEST(Mutations, OfListsThatComeTooOftenOverFlexRay) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

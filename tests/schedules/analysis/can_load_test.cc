@@ -4,18 +4,18 @@
 
 #include "bus/wire/can_timing.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
-CanBus classic(std::int64_t rate = 1'000'000) {
-  CanBus bus;
+model::CanBus classic(std::int64_t rate = 1'000'000) {
+  model::CanBus bus;
   bus.name = "classic";
   bus.nominal_bit_rate = bus.data_bit_rate = rate;
   return bus;
 }
 
-CanBus fast() {
-  CanBus bus = classic();
+model::CanBus fast() {
+  model::CanBus bus = classic();
   bus.name = "fast";
   bus.flexible_data_rate = true;
   bus.data_bit_rate = 5'000'000;
@@ -41,7 +41,7 @@ TEST(CanFrames, FlexibleDataRateByHand) {
 // one stuff bit is missing, because ESI and the length's code differ.
 TEST(CanFrames, AllButOneOfTheStuffBitsAreReached) {
   const std::vector<std::byte> data(64, std::byte{0x87});
-  EXPECT_EQ(wire::can_frame_duration(fast(), 0x078, data), can_worst_case(fast(), 64) - Duration{200});
+  EXPECT_EQ(bus::wire::can_frame_duration(fast(), 0x078, data), can_worst_case(fast(), 64) - Duration{200});
 }
 
 TEST(CanFrames, LengthsAreTheOnesThereAre) {
@@ -62,13 +62,13 @@ TEST(CanFrames, RoundUpToWholeNanoseconds) {
 
 // What frames on the wire really take lies between the two.
 TEST(CanFrames, BoundTheFramesOnTheWire) {
-  for (const CanBus& bus : {classic(), fast()})
+  for (const model::CanBus& bus : {classic(), fast()})
     for (const int length : {0, 1, 7, 8, 64}) {
       if (!can_data_length(bus.flexible_data_rate, length)) continue;
       for (const unsigned fill : {0x00u, 0xffu, 0x55u, 0x0fu, 0xf8u, 0x3cu, 0xc3u, 0x87u}) {
         const std::vector<std::byte> data(static_cast<std::size_t>(length), static_cast<std::byte>(fill));
         for (const std::uint32_t identifier : {0u, 0x7ffu, 0x555u, 0x7c1u, 0x078u}) {
-          const Duration real = wire::can_frame_duration(bus, identifier, data);
+          const Duration real = bus::wire::can_frame_duration(bus, identifier, data);
           EXPECT_LE(can_best_case(bus, length), real);
           EXPECT_GE(can_worst_case(bus, length), real);
         }
@@ -78,12 +78,12 @@ TEST(CanFrames, BoundTheFramesOnTheWire) {
 
 // Three classic messages of one 8-byte frame each (135 us), by hand.
 TEST(CanResponse, BlockingAndHigherPriorities) {
-  Cluster cluster;
-  PduLayout layout;
+  model::Cluster cluster;
+  model::PduLayout layout;
   layout.fragment_bytes = 8;
   layout.max_elements = layout.elements_per_fragment = 1;
   cluster.pdus = {layout, layout, layout};
-  CanBus bus = classic();
+  model::CanBus bus = classic();
   bus.messages = {{PduId{0}, 10, NodeId{0}, Duration::milliseconds(1), 0},
                   {PduId{1}, 20, NodeId{0}, Duration::milliseconds(1), 0},
                   {PduId{2}, 30, NodeId{0}, Duration::milliseconds(1), 0}};
@@ -106,4 +106,4 @@ TEST(CanResponse, BlockingAndHigherPriorities) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -4,19 +4,19 @@
 #include <set>
 #include <string>
 
-#include "schedules/exchange/text.h"
 #include "schedules/analysis/slot_groups.h"
+#include "schedules/exchange/text.h"
 #include "tests/schedules/check/mutation.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 TEST(DealtLists, GoOutOnBothChannelsWithinOneCycle) {
-  const Cluster cluster = load_checked_cluster(shipped_path("thousand_synchronised"));
+  const model::Cluster cluster = file::load_checked_cluster(shipped_path("thousand_synchronised"));
   const PduId image = *cluster.find_pdu("image");
   std::set<int> on_a, on_b;
-  for (const FrameSlot& frame : cluster.frames)
-    if (frame.pdu == image) (frame.channels == Channels::kA ? on_a : on_b).insert(frame.fragment);
+  for (const model::FrameSlot& frame : cluster.frames)
+    if (frame.pdu == image) (frame.channels == model::Channels::kA ? on_a : on_b).insert(frame.fragment);
   EXPECT_EQ(on_a.size(), 50u);
   EXPECT_EQ(on_b.size(), 50u);
   for (const int fragment : on_a) EXPECT_EQ(fragment % 2, 0);
@@ -29,7 +29,7 @@ TEST(DealtLists, GoOutOnBothChannelsWithinOneCycle) {
 }
 
 TEST(DealtLists, AreShownChannelByChannel) {
-  const std::string text = show_text(load_cluster(shipped_path("thousand_synchronised")));
+  const std::string text = exchange::show_text(file::load_cluster(shipped_path("thousand_synchronised")));
   EXPECT_NE(text.find("image 0-98, every other"), std::string::npos) << text;
   EXPECT_NE(text.find("image 1-99, every other"), std::string::npos) << text;
   EXPECT_NE(text.find("1000 in 100 slots, 10 to a slot; its header counts to 1023"), std::string::npos) << text;
@@ -38,7 +38,7 @@ TEST(DealtLists, AreShownChannelByChannel) {
 TEST(DealtLists, AreCompleteAndInOrder) {
   const std::string image_on_a = "{slot: 5, channels: A, sender: fusion";  // where the entry begins
   const std::string image_on_b = "pdu: image, fragments: 50, first_fragment: 1, fragment_step: 2";
-  expect_named(
+  check::expect_named(
       {
           {"third_channel",
            image_on_b,
@@ -69,4 +69,4 @@ TEST(DealtLists, AreCompleteAndInOrder) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -7,7 +7,7 @@
 #include "schedules/analysis/minislots.h"
 #include "tests/schedules/cluster_file.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 std::string changed(const std::string& pattern, const std::string& replacement,
@@ -26,9 +26,9 @@ bool found(const std::vector<Finding>& findings, const std::string& key, const s
 }
 
 TEST(MessageIds, AreTwoBytesOfADynamicFrame) {
-  const Cluster plain = parse_cluster(shipped_text("flexray_demo"), "cluster.yaml");
-  const Cluster named =
-      parse_cluster(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 4660"), "cluster.yaml");
+  const model::Cluster plain = file::parse_cluster(shipped_text("flexray_demo"), "cluster.yaml");
+  const model::Cluster named =
+      file::parse_cluster(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 4660"), "cluster.yaml");
   ASSERT_EQ(plain.frames.size(), named.frames.size());
   int frames = 0;
   for (std::size_t i = 0; i < plain.frames.size(); ++i) {
@@ -39,7 +39,7 @@ TEST(MessageIds, AreTwoBytesOfADynamicFrame) {
     EXPECT_EQ(dynamic_words(named, named.frames[i]), dynamic_words(plain, plain.frames[i]) + 1);
   }
   EXPECT_EQ(frames, 2);  // every fragment of the list
-  EXPECT_EQ(check(named).size(), check(plain).size());
+  EXPECT_EQ(check::check(named).size(), check::check(plain).size());
 }
 
 TEST(MessageIds, AreRefusedWhereTheyCannotBe) {
@@ -47,18 +47,19 @@ TEST(MessageIds, AreRefusedWhereTheyCannotBe) {
                     "message_id: 7", "needs a dynamic slot, above 20 (gNumberOfStaticSlots)"));
   EXPECT_TRUE(found(findings_of(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 65536")),
                     "frames[8].message_id", "65536", "0..65535"));
-  Cluster cluster =
-      parse_cluster(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 65535"), "cluster.yaml");
+  model::Cluster cluster =
+      file::parse_cluster(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 65535"), "cluster.yaml");
   const auto pdu = index_of(*cluster.find_pdu("camera_objects"));
   for (const int bytes : {252, 253}) {
     cluster.pdus[pdu].fragment_bytes = bytes;
-    EXPECT_EQ(found(check(cluster), "frames.slot 23", "camera_objects (253 bytes)", "at most 252 bytes"), bytes == 253);
+    EXPECT_EQ(found(check::check(cluster), "frames.slot 23", "camera_objects (253 bytes)", "at most 252 bytes"),
+              bytes == 253);
   }
 }
 
 TEST(ExternalCorrection, IsNoneUnlessAllowed) {
-  const Cluster plain = parse_cluster(shipped_text("paper_unsynchronised"), "cluster.yaml");
-  const Cluster allowed = parse_cluster(
+  const model::Cluster plain = file::parse_cluster(shipped_text("paper_unsynchronised"), "cluster.yaml");
+  const model::Cluster allowed = file::parse_cluster(
       changed("\\bpWakeupPattern: 2", "pWakeupPattern: 2\n  pExternOffsetCorrection: 7\n  pExternRateCorrection: 1",
               "paper_unsynchronised"),
       "cluster.yaml");
@@ -69,7 +70,7 @@ TEST(ExternalCorrection, IsNoneUnlessAllowed) {
     EXPECT_EQ(allowed.nodes[n].flexray->pExternOffsetCorrection, 7);
     EXPECT_EQ(allowed.nodes[n].flexray->pExternRateCorrection, 1);
   }
-  EXPECT_TRUE(check(allowed).empty());
+  EXPECT_TRUE(check::check(allowed).empty());
 }
 
 TEST(ExternalCorrection, RangesAreThoseOfTheRegister) {
@@ -95,4 +96,4 @@ TEST(ExternalCorrection, TakesOfTheRoomForOffsetCorrection) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -5,21 +5,21 @@
 
 #include "schedules/analysis/ages.h"
 #include "schedules/analysis/dynamic_load.h"
-#include "schedules/exchange/text.h"
 #include "schedules/analysis/slot_groups.h"
+#include "schedules/exchange/text.h"
 #include "tests/schedules/cluster_file.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
-FrameSlot frame(int slot, Channels channels, NodeId sender, PduId pdu) {
+model::FrameSlot frame(int slot, model::Channels channels, NodeId sender, PduId pdu) {
   return {slot, channels, 0, 1, sender, pdu, 0, 0, false};
 }
 
 // 10 static slots of 50; minislots of 7 MT, action point 3, one idle; lists of 8 bytes (4 words), 32 (16) and 56 (28).
-Cluster dynamic() {
-  Cluster cluster;
-  GlobalParameters& g = cluster.flexray;
+model::Cluster dynamic() {
+  model::Cluster cluster;
+  model::GlobalParameters& g = cluster.flexray;
   g.gNumberOfStaticSlots = 10;
   g.gdStaticSlot = 50;
   g.gdActionPointOffset = 4;
@@ -39,7 +39,7 @@ Cluster dynamic() {
 //   4 words: 173 bits, 17.326 us, 2.48 -> 3; 16: 413, 41.362, 5.92 -> 6; 28: 653, 65.398, 9.36 -> 10
 // and one for the beginning's part before the action point, and one idle.
 TEST(Minislots, AFrameTakesSoMany) {
-  const GlobalParameters g = dynamic().flexray;
+  const model::GlobalParameters g = dynamic().flexray;
   EXPECT_EQ(minislots_of(g, 4), 3 + 1 + 1);
   EXPECT_EQ(minislots_of(g, 16), 6 + 1 + 1);
   EXPECT_EQ(minislots_of(g, 28), 10 + 1 + 1);
@@ -50,10 +50,11 @@ TEST(Minislots, AFrameTakesSoMany) {
 }
 
 TEST(Minislots, ATurnComesLatestWhenAllSlotsBeforeItAreUsed) {
-  Cluster cluster = dynamic();
-  cluster.frames = {frame(11, Channels::kAB, NodeId{0}, PduId{2}), frame(13, Channels::kA, NodeId{1}, PduId{0}),
-                    frame(13, Channels::kB, NodeId{2}, PduId{1}), frame(15, Channels::kAB, NodeId{0}, PduId{0}),
-                    frame(15, Channels::kAB, NodeId{1}, PduId{2})};
+  model::Cluster cluster = dynamic();
+  cluster.frames = {
+      frame(11, model::Channels::kAB, NodeId{0}, PduId{2}), frame(13, model::Channels::kA, NodeId{1}, PduId{0}),
+      frame(13, model::Channels::kB, NodeId{2}, PduId{1}), frame(15, model::Channels::kAB, NodeId{0}, PduId{0}),
+      frame(15, model::Channels::kAB, NodeId{1}, PduId{2})};
   EXPECT_EQ(latest_turn(cluster, cluster.frames[0]), 1);
   EXPECT_EQ(latest_turn(cluster, cluster.frames[1]), 1 + 12 + 1);
   EXPECT_EQ(earliest_turn(cluster.flexray, cluster.frames[3]), 5);
@@ -67,9 +68,10 @@ TEST(Minislots, ATurnComesLatestWhenAllSlotsBeforeItAreUsed) {
 }
 
 TEST(Minislots, OnlySlotsOfTheSameCyclesCount) {
-  Cluster cluster = dynamic();
-  cluster.frames = {frame(11, Channels::kA, NodeId{0}, PduId{2}), frame(11, Channels::kA, NodeId{1}, PduId{1}),
-                    frame(12, Channels::kA, NodeId{2}, PduId{0})};
+  model::Cluster cluster = dynamic();
+  cluster.frames = {frame(11, model::Channels::kA, NodeId{0}, PduId{2}),
+                    frame(11, model::Channels::kA, NodeId{1}, PduId{1}),
+                    frame(12, model::Channels::kA, NodeId{2}, PduId{0})};
   cluster.frames[0].repetition = 4;  // cycles 0, 4, ..: 12 minislots
   cluster.frames[1].base_cycle = 1;  // cycles 1, 3, ..: 8
   cluster.frames[1].repetition = 2;
@@ -84,7 +86,7 @@ TEST(Minislots, OnlySlotsOfTheSameCyclesCount) {
 
 // Of the laser's and the camera's list in slots 21 to 24, 12 minislots each, behind 1000 macroticks of static segment.
 TEST(Minislots, AListGoesOutBetweenItsTurns) {
-  const Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
+  const model::Cluster cluster = file::load_checked_cluster(shipped_path("flexray_demo"));
   const auto laser = slot_groups(cluster, *cluster.find_pdu("laser_objects"));
   const auto camera = slot_groups(cluster, *cluster.find_pdu("camera_objects"));
   ASSERT_EQ(laser.size(), 1u);
@@ -104,7 +106,7 @@ TEST(Minislots, AListGoesOutBetweenItsTurns) {
 // At best one frame: (9 + 1 + 80 + 560 + 2) bits of 0.1 us, less drift and what oscillators round off; at worst it
 // missed its turn by a nanosecond, and is sent in the next cycle behind everything else.
 TEST(Minislots, AgesCountTheWaitForATurn) {
-  const Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
+  const model::Cluster cluster = file::load_checked_cluster(shipped_path("flexray_demo"));
   for (const AgePath& path : measurement_ages(cluster)) {
     const bool laser = cluster.sensor(path.sensor).name == "laser";
     const auto part = std::find_if(path.to_use.begin(), path.to_use.end(), [&](const Contribution& c) {
@@ -119,9 +121,10 @@ TEST(Minislots, AgesCountTheWaitForATurn) {
 }
 
 TEST(DynamicLoad, IsThatOfTheFullestCycle) {
-  Cluster cluster = dynamic();
-  cluster.frames = {frame(11, Channels::kA, NodeId{0}, PduId{2}), frame(11, Channels::kA, NodeId{1}, PduId{1}),
-                    frame(13, Channels::kAB, NodeId{1}, PduId{0})};
+  model::Cluster cluster = dynamic();
+  cluster.frames = {frame(11, model::Channels::kA, NodeId{0}, PduId{2}),
+                    frame(11, model::Channels::kA, NodeId{1}, PduId{1}),
+                    frame(13, model::Channels::kAB, NodeId{1}, PduId{0})};
   cluster.frames[0].repetition = 2;  // 12 minislots in even cycles, 8 in odd ones
   cluster.frames[1].base_cycle = 1;
   cluster.frames[1].repetition = 2;
@@ -143,14 +146,14 @@ TEST(DynamicLoad, IsThatOfTheFullestCycle) {
 }
 
 TEST(DynamicLoad, IsListedAndDrawn) {
-  const Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
+  const model::Cluster cluster = file::load_checked_cluster(shipped_path("flexray_demo"));
   const std::string text = dynamic_text(cluster);
   EXPECT_NE(text.find("80 minislots of 7 macroticks; with every slot in use A takes 48 (60.0 %), B takes 48 (60.0 %)"),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("23-24  AB  camera_pre  camera_objects 0-1"), std::string::npos) << text;
   EXPECT_NE(text.find("12  3-37\n"), std::string::npos) << text;
-  const std::string shown = show_text(cluster);
+  const std::string shown = exchange::show_text(cluster);
   EXPECT_NE(shown.find(text), std::string::npos);
   EXPECT_NE(shown.find("21-22     1000-1168     AB  laser_pre   laser_objects 0-1 (dynamic)"), std::string::npos)
       << shown;
@@ -162,11 +165,12 @@ TEST(DynamicLoad, IsListedAndDrawn) {
 
 // May wait for another cycle: allowed for a list that nobody counts on.
 TEST(DynamicLoad, SaysWhatMayHaveToWait) {
-  Cluster cluster = dynamic();
-  cluster.frames = {frame(11, Channels::kA, NodeId{0}, PduId{2}), frame(12, Channels::kA, NodeId{1}, PduId{2}),
-                    frame(13, Channels::kA, NodeId{1}, PduId{0})};
+  model::Cluster cluster = dynamic();
+  cluster.frames = {frame(11, model::Channels::kA, NodeId{0}, PduId{2}),
+                    frame(12, model::Channels::kA, NodeId{1}, PduId{2}),
+                    frame(13, model::Channels::kA, NodeId{1}, PduId{0})};
   EXPECT_NE(dynamic_text(cluster).find("3-25, or in a later cycle"), std::string::npos) << dynamic_text(cluster);
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -10,10 +10,12 @@
 #include "schedules/exchange/text.h"
 #include "tests/schedules/cluster_file.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
-ObjectCeiling ceiling_of(const std::string& name) { return object_ceiling(load_checked_cluster(shipped_path(name))); }
+ObjectCeiling ceiling_of(const std::string& name) {
+  return object_ceiling(file::load_checked_cluster(shipped_path(name)));
+}
 
 TEST(ObjectCeiling, OfTheShippedClusters) {
   struct Expected {
@@ -47,7 +49,7 @@ TEST(ObjectCeiling, OfTheShippedClusters) {
 }
 
 TEST(ObjectCeiling, IsShown) {
-  const std::string text = show_text(load_cluster(shipped_path("paper_synchronised")));
+  const std::string text = exchange::show_text(file::load_cluster(shipped_path("paper_synchronised")));
   EXPECT_NE(text.find("image             25 in 13 slots, 2 to a slot; its header counts to 255"), std::string::npos)
       << text;
   EXPECT_NE(text.find("25 objects in every list; 32 if all 35 static slots without status frames were shared out"),
@@ -84,9 +86,9 @@ std::string paper_for(int objects) {
 TEST(ObjectCeiling, TheCheckerAcceptsAsManyAndNotOneMore) {
   const std::vector<Finding> most = findings_of(paper_for(32));
   EXPECT_TRUE(most.empty()) << sentences(most);
-  EXPECT_EQ(object_ceiling(parse_cluster(paper_for(32), "cluster.yaml")).carried, 32);
+  EXPECT_EQ(object_ceiling(file::parse_cluster(paper_for(32), "cluster.yaml")).carried, 32);
   EXPECT_FALSE(findings_of(paper_for(33)).empty());
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

@@ -8,14 +8,14 @@
 #include "core/random.h"
 #include "schedules/analysis/slot_groups.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 constexpr Duration ms(int n) { return Duration::milliseconds(n); }
 constexpr Duration us(int n) { return Duration::microseconds(n); }
 
-Task task(std::string name, ActivationKind kind, Duration execution) {
-  Task one;
+model::Task task(std::string name, model::ActivationKind kind, Duration execution) {
+  model::Task one;
   one.name = std::move(name);
   one.activation.kind = kind;
   one.best_case = one.worst_case = execution;
@@ -23,8 +23,8 @@ Task task(std::string name, ActivationKind kind, Duration execution) {
 }
 
 // One node on FlexRay, cycle of 5 ms, with clocks that need no correction.
-Cluster cluster_of(std::vector<Task> tasks) {
-  Cluster cluster;
+model::Cluster cluster_of(std::vector<model::Task> tasks) {
+  model::Cluster cluster;
   cluster.nodes.resize(1);
   cluster.nodes[0].flexray.emplace();
   cluster.nodes[0].drift_ppb = 0;
@@ -32,29 +32,29 @@ Cluster cluster_of(std::vector<Task> tasks) {
   return cluster;
 }
 
-Task timed_task(std::string name, CycleInstant at, Duration execution) {
-  Task one = task(std::move(name), ActivationKind::kTime, execution);
+model::Task timed_task(std::string name, model::CycleInstant at, Duration execution) {
+  model::Task one = task(std::move(name), model::ActivationKind::kTime, execution);
   one.activation.at = at;
   return one;
 }
 
 // Activated by a free-running sensor of this period, which is added.
-void add_sporadic(Cluster& cluster, std::string name, Duration period, Duration execution) {
-  Sensor sensor;
+void add_sporadic(model::Cluster& cluster, std::string name, Duration period, Duration execution) {
+  model::Sensor sensor;
   sensor.period = period;
   cluster.sensors.push_back(sensor);
-  Task one = task(std::move(name), ActivationKind::kSensor, execution);
+  model::Task one = task(std::move(name), model::ActivationKind::kSensor, execution);
   one.activation.sensor = static_cast<SensorId>(cluster.sensors.size() - 1);
   cluster.nodes[0].tasks.push_back(one);
 }
 
-Task after(std::string name, std::string previous, Duration execution) {
-  Task one = task(std::move(name), ActivationKind::kCompletion, execution);
+model::Task after(std::string name, std::string previous, Duration execution) {
+  model::Task one = task(std::move(name), model::ActivationKind::kCompletion, execution);
   one.activation.after = std::move(previous);
   return one;
 }
 
-std::vector<TaskResponse> responses(const Cluster& cluster) {
+std::vector<TaskResponse> responses(const model::Cluster& cluster) {
   const auto found = worst_responses(cluster, NodeId{0});
   EXPECT_TRUE(found.has_value());
   return found ? *found : std::vector<TaskResponse>(cluster.nodes[0].tasks.size());
@@ -68,7 +68,7 @@ TEST(Responses, OfATaskAloneIsItsExecution) {
 }
 
 TEST(Responses, TasksOfMessagesWaitForEachOther) {
-  Cluster cluster = cluster_of({});
+  model::Cluster cluster = cluster_of({});
   add_sporadic(cluster, "a", ms(20), us(200));
   add_sporadic(cluster, "b", ms(30), us(300));
   const auto r = responses(cluster);
@@ -84,7 +84,7 @@ TEST(Responses, TasksOfMessagesWaitForEachOther) {
 //   second           ^activated  |====|
 //   short  |==|      |==|
 TEST(Responses, AMessageDelaysATaskIntoTheNextOne) {
-  Cluster cluster = cluster_of(
+  model::Cluster cluster = cluster_of(
       {timed_task("first", {0, 2, Macroticks{0}}, ms(2)), timed_task("second", {0, 2, Macroticks{2100}}, ms(1))});
   add_sporadic(cluster, "short", ms(2), us(500));
   const auto r = responses(cluster);
@@ -94,7 +94,8 @@ TEST(Responses, AMessageDelaysATaskIntoTheNextOne) {
 }
 
 TEST(Responses, AChainsTaskStartsAtTheEndOfTheOneBefore) {
-  Cluster cluster = cluster_of({timed_task("fuse", {0, 2, Macroticks{0}}, ms(4)), after("publish", "fuse", us(500))});
+  model::Cluster cluster =
+      cluster_of({timed_task("fuse", {0, 2, Macroticks{0}}, ms(4)), after("publish", "fuse", us(500))});
   EXPECT_EQ(responses(cluster)[0].worst, ms(4));
   EXPECT_EQ(responses(cluster)[1].worst, us(500));
   // Another one that time activates between, and one far behind.
@@ -110,7 +111,7 @@ TEST(Responses, AChainsTaskStartsAtTheEndOfTheOneBefore) {
 }
 
 TEST(Responses, MoreWorkThanTimeHasNoBound) {
-  Cluster cluster = cluster_of({});
+  model::Cluster cluster = cluster_of({});
   add_sporadic(cluster, "a", ms(10), ms(6));
   EXPECT_TRUE(worst_responses(cluster, NodeId{0}).has_value());
   add_sporadic(cluster, "b", ms(10), ms(6));
@@ -118,9 +119,9 @@ TEST(Responses, MoreWorkThanTimeHasNoBound) {
 }
 
 TEST(Responses, CorrectionsBringInstantsCloser) {
-  Cluster cluster = cluster_of(
+  model::Cluster cluster = cluster_of(
       {timed_task("first", {0, 2, Macroticks{0}}, ms(2)), timed_task("second", {0, 2, Macroticks{2000}}, ms(1))});
-  NodeParameters& p = *cluster.nodes[0].flexray;
+  model::NodeParameters& p = *cluster.nodes[0].flexray;
   p.pRateCorrectionOut = 600;    // of 200000: 6 us in 2 ms
   p.pOffsetCorrectionOut = 400;  // 10 us
   EXPECT_NEAR(static_cast<double>(responses(cluster)[1].worst.ns), 1e6 + 16e3, 200);
@@ -129,10 +130,10 @@ TEST(Responses, CorrectionsBringInstantsCloser) {
 
 // The shortest distance over the cycles, not the shortest repetition: cycles 1, 9, 17 .. and 2, 10, 18 ..
 TEST(SlotGaps, AreBetweenTheCyclesThatHaveTheList) {
-  Cluster cluster = cluster_of({});
+  model::Cluster cluster = cluster_of({});
   cluster.flexray.gNumberOfStaticSlots = 24;
-  const FrameSlot one{22, Channels::kAB, 1, 8, NodeId{0}, PduId{0}, 0, 0};
-  FrameSlot other = one;
+  const model::FrameSlot one{22, model::Channels::kAB, 1, 8, NodeId{0}, PduId{0}, 0, 0};
+  model::FrameSlot other = one;
   other.base_cycle = 2;
   cluster.frames = {one};
   EXPECT_EQ(shortest_slot_gap(cluster, PduId{0})->gap, ms(40));
@@ -141,7 +142,7 @@ TEST(SlotGaps, AreBetweenTheCyclesThatHaveTheList) {
   cluster.frames[1].base_cycle = 7;
   cluster.frames[1].slot = 12;  // 840 us earlier in its cycle
   EXPECT_EQ(shortest_slot_gap(cluster, PduId{0})->gap, ms(10) + us(840));
-  cluster.frames[1] = {24, Channels::kAB, 1, 8, NodeId{0}, PduId{0}, 1, 0};
+  cluster.frames[1] = {24, model::Channels::kAB, 1, 8, NodeId{0}, PduId{0}, 1, 0};
   EXPECT_EQ(shortest_slot_gap(cluster, PduId{0})->gap, ms(40));
   EXPECT_EQ(shortest_slot_gap(cluster, PduId{0})->spread, us(3 * 84));
   EXPECT_FALSE(shortest_slot_gap(cluster, PduId{1}).has_value());
@@ -149,7 +150,7 @@ TEST(SlotGaps, AreBetweenTheCyclesThatHaveTheList) {
 
 // An oracle: the queue itself, run for many drawn phases and executions. One entry per task.
 struct Queue {
-  const Cluster& cluster;
+  const model::Cluster& cluster;
   RandomStream& draws;
   std::vector<Duration> worst;
 
@@ -163,11 +164,11 @@ struct Queue {
     worst.assign(tasks.size(), Duration{});
     std::vector<Job> coming;
     for (std::size_t t = 0; t < tasks.size(); ++t) {
-      const Activation& activation = tasks[t].activation;
-      if (activation.kind == ActivationKind::kTime)
+      const model::Activation& activation = tasks[t].activation;
+      if (activation.kind == model::ActivationKind::kTime)
         for (std::int64_t cycle = activation.at.base_cycle; cycle * 5'000'000 < end; cycle += activation.at.repetition)
           coming.push_back({t, time_of(cluster.flexray, cycle, activation.at.offset).ns});
-      if (activation.kind != ActivationKind::kSensor) continue;
+      if (activation.kind != model::ActivationKind::kSensor) continue;
       const std::int64_t period = cluster.sensor(activation.sensor).period.ns;
       // Often at the shortest distance, and often at an instant of time.
       std::int64_t at = draws.integer(0, 1) == 0 ? draws.integer(0, 9) * 5'000'000 : draws.integer(0, period);
@@ -184,13 +185,13 @@ struct Queue {
       for (; next < coming.size() && coming[next].activated <= now; ++next) ready.push_back(coming[next]);
       const Job job = ready.front();
       ready.pop_front();
-      const Task& running = tasks[job.task];
+      const model::Task& running = tasks[job.task];
       now +=
           draws.integer(0, 2) == 0 ? draws.integer(running.best_case.ns, running.worst_case.ns) : running.worst_case.ns;
       for (; next < coming.size() && coming[next].activated <= now; ++next) ready.push_back(coming[next]);
       worst[job.task] = std::max(worst[job.task], Duration{now - job.activated});
       for (std::size_t t = 0; t < tasks.size(); ++t)
-        if (tasks[t].activation.kind == ActivationKind::kCompletion && tasks[t].activation.after == running.name)
+        if (tasks[t].activation.kind == model::ActivationKind::kCompletion && tasks[t].activation.after == running.name)
           ready.push_back({t, now});
     }
   }
@@ -201,7 +202,7 @@ TEST(Responses, NoDrawnQueueIsEverSlower) {
   int proved = 0;
   double closest_first = 0, closest_chained = 0;
   for (int run = 0; run < 300; ++run) {
-    Cluster cluster = cluster_of({});
+    model::Cluster cluster = cluster_of({});
     auto& tasks = cluster.nodes[0].tasks;
     const auto name = [&] { return std::string(1, static_cast<char>('a' + tasks.size())); };
     if (stream.integer(0, 3) != 0)
@@ -215,8 +216,8 @@ TEST(Responses, NoDrawnQueueIsEverSlower) {
       const auto previous = static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(tasks.size()) - 1));
       tasks.push_back(after(name(), tasks[previous].name, us(static_cast<int>(stream.integer(2, 10)) * 100)));
     }
-    for (Task& one : tasks) one.best_case = one.worst_case * stream.integer(1, 4);
-    for (Task& one : tasks) one.best_case = {one.best_case.ns / 4};
+    for (model::Task& one : tasks) one.best_case = one.worst_case * stream.integer(1, 4);
+    for (model::Task& one : tasks) one.best_case = {one.best_case.ns / 4};
     const auto bounds = worst_responses(cluster, NodeId{0});
     if (!bounds || std::any_of(bounds->begin(), bounds->end(), [](const auto& r) { return r.worst >= *r.gap; }))
       continue;
@@ -226,7 +227,8 @@ TEST(Responses, NoDrawnQueueIsEverSlower) {
       queue.run(1'000'000'000);
       for (std::size_t t = 0; t < tasks.size(); ++t) {
         EXPECT_LE(queue.worst[t], (*bounds)[t].worst) << "run " << run << " task " << tasks[t].name;
-        double& closest = tasks[t].activation.kind == ActivationKind::kCompletion ? closest_chained : closest_first;
+        double& closest =
+            tasks[t].activation.kind == model::ActivationKind::kCompletion ? closest_chained : closest_first;
         if ((*bounds)[t].worst > tasks[t].worst_case)
           closest = std::max(closest, queue.worst[t].seconds() / (*bounds)[t].worst.seconds());
       }
@@ -239,4 +241,4 @@ TEST(Responses, NoDrawnQueueIsEverSlower) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

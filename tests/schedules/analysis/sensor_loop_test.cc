@@ -10,18 +10,18 @@
 #include "schedules/analysis/responses.h"
 #include "tests/schedules/check/mutation.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 constexpr Duration microseconds(std::int64_t n) { return Duration::microseconds(n); }
 
-Cluster following_cluster() { return load_checked_cluster(shipped_path("paper_free_running")); }
+model::Cluster following_cluster() { return file::load_checked_cluster(shipped_path("paper_free_running")); }
 
 // Camera: classic CAN at 1 Mbit/s, a frame of 8 bytes takes 108 us at best without its intermission, 40 of them 5.4 ms
 // at worst. Oscillators are off by 1500 ppm at most, so that two of them make 0.3 % of every time; 101 ns of rounding
 // each way.
 TEST(SensorLoop, ARoundIsExecutionTransferAndPreprocessing) {
-  const Cluster cluster = following_cluster();
+  const model::Cluster cluster = following_cluster();
   const SensorId camera = *cluster.find_sensor("camera");
   const auto loop = loop_of(cluster, camera);
   ASSERT_TRUE(loop.has_value());
@@ -33,13 +33,13 @@ TEST(SensorLoop, ARoundIsExecutionTransferAndPreprocessing) {
   near(shortest_round(cluster, *loop), (400 + 108 + 12'000) * 0.997);
   near(*longest_round(cluster, *loop), (500 + 40 * 135 + 26'000) * 1.003);
   EXPECT_LT(*longest_round(cluster, *loop), cluster.sensor(camera).longest);
-  EXPECT_FALSE(loop_of(load_cluster(shipped_path("paper_unsynchronised")), camera).has_value());
+  EXPECT_FALSE(loop_of(file::load_cluster(shipped_path("paper_unsynchronised")), camera).has_value());
 }
 
 // Alone on its processor the host's task ends after its execution, though the shortest period is shorter than that; its
 // ends, and with them the lists, are a round apart.
 TEST(SensorLoop, TheHostsTaskNeverMeetsItself) {
-  const Cluster cluster = following_cluster();
+  const model::Cluster cluster = following_cluster();
   const auto found = worst_responses(cluster, *cluster.find_node("laser_pre"));
   ASSERT_TRUE(found.has_value());
   EXPECT_LT(cluster.sensor(*cluster.find_sensor("laser")).period, (*found)[0].worst);
@@ -49,7 +49,7 @@ TEST(SensorLoop, TheHostsTaskNeverMeetsItself) {
 }
 
 TEST(Mutations, OfFollowingSensors) {
-  expect_named(
+  check::expect_named(
       {
           {"after_nobody",
            "host: camera_pre, measurement: completion, after: preprocess",
@@ -94,12 +94,12 @@ TEST(Mutations, OfFollowingSensors) {
 
 // An oracle: a queue with one task that a sensor follows, and one that comes at least 20 ms apart.
 struct FollowedQueue {
-  const Task &followed, &other;
+  const model::Task &followed, &other;
   Duration pause;  // from an end of `followed` to its next activation
   RandomStream& draws;
   Duration worst_followed{}, worst_other{};
 
-  std::int64_t execution(const Task& task) {
+  std::int64_t execution(const model::Task& task) {
     return draws.integer(0, 2) == 0 ? draws.integer(task.best_case.ns, task.worst_case.ns) : task.worst_case.ns;
   }
   void run(std::int64_t end) {
@@ -136,17 +136,17 @@ struct FollowedQueue {
 };
 
 TEST(SensorLoop, NoDrawnQueueIsSlowerThanItsBounds) {
-  Cluster cluster = following_cluster();
+  model::Cluster cluster = following_cluster();
   const NodeId host = *cluster.find_node("camera_pre");
-  Task other;
+  model::Task other;
   other.name = "other";
-  other.activation.kind = ActivationKind::kSensor;  // as if it were a device as well
+  other.activation.kind = model::ActivationKind::kSensor;  // as if it were a device as well
   other.activation.sensor = static_cast<SensorId>(cluster.sensors.size());
-  Sensor sensor;
+  model::Sensor sensor;
   sensor.period = Duration::milliseconds(20);
   cluster.sensors.push_back(sensor);
   cluster.nodes[index_of(host)].tasks.push_back(other);
-  Task& added = cluster.nodes[index_of(host)].tasks[1];
+  model::Task& added = cluster.nodes[index_of(host)].tasks[1];
   RandomStream draws({5, 0, Purpose::kTest, 0, 0});
   double closest = 0;
   for (const std::int64_t execution : {100, 300, 1'000}) {
@@ -169,4 +169,4 @@ TEST(SensorLoop, NoDrawnQueueIsSlowerThanItsBounds) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

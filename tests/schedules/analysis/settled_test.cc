@@ -8,7 +8,7 @@
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/small_cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::analysis {
 namespace {
 
 constexpr std::int64_t kStamp = 1'000 + 500;                               // a macrotick old, rounded to 1 us
@@ -41,7 +41,7 @@ TEST(Settled, OneStepPerFusionInstant) {
 // fusion instant that is later by at least the clocks' distance.
 TEST(Settled, IsTheFirstFusionInstantAfterTheLatestWay) {
   for (const std::int64_t offset_us : {255, 259, 260, 1000, 4999}) {
-    Cluster cluster = small(false);
+    model::Cluster cluster = small(false);
     cluster.nodes[1].tasks[0].activation.at.offset = Macroticks{offset_us};
     const auto round = settled_round(cluster, SensorId{0});
     ASSERT_TRUE(round.has_value());
@@ -65,7 +65,7 @@ TEST(Settled, IsTheFirstFusionInstantAfterTheLatestWay) {
 
 // Of fusion instants between two of a list's slots only the first settles anything.
 TEST(Settled, SlotsOfFewCycles) {
-  Cluster cluster = small(false);
+  model::Cluster cluster = small(false);
   cluster.frames[0].base_cycle = 2;
   cluster.frames[0].repetition = 8;
   const auto round = settled_round(cluster, SensorId{0});
@@ -79,7 +79,7 @@ TEST(Settled, SlotsOfFewCycles) {
 
 // Read from the slots of either of two groups of cycles, whichever is sooner.
 TEST(Settled, SlotsOfTwoGroupsOfCycles) {
-  Cluster cluster = small(false);
+  model::Cluster cluster = small(false);
   cluster.frames[0].base_cycle = 1;
   cluster.frames[0].repetition = 8;
   cluster.frames.push_back(cluster.frames[0]);
@@ -96,8 +96,8 @@ TEST(Settled, SlotsOfTwoGroupsOfCycles) {
 
 // Over a CAN to the fusing task: nothing but that task is on the grid.
 TEST(Settled, WithoutSlots) {
-  Cluster cluster = small(false);
-  CanBus bus;
+  model::Cluster cluster = small(false);
+  model::CanBus bus;
   bus.nominal_bit_rate = bus.data_bit_rate = 1'000'000;
   bus.flexible_data_rate = true;
   bus.messages = {{PduId{0}, 16, NodeId{0}, Duration::milliseconds(10), 0}};
@@ -117,10 +117,10 @@ TEST(Settled, WithoutSlots) {
 }
 
 TEST(Settled, NothingWhereNothingIsFusedByTime) {
-  Cluster message = small(false);
-  message.nodes[1].tasks[0].activation.kind = ActivationKind::kMessage;
+  model::Cluster message = small(false);
+  message.nodes[1].tasks[0].activation.kind = model::ActivationKind::kMessage;
   EXPECT_EQ(settled_round(message, SensorId{0}), std::nullopt);
-  Cluster unread = small(false);
+  model::Cluster unread = small(false);
   unread.nodes[1].tasks[0].reads.clear();
   EXPECT_EQ(settled_round(unread, SensorId{0}), std::nullopt);
 }
@@ -129,7 +129,7 @@ TEST(Settled, NothingWhereNothingIsFusedByTime) {
 // begins at 80 ms, the camera of 5.9 ms in that of 40 ms. Each is fused in the cycle of its slots, and waited for until
 // then.
 TEST(SettledShipped, ScheduledListsAreDueInTheCycleOfTheirSlots) {
-  const Cluster cluster = load_checked_cluster(shipped_path("paper_synchronised"));
+  const model::Cluster cluster = file::load_checked_cluster(shipped_path("paper_synchronised"));
   const auto laser = settled_round(cluster, *cluster.find_sensor("laser"));
   const auto camera = settled_round(cluster, *cluster.find_sensor("camera"));
   ASSERT_TRUE(laser.has_value() && camera.has_value());
@@ -140,4 +140,4 @@ TEST(SettledShipped, ScheduledListsAreDueInTheCycleOfTheirSlots) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::analysis

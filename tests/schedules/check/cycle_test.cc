@@ -2,11 +2,11 @@
 
 #include "schedules/check/checker.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
-std::vector<Finding> findings_of_cycle(const GlobalParameters& flexray) {
-  Cluster cluster;
+std::vector<Finding> findings_of_cycle(const model::GlobalParameters& flexray) {
+  model::Cluster cluster;
   cluster.flexray = flexray;
   ClusterFindings findings(cluster);
   check_cycle(cluster, findings);
@@ -20,8 +20,8 @@ const Finding* about(const std::vector<Finding>& findings, const std::string& ke
 }
 
 // The FIBEX demo file's numbers: 60 x 43 + 210 x 5 + 6 = 3636.
-GlobalParameters fibex_example() {
-  GlobalParameters g;
+model::GlobalParameters fibex_example() {
+  model::GlobalParameters g;
   g.gMacroPerCycle = 3636;
   g.gdMacrotick_ps = 1'375'000;
   g.gdCycle_ps = 3636 * g.gdMacrotick_ps;
@@ -47,7 +47,7 @@ TEST(CycleRules, FibexExampleAddsUpToConstraint18) {
 }
 
 TEST(CycleRules, FibexExampleNeeds44MacroticksPerSlotWithLongCables) {
-  GlobalParameters g = fibex_example();
+  model::GlobalParameters g = fibex_example();
   g.gdMaxPropagationDelay_ps = 2'500'000;
   EXPECT_EQ(shortest_static_slot(g), 44);
   const auto findings = findings_of_cycle(g);
@@ -56,14 +56,14 @@ TEST(CycleRules, FibexExampleNeeds44MacroticksPerSlotWithLongCables) {
 }
 
 TEST(CycleRules, FibexExampleHoldsUpToOneMicrosecondOfCable) {
-  GlobalParameters g = fibex_example();
+  model::GlobalParameters g = fibex_example();
   g.gdMaxPropagationDelay_ps = 1'000'000;
   EXPECT_EQ(shortest_static_slot(g), 43);
   EXPECT_EQ(about(findings_of_cycle(g), "gdStaticSlot"), nullptr);
 }
 
 TEST(CycleRules, SecondExampleNeedsAtLeast33MacroticksPerSlot) {
-  GlobalParameters g = fibex_example();
+  model::GlobalParameters g = fibex_example();
   g.gNumberOfStaticSlots = 70;
   g.gdStaticSlot = 31;
   g.gPayloadLengthStatic = 16;
@@ -82,7 +82,7 @@ TEST(CycleRules, SecondExampleNeedsAtLeast33MacroticksPerSlot) {
 }
 
 TEST(CycleRules, ACycleIsWholeNanoseconds) {
-  GlobalParameters g = fibex_example();
+  model::GlobalParameters g = fibex_example();
   EXPECT_EQ(about(findings_of_cycle(g), "gdCycle"), nullptr);  // 3636 * 1.375 us = 4999.5 us
   g.gdMacrotick_ps = 1'375'001;
   g.gdCycle_ps = 3636 * g.gdMacrotick_ps;
@@ -94,14 +94,14 @@ TEST(CycleRules, ACycleIsWholeNanoseconds) {
 
 // 5 ms layout of the facts: (34 + 20 * 2) * 25 ns + 2 * 2.5 us = 6.85 us, action point 7, slot 84.
 TEST(CycleRules, PaperLayoutIsTheTightestThatHolds) {
-  GlobalParameters g;
+  model::GlobalParameters g;
   EXPECT_EQ(assumed_precision_ps(g), 6'850'000);
   EXPECT_EQ(shortest_static_slot(g), 84);
 }
 
 // What clocks may be apart is never less than the parameters say, whatever part of a nanosecond they say.
 TEST(CycleRules, TheAssumedPrecisionIsWholeNanosecondsRoundedUp) {
-  GlobalParameters g;
+  model::GlobalParameters g;
   EXPECT_EQ(assumed_precision(g), Duration::nanoseconds(6'850));
   g.gdMaxPropagationDelay_ps += 1;
   EXPECT_EQ(assumed_precision(g), Duration::nanoseconds(6'851));
@@ -110,7 +110,7 @@ TEST(CycleRules, TheAssumedPrecisionIsWholeNanosecondsRoundedUp) {
 }
 
 TEST(Instants, ActionPointDifferenceCountsOnlyWithADynamicSegment) {
-  GlobalParameters g = fibex_example();
+  model::GlobalParameters g = fibex_example();
   g.gdMinislotActionPointOffset = 1;  // one below the action point: one macrotick more
   EXPECT_NE(about(findings_of_cycle(g), "gMacroPerCycle"), nullptr);
   g.gNumberOfMinislots = 0;
@@ -119,18 +119,18 @@ TEST(Instants, ActionPointDifferenceCountsOnlyWithADynamicSegment) {
 }
 
 TEST(Instants, NextOccurrenceIsTheFirstAtOrAfter) {
-  GlobalParameters g;
+  model::GlobalParameters g;
   g.gMacroPerCycle = 3636;
   g.gdMacrotick_ps = 1'375'000;  // 1.375 us: instants between nanoseconds
   for (const int repetition : {1, 2, 8, 64})
     for (const int base : {0, repetition - 1})
       for (const std::int64_t offset : {0, 1, 777, 3635}) {
-        const CycleInstant at{base, repetition, Macroticks{offset}};
+        const model::CycleInstant at{base, repetition, Macroticks{offset}};
         // By going through all of them, against the jump.
         std::int64_t cycle = base;
         for (std::int64_t from = -3'000'000; from < 700'000'000; from += 1'234'567) {
           while (time_of(g, cycle, at.offset).ns < from) cycle += repetition;
-          const Occurrence found = next_occurrence(g, at, GlobalTime{from});
+          const model::Occurrence found = next_occurrence(g, at, GlobalTime{from});
           ASSERT_EQ(found.cycle, cycle);
           ASSERT_EQ(found.time, time_of(g, cycle, at.offset));
         }
@@ -141,7 +141,7 @@ TEST(Instants, NextOccurrenceIsTheFirstAtOrAfter) {
 }
 
 TEST(Instants, TimeIsRoundedUpToANanosecondThatHasReachedIt) {
-  GlobalParameters g;
+  model::GlobalParameters g;
   g.gMacroPerCycle = 10;
   g.gdMacrotick_ps = 1'000'300;
   EXPECT_EQ(time_of(g, 0, Macroticks{1}).ns, 1001);
@@ -154,8 +154,8 @@ TEST(Instants, TimeIsRoundedUpToANanosecondThatHasReachedIt) {
 TEST(InCycle, IsTheRemainderOfTheRepetition) {
   for (const int repetition : {1, 2, 4, 5, 8, 10, 16, 20, 32, 40, 50, 64})
     for (int base = 0; base < repetition; ++base) {
-      const CycleInstant instant{base, repetition, {}};
-      FrameSlot frame;
+      const model::CycleInstant instant{base, repetition, {}};
+      model::FrameSlot frame;
       frame.base_cycle = base;
       frame.repetition = repetition;
       for (std::int64_t cycle = 0; cycle < 200; ++cycle)
@@ -167,4 +167,4 @@ TEST(InCycle, IsTheRemainderOfTheRepetition) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -11,7 +11,7 @@
 
 #include "tests/schedules/cluster_file.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 
 struct Wanted {
   std::string line;  // the file's line it points to contains this,
@@ -60,4 +60,4 @@ inline void expect_named(const std::vector<Mutation>& mutations, const std::stri
   }
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -3,7 +3,7 @@
 
 #include "tests/schedules/check/mutation.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 TEST(Mutations, OfDynamicSlots) {
@@ -153,4 +153,4 @@ TEST(Mutations, OfChannels) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

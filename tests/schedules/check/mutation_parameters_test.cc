@@ -2,7 +2,7 @@
 
 #include "tests/schedules/check/mutation.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 // Given once, for the cluster or for all nodes; the finding prints `printed`, in its unit.
@@ -120,4 +120,4 @@ TEST(Mutations, OneControllerIsNoCluster) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -2,7 +2,7 @@
 
 #include "tests/schedules/check/mutation.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 TEST(Mutations, OfSlotsPdusAndCans) {
@@ -145,4 +145,4 @@ TEST(Mutations, OfSlotsPdusAndCans) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

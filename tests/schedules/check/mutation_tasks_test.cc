@@ -2,7 +2,7 @@
 
 #include "tests/schedules/check/mutation.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 TEST(Mutations, OfTasksAndTheirFlow) {
@@ -174,4 +174,4 @@ TEST(Mutations, OfNamesAndKeys) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

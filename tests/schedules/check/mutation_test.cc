@@ -6,7 +6,7 @@
 
 #include "tests/schedules/cluster_file.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 TEST(Mutations, AMistakeInTheSharedParametersIsReportedOnce) {
@@ -90,7 +90,7 @@ TEST(Mutations, ATruncatedFileIsNeverAccepted) {
 
 TEST(Mutations, AnUnreadableFileIsOneFinding) {
   try {
-    load_cluster(shipped_path("no_such_cluster"));
+    file::load_cluster(shipped_path("no_such_cluster"));
     FAIL() << "loaded what does not exist";
   } catch (const InputError& error) {
     ASSERT_EQ(error.findings().size(), 1u);
@@ -99,4 +99,4 @@ TEST(Mutations, AnUnreadableFileIsOneFinding) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -1,5 +1,5 @@
-// Rules W1..W7 of schedules/check/real_time_rules.h, at the very numbers where they begin to hold; and the section of the
-// file.
+// Rules W1..W7 of schedules/check/real_time_rules.h, at the very numbers where they begin to hold; and the section of
+// the file.
 #include "schedules/check/real_time_rules.h"
 
 #include <gtest/gtest.h>
@@ -8,25 +8,25 @@
 #include <regex>
 
 #include "schedules/exchange/text.h"
-#include "tests/schedules/cluster_file.h"
 #include "tests/schedules/check/mutation.h"
+#include "tests/schedules/cluster_file.h"
 #include "tests/schedules/small_cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::check {
 namespace {
 
 constexpr Duration us(std::int64_t n) { return Duration::microseconds(n); }
 
 // Slots of 84 us from 40 of which 34 are in use, 7 us to the action point: 7 x 84 - 7 = 581 us of room. A
 // cycle of 5 ms.
-Cluster paper(Duration early, Duration late) {
-  Cluster cluster = load_checked_cluster(shipped_path("paper_synchronised"));
+model::Cluster paper(Duration early, Duration late) {
+  model::Cluster cluster = file::load_checked_cluster(shipped_path("paper_synchronised"));
   cluster.arrival_window = {early, late};
   return cluster;
 }
 
 TEST(RealTime, TheRoomIsWhatIsLeftOfTheStaticSegment) {
-  const Cluster cluster = paper({}, us(1));
+  const model::Cluster cluster = paper({}, us(1));
   EXPECT_EQ(last_static_slot(cluster), 34);
   EXPECT_EQ(arrival_room(cluster, kTimeScaleOne), us(581));
   EXPECT_EQ(arrival_room(cluster, 2'500'000), Duration{1'452'500});
@@ -36,7 +36,7 @@ TEST(RealTime, TheRoomIsWhatIsLeftOfTheStaticSegment) {
 
 // A macrotick that is no whole nanosecond: 20 slots of 84, 4 in use, 17 x 84 - 7 = 1421 macroticks.
 TEST(RealTime, TheRoomIsExactInPicoseconds) {
-  Cluster cluster = small(true);
+  model::Cluster cluster = small(true);
   cluster.flexray.gdMacrotick_ps = 1'375'001;
   EXPECT_EQ(arrival_room(cluster, kTimeScaleOne), Duration{1'953'876});  // 1953876.421
   EXPECT_EQ(arrival_room(cluster, kLargestTimeScale), Duration{1'953'876'421});
@@ -45,8 +45,8 @@ TEST(RealTime, TheRoomIsExactInPicoseconds) {
 }
 
 TEST(RealTime, DynamicSlotsTakeNoneOfTheRoom) {
-  Cluster cluster = paper({}, us(1));
-  FrameSlot dynamic = cluster.frames.back();
+  model::Cluster cluster = paper({}, us(1));
+  model::FrameSlot dynamic = cluster.frames.back();
   dynamic.slot = 41;
   cluster.frames.push_back(dynamic);
   EXPECT_EQ(arrival_room(cluster, kTimeScaleOne), us(581));
@@ -54,7 +54,7 @@ TEST(RealTime, DynamicSlotsTakeNoneOfTheRoom) {
 
 TEST(RealTime, LateMayBeAsLongAsTheRoom) {
   EXPECT_TRUE(check_real_time(paper({}, us(581)), kTimeScaleOne).empty());
-  const Cluster cluster = paper({}, Duration{581'001});
+  const model::Cluster cluster = paper({}, Duration{581'001});
   const auto findings = check_real_time(cluster, kTimeScaleOne);
   ASSERT_EQ(findings.size(), 1u) << sentences(findings);
   EXPECT_EQ(findings[0].key, "real_time.late");
@@ -85,7 +85,7 @@ TEST(RealTime, TheTimeScaleNamedIsTheSmallest) {
       {us(9'000), us(1)},     {us(4'500), us(500)},       {us(1'000'000), us(1)},
       {us(300'000), us(581)}, {Duration{1}, us(580'999)}, {us(1'000'000), us(580'000)}};
   for (const auto& [early, late] : windows) {
-    const Cluster cluster = paper(early, late);
+    const model::Cluster cluster = paper(early, late);
     const std::int64_t smallest = smallest_time_scale(cluster, *cluster.arrival_window);
     EXPECT_TRUE(check_real_time(cluster, smallest).empty()) << smallest;
     EXPECT_FALSE(check_real_time(cluster, smallest - 1).empty()) << smallest;
@@ -103,7 +103,7 @@ TEST(RealTime, WhereNoTimeScaleDoesItSaysSo) {
 }
 
 TEST(RealTime, EachObstacleIsNamedAtItsLine) {
-  const Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
+  const model::Cluster cluster = file::load_checked_cluster(shipped_path("flexray_demo"));
   const auto findings = check_real_time(cluster, kTimeScaleOne);
   ASSERT_EQ(findings.size(), 3u) << sentences(findings);
   EXPECT_EQ(findings[0].key, "real_time");
@@ -123,7 +123,7 @@ TEST(RealTime, EachObstacleIsNamedAtItsLine) {
 // Laser and camera have 1 to 4, each on its own CAN: what the other has is free there.
 TEST(RealTime, ASensorsLinesHaveTheirIdentifiersToThemselves) {
   const auto found = [](std::size_t can, std::uint32_t identifier) {
-    Cluster cluster = paper({}, us(500));
+    model::Cluster cluster = paper({}, us(500));
     cluster.can_buses[can].messages[0].identifier = identifier;
     return check_real_time(cluster, kTimeScaleOne);
   };
@@ -145,15 +145,15 @@ TEST(RealTime, ASensorsLinesHaveTheirIdentifiersToThemselves) {
 
 // A device that keeps its raw data to itself, or whose task begins by the schedule instead of with its sensor.
 TEST(RealTime, ASensorsLinesNeedACan) {
-  const Cluster whole = paper({}, us(500));
+  const model::Cluster whole = paper({}, us(500));
   const NodeId device = whole.sensors[1].device;
   const auto found = [&](const auto& edit) {
-    Cluster cluster = whole;
-    for (Task& task : cluster.nodes[index_of(device)].tasks) edit(task);
+    model::Cluster cluster = whole;
+    for (model::Task& task : cluster.nodes[index_of(device)].tasks) edit(task);
     return check_real_time(cluster, kTimeScaleOne);
   };
-  for (const auto& findings : {found([](Task& task) { task.writes.clear(); }),
-                               found([](Task& task) { task.activation.kind = ActivationKind::kTime; })}) {
+  for (const auto& findings : {found([](model::Task& task) { task.writes.clear(); }),
+                               found([](model::Task& task) { task.activation.kind = model::ActivationKind::kTime; })}) {
     ASSERT_EQ(findings.size(), 1u) << sentences(findings);
     EXPECT_EQ(findings[0].key, "sensors.camera.device");
     EXPECT_EQ(findings[0].value, "camera");
@@ -168,9 +168,9 @@ TEST(RealTime, ASensorsLinesNeedACan) {
 
 TEST(RealTime, ShippedClustersHoldAtTimeScaleOne) {
   for (const std::string& name : shipped_clusters()) {
-    const Cluster cluster = load_checked_cluster(shipped_path(name));
+    const model::Cluster cluster = file::load_checked_cluster(shipped_path(name));
     const bool dynamic = std::any_of(cluster.frames.begin(), cluster.frames.end(),
-                                     [&](const FrameSlot& frame) { return is_dynamic(cluster.flexray, frame); });
+                                     [&](const model::FrameSlot& frame) { return is_dynamic(cluster.flexray, frame); });
     EXPECT_EQ(cluster.arrival_window.has_value(), name.starts_with("paper") && !dynamic) << name;
     if (!cluster.arrival_window) continue;
     EXPECT_TRUE(check_real_time(cluster, kTimeScaleOne).empty()) << sentences(check_real_time(cluster, kTimeScaleOne));
@@ -197,28 +197,28 @@ TEST(RealTime, TheSectionIsReadStrictly) {
       {"no_mapping", "real_time: .*", "real_time: 500 us", {line, "real_time", "500 us", "must be a mapping"}},
   });
   const auto with = [](const std::string& section) {
-    return parse_cluster(std::regex_replace(shipped_text("paper_synchronised"), std::regex("\nreal_time: .*"), section),
-                         "c.yaml");
+    return file::parse_cluster(
+        std::regex_replace(shipped_text("paper_synchronised"), std::regex("\nreal_time: .*"), section), "c.yaml");
   };
   EXPECT_FALSE(with("").arrival_window.has_value());
-  const Cluster widest = with("\nreal_time: {early: 0 ns, late: 1 s}");
+  const model::Cluster widest = with("\nreal_time: {early: 0 ns, late: 1 s}");
   EXPECT_EQ(widest.arrival_window->early, Duration{});
   EXPECT_EQ(widest.arrival_window->late, Duration::milliseconds(1'000));
 }
 
 TEST(RealTime, IsShown) {
-  EXPECT_NE(show_text(paper(us(100), us(400)))
+  EXPECT_NE(exchange::show_text(paper(us(100), us(400)))
                 .find("\nreal time\n  frames come 100 us before to 400 us after their action point; at time "
                       "scale 1 there is "
                       "room for 581 us\n"),
             std::string::npos);
-  EXPECT_NE(show_text(paper(us(100), us(1'162)))
+  EXPECT_NE(exchange::show_text(paper(us(100), us(1'162)))
                 .find("\n  not at time scale 1: real_time.late = 1162 us must be at most 581 us"),
             std::string::npos);
-  EXPECT_NE(show_text(load_cluster(shipped_path("laser_radar")))
+  EXPECT_NE(exchange::show_text(file::load_cluster(shipped_path("laser_radar")))
                 .find("\nreal time\n  not at time scale 1: real_time is missing"),
             std::string::npos);
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::check

@@ -13,7 +13,7 @@
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/exchange/dbc_reader.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange {
 namespace {
 
 std::string read_shipped(const std::string& file) {
@@ -23,7 +23,7 @@ std::string read_shipped(const std::string& file) {
 
 class DbcOfShipped : public testing::TestWithParam<std::string> {
  protected:
-  const Cluster cluster_ = load_checked_cluster(shipped_path(GetParam()));
+  const model::Cluster cluster_ = file::load_checked_cluster(shipped_path(GetParam()));
 };
 
 // What the reader makes of a frame by the file alone is what our own decoder makes of it: every signal of every
@@ -32,15 +32,15 @@ TEST_P(DbcOfShipped, DecodesEveryFrameAsWeDo) {
   const DbcFile file = read_dbc(dbc_text(cluster_));
   ASSERT_EQ(file.nodes.size(), cluster_.nodes.size());
   std::size_t messages = 0;
-  for (const CanBus& bus : cluster_.can_buses)
-    for (const CanMessage& message : bus.messages) {
+  for (const model::CanBus& bus : cluster_.can_buses)
+    for (const model::CanMessage& message : bus.messages) {
       ++messages;
       ASSERT_EQ(file.messages.count(message.identifier), 1u);
       const DbcMessage& dbc = file.messages.at(message.identifier);
-      const PduLayout& layout = cluster_.pdu(message.pdu);
+      const model::PduLayout& layout = cluster_.pdu(message.pdu);
       EXPECT_EQ(dbc.name, layout.name);
       EXPECT_EQ(dbc.sender, cluster_.node(message.sender).name);
-      EXPECT_EQ(dbc.length, can_data_length(bus.flexible_data_rate, layout.fragment_bytes));
+      EXPECT_EQ(dbc.length, analysis::can_data_length(bus.flexible_data_rate, layout.fragment_bytes));
       EXPECT_EQ(dbc.attributes.at("CAN"), bus.name);
       EXPECT_EQ(dbc.attributes.count("VFrameFormat"), bus.flexible_data_rate ? 1u : 0u);
       ASSERT_EQ(dbc.signals.size(),
@@ -50,21 +50,21 @@ TEST_P(DbcOfShipped, DecodesEveryFrameAsWeDo) {
         std::vector<std::byte> data(static_cast<std::size_t>(dbc.length));
         for (std::byte& byte : data) byte = static_cast<std::byte>(draw.integer(0, 255));
         const auto payload = std::span(data).first(static_cast<std::size_t>(layout.fragment_bytes));
-        const auto same = [&](const Signal& signal, const DbcSignal& read, std::uint32_t raw) {
+        const auto same = [&](const model::Signal& signal, const DbcSignal& read, std::uint32_t raw) {
           ASSERT_EQ(read.raw(data), raw) << read.name;
           EXPECT_EQ(read.unit, signal.unit);
           EXPECT_EQ(read.low, signal.low);
           EXPECT_EQ(read.high, signal.high);
-          if (raw <= wire::highest_code(signal)) {
-            EXPECT_EQ(read.physical(data), wire::to_physical(signal, raw));
+          if (raw <= bus::wire::highest_code(signal)) {
+            EXPECT_EQ(read.physical(data), bus::wire::to_physical(signal, raw));
           }
         };
         for (std::size_t s = 0; s < layout.header.size(); ++s)
-          same(layout.header[s], dbc.signal(layout.header[s].name), wire::read_header_raw(layout, payload, s));
+          same(layout.header[s], dbc.signal(layout.header[s].name), bus::wire::read_header_raw(layout, payload, s));
         for (int e = 0; e < layout.elements_per_fragment; ++e)
           for (std::size_t s = 0; s < layout.element.size(); ++s)
             same(layout.element[s], dbc.signal(layout.element[s].name + "_" + std::to_string(e)),
-                 wire::read_element_raw(layout, payload, e, s));
+                 bus::wire::read_element_raw(layout, payload, e, s));
       }
     }
   std::size_t sensors = 0;
@@ -76,11 +76,11 @@ TEST_P(DbcOfShipped, DecodesEveryFrameAsWeDo) {
 
 TEST_P(DbcOfShipped, NamesWhoReads) {
   const DbcFile file = read_dbc(dbc_text(cluster_));
-  for (const Node& node : cluster_.nodes)
-    for (const Task& task : node.tasks)
-      for (const PortBinding& port : task.reads)
+  for (const model::Node& node : cluster_.nodes)
+    for (const model::Task& task : node.tasks)
+      for (const model::PortBinding& port : task.reads)
         for (std::size_t b = 0; port.can_bus && b < cluster_.can_buses.size(); ++b)
-          for (const CanMessage& message : cluster_.can_buses[b].messages)
+          for (const model::CanMessage& message : cluster_.can_buses[b].messages)
             if (b == *port.can_bus && message.pdu == port.pdu) {
               for (const DbcSignal& signal : file.messages.at(message.identifier).signals)
                 EXPECT_NE(("," + signal.receivers + ",").find("," + node.name + ","), std::string::npos) << signal.name;
@@ -88,14 +88,14 @@ TEST_P(DbcOfShipped, NamesWhoReads) {
 }
 
 TEST_P(DbcOfShipped, OneCanAlone) {
-  for (const CanBus& bus : cluster_.can_buses) {
+  for (const model::CanBus& bus : cluster_.can_buses) {
     const DbcFile file = read_dbc(dbc_text(cluster_, bus.name));
     std::size_t lines = 0;
     for (std::size_t s = 0; s < cluster_.sensors.size(); ++s)
       if (const auto can = can_of_lines(cluster_, static_cast<SensorId>(s)); can && &cluster_.can_buses[*can] == &bus)
         lines += 2;
     EXPECT_EQ(file.messages.size(), bus.messages.size() + lines);
-    for (const CanMessage& message : bus.messages) EXPECT_EQ(file.messages.count(message.identifier), 1u);
+    for (const model::CanMessage& message : bus.messages) EXPECT_EQ(file.messages.count(message.identifier), 1u);
   }
 }
 
@@ -107,12 +107,13 @@ INSTANTIATE_TEST_SUITE_P(Clusters, DbcOfShipped,
 // schedule export --format dbc makes them anew.
 TEST(Dbc, ShippedFilesAreWhatTheClustersSay) {
   for (const char* name : {"paper_synchronised", "laser_radar"})
-    EXPECT_EQ(read_shipped(std::string(name) + ".dbc"), dbc_text(load_checked_cluster(shipped_path(name)))) << name;
+    EXPECT_EQ(read_shipped(std::string(name) + ".dbc"), dbc_text(file::load_checked_cluster(shipped_path(name))))
+        << name;
   // The CANs of the other paradigm are the same.
   for (const auto& [one, other] : {std::pair{"paper_synchronised", "paper_unsynchronised"},
                                    std::pair{"laser_radar", "laser_radar_synchronised"}}) {
-    const DbcFile a = read_dbc(dbc_text(load_cluster(shipped_path(one))));
-    const DbcFile b = read_dbc(dbc_text(load_cluster(shipped_path(other))));
+    const DbcFile a = read_dbc(dbc_text(file::load_cluster(shipped_path(one))));
+    const DbcFile b = read_dbc(dbc_text(file::load_cluster(shipped_path(other))));
     ASSERT_EQ(a.messages.size(), b.messages.size()) << one;
     for (const auto& [identifier, message] : a.messages) {
       ASSERT_EQ(b.messages.count(identifier), 1u) << one;
@@ -127,12 +128,12 @@ TEST(Dbc, ShippedFilesAreWhatTheClustersSay) {
 
 // The comment of a list in fragments, and of one that is a frame.
 TEST(Dbc, CommentsSayHowListsAreCut) {
-  const DbcFile file = read_dbc(dbc_text(load_cluster(shipped_path("paper_synchronised"))));
+  const DbcFile file = read_dbc(dbc_text(file::load_cluster(shipped_path("paper_synchronised"))));
   EXPECT_EQ(file.messages.at(256).comment,
             "One frame is a fragment of a list of up to 1300 elements in 93 fragments, which have one sequence number; "
             "NAME_k is element 14 * fragment + k of the list, valid if that is less than count. Lists are queued at "
             "least 79 ms apart.");
-  const DbcFile alone = read_dbc(dbc_text(load_cluster(shipped_path("laser_radar"))));
+  const DbcFile alone = read_dbc(dbc_text(file::load_cluster(shipped_path("laser_radar"))));
   for (const auto& [identifier, message] : alone.messages)
     if (identifier > 0 && !message.name.ends_with("_strobe") && !message.name.ends_with("_trigger")) {
       EXPECT_EQ(message.comment.rfind("One frame is a list", 0), 0u) << identifier;
@@ -141,7 +142,7 @@ TEST(Dbc, CommentsSayHowListsAreCut) {
 
 // tests/socketcan holds it against the bytes that are sent.
 TEST(Dbc, TheChannelsSymbolsAreThereUnlessACanHasTheirIdentifier) {
-  Cluster cluster = load_cluster(shipped_path("paper_synchronised"));
+  model::Cluster cluster = file::load_cluster(shipped_path("paper_synchronised"));
   const DbcMessage with = read_dbc(dbc_text(cluster)).messages.at(0);
   EXPECT_EQ(with.attributes.at("CAN"), "FlexRay");
   EXPECT_EQ(with.signal("kind").multiplexed, "M");
@@ -152,7 +153,7 @@ TEST(Dbc, TheChannelsSymbolsAreThereUnlessACanHasTheirIdentifier) {
 }
 
 TEST(Dbc, ASensorsLinesAreMessagesOfItsCan) {
-  const Cluster cluster = load_cluster(shipped_path("paper_synchronised"));
+  const model::Cluster cluster = file::load_cluster(shipped_path("paper_synchronised"));
   const DbcFile file = read_dbc(dbc_text(cluster));
   for (const auto& [sensor, device, host, can, first] : {std::tuple{"laser", "laser", "laser_pre", "laser_can", 1u},
                                                          {"camera", "camera", "camera_pre", "camera_can", 3u}}) {
@@ -171,14 +172,14 @@ TEST(Dbc, ASensorsLinesAreMessagesOfItsCan) {
     ASSERT_EQ(strobe.signals.size(), 1u);
     EXPECT_EQ(strobe.length, 4);
     EXPECT_EQ(strobe.signals[0].receivers, host);
-    const auto data = wire::strobe_data(0x1234'5678);
+    const auto data = bus::wire::strobe_data(0x1234'5678);
     EXPECT_EQ(strobe.signals[0].raw(data), 0x1234'5678u);
   }
 }
 
 // In virtual time they are nobody's, and messages may have them.
 TEST(Dbc, WhatAMessageHasIsNoLinesIdentifier) {
-  Cluster cluster = load_cluster(shipped_path("paper_synchronised"));
+  model::Cluster cluster = file::load_cluster(shipped_path("paper_synchronised"));
   cluster.can_buses[2].messages[0].identifier = 1;
   cluster.can_buses[0].messages[0].identifier = 2;
   const DbcFile all = read_dbc(dbc_text(cluster)), laser = read_dbc(dbc_text(cluster, "laser_can"));
@@ -190,7 +191,7 @@ TEST(Dbc, WhatAMessageHasIsNoLinesIdentifier) {
 }
 
 TEST(Dbc, NamesAreCIdentifiersAndUnique) {
-  Cluster cluster = load_cluster(shipped_path("paper_synchronised"));
+  model::Cluster cluster = file::load_cluster(shipped_path("paper_synchronised"));
   cluster.nodes[0].name = "a-b";
   cluster.nodes[1].name = "a_b";
   cluster.pdus[0].name = "1\"x";
@@ -205,7 +206,7 @@ TEST(Dbc, NamesAreCIdentifiersAndUnique) {
             1);
 }
 
-std::string refusal(const Cluster& cluster, const std::string& can) {
+std::string refusal(const model::Cluster& cluster, const std::string& can) {
   try {
     dbc_text(cluster, can);
   } catch (const InputError& error) {
@@ -215,7 +216,7 @@ std::string refusal(const Cluster& cluster, const std::string& can) {
 }
 
 TEST(Dbc, RefusesWhatOneFileCannotSay) {
-  Cluster cluster = load_cluster(shipped_path("paper_synchronised"));
+  model::Cluster cluster = file::load_cluster(shipped_path("paper_synchronised"));
   cluster.file = "a.yaml";
   EXPECT_EQ(refusal(cluster, "laser"), "a.yaml: --can = laser: must be one of laser_can, camera_can, observation_can");
   cluster.can_buses[1].messages[0].identifier = cluster.can_buses[0].messages[0].identifier;
@@ -223,10 +224,10 @@ TEST(Dbc, RefusesWhatOneFileCannotSay) {
   EXPECT_EQ(refusal(cluster, ""),
             "a.yaml:7: identifier = 256: is on two CANs, and a DBC file has one message per identifier: --can NAME "
             "writes one CAN");
-  for (const CanBus& bus : cluster.can_buses) EXPECT_EQ(refusal(cluster, bus.name), "");
+  for (const model::CanBus& bus : cluster.can_buses) EXPECT_EQ(refusal(cluster, bus.name), "");
   cluster.can_buses.clear();
   EXPECT_EQ(refusal(cluster, ""), "a.yaml: has no private CAN to write a DBC file of");
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange {
 
 struct DbcSignal {
   std::string name, unit, receivers;
@@ -110,4 +110,4 @@ inline DbcFile read_dbc(const std::string& text) {
   return file;
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange

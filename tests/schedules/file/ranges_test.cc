@@ -7,7 +7,7 @@
 
 #include "tests/schedules/cluster_file.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::file {
 namespace {
 
 struct AnnexB {
@@ -107,4 +107,4 @@ TEST(Ranges, CoverEveryNumberOfTheFile) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::file

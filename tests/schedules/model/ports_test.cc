@@ -6,7 +6,7 @@
 
 #include "core/errors.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::model {
 namespace {
 
 Cluster with_ports() {
@@ -92,4 +92,4 @@ TEST(Ports, FusionReadsSensorsOnlyAndAtLeastOne) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::model

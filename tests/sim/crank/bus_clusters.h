@@ -10,7 +10,7 @@
 #include "bus/controller/controller.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 
 inline constexpr int kMicroPerCycle = 200'000;  // of 25 ns
 // (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay: the worst case of FlexRay 2.1A, annex B,
@@ -18,10 +18,10 @@ inline constexpr int kMicroPerCycle = 200'000;  // of 25 ns
 inline constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};
 
 // The first `coldstart` nodes are coldstart nodes, the first `sync` of all are sync nodes.
-inline schedules::Cluster bus_cluster(int nodes, int coldstart, int sync) {
-  schedules::Cluster cluster;
+inline schedules::model::Cluster bus_cluster(int nodes, int coldstart, int sync) {
+  schedules::model::Cluster cluster;
   cluster.name = std::to_string(nodes) + " nodes";
-  schedules::GlobalParameters& g = cluster.flexray;
+  schedules::model::GlobalParameters& g = cluster.flexray;
   g.gPayloadLengthStatic = 8;
   g.gdStaticSlot = 43;  // 2 * 7 + ceil((9 + 1 + 80 + 160 + 2 + 11) * 0.10015 us + 2.5 us)
   g.gNumberOfStaticSlots = 64;
@@ -30,10 +30,10 @@ inline schedules::Cluster bus_cluster(int nodes, int coldstart, int sync) {
   g.gOffsetCorrectionStart = 4900;
   g.gSyncNodeMax = std::max(sync, 2);
   for (int n = 0; n < nodes; ++n) {
-    schedules::Node node;
+    schedules::model::Node node;
     node.name = "node" + std::to_string(n);
     node.flexray.emplace();
-    schedules::NodeParameters& p = *node.flexray;
+    schedules::model::NodeParameters& p = *node.flexray;
     p.pMicroPerCycle = kMicroPerCycle;
     p.pKeySlotId = n + 1;
     p.pKeySlotUsedForStartup = n < coldstart;
@@ -47,21 +47,21 @@ inline schedules::Cluster bus_cluster(int nodes, int coldstart, int sync) {
     p.pAllowPassiveToActive = 2;
     p.pAllowHaltDueToClock = true;
     cluster.nodes.push_back(std::move(node));
-    cluster.frames.push_back({n + 1, schedules::Channels::kAB, 0, 1, static_cast<NodeId>(n), kNoPdu, 0, 0});
+    cluster.frames.push_back({n + 1, schedules::model::Channels::kAB, 0, 1, static_cast<NodeId>(n), kNoPdu, 0, 0});
   }
   return cluster;
 }
 
 // What a controller says about itself.
-struct StateLog final : bus::ControllerEvents {
+struct StateLog final : bus::controller::ControllerEvents {
   struct Change {
-    bus::PocKind from{}, to{};
-    bus::PocReason reason{}, consequence{};
+    bus::poc::PocKind from{}, to{};
+    bus::poc::PocReason reason{}, consequence{};
     Microticks at{};
     std::int64_t cycle = -1;  // that started then, if one did
   };
   std::vector<Change> changes;
-  void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override {
+  void state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) override {
     changes.push_back({from, step.next.kind, step.reason, step.consequence, at, -1});
   }
   void cycle_started(std::int64_t cycle, Microticks at) override {
@@ -70,9 +70,9 @@ struct StateLog final : bus::ControllerEvents {
   // The cycle it became normal active in, the last time; -1 if it never did.
   std::int64_t active_in() const {
     for (auto change = changes.rbegin(); change != changes.rend(); ++change)
-      if (change->to == bus::PocKind::kNormalActive) return change->cycle;
+      if (change->to == bus::poc::PocKind::kNormalActive) return change->cycle;
     return -1;
   }
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

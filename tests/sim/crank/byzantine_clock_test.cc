@@ -11,23 +11,24 @@
 #include "sim/crank/bus_simulation.h"
 #include "tests/sim/crank/bus_clusters.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 namespace {
 
 // The sync frames of nodes 0..traitors-1 reach each receiver at a time of its own: late at some, early at others,
 // within what still fits the slot; the worst a clock can do that nobody else notices.
-class TwoFaced final : public Disturbance {
+class TwoFaced final : public medium::Disturbance {
  public:
   // Pull apart: late at every other receiver, early at the rest. Pull rates: besides, the other way round in every
   // other cycle, so that the double cycles seem long to some and short to others.
   enum class Plan { kRandom, kPullApart, kPullRates };
   TwoFaced(int traitors, Plan plan, std::uint64_t seed) : traitors_(traitors), plan_(plan), seed_(seed) {}
-  bool leaving(Leaving& signal) override {
-    if (signal.channel == schedules::Channel::kA) ++sent_[index_of(signal.sender)];
+  bool leaving(medium::Leaving& signal) override {
+    if (signal.channel == schedules::model::Channel::kA) ++sent_[index_of(signal.sender)];
     return true;
   }
-  bool arriving(Arriving& signal) override {
-    if (static_cast<int>(index_of(signal.sender)) >= traitors_ || signal.signal != bus::Signal::kFrame) return true;
+  bool arriving(medium::Arriving& signal) override {
+    if (static_cast<int>(index_of(signal.sender)) >= traitors_ || signal.signal != bus::ports::Signal::kFrame)
+      return true;
     const std::int64_t ns = lie(signal);
     signal.start = signal.start + Duration{ns};
     signal.end = signal.end + Duration{ns};
@@ -35,7 +36,7 @@ class TwoFaced final : public Disturbance {
   }
 
  private:
-  std::int64_t lie(const Arriving& signal) {
+  std::int64_t lie(const medium::Arriving& signal) {
     const auto receiver = static_cast<std::int64_t>(index_of(signal.receiver));
     const std::int64_t pull = receiver % 2 == 0 ? kMost : -kMost;
     if (plan_ == Plan::kPullApart) return pull;
@@ -57,10 +58,10 @@ struct Outcome {
 };
 
 Outcome run(int sync, int traitors, TwoFaced::Plan plan, std::uint64_t seed, Duration length) {
-  const schedules::Cluster cluster = bus_cluster(sync, std::min(sync, 3), sync);
+  const schedules::model::Cluster cluster = bus_cluster(sync, std::min(sync, 3), sync);
   std::vector<BusNode> nodes;
   std::vector<std::unique_ptr<StateLog>> logs;
-  std::vector<bus::ControllerEvents*> events;
+  std::vector<bus::controller::ControllerEvents*> events;
   for (int n = 0; n < sync; ++n) {
     RandomStream draw({seed, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
     nodes.push_back({timebase::Oscillator{25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)},
@@ -78,7 +79,8 @@ Outcome run(int sync, int traitors, TwoFaced::Plan plan, std::uint64_t seed, Dur
     outcome.worst = std::max(outcome.worst, simulation.precision(static_cast<NodeId>(traitors)));
   }
   for (int n = traitors; n < sync; ++n)
-    outcome.all_active &= simulation.controller(static_cast<NodeId>(n)).state().kind == bus::PocKind::kNormalActive;
+    outcome.all_active &=
+        simulation.controller(static_cast<NodeId>(n)).state().kind == bus::poc::PocKind::kNormalActive;
   return outcome;
 }
 
@@ -115,4 +117,4 @@ TEST(ClockSynchronisation, OneOfThreeAndTwoOfSevenBreakThePrecision) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

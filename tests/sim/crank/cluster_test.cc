@@ -7,27 +7,27 @@
 #include "sim/crank/cluster_simulation.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf {
+namespace ttf::sim::crank {
 namespace {
 
-using testing_support::Drive;
+using drives::Drive;
 
-struct PrecisionSink final : records::Sink {
-  using records::Sink::on;
-  std::vector<records::PrecisionSample> samples;
-  void on(const records::PrecisionSample& sample) override { samples.push_back(sample); }
+struct PrecisionSink final : recording::records::Sink {
+  using recording::records::Sink::on;
+  std::vector<recording::records::PrecisionSample> samples;
+  void on(const recording::records::PrecisionSample& sample) override { samples.push_back(sample); }
 };
 
 // FlexRay 2.1A, as public E-Ray tooling computes it: what the schedule was dimensioned for.
-Duration assumed_precision(const schedules::GlobalParameters& g) {
+Duration assumed_precision(const schedules::model::GlobalParameters& g) {
   return {((34 + 20 * g.gClusterDriftDamping) * g.gdMaxMicrotick_ps + 2 * g.gdMaxPropagationDelay_ps) / 1000};
 }
 
 TEST(TimeBase, StaysWithinTheAssumedPrecisionForDrawnDrifts) {
-  Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kAdva);
+  Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     PrecisionSink sink;
-    const sim::DriveOutcome outcome = drive.run(sink, seed);
+    const drives::DriveOutcome outcome = drive.run(sink, seed);
     EXPECT_LT(outcome.precision, assumed_precision(drive.cluster.flexray)) << "seed " << seed;
     EXPECT_GT(outcome.precision, Duration{}) << "clocks that never differ are not measured";
     EXPECT_EQ(outcome.counts.slot_problems, 0u) << "seed " << seed;
@@ -37,10 +37,10 @@ TEST(TimeBase, StaysWithinTheAssumedPrecisionForDrawnDrifts) {
 
 // Without correction two clocks part by the difference of their drifts times the time, until frames leave their slots.
 TEST(TimeBase, WithoutCorrectionItGrowsAsDriftTimesTime) {
-  Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kAdva);
+  Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
   drive.cluster.synchronisation = false;
   std::int64_t ppb = -20'000;  // -20, -10, 0, 10, 20 ppm: the ends are 40 ppm apart
-  for (schedules::Node& node : drive.cluster.nodes)
+  for (schedules::model::Node& node : drive.cluster.nodes)
     if (node.flexray) {
       node.drift_ppb = ppb;
       ppb += 10'000;
@@ -48,8 +48,8 @@ TEST(TimeBase, WithoutCorrectionItGrowsAsDriftTimesTime) {
   PrecisionSink sink;
   drive.run(sink);
   ASSERT_GT(sink.samples.size(), 200u);
-  for (const records::PrecisionSample& sample : sink.samples) {
-    const double elapsed = (sample.at - sim::kFirstCycle).seconds();
+  for (const recording::records::PrecisionSample& sample : sink.samples) {
+    const double elapsed = (sample.at - kFirstCycle).seconds();
     const double expected_ns = 40e-6 * elapsed * 1e9;
     EXPECT_NEAR(static_cast<double>(sample.precision.ns), expected_ns, 0.01 * expected_ns + 60.0)
         << "at " << elapsed << " s";
@@ -59,18 +59,18 @@ TEST(TimeBase, WithoutCorrectionItGrowsAsDriftTimesTime) {
 
 // With correction the same clocks hold together.
 TEST(TimeBase, WithCorrectionTheSameClocksHoldTogether) {
-  Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kAdva);
+  Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
   std::int64_t ppb = -1'500'000;  // the whole range the specification allows
-  for (schedules::Node& node : drive.cluster.nodes)
+  for (schedules::model::Node& node : drive.cluster.nodes)
     if (node.flexray) {
       node.drift_ppb = ppb;
       ppb += 750'000;
     }
   PrecisionSink sink;
-  const sim::DriveOutcome outcome = drive.run(sink);
+  const drives::DriveOutcome outcome = drive.run(sink);
   EXPECT_LT(outcome.precision, assumed_precision(drive.cluster.flexray));
   EXPECT_EQ(outcome.counts.slot_problems, 0u);
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::sim::crank

@@ -15,48 +15,49 @@
 #include "sim/crank/bus_simulation.h"
 #include "tests/sim/crank/bus_clusters.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 
-inline constexpr std::array kBothChannels = {schedules::Channel::kA, schedules::Channel::kB};
+inline constexpr std::array kBothChannels = {schedules::model::Channel::kA, schedules::model::Channel::kB};
 
 // bus_cluster() on a star.
-inline schedules::Cluster star_cluster(int nodes, int coldstart, int sync, bool guardian = true) {
-  schedules::Cluster cluster = bus_cluster(nodes, coldstart, sync);
-  cluster.topology = schedules::Topology::kStar;
+inline schedules::model::Cluster star_cluster(int nodes, int coldstart, int sync, bool guardian = true) {
+  schedules::model::Cluster cluster = bus_cluster(nodes, coldstart, sync);
+  cluster.topology = schedules::model::Topology::kStar;
   cluster.guardian = guardian;
   return cluster;
 }
 
 // What a node's controller says: its state changes, and in which slots what it saw was wrong or missing.
-struct NodeLog final : bus::ControllerEvents {
+struct NodeLog final : bus::controller::ControllerEvents {
   StateLog states;
-  std::map<int, std::uint64_t> problems;                                // by slot, 0: outside every slot
-  std::set<std::tuple<std::int64_t, int, schedules::Channel>> refused;  // cycle, slot
-  void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override {
+  std::map<int, std::uint64_t> problems;                                       // by slot, 0: outside every slot
+  std::set<std::tuple<std::int64_t, int, schedules::model::Channel>> refused;  // cycle, slot
+  void state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) override {
     states.state_changed(from, step, at);
   }
   void cycle_started(std::int64_t cycle, Microticks at) override { states.cycle_started(cycle, at); }
-  void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus, Microticks) override {
+  void slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel, bus::controller::SlotStatus,
+                    Microticks) override {
     ++problems[slot];
     refused.insert({cycle, slot, channel});
   }
   bool left_active() const {
     return std::any_of(states.changes.begin(), states.changes.end(),
-                       [](const StateLog::Change& change) { return change.from == bus::PocKind::kNormalActive; });
+                       [](const StateLog::Change& change) { return change.from == bus::poc::PocKind::kNormalActive; });
   }
 };
 
 struct Guarded {
-  schedules::Cluster cluster;
+  schedules::model::Cluster cluster;
   std::vector<std::unique_ptr<NodeLog>> logs;
   std::unique_ptr<BusSimulation> simulation;
 
   // Clocks of nodes and guardians are drawn. `view`: what node 0 believes in.
-  Guarded(schedules::Cluster made, const std::vector<TrueTime>& power_on, std::uint64_t seed,
-          const schedules::Cluster* view = nullptr)
+  Guarded(schedules::model::Cluster made, const std::vector<TrueTime>& power_on, std::uint64_t seed,
+          const schedules::model::Cluster* view = nullptr)
       : cluster(std::move(made)) {
     std::vector<BusNode> nodes;
-    std::vector<bus::ControllerEvents*> events;
+    std::vector<bus::controller::ControllerEvents*> events;
     for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
       nodes.push_back({oscillator(seed, n), power_on[n], std::nullopt, n == 0 ? view : nullptr});
       logs.push_back(std::make_unique<NodeLog>());
@@ -67,8 +68,8 @@ struct Guarded {
         std::vector{oscillator(seed, cluster.nodes.size()), oscillator(seed, cluster.nodes.size() + 1)});
   }
   // All at once, or at drawn times.
-  Guarded(const schedules::Cluster& made, std::uint64_t seed, Duration within = {},
-          const schedules::Cluster* view = nullptr)
+  Guarded(const schedules::model::Cluster& made, std::uint64_t seed, Duration within = {},
+          const schedules::model::Cluster* view = nullptr)
       : Guarded(made, delays(made.nodes.size(), within, seed), seed, view) {}
 
   static timebase::Oscillator oscillator(std::uint64_t seed, std::size_t entity) {
@@ -85,11 +86,13 @@ struct Guarded {
 
   void run(Duration length) { simulation->run_until(simulation->now() + length); }
   void run_cycles(int cycles) { run(cluster.cycle() * cycles); }
-  bus::PocKind kind(std::size_t node) const { return simulation->controller(static_cast<NodeId>(node)).state().kind; }
+  bus::poc::PocKind kind(std::size_t node) const {
+    return simulation->controller(static_cast<NodeId>(node)).state().kind;
+  }
   // From node `first` on.
   bool all_active(std::size_t first = 0) const {
     for (std::size_t n = first; n < logs.size(); ++n)
-      if (kind(n) != bus::PocKind::kNormalActive) return false;
+      if (kind(n) != bus::poc::PocKind::kNormalActive) return false;
     return true;
   }
   bool none_left_active(std::size_t first = 0) const {
@@ -108,7 +111,7 @@ struct Guarded {
   // Whether the nodes from `first` on agree about what came in the slot.
   bool agree(int slot, std::size_t first) const {
     const auto seen = [&](std::size_t n) {
-      std::set<std::tuple<std::int64_t, int, schedules::Channel>> of_slot;
+      std::set<std::tuple<std::int64_t, int, schedules::model::Channel>> of_slot;
       for (const auto& one : logs[n]->refused)
         if (std::get<1>(one) == slot) of_slot.insert(one);
       return of_slot;
@@ -120,10 +123,11 @@ struct Guarded {
   void forget() {
     for (auto& log : logs) log->problems.clear(), log->refused.clear(), log->states.changes.clear();
   }
-  StarCoupler& coupler(schedules::Channel channel) { return *simulation->coupler(channel); }
-  std::uint64_t blocked(bus::GuardianReason reason) {
-    return coupler(schedules::Channel::kA).blocked(reason) + coupler(schedules::Channel::kB).blocked(reason);
+  medium::StarCoupler& coupler(schedules::model::Channel channel) { return *simulation->coupler(channel); }
+  std::uint64_t blocked(bus::guardian::GuardianReason reason) {
+    return coupler(schedules::model::Channel::kA).blocked(reason) +
+           coupler(schedules::model::Channel::kB).blocked(reason);
   }
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

@@ -1,6 +1,6 @@
 // A node whose dynamic frame breaks off, or whose clock jumps in the middle of one, in a star with guardians: all
-// others, and the guardians, go on counting alike to the end of the segment (bus/guardian/guardian.h G9). Node 0 is the faulty
-// one; its frame is the segment's first, and the others' come behind it.
+// others, and the guardians, go on counting alike to the end of the segment (bus/guardian/guardian.h G9). Node 0 is the
+// faulty one; its frame is the segment's first, and the others' come behind it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 #include "tests/bus/layouts.h"
 #include "tests/sim/crank/guarded.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 constexpr NodeId kBreaksOff{0};
 constexpr int kEndsNodes = 5, kFirstSlot = 65, kFirstSequence = 3;
@@ -26,9 +26,9 @@ constexpr Duration kSegmentIsOver = Duration::microseconds(4900);  // in its cyc
 
 // As schedules/flexray_demo.yaml has it: 0.6 us between the farthest, minislots of 7 us with their action point 3 us
 // in.
-schedules::Cluster breaking_off_cluster() {
-  schedules::Cluster cluster = star_cluster(kEndsNodes, 3, 4);
-  schedules::GlobalParameters& g = cluster.flexray;
+schedules::model::Cluster breaking_off_cluster() {
+  schedules::model::Cluster cluster = star_cluster(kEndsNodes, 3, 4);
+  schedules::model::GlobalParameters& g = cluster.flexray;
   g.gdMinPropagationDelay_ps = 0;
   g.gdMaxPropagationDelay_ps = 600'000;
   g.gdMinislot = 7;
@@ -36,39 +36,39 @@ schedules::Cluster breaking_off_cluster() {
   g.gdMinislotActionPointOffset = 3;
   g.gdNIT = 5000 - 64 * 43 - 4 - 100 * 7;
   for (int n = 0; n < kEndsNodes; ++n) {
-    schedules::NodeParameters& p = *cluster.nodes[static_cast<std::size_t>(n)].flexray;
+    schedules::model::NodeParameters& p = *cluster.nodes[static_cast<std::size_t>(n)].flexray;
     p.pDelayCompensationA = p.pDelayCompensationB = 12;
     p.pLatestTx = 80;
     const int elements = n == 0 ? 25 : 3;
     cluster.pdus.push_back(bus::list_layout(4, elements, elements));
     cluster.frames.push_back(
-        {kFirstSlot + n, schedules::Channels::kAB, 0, 1, static_cast<NodeId>(n), static_cast<PduId>(n), 0, 0});
+        {kFirstSlot + n, schedules::model::Channels::kAB, 0, 1, static_cast<NodeId>(n), static_cast<PduId>(n), 0, 0});
   }
   return cluster;
 }
 
 // What one node received in dynamic slots.
-struct DynamicHeard final : bus::ControllerEvents {
+struct DynamicHeard final : bus::controller::ControllerEvents {
   using Frame = std::tuple<std::int64_t, int, Channel>;  // cycle, slot
   std::map<Frame, Microticks> frames;                    // when it was over
   std::uint64_t problems = 0;
-  void frame_received(std::int64_t cycle, int slot, Channel channel, const wire::DecodedFrame&,
+  void frame_received(std::int64_t cycle, int slot, Channel channel, const bus::wire::DecodedFrame&,
                       Microticks at) override {
     if (slot >= kFirstSlot) frames[{cycle, slot, channel}] = at;
   }
-  void slot_problem(std::int64_t, int, Channel, bus::SlotStatus, Microticks) override { ++problems; }
+  void slot_problem(std::int64_t, int, Channel, bus::controller::SlotStatus, Microticks) override { ++problems; }
 };
 
 // Begins integrated, cycle 0 at kEndsBegin; everybody sends one dynamic frame in every cycle.
 struct BreakingOff {
-  schedules::Cluster cluster = breaking_off_cluster();
+  schedules::model::Cluster cluster = breaking_off_cluster();
   std::vector<std::unique_ptr<DynamicHeard>> heard;
   std::unique_ptr<BusSimulation> simulation;
   int cycle = 0;
 
   explicit BreakingOff(std::uint64_t seed) {
     std::vector<BusNode> nodes;
-    std::vector<bus::ControllerEvents*> events;
+    std::vector<bus::controller::ControllerEvents*> events;
     for (std::size_t n = 0; n < kEndsNodes; ++n) {
       const timebase::Oscillator crystal = Guarded::oscillator(seed, n);
       const Microticks begin = crystal.ticks_at(kEndsBegin);
@@ -100,9 +100,9 @@ struct BreakingOff {
   }
   // Where the first dynamic frame begins in every cycle.
   Duration first_action_point() const {
-    return Duration::microseconds(bus::MinislotGrid(cluster.flexray).action_point(1).value);
+    return Duration::microseconds(bus::controller::MinislotGrid(cluster.flexray).action_point(1).value);
   }
-  StarCoupler& coupler(Channel channel) { return *simulation->coupler(channel); }
+  medium::StarCoupler& coupler(Channel channel) { return *simulation->coupler(channel); }
   // What the others sent in this cycle, all others received.
   void expect_everything_heard(const std::string& when) {
     for (int receiver = 1; receiver < kEndsNodes; ++receiver)
@@ -140,9 +140,9 @@ TEST(GuardianEnds, WhereverADynamicFrameBreaksOffAllGoOnCountingAlike) {
 
 // As a sender's does whose clock has jumped.
 TEST(GuardianEnds, WhereverATrailingSequenceEndsAllGoOnCountingAlike) {
-  struct Stretched final : Disturbance {
+  struct Stretched final : medium::Disturbance {
     Duration by{};
-    bool leaving(Leaving& signal) override {
+    bool leaving(medium::Leaving& signal) override {
       const bool dynamic = signal.sender == kBreaksOff && signal.end - signal.start > Duration::microseconds(60);
       if (dynamic) signal.end = signal.end + by;
       return true;
@@ -178,7 +178,7 @@ TEST(GuardianEnds, WhereverATrailingSequenceEndsAllGoOnCountingAlike) {
 TEST(GuardianEnds, WithoutAFaultNothingIsOtherThanWithoutAGuardian) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     BreakingOff with(seed), without(seed);
-    for (const Channel channel : kBothChannels) without.coupler(channel).fail(StarCoupler::Failure::kStuckOpen);
+    for (const Channel channel : kBothChannels) without.coupler(channel).fail(medium::StarCoupler::Failure::kStuckOpen);
     for (BreakingOff* run : {&with, &without}) run->whole_cycles(12);
     for (std::size_t n = 0; n < kEndsNodes; ++n) {
       EXPECT_EQ(with.heard[n]->frames, without.heard[n]->frames) << "node " << n << " seed " << seed;
@@ -193,4 +193,4 @@ TEST(GuardianEnds, WithoutAFaultNothingIsOtherThanWithoutAGuardian) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

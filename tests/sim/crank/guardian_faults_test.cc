@@ -9,32 +9,32 @@
 #include "tests/sim/crank/guarded.h"
 #include "tests/sim/crank/start_spoiler.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 namespace {
 
-using bus::GuardianReason;
-using bus::PocKind;
-using bus::Signal;
-using schedules::Channel;
+using bus::guardian::GuardianReason;
+using bus::poc::PocKind;
+using bus::ports::Signal;
+using schedules::model::Channel;
 
 constexpr NodeId kFaulty{0};
 
 // Does to what the faulty node sends what it is given.
-struct Doing final : Disturbance {
-  std::function<bool(Leaving&)> to_leaving;
-  bool leaving(Leaving& signal) override { return signal.sender != kFaulty || to_leaving(signal); }
+struct Doing final : medium::Disturbance {
+  std::function<bool(ttf::sim::medium::Leaving&)> to_leaving;
+  bool leaving(medium::Leaving& signal) override { return signal.sender != kFaulty || to_leaving(signal); }
 };
 
 struct Running {
   Guarded cluster;
-  explicit Running(bool guardian, std::uint64_t seed, const schedules::Cluster* view = nullptr)
+  explicit Running(bool guardian, std::uint64_t seed, const schedules::model::Cluster* view = nullptr)
       : cluster(star_cluster(5, 3, 4, guardian), seed, Duration::milliseconds(9), view) {
     cluster.run_cycles(30);
     EXPECT_TRUE(!guardian || cluster.all_active(1));
     cluster.forget();
   }
   BusSimulation& simulation() { return *cluster.simulation; }
-  void suffer(Disturbance& fault, int cycles) {
+  void suffer(medium::Disturbance& fault, int cycles) {
     simulation().set_disturbance(&fault);
     cluster.run_cycles(cycles);
     simulation().set_disturbance(nullptr);
@@ -80,19 +80,19 @@ TEST(GuardianFaults, NobodyStartsAClusterThatRuns) {
 }
 
 // The faulty node's frames carry node 1's id, and one of them comes into node 1's slot, ahead of node 1's own.
-struct Masquerade final : Disturbance {
+struct Masquerade final : medium::Disturbance {
   Plant& plant;
-  std::array<std::byte, wire::kMaxFrameBytes> forged{};
+  std::array<std::byte, bus::wire::kMaxFrameBytes> forged{};
   std::size_t size = 0;
-  std::optional<Leaving> due;
+  std::optional<medium::Leaving> due;
   explicit Masquerade(Plant& p) : plant(p) {}
-  bool leaving(Leaving& signal) override {
+  bool leaving(medium::Leaving& signal) override {
     if (signal.sender != kFaulty || signal.signal != Signal::kFrame) return true;
-    wire::DecodedFrame frame = wire::decode_frame(signal.channel, signal.bytes);
+    bus::wire::DecodedFrame frame = bus::wire::decode_frame(signal.channel, signal.bytes);
     frame.header.frame_id = 2;
-    size = wire::encode_frame(frame.header, signal.channel, frame.payload, forged);
+    size = bus::wire::encode_frame(frame.header, signal.channel, frame.payload, forged);
     const Duration earlier = Duration{43'000} - Duration{2'000};  // a slot, and two microseconds less
-    due = Leaving{kFaulty, signal.channel, Signal::kFrame, signal.start + earlier, signal.end + earlier, {}};
+    due = medium::Leaving{kFaulty, signal.channel, Signal::kFrame, signal.start + earlier, signal.end + earlier, {}};
     signal.bytes = std::span(forged).first(size);
     return true;
   }
@@ -126,7 +126,7 @@ TEST(GuardianFaults, WhatIsSlightlyOffIsOffForAll) {
       for (const bool guardian : {true, false}) {
         Running run(guardian, seed);
         Doing off;
-        off.to_leaving = [&](Leaving& signal) {
+        off.to_leaving = [&](medium::Leaving& signal) {
           signal.start = signal.start + Duration{shift};
           signal.end = signal.end + Duration{shift};
           return true;
@@ -145,9 +145,9 @@ TEST(GuardianFaults, WhatIsSlightlyOffIsOffForAll) {
 
 // A signal that some receivers make out and others do not, by what its sender does: through a coupler all get the same.
 TEST(GuardianFaults, AMarginalValueIsTheSameForAll) {
-  struct Marginal final : Disturbance {
+  struct Marginal final : medium::Disturbance {
     std::uint32_t calls = 0;
-    bool arriving(Arriving& signal) override {
+    bool arriving(medium::Arriving& signal) override {
       if (signal.sender != kFaulty || signal.regenerated) return true;
       RandomStream draw({7, 0, Purpose::kTest, 0, calls++});
       if (draw.integer(0, 1) == 0) signal.signal = Signal::kUndecodable;
@@ -166,9 +166,9 @@ TEST(GuardianFaults, AMarginalValueIsTheSameForAll) {
 }
 
 TEST(GuardianFaults, ANodeWithAWrongScheduleKeepsToTheRightOne) {
-  schedules::Cluster wrong = star_cluster(5, 3, 4);
+  schedules::model::Cluster wrong = star_cluster(5, 3, 4);
   for (const int slot : {2, 3, 30})
-    wrong.frames.push_back({slot, schedules::Channels::kAB, 0, 2, kFaulty, kNoPdu, 0, 0});
+    wrong.frames.push_back({slot, schedules::model::Channels::kAB, 0, 2, kFaulty, kNoPdu, 0, 0});
   std::stable_sort(wrong.frames.begin(), wrong.frames.end(),
                    [](const auto& a, const auto& b) { return a.slot < b.slot; });
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -186,7 +186,7 @@ TEST(GuardianFaults, AFrameWithoutAnEndIsCut) {
   Running with(true, 1), without(false, 1);
   for (Running* run : {&with, &without}) {
     Doing endless;
-    endless.to_leaving = [](Leaving& signal) { return signal.end = signal.end + Duration{900'000}, true; };
+    endless.to_leaving = [](medium::Leaving& signal) { return signal.end = signal.end + Duration{900'000}, true; };
     run->suffer(endless, 40);
   }
   with.expect_no_harm("endless frames");
@@ -211,7 +211,7 @@ TEST(GuardianFaults, AByzantineClockMovesNobodyBeyondThePrecision) {
     Running run(true, seed);
     std::int64_t sent = 0;
     Doing lie;
-    lie.to_leaving = [&](Leaving& signal) {
+    lie.to_leaving = [&](medium::Leaving& signal) {
       const std::int64_t side = (sent++ / 2 + static_cast<std::int64_t>(index_of(signal.channel))) % 2 == 0 ? 1 : -1;
       signal.start = signal.start + Duration{side * 2'500};
       signal.end = signal.end + Duration{side * 2'500};
@@ -233,7 +233,7 @@ TEST(GuardianFaults, ASilentGuardianCostsItsChannelOnly) {
   for (const Channel channel : kBothChannels)
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       Running run(true, seed);
-      run.cluster.coupler(channel).fail(StarCoupler::Failure::kSilent);
+      run.cluster.coupler(channel).fail(medium::StarCoupler::Failure::kSilent);
       run.cluster.run_cycles(60);
       EXPECT_TRUE(run.cluster.all_active() && run.cluster.none_left_active()) << "seed " << seed;
       for (const auto& log : run.cluster.logs)
@@ -243,7 +243,7 @@ TEST(GuardianFaults, ASilentGuardianCostsItsChannelOnly) {
 }
 
 TEST(GuardianFaults, AClusterStartsWithOneGuardianSilentOrOpen) {
-  for (const auto failure : {StarCoupler::Failure::kSilent, StarCoupler::Failure::kStuckOpen})
+  for (const auto failure : {medium::StarCoupler::Failure::kSilent, medium::StarCoupler::Failure::kStuckOpen})
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       Guarded started(star_cluster(5, 3, 5), seed, Duration::milliseconds(100));
       started.coupler(Channel::kA).fail(failure);
@@ -256,7 +256,7 @@ TEST(GuardianFaults, AClusterStartsWithOneGuardianSilentOrOpen) {
 // Noise out of nothing on one channel, and then on both, for longer than the nodes stay active: afterwards everything
 // is as before, or starts again with the guardians.
 TEST(GuardianFaults, AGuardianOutlivesNoise) {
-  struct Noise final : Disturbance {
+  struct Noise final : medium::Disturbance {
     Plant& plant;
     std::vector<Channel> channels;
     TrueTime from{};
@@ -291,8 +291,10 @@ TEST(GuardianFaults, AGuardianOutlivesNoise) {
 // Who was kept from what is told, with its reason.
 TEST(GuardianFaults, EveryInterventionIsTold) {
   Running run(true, 3);
-  std::vector<StarCoupler::Intervention> told;
-  run.cluster.coupler(Channel::kB).on_intervention([&](const StarCoupler::Intervention& one) { told.push_back(one); });
+  std::vector<medium::StarCoupler::Intervention> told;
+  run.cluster.coupler(Channel::kB).on_intervention([&](const medium::StarCoupler::Intervention& one) {
+    told.push_back(one);
+  });
   const std::uint64_t before = run.cluster.coupler(Channel::kB).blocked();
   StartSpoiler babble(run.simulation(), run.cluster.cluster, StartSpoiler::Plan::kBabble, 3);
   run.suffer(babble, 3);
@@ -308,4 +310,4 @@ TEST(GuardianFaults, EveryInterventionIsTold) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

@@ -5,17 +5,17 @@
 #include "tests/sim/crank/guarded.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 namespace {
 
-using bus::PocKind;
-using schedules::Channel;
+using bus::poc::PocKind;
+using schedules::model::Channel;
 
 const timebase::Oscillator kFastGuardian{25'000, 1'000'000, 0};
 
 TEST(GuardianRestart, AGuardianThatHearsNobodyBeginsAnewWithoutAllocating) {
-  const schedules::Cluster cluster = star_cluster(4, 2, 3);
-  StarCoupler coupler(cluster, Channel::kA, kFastGuardian);
+  const schedules::model::Cluster cluster = star_cluster(4, 2, 3);
+  medium::StarCoupler coupler(cluster, Channel::kA, kFastGuardian);
   const TrueTime first{1'000'000};
   for (int round = 0; round < 20; ++round) {
     const TrueTime begin = first + cluster.cycle() * (100 * round);
@@ -53,4 +53,4 @@ TEST(GuardianRestart, AClusterThatWentAwayStartsAgainBehindTheSameGuardians) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

@@ -5,12 +5,12 @@
 #include "tests/sim/crank/guarded.h"
 #include "tests/sim/crank/start_spoiler.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 namespace {
 
-using bus::PocKind;
-using bus::PocReason;
-using schedules::Channel;
+using bus::poc::PocKind;
+using bus::poc::PocReason;
+using schedules::model::Channel;
 
 bool guardians_synchronised(Guarded& started) {
   return std::all_of(kBothChannels.begin(), kBothChannels.end(), [&](Channel channel) {
@@ -107,10 +107,10 @@ TEST(GuardianStartup, AClusterThatWentDownStartsAgain) {
 TEST(GuardianStartup, AGuardianThatComesLateJoinsTheRunningCluster) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     Guarded started(star_cluster(5, 3, 4), seed, Duration::milliseconds(9));
-    started.coupler(Channel::kB).fail(StarCoupler::Failure::kSilent);
+    started.coupler(Channel::kB).fail(medium::StarCoupler::Failure::kSilent);
     started.run(Duration{120'000'000 + static_cast<std::int64_t>(seed) * 1'234'567});
     ASSERT_TRUE(started.all_active());
-    started.coupler(Channel::kB).fail(StarCoupler::Failure::kNone);
+    started.coupler(Channel::kB).fail(medium::StarCoupler::Failure::kNone);
     started.run_cycles(14);
     EXPECT_TRUE(guardians_synchronised(started)) << "seed " << seed;
     started.forget();
@@ -175,4 +175,4 @@ TEST(GuardianStartup, WithoutGuardiansOneNodePreventsTheStart) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

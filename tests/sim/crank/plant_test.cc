@@ -10,41 +10,42 @@
 #include "sim/crank/bus_simulation.h"
 #include "tests/sim/crank/bus_clusters.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 namespace {
 
-using bus::PocKind;
+using bus::poc::PocKind;
 
 constexpr std::int64_t kCycle_ns = 5'000'000;
 constexpr TrueTime kSlotOne{1'000'000 + 7'000};  // cycle 0's action point of slot 1, about
 
 // Counts by slot what a controller saw wrong.
-struct Problems final : bus::ControllerEvents {
+struct Problems final : bus::controller::ControllerEvents {
   std::array<int, 65> syntax{}, content{}, missing{};
-  void slot_problem(std::int64_t, int slot, schedules::Channel, bus::SlotStatus status, Microticks) override {
+  void slot_problem(std::int64_t, int slot, schedules::model::Channel, bus::controller::SlotStatus status,
+                    Microticks) override {
     if (slot > 64) return;  // dynamic
     const auto s = static_cast<std::size_t>(slot);
-    syntax[s] += (status & bus::kSyntaxError) != 0;
-    content[s] += (status & bus::kContentError) != 0;
-    missing[s] += status == bus::kNoFrame;
+    syntax[s] += (status & bus::controller::kSyntaxError) != 0;
+    content[s] += (status & bus::controller::kContentError) != 0;
+    missing[s] += status == bus::controller::kNoFrame;
   }
 };
 
 struct Plant4 {
-  schedules::Cluster cluster = bus_cluster(4, 3, 4);
+  schedules::model::Cluster cluster = bus_cluster(4, 3, 4);
   std::vector<Problems> seen{4};
   std::unique_ptr<BusSimulation> simulation;
 
   // All begin integrated on random clocks, cycle 0 at 1 ms.
-  explicit Plant4(std::uint64_t seed, const schedules::Cluster* view_of_last = nullptr) {
+  explicit Plant4(std::uint64_t seed, const schedules::model::Cluster* view_of_last = nullptr) {
     std::vector<BusNode> nodes;
-    std::vector<bus::ControllerEvents*> events;
+    std::vector<bus::controller::ControllerEvents*> events;
     for (int n = 0; n < 4; ++n) {
       RandomStream draw({seed, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
       const std::int64_t ppb = draw.integer(-1'000'000, 1'000'000);
       BusNode node{timebase::Oscillator(25'000, ppb, draw.integer(0, 24'999))};
-      node.clock = bus::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}),
-                                     static_cast<int>(ppb * kMicroPerCycle / 1'000'000'000)};
+      node.clock = bus::controller::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}),
+                                                 static_cast<int>(ppb * kMicroPerCycle / 1'000'000'000)};
       if (n == 3) node.view = view_of_last;
       nodes.push_back(node);
       events.push_back(&seen[static_cast<std::size_t>(n)]);
@@ -77,7 +78,7 @@ TEST(Plant, WhatANodeWithoutSupplyWasSendingIsCutOff) {
   Plant4 plant(1);
   const std::int64_t cycle = 10;
   plant.simulation->run_until(kSlotOne + Duration{cycle * kCycle_ns + 10'000});
-  ASSERT_TRUE(plant.simulation->medium().carrier(NodeId{1}, schedules::Channel::kA, plant.simulation->now()));
+  ASSERT_TRUE(plant.simulation->medium().carrier(NodeId{1}, schedules::model::Channel::kA, plant.simulation->now()));
   plant.simulation->power_off(NodeId{0});
   EXPECT_FALSE(plant.simulation->powered(NodeId{0}));
   plant.run_to(Duration{(cycle + 5) * kCycle_ns});
@@ -92,17 +93,17 @@ TEST(Plant, WhatANodeWithoutSupplyWasSendingIsCutOff) {
 TEST(Plant, TheCutEndsTheSignalAtOnce) {
   Plant4 plant(1);
   plant.simulation->run_until(kSlotOne + Duration{10'000});
-  const FlexRayMedium& medium = plant.simulation->medium();
-  const Duration before = medium.busy(schedules::Channel::kA);
+  const medium::FlexRayMedium& medium = plant.simulation->medium();
+  const Duration before = medium.busy(schedules::model::Channel::kA);
   plant.simulation->power_off(NodeId{0});
-  EXPECT_LT(medium.busy(schedules::Channel::kA), before);
+  EXPECT_LT(medium.busy(schedules::model::Channel::kA), before);
   const TrueTime cut = plant.simulation->now();
   for (int n = 1; n < 4; ++n) {
     const TrueTime end = cut + medium.delay(NodeId{0}, static_cast<NodeId>(n));
     plant.simulation->run_until(end - Duration{1});
-    EXPECT_TRUE(medium.carrier(static_cast<NodeId>(n), schedules::Channel::kA, plant.simulation->now()));
+    EXPECT_TRUE(medium.carrier(static_cast<NodeId>(n), schedules::model::Channel::kA, plant.simulation->now()));
     plant.simulation->run_until(end);
-    EXPECT_FALSE(medium.carrier(static_cast<NodeId>(n), schedules::Channel::kA, plant.simulation->now()));
+    EXPECT_FALSE(medium.carrier(static_cast<NodeId>(n), schedules::model::Channel::kA, plant.simulation->now()));
   }
 }
 
@@ -151,13 +152,13 @@ TEST(Plant, ADriftBeyondTheLimitTakesThatNodeOnlyOutOfTheCluster) {
 TEST(Plant, AHostCommandsItsController) {
   Plant4 plant(5);
   plant.run_to(Duration{20 * kCycle_ns});
-  const auto command = [&](NodeId node, bus::PocEventKind what) {
+  const auto command = [&](NodeId node, bus::poc::PocEventKind what) {
     const TrueTime now = plant.simulation->now();
     plant.simulation->controller(node).command(what, plant.simulation->oscillator(node).ticks_at(now));
   };
-  command(NodeId{3}, bus::PocEventKind::kHalt);
+  command(NodeId{3}, bus::poc::PocEventKind::kHalt);
   EXPECT_EQ(plant.kind(3), PocKind::kNormalActive);  // at the end of the cycle
-  command(NodeId{2}, bus::PocEventKind::kFreeze);
+  command(NodeId{2}, bus::poc::PocEventKind::kFreeze);
   EXPECT_EQ(plant.kind(2), PocKind::kHalt);
   plant.run_to(Duration{22 * kCycle_ns});
   EXPECT_EQ(plant.kind(3), PocKind::kHalt);
@@ -166,7 +167,7 @@ TEST(Plant, AHostCommandsItsController) {
 
 // Node 3 believes that slot 9 is its own, which in the cluster is nobody's.
 TEST(Plant, ANodeMayBelieveInAnotherSchedule) {
-  schedules::Cluster wrong = bus_cluster(4, 3, 4);
+  schedules::model::Cluster wrong = bus_cluster(4, 3, 4);
   wrong.frames.back().slot = 9;
   wrong.nodes.back().flexray->pKeySlotId = 9;
   Plant4 plant(6, &wrong);
@@ -179,7 +180,7 @@ TEST(Plant, ANodeMayBelieveInAnotherSchedule) {
 }
 
 // Whatever is done to them, in whatever order, at whatever instants: the run goes on, and is a function of its seed.
-class Tormentor final : public Disturbance {
+class Tormentor final : public medium::Disturbance {
  public:
   Tormentor(BusSimulation& plant, std::uint64_t seed) : plant_(plant), draw_({seed, 0, Purpose::kTest, 1, 0}) {}
   TrueTime next() const override { return next_; }
@@ -192,8 +193,8 @@ class Tormentor final : public Disturbance {
       case 3: {
         const TrueTime start = now + Duration{draw_.integer(0, 1'000)};
         plant_.emit({node,
-                     draw_.integer(0, 1) == 0 ? schedules::Channel::kA : schedules::Channel::kB,
-                     static_cast<bus::Signal>(draw_.integer(1, 3)),
+                     draw_.integer(0, 1) == 0 ? schedules::model::Channel::kA : schedules::model::Channel::kB,
+                     static_cast<bus::ports::Signal>(draw_.integer(1, 3)),
                      start,
                      start + Duration{draw_.integer(1, 200'000)},
                      {}},
@@ -221,7 +222,7 @@ std::vector<std::int64_t> tormented(std::uint64_t seed) {
     plant.run_to(Duration::milliseconds(ms));
     for (int n = 0; n < 4; ++n) story.push_back(static_cast<std::int64_t>(plant.kind(n)));
     story.push_back(plant.simulation->precision().ns);
-    story.push_back(plant.simulation->medium().busy(schedules::Channel::kB).ns);
+    story.push_back(plant.simulation->medium().busy(schedules::model::Channel::kB).ns);
   }
   for (const Problems& one : plant.seen) {
     story.insert(story.end(), one.syntax.begin(), one.syntax.end());
@@ -237,4 +238,4 @@ TEST(Plant, ARunUnderTormentIsAFunctionOfItsSeed) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

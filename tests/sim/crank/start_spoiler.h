@@ -11,9 +11,9 @@
 #include "core/random.h"
 #include "sim/crank/bus_simulation.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 
-class StartSpoiler final : public Disturbance {
+class StartSpoiler final : public medium::Disturbance {
  public:
   enum class Plan {
     kBabble,         // noise, frames and symbols at all times
@@ -33,15 +33,15 @@ class StartSpoiler final : public Disturbance {
       Plan::kBabble, Plan::kSymbols, Plan::kFalseLeader,   Plan::kEvenCycles,    Plan::kMasquerade, Plan::kReactive,
       Plan::kSplit,  Plan::kWakeup,  Plan::kNoSilentCycle, Plan::kFromTheMiddle, Plan::kOneOfTwo,   Plan::kAnything};
 
-  StartSpoiler(BusSimulation& simulation, const schedules::Cluster& cluster, Plan plan, std::uint64_t seed)
+  StartSpoiler(BusSimulation& simulation, const schedules::model::Cluster& cluster, Plan plan, std::uint64_t seed)
       : simulation_(simulation), cluster_(cluster), plan_(plan), draw_({seed, 0, Purpose::kTest, 7, 0}) {
     next_ = TrueTime{draw_.integer(0, 10'000'000)};
     if (plan == Plan::kBabble) next_ = TrueTime{};
   }
 
   TrueTime next() const override { return next_; }
-  bool leaving(Leaving& signal) override {
-    if (plan_ == Plan::kReactive && signal.sender != kSelf && signal.signal == bus::Signal::kCas)
+  bool leaving(medium::Leaving& signal) override {
+    if (plan_ == Plan::kReactive && signal.sender != kSelf && signal.signal == bus::ports::Signal::kCas)
       next_ = std::min(next_, signal.start + Duration{draw_.integer(1, 6'000'000)});
     return true;
   }
@@ -49,7 +49,7 @@ class StartSpoiler final : public Disturbance {
     switch (plan_) {
       case Plan::kBabble: babble(now); break;
       case Plan::kSymbols:
-        both_or_one([&](auto channel) { symbol(bus::Signal::kCas, channel, now); });
+        both_or_one([&](auto channel) { symbol(bus::ports::Signal::kCas, channel, now); });
         next_ = now + Duration{draw_.integer(10'000, 9'000'000)};
         break;
       case Plan::kFalseLeader: lead(now, 7); break;
@@ -66,7 +66,7 @@ class StartSpoiler final : public Disturbance {
       case Plan::kReactive:
         both_or_one([&](auto channel) {
           if (draw_.integer(0, 1) == 0)
-            symbol(bus::Signal::kCas, channel, now);
+            symbol(bus::ports::Signal::kCas, channel, now);
           else
             frame(channel, now, 1, static_cast<int>(draw_.integer(0, 3)));
         });
@@ -75,7 +75,7 @@ class StartSpoiler final : public Disturbance {
       case Plan::kSplit: lead(now, 3); break;
       case Plan::kWakeup:
         if (draw_.integer(0, 2) == 0) {
-          both_or_one([&](auto channel) { symbol(bus::Signal::kWakeup, channel, now); });
+          both_or_one([&](auto channel) { symbol(bus::ports::Signal::kWakeup, channel, now); });
           next_ = now + Duration{draw_.integer(100'000, 9'000'000)};
         } else {
           lead(now, 5);
@@ -97,29 +97,31 @@ class StartSpoiler final : public Disturbance {
 
   template <class Act> void both_or_one(Act act) {
     const auto which = draw_.integer(0, 3);
-    if (which != 2) act(schedules::Channel::kA);
-    if (which != 3) act(schedules::Channel::kB);
+    if (which != 2) act(schedules::model::Channel::kA);
+    if (which != 3) act(schedules::model::Channel::kB);
   }
-  void symbol(bus::Signal kind, schedules::Channel channel, TrueTime at, std::int64_t ns = 0) {
-    if (ns == 0) ns = kind == bus::Signal::kCas ? 3'900 : 48'000;
+  void symbol(bus::ports::Signal kind, schedules::model::Channel channel, TrueTime at, std::int64_t ns = 0) {
+    if (ns == 0) ns = kind == bus::ports::Signal::kCas ? 3'900 : 48'000;
     simulation_.emit({kSelf, channel, kind, at, at + Duration{ns}, {}}, kSelf);
   }
-  void frame(schedules::Channel channel, TrueTime at, int id, int cycle, bool startup = true) {
-    wire::FrameHeader header;
+  void frame(schedules::model::Channel channel, TrueTime at, int id, int cycle, bool startup = true) {
+    bus::wire::FrameHeader header;
     header.null_frame = true;
     header.sync = header.startup = startup;
     header.frame_id = static_cast<std::uint16_t>(id);
     header.cycle = static_cast<std::uint8_t>(cycle);
     const std::vector<std::byte> payload(static_cast<std::size_t>(2 * cluster_.flexray.gPayloadLengthStatic));
-    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
-    const std::size_t size = wire::encode_frame(header, channel, payload, bytes);
-    const Duration length = wire::frame_duration(cluster_.flexray, cluster_.flexray.gPayloadLengthStatic);
-    simulation_.emit({kSelf, channel, bus::Signal::kFrame, at, at + length, std::span(bytes).first(size)}, kSelf);
+    std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
+    const std::size_t size = bus::wire::encode_frame(header, channel, payload, bytes);
+    const Duration length = bus::wire::frame_duration(cluster_.flexray, cluster_.flexray.gPayloadLengthStatic);
+    simulation_.emit({kSelf, channel, bus::ports::Signal::kFrame, at, at + length, std::span(bytes).first(size)},
+                     kSelf);
   }
   void babble(TrueTime now) {
-    for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB}) switch (draw_.integer(0, 3)) {
-        case 0: symbol(bus::Signal::kUndecodable, channel, now, draw_.integer(1'000, 20'000)); break;
-        case 1: symbol(bus::Signal::kCas, channel, now, draw_.integer(3'000, 20'000)); break;
+    for (const auto channel : {schedules::model::Channel::kA, schedules::model::Channel::kB})
+      switch (draw_.integer(0, 3)) {
+        case 0: symbol(bus::ports::Signal::kUndecodable, channel, now, draw_.integer(1'000, 20'000)); break;
+        case 1: symbol(bus::ports::Signal::kCas, channel, now, draw_.integer(3'000, 20'000)); break;
         case 2:
           frame(channel, now, static_cast<int>(draw_.integer(1, 5)), static_cast<int>(draw_.integer(0, 63)));
           break;
@@ -135,7 +137,7 @@ class StartSpoiler final : public Disturbance {
       if (plan_ == Plan::kSplit) which_ = last_ = last_ == 2 ? 3 : 2;
       cycles_left_ = static_cast<int>(draw_.integer(1, most));
       cycle_ = 0;
-      on_channels([&](auto channel) { symbol(bus::Signal::kCas, channel, now); });
+      on_channels([&](auto channel) { symbol(bus::ports::Signal::kCas, channel, now); });
       next_ = now + Duration{3'900 + 1'000 + 7'000};
       return;
     }
@@ -147,21 +149,21 @@ class StartSpoiler final : public Disturbance {
   void follow_plan(TrueTime now, std::initializer_list<int> cycles, std::int64_t pause) {
     which_ = 0;
     const int what = cycles.begin()[cycle_];
-    if (what == -1) on_channels([&](auto channel) { symbol(bus::Signal::kCas, channel, now); });
+    if (what == -1) on_channels([&](auto channel) { symbol(bus::ports::Signal::kCas, channel, now); });
     if (what >= 0) on_channels([&](auto channel) { frame(channel, now, 1, what); });
     cycle_ = (cycle_ + 1) % static_cast<int>(cycles.size());
     next_ = now + Duration{what == -1 ? 3'900 + 1'000 + 7'000 : cycle_ == 0 ? pause : kCycle};
   }
   template <class Act> void on_channels(Act act) {
-    if (which_ != 2) act(schedules::Channel::kA);
-    if (which_ != 3) act(schedules::Channel::kB);
+    if (which_ != 2) act(schedules::model::Channel::kA);
+    if (which_ != 3) act(schedules::model::Channel::kB);
   }
   void anything(TrueTime now) {
     both_or_one([&](auto channel) {
       switch (draw_.integer(0, 5)) {
-        case 0: symbol(bus::Signal::kUndecodable, channel, now, draw_.integer(100, 3'000'000)); break;
-        case 1: symbol(bus::Signal::kCas, channel, now); break;
-        case 2: symbol(bus::Signal::kWakeup, channel, now); break;
+        case 0: symbol(bus::ports::Signal::kUndecodable, channel, now, draw_.integer(100, 3'000'000)); break;
+        case 1: symbol(bus::ports::Signal::kCas, channel, now); break;
+        case 2: symbol(bus::ports::Signal::kWakeup, channel, now); break;
         case 3: frame(channel, now, 1, static_cast<int>(draw_.integer(0, 63))); break;
         case 4: frame(channel, now, 1, cycle_++ % 64); break;
         default:
@@ -173,7 +175,7 @@ class StartSpoiler final : public Disturbance {
   }
 
   BusSimulation& simulation_;
-  const schedules::Cluster& cluster_;
+  const schedules::model::Cluster& cluster_;
   Plan plan_;
   RandomStream draw_;
   TrueTime next_{};
@@ -181,4 +183,4 @@ class StartSpoiler final : public Disturbance {
   std::int64_t which_ = 0, last_ = 2;
 };
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

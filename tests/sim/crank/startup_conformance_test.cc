@@ -8,21 +8,21 @@
 #include "sim/crank/bus_simulation.h"
 #include "tests/sim/crank/bus_clusters.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 namespace {
 
-using bus::PocKind;
-using bus::PocReason;
+using bus::poc::PocKind;
+using bus::poc::PocReason;
 
 struct Started {
-  schedules::Cluster cluster;
+  schedules::model::Cluster cluster;
   std::vector<std::unique_ptr<StateLog>> logs;
   std::unique_ptr<BusSimulation> simulation;
 
-  Started(schedules::Cluster made, const std::vector<TrueTime>& power_on, std::uint64_t seed)
+  Started(schedules::model::Cluster made, const std::vector<TrueTime>& power_on, std::uint64_t seed)
       : cluster(std::move(made)) {
     std::vector<BusNode> nodes;
-    std::vector<bus::ControllerEvents*> events;
+    std::vector<bus::controller::ControllerEvents*> events;
     for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
       RandomStream draw({seed, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
       nodes.push_back(
@@ -133,4 +133,4 @@ TEST(StartupConformance, ARestartedNodeIntegratesAgain) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

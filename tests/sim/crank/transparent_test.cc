@@ -11,28 +11,29 @@
 #include "core/random.h"
 #include "recording/log/writer.h"
 #include "sim/crank/bus_simulation.h"
-#include "sim/medium/channel_log.h"
 #include "sim/crank/cluster_simulation.h"
-#include "tests/sim/crank/bus_clusters.h"
+#include "sim/medium/channel_log.h"
 #include "tests/drives/drive_fixture.h"
+#include "tests/sim/crank/bus_clusters.h"
 
-namespace ttf::sim {
+namespace ttf::sim::crank {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
 // Everything a controller says, but for the bytes.
-struct Diary final : bus::ControllerEvents {
+struct Diary final : bus::controller::ControllerEvents {
   std::vector<std::int64_t> entries;
   template <class... Numbers> void write(Numbers... numbers) {
     (entries.push_back(static_cast<std::int64_t>(numbers)), ...);
   }
   bool wants_bytes() const override { return false; }
   void cycle_started(std::int64_t cycle, Microticks at) override { write(1, cycle, at.value); }
-  void slot_problem(std::int64_t cycle, int slot, Channel channel, bus::SlotStatus status, Microticks at) override {
+  void slot_problem(std::int64_t cycle, int slot, Channel channel, bus::controller::SlotStatus status,
+                    Microticks at) override {
     write(2, cycle, slot, channel, status, at.value);
   }
-  void frame_sent(const bus::Transmission& sent, std::int64_t cycle, bool null_frame, PduId, std::uint32_t, int,
+  void frame_sent(const bus::ports::Transmission& sent, std::int64_t cycle, bool null_frame, PduId, std::uint32_t, int,
                   bool) override {
     write(3, sent.channel, sent.start.value, sent.end.value, sent.slot, cycle, null_frame);
     encoded += sent.bytes.empty() ? 0 : 1;
@@ -42,19 +43,19 @@ struct Diary final : bus::ControllerEvents {
                        Microticks at) override {
     write(4, cycle, offset.value, rate.value, offset.missing, rate.missing, at.value);
   }
-  void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override {
+  void state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) override {
     write(5, from, step.next.kind, step.reason, at.value);
   }
   int frames = 0, encoded = 0;
 };
 
 // Some nodes' frames are cut, flipped, moved, swapped or lost, now and then; noise, and supplies that fail.
-class Trouble final : public Disturbance {
+class Trouble final : public medium::Disturbance {
  public:
   Trouble(BusSimulation& plant, std::uint64_t seed, int nodes)
       : plant_(plant), draw_({seed, 0, Purpose::kTest, 3, 0}), nodes_(nodes) {}
   bool touches(NodeId sender, Channel) const override { return index_of(sender) < 2 && troubled_; }
-  bool leaving(Leaving& signal) override {
+  bool leaving(medium::Leaving& signal) override {
     if (!touches(signal.sender, signal.channel)) {
       EXPECT_TRUE(signal.bytes.empty() || !transparent);
       return true;
@@ -62,7 +63,7 @@ class Trouble final : public Disturbance {
     const int what = static_cast<int>(draw_.integer(0, 9));
     if (what == 0) return false;
     if (what == 1) signal.channel = signal.channel == Channel::kA ? Channel::kB : Channel::kA;
-    if (what < 5 && signal.signal == bus::Signal::kFrame) {
+    if (what < 5 && signal.signal == bus::ports::Signal::kFrame) {
       std::copy(signal.bytes.begin(), signal.bytes.end(), changed_.begin());
       const auto bit =
           static_cast<std::size_t>(draw_.integer(0, 8 * static_cast<std::int64_t>(signal.bytes.size()) - 1));
@@ -71,10 +72,10 @@ class Trouble final : public Disturbance {
     }
     return true;
   }
-  bool arriving(Arriving& signal) override {
+  bool arriving(medium::Arriving& signal) override {
     if (!troubled_) return true;
     const int what = static_cast<int>(draw_.integer(0, 49));
-    if (what == 0) signal.signal = bus::Signal::kUndecodable;
+    if (what == 0) signal.signal = bus::ports::Signal::kUndecodable;
     if (what == 1) signal.start = signal.start + Duration{5'000}, signal.end = signal.end + Duration{5'000};
     return what != 2;
   }
@@ -85,8 +86,9 @@ class Trouble final : public Disturbance {
     const int what = static_cast<int>(draw_.integer(0, 5));
     if (what == 0) plant_.power_on(node, now + Duration{draw_.integer(0, 30'000'000)});
     if (what == 1)
-      plant_.emit({node, Channel::kA, bus::Signal::kUndecodable, now, now + Duration{draw_.integer(1, 100'000)}, {}},
-                  std::nullopt);
+      plant_.emit(
+          {node, Channel::kA, bus::ports::Signal::kUndecodable, now, now + Duration{draw_.integer(1, 100'000)}, {}},
+          std::nullopt);
     next_ = now + Duration{draw_.integer(1, 30'000'000)};
   }
   bool transparent = false;
@@ -96,16 +98,16 @@ class Trouble final : public Disturbance {
   RandomStream draw_;
   int nodes_;
   bool troubled_ = false;
-  std::array<std::byte, wire::kMaxFrameBytes> changed_{};
+  std::array<std::byte, bus::wire::kMaxFrameBytes> changed_{};
   TrueTime next_{20'000'000};
 };
 
 // What became of frames on their way, with their bytes.
-struct ChannelDiary final : records::Sink {
+struct ChannelDiary final : recording::records::Sink {
   std::vector<std::int64_t> entries;
   int frames = 0;
-  using records::Sink::on;
-  void on(const records::ChannelFrame& frame) override {
+  using recording::records::Sink::on;
+  void on(const recording::records::ChannelFrame& frame) override {
     ++frames;
     for (const std::int64_t entry :
          {frame.start.ns, frame.end.ns, frame.sent.ns, std::int64_t{frame.channel}, std::int64_t{frame.sent_channel},
@@ -126,11 +128,12 @@ Told run(std::uint64_t seed, bool troubled, bool transparent, bool logged = fals
   RandomStream draw({seed, 0, Purpose::kTest, 4, 0});
   const int nodes = static_cast<int>(draw.integer(2, 9));
   const int coldstart = static_cast<int>(draw.integer(2, nodes));
-  const schedules::Cluster cluster = bus_cluster(nodes, coldstart, static_cast<int>(draw.integer(coldstart, nodes)));
+  const schedules::model::Cluster cluster =
+      bus_cluster(nodes, coldstart, static_cast<int>(draw.integer(coldstart, nodes)));
   Told told;
   told.diaries.resize(static_cast<std::size_t>(nodes));
   std::vector<BusNode> begin;
-  std::vector<bus::ControllerEvents*> events;
+  std::vector<bus::controller::ControllerEvents*> events;
   for (int n = 0; n < nodes; ++n) {
     begin.push_back({timebase::Oscillator{25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)},
                      TrueTime{draw.integer(0, 20'000'000)}});
@@ -138,7 +141,7 @@ Told run(std::uint64_t seed, bool troubled, bool transparent, bool logged = fals
   }
   BusSimulation simulation(cluster, std::move(begin), std::move(events));
   simulation.medium().set_transparent(transparent);
-  ChannelLog log(cluster.flexray, FlexRayMedium::kMostLogged, told.channels);
+  medium::ChannelLog log(cluster.flexray, medium::FlexRayMedium::kMostLogged, told.channels);
   if (logged) simulation.medium().set_log(&log);
   Trouble trouble(simulation, seed, nodes);
   trouble.transparent = transparent;
@@ -180,11 +183,11 @@ TEST(TransparentMedium, TheLogIsToldTheSameOfTheChannels) {
 }
 
 // Two bits of every seventh frame of one node.
-class Flips final : public Disturbance {
+class Flips final : public medium::Disturbance {
  public:
   explicit Flips(NodeId node) : node_(node) {}
   bool touches(NodeId sender, Channel) const override { return sender == node_; }
-  bool leaving(Leaving& signal) override {
+  bool leaving(medium::Leaving& signal) override {
     if (signal.sender != node_ || ++frames_ % 7 != 0) return true;
     std::copy(signal.bytes.begin(), signal.bytes.end(), changed_.begin());
     changed_[6] ^= std::byte{0x21};
@@ -195,19 +198,19 @@ class Flips final : public Disturbance {
  private:
   NodeId node_;
   int frames_ = 0;
-  std::array<std::byte, wire::kMaxFrameBytes> changed_{};
+  std::array<std::byte, bus::wire::kMaxFrameBytes> changed_{};
 };
 
-std::uint64_t hash(fusion::StrategyKind strategy, std::uint64_t seed, bool flips, bool transparent) {
-  const testing_support::Drive drive("scenarios/paper_scenario1.yaml", strategy);
-  const auto scene = std::make_shared<nodes::WorldScene>(drive.scenario.world, seed, 0, kFirstCycle);
-  const nodes::NodeSetConfig nodes{&drive.scenario, &drive.cluster, strategy, seed, 0, scene, nullptr};
+std::uint64_t hash(fusion::strategies::StrategyKind strategy, std::uint64_t seed, bool flips, bool transparent) {
+  const drives::Drive drive("scenarios/paper_scenario1.yaml", strategy);
+  const auto scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, seed, 0, kFirstCycle);
+  const drives::NodeSetConfig nodes{&drive.scenario, &drive.cluster, strategy, seed, 0, scene, nullptr};
   SimulationConfig config;
   config.cluster = &drive.cluster;
   config.seed = seed;
-  config.make_steps = [&](NodeId node) { return nodes::make_steps(nodes, node); };
+  config.make_steps = [&](NodeId node) { return drives::make_steps(nodes, node); };
   const std::string path = testing::TempDir() + "/transparent.mcap";
-  recording::LogWriter log(path, {});
+  recording::log::LogWriter log(path, {});
   ClusterSimulation simulation(config, log);
   simulation.medium().set_transparent(transparent);
   Flips disturbance(*drive.cluster.find_node("gateway"));
@@ -220,11 +223,11 @@ std::uint64_t hash(fusion::StrategyKind strategy, std::uint64_t seed, bool flips
 }
 
 TEST(TransparentMedium, DrivesLeaveTheSameRecords) {
-  for (const fusion::StrategyKind strategy : testing_support::kStrategies)
+  for (const fusion::strategies::StrategyKind strategy : drives::kStrategies)
     for (const bool flips : {false, true})
       for (std::uint64_t seed = 1; seed < 4; ++seed)
         EXPECT_EQ(hash(strategy, seed, flips, false), hash(strategy, seed, flips, true)) << "seed " << seed;
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::crank

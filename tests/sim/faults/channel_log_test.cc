@@ -8,22 +8,22 @@
 #include "sim/medium/channel_log.h"
 #include "tests/sim/faults/fault_bus.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using nodes::FaultKind;
-using schedules::Channel;
+using schedules::model::Channel;
+using ttf::faults::FaultKind;
 
-constexpr std::uint8_t kCrcs = records::kChannelHeaderCrc | records::kChannelFrameCrc;
+constexpr std::uint8_t kCrcs = recording::records::kChannelHeaderCrc | recording::records::kChannelFrameCrc;
 
-struct Heard final : records::Sink {
+struct Heard final : recording::records::Sink {
   struct Frame {
-    records::ChannelFrame record;
+    recording::records::ChannelFrame record;
     std::vector<std::byte> bytes;
   };
   std::vector<Frame> frames;
-  using records::Sink::on;
-  void on(const records::ChannelFrame& record) override {
+  using recording::records::Sink::on;
+  void on(const recording::records::ChannelFrame& record) override {
     frames.push_back({record, {record.bytes.begin(), record.bytes.end()}});
   }
   std::size_t count(std::uint8_t state) const {
@@ -35,28 +35,28 @@ struct Heard final : records::Sink {
 struct LoggedBus {
   Heard heard;
   FaultBus bus;
-  ChannelLog log;
+  medium::ChannelLog log;
 
   LoggedBus(FaultBusConfig config, int cycles)
-      : bus(config), log(config.cluster.flexray, FlexRayMedium::kMostLogged, heard) {
+      : bus(config), log(config.cluster.flexray, medium::FlexRayMedium::kMostLogged, heard) {
     bus.simulation().medium().set_log(&log);
     bus.run(5 * cycles);
   }
-  LoggedBus(const nodes::Fault& fault, int cycles) : LoggedBus(with({fault}), cycles) {}
+  LoggedBus(const ttf::faults::Fault& fault, int cycles) : LoggedBus(with({fault}), cycles) {}
   const std::vector<Heard::Frame>& frames() const { return heard.frames; }
 };
 
-FaultBusConfig star_of(std::vector<nodes::Fault> faults) {
+FaultBusConfig star_of(std::vector<ttf::faults::Fault> faults) {
   FaultBusConfig config = with(std::move(faults));
-  config.cluster.topology = schedules::Topology::kStar;
+  config.cluster.topology = schedules::model::Topology::kStar;
   config.cluster.guardian = true;
   return config;
 }
 
 Channel channel_of(const Heard::Frame& frame) { return static_cast<Channel>(frame.record.channel); }
 
-wire::FrameError error_of(const Heard::Frame& frame) {
-  return wire::decode_frame(channel_of(frame), frame.bytes).error;
+bus::wire::FrameError error_of(const Heard::Frame& frame) {
+  return bus::wire::decode_frame(channel_of(frame), frame.bytes).error;
 }
 
 void expect_sent_by(const Heard::Frame& frame, int node) {
@@ -70,7 +70,7 @@ TEST(ChannelLog, WhereNothingGoesWrongThereIsNothingToTell) {
 
 TEST(ChannelLog, ItChangesNothing) {
   for (const bool star : {false, true}) {
-    std::vector<nodes::Fault> faults = {
+    std::vector<ttf::faults::Fault> faults = {
         fault_of(FaultKind::kBitFlipHeader, 0, 10, 10), fault_of(FaultKind::kSosValue, 1, 10, 40),
         fault_of(FaultKind::kCrash, 2, 20, 5), fault_of(FaultKind::kBabblingIdiot, 3, 30, 5)};
     const FaultBusConfig config = star ? star_of(faults) : with(faults);
@@ -88,7 +88,7 @@ TEST(ChannelLog, AnInvertedBitFailsTheChecksThatCoverIt) {
   };
   for (const FaultKind kind : {FaultKind::kBitFlipHeader, FaultKind::kBitFlipPayload, FaultKind::kBitFlipTrailer})
     for (const int bit : {0, 2, 3, 15, 23}) {
-      nodes::Fault fault = fault_of(kind, 2, 10, 4);
+      ttf::faults::Fault fault = fault_of(kind, 2, 10, 4);
       fault.bits = {bit};
       const LoggedBus logged(fault, 20);
       ASSERT_EQ(logged.frames().size(), 8U);
@@ -99,31 +99,32 @@ TEST(ChannelLog, AnInvertedBitFailsTheChecksThatCoverIt) {
         EXPECT_EQ(frame.record.sent_channel, frame.record.channel);
         EXPECT_GE(frame.record.cycle_counter, 10);
         // Sync, startup, frame id, length and the header CRC itself.
-        EXPECT_EQ(frame.record.state, at >= 3 && at <= 33 ? kCrcs : records::kChannelFrameCrc) << "bit " << at;
+        EXPECT_EQ(frame.record.state, at >= 3 && at <= 33 ? kCrcs : recording::records::kChannelFrameCrc)
+            << "bit " << at;
         frame.bytes[static_cast<std::size_t>(at / 8)] ^= static_cast<std::byte>(0x80 >> at % 8);
-        EXPECT_EQ(error_of(frame), wire::FrameError::kNone) << "but for that bit it is the frame that was sent";
+        EXPECT_EQ(error_of(frame), bus::wire::FrameError::kNone) << "but for that bit it is the frame that was sent";
       }
-      for (const int n : {0, 1, 3}) EXPECT_EQ(logged.bus.said(n).count(3, bus::kSyntaxError), 8);
+      for (const int n : {0, 1, 3}) EXPECT_EQ(logged.bus.said(n).count(3, bus::controller::kSyntaxError), 8);
     }
 }
 
 TEST(ChannelLog, WhatSomeReceiversAloneMistakeWasOnTheChannelAsItWasSent) {
-  nodes::Fault fault = fault_of(FaultKind::kBitFlipPayload, 2, 10, 4);
+  ttf::faults::Fault fault = fault_of(FaultKind::kBitFlipPayload, 2, 10, 4);
   fault.receivers = {NodeId{0}, NodeId{3}};
   EXPECT_TRUE(LoggedBus(fault, 20).frames().empty());
   fault.receivers.push_back(NodeId{1});
   const LoggedBus all(fault, 20);
   EXPECT_EQ(all.frames().size(), 8U);
-  EXPECT_EQ(all.heard.count(records::kChannelFrameCrc), 8U);
+  EXPECT_EQ(all.heard.count(recording::records::kChannelFrameCrc), 8U);
 
   fault = fault_of(FaultKind::kSosValue, 2, 10, 4);
   fault.receivers = {NodeId{0}, NodeId{1}};
   EXPECT_TRUE(LoggedBus(fault, 20).frames().empty());
   fault.receivers.push_back(NodeId{3});
-  EXPECT_EQ(LoggedBus(fault, 20).heard.count(records::kChannelCoding), 8U);
+  EXPECT_EQ(LoggedBus(fault, 20).heard.count(recording::records::kChannelCoding), 8U);
 
   fault = fault_of(FaultKind::kOmission, 2, 10, 4);
-  fault.direction = nodes::FaultDirection::kReceive;
+  fault.direction = ttf::faults::FaultDirection::kReceive;
   EXPECT_TRUE(LoggedBus(fault, 20).frames().empty()) << "a deaf receiver";
 }
 
@@ -131,7 +132,7 @@ TEST(ChannelLog, WhatSomeReceiversAloneMistakeWasOnTheChannelAsItWasSent) {
 TEST(ChannelLog, OfAFrameThatBreaksOffThereAreTheBytesThatHadLeft) {
   std::size_t before = 0;
   for (int microseconds = 1; microseconds < 25; ++microseconds) {
-    nodes::Fault fault = fault_of(FaultKind::kCrash, 1, 10);
+    ttf::faults::Fault fault = fault_of(FaultKind::kCrash, 1, 10);
     fault.from = Duration{10 * kCycleNs + (43 + 7 + microseconds) * 1'000};
     const LoggedBus logged(fault, 15);
     ASSERT_EQ(logged.frames().size(), 2U) << microseconds;
@@ -141,8 +142,9 @@ TEST(ChannelLog, OfAFrameThatBreaksOffThereAreTheBytesThatHadLeft) {
       EXPECT_NEAR(static_cast<double>(left), microseconds * 1'000.0, 1'000.0) << "clocks agree to a microsecond";
       const std::int64_t whole = left < 1'000 ? 0 : (left - 1'000) / 1'000;  // 100 ns a bit
       EXPECT_EQ(frame.bytes.size(), static_cast<std::size_t>(whole));
-      EXPECT_EQ(frame.record.state, records::kChannelCoding | records::kChannelCut) << "no CRC that is there is wrong";
-      const auto header = wire::header_of(frame.bytes);
+      EXPECT_EQ(frame.record.state, recording::records::kChannelCoding | recording::records::kChannelCut)
+          << "no CRC that is there is wrong";
+      const auto header = bus::wire::header_of(frame.bytes);
       EXPECT_EQ(header ? header->frame_id : 2, 2);
       EXPECT_GE(frame.bytes.size() + 1, before);
       before = frame.bytes.size();
@@ -152,7 +154,7 @@ TEST(ChannelLog, OfAFrameThatBreaksOffThereAreTheBytesThatHadLeft) {
 }
 
 TEST(ChannelLog, OfWhatCollidesNothingIsLeft) {
-  nodes::Fault fault = fault_of(FaultKind::kMasquerading, 2, 10, 5);
+  ttf::faults::Fault fault = fault_of(FaultKind::kMasquerading, 2, 10, 5);
   fault.slot = 2;
   const LoggedBus logged(fault, 20);
   // The node knows of a cycle by its own slot, which comes after that one: its first frame more is in the next.
@@ -160,18 +162,18 @@ TEST(ChannelLog, OfWhatCollidesNothingIsLeft) {
   ASSERT_EQ(logged.frames().size(), 16U);
   int of_the_owner = 0;
   for (const Heard::Frame& frame : logged.frames()) {
-    EXPECT_EQ(frame.record.state, records::kChannelCoding);
+    EXPECT_EQ(frame.record.state, recording::records::kChannelCoding);
     EXPECT_TRUE(frame.bytes.empty());
     const bool of_nobody = frame.record.slot == 0;
     EXPECT_EQ(frame.record.sender, of_nobody ? NodeId{2} : NodeId{1});
     of_the_owner += of_nobody ? 0 : 1;
   }
   EXPECT_EQ(of_the_owner, 8);
-  for (const int n : {0, 3}) EXPECT_EQ(logged.bus.said(n).count(2, bus::kSyntaxError), 8);
+  for (const int n : {0, 3}) EXPECT_EQ(logged.bus.said(n).count(2, bus::controller::kSyntaxError), 8);
 }
 
 TEST(ChannelLog, WhatNoControllerSentIsThereToo) {
-  nodes::Fault fault = fault_of(FaultKind::kMasquerading, 2, 10, 5);
+  ttf::faults::Fault fault = fault_of(FaultKind::kMasquerading, 2, 10, 5);
   fault.slot = 40;
   const LoggedBus logged(fault, 20);
   ASSERT_EQ(logged.frames().size(), 10U);
@@ -179,13 +181,13 @@ TEST(ChannelLog, WhatNoControllerSentIsThereToo) {
     EXPECT_EQ(frame.record.sender, NodeId{2});
     EXPECT_EQ(frame.record.slot, 0);
     EXPECT_EQ(frame.record.state, 0);
-    EXPECT_EQ(error_of(frame), wire::FrameError::kNone);
-    EXPECT_EQ(wire::header_of(frame.bytes)->frame_id, 40);
+    EXPECT_EQ(error_of(frame), bus::wire::FrameError::kNone);
+    EXPECT_EQ(bus::wire::header_of(frame.bytes)->frame_id, 40);
   }
-  nodes::Fault noise = fault_of(FaultKind::kNoise, 0, 10, 5);
-  noise.channels = schedules::Channels::kB;
+  ttf::faults::Fault noise = fault_of(FaultKind::kNoise, 0, 10, 5);
+  noise.channels = schedules::model::Channels::kB;
   const LoggedBus noisy(noise, 20);
-  EXPECT_GE(noisy.heard.count(records::kChannelCoding), noisy.bus.acts());
+  EXPECT_GE(noisy.heard.count(recording::records::kChannelCoding), noisy.bus.acts());
   const auto bursts = std::count_if(noisy.frames().begin(), noisy.frames().end(), [&](const Heard::Frame& frame) {
     return frame.record.sender == kNoNode && frame.record.slot == 0 && channel_of(frame) == Channel::kB &&
            frame.record.end - frame.record.start == noise.length;
@@ -198,7 +200,7 @@ TEST(ChannelLog, FramesThatDoNotLeaveWereNowhere) {
   ASSERT_EQ(logged.frames().size(), 10U);
   for (const Heard::Frame& frame : logged.frames()) {
     expect_sent_by(frame, 1);
-    EXPECT_EQ(frame.record.state, records::kChannelNothing);
+    EXPECT_EQ(frame.record.state, recording::records::kChannelNothing);
     EXPECT_TRUE(frame.bytes.empty());
   }
 }
@@ -209,14 +211,14 @@ TEST(ChannelLog, AFrameOnTheOtherChannelFailsItsCrcThere) {
   for (const Heard::Frame& frame : logged.frames()) {
     expect_sent_by(frame, 1);
     EXPECT_NE(frame.record.channel, frame.record.sent_channel);
-    EXPECT_EQ(frame.record.state, records::kChannelFrameCrc);
-    EXPECT_EQ(wire::decode_frame(static_cast<Channel>(frame.record.sent_channel), frame.bytes).error,
-              wire::FrameError::kNone);
+    EXPECT_EQ(frame.record.state, recording::records::kChannelFrameCrc);
+    EXPECT_EQ(bus::wire::decode_frame(static_cast<Channel>(frame.record.sent_channel), frame.bytes).error,
+              bus::wire::FrameError::kNone);
   }
 }
 
 TEST(ChannelLog, AFrameThatIsLateIsSoundAndLate) {
-  nodes::Fault fault = fault_of(FaultKind::kSosTiming, 1, 10, 5);
+  ttf::faults::Fault fault = fault_of(FaultKind::kSosTiming, 1, 10, 5);
   fault.shift = Duration::microseconds(6);
   for (const bool star : {false, true}) {
     const LoggedBus logged(star ? star_of({fault}) : with({fault}), 20);
@@ -224,7 +226,7 @@ TEST(ChannelLog, AFrameThatIsLateIsSoundAndLate) {
     for (const Heard::Frame& frame : logged.frames()) {
       expect_sent_by(frame, 1);
       // The guardian takes nothing that is more than half an action point offset late.
-      EXPECT_EQ(frame.record.state, star ? records::kChannelNothing : 0);
+      EXPECT_EQ(frame.record.state, star ? recording::records::kChannelNothing : 0);
       EXPECT_EQ(frame.record.start, frame.record.sent + fault.shift);
     }
   }
@@ -233,64 +235,66 @@ TEST(ChannelLog, AFrameThatIsLateIsSoundAndLate) {
 TEST(ChannelLog, ATransientLeavesNothingThatAnybodyMakesOut) {
   const LoggedBus logged(fault_of(FaultKind::kTransient, 0, 10, 3), 20);
   EXPECT_EQ(logged.frames().size(), 3U * 2 * 4);
-  EXPECT_EQ(logged.heard.count(records::kChannelCoding), 3U * 2 * 4);
+  EXPECT_EQ(logged.heard.count(recording::records::kChannelCoding), 3U * 2 * 4);
 }
 
 TEST(ChannelLog, WhatAGuardianBlocksReachedNobodyAndWhatItMakesOutIsSound) {
-  nodes::Fault own = fault_of(FaultKind::kMasquerading, 1, 10, 5);
+  ttf::faults::Fault own = fault_of(FaultKind::kMasquerading, 1, 10, 5);
   own.slot = 40;
-  own.masquerade = nodes::MasqueradeMode::kOwnSlot;
+  own.masquerade = ttf::faults::MasqueradeMode::kOwnSlot;
   const LoggedBus masked(star_of({own}), 20);
   EXPECT_EQ(masked.frames().size(), 10U);
-  EXPECT_EQ(masked.heard.count(records::kChannelNothing), 10U);
+  EXPECT_EQ(masked.heard.count(recording::records::kChannelNothing), 10U);
 
-  nodes::Fault babble = fault_of(FaultKind::kBabblingIdiot, 3, 10, 5);
+  ttf::faults::Fault babble = fault_of(FaultKind::kBabblingIdiot, 3, 10, 5);
   EXPECT_TRUE(LoggedBus(star_of({babble}), 8).frames().empty());
   const LoggedBus babbling(star_of({babble}), 20);
   for (const Heard::Frame& frame : babbling.frames()) expect_sent_by(frame, 3);  // with which its own noise collides
 
   const LoggedBus misshapen(star_of({fault_of(FaultKind::kSosValue, 1, 10, 100)}), 120);
-  EXPECT_EQ(misshapen.frames().size(), misshapen.heard.count(records::kChannelNothing));
-  EXPECT_EQ(misshapen.frames().size(),
-            static_cast<std::size_t>(misshapen.bus.said(0).count(2, bus::kSyntaxError | bus::kNoFrame)));
+  EXPECT_EQ(misshapen.frames().size(), misshapen.heard.count(recording::records::kChannelNothing));
+  EXPECT_EQ(misshapen.frames().size(), static_cast<std::size_t>(misshapen.bus.said(0).count(
+                                           2, bus::controller::kSyntaxError | bus::controller::kNoFrame)));
 }
 
 // A coupler that lets everything through, and the crash of a node while its frame goes through it.
 TEST(ChannelLog, ThroughAStarAFrameBreaksOffWhereItsSenderDoes) {
-  nodes::Fault fault = fault_of(FaultKind::kCrash, 1, 10);
+  ttf::faults::Fault fault = fault_of(FaultKind::kCrash, 1, 10);
   fault.from = Duration{10 * kCycleNs + (43 + 7 + 12) * 1'000};
   const LoggedBus logged(star_of({fault}), 15);
   ASSERT_EQ(logged.frames().size(), 2U);
   for (const Heard::Frame& frame : logged.frames()) {
     expect_sent_by(frame, 1);
     EXPECT_EQ(frame.record.start, frame.record.sent) << "as at the sender, not at the coupler";
-    EXPECT_EQ(frame.record.state, records::kChannelCoding | records::kChannelCut);
+    EXPECT_EQ(frame.record.state, recording::records::kChannelCoding | recording::records::kChannelCut);
     EXPECT_NEAR(static_cast<double>(frame.bytes.size()), 11.0, 3.0);
   }
 }
 
 // 100 ms of noise, and a burst of 10 us in every 100 us of it, beside the frames of four nodes.
 TEST(ChannelLog, WhatIsDrawnIntoALongNoiseIsToldWhenItIsOver) {
-  nodes::Fault noise = fault_of(FaultKind::kNoise, -1, 10, 20);
+  ttf::faults::Fault noise = fault_of(FaultKind::kNoise, -1, 10, 20);
   noise.length = noise.interval = Duration::milliseconds(100);
-  nodes::Fault babble = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
+  ttf::faults::Fault babble = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
   babble.length = Duration::microseconds(10);
   babble.interval = Duration::microseconds(100);
-  noise.channels = babble.channels = schedules::Channels::kA;
+  noise.channels = babble.channels = schedules::model::Channels::kA;
   const LoggedBus logged(with({noise, babble}), 40);
   // The noise, 1000 bursts, four frames in each of 20 cycles.
   ASSERT_EQ(logged.frames().size(), 1U + 1000U + 4U * 20U);
-  EXPECT_EQ(logged.heard.count(records::kChannelCoding), logged.frames().size()) << "nobody can make any of it out";
+  EXPECT_EQ(logged.heard.count(recording::records::kChannelCoding), logged.frames().size())
+      << "nobody can make any of it out";
   for (std::size_t f = 1; f < logged.frames().size(); ++f)
     EXPECT_LE(logged.frames()[f - 1].record.end, logged.frames()[f].record.end + Duration::microseconds(3)) << "delays";
-  for (int n = 0; n < 4; ++n) EXPECT_EQ(logged.bus.state(n), bus::PocKind::kNormalActive) << "on the other channel";
+  for (int n = 0; n < 4; ++n)
+    EXPECT_EQ(logged.bus.state(n), bus::poc::PocKind::kNormalActive) << "on the other channel";
 }
 
 TEST(ChannelLog, WhatIsDrawnIntoALongNoiseMayBreakOff) {
-  nodes::Fault noise = fault_of(FaultKind::kNoise, -1, 10, 10);
+  ttf::faults::Fault noise = fault_of(FaultKind::kNoise, -1, 10, 10);
   noise.length = noise.interval = Duration::milliseconds(50);
-  noise.channels = schedules::Channels::kA;
-  nodes::Fault crash = fault_of(FaultKind::kCrash, 2, 12);
+  noise.channels = schedules::model::Channels::kA;
+  ttf::faults::Fault crash = fault_of(FaultKind::kCrash, 2, 12);
   crash.from = Duration{12 * kCycleNs + 2 * 43'000 + 7'000 + 12'000};  // in its slot, the third
   const LoggedBus logged(with({noise, crash}), 40);
   const TrueTime breaks_off = TrueTime{1'000'000} + crash.from;
@@ -304,4 +308,4 @@ TEST(ChannelLog, WhatIsDrawnIntoALongNoiseMayBreakOff) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

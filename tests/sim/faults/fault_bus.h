@@ -14,32 +14,32 @@
 #include "sim/faults/injector.h"
 #include "tests/sim/crank/bus_clusters.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 
 inline constexpr std::int64_t kCycleNs = 5'000'000;
 inline constexpr unsigned kAnything = 0xff;  // every bit of a slot status
 
 // What one controller says.
-struct Said final : bus::ControllerEvents {
+struct Said final : bus::controller::ControllerEvents {
   struct Problem {
     std::int64_t cycle = 0;
     int slot = 0;
-    schedules::Channel channel{};
+    schedules::model::Channel channel{};
     unsigned status = 0;
   };
   std::vector<Problem> problems;
-  std::vector<bus::PocKind> states;
+  std::vector<bus::poc::PocKind> states;
   std::vector<std::string> all;
   bool rate_limited = false, clock_missing = false;
   std::int64_t lists = 0;
 
-  void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
+  void slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel, bus::controller::SlotStatus status,
                     Microticks at) override {
     problems.push_back({cycle, slot, channel, static_cast<unsigned>(status)});
     all.push_back(fmt::format("{} cycle {} slot {} channel {} status {}", at.value, cycle, slot, index_of(channel),
                               static_cast<unsigned>(status)));
   }
-  void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override {
+  void state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) override {
     states.push_back(step.next.kind);
     all.push_back(fmt::format("{} from {} to {}", at.value, static_cast<int>(from), static_cast<int>(step.next.kind)));
   }
@@ -58,43 +58,46 @@ struct Said final : bus::ControllerEvents {
 };
 
 struct FaultBusConfig {
-  schedules::Cluster cluster = bus_cluster(4, 2, 4);
-  std::vector<nodes::Fault> faults;
+  schedules::model::Cluster cluster = crank::bus_cluster(4, 2, 4);
+  std::vector<ttf::faults::Fault> faults;
   std::uint64_t seed = 1;
   std::int64_t most_drift_ppb = 200'000;
   bool cold = false;   // all powered on at time zero; else integrated, cycle 0 beginning at a millisecond
   bool inject = true;  // false: nobody disturbs
 };
-inline FaultBusConfig with(std::vector<nodes::Fault> faults) {
+inline FaultBusConfig with(std::vector<ttf::faults::Fault> faults) {
   FaultBusConfig config;
   config.faults = std::move(faults);
   return config;
 }
 
-class FaultBus final : public records::Sink {
+class FaultBus final : public recording::records::Sink {
  public:
   explicit FaultBus(FaultBusConfig config)
       : config_(std::move(config)), plan_{"", config_.faults}, believed_(plan_, config_.cluster) {
-    std::vector<BusNode> nodes;
-    std::vector<bus::ControllerEvents*> events;
+    std::vector<crank::BusNode> nodes;
+    std::vector<bus::controller::ControllerEvents*> events;
     for (std::size_t n = 0; n < config_.cluster.nodes.size(); ++n) {
       RandomStream draw({config_.seed, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
       const std::int64_t phase = draw.integer(0, 24'999);
-      BusNode node{timebase::Oscillator(25'000, draw.integer(-config_.most_drift_ppb, config_.most_drift_ppb), phase)};
+      crank::BusNode node{
+          timebase::Oscillator(25'000, draw.integer(-config_.most_drift_ppb, config_.most_drift_ppb), phase)};
       if (!config_.cold) node.clock = integrated(node.oscillator);
       node.view = believed_.of(static_cast<NodeId>(n));
       nodes.push_back(node);
       said_.push_back(std::make_unique<Said>());
       events.push_back(said_.back().get());
     }
-    simulation_ = std::make_unique<BusSimulation>(config_.cluster, std::move(nodes), std::move(events));
+    simulation_ = std::make_unique<crank::BusSimulation>(config_.cluster, std::move(nodes), std::move(events));
     if (!config_.inject) return;
     injector_ = std::make_unique<Injector>(plan_, config_.cluster, *simulation_, config_.seed, 0, *this, origin());
     simulation_->set_disturbance(injector_.get());
   }
 
   // With one fault, after so many cycles.
-  FaultBus(const nodes::Fault& fault, int cycles) : FaultBus(FaultBusConfig{.faults = {fault}}) { run(5 * cycles + 1); }
+  FaultBus(const ttf::faults::Fault& fault, int cycles) : FaultBus(FaultBusConfig{.faults = {fault}}) {
+    run(5 * cycles + 1);
+  }
   FaultBus(const FaultBus&) = delete;
   FaultBus& operator=(const FaultBus&) = delete;
 
@@ -103,8 +106,8 @@ class FaultBus final : public records::Sink {
     return *this;
   }
   const Said& said(int node) const { return *said_[static_cast<std::size_t>(node)]; }
-  bus::PocKind state(int node) const { return simulation_->controller(static_cast<NodeId>(node)).state().kind; }
-  BusSimulation& simulation() { return *simulation_; }
+  bus::poc::PocKind state(int node) const { return simulation_->controller(static_cast<NodeId>(node)).state().kind; }
+  crank::BusSimulation& simulation() { return *simulation_; }
   std::uint64_t acts(std::size_t fault = 0) const { return injector_->activations()[fault].times; }
   const Injector& injector() const { return *injector_; }
 
@@ -128,36 +131,37 @@ class FaultBus final : public records::Sink {
 
  private:
   TrueTime origin() const { return TrueTime{config_.cold ? 0 : 1'000'000}; }
-  bus::InitialClock integrated(const timebase::Oscillator& oscillator) const {
+  bus::controller::InitialClock integrated(const timebase::Oscillator& oscillator) const {
     const TrueTime start = origin();
     const std::int64_t thousand =
         (oscillator.ticks_at(start + config_.cluster.cycle() * 1000) - oscillator.ticks_at(start)).value;
-    return {oscillator.ticks_at(start) + Microticks{1}, static_cast<int>((thousand + 500) / 1000 - kMicroPerCycle)};
+    return {oscillator.ticks_at(start) + Microticks{1},
+            static_cast<int>((thousand + 500) / 1000 - crank::kMicroPerCycle)};
   }
-  using records::Sink::on;
-  void on(const records::FaultActivity& activity) override {
+  using recording::records::Sink::on;
+  void on(const recording::records::FaultActivity& activity) override {
     activities_.push_back({activity.at, activity.fault, activity.what, activity.node, std::string(activity.kind),
                            std::string(activity.text)});
   }
 
   FaultBusConfig config_;
-  nodes::FaultPlan plan_;
-  nodes::BelievedSchedules believed_;
+  ttf::faults::FaultPlan plan_;
+  ttf::faults::BelievedSchedules believed_;
   std::vector<std::unique_ptr<Said>> said_;
-  std::unique_ptr<BusSimulation> simulation_;
+  std::unique_ptr<crank::BusSimulation> simulation_;
   std::unique_ptr<Injector> injector_;
   std::vector<Activity> activities_;
 };
 
 // A fault of node `node`, from cycle `from` on for `cycles` cycles, a macrotick before cycle boundaries; -1: to the
 // end.
-inline nodes::Fault fault_of(nodes::FaultKind kind, int node, int from = 10, int cycles = -1) {
-  nodes::Fault fault;
+inline ttf::faults::Fault fault_of(ttf::faults::FaultKind kind, int node, int from = 10, int cycles = -1) {
+  ttf::faults::Fault fault;
   fault.kind = kind;
-  if (nodes::has_node(kind)) fault.node = static_cast<NodeId>(node);
+  if (ttf::faults::has_node(kind)) fault.node = static_cast<NodeId>(node);
   fault.from = Duration{from * kCycleNs - (from > 0 ? 10'000 : 0)};
   if (cycles >= 0) fault.duration = Duration{cycles * kCycleNs};
   return fault;
 }
 
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

@@ -5,53 +5,53 @@
 
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using nodes::FaultKind;
-using testing_support::Drive;
+using drives::Drive;
+using ttf::faults::FaultKind;
 
 // What happened, as a number: frames as they left, tasks, problems and images. Not the faults' own records.
-struct Sum final : records::Sink {
-  using records::Sink::on;
+struct Sum final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::uint64_t sum = 0xcbf29ce484222325;
   std::uint64_t frames = 0, images = 0;
   std::map<std::string, std::uint64_t> acts;
   std::map<unsigned, std::uint64_t> problems;  // by bit of their status
   std::map<int, std::uint64_t> empty;          // by slot: no frame in it
 
-  void on(const records::SlotFrameSent& frame) override {
+  void on(const recording::records::SlotFrameSent& frame) override {
     ++frames;
     add(frame.stamp.true_time.ns);
     for (const std::byte byte : frame.bytes) add(static_cast<std::int64_t>(byte));
   }
-  void on(const records::TaskRun& run) override { add(run.end.true_time.ns), add(run.task); }
-  void on(const records::SlotProblem& problem) override {
+  void on(const recording::records::TaskRun& run) override { add(run.end.true_time.ns), add(run.task); }
+  void on(const recording::records::SlotProblem& problem) override {
     add(problem.stamp.true_time.ns), add(problem.status);
-    if ((problem.status & bus::kNoFrame) != 0) ++empty[problem.slot];
+    if ((problem.status & bus::controller::kNoFrame) != 0) ++empty[problem.slot];
     for (unsigned bit = 1; bit <= 16; bit *= 2) problems[bit] += (problem.status & bit) != 0 ? 1 : 0;
   }
-  void on(const records::ImageWritten& image) override { ++images, add(image.valid_at.ns); }
-  void on(const records::FaultActivity& activity) override {
-    if (activity.what == records::kFaultActs) ++acts[std::string(activity.kind)];
+  void on(const recording::records::ImageWritten& image) override { ++images, add(image.valid_at.ns); }
+  void on(const recording::records::FaultActivity& activity) override {
+    if (activity.what == recording::records::kFaultActs) ++acts[std::string(activity.kind)];
   }
 
  private:
   void add(std::int64_t value) { sum = (sum ^ static_cast<std::uint64_t>(value)) * 0x100000001b3; }
 };
 
-class FaultyDrive : public testing::TestWithParam<fusion::StrategyKind> {};
+class FaultyDrive : public testing::TestWithParam<fusion::strategies::StrategyKind> {};
 
 TEST_P(FaultyDrive, TheShippedOneRunsToItsEndAndEveryFaultActs) {
   const Drive drive("scenarios/faulty_bus.yaml", GetParam());
   Sum sum;
-  const DriveOutcome outcome = drive.run(sum);
+  const drives::DriveOutcome outcome = drive.run(sum);
   ASSERT_EQ(outcome.faults.size(), drive.scenario.faults.faults.size());
   for (std::size_t i = 0; i < outcome.faults.size(); ++i) {
-    const nodes::Fault& fault = drive.scenario.faults.faults[i];
-    EXPECT_GT(outcome.faults[i].times, 0U) << nodes::name_of(fault.kind);
-    EXPECT_GE(outcome.faults[i].first, kFirstCycle + fault.from) << nodes::name_of(fault.kind);
-    EXPECT_EQ(sum.acts[std::string(nodes::name_of(fault.kind))], outcome.faults[i].times);
+    const ttf::faults::Fault& fault = drive.scenario.faults.faults[i];
+    EXPECT_GT(outcome.faults[i].times, 0U) << ttf::faults::name_of(fault.kind);
+    EXPECT_GE(outcome.faults[i].first, crank::kFirstCycle + fault.from) << ttf::faults::name_of(fault.kind);
+    EXPECT_EQ(sum.acts[std::string(ttf::faults::name_of(fault.kind))], outcome.faults[i].times);
   }
   for (const unsigned status : {1U, 4U, 8U, 16U}) EXPECT_GT(sum.problems[status], 0U) << status;
   // The camera's host: 200 ms and what integration takes, on two channels, at four receivers.
@@ -74,7 +74,7 @@ TEST_P(FaultyDrive, TheSameSeedGivesTheSameDriveAndAnotherOneAnother) {
 TEST_P(FaultyDrive, FaultsThatNeverActChangeNothing) {
   const Drive without("scenarios/paper_scenario1.yaml", GetParam());
   Drive with = without;
-  nodes::Fault fault;
+  ttf::faults::Fault fault;
   fault.kind = FaultKind::kOmission;
   fault.node_name = "gateway";
   fault.probability = 0.0;
@@ -90,21 +90,21 @@ TEST_P(FaultyDrive, FaultsThatNeverActChangeNothing) {
 TEST_P(FaultyDrive, ANodeRunsOnTheScheduleThatItBelievesIn) {
   Drive drive("scenarios/paper_scenario1.yaml", GetParam());
   drive.scenario.duration = Duration::milliseconds(200);
-  nodes::Fault fault;
+  ttf::faults::Fault fault;
   fault.kind = FaultKind::kWrongSchedule;
-  fault.wrong = nodes::WrongSchedule::kPayloadLength;
+  fault.wrong = ttf::faults::WrongSchedule::kPayloadLength;
   fault.by = 1;
   fault.node_name = "gateway";
   drive.scenario.faults.faults = {fault};
   Sum sum;
-  const DriveOutcome outcome = drive.run(sum);
+  const drives::DriveOutcome outcome = drive.run(sum);
   EXPECT_GT(outcome.faults[0].times, 100U);
-  EXPECT_GT(sum.problems[bus::kContentError], 100U);
+  EXPECT_GT(sum.problems[bus::controller::kContentError], 100U);
 }
 
 TEST_P(FaultyDrive, NamesThatTheClusterHasNotAreRefusedBeforeAnythingRuns) {
   Drive drive("scenarios/paper_scenario1.yaml", GetParam());
-  nodes::Fault fault;
+  ttf::faults::Fault fault;
   fault.kind = FaultKind::kCrash;
   fault.node_name = "radar";
   fault.line = 30;
@@ -114,8 +114,8 @@ TEST_P(FaultyDrive, NamesThatTheClusterHasNotAreRefusedBeforeAnythingRuns) {
   EXPECT_EQ(sum.frames, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Strategies, FaultyDrive, testing::ValuesIn(testing_support::kStrategies),
-                         [](const auto& strategy) { return std::string(nodes::name_of(strategy.param)); });
+INSTANTIATE_TEST_SUITE_P(Strategies, FaultyDrive, testing::ValuesIn(drives::kStrategies),
+                         [](const auto& strategy) { return std::string(drives::name_of(strategy.param)); });
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

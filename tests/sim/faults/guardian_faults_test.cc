@@ -3,15 +3,15 @@
 
 #include "tests/sim/faults/fault_bus.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using bus::PocKind;
-using nodes::FaultKind;
+using bus::poc::PocKind;
+using ttf::faults::FaultKind;
 
-FaultBusConfig star(nodes::Fault fault) {
+FaultBusConfig star(ttf::faults::Fault fault) {
   FaultBusConfig config;
-  config.cluster.topology = schedules::Topology::kStar;
+  config.cluster.topology = schedules::model::Topology::kStar;
   config.cluster.guardian = true;
   config.faults = {std::move(fault)};
   return config;
@@ -19,7 +19,8 @@ FaultBusConfig star(nodes::Fault fault) {
 
 // All others say the same of a slot.
 void expect_agreement(const FaultBus& bus, int slot) {
-  for (const unsigned status : {bus::kSyntaxError, bus::kContentError, bus::kBoundaryViolation, bus::kNoFrame}) {
+  for (const unsigned status : {bus::controller::kSyntaxError, bus::controller::kContentError,
+                                bus::controller::kBoundaryViolation, bus::controller::kNoFrame}) {
     std::vector<int> counts;
     for (int n = 0; n < 4; ++n)
       if (n != slot - 1) counts.push_back(bus.said(n).count(slot, status));
@@ -28,7 +29,7 @@ void expect_agreement(const FaultBus& bus, int slot) {
 }
 
 TEST(GuardianFaults, ABabblingIdiotIsKeptFromTheOthers) {
-  nodes::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
+  ttf::faults::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
   fault.interval = Duration{};
   FaultBus bus(star(fault));
   bus.run(5 * 50);
@@ -40,7 +41,7 @@ TEST(GuardianFaults, ABabblingIdiotIsKeptFromTheOthers) {
 }
 
 TEST(GuardianFaults, MasqueradingIsKeptFromTheOthers) {
-  nodes::Fault fault = fault_of(FaultKind::kMasquerading, 2, 10, 20);
+  ttf::faults::Fault fault = fault_of(FaultKind::kMasquerading, 2, 10, 20);
   fault.slot = 40;
   FaultBus bus(star(fault));
   bus.run(5 * 50);
@@ -54,11 +55,11 @@ TEST(GuardianFaults, WhatIsMisshapenIsSoForAllOrForNobody) {
   EXPECT_EQ(bus.acts(), 200U);
   expect_agreement(bus, 1);
   // Half of them, +- 4 sigma of 7: the coupler makes out the others.
-  EXPECT_NEAR(bus.said(1).count(1, bus::kSyntaxError | bus::kNoFrame), 100, 28);
+  EXPECT_NEAR(bus.said(1).count(1, bus::controller::kSyntaxError | bus::controller::kNoFrame), 100, 28);
 }
 
 TEST(GuardianFaults, WhatNamedReceiversWouldMistakeTheCouplerMakesOutForThem) {
-  nodes::Fault fault = fault_of(FaultKind::kSosValue, 0, 10, 20);
+  ttf::faults::Fault fault = fault_of(FaultKind::kSosValue, 0, 10, 20);
   fault.receivers = {NodeId{2}};
   FaultBus bus(star(fault));
   bus.run(5 * 50);
@@ -66,18 +67,18 @@ TEST(GuardianFaults, WhatNamedReceiversWouldMistakeTheCouplerMakesOutForThem) {
 }
 
 TEST(GuardianFaults, BitsInvertedTowardsOneReceiverAreSoBehindTheCoupler) {
-  nodes::Fault fault = fault_of(FaultKind::kBitFlipPayload, 0, 10, 20);
+  ttf::faults::Fault fault = fault_of(FaultKind::kBitFlipPayload, 0, 10, 20);
   fault.receivers = {NodeId{2}};
   FaultBus bus(star(fault));
   bus.run(5 * 50);
-  EXPECT_EQ(bus.said(2).count(1, bus::kSyntaxError), 2 * 20);
+  EXPECT_EQ(bus.said(2).count(1, bus::controller::kSyntaxError), 2 * 20);
   for (const int n : {1, 3}) EXPECT_EQ(bus.said(n).count(1, kAnything), 0) << n;
 }
 
 TEST(GuardianFaults, AByzantineClockSaysTheSameToAll) {
-  nodes::Fault fault = fault_of(FaultKind::kByzantineClock, 0, 10);
+  ttf::faults::Fault fault = fault_of(FaultKind::kByzantineClock, 0, 10);
   fault.shift = Duration{4'000};
-  fault.pattern = nodes::ByzantinePattern::kPullRates;
+  fault.pattern = ttf::faults::ByzantinePattern::kPullRates;
   FaultBusConfig config = star(fault);
   config.cluster.nodes.pop_back();  // three sync nodes, of which one lies
   config.cluster.frames.pop_back();
@@ -98,10 +99,10 @@ TEST(GuardianFaults, ATransientAtTheCouplerIsOneForAll) {
   bus.run(5 * 40);
   for (int slot = 1; slot <= 4; ++slot) {
     expect_agreement(bus, slot);
-    EXPECT_EQ(bus.said(slot % 4).count(slot, bus::kSyntaxError | bus::kNoFrame), 2 * 2);
+    EXPECT_EQ(bus.said(slot % 4).count(slot, bus::controller::kSyntaxError | bus::controller::kNoFrame), 2 * 2);
   }
   for (int n = 0; n < 4; ++n) EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

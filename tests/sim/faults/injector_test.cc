@@ -9,20 +9,20 @@
 #include "tests/sim/faults/fault_bus.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using nodes::FaultKind;
-using schedules::Channel;
+using schedules::model::Channel;
+using ttf::faults::FaultKind;
 
 // What is so to the end.
 bool kind_lasts(FaultKind kind) { return kind == FaultKind::kWrongSchedule || kind == FaultKind::kDrift; }
 
 // One of every kind, each of another node or time where they would hide each other.
-std::vector<nodes::Fault> every_kind() {
-  std::vector<nodes::Fault> faults;
-  for (const FaultKind kind : nodes::kAllFaultKinds) {
-    nodes::Fault fault =
+std::vector<ttf::faults::Fault> every_kind() {
+  std::vector<ttf::faults::Fault> faults;
+  for (const FaultKind kind : ttf::faults::kAllFaultKinds) {
+    ttf::faults::Fault fault =
         fault_of(kind, static_cast<int>(faults.size() % 6), 10 + 6 * static_cast<int>(faults.size()), 5);
     if (kind == FaultKind::kMasquerading) fault.slot = 40;
     if (kind == FaultKind::kSosTiming) fault.shift = Duration::microseconds(8);
@@ -36,15 +36,15 @@ std::vector<nodes::Fault> every_kind() {
     if (kind == FaultKind::kNoise || kind == FaultKind::kBabblingIdiot) fault.jitter = Duration::milliseconds(1);
     if (kind == FaultKind::kOmission || kind == FaultKind::kSosTiming) fault.probability = 0.5;
     fault.flips = 3;
-    if (kind_lasts(kind)) fault.duration = nodes::Fault::kToTheEnd;
+    if (kind_lasts(kind)) fault.duration = ttf::faults::Fault::kToTheEnd;
     faults.push_back(fault);
   }
   return faults;
 }
 
-FaultBusConfig six(std::vector<nodes::Fault> faults, std::uint64_t seed = 1) {
+FaultBusConfig six(std::vector<ttf::faults::Fault> faults, std::uint64_t seed = 1) {
   FaultBusConfig config;
-  config.cluster = bus_cluster(6, 3, 6);
+  config.cluster = crank::bus_cluster(6, 3, 6);
   config.faults = std::move(faults);
   config.seed = seed;
   return config;
@@ -53,24 +53,24 @@ FaultBusConfig six(std::vector<nodes::Fault> faults, std::uint64_t seed = 1) {
 TEST(Injector, EveryKindBeginsActsAndIsCounted) {
   FaultBus bus(six(every_kind()));
   bus.run(5 * 130);
-  for (std::size_t i = 0; i < nodes::kAllFaultKinds.size(); ++i) {
-    SCOPED_TRACE(nodes::name_of(nodes::kAllFaultKinds[i]));
+  for (std::size_t i = 0; i < ttf::faults::kAllFaultKinds.size(); ++i) {
+    SCOPED_TRACE(ttf::faults::name_of(ttf::faults::kAllFaultKinds[i]));
     std::uint64_t acts = 0, begins = 0, ends = 0;
     TrueTime first{}, last{};
     for (const FaultBus::Activity& activity : bus.activities()) {
       if (activity.fault != i) continue;
-      EXPECT_EQ(activity.kind, nodes::name_of(nodes::kAllFaultKinds[i]));
+      EXPECT_EQ(activity.kind, ttf::faults::name_of(ttf::faults::kAllFaultKinds[i]));
       EXPECT_FALSE(activity.text.empty());
-      begins += activity.what == records::kFaultBegins ? 1 : 0;
-      ends += activity.what == records::kFaultEnds ? 1 : 0;
-      if (activity.what != records::kFaultActs) continue;
+      begins += activity.what == recording::records::kFaultBegins ? 1 : 0;
+      ends += activity.what == recording::records::kFaultEnds ? 1 : 0;
+      if (activity.what != recording::records::kFaultActs) continue;
       if (acts++ == 0) first = activity.at;
       last = activity.at;
       EXPECT_EQ(begins, 1U) << "it acts after it begins";
       EXPECT_EQ(ends, 0U) << "and not after it ends";
     }
     EXPECT_EQ(begins, 1U);
-    EXPECT_EQ(ends, kind_lasts(nodes::kAllFaultKinds[i]) ? 0U : 1U);
+    EXPECT_EQ(ends, kind_lasts(ttf::faults::kAllFaultKinds[i]) ? 0U : 1U);
     EXPECT_GT(acts, 0U);
     EXPECT_EQ(bus.acts(i), acts);
     EXPECT_EQ(bus.injector().activations()[i].first, first);
@@ -86,9 +86,9 @@ TEST(Injector, L1TheSameSeedGivesTheSameRecordsAndAnotherOneOthers) {
 }
 
 TEST(Injector, L2WhatAFaultDrawsDoesNotDependOnTheOthers) {
-  nodes::Fault omission = fault_of(FaultKind::kOmission, 1, 10);
+  ttf::faults::Fault omission = fault_of(FaultKind::kOmission, 1, 10);
   omission.probability = 0.4;
-  nodes::Fault flips = fault_of(FaultKind::kBitFlipPayload, 2, 10);
+  ttf::faults::Fault flips = fault_of(FaultKind::kBitFlipPayload, 2, 10);
   flips.probability = 0.6;
   FaultBus alone(six({omission})), beside(six({omission, flips}));
   for (FaultBus* bus : {&alone, &beside}) bus->run(5 * 60);
@@ -118,7 +118,7 @@ TEST(Injector, L3WithoutFaultsNothingIsDifferent) {
 }
 
 TEST(Injector, L3AFaultThatIsStillToComeChangesNothing) {
-  nodes::Fault fault = fault_of(FaultKind::kTransient, -1, 61, 5);
+  ttf::faults::Fault fault = fault_of(FaultKind::kTransient, -1, 61, 5);
   FaultBus with(six({fault})), without(six({}));
   with.run(5 * 60);
   without.run(5 * 60);
@@ -126,7 +126,7 @@ TEST(Injector, L3AFaultThatIsStillToComeChangesNothing) {
 }
 
 // Stands for a simulation: remembers what is asked of it.
-struct Listener final : Plant {
+struct Listener final : crank::Plant {
   TrueTime time{};
   std::vector<std::string> asked;
   TrueTime now() const override { return time; }
@@ -136,22 +136,23 @@ struct Listener final : Plant {
   void change_drift(NodeId node, std::int64_t ppb) override {
     asked.push_back(fmt::format("drift {} {}", index_of(node), ppb));
   }
-  void emit(const Leaving&, std::optional<NodeId>) override {}
+  void emit(const medium::Leaving&, std::optional<NodeId>) override {}
 };
 
 class Bytes : public testing::Test {
  protected:
   Bytes() {
-    wire::FrameHeader header;
+    bus::wire::FrameHeader header;
     header.frame_id = 3;
     header.cycle = 17;
     std::array<std::byte, 16> payload{};
     for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = static_cast<std::byte>(31 * i);
-    size_ = wire::encode_frame(header, Channel::kB, payload, frame_);
+    size_ = bus::wire::encode_frame(header, Channel::kB, payload, frame_);
   }
   // What leaves node 2 on channel B when it sends the frame.
   std::vector<std::byte> left(Injector& injector) {
-    Leaving signal{NodeId{2}, Channel::kB, bus::Signal::kFrame, plant_.time, plant_.time + Duration{26'300}, frame()};
+    medium::Leaving signal{
+        NodeId{2}, Channel::kB, bus::ports::Signal::kFrame, plant_.time, plant_.time + Duration{26'300}, frame()};
     EXPECT_TRUE(injector.leaving(signal));
     return {signal.bytes.begin(), signal.bytes.end()};
   }
@@ -164,12 +165,12 @@ class Bytes : public testing::Test {
     }
     return bits;
   }
-  nodes::FaultPlan plan(nodes::Fault fault) const { return {"", {std::move(fault)}}; }
+  ttf::faults::FaultPlan plan(ttf::faults::Fault fault) const { return {"", {std::move(fault)}}; }
 
-  schedules::Cluster cluster_ = bus_cluster(4, 2, 4);
+  schedules::model::Cluster cluster_ = crank::bus_cluster(4, 2, 4);
   Listener plant_;
-  records::Sink nobody_;
-  std::array<std::byte, wire::kMaxFrameBytes> frame_{};
+  recording::records::Sink nobody_;
+  std::array<std::byte, bus::wire::kMaxFrameBytes> frame_{};
   std::size_t size_ = 0;
 };
 
@@ -184,10 +185,10 @@ TEST_F(Bytes, GivenBitsAreInvertedAndNoOthers) {
       {FaultKind::kBitFlipTrailer, {0, 23}, {168, 191}},
   };
   for (const auto& one : cases) {
-    nodes::Fault fault = fault_of(one.kind, 2, 0);
+    ttf::faults::Fault fault = fault_of(one.kind, 2, 0);
     fault.bits = one.bits;
     Injector injector(plan(fault), cluster_, plant_, 1, 0, nobody_);
-    EXPECT_EQ(flipped(left(injector)), one.expected) << nodes::name_of(one.kind);
+    EXPECT_EQ(flipped(left(injector)), one.expected) << ttf::faults::name_of(one.kind);
   }
 }
 
@@ -200,7 +201,7 @@ TEST_F(Bytes, DrawnBitsAreAsManyAndDifferentEveryTimeAndWithinTheirPart) {
                {FaultKind::kBitFlipTrailer, 168, 191}};
   for (const auto& one : cases)
     for (const int flips : {1, 5, 24}) {
-      nodes::Fault fault = fault_of(one.kind, 2, 0);
+      ttf::faults::Fault fault = fault_of(one.kind, 2, 0);
       fault.flips = flips;
       Injector injector(plan(fault), cluster_, plant_, 1, 0, nobody_);
       std::set<std::vector<int>> seen;
@@ -225,41 +226,47 @@ TEST_F(Bytes, DrawnBitsAreAsManyAndDifferentEveryTimeAndWithinTheirPart) {
 
 TEST_F(Bytes, WhatTheDecoderSaysOfThem) {
   const auto says = [&](FaultKind kind, std::vector<int> bits) {
-    nodes::Fault fault = fault_of(kind, 2, 0);
+    ttf::faults::Fault fault = fault_of(kind, 2, 0);
     fault.bits = std::move(bits);
     Injector injector(plan(fault), cluster_, plant_, 1, 0, nobody_);
-    return wire::decode_frame(Channel::kB, left(injector)).error;
+    return bus::wire::decode_frame(Channel::kB, left(injector)).error;
   };
-  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {12}), wire::FrameError::kHeaderCrc);  // of the frame id
-  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {36}), wire::FrameError::kFrameCrc);   // of the cycle count
-  EXPECT_EQ(says(FaultKind::kBitFlipPayload, {64}), wire::FrameError::kFrameCrc);
-  EXPECT_EQ(says(FaultKind::kBitFlipTrailer, {7}), wire::FrameError::kFrameCrc);
+  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {12}), bus::wire::FrameError::kHeaderCrc);  // of the frame id
+  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {36}), bus::wire::FrameError::kFrameCrc);   // of the cycle count
+  EXPECT_EQ(says(FaultKind::kBitFlipPayload, {64}), bus::wire::FrameError::kFrameCrc);
+  EXPECT_EQ(says(FaultKind::kBitFlipTrailer, {7}), bus::wire::FrameError::kFrameCrc);
 }
 
 TEST_F(Bytes, AnothersFrameIdHasARightCrc) {
-  nodes::Fault fault = fault_of(FaultKind::kMasquerading, 2, 0);
-  fault.masquerade = nodes::MasqueradeMode::kOwnSlot;
+  ttf::faults::Fault fault = fault_of(FaultKind::kMasquerading, 2, 0);
+  fault.masquerade = ttf::faults::MasqueradeMode::kOwnSlot;
   fault.slot = 60;
   Injector injector(plan(fault), cluster_, plant_, 1, 0, nobody_);
   const std::vector<std::byte> bytes = left(injector);
-  const wire::DecodedFrame decoded = wire::decode_frame(Channel::kB, bytes);
-  EXPECT_EQ(decoded.error, wire::FrameError::kNone);
+  const bus::wire::DecodedFrame decoded = bus::wire::decode_frame(Channel::kB, bytes);
+  EXPECT_EQ(decoded.error, bus::wire::FrameError::kNone);
   EXPECT_EQ(decoded.header.frame_id, 60);
   EXPECT_EQ(decoded.header.cycle, 17);
-  EXPECT_TRUE(std::equal(decoded.payload.begin(), decoded.payload.end(), frame().begin() + wire::kHeaderBytes));
+  EXPECT_TRUE(std::equal(decoded.payload.begin(), decoded.payload.end(), frame().begin() + bus::wire::kHeaderBytes));
 }
 
 // The frame is on its way to the coupler when the same node babbles: behind the coupler it is still the frame befallen.
 TEST_F(Bytes, WhatAFaultSendsIsNotTakenForTheNodesFrame) {
-  nodes::Fault fault = fault_of(FaultKind::kBitFlipTrailer, 2, 0);
+  ttf::faults::Fault fault = fault_of(FaultKind::kBitFlipTrailer, 2, 0);
   fault.bits = {5};
   fault.receivers = {NodeId{1}};
   Injector injector(plan(fault), cluster_, plant_, 1, 0, nobody_);
   EXPECT_TRUE(flipped(left(injector)).empty()) << "at the sender it is in order";
   const auto arrives = [&](NodeId receiver, bool emitted) {
-    Arriving signal{NodeId{2},           receiver,    Channel::kB,
-                    bus::Signal::kFrame, plant_.time, plant_.time + Duration{26'300},
-                    receiver != kNoNode, frame(),     emitted};
+    medium::Arriving signal{NodeId{2},
+                            receiver,
+                            Channel::kB,
+                            bus::ports::Signal::kFrame,
+                            plant_.time,
+                            plant_.time + Duration{26'300},
+                            receiver != kNoNode,
+                            frame(),
+                            emitted};
     EXPECT_TRUE(injector.arriving(signal));
     return flipped({signal.bytes.begin(), signal.bytes.end()});
   };
@@ -270,7 +277,7 @@ TEST_F(Bytes, WhatAFaultSendsIsNotTakenForTheNodesFrame) {
 }
 
 TEST_F(Bytes, TimesCountFromTheOrigin) {
-  nodes::Fault fault = fault_of(FaultKind::kCrash, 2, 0);
+  ttf::faults::Fault fault = fault_of(FaultKind::kCrash, 2, 0);
   fault.from = Duration{500};
   fault.duration = Duration{100};
   Injector injector(plan(fault), cluster_, plant_, 1, 0, nobody_, TrueTime{2'000});
@@ -278,17 +285,18 @@ TEST_F(Bytes, TimesCountFromTheOrigin) {
   injector.act(plant_.time = injector.next());
   EXPECT_EQ(injector.next(), TrueTime{2'600});
   injector.act(plant_.time = injector.next());
-  EXPECT_EQ(injector.next(), Disturbance::kNever);
+  EXPECT_EQ(injector.next(), medium::Disturbance::kNever);
   EXPECT_EQ(plant_.asked, (std::vector<std::string>{"off 2", "on 2 2600"}));
 }
 
 TEST_F(Bytes, NothingIsShiftedToBeforeItIsSent) {
-  nodes::Fault fault = fault_of(FaultKind::kSosTiming, 2, 0);
+  ttf::faults::Fault fault = fault_of(FaultKind::kSosTiming, 2, 0);
   fault.shift = Duration::microseconds(-9);
-  nodes::FaultPlan plan{"", {fault, fault, fault, fault}};
+  ttf::faults::FaultPlan plan{"", {fault, fault, fault, fault}};
   plant_.time = TrueTime{1'000'000};
   Injector injector(plan, cluster_, plant_, 1, 0, nobody_);
-  Leaving signal{NodeId{2}, Channel::kB, bus::Signal::kFrame, plant_.time, plant_.time + Duration{26'300}, frame()};
+  medium::Leaving signal{
+      NodeId{2}, Channel::kB, bus::ports::Signal::kFrame, plant_.time, plant_.time + Duration{26'300}, frame()};
   ASSERT_TRUE(injector.leaving(signal));
   EXPECT_EQ(signal.end, plant_.time) << "36 us early would be";
   EXPECT_EQ(signal.end - signal.start, Duration{26'300});
@@ -299,14 +307,14 @@ TEST_F(Bytes, NothingIsShiftedToBeforeItIsSent) {
 TEST(Injector, NothingIsToldBeforeItIsSo) {
   const TrueTime slot_three{1'000'000 + 10 * kCycleNs + 2 * 43'000 + 7'000};
   for (const FaultKind kind : {FaultKind::kTransient, FaultKind::kOmission}) {
-    nodes::Fault fault = fault_of(kind, 0, 10, 1);
-    fault.direction = nodes::FaultDirection::kReceive;
+    ttf::faults::Fault fault = fault_of(kind, 0, 10, 1);
+    fault.direction = ttf::faults::FaultDirection::kReceive;
     FaultBusConfig config = six({});
     config.most_drift_ppb = 0;
     // The first instant at which node 2's frame has left and is not at node 0 yet, or is half over.
     FaultBus undisturbed(config);
     undisturbed.simulation().run_until(slot_three - Duration{1'000});
-    const FlexRayMedium& medium = undisturbed.simulation().medium();
+    const medium::FlexRayMedium& medium = undisturbed.simulation().medium();
     const auto carrier = [&] { return medium.carrier(NodeId{0}, Channel::kA, undisturbed.simulation().now()); };
     while (!carrier()) undisturbed.simulation().run_until(undisturbed.simulation().now() + Duration{1});
     const TrueTime heard = undisturbed.simulation().now();
@@ -318,40 +326,41 @@ TEST(Injector, NothingIsToldBeforeItIsSo) {
     config.faults = {fault};
     FaultBus bus(config);
     bus.simulation().run_until(from - Duration{1});
-    EXPECT_TRUE(bus.activities().empty()) << nodes::name_of(kind);
+    EXPECT_TRUE(bus.activities().empty()) << ttf::faults::name_of(kind);
     EXPECT_EQ(bus.acts(), 0U);
     bus.simulation().run_until(from);
-    ASSERT_EQ(bus.activities().size(), 3U) << nodes::name_of(kind);
-    EXPECT_EQ(bus.activities()[0].what, records::kFaultBegins);
+    ASSERT_EQ(bus.activities().size(), 3U) << ttf::faults::name_of(kind);
+    EXPECT_EQ(bus.activities()[0].what, recording::records::kFaultBegins);
     for (const FaultBus::Activity& activity : bus.activities()) EXPECT_EQ(activity.at, from);
     EXPECT_NE(bus.activities()[1].text, bus.activities()[2].text) << "on A and on B";
     EXPECT_EQ(bus.acts(), 2U);
     EXPECT_EQ(bus.injector().activations()[0].first, from);
     bus.run(5 * 20);
-    EXPECT_EQ(bus.said(0).count(3, bus::kSyntaxError | bus::kNoFrame), 2) << "once on each channel";
+    EXPECT_EQ(bus.said(0).count(3, bus::controller::kSyntaxError | bus::controller::kNoFrame), 2)
+        << "once on each channel";
   }
 }
 
 TEST(Injector, L4NothingIsAllocatedWhileItRuns) {
   // Not crash and lone coldstart: a controller that is powered on is made anew.
-  std::vector<nodes::Fault> faults;
-  for (const nodes::Fault& fault : every_kind())
+  std::vector<ttf::faults::Fault> faults;
+  for (const ttf::faults::Fault& fault : every_kind())
     if (fault.kind != FaultKind::kCrash && fault.kind != FaultKind::kLoneColdstart) faults.push_back(fault);
-  const schedules::Cluster cluster = bus_cluster(6, 3, 6);
-  const nodes::FaultPlan plan{"", faults};
-  const nodes::BelievedSchedules believed(plan, cluster);
-  std::vector<BusNode> nodes;
-  std::vector<bus::ControllerEvents*> events;
-  bus::ControllerEvents silent;
+  const schedules::model::Cluster cluster = crank::bus_cluster(6, 3, 6);
+  const ttf::faults::FaultPlan plan{"", faults};
+  const ttf::faults::BelievedSchedules believed(plan, cluster);
+  std::vector<crank::BusNode> nodes;
+  std::vector<bus::controller::ControllerEvents*> events;
+  bus::controller::ControllerEvents silent;
   for (int n = 0; n < 6; ++n) {
-    BusNode node{timebase::Oscillator(25'000, 1'000 * n, 0)};
-    node.clock = bus::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}) + Microticks{1}, 0};
+    crank::BusNode node{timebase::Oscillator(25'000, 1'000 * n, 0)};
+    node.clock = bus::controller::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}) + Microticks{1}, 0};
     node.view = believed.of(static_cast<NodeId>(n));
     nodes.push_back(node);
     events.push_back(&silent);
   }
-  BusSimulation simulation(cluster, std::move(nodes), std::move(events));
-  records::Sink nobody;
+  crank::BusSimulation simulation(cluster, std::move(nodes), std::move(events));
+  recording::records::Sink nobody;
   Injector injector(plan, cluster, simulation, 1, 0, nobody, TrueTime{1'000'000});
   simulation.set_disturbance(&injector);
   const std::int64_t before = support::allocations();
@@ -361,48 +370,50 @@ TEST(Injector, L4NothingIsAllocatedWhileItRuns) {
 }
 
 TEST(BelievedSchedules, WhatCannotBeIsSaidWhenThePlanIsResolved) {
-  const schedules::Cluster cluster = bus_cluster(4, 1, 4);
-  const auto refused = [&](std::vector<nodes::Fault> faults) -> std::string {
+  const schedules::model::Cluster cluster = crank::bus_cluster(4, 1, 4);
+  const auto refused = [&](std::vector<ttf::faults::Fault> faults) -> std::string {
     try {
-      nodes::resolve({"drive.yaml", std::move(faults)}, cluster);
+      ttf::faults::resolve({"drive.yaml", std::move(faults)}, cluster);
     } catch (const InputError& error) {
       EXPECT_EQ(error.findings().size(), 1U);
       return error.findings()[0].sentence();
     }
     return "";
   };
-  const auto wrong = [](nodes::WrongSchedule mode, int by) {
-    nodes::Fault fault = fault_of(FaultKind::kWrongSchedule, 3, 0);
+  const auto wrong = [](ttf::faults::WrongSchedule mode, int by) {
+    ttf::faults::Fault fault = fault_of(FaultKind::kWrongSchedule, 3, 0);
     fault.wrong = mode;
     fault.by = by;
     fault.line = 5;
     return fault;
   };
-  EXPECT_EQ(refused({wrong(nodes::WrongSchedule::kStaticSlot, 6)}), "");
+  EXPECT_EQ(refused({wrong(ttf::faults::WrongSchedule::kStaticSlot, 6)}), "");
   EXPECT_EQ(
-      refused({wrong(nodes::WrongSchedule::kStaticSlot, 11)}),
+      refused({wrong(ttf::faults::WrongSchedule::kStaticSlot, 11)}),
       "drive.yaml:5: faults[0].by = 11: must not make the network idle time shorter by more than 644 macroticks: 64 "
       "slots would take 704");
   // Twice six is too much again.
-  EXPECT_NE(refused({wrong(nodes::WrongSchedule::kStaticSlot, 6), wrong(nodes::WrongSchedule::kStaticSlot, 6)}), "");
-  EXPECT_EQ(refused({wrong(nodes::WrongSchedule::kPayloadLength, 120)}),
+  EXPECT_NE(
+      refused({wrong(ttf::faults::WrongSchedule::kStaticSlot, 6), wrong(ttf::faults::WrongSchedule::kStaticSlot, 6)}),
+      "");
+  EXPECT_EQ(refused({wrong(ttf::faults::WrongSchedule::kPayloadLength, 120)}),
             "drive.yaml:5: faults[0].by = 120: must not make the 8 words of a static frame more than 127");
-  nodes::Fault same = fault_of(FaultKind::kDuplicateColdstart, 0, 0);
-  same.duplicate = nodes::DuplicateMode::kSameKeySlot;
+  ttf::faults::Fault same = fault_of(FaultKind::kDuplicateColdstart, 0, 0);
+  same.duplicate = ttf::faults::DuplicateMode::kSameKeySlot;
   EXPECT_EQ(refused({same}),
             "drive.yaml: faults[0].slot: must be given: there is no other coldstart node to take it from");
-  nodes::Fault masquerade = fault_of(FaultKind::kMasquerading, 3, 0);
+  ttf::faults::Fault masquerade = fault_of(FaultKind::kMasquerading, 3, 0);
   masquerade.slot = 4;
   EXPECT_EQ(refused({masquerade}), "drive.yaml: faults[0].slot = 4: must be another's slot of 4 nodes");
 }
 
 TEST(ChannelSwap, ANodeWithOneWireIsRefused) {
-  schedules::Cluster cluster = bus_cluster(4, 2, 4);
-  cluster.nodes[3].flexray->pChannels = schedules::Channels::kA;
-  nodes::Fault fault = fault_of(FaultKind::kChannelSwap, 3, 0);
+  schedules::model::Cluster cluster = crank::bus_cluster(4, 2, 4);
+  cluster.nodes[3].flexray->pChannels = schedules::model::Channels::kA;
+  ttf::faults::Fault fault = fault_of(FaultKind::kChannelSwap, 3, 0);
   fault.line = 7;
   try {
-    nodes::resolve({"drive.yaml", {fault_of(FaultKind::kChannelSwap, 2, 0), fault}}, cluster);
+    ttf::faults::resolve({"drive.yaml", {fault_of(FaultKind::kChannelSwap, 2, 0), fault}}, cluster);
     ADD_FAILURE() << "not refused";
   } catch (const InputError& error) {
     ASSERT_EQ(error.findings().size(), 1U);
@@ -414,8 +425,8 @@ TEST(ChannelSwap, ANodeWithOneWireIsRefused) {
 // A campaign's variant with one channel: there is nothing to swap.
 TEST(ChannelSwap, WhereThereIsOneChannelItDoesNothing) {
   FaultBusConfig config = six({fault_of(FaultKind::kChannelSwap, 3)});
-  for (schedules::Node& node : config.cluster.nodes) node.flexray->pChannels = schedules::Channels::kA;
-  for (schedules::FrameSlot& frame : config.cluster.frames) frame.channels = schedules::Channels::kA;
+  for (schedules::model::Node& node : config.cluster.nodes) node.flexray->pChannels = schedules::model::Channels::kA;
+  for (schedules::model::FrameSlot& frame : config.cluster.frames) frame.channels = schedules::model::Channels::kA;
   FaultBus bus(std::move(config));
   bus.run(5 * 30);
   EXPECT_EQ(bus.acts(), 0U);
@@ -423,36 +434,36 @@ TEST(ChannelSwap, WhereThereIsOneChannelItDoesNothing) {
 }
 
 TEST(BelievedSchedules, EachDiffersFromTheClusterInItsOwnWay) {
-  const schedules::Cluster cluster = bus_cluster(4, 2, 4);
-  nodes::Fault fault = fault_of(FaultKind::kWrongSchedule, 3, 0);
-  const auto believed = [&](nodes::WrongSchedule mode, int by, int slot = 0) {
+  const schedules::model::Cluster cluster = crank::bus_cluster(4, 2, 4);
+  ttf::faults::Fault fault = fault_of(FaultKind::kWrongSchedule, 3, 0);
+  const auto believed = [&](ttf::faults::WrongSchedule mode, int by, int slot = 0) {
     fault.wrong = mode;
     fault.by = by;
     fault.slot = slot;
-    schedules::Cluster changed = cluster;
-    EXPECT_EQ(nodes::believe(fault, changed), "");
+    schedules::model::Cluster changed = cluster;
+    EXPECT_EQ(ttf::faults::believe(fault, changed), "");
     return changed;
   };
-  const schedules::Cluster shifted = believed(nodes::WrongSchedule::kShiftedSlots, 62);
+  const schedules::model::Cluster shifted = believed(ttf::faults::WrongSchedule::kShiftedSlots, 62);
   EXPECT_EQ(shifted.nodes[3].flexray->pKeySlotId, 2);  // round the end of 64
   EXPECT_TRUE(std::is_sorted(shifted.frames.begin(), shifted.frames.end(),
                              [](const auto& a, const auto& b) { return a.slot < b.slot; }));
-  const schedules::Cluster longer = believed(nodes::WrongSchedule::kCycleLength, 40);
+  const schedules::model::Cluster longer = believed(ttf::faults::WrongSchedule::kCycleLength, 40);
   EXPECT_EQ(longer.flexray.gMacroPerCycle, 5'040);
   EXPECT_EQ(longer.cycle(), Duration::microseconds(5'040));
   EXPECT_EQ(longer.nodes[3].flexray->pMicroPerCycle, 201'600);
-  EXPECT_EQ(longer.nodes[0].flexray->pMicroPerCycle, kMicroPerCycle);
-  const schedules::Cluster slots = believed(nodes::WrongSchedule::kStaticSlot, 2);
+  EXPECT_EQ(longer.nodes[0].flexray->pMicroPerCycle, crank::kMicroPerCycle);
+  const schedules::model::Cluster slots = believed(ttf::faults::WrongSchedule::kStaticSlot, 2);
   EXPECT_EQ(slots.flexray.gdStaticSlot, 45);
   EXPECT_EQ(slots.flexray.gdNIT, cluster.flexray.gdNIT - 128);
   EXPECT_EQ(slots.cycle(), cluster.cycle());
-  const schedules::Cluster key = believed(nodes::WrongSchedule::kKeySlot, 0, 2);
+  const schedules::model::Cluster key = believed(ttf::faults::WrongSchedule::kKeySlot, 0, 2);
   EXPECT_EQ(key.nodes[3].flexray->pKeySlotId, 2);
-  const nodes::BelievedSchedules all({"", {fault}}, cluster);
+  const ttf::faults::BelievedSchedules all({"", {fault}}, cluster);
   EXPECT_EQ(all.of(NodeId{0}), nullptr);
   ASSERT_NE(all.of(NodeId{3}), nullptr);
   EXPECT_EQ(all.of(NodeId{3})->nodes[3].flexray->pKeySlotId, 2);
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

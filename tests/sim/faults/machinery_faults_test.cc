@@ -5,12 +5,12 @@
 
 #include "tests/sim/faults/fault_bus.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using bus::PocKind;
-using nodes::DuplicateMode;
-using nodes::FaultKind;
+using bus::poc::PocKind;
+using ttf::faults::DuplicateMode;
+using ttf::faults::FaultKind;
 
 bool was_in(const Said& said, PocKind state) {
   return std::find(said.states.begin(), said.states.end(), state) != said.states.end();
@@ -20,25 +20,25 @@ TEST(MachineryFaults, ACrashedNodesSlotIsEmptyUntilItIsBack) {
   FaultBus bus(with({fault_of(FaultKind::kCrash, 3, 10, 10)}));
   bus.run(5 * 15);
   EXPECT_EQ(bus.acts(), 1U);
-  EXPECT_EQ(bus.said(0).count(4, bus::kNoFrame), 2 * 5);
+  EXPECT_EQ(bus.said(0).count(4, bus::controller::kNoFrame), 2 * 5);
   bus.run(5 * 60);
   EXPECT_EQ(bus.acts(), 2U);
   EXPECT_EQ(bus.state(3), PocKind::kNormalActive);
-  // Integration takes two cycles to derive a schedule and two good double cycles (bus/poc/poc.h), and what precedes an even
-  // one.
-  const int empty = bus.said(0).count(4, bus::kNoFrame) / 2;
+  // Integration takes two cycles to derive a schedule and two good double cycles (bus/poc/poc.h), and what precedes an
+  // even one.
+  const int empty = bus.said(0).count(4, bus::controller::kNoFrame) / 2;
   EXPECT_GE(empty, 10 + 6);
   EXPECT_LE(empty, 10 + 8);
   ASSERT_EQ(bus.activities().size(), 4U);
-  EXPECT_EQ(bus.activities()[0].what, records::kFaultBegins);
+  EXPECT_EQ(bus.activities()[0].what, recording::records::kFaultBegins);
   EXPECT_EQ(bus.activities()[1].text, "node3 loses its supply");
   EXPECT_EQ(bus.activities()[2].text, "node3 has its supply back");
-  EXPECT_EQ(bus.activities()[3].what, records::kFaultEnds);
+  EXPECT_EQ(bus.activities()[3].what, recording::records::kFaultEnds);
 }
 
 // pRateCorrectionOut is 3005 ppm.
 TEST(MachineryFaults, DriftThatGrowsBeyondTheLimitHaltsTheNodeAndNobodyElse) {
-  std::vector<nodes::Fault> steps;
+  std::vector<ttf::faults::Fault> steps;
   for (int step = 1; step <= 8; ++step) {
     steps.push_back(fault_of(FaultKind::kDrift, 3, 10 + 4 * step));
     steps.back().drift_ppb = 500'000 * step;
@@ -48,14 +48,14 @@ TEST(MachineryFaults, DriftThatGrowsBeyondTheLimitHaltsTheNodeAndNobodyElse) {
   EXPECT_TRUE(bus.said(3).rate_limited);
   EXPECT_EQ(bus.state(3), PocKind::kHalt);
   for (const int n : {0, 1, 2}) EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
-  EXPECT_GT(bus.said(0).count(4, bus::kNoFrame), 0);
+  EXPECT_GT(bus.said(0).count(4, bus::controller::kNoFrame), 0);
 }
 
 TEST(MachineryFaults, DriftThatJumpsLosesTheClusterBeforeAnythingIsMeasured) {
-  nodes::Fault fault = fault_of(FaultKind::kDrift, 3, 10);
+  ttf::faults::Fault fault = fault_of(FaultKind::kDrift, 3, 10);
   fault.drift_ppb = 6'000'000;  // 30 us in a cycle: out of every slot
   FaultBusConfig config = with({fault});
-  config.cluster = bus_cluster(4, 2, 3);
+  config.cluster = crank::bus_cluster(4, 2, 3);
   FaultBus bus(std::move(config));
   bus.run(5 * 40);
   EXPECT_EQ(bus.acts(), 1U);
@@ -63,27 +63,27 @@ TEST(MachineryFaults, DriftThatJumpsLosesTheClusterBeforeAnythingIsMeasured) {
   EXPECT_TRUE(was_in(bus.said(3), PocKind::kNormalPassive));
   EXPECT_EQ(bus.state(3), PocKind::kHalt);
   for (const int n : {0, 1, 2}) EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
-  EXPECT_GT(bus.said(0).count(4, bus::kNoFrame), 0);
+  EXPECT_GT(bus.said(0).count(4, bus::controller::kNoFrame), 0);
 }
 
 TEST(MachineryFaults, DriftWithinTheLimitIsCorrected) {
-  nodes::Fault fault = fault_of(FaultKind::kDrift, 3, 10);
+  ttf::faults::Fault fault = fault_of(FaultKind::kDrift, 3, 10);
   fault.drift_ppb = 1'000'000;
   FaultBus bus(with({fault}));
   bus.run(5 * 60);
   for (int n = 0; n < 4; ++n) EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
-  EXPECT_LE(bus.simulation().precision().ns, kAssumedPrecision.ns);
+  EXPECT_LE(bus.simulation().precision().ns, crank::kAssumedPrecision.ns);
 }
 
 TEST(MachineryFaults, OneByzantineClockOfThreeBreaksThePrecisionAndOneOfFourDoesNot) {
-  const auto worst = [](int nodes, nodes::ByzantinePattern pattern) {
-    nodes::Fault fault = fault_of(FaultKind::kByzantineClock, 0, 10);
+  const auto worst = [](int nodes, ttf::faults::ByzantinePattern pattern) {
+    ttf::faults::Fault fault = fault_of(FaultKind::kByzantineClock, 0, 10);
     fault.shift = Duration{5'500};
     fault.pattern = pattern;
     Duration most{};
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       FaultBusConfig config = with({fault});
-      config.cluster = bus_cluster(nodes, 2, nodes);
+      config.cluster = crank::bus_cluster(nodes, 2, nodes);
       config.seed = seed;
       config.most_drift_ppb = 1'500'000;
       FaultBus bus(std::move(config));
@@ -95,14 +95,14 @@ TEST(MachineryFaults, OneByzantineClockOfThreeBreaksThePrecisionAndOneOfFourDoes
     }
     return most;
   };
-  for (const auto pattern :
-       {nodes::ByzantinePattern::kRandom, nodes::ByzantinePattern::kPullApart, nodes::ByzantinePattern::kPullRates})
-    EXPECT_LE(worst(4, pattern).ns, kAssumedPrecision.ns) << static_cast<int>(pattern);
-  EXPECT_GT(worst(3, nodes::ByzantinePattern::kPullRates).ns, kAssumedPrecision.ns);
+  for (const auto pattern : {ttf::faults::ByzantinePattern::kRandom, ttf::faults::ByzantinePattern::kPullApart,
+                             ttf::faults::ByzantinePattern::kPullRates})
+    EXPECT_LE(worst(4, pattern).ns, crank::kAssumedPrecision.ns) << static_cast<int>(pattern);
+  EXPECT_GT(worst(3, ttf::faults::ByzantinePattern::kPullRates).ns, crank::kAssumedPrecision.ns);
 }
 
 TEST(MachineryFaults, ALoneColdstartNodeDoesNotStartUntilAnotherIsThere) {
-  nodes::Fault fault = fault_of(FaultKind::kLoneColdstart, 0, 0, 40);
+  ttf::faults::Fault fault = fault_of(FaultKind::kLoneColdstart, 0, 0, 40);
   FaultBusConfig config = with({fault});
   config.cold = true;
   FaultBus bus(std::move(config));
@@ -116,12 +116,12 @@ TEST(MachineryFaults, ALoneColdstartNodeDoesNotStartUntilAnotherIsThere) {
 }
 
 TEST(MachineryFaults, AllOthersAreOff) {
-  nodes::Fault fault = fault_of(FaultKind::kLoneColdstart, 0, 10);
+  ttf::faults::Fault fault = fault_of(FaultKind::kLoneColdstart, 0, 10);
   fault.all_others = true;
   FaultBus bus(with({fault}));
   bus.run(5 * 20);
   EXPECT_EQ(bus.acts(), 3U);
-  for (int slot = 2; slot <= 4; ++slot) EXPECT_GT(bus.said(0).count(slot, bus::kNoFrame), 0);
+  for (int slot = 2; slot <= 4; ++slot) EXPECT_GT(bus.said(0).count(slot, bus::controller::kNoFrame), 0);
 }
 
 // When nodes 0 to 2 are active at last [ms]; never: -1.
@@ -139,12 +139,12 @@ int started(FaultBusConfig config, int latest) {
 
 TEST(MachineryFaults, WhoeverKeepsSendingCasKeepsTheOthersFromStarting) {
   // What its controller sends does not leave it: it would lead, for it does not hear itself.
-  nodes::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 3, 0, 60);
+  ttf::faults::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 3, 0, 60);
   fault.interval = Duration::milliseconds(3);
-  const nodes::Fault mute = fault_of(FaultKind::kOmission, 3, 0);
-  const auto config = [](std::vector<nodes::Fault> faults) {
+  const ttf::faults::Fault mute = fault_of(FaultKind::kOmission, 3, 0);
+  const auto config = [](std::vector<ttf::faults::Fault> faults) {
     FaultBusConfig made = with(std::move(faults));
-    made.cluster = bus_cluster(4, 3, 4);
+    made.cluster = crank::bus_cluster(4, 3, 4);
     return made;
   };
   const int undisturbed = started(config({mute}), 400);
@@ -154,7 +154,7 @@ TEST(MachineryFaults, WhoeverKeepsSendingCasKeepsTheOthersFromStarting) {
 }
 
 TEST(MachineryFaults, RogueStartupFramesDisturbStartUp) {
-  nodes::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 1, 0, 60);
+  ttf::faults::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 1, 0, 60);
   fault.duplicate = DuplicateMode::kStartupFrames;
   fault.from = Duration::milliseconds(2);
   FaultBusConfig config = with({fault});
@@ -168,20 +168,20 @@ TEST(MachineryFaults, RogueStartupFramesDisturbStartUp) {
 }
 
 TEST(MachineryFaults, TwoNodesWithOneKeySlotCollide) {
-  nodes::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 1, 0);
+  ttf::faults::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 1, 0);
   fault.duplicate = DuplicateMode::kSameKeySlot;
   FaultBus bus(with({fault}));
   bus.run(5 * 10);
   for (const int n : {2, 3}) {
-    EXPECT_EQ(bus.said(n).count(1, bus::kSyntaxError), 2 * 10) << n;
-    EXPECT_EQ(bus.said(n).count(2, bus::kNoFrame), 2 * 10) << n;
+    EXPECT_EQ(bus.said(n).count(1, bus::controller::kSyntaxError), 2 * 10) << n;
+    EXPECT_EQ(bus.said(n).count(2, bus::controller::kNoFrame), 2 * 10) << n;
   }
-  EXPECT_EQ(bus.said(0).count(1, bus::kTransmissionConflict), 2 * 10);
+  EXPECT_EQ(bus.said(0).count(1, bus::controller::kTransmissionConflict), 2 * 10);
   EXPECT_EQ(bus.acts(), 2U * 10);
 }
 
-nodes::Fault wrong(nodes::WrongSchedule mode, int by, int slot = 0) {
-  nodes::Fault fault = fault_of(FaultKind::kWrongSchedule, 3, 0);
+ttf::faults::Fault wrong(ttf::faults::WrongSchedule mode, int by, int slot = 0) {
+  ttf::faults::Fault fault = fault_of(FaultKind::kWrongSchedule, 3, 0);
   fault.wrong = mode;
   fault.by = by;
   fault.slot = slot;
@@ -189,37 +189,38 @@ nodes::Fault wrong(nodes::WrongSchedule mode, int by, int slot = 0) {
 }
 
 TEST(MachineryFaults, ShiftedSlotsAreEmptyHereAndUnexpectedThere) {
-  FaultBus bus(with({wrong(nodes::WrongSchedule::kShiftedSlots, 3)}));
+  FaultBus bus(with({wrong(ttf::faults::WrongSchedule::kShiftedSlots, 3)}));
   bus.run(5 * 10);
   for (const int n : {0, 1, 2}) {
-    EXPECT_EQ(bus.said(n).count(4, bus::kNoFrame), 2 * 10) << n;
-    EXPECT_EQ(bus.said(n).count(7, bus::kContentError), 2 * 10) << n;
+    EXPECT_EQ(bus.said(n).count(4, bus::controller::kNoFrame), 2 * 10) << n;
+    EXPECT_EQ(bus.said(n).count(7, bus::controller::kContentError), 2 * 10) << n;
   }
 }
 
 TEST(MachineryFaults, TheKeySlotOfAnotherCollidesWithIt) {
-  FaultBus bus(with({wrong(nodes::WrongSchedule::kKeySlot, 0, 3)}));
+  FaultBus bus(with({wrong(ttf::faults::WrongSchedule::kKeySlot, 0, 3)}));
   bus.run(5 * 10);
-  for (const int n : {0, 1}) EXPECT_EQ(bus.said(n).count(3, bus::kSyntaxError), 2 * 10) << n;
+  for (const int n : {0, 1}) EXPECT_EQ(bus.said(n).count(3, bus::controller::kSyntaxError), 2 * 10) << n;
 }
 
 TEST(MachineryFaults, LongerFramesAreContentErrorsBothWays) {
-  FaultBus bus(with({wrong(nodes::WrongSchedule::kPayloadLength, 1)}));
+  FaultBus bus(with({wrong(ttf::faults::WrongSchedule::kPayloadLength, 1)}));
   bus.run(5 * 10);
-  for (const int n : {0, 1, 2}) EXPECT_EQ(bus.said(n).count(4, bus::kContentError), 2 * 10) << n;
-  for (const int slot : {1, 2, 3}) EXPECT_GT(bus.said(3).count(slot, bus::kContentError), 0) << slot;
+  for (const int n : {0, 1, 2}) EXPECT_EQ(bus.said(n).count(4, bus::controller::kContentError), 2 * 10) << n;
+  for (const int slot : {1, 2, 3}) EXPECT_GT(bus.said(3).count(slot, bus::controller::kContentError), 0) << slot;
 }
 
 TEST(MachineryFaults, LongerSlotsMakeFramesLate) {
-  FaultBus bus(with({wrong(nodes::WrongSchedule::kStaticSlot, 6)}));
+  FaultBus bus(with({wrong(ttf::faults::WrongSchedule::kStaticSlot, 6)}));
   bus.run(5 * 4);
   // Three slots before its own, 6 us each: beyond what the slot has to spare.
-  for (const int n : {0, 1, 2}) EXPECT_GT(bus.said(n).count(4, bus::kBoundaryViolation | bus::kSyntaxError), 0) << n;
+  for (const int n : {0, 1, 2})
+    EXPECT_GT(bus.said(n).count(4, bus::controller::kBoundaryViolation | bus::controller::kSyntaxError), 0) << n;
 }
 
 TEST(MachineryFaults, ALongerCycleLosesTheCluster) {
-  FaultBusConfig config = with({wrong(nodes::WrongSchedule::kCycleLength, 50)});
-  config.cluster = bus_cluster(4, 2, 3);
+  FaultBusConfig config = with({wrong(ttf::faults::WrongSchedule::kCycleLength, 50)});
+  config.cluster = crank::bus_cluster(4, 2, 3);
   FaultBus bus(std::move(config));
   bus.run(5 * 60);
   EXPECT_EQ(bus.state(3), PocKind::kHalt);
@@ -227,4 +228,4 @@ TEST(MachineryFaults, ALongerCycleLosesTheCluster) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

@@ -3,16 +3,16 @@
 
 #include "tests/sim/faults/fault_bus.h"
 
-namespace ttf::sim {
+namespace ttf::sim::faults {
 namespace {
 
-using bus::PocKind;
-using nodes::FaultKind;
-using schedules::Channel;
-using schedules::Channels;
+using bus::poc::PocKind;
+using schedules::model::Channel;
+using schedules::model::Channels;
+using ttf::faults::FaultKind;
 
 TEST(MediumFaults, AContinuousBabblingIdiotSilencesOneChannelAndNotTheOther) {
-  nodes::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10, 5);
+  ttf::faults::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10, 5);
   fault.channels = Channels::kA;
   fault.interval = Duration{};
   FaultBus bus(with({fault}));
@@ -20,21 +20,23 @@ TEST(MediumFaults, AContinuousBabblingIdiotSilencesOneChannelAndNotTheOther) {
   for (const int n : {0, 1, 2}) {
     for (int slot = 1; slot <= 3; ++slot) {
       if (slot == n + 1) continue;
-      EXPECT_GE(bus.said(n).count(slot, bus::kSyntaxError | bus::kBoundaryViolation), 5) << n << " slot " << slot;
-      EXPECT_EQ(bus.said(n).count(slot, bus::kNoFrame), 0) << n << " slot " << slot << " is anything but silent";
+      EXPECT_GE(bus.said(n).count(slot, bus::controller::kSyntaxError | bus::controller::kBoundaryViolation), 5)
+          << n << " slot " << slot;
+      EXPECT_EQ(bus.said(n).count(slot, bus::controller::kNoFrame), 0)
+          << n << " slot " << slot << " is anything but silent";
     }
-    EXPECT_GE(bus.said(n).count(n + 1, bus::kTransmissionConflict), 5) << "its own slot";
-    EXPECT_GT(bus.said(n).count(0, bus::kBoundaryViolation), 0) << "outside every slot";
+    EXPECT_GE(bus.said(n).count(n + 1, bus::controller::kTransmissionConflict), 5) << "its own slot";
+    EXPECT_GT(bus.said(n).count(0, bus::controller::kBoundaryViolation), 0) << "outside every slot";
     for (const Said::Problem& problem : bus.said(n).problems) EXPECT_EQ(problem.channel, Channel::kA);
     EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << "there is a second channel";
   }
 }
 
 TEST(MediumFaults, ABabblingIdiotOnBothChannelsTakesTheClusterDown) {
-  nodes::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10);
+  ttf::faults::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10);
   fault.interval = Duration{};
   FaultBusConfig config = with({fault});
-  config.cluster = bus_cluster(5, 2, 2);
+  config.cluster = crank::bus_cluster(5, 2, 2);
   FaultBus bus(std::move(config));
   bus.run(5 * 40);
   for (const int n : {2, 4}) EXPECT_EQ(bus.state(n), PocKind::kHalt) << n;
@@ -43,20 +45,21 @@ TEST(MediumFaults, ABabblingIdiotOnBothChannelsTakesTheClusterDown) {
 }
 
 TEST(MediumFaults, FramesAtIntervalsAreContentErrorsOrCollisions) {
-  nodes::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
-  fault.signal = nodes::FaultSignal::kFrame;
+  ttf::faults::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
+  fault.signal = ttf::faults::FaultSignal::kFrame;
   fault.interval = Duration{630'000};  // 15 slots of 43 us less 15 us: every time elsewhere
   FaultBus bus(with({fault}));
   bus.run(5 * 40);
   EXPECT_EQ(bus.acts(), 2U * (20 * 5'000 / 630 + 1));
   int content = 0;
-  for (const int slot : {20, 25, 30, 35, 40, 45, 50, 55, 60}) content += bus.said(0).count(slot, bus::kContentError);
+  for (const int slot : {20, 25, 30, 35, 40, 45, 50, 55, 60})
+    content += bus.said(0).count(slot, bus::controller::kContentError);
   EXPECT_GT(content, 0) << "a valid frame in a slot that is nobody's";
-  EXPECT_GT(bus.said(0).count(0, bus::kBoundaryViolation), 0);
+  EXPECT_GT(bus.said(0).count(0, bus::controller::kBoundaryViolation), 0);
 }
 
 TEST(MediumFaults, NoiseIsSeenInSlotsThatAreNobodys) {
-  nodes::Fault fault = fault_of(FaultKind::kNoise, -1, 10, 20);
+  ttf::faults::Fault fault = fault_of(FaultKind::kNoise, -1, 10, 20);
   fault.channels = Channels::kB;
   fault.interval = Duration{700'000};
   fault.jitter = Duration{300'000};
@@ -68,7 +71,7 @@ TEST(MediumFaults, NoiseIsSeenInSlotsThatAreNobodys) {
     for (const Said::Problem& problem : bus.said(n).problems) {
       EXPECT_EQ(problem.channel, Channel::kB);
       if (problem.slot == 0 || problem.slot > 4) {
-        EXPECT_NE(problem.status & (bus::kSyntaxError | bus::kBoundaryViolation), 0U);
+        EXPECT_NE(problem.status & (bus::controller::kSyntaxError | bus::controller::kBoundaryViolation), 0U);
       }
     }
   }
@@ -77,7 +80,7 @@ TEST(MediumFaults, NoiseIsSeenInSlotsThatAreNobodys) {
 }
 
 TEST(MediumFaults, NoiseDuringStartUpIsWaitedOutByTheNoiseTimer) {
-  nodes::Fault fault = fault_of(FaultKind::kNoise, -1, 0, 10);
+  ttf::faults::Fault fault = fault_of(FaultKind::kNoise, -1, 0, 10);
   fault.interval = Duration::milliseconds(4);  // less than the listen timeout of two cycles
   FaultBusConfig config = with({fault});
   config.cold = true;
@@ -95,7 +98,8 @@ TEST(MediumFaults, ATransientDestroysEverythingWhileItLastsAndNoLonger) {
   bus.run(5 * 30);
   EXPECT_EQ(bus.acts(), 2U * 4);
   for (int n = 0; n < 4; ++n) {
-    for (int slot = 1; slot <= 4; ++slot) EXPECT_EQ(bus.said(n).count(slot, bus::kSyntaxError), slot == n + 1 ? 0 : 2);
+    for (int slot = 1; slot <= 4; ++slot)
+      EXPECT_EQ(bus.said(n).count(slot, bus::controller::kSyntaxError), slot == n + 1 ? 0 : 2);
     EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
   }
 }
@@ -103,7 +107,7 @@ TEST(MediumFaults, ATransientDestroysEverythingWhileItLastsAndNoLonger) {
 TEST(MediumFaults, ALongTransientTakesThoseWithoutASyncFrameToPassiveThenHalt) {
   // gMaxWithoutClockCorrectionPassive 2, -Fatal 4 double cycles.
   FaultBusConfig config = with({fault_of(FaultKind::kTransient, -1, 10, 20)});
-  config.cluster = bus_cluster(4, 2, 2);
+  config.cluster = crank::bus_cluster(4, 2, 2);
   FaultBus bus(std::move(config));
   bus.run(5 * 16 + 1);
   for (const int n : {2, 3}) EXPECT_EQ(bus.state(n), PocKind::kNormalPassive) << n;
@@ -114,7 +118,7 @@ TEST(MediumFaults, ALongTransientTakesThoseWithoutASyncFrameToPassiveThenHalt) {
 }
 
 TEST(MediumFaults, ATransientIsOfItsChannels) {
-  nodes::Fault fault = fault_of(FaultKind::kTransient, -1, 10, 20);
+  ttf::faults::Fault fault = fault_of(FaultKind::kTransient, -1, 10, 20);
   fault.channels = Channels::kA;
   FaultBus bus(with({fault}));
   bus.run(5 * 40);
@@ -127,33 +131,34 @@ TEST(MediumFaults, ATransientIsOfItsChannels) {
 // Ten times as long as the fault, which begins and ends a macrotick before a cycle does.
 TEST(MediumFaults, NoiseEndsWithItsFault) {
   for (const FaultKind kind : {FaultKind::kNoise, FaultKind::kBabblingIdiot}) {
-    nodes::Fault fault = fault_of(kind, 3, 10, 1);
+    ttf::faults::Fault fault = fault_of(kind, 3, 10, 1);
     fault.length = fault.interval = Duration{10 * kCycleNs};
     fault.channels = Channels::kA;
     FaultBus bus(with({fault}));
     bus.run(5 * 30);
     EXPECT_EQ(bus.acts(), 1U);
-    EXPECT_EQ(bus.said(0).count(2, bus::kBoundaryViolation), 1) << nodes::name_of(kind);
-    EXPECT_EQ(bus.said(0).count(2, bus::kNoFrame), 0) << nodes::name_of(kind);
-    for (const Said::Problem& problem : bus.said(0).problems) EXPECT_LE(problem.cycle, 10) << nodes::name_of(kind);
+    EXPECT_EQ(bus.said(0).count(2, bus::controller::kBoundaryViolation), 1) << ttf::faults::name_of(kind);
+    EXPECT_EQ(bus.said(0).count(2, bus::controller::kNoFrame), 0) << ttf::faults::name_of(kind);
+    for (const Said::Problem& problem : bus.said(0).problems)
+      EXPECT_LE(problem.cycle, 10) << ttf::faults::name_of(kind);
     EXPECT_EQ(bus.simulation().medium().carrier(NodeId{0}, Channel::kA, bus.simulation().now()), false);
   }
 }
 
 // Whatever it is to send besides its schedule: there is nothing that could, and time goes on all the same.
 TEST(MediumFaults, ANodeWithoutSupplySendsNothing) {
-  std::vector<nodes::Fault> senders(5);
-  for (nodes::Fault& fault : senders) fault = fault_of(FaultKind::kBabblingIdiot, 1, 15, 5);
+  std::vector<ttf::faults::Fault> senders(5);
+  for (ttf::faults::Fault& fault : senders) fault = fault_of(FaultKind::kBabblingIdiot, 1, 15, 5);
   senders[0].interval = Duration{};
-  senders[1].signal = nodes::FaultSignal::kFrame;
+  senders[1].signal = ttf::faults::FaultSignal::kFrame;
   senders[1].interval = Duration{};
   senders[2].kind = senders[3].kind = FaultKind::kDuplicateColdstart;
-  senders[3].duplicate = nodes::DuplicateMode::kStartupFrames;
+  senders[3].duplicate = ttf::faults::DuplicateMode::kStartupFrames;
   // From the middle of cycle 14 on, when it has sent its own frame and crashes before the other's slot.
-  nodes::Fault& masquerade = senders[4];
+  ttf::faults::Fault& masquerade = senders[4];
   masquerade = fault_of(FaultKind::kMasquerading, 1, 14, 6);
   masquerade.slot = 40;
-  nodes::Fault crash = fault_of(FaultKind::kCrash, 1, 14);
+  ttf::faults::Fault crash = fault_of(FaultKind::kCrash, 1, 14);
   crash.from += Duration{20 * 43'000};
   for (std::size_t f = 0; f < senders.size(); ++f) {
     SCOPED_TRACE(f);
@@ -162,10 +167,10 @@ TEST(MediumFaults, ANodeWithoutSupplySendsNothing) {
     EXPECT_GT(alone.acts(), 0U);
     EXPECT_EQ(off.acts(1), 0U);
     for (const FaultBus::Activity& activity : off.activities())
-      EXPECT_FALSE(activity.fault == 1 && activity.what == records::kFaultActs) << activity.text;
+      EXPECT_FALSE(activity.fault == 1 && activity.what == recording::records::kFaultActs) << activity.text;
     for (const int n : {0, 2, 3}) EXPECT_EQ(off.said(n).all, crashed.said(n).all);
   }
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::faults

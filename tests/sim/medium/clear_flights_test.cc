@@ -11,22 +11,22 @@
 #include "core/random.h"
 #include "sim/medium/flexray_medium.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 namespace {
 
-using bus::Signal;
-using schedules::Channel;
-using schedules::Channels;
+using bus::ports::Signal;
+using schedules::model::Channel;
+using schedules::model::Channels;
 
 constexpr std::size_t kNodes = 5;
 
 // One node may be on channel A alone.
-schedules::Cluster line(bool last_on_a_only) {
-  schedules::Cluster cluster;
+schedules::model::Cluster line(bool last_on_a_only) {
+  schedules::model::Cluster cluster;
   cluster.flexray.gdMinPropagationDelay_ps = 100'000;
   cluster.flexray.gdMaxPropagationDelay_ps = 2'500'000;
   cluster.nodes.resize(kNodes);
-  for (schedules::Node& node : cluster.nodes) node.flexray.emplace();
+  for (schedules::model::Node& node : cluster.nodes) node.flexray.emplace();
   if (last_on_a_only) cluster.nodes.back().flexray->pChannels = Channels::kA;
   return cluster;
 }
@@ -43,7 +43,7 @@ struct Reached {
 };
 
 struct Line {
-  schedules::Cluster cluster;
+  schedules::model::Cluster cluster;
   MediumQueue queue{FlexRayMedium::kMostPending};
   FramePool pool{FlexRayMedium::kMostPending};
   FlexRayMedium medium{cluster, queue, pool};
@@ -65,11 +65,11 @@ struct Line {
 
   void send(const Sent& one) {
     std::array<std::byte, 16> room{};
-    bus::Transmission transmission{one.channel, one.signal, {}, {}, one.frame_id, {}};
+    bus::ports::Transmission transmission{one.channel, one.signal, {}, {}, one.frame_id, {}};
     if (one.signal == Signal::kFrame) {
-      wire::FrameHeader header;
+      bus::wire::FrameHeader header;
       header.frame_id = static_cast<std::uint16_t>(one.frame_id);
-      transmission.bytes = std::span(room).first(wire::encode_frame(header, one.channel, {}, room));
+      transmission.bytes = std::span(room).first(bus::wire::encode_frame(header, one.channel, {}, room));
     }
     medium.transmit(one.sender, transmission, one.start, one.end);
     sent.push_back(one);
@@ -219,4 +219,4 @@ TEST_P(ClearFlights, WhereThereAreMoreThanThereIsRoomForThereIsMoreRoom) {
 INSTANTIATE_TEST_SUITE_P(Lines, ClearFlights, testing::Combine(testing::Bool(), testing::Bool()));
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 namespace {
 
 // At one instant: phase, then node, then order of scheduling; whatever order they were scheduled in.
@@ -75,4 +75,4 @@ TEST(EventQueue, TheSameAsASortedList) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

@@ -22,8 +22,8 @@ constexpr std::size_t kNodes = 4;
 constexpr std::size_t kRoom = 4096;
 
 // Node 2 has no FlexRay controller: it is not on the line, and the others are still equally spaced.
-schedules::Cluster on_flexray() {
-  schedules::Cluster cluster;
+schedules::model::Cluster on_flexray() {
+  schedules::model::Cluster cluster;
   cluster.nodes.resize(kNodes + 1);
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
     if (n != 2) cluster.nodes[n].flexray.emplace();
@@ -37,11 +37,11 @@ class SimulatedFlexRayBench final : public SimulatedFlexRay {
 
 // Node 1 is on no CAN. The schedule knows two of the identifiers; frames too short for their PDU are delivered all the
 // same.
-schedules::Cluster on_can(bool flexible_data_rate) {
-  schedules::Cluster cluster;
+schedules::model::Cluster on_can(bool flexible_data_rate) {
+  schedules::model::Cluster cluster;
   cluster.nodes.resize(kNodes + 1);
   cluster.pdus = {bus::list_layout(4, 3, 3)};
-  schedules::CanBus bus;
+  schedules::model::CanBus bus;
   bus.name = "can";
   bus.flexible_data_rate = flexible_data_rate;
   bus.nominal_bit_rate = 1'000'000;
@@ -54,12 +54,12 @@ schedules::Cluster on_can(bool flexible_data_rate) {
 
 // What the medium reports agrees with what it does: frames one after the other, each as long as it takes. What a frame
 // is of, its sender says (nodes/host/executive.h).
-struct Reported final : records::Sink {
-  using records::Sink::on;
+struct Reported final : recording::records::Sink {
+  using recording::records::Sink::on;
   std::size_t frames = 0;
   Duration busy{};
   TrueTime end{};
-  void on(const records::CanFrameSent& sent) override {
+  void on(const recording::records::CanFrameSent& sent) override {
     EXPECT_EQ(sent.pdu, kNoPdu);
     ++frames;
     EXPECT_GE(sent.start.true_time, end);
@@ -80,7 +80,7 @@ template <bool kFlexibleDataRate> class SimulatedCanBench final : public CanBenc
   }
   bool flexible_data_rate() const override { return kFlexibleDataRate; }
   std::size_t controllers() const override { return kNodes; }
-  bus::CanPort& port(std::size_t controller) override { return *ports_[controller]; }
+  bus::ports::CanPort& port(std::size_t controller) override { return *ports_[controller]; }
   void begin() override {
     const TrueTime now = now_;
     while (!queue_.empty() && queue_.next().time == now) next();
@@ -91,20 +91,22 @@ template <bool kFlexibleDataRate> class SimulatedCanBench final : public CanBenc
   const std::vector<CanReached>& reached() const override { return reached_; }
 
  private:
-  struct Port final : bus::CanPort {
+  struct Port final : bus::ports::CanPort {
     SimulatedCanBench& bench;
     std::size_t controller;
     Port(SimulatedCanBench& b, std::size_t c) : bench(b), controller(c) {}
-    void send(const bus::CanFrame& frame) override { bench.medium_.send(kMembers[controller], bench.now_, frame); }
+    void send(const bus::ports::CanFrame& frame) override {
+      bench.medium_.send(kMembers[controller], bench.now_, frame);
+    }
   };
   void next() {
     now_ = queue_.next().time;
-    const sim::MediumEvent event = queue_.pop();
-    if (event.kind == sim::MediumEvent::Kind::kCanArbitration) {
+    const sim::medium::MediumEvent event = queue_.pop();
+    if (event.kind == sim::medium::MediumEvent::Kind::kCanArbitration) {
       medium_.arbitrate(now_);
       return;
     }
-    ASSERT_EQ(event.kind, sim::MediumEvent::Kind::kCanArrival);
+    ASSERT_EQ(event.kind, sim::medium::MediumEvent::Kind::kCanArrival);
     const auto member = std::find(std::begin(kMembers), std::end(kMembers), static_cast<NodeId>(event.node));
     ASSERT_NE(member, std::end(kMembers));
     const auto bytes = pool_.bytes(event.frame);
@@ -116,11 +118,11 @@ template <bool kFlexibleDataRate> class SimulatedCanBench final : public CanBenc
   }
 
   static constexpr NodeId kMembers[kNodes] = {NodeId{0}, NodeId{2}, NodeId{3}, NodeId{4}};
-  schedules::Cluster cluster_ = on_can(kFlexibleDataRate);
-  sim::MediumQueue queue_{kRoom};
-  sim::FramePool pool_{kRoom};
+  schedules::model::Cluster cluster_ = on_can(kFlexibleDataRate);
+  sim::medium::MediumQueue queue_{kRoom};
+  sim::medium::FramePool pool_{kRoom};
   Reported reported_;
-  sim::CanMedium medium_{cluster_, 0, kMembers, queue_, pool_, reported_, 1, 0};
+  sim::medium::CanMedium medium_{cluster_, 0, kMembers, queue_, pool_, reported_, 1, 0};
   TrueTime now_{1'000};
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<CanReached> reached_;

@@ -11,28 +11,28 @@
 namespace ttf::laws {
 namespace {
 
-using sim::Leaving;
+using sim::medium::Leaving;
 
 constexpr std::size_t kNodes = 5;
 
-schedules::Cluster star(std::int64_t min_delay_ps, std::int64_t max_delay_ps) {
-  schedules::Cluster cluster;
-  cluster.topology = schedules::Topology::kStar;
+schedules::model::Cluster star(std::int64_t min_delay_ps, std::int64_t max_delay_ps) {
+  schedules::model::Cluster cluster;
+  cluster.topology = schedules::model::Topology::kStar;
   cluster.flexray.gdMinPropagationDelay_ps = min_delay_ps;
   cluster.flexray.gdMaxPropagationDelay_ps = max_delay_ps;
   cluster.nodes.resize(kNodes);
-  for (schedules::Node& node : cluster.nodes) node.flexray.emplace();
+  for (schedules::model::Node& node : cluster.nodes) node.flexray.emplace();
   return cluster;
 }
 
-struct TestCoupler final : sim::Coupler {
+struct TestCoupler final : sim::medium::Coupler {
   std::vector<Leaving> heard, out_of_nothing;
   bool open = true;
   std::optional<TrueTime> cut, hold;
-  bool pass(Leaving& signal, const wire::DecodedFrame* frame) override {
-    EXPECT_EQ(frame != nullptr, signal.signal == bus::Signal::kFrame);
+  bool pass(Leaving& signal, const bus::wire::DecodedFrame* frame) override {
+    EXPECT_EQ(frame != nullptr, signal.signal == bus::ports::Signal::kFrame);
     heard.push_back(signal);
-    if (cut) signal.signal = bus::Signal::kUndecodable, signal.end = *cut;
+    if (cut) signal.signal = bus::ports::Signal::kUndecodable, signal.end = *cut;
     return open;
   }
   void disturbed(const Leaving& signal) override { out_of_nothing.push_back(signal); }
@@ -56,14 +56,14 @@ INSTANTIATE_TYPED_TEST_SUITE_P(Star, FlexRayPortLaws, StarBench);
 }  // namespace
 }  // namespace ttf::laws
 
-namespace ttf::sim {
+namespace ttf::sim::medium {
 namespace {
 
-using bus::Signal;
-using schedules::Channel;
+using bus::ports::Signal;
+using schedules::model::Channel;
 
 struct Bench {
-  schedules::Cluster cluster = laws::star(100'000, 2'500'000);
+  schedules::model::Cluster cluster = laws::star(100'000, 2'500'000);
   MediumQueue queue{64};
   FramePool pool{64};
   FlexRayMedium medium{cluster, queue, pool};
@@ -222,4 +222,4 @@ TEST(Star, BothLegsSayWhetherAFaultSentIt) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::medium

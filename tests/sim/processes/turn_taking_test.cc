@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "core/random.h"
-#include "tests/recording/record_text.h"
 #include "tests/drives/drive_fixture.h"
+#include "tests/recording/record_text.h"
 #include "tests/support/memory_exchange.h"
 
-namespace ttf::sim {
+namespace ttf::sim::processes {
 namespace {
 
-using testing_support::Drive;
+using drives::Drive;
 using Lines = std::vector<std::string>;
 
 // The largest difference of the clocks is nobody's record where nobody sees two clocks.
@@ -40,14 +40,15 @@ Lines in_one_process(const Drive& drive) {
 }
 
 // What stands between a node and the others, for whoever wants to be in the way.
-using Wrap = std::function<std::unique_ptr<bus::Exchange>(NodeId, std::unique_ptr<bus::Exchange>)>;
+using Wrap =
+    std::function<std::unique_ptr<bus::ports::Exchange>(ttf::NodeId, std::unique_ptr<ttf::bus::ports::Exchange>)>;
 
 // What each node's process records. One that fails with Killed is gone from then on; any other failure is the test's.
 struct Killed {};
 std::vector<Lines> in_processes(const Drive& drive, const Wrap& wrap = {}) {
   test::MemoryExchange hub;
   const std::size_t nodes = drive.cluster.nodes.size();
-  std::vector<std::unique_ptr<bus::Exchange>> ports;
+  std::vector<std::unique_ptr<bus::ports::Exchange>> ports;
   for (std::size_t n = 0; n < nodes; ++n) {
     const auto id = static_cast<NodeId>(n);
     ports.push_back(wrap ? wrap(id, hub.join(id)) : hub.join(id));
@@ -60,8 +61,8 @@ std::vector<Lines> in_processes(const Drive& drive, const Wrap& wrap = {}) {
       const auto id = static_cast<NodeId>(n);
       try {
         TurnTaking others(drive.cluster, id, *ports[n]);
-        run_drive({&drive.scenario, &drive.cluster, drive.strategy, drive.scenario.seed, 0, nullptr, &others},
-                  sinks[n]);
+        drives::run_drive({&drive.scenario, &drive.cluster, drive.strategy, drive.scenario.seed, 0, nullptr, &others},
+                          sinks[n]);
       } catch (const Killed&) {
         hub.leave(id);
       } catch (...) {
@@ -92,7 +93,7 @@ void expect_equal(const Lines& found, const Lines& expected) {
 struct Case {
   const char* name;
   const char* scenario;
-  fusion::StrategyKind strategy;
+  fusion::strategies::StrategyKind strategy;
   std::int64_t milliseconds;
   bool guarded = false;           // in a star with guardians
   const char* cluster = nullptr;  // in place of the scenario's
@@ -100,11 +101,11 @@ struct Case {
 
   Drive drive() const {
     Drive drive(scenario, strategy);
-    if (cluster != nullptr) drive.cluster = schedules::load_checked_cluster(testing_support::shipped(cluster));
+    if (cluster != nullptr) drive.cluster = schedules::file::load_checked_cluster(drives::shipped(cluster));
     drive.scenario.startup.cold = drive.scenario.startup.cold || cold;
     drive.scenario.duration = Duration::milliseconds(milliseconds);
     if (guarded) {
-      drive.cluster.topology = schedules::Topology::kStar;
+      drive.cluster.topology = schedules::model::Topology::kStar;
       drive.cluster.guardian = true;
     }
     return drive;
@@ -126,27 +127,28 @@ constexpr const char* kOverFlexRay = "schedules/paper_free_flexray.yaml";
 // another process lets them; lists over FlexRay set tasks off.
 INSTANTIATE_TEST_SUITE_P(
     Drives, TurnTakingOf,
-    testing::Values(Case{"Buff", "scenarios/paper_scenario1.yaml", fusion::StrategyKind::kBuff, 700},
-                    Case{"Adva", "scenarios/paper_scenario1.yaml", fusion::StrategyKind::kAdva, 700},
-                    Case{"Tt", "scenarios/paper_scenario2.yaml", fusion::StrategyKind::kTt, 700},
-                    Case{"ColdStart", "scenarios/cold_start.yaml", fusion::StrategyKind::kTt, 700},
-                    Case{"GuardedColdStart", "scenarios/cold_start.yaml", fusion::StrategyKind::kTt, 700, true},
-                    Case{"Faults", "scenarios/faulty_bus.yaml", fusion::StrategyKind::kTt, 2700},
-                    Case{"GuardedFaults", "scenarios/faulty_bus.yaml", fusion::StrategyKind::kTt, 2700, true},
-                    Case{"FollowingBuff", kAhead, fusion::StrategyKind::kBuff, 700, false, kOverCan},
-                    Case{"FollowingAdva", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverCan},
-                    Case{"FollowingColdStart", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverCan, true},
-                    Case{"FollowingOverFlexRay", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverFlexRay},
-                    Case{"FollowingOverFlexRayColdStart", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverFlexRay,
-                         true}),
+    testing::Values(
+        Case{"Buff", "scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kBuff, 700},
+        Case{"Adva", "scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva, 700},
+        Case{"Tt", "scenarios/paper_scenario2.yaml", fusion::strategies::StrategyKind::kTt, 700},
+        Case{"ColdStart", "scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kTt, 700},
+        Case{"GuardedColdStart", "scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kTt, 700, true},
+        Case{"Faults", "scenarios/faulty_bus.yaml", fusion::strategies::StrategyKind::kTt, 2700},
+        Case{"GuardedFaults", "scenarios/faulty_bus.yaml", fusion::strategies::StrategyKind::kTt, 2700, true},
+        Case{"FollowingBuff", kAhead, fusion::strategies::StrategyKind::kBuff, 700, false, kOverCan},
+        Case{"FollowingAdva", kAhead, fusion::strategies::StrategyKind::kAdva, 700, false, kOverCan},
+        Case{"FollowingColdStart", kAhead, fusion::strategies::StrategyKind::kAdva, 700, false, kOverCan, true},
+        Case{"FollowingOverFlexRay", kAhead, fusion::strategies::StrategyKind::kAdva, 700, false, kOverFlexRay},
+        Case{"FollowingOverFlexRayColdStart", kAhead, fusion::strategies::StrategyKind::kAdva, 700, false, kOverFlexRay,
+             true}),
     [](const auto& one) { return std::string(one.param.name); });
 
-constexpr Case kShort{"", "scenarios/paper_scenario1.yaml", fusion::StrategyKind::kTt, 300};
+constexpr Case kShort{"", "scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kTt, 300};
 
 // Stops at drawn messages for drawn times.
-class Dawdling final : public bus::Exchange {
+class Dawdling final : public bus::ports::Exchange {
  public:
-  Dawdling(std::unique_ptr<bus::Exchange> port, std::uint64_t seed, NodeId node)
+  Dawdling(std::unique_ptr<bus::ports::Exchange> port, std::uint64_t seed, NodeId node)
       : port_(std::move(port)), draws_({seed, 0, Purpose::kTest, static_cast<std::uint16_t>(node), 0}) {}
   void send(std::span<const std::byte> message) override {
     dawdle();
@@ -161,7 +163,7 @@ class Dawdling final : public bus::Exchange {
   void dawdle() {
     if (draws_.integer(0, 63) == 0) std::this_thread::sleep_for(std::chrono::microseconds(draws_.integer(0, 2000)));
   }
-  std::unique_ptr<bus::Exchange> port_;
+  std::unique_ptr<bus::ports::Exchange> port_;
   RandomStream draws_;
 };
 
@@ -170,16 +172,16 @@ TEST(TurnTaking, StopsOfProcessesChangeNothing) {
   const Lines expected = in_one_process(drive);
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
     expect_equal(together(in_processes(drive,
-                                       [&](NodeId node, std::unique_ptr<bus::Exchange> port) {
+                                       [&](NodeId node, std::unique_ptr<bus::ports::Exchange> port) {
                                          return std::make_unique<Dawdling>(std::move(port), seed, node);
                                        })),
                  expected);
 }
 
 // Has its node killed before turn number `turns`, and counts.
-class Doomed final : public bus::Exchange {
+class Doomed final : public bus::ports::Exchange {
  public:
-  Doomed(std::unique_ptr<bus::Exchange> port, int turns, int& taken)
+  Doomed(std::unique_ptr<bus::ports::Exchange> port, int turns, int& taken)
       : port_(std::move(port)), turns_(turns), taken_(taken) {}
   void send(std::span<const std::byte> message) override {
     if (taken_ == turns_) throw Killed();
@@ -189,14 +191,14 @@ class Doomed final : public bus::Exchange {
   Heard receive() override { return port_->receive(); }
 
  private:
-  std::unique_ptr<bus::Exchange> port_;
+  std::unique_ptr<bus::ports::Exchange> port_;
   int turns_;
   int& taken_;
 };
 
 std::vector<Lines> with_one_killed(const Drive& drive, std::size_t victim, int turns, std::vector<int>& taken) {
   taken.assign(drive.cluster.nodes.size(), 0);
-  return in_processes(drive, [&](NodeId node, std::unique_ptr<bus::Exchange> port) {
+  return in_processes(drive, [&](NodeId node, std::unique_ptr<bus::ports::Exchange> port) {
     const int most = index_of(node) == victim ? turns : std::numeric_limits<int>::max();
     return std::make_unique<Doomed>(std::move(port), most, taken[index_of(node)]);
   });
@@ -234,4 +236,4 @@ TEST(TurnTaking, SurvivorsOfAKilledNodeRecordTheSameUntilThenAndGoOn) {
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::processes

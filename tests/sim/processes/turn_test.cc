@@ -11,22 +11,22 @@
 #include "bus/wire/flexray_frame.h"
 #include "tests/drives/drive_fixture.h"
 
-namespace ttf::sim {
+namespace ttf::sim::processes {
 namespace {
 
-using schedules::Channel;
+using schedules::model::Channel;
 
-constexpr nodes::Promise kSilent{nodes::Promise::kNever};
+constexpr nodes::host::Promise kSilent{nodes::host::Promise::kNever};
 
 class Turn : public testing::Test {
  protected:
   Turn() {
     host_ = cluster_.sensors.front().host;
     device_ = cluster_.sensors.front().device;
-    wire::FrameHeader header;
+    bus::wire::FrameHeader header;
     header.frame_id = 7;
     frame_.resize(
-        wire::encode_frame(header, Channel::kB, std::array<std::byte, 4>{std::byte{1}, std::byte{2}}, frame_));
+        bus::wire::encode_frame(header, Channel::kB, std::array<std::byte, 4>{std::byte{1}, std::byte{2}}, frame_));
   }
   std::vector<std::byte> message(const TurnHeader& header, const std::vector<Act>& acts) const {
     TurnWriter writer;
@@ -34,25 +34,25 @@ class Turn : public testing::Test {
     const auto bytes = writer.finish(header);
     return {bytes.begin(), bytes.end()};
   }
-  bus::Transmission signal(bus::Signal kind) const {
+  bus::ports::Transmission signal(bus::ports::Signal kind) const {
     return {Channel::kB,
             kind,
             Microticks{4'000},
             Microticks{4'100},
             7,
-            kind == bus::Signal::kFrame ? std::span<const std::byte>(frame_) : std::span<const std::byte>(),
+            kind == bus::ports::Signal::kFrame ? std::span<const std::byte>(frame_) : std::span<const std::byte>(),
             {}};
   }
   std::vector<std::byte> every_kind() const {
     return message({host_, 3, Microticks{4'000}, {Microticks{5'000}, Microticks{1}, Microticks{2}, Microticks{3}}},
-                   {signal(bus::Signal::kFrame), signal(bus::Signal::kCas),
+                   {signal(bus::ports::Signal::kFrame), signal(bus::ports::Signal::kCas),
                     CanAct{1, {0x123, true, std::span<const std::byte>(frame_).first(8)}}, TriggerAct{SensorId{0}}});
   }
 
-  const schedules::Cluster cluster_ =
-      schedules::load_cluster(testing_support::shipped("schedules/paper_synchronised.yaml"));
+  const schedules::model::Cluster cluster_ =
+      schedules::file::load_cluster(drives::shipped("schedules/paper_synchronised.yaml"));
   NodeId host_{}, device_{};
-  std::vector<std::byte> frame_ = std::vector<std::byte>(wire::kMaxFrameBytes);
+  std::vector<std::byte> frame_ = std::vector<std::byte>(bus::wire::kMaxFrameBytes);
 };
 
 TEST_F(Turn, IsReadAsItWasWritten) {
@@ -62,9 +62,9 @@ TEST_F(Turn, IsReadAsItWasWritten) {
   EXPECT_EQ(header.node, host_);
   EXPECT_EQ(header.number, 3u);
   EXPECT_EQ(header.at, Microticks{4'000});
-  EXPECT_EQ(header.promise, (nodes::Promise{Microticks{5'000}, Microticks{1}, Microticks{2}, Microticks{3}}));
+  EXPECT_EQ(header.promise, (nodes::host::Promise{Microticks{5'000}, Microticks{1}, Microticks{2}, Microticks{3}}));
   ASSERT_EQ(acts.size(), 4u);
-  const auto& frame = std::get<bus::Transmission>(acts[0]);
+  const auto& frame = std::get<bus::ports::Transmission>(acts[0]);
   EXPECT_EQ(frame.channel, Channel::kB);
   EXPECT_EQ(frame.start, Microticks{4'000});
   EXPECT_EQ(frame.end, Microticks{4'100});
@@ -72,7 +72,7 @@ TEST_F(Turn, IsReadAsItWasWritten) {
   EXPECT_TRUE(std::equal(frame.bytes.begin(), frame.bytes.end(), frame_.begin(), frame_.end()));
   EXPECT_EQ(frame.content.header.frame_id, 7);
   EXPECT_EQ(frame.content.payload.size(), 4u);
-  EXPECT_EQ(std::get<bus::Transmission>(acts[1]).signal, bus::Signal::kCas);
+  EXPECT_EQ(std::get<bus::ports::Transmission>(acts[1]).signal, bus::ports::Signal::kCas);
   const auto& can = std::get<CanAct>(acts[2]);
   EXPECT_EQ(can.bus, 1u);
   EXPECT_EQ(can.frame.identifier, 0x123u);
@@ -117,24 +117,24 @@ TEST_F(Turn, SaysNothingThatItsNodeCannotDo) {
   refuses({static_cast<NodeId>(cluster_.nodes.size()), 0, {}, kSilent}, {});
   refuses({host_, 0, Microticks{9}, {Microticks{9}}}, {});  // its turn would never end
   refuses({host_, 0, {}, {Microticks{1}, Microticks{-1}}}, {});
-  refuses({host_, 0, {}, {nodes::Promise::kNever - Microticks{1}}}, {});
+  refuses({host_, 0, {}, {nodes::host::Promise::kNever - Microticks{1}}}, {});
   refuses({device_, 0, {}, kSilent}, {TriggerAct{SensorId{0}}});
   refuses(header, {StrobeAct{SensorId{0}, 0}});
   refuses(header, {TriggerAct{static_cast<SensorId>(cluster_.sensors.size())}});
   refuses(header, {CanAct{cluster_.can_buses.size(), {}}});
   refuses(header, {CanAct{0, {0x800, false, {}}}});
-  bus::Transmission early = signal(bus::Signal::kFrame);
+  bus::ports::Transmission early = signal(bus::ports::Signal::kFrame);
   early.start = Microticks{3'999};
   refuses(header, {early});
-  bus::Transmission backwards = signal(bus::Signal::kCas);
+  bus::ports::Transmission backwards = signal(bus::ports::Signal::kCas);
   backwards.end = Microticks{3'999};
   refuses(header, {backwards});
   std::vector<std::byte> damaged = frame_;
   damaged[6] ^= std::byte{1};
-  bus::Transmission wrong = signal(bus::Signal::kFrame);
+  bus::ports::Transmission wrong = signal(bus::ports::Signal::kFrame);
   wrong.bytes = damaged;
   refuses(header, {wrong});
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::processes

@@ -3,21 +3,22 @@
 
 #include <type_traits>
 
-#include "recording/records/tee.h"
 #include "drives/drive.h"
-#include "tests/recording/record_text.h"
+#include "recording/records/tee.h"
 #include "tests/drives/drive_fixture.h"
+#include "tests/recording/record_text.h"
 
-namespace ttf::sim {
+namespace ttf::sim::processes {
 namespace {
 
 // Every record but those of FlexRay's frames, which are counted.
-class Others final : public records::Every<Others> {
+class Others final : public recording::records::Every<Others> {
  public:
   explicit Others(bool wants_frames) : wants_frames_(wants_frames) {}
   bool wants_frames() const override { return wants_frames_; }
   template <class Record> void each(const Record& record) {
-    if constexpr (std::is_same_v<Record, records::SlotFrameSent> || std::is_same_v<Record, records::ChannelFrame>)
+    if constexpr (std::is_same_v<Record, recording::records::SlotFrameSent> ||
+                  std::is_same_v<Record, recording::records::ChannelFrame>)
       ++frames;
     else
       text.on(record);
@@ -30,11 +31,11 @@ class Others final : public records::Every<Others> {
   bool wants_frames_;
 };
 
-void compare(const testing_support::Drive& drive) {
-  const fusion::StrategyKind strategy = drive.strategy;
-  const DriveConfig config{&drive.scenario, &drive.cluster, strategy, 3, 1, nullptr};
+void compare(const drives::Drive& drive) {
+  const fusion::strategies::StrategyKind strategy = drive.strategy;
+  const drives::DriveConfig config{&drive.scenario, &drive.cluster, strategy, 3, 1, nullptr};
   Others all(true), others(false);
-  const DriveOutcome with = run_drive(config, all), without = run_drive(config, others);
+  const drives::DriveOutcome with = run_drive(config, all), without = run_drive(config, others);
   EXPECT_GT(all.frames, 1000);
   EXPECT_EQ(others.frames, 0);
   ASSERT_EQ(all.text.lines.size(), others.text.lines.size());
@@ -46,43 +47,45 @@ void compare(const testing_support::Drive& drive) {
 }
 
 TEST(UnwantedFrames, LeaveAllOtherRecordsAsTheyAre) {
-  for (const fusion::StrategyKind strategy : testing_support::kStrategies)
+  for (const fusion::strategies::StrategyKind strategy : drives::kStrategies)
     compare({"scenarios/paper_scenario1.yaml", strategy});
 }
 
 // Every cluster has its own mixture of slots that repeat, take turns, or have their fragments from lists of many.
 TEST(UnwantedFrames, OfEveryClusterLeaveAllOtherRecordsAsTheyAre) {
   for (const char* cluster : {"paper_dynamic", "paper_event_triggered", "paper_free_running", "flexray_demo"}) {
-    testing_support::Drive drive("scenarios/dynamics.yaml", fusion::StrategyKind::kAdva);
-    drive.cluster = schedules::load_cluster(testing_support::shipped("schedules/") + cluster + ".yaml");
+    drives::Drive drive("scenarios/dynamics.yaml", fusion::strategies::StrategyKind::kAdva);
+    drive.cluster = schedules::file::load_cluster(drives::shipped("schedules/") + cluster + ".yaml");
     SCOPED_TRACE(cluster);
     compare(drive);
   }
-  compare({"scenarios/twin_cameras.yaml", fusion::StrategyKind::kAdva});
-  compare({"scenarios/crowd_25.yaml", fusion::StrategyKind::kTt});
+  compare({"scenarios/twin_cameras.yaml", fusion::strategies::StrategyKind::kAdva});
+  compare({"scenarios/crowd_25.yaml", fusion::strategies::StrategyKind::kTt});
 }
 
 // Nodes that are powered on later hear some of what is on its way, and all of what they do not know yet.
-TEST(UnwantedFrames, BelongToStartupLikeOthers) { compare({"scenarios/cold_start.yaml", fusion::StrategyKind::kAdva}); }
+TEST(UnwantedFrames, BelongToStartupLikeOthers) {
+  compare({"scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kAdva});
+}
 
 // Clocks that are not corrected drift apart until frames cross the others' slots, and then meet.
 TEST(UnwantedFrames, MayBeOutsideOfTheirSlots) {
-  testing_support::Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kAdva);
+  drives::Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
   drive.cluster.synchronisation = false;
   drive.scenario.duration = Duration::milliseconds(1500);
   compare(drive);
 }
 
 TEST(UnwantedFrames, AreStillSubjectToFaults) {
-  for (const fusion::StrategyKind strategy : testing_support::kStrategies)
+  for (const fusion::strategies::StrategyKind strategy : drives::kStrategies)
     compare({"scenarios/faulty_bus.yaml", strategy});
 }
 
 // Every record but those of how far clocks are apart, which are counted.
-class NotTheClocks final : public records::Every<NotTheClocks> {
+class NotTheClocks final : public recording::records::Every<NotTheClocks> {
  public:
   template <class Record> void each(const Record& record) {
-    if constexpr (std::is_same_v<Record, records::PrecisionSample>)
+    if constexpr (std::is_same_v<Record, recording::records::PrecisionSample>)
       ++samples;
     else
       text.on(record);
@@ -96,9 +99,9 @@ TEST(UncomparedClocks, LeaveAllOtherRecordsAsTheyAre) {
   for (const char* scenario :
        {"scenarios/paper_scenario1.yaml", "scenarios/cold_start.yaml", "scenarios/faulty_bus.yaml"}) {
     SCOPED_TRACE(scenario);
-    const testing_support::Drive drive(scenario, fusion::StrategyKind::kAdva);
+    const drives::Drive drive(scenario, fusion::strategies::StrategyKind::kAdva);
     NotTheClocks compared, uncompared;
-    const DriveOutcome with = drive.run(compared), without = drive.run(uncompared, 1, false);
+    const drives::DriveOutcome with = drive.run(compared), without = drive.run(uncompared, 1, false);
     EXPECT_GT(compared.samples, 100);
     EXPECT_EQ(uncompared.samples, 0);
     EXPECT_EQ(compared.text.lines, uncompared.text.lines);
@@ -110,9 +113,9 @@ TEST(UncomparedClocks, LeaveAllOtherRecordsAsTheyAre) {
 
 TEST(UnwantedFrames, AreThoseThatNoListenerWants) {
   Others some(true), none(false);
-  EXPECT_TRUE(records::Tee({&none, &some}).wants_frames());
-  EXPECT_FALSE(records::Tee({&none}).wants_frames());
+  EXPECT_TRUE(recording::records::Tee({&none, &some}).wants_frames());
+  EXPECT_FALSE(recording::records::Tee({&none}).wants_frames());
 }
 
 }  // namespace
-}  // namespace ttf::sim
+}  // namespace ttf::sim::processes

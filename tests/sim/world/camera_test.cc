@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 constexpr ObjectId kClutter{0xffff};
@@ -167,4 +167,4 @@ TEST(Camera, DrawsBelongToTheSequence) {
 }
 
 }  // namespace
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

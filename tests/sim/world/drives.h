@@ -7,7 +7,7 @@
 #include "core/strict_yaml.h"
 #include "sim/world/world.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 
 inline WorldConfig world_from(const std::string& text) {
   const StrictYaml yaml = StrictYaml::parse(text, "test.yaml");
@@ -39,4 +39,4 @@ inline WorldConfig without_noise(WorldConfig config) {
 
 inline TrueTime at_ms(std::int64_t ms) { return TrueTime{} + Duration::milliseconds(ms); }
 
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -10,7 +10,7 @@
 #include "sim/world/laser.h"
 #include "tests/sim/world/drives.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 TEST(PaperScenario1, TheCarGoesFrom30To40Metres) {
@@ -94,4 +94,4 @@ TEST(Crowd25, EveryObjectStaysInRangeAndInViewOfBothSensorsForAMinute) {
 }
 
 }  // namespace
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -7,7 +7,7 @@
 
 #include "tests/sim/world/drives.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 std::string finding_of(const std::string& text) {
@@ -64,4 +64,4 @@ TEST(Field, RefusesMoreThanThereIsRoomFor) {
 }
 
 }  // namespace
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

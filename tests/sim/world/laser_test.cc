@@ -10,7 +10,7 @@
 #include "core/random.h"
 #include "sim/world/shape.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 ObjectState box(std::uint16_t id, double x, double y, double heading, double length, double width) {
@@ -264,4 +264,4 @@ TEST(Laser, BeamsDrawIndependently) {
 }
 
 }  // namespace
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

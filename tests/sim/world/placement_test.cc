@@ -10,7 +10,7 @@
 #include "sim/world/camera.h"
 #include "sim/world/laser.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 TEST(DriveError, IsFixedUnlessItHasASigma) {
@@ -114,4 +114,4 @@ TEST(Placement, IsReadStrictly) {
 }
 
 }  // namespace
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

@@ -8,7 +8,7 @@
 
 #include "tests/sim/world/drives.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 // A parked car, the second of two, far enough off for the alignment to show.
@@ -170,4 +170,4 @@ TEST(Reference, AFixIsAFunctionOfItsNumber) {
 }
 
 }  // namespace
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

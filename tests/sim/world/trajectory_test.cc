@@ -9,7 +9,7 @@
 #include "sim/world/world.h"
 #include "tests/sim/world/drives.h"
 
-namespace ttf::world {
+namespace ttf::sim::world {
 namespace {
 
 // Independent oracle: midpoint rule on x' = v cos h, y' = v sin h.
@@ -206,4 +206,4 @@ TEST(WorldFile, OneCarAtMostCarriesTheReference) {
 }
 
 }  // namespace
-}  // namespace ttf::world
+}  // namespace ttf::sim::world

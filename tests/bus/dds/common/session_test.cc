@@ -20,7 +20,7 @@
 #include "core/errors.h"
 #include "tests/bus/dds/common/sessions.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::common {
 namespace {
 
 using namespace std::chrono_literals;
@@ -39,29 +39,29 @@ std::string complaint(const Session& session) {
 }
 
 TEST(DdsSession, IsCheckedBeforeAnythingStarts) {
-  EXPECT_EQ(complaint(test::session(64)), "");
-  Session session = test::session(2);
+  EXPECT_EQ(complaint(common::session(64)), "");
+  Session session = common::session(2);
   session.domain = 232;
   EXPECT_EQ(complaint(session), "DDS: domain = 232: must be 0..231");
-  session = test::session(2);
+  session = common::session(2);
   for (const std::string& name : std::vector<std::string>{"", "a b", "*", std::string(65, 'x'), "\xc3\xa9"}) {
     session.name = name;
     EXPECT_THAT(complaint(session), testing::EndsWith("must be 1 to 64 letters, digits, '_', '-' or '.'")) << name;
   }
-  session = test::session(2);
+  session = common::session(2);
   session.members = {NodeId{1}, NodeId{1}};
   EXPECT_EQ(complaint(session), "DDS: members = node 1, node 1: must be one or more nodes, each once");
   session.members = {};
   EXPECT_NE(complaint(session), "");
-  session = test::session(2);
+  session = common::session(2);
   session.lease = 99ms;
   EXPECT_EQ(complaint(session), "DDS: lease = 99: must be 100..3600000 ms");
 }
 
 TEST(DdsSession, WhoIsMissingIsNamedAfterThePatience) {
-  const Session session = test::session(3);
-  ExchangeSupervisor supervisor(session);
-  Exchange zero(session, NodeId{0}), two(session, NodeId{2});
+  const Session session = common::session(3);
+  exchange::ExchangeSupervisor supervisor(session);
+  exchange::Exchange zero(session, NodeId{0}), two(session, NodeId{2});
   try {
     zero.wait_ready(300ms);
     ADD_FAILURE() << "is ready";
@@ -79,9 +79,9 @@ TEST(DdsSession, WhoIsMissingIsNamedAfterThePatience) {
 }
 
 TEST(DdsSession, WhoDoesNotHearTheOthersYetIsNamed) {
-  const Session session = test::session(2);
-  ExchangeSupervisor supervisor(session);
-  Exchange zero(session, NodeId{0}), one(session, NodeId{1});  // one is there, but takes no notice
+  const Session session = common::session(2);
+  exchange::ExchangeSupervisor supervisor(session);
+  exchange::Exchange zero(session, NodeId{0}), one(session, NodeId{1});  // one is there, but takes no notice
   try {
     zero.wait_ready(500ms);
     ADD_FAILURE() << "is ready";
@@ -93,8 +93,8 @@ TEST(DdsSession, WhoDoesNotHearTheOthersYetIsNamed) {
 }
 
 TEST(DdsSession, AMissingSupervisorIsNamed) {
-  const Session session = test::session(1);
-  Exchange alone(session, NodeId{0});
+  const Session session = common::session(1);
+  exchange::Exchange alone(session, NodeId{0});
   try {
     alone.wait_ready(100ms);
     ADD_FAILURE() << "is ready";
@@ -105,9 +105,9 @@ TEST(DdsSession, AMissingSupervisorIsNamed) {
 }
 
 TEST(DdsSession, WhoDiesBeforeItWasThereIsNotWaitedFor) {
-  const Session session = test::session(3);
-  ExchangeSupervisor supervisor(session);
-  Exchange zero(session, NodeId{0}), one(session, NodeId{1});
+  const Session session = common::session(3);
+  exchange::ExchangeSupervisor supervisor(session);
+  exchange::Exchange zero(session, NodeId{0}), one(session, NodeId{1});
   supervisor.announce_gone(NodeId{2});  // it never came
   std::thread thread([&] { one.wait_ready(10s); });
   zero.wait_ready(10s);
@@ -128,17 +128,17 @@ std::string error_of(const std::function<void()>& work) {
 }
 
 TEST(DdsSession, ANodeThatIsThereTwiceIsAnError) {
-  Session session = test::session(2);
+  Session session = common::session(2);
   session.supervised = false;
-  Exchange one(session, NodeId{1}), again(session, NodeId{1});
+  exchange::Exchange one(session, NodeId{1}), again(session, NodeId{1});
   EXPECT_EQ(error_of([&] { one.wait_ready(10s); }), called(session) + "node 1 is there twice");
 }
 
 TEST(DdsSession, AStrangerIsAnError) {
-  Session session = test::session(2), larger = session;
+  Session session = common::session(2), larger = session;
   larger.members.push_back(NodeId{9});
   session.supervised = larger.supervised = false;
-  Exchange one(session, NodeId{1}), stranger(larger, NodeId{9});
+  exchange::Exchange one(session, NodeId{1}), stranger(larger, NodeId{9});
   EXPECT_EQ(error_of([&] { one.wait_ready(10s); }), called(session) + "node 9 is no member");
 }
 
@@ -150,9 +150,9 @@ class DdsPair : public testing::Test {
     zero_->wait_ready(10s);
     thread.join();
   }
-  const Session session_ = test::session(2);
-  std::optional<ExchangeSupervisor> supervisor_{session_};
-  std::optional<Exchange> zero_{std::in_place, session_, NodeId{0}}, one_{std::in_place, session_, NodeId{1}};
+  const Session session_ = common::session(2);
+  std::optional<exchange::ExchangeSupervisor> supervisor_{session_};
+  std::optional<exchange::Exchange> zero_{std::in_place, session_, NodeId{0}}, one_{std::in_place, session_, NodeId{1}};
 };
 
 TEST_F(DdsPair, WhoIsAnnouncedGoneAndLivesIsToldSo) {
@@ -173,7 +173,7 @@ TEST_F(DdsPair, TheSupervisorKnowsWhoHasJoinedAndLeft) {
   supervisor_->announce_gone(NodeId{0});  // as a launch does with whatever ends
   EXPECT_TRUE(one_->receive().gone);
   one_.reset();  // else it would be asked what it has heard, and not answer
-  using Happening = ExchangeSupervisor::What;
+  using Happening = exchange::ExchangeSupervisor::What;
   std::vector<Happening> of_zero;
   while (of_zero.empty() || of_zero.back() != Happening::kGone) {
     const auto event = supervisor_->next_event(5s);
@@ -192,4 +192,4 @@ TEST(DdsConfiguration, TheShippedFileIsTheBuiltInOne) {
 }
 
 }  // namespace
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::common

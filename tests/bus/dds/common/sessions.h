@@ -8,18 +8,18 @@
 
 #include "bus/dds/common/session.h"
 
-namespace ttf::test {
+namespace ttf::bus::dds::common {
 
 // Not the domain that everybody else uses by default.
 inline constexpr std::uint32_t kTestDomain = 17;
 
-inline dds::Session session(std::size_t members) {
+inline Session session(std::size_t members) {
   static int made = 0;
-  dds::Session session;
+  Session session;
   session.domain = kTestDomain;
   session.name = "test-" + std::to_string(getpid()) + "-" + std::to_string(made++);
   for (std::size_t i = 0; i < members; ++i) session.members.push_back(NodeId{static_cast<std::uint8_t>(i)});
   return session;
 }
 
-}  // namespace ttf::test
+}  // namespace ttf::bus::dds::common

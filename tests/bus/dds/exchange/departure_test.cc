@@ -15,19 +15,19 @@
 #include "bus/dds/exchange/stream.h"
 #include "tests/support/messages.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 namespace {
 
 constexpr NodeId kA{1}, kB{2}, kC{3};
 
 TEST(Departure, EndsWhereTheBestInformedIsWhoSaysTheRestAgain) {
   Departure departure({kA, kB, kC});
-  EXPECT_EQ(departure.begin().kind, Kind::kFence);
+  EXPECT_EQ(departure.begin().kind, common::Kind::kFence);
   EXPECT_FALSE(departure.report(kA, 1, 5));
   EXPECT_FALSE(departure.report(kB, 1, 9));
   const auto close = departure.report(kC, 1, 7);
   ASSERT_TRUE(close);
-  EXPECT_EQ(close->kind, Kind::kClose);
+  EXPECT_EQ(close->kind, common::Kind::kClose);
   EXPECT_EQ(close->round, 1u);
   EXPECT_EQ(close->holder, kB);
   EXPECT_EQ(close->first, 5u);
@@ -58,7 +58,7 @@ TEST(Departure, BeginsAgainWhereTheHolderDies) {
   departure.report(kC, 1, 7);
   const auto fence = departure.without(kB);
   ASSERT_TRUE(fence);
-  EXPECT_EQ(fence->kind, Kind::kFence);
+  EXPECT_EQ(fence->kind, common::Kind::kFence);
   EXPECT_EQ(fence->round, 2u);
   departure.closed(kA, 1);  // late, of the round before
   departure.closed(kC, 1);
@@ -127,13 +127,13 @@ class DrawnDeparture {
     }
   }
   void expect_all_the_same() const {
-    const std::vector<Entry>& first = survivors_.begin()->second.entries;
+    const std::vector<common::Entry>& first = survivors_.begin()->second.entries;
     for (const auto& [node, survivor] : survivors_) {
       EXPECT_TRUE(survivor.stream.closed());
       ASSERT_EQ(survivor.entries.size(), first.size()) << index_of(node);
       for (std::size_t i = 0; i < first.size(); ++i) {
         EXPECT_EQ(survivor.entries[i].number, i);
-        EXPECT_EQ(survivor.entries[i].kind, i + 1 < first.size() ? Kind::kMessage : Kind::kBye);
+        EXPECT_EQ(survivor.entries[i].kind, i + 1 < first.size() ? common::Kind::kMessage : common::Kind::kBye);
       }
       EXPECT_EQ(first.size(), departure_->end() + 1);
     }
@@ -142,7 +142,7 @@ class DrawnDeparture {
  private:
   struct Survivor {
     Stream stream{NodeId{100}, 1 << 20};
-    std::vector<Entry> entries;
+    std::vector<common::Entry> entries;
     std::uint64_t in_flight = 0;                         // the next sample that still comes from the dead itself
     std::uint64_t reach = 0;                             // and the first that does not
     std::deque<Departure::Order> orders;                 // of the supervisor, not yet seen
@@ -152,7 +152,7 @@ class DrawnDeparture {
 
   static void accept(Survivor& survivor, std::uint64_t number) {
     const auto nothing = std::make_shared<const std::vector<std::byte>>();
-    survivor.stream.accept({number, Kind::kMessage, nothing}, survivor.entries);
+    survivor.stream.accept({number, common::Kind::kMessage, nothing}, survivor.entries);
   }
   void tell_all(const Departure::Order& order) {
     for (auto& entry : survivors_) entry.second.orders.push_back(order);
@@ -176,14 +176,14 @@ class DrawnDeparture {
   void obey(NodeId self, Survivor& survivor) {
     const Departure::Order order = survivor.orders.front();
     survivor.orders.pop_front();
-    if (order.kind == Kind::kFence) {
+    if (order.kind == common::Kind::kFence) {
       if (const auto close = departure_->report(self, order.round, survivor.stream.fence())) tell_all(*close);
       return;
     }
     survivor.confirm = order.round;
     survivor.stream.close(order.end, survivor.entries);
     if (order.holder != self) return;
-    for (const Entry& entry : survivor.stream.again(order.first))
+    for (const common::Entry& entry : survivor.stream.again(order.first))
       for (auto& other : survivors_)
         if (other.first != self) other.second.again.emplace_back(self, entry.number);
   }
@@ -216,4 +216,4 @@ TEST(Departure, WhoeverDiesAtWhateverInstantTheSurvivorsHaveHeardTheSame) {
 }
 
 }  // namespace
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

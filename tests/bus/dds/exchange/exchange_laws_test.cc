@@ -19,10 +19,11 @@ enum class Ending { kLeaves, kAnnounced };
 template <std::size_t kMembers, Ending kEnding> class DdsBench : public ExchangeBench {
  public:
   DdsBench() {
-    dds::Session session = test::session(kMembers);
+    bus::dds::common::Session session = bus::dds::common::session(kMembers);
     session.supervised = kEnding == Ending::kAnnounced;
-    if (session.supervised) supervisor_ = std::make_unique<dds::ExchangeSupervisor>(session);
-    for (const NodeId node : session.members) members_.push_back(std::make_unique<dds::Exchange>(session, node));
+    if (session.supervised) supervisor_ = std::make_unique<bus::dds::exchange::ExchangeSupervisor>(session);
+    for (const NodeId node : session.members)
+      members_.push_back(std::make_unique<bus::dds::exchange::Exchange>(session, node));
     std::vector<std::thread> threads;
     for (auto& member : members_) threads.emplace_back([&member] { member->wait_ready(30s); });
     for (std::thread& thread : threads) thread.join();
@@ -34,7 +35,7 @@ template <std::size_t kMembers, Ending kEnding> class DdsBench : public Exchange
     for (std::thread& thread : threads) thread.join();
   }
   std::size_t members() const override { return kMembers; }
-  bus::Exchange& member(std::size_t index) override { return *members_[index]; }
+  bus::ports::Exchange& member(std::size_t index) override { return *members_[index]; }
   void end(std::size_t index) override {
     if (supervisor_)
       supervisor_->announce_gone(NodeId{static_cast<std::uint8_t>(index)});
@@ -43,8 +44,8 @@ template <std::size_t kMembers, Ending kEnding> class DdsBench : public Exchange
   }
 
  private:
-  std::unique_ptr<dds::ExchangeSupervisor> supervisor_;
-  std::vector<std::unique_ptr<dds::Exchange>> members_;
+  std::unique_ptr<bus::dds::exchange::ExchangeSupervisor> supervisor_;
+  std::vector<std::unique_ptr<bus::dds::exchange::Exchange>> members_;
 };
 
 using DdsBenches = testing::Types<DdsBench<2, Ending::kLeaves>, DdsBench<6, Ending::kLeaves>,

@@ -23,7 +23,7 @@
 #include "bus/dds/exchange/exchange.h"
 #include "tests/support/messages.h"
 
-namespace ttf {
+namespace ttf::bus::dds::exchange {
 namespace {
 
 constexpr std::uint64_t kEndless = ~std::uint64_t{0};
@@ -37,7 +37,7 @@ struct HeardOf {
 
 class TalkingMember {
  public:
-  TalkingMember(const dds::Session& session, NodeId self, std::uint64_t count, test::Sizes sizes,
+  TalkingMember(const common::Session& session, NodeId self, std::uint64_t count, test::Sizes sizes,
                 const std::set<NodeId>& endless)
       : exchange_(session, self), self_(self), count_(endless.contains(self) ? kEndless : count), sizes_(sizes) {
     for (const NodeId node : session.members)
@@ -79,7 +79,7 @@ class TalkingMember {
     of.hash = test::hash_of(heard.bytes, of.hash);
   }
 
-  dds::Exchange exchange_;
+  Exchange exchange_;
   NodeId self_;
   std::uint64_t count_;
   test::Sizes sizes_;
@@ -88,7 +88,7 @@ class TalkingMember {
 };
 
 int run(int words, char** arguments) {
-  dds::Session session;
+  common::Session session;
   session.domain = static_cast<std::uint32_t>(std::stoul(arguments[1]));
   session.name = arguments[2];
   const NodeId self{static_cast<std::uint8_t>(std::stoul(arguments[3]))};
@@ -109,12 +109,12 @@ int run(int words, char** arguments) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::bus::dds::exchange
 
 int main(int words, char** arguments) {
   if (words < 10) return 2;
   try {
-    return ttf::run(words, arguments);
+    return ttf::bus::dds::exchange::run(words, arguments);
   } catch (const std::exception& error) {
     fmt::print("error: {}\n", error.what());
     return 1;

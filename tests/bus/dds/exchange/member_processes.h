@@ -15,11 +15,11 @@
 #include "tests/support/child_process.h"
 #include "tests/support/messages.h"
 
-namespace ttf::test {
+namespace ttf::bus::dds::exchange {
 
 enum class Mode { kTalk, kRounds };
 
-class MemberProcess : public ChildProcess {
+class MemberProcess : public test::ChildProcess {
  public:
   struct HeardOf {
     std::uint64_t count = 0;
@@ -28,9 +28,9 @@ class MemberProcess : public ChildProcess {
     bool operator==(const HeardOf&) const = default;
   };
 
-  MemberProcess(const dds::Session& session, NodeId self, Mode mode, std::uint64_t count, Sizes sizes,
+  MemberProcess(const common::Session& session, NodeId self, Mode mode, std::uint64_t count, test::Sizes sizes,
                 const std::set<std::size_t>& endless)
-      : ChildProcess(words(session, self, mode, count, sizes, endless)), self_(self) {}
+      : test::ChildProcess(words(session, self, mode, count, sizes, endless)), self_(self) {}
 
   NodeId self() const { return self_; }
   // After wait().
@@ -44,8 +44,8 @@ class MemberProcess : public ChildProcess {
   }
 
  private:
-  static std::vector<std::string> words(const dds::Session& session, NodeId self, Mode mode, std::uint64_t count,
-                                        Sizes sizes, const std::set<std::size_t>& endless) {
+  static std::vector<std::string> words(const common::Session& session, NodeId self, Mode mode, std::uint64_t count,
+                                        test::Sizes sizes, const std::set<std::size_t>& endless) {
     std::vector<std::string> all{TTF_DDS_MEMBER,
                                  std::to_string(session.domain),
                                  session.name,
@@ -55,7 +55,7 @@ class MemberProcess : public ChildProcess {
                                  session.supervised ? "supervised" : "alone",
                                  mode == Mode::kTalk ? "talk" : "rounds",
                                  std::to_string(count),
-                                 sizes == Sizes::kAll ? "all" : "small"};
+                                 sizes == test::Sizes::kAll ? "all" : "small"};
     for (const std::size_t node : endless) all.push_back(std::to_string(node));
     return all;
   }
@@ -64,10 +64,10 @@ class MemberProcess : public ChildProcess {
 };
 
 // What is heard of a node that says `count` messages.
-inline std::string hash_of_messages(NodeId node, std::uint64_t count, Sizes sizes) {
-  std::uint64_t hash = kHashBegin;
-  for (std::uint64_t i = 0; i < count; ++i) hash = hash_of(message(node, i, sizes), hash);
+inline std::string hash_of_messages(NodeId node, std::uint64_t count, test::Sizes sizes) {
+  std::uint64_t hash = test::kHashBegin;
+  for (std::uint64_t i = 0; i < count; ++i) hash = test::hash_of(message(node, i, sizes), hash);
   return fmt::format("{:016x}", hash);
 }
 
-}  // namespace ttf::test
+}  // namespace ttf::bus::dds::exchange

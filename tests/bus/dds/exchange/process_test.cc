@@ -11,22 +11,21 @@
 
 #include "bus/dds/exchange/exchange.h"
 #include "bus/dds/exchange/exchange_supervisor.h"
-#include "tests/bus/dds/exchange/member_processes.h"
 #include "tests/bus/dds/common/sessions.h"
+#include "tests/bus/dds/exchange/member_processes.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 namespace {
 
 using namespace std::chrono_literals;
-using test::MemberProcess;
-using test::Mode;
 using test::Sizes;
 using What = ExchangeSupervisor::What;
 
 // All members of a session as processes, and their supervisor here.
 class Launch {
  public:
-  Launch(const Session& session, Mode mode, std::uint64_t count, Sizes sizes, const std::set<std::size_t>& endless = {})
+  Launch(const common::Session& session, Mode mode, std::uint64_t count, Sizes sizes,
+         const std::set<std::size_t>& endless = {})
       : session_(session), sizes_(sizes), count_(count) {
     if (session.supervised) supervisor_.emplace(session);
     for (const NodeId node : session.members) members_.emplace_back(session, node, mode, count, sizes, endless);
@@ -53,14 +52,14 @@ class Launch {
       for (const auto& [from, of] : heard) {
         if (!dead.contains(from)) {
           EXPECT_EQ(of.count, count_) << self << " of " << from;
-          EXPECT_EQ(of.hash, test::hash_of_messages(NodeId{static_cast<std::uint8_t>(from)}, count_, sizes_));
+          EXPECT_EQ(of.hash, hash_of_messages(NodeId{static_cast<std::uint8_t>(from)}, count_, sizes_));
           continue;
         }
         EXPECT_TRUE(of.gone) << self << " of " << from;
         auto& first = of_dead[from];
         if (!first) {
           first = of;
-          EXPECT_EQ(of.hash, test::hash_of_messages(NodeId{static_cast<std::uint8_t>(from)}, of.count, sizes_));
+          EXPECT_EQ(of.hash, hash_of_messages(NodeId{static_cast<std::uint8_t>(from)}, of.count, sizes_));
         }
         EXPECT_EQ(of, *first) << "heard by " << self << " of " << from << ", " << of.count << " for " << first->count;
       }
@@ -78,7 +77,7 @@ class Launch {
   }
 
  private:
-  Session session_;
+  common::Session session_;
   Sizes sizes_;
   std::uint64_t count_;
   std::optional<ExchangeSupervisor> supervisor_;
@@ -90,19 +89,19 @@ class DdsProcesses : public testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(Members, DdsProcesses, testing::Values(2, 3, 6));
 
 TEST_P(DdsProcesses, HearEachOtherInRounds) {
-  Launch launch(test::session(GetParam()), Mode::kRounds, 1000, Sizes::kAll);
+  Launch launch(common::session(GetParam()), Mode::kRounds, 1000, Sizes::kAll);
   launch.wait_ready();
   launch.expect_all_heard();
 }
 
 TEST_P(DdsProcesses, HearEachOtherAsFastAsTheyCan) {
-  Launch launch(test::session(GetParam()), Mode::kTalk, 1500, Sizes::kAll);
+  Launch launch(common::session(GetParam()), Mode::kTalk, 1500, Sizes::kAll);
   launch.wait_ready();
   launch.expect_all_heard();
 }
 
 TEST_P(DdsProcesses, HearEachOtherWithoutSupervisor) {
-  Session session = test::session(GetParam());
+  common::Session session = common::session(GetParam());
   session.supervised = false;
   Launch launch(session, Mode::kRounds, 3000, Sizes::kSmall);
   launch.expect_all_heard();
@@ -111,7 +110,7 @@ TEST_P(DdsProcesses, HearEachOtherWithoutSupervisor) {
 TEST(DdsKill, AllSurvivorsHearTheSameOfTheDead) {
   for (const auto delay : {0ms, 3ms, 20ms, 100ms, 300ms}) {
     SCOPED_TRACE(delay.count());
-    Launch launch(test::session(5), Mode::kTalk, 300, Sizes::kAll, {1});
+    Launch launch(common::session(5), Mode::kTalk, 300, Sizes::kAll, {1});
     launch.wait_ready();
     std::this_thread::sleep_for(delay);
     launch.kill(1);
@@ -124,7 +123,7 @@ TEST(DdsKill, AllSurvivorsHearTheSameOfTheDead) {
 }
 
 TEST(DdsKill, TheOthersGoOnInRoundsWithoutTheDead) {
-  Launch launch(test::session(4), Mode::kRounds, 4000, Sizes::kSmall, {2});
+  Launch launch(common::session(4), Mode::kRounds, 4000, Sizes::kSmall, {2});
   launch.wait_ready();
   std::this_thread::sleep_for(50ms);
   launch.kill(2);
@@ -136,7 +135,7 @@ TEST(DdsKill, TheOthersGoOnInRoundsWithoutTheDead) {
 }
 
 TEST(DdsKill, TwoAtOnceAndOneWhileItsEndIsAgreedUpon) {
-  Launch launch(test::session(6), Mode::kTalk, 200, Sizes::kAll, {0, 3, 5});
+  Launch launch(common::session(6), Mode::kTalk, 200, Sizes::kAll, {0, 3, 5});
   launch.wait_ready();
   std::this_thread::sleep_for(150ms);
   for (const std::size_t victim : {0, 3, 5}) launch.member(victim).signal(SIGKILL);
@@ -149,7 +148,7 @@ TEST(DdsKill, TwoAtOnceAndOneWhileItsEndIsAgreedUpon) {
 }
 
 TEST(DdsKill, WithoutSupervisorItIsAnErrorThatNamesTheDead) {
-  Session session = test::session(3);
+  common::Session session = common::session(3);
   session.supervised = false;
   session.lease = 1s;
   Launch launch(session, Mode::kRounds, 1, Sizes::kSmall, {0, 1, 2});
@@ -162,7 +161,7 @@ TEST(DdsKill, WithoutSupervisorItIsAnErrorThatNamesTheDead) {
 }
 
 TEST(DdsStop, ForLongerThanTheLeaseChangesNothing) {
-  Session session = test::session(3);
+  common::Session session = common::session(3);
   session.lease = 1s;
   Launch launch(session, Mode::kRounds, 20'000, Sizes::kSmall);
   launch.wait_ready();
@@ -176,7 +175,7 @@ TEST(DdsStop, ForLongerThanTheLeaseChangesNothing) {
 }
 
 TEST(DdsStop, ShortOnesOfAnybodyChangeNothing) {
-  Launch launch(test::session(4), Mode::kRounds, 3000, Sizes::kAll);
+  Launch launch(common::session(4), Mode::kRounds, 3000, Sizes::kAll);
   launch.wait_ready();
   std::uint64_t draw = 1;
   for (int i = 0; i < 20; ++i) {
@@ -191,8 +190,8 @@ TEST(DdsStop, ShortOnesOfAnybodyChangeNothing) {
 }
 
 TEST(DdsSessions, TwoAtOnceDoNotMix) {
-  Launch one(test::session(3), Mode::kRounds, 1000, Sizes::kAll);
-  Launch other(test::session(3), Mode::kTalk, 2000, Sizes::kSmall);
+  Launch one(common::session(3), Mode::kRounds, 1000, Sizes::kAll);
+  Launch other(common::session(3), Mode::kTalk, 2000, Sizes::kSmall);
   one.wait_ready();
   other.wait_ready();
   one.expect_all_heard();
@@ -202,7 +201,7 @@ TEST(DdsSessions, TwoAtOnceDoNotMix) {
 TEST(DdsConfiguration, TheShippedFileServes) {
   setenv("CYCLONEDDS_URI", "file://" TTF_SOURCE_DIR "/bus/dds/loopback.xml", 1);
   {
-    Launch launch(test::session(3), Mode::kRounds, 100, Sizes::kSmall);
+    Launch launch(common::session(3), Mode::kRounds, 100, Sizes::kSmall);
     launch.wait_ready();
     launch.expect_all_heard();
   }
@@ -210,4 +209,4 @@ TEST(DdsConfiguration, TheShippedFileServes) {
 }
 
 }  // namespace
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

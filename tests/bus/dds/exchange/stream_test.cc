@@ -1,4 +1,5 @@
-// What one member hears of another, sample by sample (bus/dds/exchange/stream.h), and what all have heard (bus/dds/exchange/heard.h).
+// What one member hears of another, sample by sample (bus/dds/exchange/stream.h), and what all have heard
+// (bus/dds/exchange/heard.h).
 #include "bus/dds/exchange/stream.h"
 
 #include <gtest/gtest.h>
@@ -11,25 +12,27 @@
 
 #include "bus/dds/exchange/heard.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::exchange {
 namespace {
 
 constexpr NodeId kSender{3};
 constexpr std::size_t kPlenty = 1 << 20;
 
-Entry said(std::uint64_t number, Kind kind = Kind::kMessage, std::size_t size = 8) {
+common::Entry said(std::uint64_t number, common::Kind kind = common::Kind::kMessage, std::size_t size = 8) {
   return {number, kind, std::make_shared<const std::vector<std::byte>>(size)};
 }
 
 // What has been heard, as text: "0 1 2 bye".
 class StreamTest : public testing::Test {
  protected:
-  void accept(std::uint64_t number, Kind kind = Kind::kMessage) { stream_.accept(said(number, kind), entries_); }
+  void accept(std::uint64_t number, common::Kind kind = common::Kind::kMessage) {
+    stream_.accept(said(number, kind), entries_);
+  }
   void close(std::uint64_t end) { stream_.close(end, entries_); }
   std::string heard() const {
     std::string text;
-    for (const Entry& entry : entries_)
-      text += (text.empty() ? "" : " ") + (entry.kind == Kind::kBye ? "bye" : std::to_string(entry.number));
+    for (const common::Entry& entry : entries_)
+      text += (text.empty() ? "" : " ") + (entry.kind == common::Kind::kBye ? "bye" : std::to_string(entry.number));
     return text;
   }
   static std::string error_of(const std::function<void()>& work) {
@@ -42,7 +45,7 @@ class StreamTest : public testing::Test {
   }
 
   Stream stream_{kSender, kPlenty};
-  std::vector<Entry> entries_;
+  std::vector<common::Entry> entries_;
 };
 
 TEST_F(StreamTest, IsHeardInOrderAndEachSampleOnce) {
@@ -58,7 +61,7 @@ TEST_F(StreamTest, AGapIsAnErrorThatNamesIt) {
 
 TEST_F(StreamTest, EndsWithItsGoodbye) {
   accept(0);
-  accept(1, Kind::kBye);
+  accept(1, common::Kind::kBye);
   EXPECT_TRUE(stream_.closed());
   accept(2);
   EXPECT_EQ(heard(), "0 bye");
@@ -96,7 +99,7 @@ TEST_F(StreamTest, AGoodbyeSaidAgainEndsItOnce) {
   stream_.fence();
   close(3);
   accept(1);
-  accept(2, Kind::kBye);
+  accept(2, common::Kind::kBye);
   EXPECT_EQ(heard(), "0 1 bye");
 }
 
@@ -114,7 +117,7 @@ TEST_F(StreamTest, ALaterRoundMayEndItEarlier) {
 
 TEST_F(StreamTest, ClosedItReportsAllItHeardInALaterRoundAndStaysClosed) {
   accept(0);
-  accept(1, Kind::kBye);
+  accept(1, common::Kind::kBye);
   EXPECT_EQ(stream_.fence(), 2u);
   close(2);
   EXPECT_TRUE(stream_.closed());
@@ -134,7 +137,7 @@ TEST_F(StreamTest, KeepsWhatNotEverybodyHasHeard) {
 
 TEST_F(StreamTest, KeepsNoMoreThanItMay) {
   Stream small(kSender, 10'000);
-  for (std::uint64_t i = 0; i < 100; ++i) small.accept(said(i, Kind::kMessage, 904), entries_);  // 1000 each
+  for (std::uint64_t i = 0; i < 100; ++i) small.accept(said(i, common::Kind::kMessage, 904), entries_);  // 1000 each
   EXPECT_EQ(small.again(90).size(), 10u);
   EXPECT_NE(error_of([&] { small.again(89); }), "none");
   Stream none(kSender, 0);
@@ -172,4 +175,4 @@ TEST(Heard, WhatAllHaveHeardIsTheLeastOfThoseWhoAreStillThere) {
 }
 
 }  // namespace
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::exchange

@@ -13,12 +13,12 @@
 #include "bus/dds/live/numbering.h"
 #include "bus/dds/live/queue.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 namespace {
 
 TEST(DdsLiveTopic, HasOnlyWhatDdsAllowsAndNoTwoAreTheSame) {
-  EXPECT_EQ(live_topic(schedules::Channel::kA), "ttf/flexray/A");
-  EXPECT_EQ(live_topic(schedules::Channel::kB), "ttf/flexray/B");
+  EXPECT_EQ(live_topic(schedules::model::Channel::kA), "ttf/flexray/A");
+  EXPECT_EQ(live_topic(schedules::model::Channel::kB), "ttf/flexray/B");
   EXPECT_EQ(live_can_topic("laser_can"), "ttf/can/laser_can");
   EXPECT_EQ(live_can_topic("laser-can"), "ttf/can/laser_2Dcan");
   EXPECT_EQ(live_can_topic("laser_2Dcan"), "ttf/can/laser_5F2Dcan");
@@ -94,9 +94,9 @@ TEST(DdsLiveQueue, NobodySleepsWhileSomethingIsThere) {
 }
 
 TEST(DdsLiveHost, IsTheSameForTheSameProcess) {
-  EXPECT_EQ(host_identity(), host_identity());
-  EXPECT_NE(host_identity(), 0u);
+  EXPECT_EQ(common::host_identity(), common::host_identity());
+  EXPECT_NE(common::host_identity(), 0u);
 }
 
 }  // namespace
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

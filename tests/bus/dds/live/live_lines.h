@@ -7,28 +7,28 @@
 
 #include "bus/dds/live/line.h"
 
-namespace ttf::test {
+namespace ttf::bus::dds::live {
 
-inline std::vector<dds::LiveLinePlan> live_lines(std::size_t members) {
+inline std::vector<LiveLinePlan> live_lines(std::size_t members) {
   std::vector<NodeId> all;
   for (std::size_t i = 0; i < members; ++i) all.push_back(NodeId{static_cast<std::uint8_t>(i)});
   std::vector<NodeId> some = all;
   if (members > 2) some.pop_back();
-  return {{0, dds::live_topic(schedules::Channel::kA), all},
-          {1, dds::live_topic(schedules::Channel::kB), all},
-          {2, dds::live_can_topic("laser-can"), some},
-          {3, dds::live_can_topic("gateway"), all}};
+  return {{0, live_topic(schedules::model::Channel::kA), all},
+          {1, live_topic(schedules::model::Channel::kB), all},
+          {2, live_can_topic("laser-can"), some},
+          {3, live_can_topic("gateway"), all}};
 }
 
-inline bool is_on(const dds::LiveLinePlan& plan, NodeId node) {
+inline bool is_on(const LiveLinePlan& plan, NodeId node) {
   return std::find(plan.nodes.begin(), plan.nodes.end(), node) != plan.nodes.end();
 }
 
-inline std::vector<dds::LiveLinePlan> lines_of(const std::vector<dds::LiveLinePlan>& plans, NodeId node) {
-  std::vector<dds::LiveLinePlan> own;
-  for (const dds::LiveLinePlan& plan : plans)
+inline std::vector<LiveLinePlan> lines_of(const std::vector<LiveLinePlan>& plans, NodeId node) {
+  std::vector<LiveLinePlan> own;
+  for (const LiveLinePlan& plan : plans)
     if (is_on(plan, node)) own.push_back(plan);
   return own;
 }
 
-}  // namespace ttf::test
+}  // namespace ttf::bus::dds::live

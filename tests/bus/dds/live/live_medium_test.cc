@@ -14,8 +14,8 @@
 #include "bus/dds/common/host_identity.h"
 #include "bus/dds/live/live_sample.h"
 #include "core/check.h"
-#include "tests/bus/dds/live/live_lines.h"
 #include "tests/bus/dds/common/sessions.h"
+#include "tests/bus/dds/live/live_lines.h"
 #include "tests/laws/live_medium_laws.h"
 
 namespace ttf::laws {
@@ -26,7 +26,8 @@ using namespace std::chrono_literals;
 // Somebody else on a line of the session, who says what it likes.
 class Stranger {
  public:
-  Stranger(const dds::Session& session, const dds::LiveLinePlan& plan) : participant_(session.domain, session.lease) {
+  Stranger(const bus::dds::common::Session& session, const bus::dds::live::LiveLinePlan& plan)
+      : participant_(session.domain, session.lease) {
     dds_qos_t* const within = dds_create_qos();
     dds_qset_partition1(within, session.name.c_str());
     dds_qset_reliability(within, DDS_RELIABILITY_RELIABLE, 0);
@@ -48,24 +49,25 @@ class Stranger {
   }
 
  private:
-  dds::Participant participant_;
+  bus::dds::common::Participant participant_;
   dds_entity_t writer_ = 0;
 };
 
-template <std::size_t kMembers, dds::Delivery kDelivery> class DdsLiveBench : public LiveBench {
+template <std::size_t kMembers, bus::dds::live::Delivery kDelivery> class DdsLiveBench : public LiveBench {
  public:
-  DdsLiveBench() : session_(test::session(kMembers)), plans_(test::live_lines(kMembers)) {
+  DdsLiveBench() : session_(bus::dds::common::session(kMembers)), plans_(bus::dds::live::live_lines(kMembers)) {
     for (const NodeId node : session_.members)
-      members_.push_back(std::make_unique<dds::LiveMedium>(session_, node, test::lines_of(plans_, node), kDelivery));
+      members_.push_back(std::make_unique<bus::dds::live::LiveMedium>(
+          session_, node, bus::dds::live::lines_of(plans_, node), kDelivery));
     for (const auto& member : members_) member->wait_ready(30s);
   }
   std::size_t members() const override { return kMembers; }
-  bus::LiveMedium& member(std::size_t index) override { return *members_[index]; }
+  bus::ports::LiveMedium& member(std::size_t index) override { return *members_[index]; }
   std::vector<bool> can_buses() const override { return {false, true}; }
-  bool on(std::size_t member, bus::Line line) const override {
-    return test::is_on(plans_[line], NodeId{static_cast<std::uint8_t>(member)});
+  bool on(std::size_t member, bus::ports::Line line) const override {
+    return bus::dds::live::is_on(plans_[line], NodeId{static_cast<std::uint8_t>(member)});
   }
-  bool intrude(bus::Line line, Intruder what) override {
+  bool intrude(bus::ports::Line line, Intruder what) override {
     ttf_LiveSample sample{};
     sample.sender = what == Intruder::kForeign ? 200 : 0;
     sample.slot = 1;
@@ -74,25 +76,25 @@ template <std::size_t kMembers, dds::Delivery kDelivery> class DdsLiveBench : pu
     std::this_thread::sleep_for(quiet());
     return true;
   }
-  std::size_t flood() const override { return 3 * dds::LiveQueue::kRoom; }
+  std::size_t flood() const override { return 3 * bus::dds::live::LiveQueue::kRoom; }
   std::chrono::milliseconds quiet() const override { return 50ms; }
 
  private:
-  dds::Session session_;
-  std::vector<dds::LiveLinePlan> plans_;
-  std::vector<std::unique_ptr<dds::LiveMedium>> members_;
+  bus::dds::common::Session session_;
+  std::vector<bus::dds::live::LiveLinePlan> plans_;
+  std::vector<std::unique_ptr<bus::dds::live::LiveMedium>> members_;
 };
 
-using DdsLiveBenches =
-    testing::Types<DdsLiveBench<2, dds::Delivery::kBestEffort>, DdsLiveBench<5, dds::Delivery::kBestEffort>,
-                   DdsLiveBench<2, dds::Delivery::kReliable>, DdsLiveBench<5, dds::Delivery::kReliable>>;
+using DdsLiveBenches = testing::Types<
+    DdsLiveBench<2, bus::dds::live::Delivery::kBestEffort>, DdsLiveBench<5, bus::dds::live::Delivery::kBestEffort>,
+    DdsLiveBench<2, bus::dds::live::Delivery::kReliable>, DdsLiveBench<5, bus::dds::live::Delivery::kReliable>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Dds, LiveMediumLaws, DdsLiveBenches);
 
 // Each is counted and never handed over; what is sound in between is heard.
 TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
-  const dds::Session session = test::session(2);
-  const auto plans = test::live_lines(2);
-  dds::LiveMedium medium(session, NodeId{1}, test::lines_of(plans, NodeId{1}));
+  const bus::dds::common::Session session = bus::dds::common::session(2);
+  const auto plans = bus::dds::live::live_lines(2);
+  bus::dds::live::LiveMedium medium(session, NodeId{1}, bus::dds::live::lines_of(plans, NodeId{1}));
   auto heard_by_one = plans;
   for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
   Stranger on_a(session, heard_by_one[0]), on_can(session, heard_by_one[2]);
@@ -144,17 +146,17 @@ TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
 
 // By the one clock that two processes share; never later than it was here.
 TEST(DdsLiveTransit, IsKnownOfWhatComesFromThisHost) {
-  const dds::Session session = test::session(2);
-  const auto plans = test::live_lines(2);
-  dds::LiveMedium medium(session, NodeId{1}, test::lines_of(plans, NodeId{1}));
+  const bus::dds::common::Session session = bus::dds::common::session(2);
+  const auto plans = bus::dds::live::live_lines(2);
+  bus::dds::live::LiveMedium medium(session, NodeId{1}, bus::dds::live::lines_of(plans, NodeId{1}));
   auto heard_by_one = plans;
   for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
   Stranger on_a(session, heard_by_one[0]);
-  const std::uint64_t here = dds::host_identity();
-  const bus::HostTime now = bus::host_now(), ahead = now + Duration::milliseconds(1'000'000);
+  const std::uint64_t here = bus::dds::common::host_identity();
+  const bus::ports::HostTime now = bus::ports::host_now(), ahead = now + Duration::milliseconds(1'000'000);
   struct Said {
     std::uint64_t host;
-    bus::HostTime sent;
+    bus::ports::HostTime sent;
   };
   const std::vector<Said> all{{here, now - Duration::milliseconds(5)}, {here + 1, now}, {0, now}, {here, ahead}};
   for (const Said& said : all) {

@@ -30,17 +30,17 @@
 #include "tests/bus/dds/live/live_lines.h"
 #include "tests/laws/live_traffic.h"
 
-namespace ttf {
+namespace ttf::bus::dds::live {
 namespace {
 
 using namespace std::chrono_literals;
 
 class LiveMember {
  public:
-  LiveMember(const dds::Session& session, NodeId self, dds::Delivery delivery, std::size_t count,
+  LiveMember(const common::Session& session, NodeId self, Delivery delivery, std::size_t count,
              const std::set<std::size_t>& spoilt)
-      : medium_(session, self, test::lines_of(test::live_lines(session.members.size()), self), delivery),
-        self_(index_of(self)), members_(session.members.size()), count_(count), spoilt_(spoilt), heard_(members_) {
+      : medium_(session, self, lines_of(live_lines(session.members.size()), self), delivery), self_(index_of(self)),
+        members_(session.members.size()), count_(count), spoilt_(spoilt), heard_(members_) {
     medium_.wait_ready(30s);
     fmt::print("ready\n");
     std::fflush(stdout);
@@ -80,17 +80,17 @@ class LiveMember {
     return true;
   }
   void say() {
-    for (const bus::Line line : {0, 1}) {
+    for (const ports::Line line : {0, 1}) {
       const laws::Utterance utterance(line, {self_, members_}, said_, laws::Traffic::kAll);
       const auto begin = std::chrono::steady_clock::now();
-      if (utterance.send(medium_) != bus::LiveStatus::kDone) wrong_ = "has no room";
+      if (utterance.send(medium_) != ports::LiveStatus::kDone) wrong_ = "has no room";
       longest_ = std::max(longest_, std::chrono::steady_clock::now() - begin);
     }
     ++said_;
   }
-  void hear(const bus::LiveArrival& arrival) {
+  void hear(const ports::LiveArrival& arrival) {
     const std::size_t from = laws::speaker_of(arrival, members_);
-    const bus::Line line = laws::line_of(arrival);
+    const ports::Line line = laws::line_of(arrival);
     if (from >= members_ || from == self_ || line > 1) {
       wrong_ = fmt::format("hears {} on line {}", from, line);
       return;
@@ -106,7 +106,7 @@ class LiveMember {
     return true;
   }
 
-  dds::LiveMedium medium_;
+  LiveMedium medium_;
   std::size_t self_, members_, count_;
   std::set<std::size_t> spoilt_;
   std::size_t said_ = 0;
@@ -116,13 +116,13 @@ class LiveMember {
 };
 
 int run(int words, char** arguments) {
-  dds::Session session;
+  common::Session session;
   session.domain = static_cast<std::uint32_t>(std::stoul(arguments[1]));
   session.name = arguments[2];
   for (std::size_t i = 0; i < std::stoul(arguments[4]); ++i)
     session.members.push_back(NodeId{static_cast<std::uint8_t>(i)});
   session.lease = std::chrono::milliseconds(std::stol(arguments[5]));
-  const auto delivery = std::string(arguments[6]) == "reliable" ? dds::Delivery::kReliable : dds::Delivery::kBestEffort;
+  const auto delivery = std::string(arguments[6]) == "reliable" ? Delivery::kReliable : Delivery::kBestEffort;
   std::set<std::size_t> spoilt;
   for (int i = 8; i < words; ++i) spoilt.insert(std::stoul(arguments[i]));
   LiveMember member(session, NodeId{static_cast<std::uint8_t>(std::stoul(arguments[3]))}, delivery,
@@ -133,12 +133,12 @@ int run(int words, char** arguments) {
 }
 
 }  // namespace
-}  // namespace ttf
+}  // namespace ttf::bus::dds::live
 
 int main(int words, char** arguments) {
   if (words < 8) return 2;
   try {
-    return ttf::run(words, arguments);
+    return ttf::bus::dds::live::run(words, arguments);
   } catch (const std::exception& error) {
     fmt::print("error: {}\n", error.what());
     return 1;

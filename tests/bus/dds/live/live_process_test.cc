@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "bus/dds/live/medium.h"
-#include "tests/bus/dds/live/live_lines.h"
 #include "tests/bus/dds/common/sessions.h"
+#include "tests/bus/dds/live/live_lines.h"
 #include "tests/support/child_process.h"
 
-namespace ttf::dds {
+namespace ttf::bus::dds::live {
 namespace {
 
 using namespace std::chrono_literals;
@@ -43,7 +43,7 @@ LiveReport report_of(const test::ChildProcess& child, std::size_t members) {
 // Members of a session as processes, of whom some are going to be spoilt.
 class LiveProcesses {
  public:
-  LiveProcesses(const Session& session, std::size_t count, std::set<std::size_t> spoilt = {},
+  LiveProcesses(const common::Session& session, std::size_t count, std::set<std::size_t> spoilt = {},
                 const std::string& delivery = "best-effort")
       : session_(session), count_(count), spoilt_(std::move(spoilt)), delivery_(delivery) {
     for (std::size_t i = 0; i < session.members.size(); ++i) members_.push_back(start(i));
@@ -97,7 +97,7 @@ class LiveProcesses {
     return std::make_unique<test::ChildProcess>(words);
   }
 
-  Session session_;
+  common::Session session_;
   std::size_t count_;
   std::set<std::size_t> spoilt_;
   std::string delivery_;
@@ -109,12 +109,12 @@ INSTANTIATE_TEST_SUITE_P(Delivery, DdsLiveProcesses, testing::Values("best-effor
                          [](const auto& instance) { return instance.param[0] == 'r' ? "Reliable" : "BestEffort"; });
 
 TEST_P(DdsLiveProcesses, HearEachOther) {
-  LiveProcesses processes(test::session(4), 2000, {}, GetParam());
+  LiveProcesses processes(common::session(4), 2000, {}, GetParam());
   processes.expect_undisturbed();
 }
 
 TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsKilledAndHearItStartedAnew) {
-  LiveProcesses processes(test::session(4), 4000, {2}, GetParam());
+  LiveProcesses processes(common::session(4), 4000, {2}, GetParam());
   std::this_thread::sleep_for(700ms);
   processes.member(2).signal(SIGKILL);
   EXPECT_EQ(processes.member(2).wait(), -SIGKILL);
@@ -130,7 +130,7 @@ TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsKilledAndHearItStartedAnew) {
 
 // Within its lease: what it missed it knows.
 TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsStopped) {
-  LiveProcesses processes(test::session(4), 4500, {1}, GetParam());
+  LiveProcesses processes(common::session(4), 4500, {1}, GetParam());
   std::this_thread::sleep_for(300ms);
   processes.member(1).signal(SIGSTOP);
   std::this_thread::sleep_for(3s);
@@ -143,7 +143,7 @@ TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsStopped) {
 
 // For longer than its lease: it is found again. What it says until then reaches nobody, and is counted.
 TEST_P(DdsLiveProcesses, HearWhoWasStoppedForLongerThanItsLease) {
-  Session session = test::session(3);
+  common::Session session = common::session(3);
   session.lease = 1s;
   LiveProcesses processes(session, 12'000, {1}, GetParam());
   std::this_thread::sleep_for(300ms);
@@ -159,18 +159,18 @@ TEST_P(DdsLiveProcesses, HearWhoWasStoppedForLongerThanItsLease) {
 }
 
 TEST(DdsLiveReadiness, NamesWhoIsMissing) {
-  const Session session = test::session(3);
-  const auto plans = test::live_lines(3);
-  const LiveMedium here(session, NodeId{0}, test::lines_of(plans, NodeId{0}));
-  const LiveMedium other(session, NodeId{2}, test::lines_of(plans, NodeId{2}));
+  const common::Session session = common::session(3);
+  const auto plans = live_lines(3);
+  const LiveMedium here(session, NodeId{0}, lines_of(plans, NodeId{0}));
+  const LiveMedium other(session, NodeId{2}, lines_of(plans, NodeId{2}));
   try {
     here.wait_ready(200ms);
     FAIL() << "is ready without node 1";
-  } catch (const NotReady& error) {
+  } catch (const common::NotReady& error) {
     EXPECT_EQ(error.absent(), std::vector{NodeId{1}});
     EXPECT_EQ(error.deaf(), std::vector{NodeId{1}});
   }
 }
 
 }  // namespace
-}  // namespace ttf::dds
+}  // namespace ttf::bus::dds::live

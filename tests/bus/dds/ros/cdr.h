@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ttf::test {
+namespace ttf::bus::dds::ros {
 
 class Cdr {
  public:
@@ -37,4 +37,4 @@ class Cdr {
   std::vector<std::uint8_t> bytes_;
 };
 
-}  // namespace ttf::test
+}  // namespace ttf::bus::dds::ros

@@ -11,15 +11,15 @@
 #include "bus/dds/ros/options.h"
 #include "recording/records/records.h"
 
-namespace ttf::test {
+namespace ttf::bus::dds::ros {
 
 // Not the domain that everybody else uses by default.
 inline constexpr std::uint32_t kRosDomain = 18;
 
 // A publisher that no other test, of this or another program, is taken for.
-inline ros::RosOptions options_of_its_own() {
+inline RosOptions options_of_its_own() {
   static int made = 0;
-  ros::RosOptions options;
+  RosOptions options;
   options.domain = kRosDomain;
   options.node_name = "test_" + std::to_string(getpid()) + "_" + std::to_string(made++);
   options.origin_realtime_ns = 1'700'000'000'250'000'000;
@@ -27,11 +27,11 @@ inline ros::RosOptions options_of_its_own() {
 }
 
 // The node's clock of the cluster is 3 ms ahead of true time.
-inline records::Stamp stamp_at(std::int64_t true_ns) {
+inline recording::records::Stamp stamp_at(std::int64_t true_ns) {
   return {TrueTime{true_ns}, LocalTime{true_ns + 1}, GlobalTime{true_ns + 3'000'000}, NodeId{4}};
 }
 
-inline records::ImageObject image_object(int i) {
+inline recording::records::ImageObject image_object(int i) {
   const double d = i;
   return {.track = TrackId{static_cast<std::uint16_t>(100 + i)},
           .x = 10 + d,
@@ -66,9 +66,9 @@ struct DrawnImage {
   }
   DrawnImage(const DrawnImage&) = delete;
   DrawnImage& operator=(const DrawnImage&) = delete;
-  std::vector<records::ImageObject> objects;
+  std::vector<recording::records::ImageObject> objects;
   std::array<MeasurementId, 1> newest{MeasurementId{SensorId{0}, 7}};
-  records::ImageWritten record;
+  recording::records::ImageWritten record;
 };
 
 // A track whose step runs at true_ns, and which is valid 2 ms before.
@@ -88,10 +88,10 @@ struct DrawnTrack {
   DrawnTrack& operator=(const DrawnTrack&) = delete;
   std::array<double, 6> state{};
   std::array<double, 36> covariance{};
-  records::TrackState record;
+  recording::records::TrackState record;
 };
 
-inline records::TruthState truth_at(std::int64_t true_ns, std::uint16_t object, std::uint8_t node = 2) {
+inline recording::records::TruthState truth_at(std::int64_t true_ns, std::uint16_t object, std::uint8_t node = 2) {
   return {.at = TrueTime{true_ns},
           .object = ObjectId{object},
           .x = 11.5 + object,
@@ -107,4 +107,4 @@ inline records::TruthState truth_at(std::int64_t true_ns, std::uint16_t object, 
           .node = NodeId{node}};
 }
 
-}  // namespace ttf::test
+}  // namespace ttf::bus::dds::ros

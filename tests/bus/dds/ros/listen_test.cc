@@ -6,13 +6,11 @@
 
 #include "tests/bus/dds/ros/processes.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 namespace {
 
 using namespace std::chrono_literals;
 using nlohmann::json;
-using test::is_event_of;
-using test::is_sample_of;
 
 constexpr auto kPatience = 20s;
 constexpr std::int64_t kPeriodMs = 50;
@@ -21,8 +19,8 @@ constexpr std::int64_t kOrigin = 1'700'000'000'250'000'000;
 class RosListen : public testing::Test {
  protected:
   RosListen()
-      : name_(test::options_of_its_own().node_name),
-        talker_({TTF_ROS_TALKER, std::to_string(test::kRosDomain), name_, std::to_string(kPeriodMs)}, {}) {}
+      : name_(options_of_its_own().node_name),
+        talker_({TTF_ROS_TALKER, std::to_string(kRosDomain), name_, std::to_string(kPeriodMs)}, {}) {}
 
   std::string topic(const std::string& name) const { return "rt/" + name_ + "/" + name; }
   json sample_of(const std::string& topic, const std::function<bool(const json&)>& wanted = {}) {
@@ -36,8 +34,8 @@ class RosListen : public testing::Test {
   }
 
   std::string name_;
-  test::Listener listener_;
-  test::Process talker_;
+  Listener listener_;
+  Process talker_;
 };
 
 TEST_F(RosListen, AnImageArrivesAsItWasRecorded) {
@@ -49,7 +47,7 @@ TEST_F(RosListen, AnImageArrivesAsItWasRecorded) {
   EXPECT_EQ(image.at("newest_measurement_ns"), kOrigin + at - 5'000'000);
   ASSERT_EQ(image.at("objects").size(), 2u);
   for (int i = 0; i < 2; ++i) {
-    const records::ImageObject object = test::image_object(i);
+    const recording::records::ImageObject object = image_object(i);
     const json expected = {{"track_id", index_of(object.track)},
                            {"status", object.status},
                            {"x", object.x},
@@ -75,7 +73,7 @@ TEST_F(RosListen, TheBoxesOfAnImageArrive) {
   const json boxes = sample_of(topic("image/boxes"));
   ASSERT_EQ(boxes.at("detections").size(), 2u);
   const json& second = boxes.at("detections").at(1);
-  const records::ImageObject object = test::image_object(1);
+  const recording::records::ImageObject object = image_object(1);
   EXPECT_EQ(second.at("id"), "101");
   EXPECT_EQ(second.at("stamp_ns"), boxes.at("stamp_ns"));
   EXPECT_EQ(second.at("position"), json({object.x, object.y, 0.0}));
@@ -92,7 +90,7 @@ TEST_F(RosListen, TracksTruthAndHealthArriveAsTheyWereTold) {
   EXPECT_EQ(tracks.at("stamp_ns"), kOrigin + at);
   EXPECT_EQ(tracks.at("confirmed"), 1);
   EXPECT_EQ(tracks.at("tentative"), 2);
-  const test::DrawnTrack drawn(at, 0, 31);
+  const DrawnTrack drawn(at, 0, 31);
   EXPECT_EQ(tracks.at("tracks"), json::array({{{"track_id", 31},
                                                {"valid_at_ns", kOrigin + at - 2'000'000},
                                                {"state", drawn.state},
@@ -153,10 +151,10 @@ TEST_F(RosListen, EndsWhenItIsToldTo) {
 
 TEST(RosListenUsage, SaysWhatItWants) {
   for (const char* domain : {"232", "x", ""}) {
-    test::Process wrong({TTF_ROS_LISTEN, domain}, {});
+    Process wrong({TTF_ROS_LISTEN, domain}, {});
     EXPECT_EQ(wrong.wait(), 2) << domain;
   }
 }
 
 }  // namespace
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

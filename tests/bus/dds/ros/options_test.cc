@@ -15,7 +15,7 @@
 #include "bus/dds/ros/publisher.h"
 #include "core/errors.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 namespace {
 
 TEST(RosOptions, AreFineAsTheyAre) { EXPECT_NO_THROW(validate(RosOptions{})); }
@@ -23,7 +23,7 @@ TEST(RosOptions, AreFineAsTheyAre) { EXPECT_NO_THROW(validate(RosOptions{})); }
 TEST(RosOptions, EachValueOutOfRangeIsNamed) {
   struct Wrong {
     const char* key;
-    std::function<void(RosOptions&)> make;
+    std::function<void(ttf::bus::dds::ros::RosOptions&)> make;
   };
   const Wrong wrongs[] = {
       {"domain", [](RosOptions& o) { o.domain = 232; }},
@@ -106,4 +106,4 @@ TEST_F(Environment, ADomainThatCannotBeJoinedIsFoundOutBefore) {
 }
 
 }  // namespace
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

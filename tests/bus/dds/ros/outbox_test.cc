@@ -10,12 +10,8 @@
 #include "tests/bus/dds/ros/drawn.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 namespace {
-
-using test::DrawnImage;
-using test::DrawnTrack;
-using test::truth_at;
 
 RosOptions small() {
   RosOptions options;
@@ -77,7 +73,7 @@ TEST(Outbox, TracksWaitForTheirStep) {
   EXPECT_FALSE(outbox.put(DrawnTrack(1'000'000'000, 5, 99, true).record));  // an image's prediction, no state
   EXPECT_FALSE(outbox.put(DrawnTrack(1'000'000'000, 5, 32).record));
   EXPECT_EQ(outbox.steps.first(), nullptr);
-  EXPECT_TRUE(outbox.put(records::FusionStep{test::stamp_at(1'000'000'000), 5, 2, 7}));
+  EXPECT_TRUE(outbox.put(recording::records::FusionStep{stamp_at(1'000'000'000), 5, 2, 7}));
   const WaitingStep* step = outbox.steps.first();
   ASSERT_NE(step, nullptr);
   EXPECT_EQ(step->at, TrueTime{1'000'000'000});
@@ -95,8 +91,8 @@ TEST(Outbox, AStepHasItsOwnTracksOnly) {
   Outbox outbox(small());
   outbox.put(DrawnTrack(0, 5, 31).record);  // of a step that never ended: its node lost its supply
   outbox.put(DrawnTrack(1, 6, 41).record);
-  outbox.put(records::FusionStep{test::stamp_at(1), 6, 1, 0});
-  outbox.put(records::FusionStep{test::stamp_at(2), 7, 0, 0});
+  outbox.put(recording::records::FusionStep{stamp_at(1), 6, 1, 0});
+  outbox.put(recording::records::FusionStep{stamp_at(2), 7, 0, 0});
   ASSERT_EQ(outbox.steps.first()->tracks.size(), 1u);
   EXPECT_EQ(outbox.steps.first()->tracks[0].id, TrackId{41});
   outbox.steps.pop();
@@ -106,14 +102,14 @@ TEST(Outbox, AStepHasItsOwnTracksOnly) {
 // A step of which a part had no room is dropped whole, also when there is room again before it ends.
 TEST(Outbox, AStepIsDroppedWhole) {
   Outbox outbox(small());
-  for (std::uint32_t step = 0; step < 3; ++step) outbox.put(records::FusionStep{test::stamp_at(step), step, 0, 0});
+  for (std::uint32_t step = 0; step < 3; ++step) outbox.put(recording::records::FusionStep{stamp_at(step), step, 0, 0});
   outbox.put(DrawnTrack(3, 3, 31).record);
   outbox.steps.pop();
   outbox.put(DrawnTrack(3, 3, 32).record);
-  EXPECT_FALSE(outbox.put(records::FusionStep{test::stamp_at(3), 3, 2, 0}));
+  EXPECT_FALSE(outbox.put(recording::records::FusionStep{stamp_at(3), 3, 2, 0}));
   EXPECT_EQ(outbox.dropped().steps, 1u);
   outbox.put(DrawnTrack(4, 4, 33).record);
-  EXPECT_TRUE(outbox.put(records::FusionStep{test::stamp_at(4), 4, 1, 0}));
+  EXPECT_TRUE(outbox.put(recording::records::FusionStep{stamp_at(4), 4, 1, 0}));
   outbox.steps.pop();
   outbox.steps.pop();
   EXPECT_EQ(outbox.steps.first()->step, 4u);
@@ -123,7 +119,7 @@ TEST(Outbox, AStepIsDroppedWhole) {
 TEST(Outbox, TooManyTracksAreCutAndCountedOnce) {
   Outbox outbox(small());
   for (int track = 0; track < 4; ++track) outbox.put(DrawnTrack(0, 1, track).record);
-  outbox.put(records::FusionStep{test::stamp_at(0), 1, 4, 0});
+  outbox.put(recording::records::FusionStep{stamp_at(0), 1, 4, 0});
   EXPECT_EQ(outbox.steps.first()->tracks.size(), 2u);
   EXPECT_EQ(outbox.steps.first()->confirmed, 4u);
   EXPECT_EQ(outbox.dropped().cut, 1u);
@@ -184,7 +180,7 @@ TEST(Outbox, AllocatesNothingOnceItIsThere) {
   for (std::uint32_t round = 0; round < 20; ++round) {
     outbox.put(image.record);
     for (int i = 0; i < 5; ++i) outbox.put(track.record);
-    outbox.put(records::FusionStep{test::stamp_at(1), 1, 5, 0});
+    outbox.put(recording::records::FusionStep{stamp_at(1), 1, 5, 0});
     outbox.put(truth_at(round, 0));
     outbox.put(Health{TrueTime{1}, HealthLevel::kOk, "fusion", "fine", values});
     if (round % 3 == 0) {
@@ -216,13 +212,13 @@ TEST(Outbox, LosesNothingUncountedBetweenThreads) {
       if (last_look) return;
     }
   });
-  std::vector<records::ImageObject> objects;
-  for (int i = 0; i < 4; ++i) objects.push_back(test::image_object(i));
-  records::ImageWritten image;
+  std::vector<recording::records::ImageObject> objects;
+  for (int i = 0; i < 4; ++i) objects.push_back(image_object(i));
+  recording::records::ImageWritten image;
   for (std::uint32_t i = 0; i < kImages; ++i) {
-    image.stamp = test::stamp_at(i);
+    image.stamp = stamp_at(i);
     image.sequence = i;
-    image.objects = std::span<const records::ImageObject>(objects).first(i % 5);
+    image.objects = std::span<const recording::records::ImageObject>(objects).first(i % 5);
     outbox.put(image);
   }
   done.store(true);
@@ -234,4 +230,4 @@ TEST(Outbox, LosesNothingUncountedBetweenThreads) {
 }
 
 }  // namespace
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

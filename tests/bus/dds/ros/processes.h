@@ -19,7 +19,7 @@
 #include "core/check.h"
 #include "tests/bus/dds/ros/drawn.h"
 
-namespace ttf::test {
+namespace ttf::bus::dds::ros {
 
 // A process that ends with the test. What it writes to stdout can be read line by line.
 class Process {
@@ -116,4 +116,4 @@ inline bool is_sample_of(const nlohmann::json& line, const std::string& topic) {
   return is_event_of(line, "sample", topic);
 }
 
-}  // namespace ttf::test
+}  // namespace ttf::bus::dds::ros

@@ -12,11 +12,10 @@
 #include "tests/bus/dds/ros/drawn.h"
 #include "tests/bus/dds/ros/processes.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 namespace {
 
 using namespace std::chrono_literals;
-using test::DrawnImage;
 
 // How often this thread has given up the processor of its own accord: each time it waited for something.
 long waits() {
@@ -32,18 +31,18 @@ template <class Holds> bool soon(Holds holds) {
 }
 
 TEST(RosPublisher, NeverWaitsAlsoWhenItIsFlooded) {
-  RosOptions options = test::options_of_its_own();
+  RosOptions options = options_of_its_own();
   options.truth_objects = 1;
   RosPublisher publisher(options);
   const DrawnImage image(1'000'000'000, 1, 64);
-  const test::DrawnTrack track(1'000'000'000, 1, 3);
+  const DrawnTrack track(1'000'000'000, 1, 3);
   constexpr std::uint64_t kRounds = 20'000;
   const long before = waits();
   for (std::uint64_t i = 0; i < kRounds; ++i) {
     publisher.on(image.record);
     publisher.on(track.record);
-    publisher.on(records::FusionStep{image.record.stamp, 1, 1, 0});
-    publisher.on(test::truth_at(static_cast<std::int64_t>(i), 0));
+    publisher.on(recording::records::FusionStep{image.record.stamp, 1, 1, 0});
+    publisher.on(truth_at(static_cast<std::int64_t>(i), 0));
     publisher.health({TrueTime{1}, HealthLevel::kOk, "flood", "fine", {}});
   }
   EXPECT_EQ(waits(), before);
@@ -63,9 +62,9 @@ TEST(RosPublisher, NeverWaitsAlsoWhenItIsFlooded) {
 }
 
 TEST(RosPublisher, AListenerThatStandsStillHoldsNobodyUp) {
-  const RosOptions options = test::options_of_its_own();
+  const RosOptions options = options_of_its_own();
   RosPublisher publisher(options);
-  test::Listener listener;
+  Listener listener;
   const std::string topic = "rt/" + options.node_name + "/image";
   const auto sequence_of = [](const nlohmann::json& line) { return line.at("sequence_number").get<std::uint32_t>(); };
   std::uint32_t sequence = 0;
@@ -75,7 +74,7 @@ TEST(RosPublisher, AListenerThatStandsStillHoldsNobodyUp) {
   };
   ASSERT_TRUE(soon([&] {  // until it hears us
     publisher.on(next_image().record);
-    return listener.find([&](const nlohmann::json& line) { return test::is_sample_of(line, topic); }, 0ms).has_value();
+    return listener.find([&](const nlohmann::json& line) { return is_sample_of(line, topic); }, 0ms).has_value();
   }));
 
   listener.signal(SIGSTOP);
@@ -101,11 +100,11 @@ TEST(RosPublisher, AListenerThatStandsStillHoldsNobodyUp) {
   EXPECT_TRUE(listener
                   .find(
                       [&](const nlohmann::json& line) {
-                        return test::is_sample_of(line, topic) && sequence_of(line) + options.queue >= newest;
+                        return is_sample_of(line, topic) && sequence_of(line) + options.queue >= newest;
                       },
                       20s)
                   .has_value());
 }
 
 }  // namespace
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

@@ -12,22 +12,22 @@ int main(int count, char** arguments) {
   using namespace ttf;
   if (count != 4) return 2;
   const std::int64_t period = std::stoll(arguments[3]) * 1'000'000;
-  ros::RosOptions options = test::options_of_its_own();
+  bus::dds::ros::RosOptions options = bus::dds::ros::options_of_its_own();
   options.domain = static_cast<std::uint32_t>(std::stoul(arguments[1]));
   options.node_name = arguments[2];
   options.image_period = options.step_period = options.truth_period = options.health_period = Duration{period};
   options.deadline_slack = 4;  // the machine has other work, too
   options.truth_objects = 1;
-  ros::RosPublisher publisher(options);
+  bus::dds::ros::RosPublisher publisher(options);
   const auto start = std::chrono::steady_clock::now();
   for (std::uint32_t i = 0;; ++i) {
     const std::int64_t at = i * period;
-    publisher.on(test::DrawnImage(at, i, 2).record);
-    publisher.on(test::DrawnTrack(at, i, 31).record);
-    publisher.on(records::FusionStep{test::stamp_at(at), i, 1, 2});
-    publisher.on(test::truth_at(at, 0));
-    const ros::HealthValue values[] = {{"says", "\"quoted\"\n"}};
-    publisher.health({TrueTime{at}, ros::HealthLevel::kWarn, "talker", "talks", values});
+    publisher.on(bus::dds::ros::DrawnImage(at, i, 2).record);
+    publisher.on(bus::dds::ros::DrawnTrack(at, i, 31).record);
+    publisher.on(recording::records::FusionStep{bus::dds::ros::stamp_at(at), i, 1, 2});
+    publisher.on(bus::dds::ros::truth_at(at, 0));
+    const bus::dds::ros::HealthValue values[] = {{"says", "\"quoted\"\n"}};
+    publisher.health({TrueTime{at}, bus::dds::ros::HealthLevel::kWarn, "talker", "talks", values});
     std::this_thread::sleep_until(start + std::chrono::nanoseconds(at + period));
   }
 }

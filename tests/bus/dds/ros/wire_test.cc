@@ -20,17 +20,13 @@
 #include "tests/bus/dds/ros/cdr.h"
 #include "tests/bus/dds/ros/drawn.h"
 
-namespace ttf::ros {
+namespace ttf::bus::dds::ros {
 namespace {
-
-using test::Cdr;
-using test::DrawnImage;
-using test::DrawnTrack;
 
 // A participant of its own in the publisher's domain, which reads raw bytes.
 class Stranger {
  public:
-  Stranger() : participant_(test::kRosDomain, std::chrono::seconds{3}) {}
+  Stranger() : participant_(kRosDomain, std::chrono::seconds{3}) {}
 
   void listen(const dds_topic_descriptor_t& type, const std::string& topic) {
     const dds_entity_t made = dds_create_topic(participant_.handle(), &type, topic.c_str(), nullptr, nullptr);
@@ -92,7 +88,7 @@ class Stranger {
 
  private:
   static void pause() { std::this_thread::sleep_for(std::chrono::milliseconds{10}); }
-  dds::Participant participant_;
+  common::Participant participant_;
   dds_entity_t reader_ = 0;
 };
 
@@ -116,7 +112,7 @@ void put_pose(Cdr& cdr, double x, double y, double heading) {
 }
 
 TEST(RosWire, AnImageHasTheBytesOfItsMessage) {
-  const RosOptions options = test::options_of_its_own();
+  const RosOptions options = options_of_its_own();
   RosPublisher publisher(options);
   Stranger stranger;
   stranger.listen(ttfusion_msgs_msg_dds__RealTimeImage__desc, "rt/" + options.node_name + "/image");
@@ -124,7 +120,7 @@ TEST(RosWire, AnImageHasTheBytesOfItsMessage) {
   Cdr expected = header(1'700'000'001, 270'000'000);  // of use 20 ms after it was written, 1 s after the origin
   expected.u32(17).time(1'700'000'001, 250'000'000).time(1'700'000'001, 245'000'000).u32(2);
   for (int i = 0; i < 2; ++i) {
-    const records::ImageObject object = test::image_object(i);
+    const recording::records::ImageObject object = image_object(i);
     expected.u16(static_cast<std::uint16_t>(100 + i)).u8(object.status);
     for (const double value :
          {object.x, object.y, object.heading, object.speed, object.acceleration, object.length, object.width,
@@ -137,7 +133,7 @@ TEST(RosWire, AnImageHasTheBytesOfItsMessage) {
 
 // Stretched four times, the second since the drive's begin has become four.
 TEST(RosWire, StampsAreOnTheClockThatAStretchedDriveGoesBy) {
-  RosOptions options = test::options_of_its_own();
+  RosOptions options = options_of_its_own();
   options.time_scale_ppm = 4'000'000;
   RosPublisher publisher(options);
   Stranger stranger;
@@ -151,7 +147,7 @@ TEST(RosWire, StampsAreOnTheClockThatAStretchedDriveGoesBy) {
 // vision_msgs/Detection3DArray of Humble: header; detections of header, results of (class_id, score, pose, covariance),
 // bbox of (center, size), id.
 TEST(RosWire, BoxesHaveTheBytesOfVisionMsgs4) {
-  const RosOptions options = test::options_of_its_own();
+  const RosOptions options = options_of_its_own();
   RosPublisher publisher(options);
   Stranger stranger;
   stranger.listen(vision_msgs_msg_dds__Detection3DArray__desc, "rt/" + options.node_name + "/image/boxes");
@@ -159,7 +155,7 @@ TEST(RosWire, BoxesHaveTheBytesOfVisionMsgs4) {
   Cdr expected = header(1'700'000'001, 270'000'000);
   expected.u32(2);
   for (int i = 0; i < 2; ++i) {
-    const records::ImageObject object = test::image_object(i);
+    const recording::records::ImageObject object = image_object(i);
     expected.time(1'700'000'001, 270'000'000).text("sensor_car").u32(1);
     expected.text(i == 0 ? "confirmed" : "tentative").f64(1);
     put_pose(expected, object.x, object.y, object.heading);
@@ -180,13 +176,13 @@ TEST(RosWire, BoxesHaveTheBytesOfVisionMsgs4) {
 }
 
 TEST(RosWire, TracksHaveTheBytesOfTheirMessage) {
-  const RosOptions options = test::options_of_its_own();
+  const RosOptions options = options_of_its_own();
   RosPublisher publisher(options);
   Stranger stranger;
   stranger.listen(ttfusion_msgs_msg_dds__TrackArray__desc, "rt/" + options.node_name + "/tracks");
   const DrawnTrack tracks[] = {{2'000'000'000, 5, 31}, {2'000'000'000, 5, 32}};
   for (const DrawnTrack& track : tracks) publisher.on(track.record);
-  publisher.on(records::FusionStep{test::stamp_at(2'000'000'000), 5, 2, 7});
+  publisher.on(recording::records::FusionStep{stamp_at(2'000'000'000), 5, 2, 7});
   Cdr expected = header(1'700'000'002, 250'000'000);
   expected.u32(5).u16(2).u16(7).u32(2);
   for (const DrawnTrack& track : tracks) {
@@ -199,13 +195,13 @@ TEST(RosWire, TracksHaveTheBytesOfTheirMessage) {
 
 // nav_msgs/Odometry: header, child_frame_id, pose and its covariance, twist (linear, angular) and its covariance.
 TEST(RosWire, TruthHasTheBytesOfOdometry) {
-  RosOptions options = test::options_of_its_own();
+  RosOptions options = options_of_its_own();
   options.truth_objects = 2;
   RosPublisher publisher(options);
   Stranger stranger;
   stranger.listen(nav_msgs_msg_dds__Odometry__desc, "rt/" + options.node_name + "/truth/object_1");
-  publisher.on(test::truth_at(3'000'000'000, 0));  // on its own topic
-  publisher.on(test::truth_at(3'000'000'000, 1));
+  publisher.on(truth_at(3'000'000'000, 0));  // on its own topic
+  publisher.on(truth_at(3'000'000'000, 1));
   Cdr expected = header(1'700'000'003, 250'000'000);
   expected.text("object_1");
   put_pose(expected, 12.5, -3.25, 0.5);
@@ -218,14 +214,14 @@ TEST(RosWire, TruthHasTheBytesOfOdometry) {
 // diagnostic_msgs/DiagnosticArray: header; status of level, name, message, hardware_id, values of (key, value). The
 // last one is kept for who comes later.
 TEST(RosWire, AHealthHasTheBytesOfDiagnosticsAndIsKept) {
-  const RosOptions options = test::options_of_its_own();
+  const RosOptions options = options_of_its_own();
   RosPublisher publisher(options);
   const HealthValue values[] = {{"late wake-ups", "3"}, {"state", "normal active"}};
   publisher.health({TrueTime{0}, HealthLevel::kOk, "fusion", "fine", {}});
   publisher.health({TrueTime{4'000'000'000}, HealthLevel::kWarn, "fusion", "late", values});
   for (int i = 0; i < 500 && publisher.counts().health.written < 2; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds{10});
-  dds::Participant participant(test::kRosDomain, std::chrono::seconds{3});
+  common::Participant participant(kRosDomain, std::chrono::seconds{3});
   const dds_entity_t topic = dds_create_topic(participant.handle(), &diagnostic_msgs_msg_dds__DiagnosticArray__desc,
                                               "rt/diagnostics", nullptr, nullptr);
   dds_qos_t* qos = dds_create_qos();
@@ -257,7 +253,7 @@ TEST(RosWire, AHealthHasTheBytesOfDiagnosticsAndIsKept) {
 }
 
 TEST(RosWire, NamesTypesAndQualitiesAreAsRosExpectsThem) {
-  RosOptions options = test::options_of_its_own();
+  RosOptions options = options_of_its_own();
   options.image_period = Duration::milliseconds(20);
   options.step_period = Duration::milliseconds(40);
   options.truth_period = Duration::milliseconds(60);
@@ -319,4 +315,4 @@ TEST(RosTime, CountsNanosecondsOnFromTheSecondBefore) {
 }
 
 }  // namespace
-}  // namespace ttf::ros
+}  // namespace ttf::bus::dds::ros

@@ -9,7 +9,7 @@
 
 #include "tests/fusion/strategies/late/late_scenes.h"
 
-namespace ttf::fusion::late {
+namespace ttf::fusion::strategies::late {
 namespace {
 
 using testing::ElementsAre;
@@ -70,4 +70,4 @@ TEST(Announcements, BeginWithTheSchedule) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion::late
+}  // namespace ttf::fusion::strategies::late

@@ -14,14 +14,15 @@
 #include "fusion/tracks/timeline.h"
 #include "tests/fusion/drives.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies::late {
 
 // Both measure every 40 ms, the second 20 ms after the first.
 inline std::vector<SensorTiming> in_turn() { return {scheduled(0, 200, 0, 40), scheduled(1, 200, 20, 40)}; }
 
 // No right observation is ever outside its gate, so that all depends on what is taken in, and how.
-inline TrackerConfig taking_late(oosm::Kind kind, MotionModel motion = MotionModel::kConstantVelocity) {
-  TrackerConfig config = config_of(motion);
+inline config::TrackerConfig taking_late(oosm::Kind kind,
+                                         config::MotionModel motion = config::MotionModel::kConstantVelocity) {
+  config::TrackerConfig config = config_of(motion);
   config.late = kind;
   config.gate_probability = 0.999999;
   return config;
@@ -57,8 +58,8 @@ inline std::vector<std::size_t> one_late_order(std::size_t lists, std::size_t in
   return order;
 }
 
-inline double relative_difference(const Estimate& a, const Estimate& b) {
-  const Cartesian one = seen_as(a), other = seen_as(b);
+inline double relative_difference(const estimators::Estimate& a, const estimators::Estimate& b) {
+  const estimators::Cartesian one = seen_as(a), other = seen_as(b);
   return std::max((one.x - other.x).norm() / other.x.norm(), (one.p - other.p).norm() / other.p.norm());
 }
 
@@ -66,4 +67,4 @@ inline std::string name_of_kind(const testing::TestParamInfo<oosm::Kind>& info) 
   return std::string(oosm::name_of(info.param));
 }
 
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies::late

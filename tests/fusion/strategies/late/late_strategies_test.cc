@@ -10,7 +10,7 @@
 #include "tests/fusion/strategies/late/late_scenes.h"
 #include "tests/support/allocation_counter.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies::late {
 namespace {
 
 using oosm::Kind;
@@ -41,7 +41,7 @@ TEST(LateRefusal, NamesWhatCannotBe) {
 
 // What a drive ends with; all lists have arrived, but not all in order.
 struct Ending {
-  std::vector<TrackView> image;
+  std::vector<tracks::TrackView> image;
   std::size_t lists = 0, late = 0, dropped = 0;
 };
 Ending end_of(StrategyKind kind, Kind late, const std::vector<Arrival>& arrivals) {
@@ -74,9 +74,9 @@ TEST_P(LateUnderAdva, ImagesAreNearlyThoseOfRewinding) {
   ASSERT_EQ(other.image.size(), 25u);
   ASSERT_EQ(rewinding.image.size(), 25u);
   const double sigmas = GetParam() == Kind::kC ? 1.0 : 0.5;
-  for (const TrackView& one : rewinding.image) {
-    const auto same =
-        std::min_element(other.image.begin(), other.image.end(), [&](const TrackView& a, const TrackView& b) {
+  for (const tracks::TrackView& one : rewinding.image) {
+    const auto same = std::min_element(
+        other.image.begin(), other.image.end(), [&](const tracks::TrackView& a, const tracks::TrackView& b) {
           return (a.state - one.state).head<2>().squaredNorm() < (b.state - one.state).head<2>().squaredNorm();
         });
     for (int c = 0; c < 4; ++c)
@@ -87,10 +87,10 @@ TEST_P(LateUnderAdva, ImagesAreNearlyThoseOfRewinding) {
 TEST_P(LateUnderAdva, AllocatesNothing) {
   std::vector<Arrival> arrivals = drawn_drive(4, 40);
   sort_by_arrival(arrivals);
-  TrackerConfig config = taking_late(GetParam());
+  config::TrackerConfig config = taking_late(GetParam());
   config.history_scans = 20;
   const auto strategy = make_strategy(StrategyKind::kAdva, config, laser_and_camera());
-  std::vector<TrackView> image;
+  std::vector<tracks::TrackView> image;
   image.reserve(static_cast<std::size_t>(config.max_objects));
   std::size_t next = 0, late = 0;
   const std::int64_t before_all = support::allocations();
@@ -138,4 +138,4 @@ TEST(LateUnderTt, ABrokenPromiseIsForTheClone) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies::late

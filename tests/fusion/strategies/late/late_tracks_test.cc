@@ -6,19 +6,20 @@
 #include "fusion/strategies/late/late_updates.h"
 #include "tests/fusion/strategies/late/late_scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies::late {
 namespace {
 
 using oosm::Kind;
-using Insertion = TrackHistory::Insertion;
+using Insertion = tracks::TrackHistory::Insertion;
 
 class LateList : public testing::Test {
  protected:
-  static OwnedScan at(std::uint8_t sensor, std::uint32_t sequence, std::int64_t ms, std::vector<Observation> seen) {
+  static OwnedScan at(std::uint8_t sensor, std::uint32_t sequence, std::int64_t ms,
+                      std::vector<sensors::Observation> seen) {
     return scan(sensor, sequence, at_ms(ms), std::move(seen));
   }
   // Drives at 20 m/s.
-  static Observation car(std::int64_t ms, double sigma = 0.1) {
+  static sensors::Observation car(std::int64_t ms, double sigma = 0.1) {
     return position(10.0 + 0.02 * static_cast<double>(ms), 0.0, sigma);
   }
   // Of sensor 0, every 40 ms.
@@ -53,7 +54,7 @@ TEST_F(LateList, GivesBirthToNothing) {
 //        o 0
 //       0 s         1 s              2 s
 TEST_F(LateList, ReopensNoAssociation) {
-  TrackerConfig config;
+  config::TrackerConfig config;
   config.late = Kind::kAugmented;
   config.initial_velocity_sigma = 2.0;
   config.process_noise = 4.0;
@@ -88,11 +89,11 @@ TEST_F(LateList, CountsAtItsPlace) {
       EXPECT_TRUE(late.current().tracks.empty()) << "three hits in five lists are out of reach";
       continue;
     }
-    const Track& track = late.current().tracks[0];
+    const tracks::Track& track = late.current().tracks[0];
     EXPECT_EQ(track.hits, 0b11010u);
     EXPECT_EQ(track.misses, 1);
     EXPECT_EQ(track.scans, 5);
-    EXPECT_EQ(track.newest, (ObservationId{{SensorId{1}, 0}, 0, at_ms(100)}));
+    EXPECT_EQ(track.newest, (tracks::ObservationId{{SensorId{1}, 0}, 0, at_ms(100)}));
     EXPECT_TRUE(track.confirmed) << "three of five";
     EXPECT_NE(track.id, kNoTrack);
   }
@@ -100,7 +101,7 @@ TEST_F(LateList, CountsAtItsPlace) {
 
 // A confirmed track ends where a late list is the miss that was missing.
 TEST_F(LateList, CanEndATrack) {
-  TrackerConfig config = taking_late(Kind::kAl1);
+  config::TrackerConfig config = taking_late(Kind::kAl1);
   config.delete_misses = 3;
   LateUpdates late(config, 4, {});
   drive(late, 5);
@@ -119,9 +120,9 @@ TEST_F(LateList, CanEndATrack) {
 
 // Without a walk, what is measured of an axis or a side is worth the same whenever it was.
 TEST_F(LateList, TurnsAndSizesAsOneOfNow) {
-  TrackerConfig config = taking_late(Kind::kAugmented);
+  config::TrackerConfig config = taking_late(Kind::kAugmented);
   config.heading_noise = config.extent_noise = 0.0;
-  const auto measured = [](Observation z, double heading, double length) {
+  const auto measured = [](sensors::Observation z, double heading, double length) {
     z.has_heading = z.has_length = true;
     z.heading = heading;
     z.length = length;
@@ -129,11 +130,11 @@ TEST_F(LateList, TurnsAndSizesAsOneOfNow) {
     z.sigma_length = 0.3;
     return z;
   };
-  Track walking, standing, in_order;
+  tracks::Track walking, standing, in_order;
   for (const bool walks : {false, true}) {
     if (walks) config.heading_noise = config.extent_noise = 1.0;
     LateUpdates late(config, 4, {});
-    Timeline rewinding(config, 4);
+    tracks::Timeline rewinding(config, 4);
     for (std::uint32_t k = 0; k < 6; ++k) {
       const OwnedScan list = at(0, k, 40 * k, {measured(car(40 * k), 0.03 * k, 4.0 + 0.1 * k)});
       late.insert(list.view());
@@ -155,10 +156,10 @@ TEST_F(LateList, TurnsAndSizesAsOneOfNow) {
 //   z: 1.0      2.0 (late)   -       3.0    0.5 (late)      what is shown: 1, 2, 2, 3, 3
 //      0 ms      20         40       80     60
 TEST_F(LateList, CarriesTheNewestHeightAndEveryScore) {
-  const auto with = [](Observation z, std::optional<double> height, std::uint8_t what) {
+  const auto with = [](sensors::Observation z, std::optional<double> height, std::uint8_t what) {
     z.third.has_z = height.has_value();
     z.third.z = height.value_or(0.0);
-    z.class_id = ClassId{what};
+    z.class_id = sensors::ClassId{what};
     z.score = 1.0;
     return z;
   };
@@ -183,7 +184,7 @@ TEST_F(LateList, IsTooOldWhereNoTrackReaches) {
   EXPECT_EQ(late.insert(at(1, 100, 0, {car(0)}).view()), Insertion::kTooOld) << "there is no track";
   LateUpdates other(taking_late(Kind::kAugmented), 4, {});
   drive(other, 20);
-  TrackSet before_too_old(16);
+  tracks::TrackSet before_too_old(16);
   before_too_old.assign(other.current());
   EXPECT_EQ(other.insert(at(1, 0, 40 * 4 - 1, {car(159)}).view()), Insertion::kTooOld);
   EXPECT_TRUE(same_bits(other.current(), before_too_old));
@@ -194,7 +195,7 @@ TEST_F(LateList, IsTooOldWhereNoTrackReaches) {
 }
 
 TEST_F(LateList, IsTooOldBeforeTheHistoryOfLists) {
-  TrackerConfig config = taking_late(Kind::kAugmented);
+  config::TrackerConfig config = taking_late(Kind::kAugmented);
   config.history_scans = 4;
   LateUpdates late(config, 4, {});
   drive(late, 10);
@@ -214,9 +215,9 @@ TEST_F(LateList, IsTooOldBehindOneLag) {
 
 // The clocks of sensor 1 are off by as much as 60 us; the list that fits no instant was never announced.
 TEST_F(LateList, OfACloneMustFitTheSchedule) {
-  const TrackerConfig config = taking_late(Kind::kClone);
+  const config::TrackerConfig config = taking_late(Kind::kClone);
   LateUpdates late(config, 4, in_turn());
-  Timeline rewinding(config, 4);
+  tracks::Timeline rewinding(config, 4);
   const auto both = [&](const OwnedScan& list) {
     rewinding.insert(list.view());
     return late.insert(list.view());
@@ -239,4 +240,4 @@ TEST_F(LateList, OfACloneMustFitTheSchedule) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies::late

@@ -11,11 +11,11 @@
 #include "fusion/metrics/consistency.h"
 #include "tests/fusion/strategies/late/late_scenes.h"
 
-namespace ttf::fusion {
+namespace ttf::fusion::strategies::late {
 namespace {
 
 using oosm::Kind;
-using Insertion = TrackHistory::Insertion;
+using Insertion = tracks::TrackHistory::Insertion;
 
 constexpr std::size_t kRoom = 16;
 constexpr std::size_t kInTime = 8;
@@ -28,10 +28,11 @@ INSTANTIATE_TEST_SUITE_P(LateUpdates, EveryMethod,
 
 // Law L1 of fusion/oosm/method.h, of tracks: what nothing late comes to is as it always was.
 TEST_P(EveryMethod, GivesTheBitsOfTheTrackerInOrder) {
-  for (const MotionModel motion : {MotionModel::kConstantVelocity, MotionModel::kConstantAcceleration}) {
-    const TrackerConfig config = taking_late(GetParam(), motion);
+  for (const config::MotionModel motion :
+       {config::MotionModel::kConstantVelocity, config::MotionModel::kConstantAcceleration}) {
+    const config::TrackerConfig config = taking_late(GetParam(), motion);
     LateUpdates late(config, kRoom, in_turn());
-    Timeline rewinding(config, kRoom);
+    tracks::Timeline rewinding(config, kRoom);
     for (const OwnedScan& list : few_objects(3, 80, 0)) {
       ASSERT_EQ(late.insert(list.view()), Insertion::kInOrder);
       rewinding.insert(list.view());
@@ -49,11 +50,11 @@ struct Compared {
   double worst = 0.0;  // relative difference of estimates
   bool counted_alike = true;
 };
-Compared compare(const TrackerConfig& config, const std::vector<OwnedScan>& lists,
+Compared compare(const config::TrackerConfig& config, const std::vector<OwnedScan>& lists,
                  const std::vector<std::size_t>& order) {
   Compared result;
   LateUpdates late(config, kRoom, in_turn());
-  Timeline rewinding(config, kRoom);
+  tracks::Timeline rewinding(config, kRoom);
   for (const std::size_t i : order) {
     const Insertion insertion = late.insert(lists[i].view());
     if (insertion == Insertion::kTooOld) {
@@ -62,7 +63,7 @@ Compared compare(const TrackerConfig& config, const std::vector<OwnedScan>& list
     }
     result.late += insertion == Insertion::kLate ? 1 : 0;
     rewinding.insert(lists[i].view());
-    const std::vector<Track>&one = late.current().tracks, &other = rewinding.current().tracks;
+    const std::vector<tracks::Track>&one = late.current().tracks, &other = rewinding.current().tracks;
     if (one.size() != other.size()) return {.counted_alike = false};
     for (std::size_t t = 0; t < one.size(); ++t) {
       result.worst = std::max(result.worst, relative_difference(one[t].estimate, other[t].estimate));
@@ -78,11 +79,11 @@ Compared compare(const TrackerConfig& config, const std::vector<OwnedScan>& list
 constexpr double kExact = 1e-9;
 
 //      0 1 2 3 4 5 6 7 | each behind as many as six others, also of the same track
-class ExactInAnyOrder : public testing::TestWithParam<std::tuple<Kind, MotionModel>> {};
+class ExactInAnyOrder : public testing::TestWithParam<std::tuple<Kind, config::MotionModel>> {};
 INSTANTIATE_TEST_SUITE_P(LateUpdates, ExactInAnyOrder,
                          testing::Combine(testing::Values(Kind::kAugmented, Kind::kClone),
-                                          testing::Values(MotionModel::kConstantVelocity,
-                                                          MotionModel::kConstantAcceleration)));
+                                          testing::Values(config::MotionModel::kConstantVelocity,
+                                                          config::MotionModel::kConstantAcceleration)));
 TEST_P(ExactInAnyOrder, TracksAreThoseOfOrder) {
   const auto [kind, motion] = GetParam();
   int late = 0;
@@ -120,7 +121,7 @@ TEST_P(ExactWithOneLate, TracksAreThoseOfOrder) {
 class ExactWithoutNoise : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(LateUpdates, ExactWithoutNoise, testing::Values(Kind::kB, Kind::kC, Kind::kBl1), name_of_kind);
 TEST_P(ExactWithoutNoise, TracksAreThoseOfOrder) {
-  TrackerConfig config = taking_late(GetParam());
+  config::TrackerConfig config = taking_late(GetParam());
   config.process_noise = 1e-9;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Compared result = compare(config, few_objects(seed, 64), one_late_order(64, kInTime, 1));
@@ -134,11 +135,11 @@ TEST_P(ExactWithoutNoise, TracksAreThoseOfOrder) {
 // the error at the end of each drive, by its own covariance (the drives are independent).
 metrics::Consistency drives(Kind kind, int runs) {
   metrics::Consistency nees;
-  const TrackerConfig config = taking_late(kind);
+  const config::TrackerConfig config = taking_late(kind);
   const std::vector<std::size_t> one_late = one_late_order(30, 4, kind == Kind::kA || kind == Kind::kAl1 ? 1 : 3);
   for (int run = 0; run < runs; ++run) {
     RandomStream stream({.seed = 11, .replication = static_cast<std::uint32_t>(run)});
-    State truth = State::Zero();
+    estimators::State truth = estimators::State::Zero();
     truth(0) = 100.0;
     truth(2) = config.initial_velocity_sigma * stream.normal();
     truth(3) = config.initial_velocity_sigma * stream.normal();
@@ -156,7 +157,7 @@ metrics::Consistency drives(Kind kind, int runs) {
       EXPECT_NE(late.insert(lists[i].view()), Insertion::kTooOld);
     EXPECT_EQ(late.current().tracks.size(), 1u);
     EXPECT_EQ(late.current().tracks[0].scans, 30);
-    const Cartesian end = seen_as(late.current().tracks[0].estimate);
+    const estimators::Cartesian end = seen_as(late.current().tracks[0].estimate);
     nees.add(metrics::nees<4>({end.x.head<4>(), end.p.topLeftCorner<4, 4>()}, truth.head<4>()), 4);
   }
   return nees;
@@ -182,16 +183,16 @@ TEST_P(ApproximateMethod, IsAFewPercentOff) {
   const auto [kind, lag] = GetParam();
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const std::vector<OwnedScan> lists = few_objects(seed, 64);
-    const TrackerConfig config = taking_late(kind);
+    const config::TrackerConfig config = taking_late(kind);
     LateUpdates late(config, kRoom, in_turn());
-    Timeline rewinding(config, kRoom);
+    tracks::Timeline rewinding(config, kRoom);
     for (const std::size_t i : one_late_order(64, kInTime, lag)) {
       ASSERT_NE(late.insert(lists[i].view()), Insertion::kTooOld);
       rewinding.insert(lists[i].view());
       ASSERT_EQ(late.current().tracks.size(), rewinding.current().tracks.size());
       for (std::size_t t = 0; t < late.current().tracks.size(); ++t) {
-        const Cartesian one = seen_as(late.current().tracks[t].estimate),
-                        other = seen_as(rewinding.current().tracks[t].estimate);
+        const estimators::Cartesian one = seen_as(late.current().tracks[t].estimate),
+                                    other = seen_as(rewinding.current().tracks[t].estimate);
         for (int c = 0; c < 4; ++c) {
           EXPECT_NEAR(std::sqrt(one.p(c, c) / other.p(c, c)), 1.0, 0.05) << "component " << c;
           EXPECT_NEAR(one.x(c), other.x(c), 0.2 * std::sqrt(other.p(c, c))) << "component " << c;
@@ -202,4 +203,4 @@ TEST_P(ApproximateMethod, IsAFewPercentOff) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion
+}  // namespace ttf::fusion::strategies::late

@@ -8,20 +8,20 @@
 #include <tuple>
 #include <vector>
 
-#include "schedules/model/cluster.h"
 #include "schedules/file/parameter_table.h"
+#include "schedules/model/cluster.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 // Every difference on a line, "" for none.
 class FibexDifference {
  public:
-  static std::string of(const Cluster& a, const Cluster& b) {
+  static std::string of(const model::Cluster& a, const model::Cluster& b) {
     FibexDifference d;
     d.value("name", a.name, b.name);
     d.value("topology", static_cast<int>(a.topology), static_cast<int>(b.topology));
     d.value("guardian", a.guardian, b.guardian);
-    d.parameters("flexray", a.flexray, b.flexray, kGlobalIntegers, kGlobalScaled);
+    d.parameters("flexray", a.flexray, b.flexray, file::kGlobalIntegers, file::kGlobalScaled);
     d.nodes(nodes_of(a), nodes_of(b));
     d.pdus(a.pdus, b.pdus);
     d.frames(a, b);
@@ -41,28 +41,28 @@ class FibexDifference {
   }
 
   // Nodes off FlexRay are not in FIBEX.
-  static std::vector<const Node*> nodes_of(const Cluster& cluster) {
-    std::vector<const Node*> nodes;
-    for (const Node& node : cluster.nodes)
+  static std::vector<const model::Node*> nodes_of(const model::Cluster& cluster) {
+    std::vector<const model::Node*> nodes;
+    for (const model::Node& node : cluster.nodes)
       if (node.flexray) nodes.push_back(&node);
     return nodes;
   }
 
-  void nodes(const std::vector<const Node*>& a, const std::vector<const Node*>& b) {
+  void nodes(const std::vector<const model::Node*>& a, const std::vector<const model::Node*>& b) {
     value("nodes", a.size(), b.size());
     for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
       value("node", a[i]->name, b[i]->name);
       value(a[i]->name + " microtick", a[i]->microtick_ps, b[i]->microtick_ps);
-      parameters(a[i]->name, *a[i]->flexray, *b[i]->flexray, kNodeIntegers, kNodeScaled);
+      parameters(a[i]->name, *a[i]->flexray, *b[i]->flexray, file::kNodeIntegers, file::kNodeScaled);
       value(a[i]->name + " channels", channels_text(a[i]->flexray->pChannels), channels_text(b[i]->flexray->pChannels));
       value(a[i]->name + " wake-up", static_cast<int>(a[i]->flexray->pWakeupChannel),
             static_cast<int>(b[i]->flexray->pWakeupChannel));
-      for (const auto& p : kNodeFlags)
+      for (const auto& p : file::kNodeFlags)
         value(fmt::format("{}.{}", a[i]->name, p.name), (*a[i]->flexray).*p.member, (*b[i]->flexray).*p.member);
     }
   }
 
-  void signals(const std::string& what, const std::vector<Signal>& a, const std::vector<Signal>& b) {
+  void signals(const std::string& what, const std::vector<model::Signal>& a, const std::vector<model::Signal>& b) {
     value(what, a.size(), b.size());
     for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
       const std::string name = fmt::format("{}.{}", what, a[i].name);
@@ -76,7 +76,7 @@ class FibexDifference {
     }
   }
 
-  void pdus(const std::vector<PduLayout>& a, const std::vector<PduLayout>& b) {
+  void pdus(const std::vector<model::PduLayout>& a, const std::vector<model::PduLayout>& b) {
     value("pdus", a.size(), b.size());
     for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
       value("pdu", a[i].name, b[i].name);
@@ -90,7 +90,7 @@ class FibexDifference {
     }
   }
 
-  static std::string frame_text(const Cluster& cluster, const FrameSlot& frame) {
+  static std::string frame_text(const model::Cluster& cluster, const model::FrameSlot& frame) {
     return fmt::format("slot {} channels {} cycle {} of {} by {}{}{}: {} {}", frame.slot,
                        static_cast<int>(frame.channels), frame.base_cycle, frame.repetition,
                        cluster.node(frame.sender).name, frame.network_management ? " with vector" : "",
@@ -99,17 +99,17 @@ class FibexDifference {
   }
 
   // Of one slot and cycle, channel A first.
-  static std::vector<FrameSlot> ordered(std::vector<FrameSlot> frames) {
-    std::stable_sort(frames.begin(), frames.end(), [](const FrameSlot& x, const FrameSlot& y) {
+  static std::vector<model::FrameSlot> ordered(std::vector<model::FrameSlot> frames) {
+    std::stable_sort(frames.begin(), frames.end(), [](const model::FrameSlot& x, const model::FrameSlot& y) {
       return std::tuple{x.slot, x.base_cycle, x.repetition, static_cast<int>(x.channels)} <
              std::tuple{y.slot, y.base_cycle, y.repetition, static_cast<int>(y.channels)};
     });
     return frames;
   }
 
-  void frames(const Cluster& a, const Cluster& b) {
+  void frames(const model::Cluster& a, const model::Cluster& b) {
     value("frames", a.frames.size(), b.frames.size());
-    const std::vector<FrameSlot> of_a = ordered(a.frames), of_b = ordered(b.frames);
+    const std::vector<model::FrameSlot> of_a = ordered(a.frames), of_b = ordered(b.frames);
     for (std::size_t i = 0; i < of_a.size() && i < of_b.size(); ++i)
       value("frame", frame_text(a, of_a[i]), frame_text(b, of_b[i]));
   }
@@ -117,4 +117,4 @@ class FibexDifference {
   std::string text_;
 };
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

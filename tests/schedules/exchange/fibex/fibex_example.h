@@ -1,7 +1,7 @@
 // FIBEX files written by hand, as other tools write them: nothing of them comes from our exporter.
 #pragma once
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 
 // A small powertrain cluster in the style of public examples: parameters that are self-consistent but not
 // complete (CYCLE and MACROTICK, no MACRO-PER-CYCLE), ordinary PDUs in low-high byte order, codings beside
@@ -284,4 +284,4 @@ inline constexpr char kObjects[] =
 </f:FIBEX>
 )";
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

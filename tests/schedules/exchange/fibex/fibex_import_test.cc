@@ -12,7 +12,7 @@
 #include "tests/schedules/exchange/fibex/fibex_compare.h"
 #include "tests/schedules/exchange/fibex/fibex_example.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
 using testing::ElementsAre;
@@ -42,11 +42,11 @@ std::string refusal_of(const std::string& text) {
 class Powertrain : public testing::Test {
  protected:
   const FibexImport import_ = parse_fibex(kPowertrain, "demo.xml");
-  const Cluster& cluster_ = import_.cluster;
+  const model::Cluster& cluster_ = import_.cluster;
 };
 
 TEST_F(Powertrain, TimingIsWhatTheFileSaysAndWhatFollows) {
-  const GlobalParameters& g = cluster_.flexray;
+  const model::GlobalParameters& g = cluster_.flexray;
   EXPECT_EQ(cluster_.name, "Powertrain");
   EXPECT_EQ(g.baudrate, 10'000'000);
   EXPECT_EQ(g.gdMacrotick_ps, 1'250'000);
@@ -69,7 +69,7 @@ TEST_F(Powertrain, TimingIsWhatTheFileSaysAndWhatFollows) {
 
 TEST_F(Powertrain, ControllersHaveTheirKeySlotsAndWhatFollowsFromTheCycle) {
   ASSERT_EQ(cluster_.nodes.size(), 2u);
-  const Node& engine = cluster_.nodes[0];
+  const model::Node& engine = cluster_.nodes[0];
   EXPECT_EQ(engine.name, "Engine");
   EXPECT_EQ(engine.flexray->pKeySlotId, 1);
   EXPECT_TRUE(engine.flexray->pKeySlotUsedForStartup && engine.flexray->pKeySlotUsedForSync);
@@ -79,7 +79,7 @@ TEST_F(Powertrain, ControllersHaveTheirKeySlotsAndWhatFollowsFromTheCycle) {
   EXPECT_EQ(engine.flexray->pMicroPerCycle, 200'000);
   EXPECT_EQ(engine.flexray->pRateCorrectionOut, 601);  // 200000 * 0.003 / 0.9985
   EXPECT_EQ(engine.flexray->pdListenTimeout, 401'202);
-  const Node& esp = cluster_.nodes[1];
+  const model::Node& esp = cluster_.nodes[1];
   EXPECT_EQ(esp.name, "ESP");
   EXPECT_EQ(esp.flexray->pKeySlotId, 13);  // has no controller in the file: its first slot
   EXPECT_FALSE(esp.flexray->pKeySlotUsedForSync);
@@ -89,31 +89,31 @@ TEST_F(Powertrain, ControllersHaveTheirKeySlotsAndWhatFollowsFromTheCycle) {
 
 TEST_F(Powertrain, SlotsHaveTheirCyclesChannelsAndSenders) {
   ASSERT_EQ(cluster_.frames.size(), 2u);
-  const FrameSlot& startup = cluster_.frames[0];
+  const model::FrameSlot& startup = cluster_.frames[0];
   EXPECT_EQ(startup.slot, 1);
   EXPECT_EQ(startup.base_cycle, 7);  // CYCLE-COUNTER: this one of the 64 cycles
   EXPECT_EQ(startup.repetition, 64);
-  EXPECT_EQ(startup.channels, Channels::kA);
+  EXPECT_EQ(startup.channels, model::Channels::kA);
   EXPECT_EQ(cluster_.node(startup.sender).name, "Engine");
   EXPECT_EQ(startup.line, line_of(kPowertrain, "<fx:FRAME-TRIGGERING ID=\"ft2\">"));
-  const FrameSlot& torque = cluster_.frames[1];
+  const model::FrameSlot& torque = cluster_.frames[1];
   EXPECT_EQ(torque.slot, 13);
   EXPECT_EQ(torque.base_cycle, 1);
   EXPECT_EQ(torque.repetition, 2);
-  EXPECT_EQ(torque.channels, Channels::kAB);  // one frame on both
+  EXPECT_EQ(torque.channels, model::Channels::kAB);  // one frame on both
   EXPECT_EQ(cluster_.node(torque.sender).name, "ESP");
   EXPECT_EQ(torque.pdu, kNoPdu);
   EXPECT_THAT(import_.contents, ElementsAre("", "TorqueInfo carries CrankTorque at byte 0, Reserve at byte 4"));
 }
 
 TEST_F(Powertrain, ConnectorsSayWhatANodeIsAttachedTo) {
-  const NodeParameters& engine = *cluster_.node(*cluster_.find_node("Engine")).flexray;
-  EXPECT_EQ(engine.pChannels, Channels::kA);
-  EXPECT_EQ(engine.pWakeupChannel, Channel::kA);
+  const model::NodeParameters& engine = *cluster_.node(*cluster_.find_node("Engine")).flexray;
+  EXPECT_EQ(engine.pChannels, model::Channels::kA);
+  EXPECT_EQ(engine.pWakeupChannel, model::Channel::kA);
   EXPECT_FALSE(import_.assumed.contains("nodes.Engine.flexray.pChannels"));
   EXPECT_FALSE(import_.assumed.contains("nodes.Engine.flexray.pWakeupChannel"));
   // Its connector names no channel.
-  EXPECT_EQ(cluster_.node(*cluster_.find_node("ESP")).flexray->pChannels, Channels::kAB);
+  EXPECT_EQ(cluster_.node(*cluster_.find_node("ESP")).flexray->pChannels, model::Channels::kAB);
   EXPECT_TRUE(import_.assumed.contains("nodes.ESP.flexray.pChannels"));
 }
 
@@ -169,7 +169,7 @@ TEST_F(Powertrain, WhatIsNotUnderstoodIsNamedWithItsLine) {
 
 TEST_F(Powertrain, BecomesAClusterFileThatLoads) {
   const std::string yaml = skeleton_yaml(import_);
-  const Cluster again = parse_cluster(yaml, "cluster.yaml");
+  const model::Cluster again = file::parse_cluster(yaml, "cluster.yaml");
   EXPECT_EQ(FibexDifference::of(cluster_, again), "");
   for (const char* said :
        {"gdBit: 0.1   # us, assumed", "gdMacrotick: 1.25   # us\n", "# receives Startup", "tasks: {}   # to be added",
@@ -181,7 +181,7 @@ TEST_F(Powertrain, BecomesAClusterFileThatLoads) {
 TEST(FibexObjects, AListOfAnotherToolIsAList) {
   const FibexImport import = parse_fibex(kObjects, "objects.xml");
   ASSERT_EQ(import.cluster.pdus.size(), 1u) << sentences(import.left_out);
-  const PduLayout& list = import.cluster.pdus[0];
+  const model::PduLayout& list = import.cluster.pdus[0];
   EXPECT_EQ(list.name, "objects");
   EXPECT_EQ(list.fragment_bytes, 8);
   EXPECT_EQ(list.elements_per_fragment, 2);
@@ -191,7 +191,7 @@ TEST(FibexObjects, AListOfAnotherToolIsAList) {
   std::vector<std::string> names;
   std::vector<int> bits;
   for (const auto* signals : {&list.header, &list.element})
-    for (const Signal& signal : *signals) names.push_back(signal.name), bits.push_back(signal.bits);
+    for (const model::Signal& signal : *signals) names.push_back(signal.name), bits.push_back(signal.bits);
   EXPECT_THAT(names, ElementsAre("sequence", "fragment", "count", "x", "v"));
   EXPECT_THAT(bits, ElementsAre(4, 1, 3, 12, 10));
   EXPECT_EQ(list.element[0].unit, "m");
@@ -211,7 +211,7 @@ TEST(FibexObjects, AListOfAnotherToolIsAList) {
   EXPECT_EQ(import.cluster.flexray.gOffsetCorrectionStart, 4501);
   EXPECT_EQ(import.cluster.flexray.gdCycle_ps, 10'000'000'000);
   EXPECT_EQ(import.cluster.flexray.gdBit_ps, 200'000);
-  const Cluster again = parse_cluster(skeleton_yaml(import), "cluster.yaml");
+  const model::Cluster again = file::parse_cluster(skeleton_yaml(import), "cluster.yaml");
   EXPECT_EQ(FibexDifference::of(import.cluster, again), "");
 }
 
@@ -241,7 +241,7 @@ TEST(FibexObjects, SlotsBehindTheStaticOnesAreDynamic) {
   EXPECT_EQ(import.cluster.frames[1].slot, 47);
   EXPECT_EQ(import.cluster.frames[1].pdu, PduId{0});
   EXPECT_TRUE(is_dynamic(import.cluster.flexray, import.cluster.frames[1]));
-  EXPECT_EQ(parse_cluster(skeleton_yaml(import), "cluster.yaml").frames.size(), 2u);
+  EXPECT_EQ(file::parse_cluster(skeleton_yaml(import), "cluster.yaml").frames.size(), 2u);
   const FibexImport short_segment = with_minislots("1");
   EXPECT_EQ(short_segment.cluster.frames.size(), 1u);
   EXPECT_THAT(sentences(short_segment.left_out),
@@ -279,7 +279,7 @@ TEST(FibexObjects, WhatIsNoListSaysWhy) {
     EXPECT_TRUE(import.cluster.pdus.empty()) << from;
     EXPECT_THAT(sentences(import.left_out), HasSubstr(edit.second)) << from;
     EXPECT_EQ(import.cluster.frames.size(), 2u);
-    parse_cluster(skeleton_yaml(import), "cluster.yaml");
+    file::parse_cluster(skeleton_yaml(import), "cluster.yaml");
   }
 }
 
@@ -460,16 +460,16 @@ TEST(FibexImport, WhatIsLeftOutOftenIsSaidOnce) {
 TEST(FibexImport, AnyPrintableNameSurvivesTheClusterFile) {
   for (const char* name :
        {"null", "true", "12", "- a", "a: b", "a \"quoted\" \\name", "#a", "äöü", "{x}", "'", "~", "yes"}) {
-    Cluster cluster = load_checked_cluster(shipped_path("paper_synchronised"));
+    model::Cluster cluster = file::load_checked_cluster(shipped_path("paper_synchronised"));
     cluster.name = name;
     cluster.nodes.back().name = name;
     cluster.pdus.back().name = name;
     cluster.pdus.back().element.back().name = name;
     cluster.pdus.back().element.back().unit = name;
     const FibexImport import = parse_fibex(fibex_text(cluster), "cluster.xml");
-    EXPECT_EQ(FibexDifference::of(cluster, parse_cluster(skeleton_yaml(import), "cluster.yaml")), "") << name;
+    EXPECT_EQ(FibexDifference::of(cluster, file::parse_cluster(skeleton_yaml(import), "cluster.yaml")), "") << name;
   }
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex

@@ -13,24 +13,24 @@
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/exchange/fibex/fibex_compare.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::exchange::fibex {
 namespace {
 
-void expect_round_trip(const Cluster& cluster) {
+void expect_round_trip(const model::Cluster& cluster) {
   const std::string xml = fibex_text(cluster);
   const FibexImport import = parse_fibex(xml, "cluster.xml");
   EXPECT_EQ(FibexDifference::of(cluster, import.cluster), "");
   EXPECT_EQ(import.assumed, decltype(import.assumed){});
   EXPECT_EQ(sentences(import.left_out), "");
   EXPECT_TRUE(import.foreign.empty());
-  const Cluster again = parse_cluster(skeleton_yaml(import), "cluster.yaml");
+  const model::Cluster again = file::parse_cluster(skeleton_yaml(import), "cluster.yaml");
   EXPECT_EQ(FibexDifference::of(cluster, again), "");
   EXPECT_EQ(fibex_text(cluster), xml);
 }
 
 class FibexShipped : public testing::TestWithParam<std::string> {
  protected:
-  Cluster cluster_ = load_checked_cluster(shipped_path(GetParam()));
+  model::Cluster cluster_ = file::load_checked_cluster(shipped_path(GetParam()));
 };
 INSTANTIATE_TEST_SUITE_P(Shipped, FibexShipped, testing::ValuesIn(shipped_clusters()),
                          [](const auto& one) { return one.param; });
@@ -41,10 +41,10 @@ TEST_P(FibexShipped, SaysWhoReceivesWhat) {
   const FibexImport import = parse_fibex(fibex_text(cluster_), "cluster.xml");
   for (std::size_t i = 0; i < import.cluster.nodes.size(); ++i) {
     std::vector<std::string> expected;  // of FlexRay, in the order of their slots
-    const Node& node = cluster_.node(*cluster_.find_node(import.cluster.nodes[i].name));
-    for (const FrameSlot& frame : cluster_.frames)
-      for (const Task& task : node.tasks)
-        for (const PortBinding& port : task.reads)
+    const model::Node& node = cluster_.node(*cluster_.find_node(import.cluster.nodes[i].name));
+    for (const model::FrameSlot& frame : cluster_.frames)
+      for (const model::Task& task : node.tasks)
+        for (const model::PortBinding& port : task.reads)
           if (!port.can_bus && port.pdu == frame.pdu &&
               std::find(expected.begin(), expected.end(), cluster_.pdu(frame.pdu).name) == expected.end())
             expected.push_back(cluster_.pdu(frame.pdu).name);
@@ -54,12 +54,12 @@ TEST_P(FibexShipped, SaysWhoReceivesWhat) {
 
 // Each parameter at either end of its range, while the others stay.
 TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
-  const Cluster shipped = load_checked_cluster(shipped_path("paper_synchronised"));
+  const model::Cluster shipped = file::load_checked_cluster(shipped_path("paper_synchronised"));
   const auto each_end = [&](const auto& p, auto&& parameters_of) {
     for (const auto end : {p.low, p.high}) {
-      Cluster cluster = shipped;
+      model::Cluster cluster = shipped;
       parameters_of(cluster).*p.member = end;
-      for (Node& node : cluster.nodes)
+      for (model::Node& node : cluster.nodes)
         if (node.flexray) node.microtick_ps = node.flexray->pdMicrotick_ps;
       // No frame is longer than the static payload; slots beyond the static ones are none of a cluster file.
       cluster.flexray.gNumberOfStaticSlots = std::max(cluster.flexray.gNumberOfStaticSlots, 40);
@@ -67,18 +67,18 @@ TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
       expect_round_trip(cluster);
     }
   };
-  const auto global = [](Cluster& cluster) -> GlobalParameters& { return cluster.flexray; };
-  const auto local = [](Cluster& cluster) -> NodeParameters& { return *cluster.nodes.back().flexray; };
-  for (const auto& p : kGlobalIntegers) each_end(p, global);
-  for (const auto& p : kGlobalScaled) each_end(p, global);
-  for (const auto& p : kNodeIntegers) each_end(p, local);
-  for (const auto& p : kNodeScaled) each_end(p, local);
+  const auto global = [](model::Cluster& cluster) -> model::GlobalParameters& { return cluster.flexray; };
+  const auto local = [](model::Cluster& cluster) -> model::NodeParameters& { return *cluster.nodes.back().flexray; };
+  for (const auto& p : file::kGlobalIntegers) each_end(p, global);
+  for (const auto& p : file::kGlobalScaled) each_end(p, global);
+  for (const auto& p : file::kNodeIntegers) each_end(p, local);
+  for (const auto& p : file::kNodeScaled) each_end(p, local);
   for (const bool startup : {false, true})
     for (const bool sync : {false, true}) {
       if (startup && !sync) continue;  // a startup frame is a sync frame
       for (const bool only : {false, true}) {
-        Cluster cluster = shipped;
-        NodeParameters& p = *cluster.nodes.back().flexray;
+        model::Cluster cluster = shipped;
+        model::NodeParameters& p = *cluster.nodes.back().flexray;
         p.pKeySlotUsedForStartup = startup;
         p.pKeySlotUsedForSync = sync;
         p.pKeySlotOnlyEnabled = p.pAllowHaltDueToClock = only;
@@ -90,23 +90,23 @@ TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
 // Random schedules: one frame of a random list, sender, channel and multiplexing in each of 40 static and 20 dynamic
 // slots; random channels of every node.
 TEST(FibexRoundTrip, KeepsRandomSchedules) {
-  const Cluster shipped = load_checked_cluster(shipped_path("paper_unsynchronised"));
+  const model::Cluster shipped = file::load_checked_cluster(shipped_path("paper_unsynchronised"));
   std::vector<NodeId> senders;
   for (std::size_t i = 0; i < shipped.nodes.size(); ++i)
     if (shipped.nodes[i].flexray) senders.push_back(static_cast<NodeId>(i));
   for (std::uint32_t run = 0; run < 50; ++run) {
     RandomStream random({.seed = 3, .purpose = Purpose::kTest, .entity = 1, .index = run});
     const auto below = [&](int limit) { return static_cast<int>(random.bits() % static_cast<std::uint64_t>(limit)); };
-    Cluster cluster = shipped;
+    model::Cluster cluster = shipped;
     cluster.frames.clear();
-    cluster.topology = below(2) == 0 ? Topology::kBus : Topology::kStar;
-    cluster.guardian = cluster.topology == Topology::kStar && below(2) == 0;
+    cluster.topology = below(2) == 0 ? model::Topology::kBus : model::Topology::kStar;
+    cluster.guardian = cluster.topology == model::Topology::kStar && below(2) == 0;
     cluster.flexray.gNetworkManagementVectorLength = below(13);
-    for (Node& node : cluster.nodes) {
+    for (model::Node& node : cluster.nodes) {
       if (!node.flexray || &node == &cluster.node(senders[0])) continue;  // the first stays on both
-      node.flexray->pChannels = static_cast<Channels>(1 + below(3));
-      node.flexray->pWakeupChannel = node.flexray->pChannels == Channels::kAB && below(2) == 0
-                                         ? Channel::kB
+      node.flexray->pChannels = static_cast<model::Channels>(1 + below(3));
+      node.flexray->pWakeupChannel = node.flexray->pChannels == model::Channels::kAB && below(2) == 0
+                                         ? model::Channel::kB
                                          : default_wakeup(node.flexray->pChannels);
     }
     for (int slot = 1; slot <= 60; ++slot) {
@@ -114,16 +114,17 @@ TEST(FibexRoundTrip, KeepsRandomSchedules) {
       const int repetition = 1 << below(7);
       const int first = below(repetition);
       for (int base = first; base < repetition; base += 1 + below(repetition)) {
-        FrameSlot frame;
+        model::FrameSlot frame;
         frame.slot = slot;
-        frame.channels = static_cast<Channels>(1 + below(3));
+        frame.channels = static_cast<model::Channels>(1 + below(3));
         frame.base_cycle = base;
         frame.repetition = repetition;
         frame.sender = senders[static_cast<std::size_t>(below(static_cast<int>(senders.size())))];
-        const Channels attached = cluster.node(frame.sender).flexray->pChannels;
-        frame.channels = share_a_channel(frame.channels, attached)
-                             ? static_cast<Channels>(static_cast<int>(frame.channels) & static_cast<int>(attached))
-                             : attached;
+        const model::Channels attached = cluster.node(frame.sender).flexray->pChannels;
+        frame.channels =
+            share_a_channel(frame.channels, attached)
+                ? static_cast<model::Channels>(static_cast<int>(frame.channels) & static_cast<int>(attached))
+                : attached;
         frame.network_management = !dynamic && below(4) == 0;
         if (below(4) != 0 || dynamic) {
           frame.pdu = static_cast<PduId>(below(static_cast<int>(cluster.pdus.size())));
@@ -131,9 +132,9 @@ TEST(FibexRoundTrip, KeepsRandomSchedules) {
         }
         if (dynamic && below(3) == 0) frame.message_id = static_cast<std::uint16_t>(below(65536));
         cluster.frames.push_back(frame);
-        if (frame.channels != Channels::kA || dynamic) continue;
+        if (frame.channels != model::Channels::kA || dynamic) continue;
         // The other channel of the same slot is someone else's.
-        frame.channels = Channels::kB;
+        frame.channels = model::Channels::kB;
         frame.sender = senders[0];
         frame.pdu = kNoPdu;
         frame.fragment = 0;
@@ -197,7 +198,7 @@ TEST_P(FibexShipped, PutsSignalsWhereTheCodecPutsTheirBits) {
   ASSERT_TRUE(xml.load_string(fibex_text(cluster_).c_str()));
   const Places places(xml);
   RandomStream random({.seed = 9, .purpose = Purpose::kTest, .entity = 2, .index = 0});
-  for (const PduLayout& layout : cluster_.pdus) {
+  for (const model::PduLayout& layout : cluster_.pdus) {
     const auto in_header = places.of(layout.name + "_header"), in_elements = places.of(layout.name + "_elements");
     std::vector<std::byte> payload(static_cast<std::size_t>(layout.fragment_bytes));
     for (std::byte& byte : payload) byte = static_cast<std::byte>(random.bits());
@@ -205,7 +206,7 @@ TEST_P(FibexShipped, PutsSignalsWhereTheCodecPutsTheirBits) {
       if (layout.header[s].name == "spare") continue;
       ASSERT_TRUE(in_header.contains(layout.header[s].name)) << layout.name << " " << layout.header[s].name;
       const Place place = in_header.at(layout.header[s].name);
-      EXPECT_EQ(bits_at(payload, place.position, place.bits), wire::read_header_raw(layout, payload, s));
+      EXPECT_EQ(bits_at(payload, place.position, place.bits), bus::wire::read_header_raw(layout, payload, s));
     }
     const std::vector<std::byte> elements(payload.begin() + layout.header_bits / 8, payload.end());
     for (int e = 0; e < layout.elements_per_fragment; ++e)
@@ -214,14 +215,15 @@ TEST_P(FibexShipped, PutsSignalsWhereTheCodecPutsTheirBits) {
         const std::string name = fmt::format("{}_{}", layout.element[s].name, e);
         ASSERT_TRUE(in_elements.contains(name)) << layout.name << " " << name;
         const Place place = in_elements.at(name);
-        EXPECT_EQ(bits_at(elements, place.position, place.bits), wire::read_element_raw(layout, payload, e, s)) << name;
+        EXPECT_EQ(bits_at(elements, place.position, place.bits), bus::wire::read_element_raw(layout, payload, e, s))
+            << name;
       }
   }
 }
 
 TEST(FibexExport, ByHand) {
   pugi::xml_document xml;
-  const std::string text = fibex_text(load_checked_cluster(shipped_path("paper_synchronised")));
+  const std::string text = fibex_text(file::load_checked_cluster(shipped_path("paper_synchronised")));
   ASSERT_TRUE(xml.load_string(text.c_str()));
   const auto at = [&](const char* path) { return std::string(xml.select_node(path).node().text().get()); };
   EXPECT_EQ(at("/fx:FIBEX/fx:ELEMENTS/fx:CLUSTERS/fx:CLUSTER/fx:SPEED"), "10000000");
@@ -253,4 +255,4 @@ TEST(FibexExport, ByHand) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::exchange::fibex
