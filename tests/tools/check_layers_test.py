@@ -9,19 +9,31 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 import check_layers  # noqa: E402
 
+# A house with the rooms of ours; sub-rooms and doors as a test needs them.
+ROOMS = {
+    "may_include": {
+        "core": [], "timebase": ["core"], "schedules": ["core"], "fusion": ["core"], "recording/records": ["core"],
+        "bus/wire": ["core", "schedules"], "bus": ["core", "bus/wire"], "recording": ["core", "bus/wire"],
+        "nodes": ["core", "fusion", "bus"], "sim": ["core", "bus", "nodes"], "experiments": ["core", "sim"],
+        "report": ["core", "recording"],
+    },
+    "leaves": {"bus/dds": "bus", "nodes/runner": "nodes"},
+    "threads": {"allowed": ["nodes/runner", "recording/writer.cc", "experiments", "tests"]},
+}
+
 
 class CheckLayers(unittest.TestCase):
-    def problems(self, files):
+    def problems(self, files, table=ROOMS):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             for name, text in files.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(text, encoding="utf-8")
-            return check_layers.problems(root)
+            return check_layers.problems(root, check_layers.House(table))
 
-    def expect(self, files, *expected):
+    def expect(self, files, *expected, table=ROOMS):
         """One problem for each expected text, in any order, and no other."""
-        found = self.problems(files)
+        found = self.problems(files, table)
         for text in expected:
             match = [problem for problem in found if text in problem]
             self.assertEqual(len(match), 1, f"'{text}' in {found}")
@@ -31,21 +43,21 @@ class CheckLayers(unittest.TestCase):
     def test_a_house_in_order(self):
         self.expect({
             "core/time.h": "#pragma once\n#include <cstdint>\n",
-            "schedules/model/cluster.h": '#include "core/time.h"\n',
-            "bus/wire/frame.h": '#include "schedules/model/cluster.h"\n#include <fmt/format.h>\n',
+            "schedules/cluster.h": '#include "core/time.h"\n',
+            "bus/wire/frame.h": '#include "schedules/cluster.h"\n#include <fmt/format.h>\n',
             "bus/wire/frame.cc": '#include "bus/wire/frame.h"\n',
-            "recording/log/log.proto": "",
-            "recording/codec.h": '#include "recording/log/log.pb.h"\n',
+            "recording/log.proto": "",
+            "recording/codec.h": '#include "recording/log.pb.h"\n',
             "bus/dds/sample.idl": "",
-            "bus/dds/exchange/channel.cc": '#include "bus/dds/sample.h"\n',
+            "bus/dds/channel.cc": '#include "bus/dds/sample.h"\n',
             "cli/main.cc": '#include "bus/wire/frame.h"\n#include "recording/codec.h"\n',
             "build/release/core/anything.cpp": '#include "nowhere.h"\n',
             "tools/js/node_modules/x/y.c": '#include "nowhere.h"\n',
         })
 
     def test_a_room_that_is_not_allowed(self):
-        self.expect({"drives/drive.h": "", "fusion/filter.cc": '#include "drives/drive.h"\n'},
-                    'fusion/filter.cc: fusion may not include sim ("drives/drive.h")')
+        self.expect({"sim/drive.h": "", "fusion/filter.cc": '#include "sim/drive.h"\n'},
+                    'fusion/filter.cc: fusion may not include sim ("sim/drive.h")')
 
     def test_the_longest_prefix_is_the_room(self):
         self.expect({"bus/port.h": "", "bus/wire/frame.cc": '#include "bus/port.h"\n'}, "bus/wire may not include bus")
@@ -56,7 +68,7 @@ class CheckLayers(unittest.TestCase):
         for include in ("nodes/runner/run.h", "bus/dds/port.h"):
             for allowed in ("cli/main.cc", "tests/x.cc"):
                 self.expect({**leaf, allowed: f'#include "{include}"\n'})
-            for refused in ("nodes/host/step.cc", "bus/port.cc", "drives/drive.cc", "experiments/sweep.cc"):
+            for refused in ("nodes/step.cc", "bus/port.cc", "sim/drive.cc", "experiments/sweep.cc"):
                 self.expect({**leaf, refused: f'#include "{include}"\n'}, f"{refused}: ")
 
     def test_what_another_header_brings_along(self):
@@ -69,40 +81,40 @@ class CheckLayers(unittest.TestCase):
         self.expect({"core/a.h": '#include "core/b.h"\n', "core/b.h": '#include "core/a.h"\n'})
 
     def test_relative_includes(self):
-        self.expect({"drives/drive.h": "", "fusion/filter.h": "", "fusion/a.cc": '#include "../sim/drive.h"\n',
+        self.expect({"sim/drive.h": "", "fusion/filter.h": "", "fusion/a.cc": '#include "../sim/drive.h"\n',
                      "fusion/b.cc": '#include "filter.h"\n', "fusion/c.cc": '#include "fusion/../sim/drive.h"\n',
                      "fusion/d.cc": '#include "./filter.h"\n', "fusion/e.cc": '#include "fusion//filter.h"\n'},
                     *(f"fusion/{name}.cc: " for name in "abcde"))
 
     def test_own_headers_in_angle_brackets(self):
-        self.expect({"drives/drive.h": "", "fusion/a.cc": "#include <drives/drive.h>\n",
+        self.expect({"sim/drive.h": "", "fusion/a.cc": "#include <sim/drive.h>\n",
                      "fusion/b.cc": "#include <../sim/drive.h>\n", "fusion/c.cc": "#include <sim/absent.h>\n"},
                     *(f"fusion/{name}.cc: " for name in "abc"))
 
     def test_spellings_of_the_directive(self):
-        for spelling in ('#include"drives/drive.h"', '  #  include   "drives/drive.h"', '#include /* why */ "drives/drive.h"',
-                         '#inc\\\nlude "drives/drive.h"', '#include \\\n"drives/drive.h"', '#include_next "drives/drive.h"',
-                         '#import "drives/drive.h"', '/* a */ #include "drives/drive.h" // b', '%:include "drives/drive.h"',
-                         'const char* a = "/*";\n#include "drives/drive.h"\nconst char* b = "*/";',
-                         'const char* a = R"(/*)";\n#include "drives/drive.h"\n// */',
-                         "#define DRIVE \"drives/drive.h\"\n#include DRIVE"):
+        for spelling in ('#include"sim/drive.h"', '  #  include   "sim/drive.h"', '#include /* why */ "sim/drive.h"',
+                         '#inc\\\nlude "sim/drive.h"', '#include \\\n"sim/drive.h"', '#include_next "sim/drive.h"',
+                         '#import "sim/drive.h"', '/* a */ #include "sim/drive.h" // b', '%:include "sim/drive.h"',
+                         'const char* a = "/*";\n#include "sim/drive.h"\nconst char* b = "*/";',
+                         'const char* a = R"(/*)";\n#include "sim/drive.h"\n// */',
+                         "#define DRIVE \"sim/drive.h\"\n#include DRIVE"):
             with self.subTest(spelling):
-                self.expect({"drives/drive.h": "", "fusion/a.cc": spelling + "\n"}, "fusion/a.cc: ")
+                self.expect({"sim/drive.h": "", "fusion/a.cc": spelling + "\n"}, "fusion/a.cc: ")
 
     def test_what_only_looks_like_a_directive(self):
-        for text in ('// #include "drives/drive.h"', '/*\n#include "drives/drive.h"\n*/', 'const char* a = "#include";'):
+        for text in ('// #include "sim/drive.h"', '/*\n#include "sim/drive.h"\n*/', 'const char* a = "#include";'):
             with self.subTest(text):
-                self.expect({"drives/drive.h": "", "fusion/a.cc": text + "\n"})
+                self.expect({"sim/drive.h": "", "fusion/a.cc": text + "\n"})
 
     def test_files_outside_the_rooms(self):
         self.expect({"extra/a.cc": "", "b.h": "", "docs/c.cc": ""}, "extra/a.cc: ", "b.h: ", "docs/c.cc: ")
 
     def test_nothing_hides_in_a_room(self):
-        self.expect({"drives/drive.h": "", "fusion/build/a.cc": '#include "drives/drive.h"\n',
-                     "fusion/.b/c.cc": '#include "drives/drive.h"\n'}, "fusion/build/a.cc: ", "fusion/.b/c.cc: ")
+        self.expect({"sim/drive.h": "", "fusion/build/a.cc": '#include "sim/drive.h"\n',
+                     "fusion/.b/c.cc": '#include "sim/drive.h"\n'}, "fusion/build/a.cc: ", "fusion/.b/c.cc: ")
 
     def test_sources_by_other_names(self):
-        self.expect({"drives/drive.h": "", "fusion/a.cpp": '#include "drives/drive.h"\n'},
+        self.expect({"sim/drive.h": "", "fusion/a.cpp": '#include "sim/drive.h"\n'},
                     "fusion/a.cpp: sources are .h and .cc", "fusion/a.cpp: fusion may not include sim")
         self.expect({"core/b.inl": "", "core/c.hpp": ""}, "core/b.inl: ", "core/c.hpp: ")
 
@@ -112,17 +124,63 @@ class CheckLayers(unittest.TestCase):
 
     def test_threads(self):
         for header in ("thread", "mutex", "atomic", "latch", "pthread.h"):
-            for allowed in ("nodes/runner/a.cc", "recording/log/writer.cc", "experiments/sweep.cc", "tests/a.cc"):
+            for allowed in ("nodes/runner/a.cc", "recording/writer.cc", "experiments/sweep.cc", "tests/a.cc"):
                 self.expect({allowed: f"#include <{header}>\n"})
-            for refused in ("nodes/a.cc", "nodes/runner_up.cc", "recording/log_writer_too.cc", "report/a.cc", "sim/a.cc"):
+            for refused in ("nodes/a.cc", "nodes/runner_up.cc", "recording/writer_too.cc", "report/a.cc", "sim/a.cc"):
                 if refused == "nodes/runner_up.cc" and header != "thread":
                     continue
                 self.expect({refused: f"#  include <{header}>\n"}, "threads live only")
 
     def test_a_circle_in_the_table(self):
-        self.assertEqual(check_layers.circles(check_layers.ALLOWED), [])
+        self.assertEqual(check_layers.circles(check_layers.read_house().allowed), [])
         self.assertEqual(len(check_layers.circles({"a": ["b"], "b": ["c"], "c": ["a"], "d": ["a"]})), 3)
         self.assertEqual(len(check_layers.circles({"a": ["a"]})), 1)
+
+    def test_sub_rooms_are_included_downwards(self):
+        table = {**ROOMS, "sub_rooms": {"schedules": ["model", "check"]}, "doors": {}}
+        self.expect({"schedules/model/a.h": "", "schedules/check/b.cc": '#include "schedules/model/a.h"\n'}, table=table)
+        self.expect({"schedules/check/a.h": "", "schedules/model/b.cc": '#include "schedules/check/a.h"\n'},
+                    "schedules/model may not include schedules/check", table=table)
+        self.expect({"schedules/check/deep/a.h": "", "schedules/check/b.h": '#include "schedules/check/deep/a.h"\n',
+                     "schedules/check/deep/c.cc": '#include "schedules/check/b.h"\n'}, table=table)
+        self.expect({"schedules/new/a.cc": ""}, "schedules/new is no sub-room", table=table)
+
+    def test_doors(self):
+        table = {**ROOMS, "sub_rooms": {"fusion": ["filters", "tracks"]}, "doors": {"fusion/filters": ["kalman.h"]}}
+        house = {"fusion/filters/kalman.h": '#include "fusion/filters/inner.h"\n', "fusion/filters/inner.h": ""}
+        self.expect({**house, "fusion/tracks/a.cc": '#include "fusion/filters/kalman.h"\n',
+                     "tests/fusion/filters/b.cc": '#include "fusion/filters/inner.h"\n'}, table=table)
+        for name in ("fusion/tracks/a.cc", "nodes/a.cc"):
+            self.expect({**house, name: '#include "fusion/filters/inner.h"\n'},
+                        '"fusion/filters/inner.h" is no door of fusion/filters', table=table)
+
+    def test_a_folder_with_many_sources(self):
+        files = {f"sim/a{number}.cc": "" for number in range(26)}
+        self.expect(files, "sim: 26 sources in a folder")
+        self.expect(files, table={**ROOMS, "more_than_25_sources": {"sim": "a reason"}})
+        self.expect({"sim/a.cc": ""}, "sim needs no reason", table={**ROOMS, "more_than_25_sources": {"sim": "a reason"}})
+
+    def test_namespaces_are_paths(self):
+        def source(space, body="int a();"):
+            return f"namespace {space} {{\n{body}\n}}  // namespace {space}\n"
+
+        defined = "int a() { return 1; }"
+        self.expect({"core/a.h": source("ttf"), "bus/wire/a.h": source("ttf::bus::wire", defined),
+                     "tests/bus/wire/a.cc": source("ttf::bus::wire", defined), "tests/laws/a.h": source("ttf::laws", defined),
+                     "sim/a.h": source("ttf::bus::wire", "struct Frame;") + source("ttf::sim", defined)})
+        self.expect({"bus/wire/a.h": source("ttf::wire", defined)}, "namespace ttf::wire is not its path's")
+        self.expect({"tests/bus/wire/a.cc": source("ttf::bus", defined)}, "namespace ttf::bus is not its path's")
+
+    def test_tests_mirror_rooms(self):
+        self.expect({"tests/bus/wire/a.cc": "", "tests/sim/some_kind/a.cc": "", "tests/support/a.h": ""})
+        self.expect({"tests/wires/a.cc": ""}, "tests/wires: mirrors no room")
+
+    def test_this_house_stands(self):
+        top = pathlib.Path(__file__).resolve().parents[2]
+        house = check_layers.read_house()
+        for sub_room, doors in house.doors.items():
+            for door in doors:
+                self.assertTrue((top / sub_room / door).is_file(), f"{sub_room}/{door}")
 
 
 if __name__ == "__main__":

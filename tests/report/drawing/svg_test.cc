@@ -34,13 +34,6 @@ std::string bytes_of(const std::string& path) {
 }
 }  // namespace
 
-void expect_renders(const std::string& svg) {
-  const std::string path = scratch("judge.png");
-  EXPECT_NO_THROW(write_picture(svg, path));
-  EXPECT_GT(std::filesystem::file_size(path), 500u);
-  std::filesystem::remove(path);
-}
-
 namespace {
 
 TEST(Svg, NumbersAreShortAndNeverMinusZero) {
