@@ -241,7 +241,7 @@ expect 0 '"can_frames": [1-9]' export "$work/a/tt.mcap" --format candump --json 
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format csv -o "$work/drive.csv"
 expect 0 '"flows": [1-9]' export "$work/a/tt.mcap" --format perfetto --json -o "$work/drive.pftrace"
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format perfetto -o "$work/cut.pftrace"
-protoc --decode=ttfusion.perfetto.Trace -I "$source/recording" "$source/recording/perfetto.proto" \
+protoc --decode=ttfusion.perfetto.Trace -I "$source/recording/exports" "$source/recording/exports/perfetto.proto" \
   <"$work/drive.pftrace" |
   grep -q 'name: "age of the newest measurement when used \[ms\]"' || fail "export --format perfetto leaves no trace"
 # As others read it, by Perfetto's own numbers: sound, and with all that the export says it wrote.
