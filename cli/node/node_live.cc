@@ -181,7 +181,7 @@ int run_node_live(const NodeOptions& options) {
     if (topics) topics->health(health, config.clock.drive_time(at));
   });
   // Behind the making of all other threads, which are not to have it.
-  const auto not_granted = nodes::runner::ask_for_real_time(index_of(options.node), set.cluster.nodes.size());
+  const auto not_granted = nodes::runner::ask_for_thread_privileges(index_of(options.node), set.cluster.nodes.size());
   if (supervisor)
     supervisor->health({{"not_granted", not_granted}});
   else

@@ -32,9 +32,9 @@ Microticks reach_of(const schedules::model::GlobalParameters& g, const schedules
 
 }  // namespace
 
-Arrivals::Arrivals(const schedules::model::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events)
+ArrivalWindow::ArrivalWindow(const schedules::model::Cluster& cluster, NodeId node, Width width, ArrivalEvents& events)
     : cluster_(cluster), parameters_(cluster.node(node).flexray ? &*cluster.node(node).flexray : nullptr),
-      slots_(cluster, node), window_(window), events_(events), pool_(kMost) {
+      slots_(cluster, node), width_(width), events_(events), pool_(kMost) {
   if (parameters_ != nullptr) reach_ = reach_of(cluster.flexray, *parameters_);
   free_.reserve(kMost);
   used_.reserve(kMost);
@@ -43,8 +43,8 @@ Arrivals::Arrivals(const schedules::model::Cluster& cluster, NodeId node, Window
   for (auto& slots : heard_) slots.assign(static_cast<std::size_t>(cluster.flexray.gNumberOfStaticSlots), kNotHeard);
 }
 
-void Arrivals::arrive(const bus::ports::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
-                      Microticks duration, const timebase::CycleClock* clock) {
+void ArrivalWindow::arrive(const bus::ports::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
+                           Microticks duration, const timebase::CycleClock* clock) {
   if (arrival.kind == Kind::kFollowUp) return follow_up(arrival, late.value_or(Microticks{}), clock);
   if (free_.empty()) {
     ++dropped_;
@@ -85,7 +85,8 @@ void Arrivals::arrive(const bus::ports::LiveArrival& arrival, Microticks at, std
   used_.push_back(index);
 }
 
-void Arrivals::follow_up(const bus::ports::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock) {
+void ArrivalWindow::follow_up(const bus::ports::LiveArrival& arrival, Microticks late,
+                              const timebase::CycleClock* clock) {
   for (std::size_t i = 0; i < used_.size(); ++i) {
     Held& held = pool_[used_[i]];
     if (held.kind != Kind::kFlexRay || held.placed || held.late || held.channel != arrival.signal.channel ||
@@ -99,18 +100,18 @@ void Arrivals::follow_up(const bus::ports::LiveArrival& arrival, Microticks late
   }
 }
 
-Microticks Arrivals::length_of(const Held& frame) const {
+Microticks ArrivalWindow::length_of(const Held& frame) const {
   return bits(cluster_.flexray, *parameters_,
               schedules::model::frame_bits(cluster_.flexray, bus::wire::words_in_frame(frame.size)));
 }
 
-void Arrivals::place_raw(Held& held, Microticks length) {
+void ArrivalWindow::place_raw(Held& held, Microticks length) {
   held.start = held.at - held.late.value_or(Microticks{});
   held.end = held.due = held.start + length;
   held.placed = true;
 }
 
-bool Arrivals::place(Held& held, const timebase::CycleClock* clock) {
+bool ArrivalWindow::place(Held& held, const timebase::CycleClock* clock) {
   const schedules::model::GlobalParameters& g = cluster_.flexray;
   const std::span<const std::byte> bytes = std::span<const std::byte>(held.bytes).first(held.size);
   const auto header = bus::wire::header_of(bytes);
@@ -121,7 +122,7 @@ bool Arrivals::place(Held& held, const timebase::CycleClock* clock) {
     // Until its follow-up comes, or comes no more.
     held.awaits_follow_up = true;
     held.placed = false;
-    held.due = held.at + window_.late;
+    held.due = held.at + width_.late;
     return true;
   }
   held.awaits_follow_up = false;
@@ -140,8 +141,8 @@ bool Arrivals::place(Held& held, const timebase::CycleClock* clock) {
   return place_in_slot(held, *header, *clock, length);
 }
 
-bool Arrivals::place_in_slot(Held& held, const bus::wire::FrameHeader& header, const timebase::CycleClock& clock,
-                             Microticks length) {
+bool ArrivalWindow::place_in_slot(Held& held, const bus::wire::FrameHeader& header, const timebase::CycleClock& clock,
+                                  Microticks length) {
   const schedules::model::GlobalParameters& g = cluster_.flexray;
   const std::int64_t round = g.gCycleCountMax + 1;
   const Macroticks action_point{static_cast<std::int64_t>(held.slot - 1) * g.gdStaticSlot + g.gdActionPointOffset};
@@ -166,7 +167,7 @@ bool Arrivals::place_in_slot(Held& held, const bus::wire::FrameHeader& header, c
   const Microticks behind = held.at - expected;
   count_gap(cycle, held.slot, held.channel);
   events_.arrived(behind);
-  if (ahead < 0 || behind > window_.late || behind < -window_.early) {
+  if (ahead < 0 || behind > width_.late || behind < -width_.early) {
     events_.missed_window(cycle, held.slot, held.channel, behind);
     return false;
   }
@@ -181,8 +182,8 @@ bool Arrivals::place_in_slot(Held& held, const bus::wire::FrameHeader& header, c
 }
 
 // Offsets are measured in odd cycles, rates as what an odd cycle's deviation is more than that of the even one before.
-Microticks Arrivals::within_reach(Microticks deviation, std::int64_t cycle, int slot,
-                                  schedules::model::Channel channel) {
+Microticks ArrivalWindow::within_reach(Microticks deviation, std::int64_t cycle, int slot,
+                                       schedules::model::Channel channel) {
   Deviation& last = deviations_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
   const bool second = cycle % 2 == 1 && last.cycle == cycle - 1;
   const Microticks most = reach_ - Microticks{reach_.value / 8};
@@ -192,7 +193,7 @@ Microticks Arrivals::within_reach(Microticks deviation, std::int64_t cycle, int 
   return put;
 }
 
-void Arrivals::count_gap(std::int64_t cycle, int slot, schedules::model::Channel channel) {
+void ArrivalWindow::count_gap(std::int64_t cycle, int slot, schedules::model::Channel channel) {
   std::int64_t& last = heard_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
   const std::int64_t before = std::exchange(last, std::max(last, cycle));
   if (before == kNotHeard || cycle - before > kLongestGap) return;
@@ -203,18 +204,18 @@ void Arrivals::count_gap(std::int64_t cycle, int slot, schedules::model::Channel
   if (lost > 0) events_.lost(cycle, slot, channel, lost);
 }
 
-void Arrivals::drop(std::size_t place) {
+void ArrivalWindow::drop(std::size_t place) {
   free_.push_back(used_[place]);
   used_.erase(used_.begin() + static_cast<std::ptrdiff_t>(place));
 }
 
-Microticks Arrivals::next() const {
+Microticks ArrivalWindow::next() const {
   Microticks next = kNotDue;
   for (const std::uint16_t index : used_) next = std::min(next, pool_[index].due);
   return next;
 }
 
-std::optional<Arrivals::Due> Arrivals::take(Microticks now, const timebase::CycleClock* clock) {
+std::optional<ArrivalWindow::Due> ArrivalWindow::take(Microticks now, const timebase::CycleClock* clock) {
   if (handed_over_) free_.push_back(*handed_over_);
   handed_over_.reset();
   while (!used_.empty()) {
@@ -259,7 +260,7 @@ std::optional<Arrivals::Due> Arrivals::take(Microticks now, const timebase::Cycl
   return std::nullopt;
 }
 
-bool Arrivals::carrier(schedules::model::Channel channel, Microticks now) const {
+bool ArrivalWindow::carrier(schedules::model::Channel channel, Microticks now) const {
   return std::any_of(used_.begin(), used_.end(), [&](std::uint16_t index) {
     const Held& held = pool_[index];
     return held.kind == Kind::kFlexRay && held.placed && held.channel == channel && held.start <= now && held.due > now;

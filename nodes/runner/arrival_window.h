@@ -2,8 +2,9 @@
 // instants.
 //
 // FlexRay's own windows are microseconds; an ordinary kernel wakes a sender up later than that. So a medium in real
-// time has an arrival window of its own (schedules::ArrivalWindow), and this is who judges it. A frame of the static
-// segment says which slot it is of, and of which cycle. Within its window it is handed over where FlexRay expects it:
+// time has an arrival window of its own (schedules::model::ArrivalWindow), and this is who judges it. A frame of the
+// static segment says which slot it is of, and of which cycle. Within its window it is handed over where FlexRay
+// expects it:
 //
 //   a sync frame        at the instant it would have come at had its sender been in time: arrival less what the sender
 //                       says it left late by; so clock synchronisation measures clocks, not kernels. Never further from
@@ -52,15 +53,15 @@ class ArrivalEvents {
   }
 };
 
-class Arrivals {
+class ArrivalWindow {
  public:
   static constexpr std::int64_t kLongestGap = 64;
   static constexpr std::size_t kMost = 1024;  // held at a time
 
-  struct Window {
+  struct Width {
     Microticks early{}, late{};
   };
-  Arrivals(const schedules::model::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events);
+  ArrivalWindow(const schedules::model::Cluster& cluster, NodeId node, Width width, ArrivalEvents& events);
 
   // `at`: of the arrival, in this node's microticks. `late`: the same of what it says it left late by. `duration`: of a
   // symbol. `clock`: the controller's, null while it has none.
@@ -84,7 +85,7 @@ class Arrivals {
   bool carrier(schedules::model::Channel channel, Microticks now) const;
   // How long after its end a frame in its window may still be handed over: it comes late, and its follow-up as late
   // again.
-  Microticks handed_over_within() const { return {2 * window_.late.value}; }
+  Microticks handed_over_within() const { return {2 * width_.late.value}; }
   std::uint64_t held() const { return used_.size(); }
   // There was no room for them.
   std::uint64_t dropped() const { return dropped_; }
@@ -121,7 +122,7 @@ class Arrivals {
   const schedules::model::Cluster& cluster_;
   const schedules::model::NodeParameters* parameters_;  // null: off FlexRay
   const bus::controller::SlotTable slots_;
-  const Window window_;
+  const Width width_;
   ArrivalEvents& events_;
   Microticks reach_{};  // a sync frame's from its action point, at most
   struct Deviation {

@@ -3,9 +3,9 @@
 namespace ttf::nodes::runner {
 
 LiveFlexRay::LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest,
-                         bus::ports::LiveMedium& medium, const Arrivals& arrivals, TimingAccount& account)
-    : clock_(clock), oscillator_(oscillator), latest_(latest), medium_(medium), arrivals_(arrivals), account_(account) {
-}
+                         bus::ports::LiveMedium& medium, const ArrivalWindow& arrival_window, TimingAccount& account)
+    : clock_(clock), oscillator_(oscillator), latest_(latest), medium_(medium), arrival_window_(arrival_window),
+      account_(account) {}
 
 bool LiveFlexRay::may_leave(schedules::model::Channel channel, int slot, Microticks start) {
   const Duration late = bus::ports::host_now() - due(start);

@@ -22,12 +22,12 @@ class LiveFlexRay final : public bus::ports::FlexRayPort {
  public:
   // `latest`: behind the action point, in real time.
   LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest,
-              bus::ports::LiveMedium& medium, const Arrivals& arrivals, TimingAccount& account);
+              bus::ports::LiveMedium& medium, const ArrivalWindow& arrival_window, TimingAccount& account);
 
   bool may_leave(schedules::model::Channel channel, int slot, Microticks start) override;
   void transmit(const bus::ports::Transmission& transmission) override;
-  Microticks handed_over_within() const override { return arrivals_.handed_over_within(); }
-  bool carrier(schedules::model::Channel channel) const override { return arrivals_.carrier(channel, now_); }
+  Microticks handed_over_within() const override { return arrival_window_.handed_over_within(); }
+  bool carrier(schedules::model::Channel channel) const override { return arrival_window_.carrier(channel, now_); }
 
   // The node's instant, as of everything that is asked until the next one.
   void set_now(Microticks now) { now_ = now; }
@@ -41,7 +41,7 @@ class LiveFlexRay final : public bus::ports::FlexRayPort {
   const timebase::Oscillator& oscillator_;
   const Duration latest_;
   bus::ports::LiveMedium& medium_;
-  const Arrivals& arrivals_;
+  const ArrivalWindow& arrival_window_;
   TimingAccount& account_;
   Microticks now_{};
   const bus::controller::FlexRayController* controller_ = nullptr;

@@ -58,11 +58,11 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Ste
           host::drawn_oscillator(cluster_.node(config.node), index_of(config.node), config.seed, config.replication)),
       medium_(medium), watch_(std::make_unique<Watch>()),
       account_([this](Microticks at) { return executive_->stamp(at); }, sink),
-      arrivals_(cluster_, config.node,
-                {ticks(config.clock.in_drive(cluster_.arrival_window->early)),
-                 ticks(config.clock.in_drive(cluster_.arrival_window->late))},
-                *this),
-      flexray_(config_.clock, oscillator_, cluster_.arrival_window->late, medium, arrivals_, account_),
+      arrival_window_(cluster_, config.node,
+                      {ticks(config.clock.in_drive(cluster_.arrival_window->early)),
+                       ticks(config.clock.in_drive(cluster_.arrival_window->late))},
+                      *this),
+      flexray_(config_.clock, oscillator_, cluster_.arrival_window->late, medium, arrival_window_, account_),
       floor_(kFloorPeriod, config.clock.next_turn(kFloorPeriod, kFloorPhase, bus::ports::host_now())),
       wake_up_(2 + cluster_.can_buses.size() + 1) {
   const schedules::model::Node& node = cluster_.node(config.node);
@@ -150,12 +150,12 @@ void Runner::take_in() {
     if (arrival->at < powered_on_) continue;  // who has no power yet hears nothing
     std::optional<Microticks> late;
     if (arrival->late) late = ticks(config_.clock.in_drive(*arrival->late));
-    arrivals_.arrive(*arrival, ticks(config_.clock.drive_time(arrival->at)), late,
-                     ticks(config_.clock.in_drive(arrival->signal.duration)), schedule());
+    arrival_window_.arrive(*arrival, ticks(config_.clock.drive_time(arrival->at)), late,
+                           ticks(config_.clock.in_drive(arrival->signal.duration)), schedule());
   }
 }
 
-void Runner::hand_over(const Arrivals::Due& due) {
+void Runner::hand_over(const ArrivalWindow::Due& due) {
   if (due.kind == bus::ports::LiveArrival::Kind::kFlexRay) return executive_->receive(due.reception);
   for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
     const auto sensor = static_cast<SensorId>(s);
@@ -184,7 +184,7 @@ void Runner::leave(std::size_t can_bus) {
 }
 
 Microticks Runner::next_due() const {
-  Microticks next = std::min({executive_->next_event(), arrivals_.next(), tries_again_});
+  Microticks next = std::min({executive_->next_event(), arrival_window_.next(), tries_again_});
   for (const auto& can : cans_)
     if (can && can->next() < config_.end) next = std::min(next, ticks(can->next()) + Microticks{1});
   return next;
@@ -197,7 +197,7 @@ void Runner::do_due(Microticks now) {
     if (++done % kDoneBetweenLooks == 0 && readable(config_.stop_descriptor)) return;
     last_ = std::max(last_, next);
     flexray_.set_now(last_);
-    if (const auto due = arrivals_.take(last_, schedule())) {
+    if (const auto due = arrival_window_.take(last_, schedule())) {
       hand_over(*due);
     } else if (const auto can = std::find_if(cans_.begin(), cans_.end(),
                                              [this](const auto& one) { return one && ticks(one->next()) < last_; });
@@ -267,7 +267,7 @@ void Runner::tell_health() {
 }
 
 std::uint64_t Runner::dropped() const {
-  std::uint64_t dropped = arrivals_.dropped();
+  std::uint64_t dropped = arrival_window_.dropped();
   for (const auto& can : cans_)
     if (can) dropped += can->dropped();
   return dropped;

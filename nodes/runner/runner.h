@@ -82,7 +82,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   ~Runner() override;
 
   // About once a second of real time, where nothing is due at once.
-  void on_health(std::function<void(const ttf::nodes::runner::Health&)> hear) { on_health_ = std::move(hear); }
+  void on_health(std::function<void(const Health&)> hear) { on_health_ = std::move(hear); }
   RunnerEnd run();
 
   Health health() const;
@@ -111,7 +111,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   // What a host does: a controller that has halted is started anew, and one whose coldstart attempts are exhausted when
   // it has listened for kCyclesUntilAnew: where all nodes only listen for others nobody would ever start the cluster.
   void look_after_controller();
-  void hand_over(const Arrivals::Due& due);
+  void hand_over(const ArrivalWindow::Due& due);
   void leave(std::size_t can_bus);
   Microticks next_due() const;
   void watch_lines();
@@ -126,7 +126,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   bus::ports::LiveMedium& medium_;
   std::unique_ptr<Watch> watch_;  // the sink, with what is seen on the way to it
   TimingAccount account_;
-  Arrivals arrivals_;
+  ArrivalWindow arrival_window_;
   LiveFlexRay flexray_;
   std::vector<std::unique_ptr<PacedCan>> cans_;         // by CAN, null where the node is not on it
   std::vector<std::optional<std::size_t>> sensor_can_;  // by sensor, the CAN of its lines
@@ -138,7 +138,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   bool listens_ = false;                                              // FlexRay lines are watched
   Microticks tries_again_{std::numeric_limits<std::int64_t>::max()};  // at a coldstart, if it still may only listen
   bus::ports::HostTime health_due_{};
-  std::function<void(const ttf::nodes::runner::Health&)> on_health_;
+  std::function<void(const Health&)> on_health_;
 };
 
 }  // namespace ttf::nodes::runner
