@@ -33,6 +33,7 @@
 #include "bus/ports/flexray_port.h"
 #include "bus/ports/live_medium.h"
 #include "core/time.h"
+#include "nodes/runner/held_stage.h"
 #include "schedules/model/cluster.h"
 #include "timebase/cycle_clock.h"
 
@@ -95,28 +96,37 @@ class ArrivalWindow {
     bus::ports::LiveArrival::Kind kind{};
     bus::ports::Signal signal{};
     schedules::model::Channel channel{};
+    HeldStage stage{};
     std::uint64_t order = 0;
     Microticks at{}, due{};
     std::optional<Microticks> late;
-    bool awaits_follow_up = false;
-    bool placed = false;
-    Microticks start{}, end{};
+    Microticks start{}, end{};  // once it is placed
     int slot = 0;
     std::size_t can_bus = 0;
     std::uint32_t identifier = 0;
     bool flexible_data_rate = false;
     std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
     std::size_t size = 0;
+
+    std::span<const std::byte> content() const { return std::span<const std::byte>(bytes).first(size); }
+  };
+  // What a frame that is to be placed is found to be.
+  struct Found {
+    HeldEvent event{};
+    // In or outside its window:
+    bool sync = false;
+    std::int64_t cycle = 0;
+    Microticks expected{}, behind{};  // at the action point of its slot, and so much later
   };
   void follow_up(const bus::ports::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock);
-  // False: it is not to be handed over.
-  bool place(Held& held, const timebase::CycleClock* clock);
+  Found find(const Held& frame, const timebase::CycleClock* clock) const;
+  void place(Held& frame, const Found& found, const timebase::CycleClock* clock);
+  void place_as_it_came(Held& held, Microticks length);
+  void place_in_slot(Held& frame, const Found& found);
   Microticks length_of(const Held& frame) const;
-  void place_raw(Held& held, Microticks length);
-  bool place_in_slot(Held& held, const bus::wire::FrameHeader& header, const timebase::CycleClock& clock,
-                     Microticks length);
   Microticks within_reach(Microticks deviation, std::int64_t cycle, int slot, schedules::model::Channel channel);
   void count_gap(std::int64_t cycle, int slot, schedules::model::Channel channel);
+  void forget_cycles();
   void drop(std::size_t place);  // in used_
 
   const schedules::model::Cluster& cluster_;
