@@ -25,6 +25,7 @@
 #include "drives/step_catalog.h"
 #include "drives/surroundings.h"
 #include "nodes/runner/health_teller.h"
+#include "nodes/runner/kernel_clock.h"
 #include "nodes/runner/runner.h"
 #include "nodes/runner/thread_privileges.h"
 #include "recording/records/tee.h"
@@ -187,7 +188,8 @@ int run_node_live(const NodeOptions& options) {
   else
     print_warnings(not_granted);
 
-  nodes::runner::Runner node(config, std::move(steps), *medium, tee);
+  nodes::runner::KernelClock host_clock(config.clock);
+  nodes::runner::Runner node(config, std::move(steps), *medium, host_clock, tee);
   node.on_health([&teller](const Health& health) { teller.hand_over(health); });
   const nodes::runner::RunnerEnd end = node.run();
   teller.close();

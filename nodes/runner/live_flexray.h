@@ -13,6 +13,7 @@
 #include "bus/ports/live_medium.h"
 #include "nodes/runner/arrival_window.h"
 #include "nodes/runner/drive_clock.h"
+#include "nodes/runner/host_clock.h"
 #include "nodes/runner/timing_account.h"
 #include "timebase/oscillator.h"
 
@@ -21,8 +22,9 @@ namespace ttf::nodes::runner {
 class LiveFlexRay final : public bus::ports::FlexRayPort {
  public:
   // `latest`: behind the action point, in real time.
-  LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest,
-              bus::ports::LiveMedium& medium, const ArrivalWindow& arrival_window, TimingAccount& account);
+  LiveFlexRay(const DriveClock& clock, const HostClock& host_clock, const timebase::Oscillator& oscillator,
+              Duration latest, bus::ports::LiveMedium& medium, const ArrivalWindow& arrival_window,
+              TimingAccount& account);
 
   bool may_leave(schedules::model::Channel channel, int slot, Microticks start) override;
   void transmit(const bus::ports::Transmission& transmission) override;
@@ -38,6 +40,7 @@ class LiveFlexRay final : public bus::ports::FlexRayPort {
   bus::ports::HostTime due(Microticks start) const { return clock_.host_time(oscillator_.time_of(start)); }
 
   const DriveClock& clock_;
+  const HostClock& host_clock_;
   const timebase::Oscillator& oscillator_;
   const Duration latest_;
   bus::ports::LiveMedium& medium_;
