@@ -1,6 +1,5 @@
-// The way of an arrival that is held, from its coming to its going: (stage, event) -> next stage, every pair listed in
-// held_stage.cc. Pure: whoever holds it (nodes/runner/arrival_window.h) finds the events and does what follows from
-// them.
+// What becomes of an arrival that is held, as a pure step: (stage, event) -> next stage, every pair listed in
+// held_stage.cc. The arrival window (nodes/runner/arrival_window.h) finds the events and does what follows from them.
 //
 //                     lateness unknown                  of the next cycle
 //   arrived ---------------------------> awaits follow-up -----> awaits its cycle
