@@ -25,6 +25,7 @@
 #include "drives/step_catalog.h"
 #include "drives/surroundings.h"
 #include "nodes/runner/health_teller.h"
+#include "nodes/runner/kernel_clock.h"
 #include "nodes/runner/runner.h"
 #include "nodes/runner/thread_privileges.h"
 #include "recording/records/tee.h"
@@ -181,13 +182,14 @@ int run_node_live(const NodeOptions& options) {
     if (topics) topics->health(health, config.clock.drive_time(at));
   });
   // Behind the making of all other threads, which are not to have it.
-  const auto not_granted = nodes::runner::ask_for_real_time(index_of(options.node), set.cluster.nodes.size());
+  const auto not_granted = nodes::runner::ask_for_thread_privileges(index_of(options.node), set.cluster.nodes.size());
   if (supervisor)
     supervisor->health({{"not_granted", not_granted}});
   else
     print_warnings(not_granted);
 
-  nodes::runner::Runner node(config, std::move(steps), *medium, tee);
+  nodes::runner::KernelClock host_clock(config.clock);
+  nodes::runner::Runner node(config, std::move(steps), *medium, host_clock, tee);
   node.on_health([&teller](const Health& health) { teller.hand_over(health); });
   const nodes::runner::RunnerEnd end = node.run();
   teller.close();

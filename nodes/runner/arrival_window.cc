@@ -30,11 +30,17 @@ Microticks reach_of(const schedules::model::GlobalParameters& g, const schedules
                                               static_cast<std::int64_t>(p.pOffsetCorrectionOut)}))};
 }
 
+HeldStage after(HeldStage stage, HeldEvent event) {
+  const auto next = next_stage(stage, event);
+  TTF_CHECK(next.has_value(), "event {} in stage {}", static_cast<int>(event), static_cast<int>(stage));
+  return *next;
+}
+
 }  // namespace
 
-Arrivals::Arrivals(const schedules::model::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events)
+ArrivalWindow::ArrivalWindow(const schedules::model::Cluster& cluster, NodeId node, Width width, ArrivalEvents& events)
     : cluster_(cluster), parameters_(cluster.node(node).flexray ? &*cluster.node(node).flexray : nullptr),
-      slots_(cluster, node), window_(window), events_(events), pool_(kMost) {
+      slots_(cluster, node), width_(width), events_(events), pool_(kMost) {
   if (parameters_ != nullptr) reach_ = reach_of(cluster.flexray, *parameters_);
   free_.reserve(kMost);
   used_.reserve(kMost);
@@ -43,8 +49,8 @@ Arrivals::Arrivals(const schedules::model::Cluster& cluster, NodeId node, Window
   for (auto& slots : heard_) slots.assign(static_cast<std::size_t>(cluster.flexray.gNumberOfStaticSlots), kNotHeard);
 }
 
-void Arrivals::arrive(const bus::ports::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
-                      Microticks duration, const timebase::CycleClock* clock) {
+void ArrivalWindow::arrive(const bus::ports::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
+                           Microticks duration, const timebase::CycleClock* clock) {
   if (arrival.kind == Kind::kFollowUp) return follow_up(arrival, late.value_or(Microticks{}), clock);
   if (free_.empty()) {
     ++dropped_;
@@ -56,8 +62,7 @@ void Arrivals::arrive(const bus::ports::LiveArrival& arrival, Microticks at, std
   held.order = order_++;
   held.at = held.due = at;
   held.late = late;
-  held.placed = true;
-  held.awaits_follow_up = false;
+  held.stage = HeldStage::kPlaced;
   std::span<const std::byte> bytes;
   if (arrival.kind == Kind::kCan) {
     held.can_bus = arrival.can_bus;
@@ -77,112 +82,105 @@ void Arrivals::arrive(const bus::ports::LiveArrival& arrival, Microticks at, std
     if (parameters_ == nullptr) return;
     // A frame is placed when the node has got to the instant of its arrival: what its clock shows then is known then.
     if (held.signal == bus::ports::Signal::kFrame)
-      held.placed = false;
+      held.stage = HeldStage::kArrived;
     else
-      place_raw(held, duration);
+      place_as_it_came(held, duration);
   }
   free_.pop_back();
   used_.push_back(index);
 }
 
-void Arrivals::follow_up(const bus::ports::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock) {
+void ArrivalWindow::follow_up(const bus::ports::LiveArrival& arrival, Microticks late,
+                              const timebase::CycleClock* clock) {
   for (std::size_t i = 0; i < used_.size(); ++i) {
     Held& held = pool_[used_[i]];
-    if (held.kind != Kind::kFlexRay || held.placed || held.late || held.channel != arrival.signal.channel ||
-        held.slot != arrival.signal.slot)
+    if (held.kind != Kind::kFlexRay || held.stage == HeldStage::kPlaced || held.late ||
+        held.channel != arrival.signal.channel || held.slot != arrival.signal.slot)
       continue;
-    const auto header = bus::wire::header_of(std::span(held.bytes).first(held.size));
+    const auto header = bus::wire::header_of(held.content());
     if (!header || header->cycle != arrival.cycle_counter) continue;
     held.late = late;
-    if (held.awaits_follow_up && !place(held, clock)) drop(i);
+    const bool awaited = held.stage == HeldStage::kAwaitsFollowUp;
+    held.stage = after(held.stage, HeldEvent::kFollowUp);
+    if (awaited) place(held, find(held, clock), clock);
+    if (held.stage == HeldStage::kRefused) drop(i);
     return;
   }
 }
 
-Microticks Arrivals::length_of(const Held& frame) const {
+Microticks ArrivalWindow::length_of(const Held& frame) const {
   return bits(cluster_.flexray, *parameters_,
               schedules::model::frame_bits(cluster_.flexray, bus::wire::words_in_frame(frame.size)));
 }
 
-void Arrivals::place_raw(Held& held, Microticks length) {
-  held.start = held.at - held.late.value_or(Microticks{});
-  held.end = held.due = held.start + length;
-  held.placed = true;
-}
-
-bool Arrivals::place(Held& held, const timebase::CycleClock* clock) {
+ArrivalWindow::Found ArrivalWindow::find(const Held& frame, const timebase::CycleClock* clock) const {
   const schedules::model::GlobalParameters& g = cluster_.flexray;
-  const std::span<const std::byte> bytes = std::span<const std::byte>(held.bytes).first(held.size);
-  const auto header = bus::wire::header_of(bytes);
-  const Microticks length = length_of(held);
-  const bool known = header && bus::wire::header_crc_holds(*header) && header->frame_id == held.slot &&
-                     held.slot >= 1 && held.slot <= g.gNumberOfStaticSlots;
-  if (known && header->sync && !held.late && !held.awaits_follow_up) {
-    // Until its follow-up comes, or comes no more.
-    held.awaits_follow_up = true;
-    held.placed = false;
-    held.due = held.at + window_.late;
-    return true;
-  }
-  held.awaits_follow_up = false;
-  if (!known || clock == nullptr) {
-    // A clock that comes anew counts anew.
-    if (clock == nullptr)
-      for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
-        auto& heard = heard_[index_of(channel)];
-        auto& deviations = deviations_[index_of(channel)];
-        std::fill(heard.begin(), heard.end(), kNotHeard);
-        std::fill(deviations.begin(), deviations.end(), Deviation{});
-      }
-    place_raw(held, length);
-    return true;
-  }
-  return place_in_slot(held, *header, *clock, length);
-}
-
-bool Arrivals::place_in_slot(Held& held, const bus::wire::FrameHeader& header, const timebase::CycleClock& clock,
-                             Microticks length) {
-  const schedules::model::GlobalParameters& g = cluster_.flexray;
+  const auto header = bus::wire::header_of(frame.content());
+  const bool of_a_slot = header && bus::wire::header_crc_holds(*header) && header->frame_id == frame.slot &&
+                         frame.slot >= 1 && frame.slot <= g.gNumberOfStaticSlots;
+  if (!of_a_slot) return {HeldEvent::kWithoutSlot};
+  if (header->sync && !frame.late && frame.stage == HeldStage::kArrived) return {HeldEvent::kLatenessUnknown};
+  if (clock == nullptr) return {HeldEvent::kWithoutSlot};
   const std::int64_t round = g.gCycleCountMax + 1;
-  const Macroticks action_point{static_cast<std::int64_t>(held.slot - 1) * g.gdStaticSlot + g.gdActionPointOffset};
   // Of the cycles that it may be of the one nearest to where it came; the counter alone would take it for one of
   // a round before.
-  const std::int64_t passed = timebase::floor_div((held.at - clock.cycle_start()).value, parameters_->pMicroPerCycle);
-  std::int64_t off = (header.cycle - (clock.cycle() + passed) % round + 2 * round) % round;
+  const std::int64_t passed = timebase::floor_div((frame.at - clock->cycle_start()).value, parameters_->pMicroPerCycle);
+  std::int64_t off = (header->cycle - (clock->cycle() + passed) % round + 2 * round) % round;
   if (off > round / 2) off -= round;
   const std::int64_t ahead = passed + off;
-  if (ahead == 1) {
+  if (ahead == 1) return {HeldEvent::kOfNextCycle};
+  if (ahead > 1 || off > 1 || off < -1) return {HeldEvent::kWithoutSlot};  // the controller will say so
+  const Macroticks action_point{static_cast<std::int64_t>(frame.slot - 1) * g.gdStaticSlot + g.gdActionPointOffset};
+  Found found;
+  found.sync = header->sync;
+  found.cycle = clock->cycle() + ahead;
+  found.expected = clock->start_of(action_point) + Microticks{ahead * parameters_->pMicroPerCycle};
+  found.behind = frame.at - found.expected;
+  const bool in_window = ahead == 0 && found.behind <= width_.late && found.behind >= -width_.early;
+  found.event = in_window ? HeldEvent::kInWindow : HeldEvent::kOutsideWindow;
+  return found;
+}
+
+void ArrivalWindow::place(Held& frame, const Found& found, const timebase::CycleClock* clock) {
+  frame.stage = after(frame.stage, found.event);
+  switch (found.event) {
+    case HeldEvent::kLatenessUnknown: frame.due = frame.at + width_.late; break;
     // It waits behind the begin of its cycle, which comes when the clock says so by then.
-    held.placed = false;
-    held.due = clock.cycle_end() + Microticks{1};
-    return true;
+    case HeldEvent::kOfNextCycle: frame.due = clock->cycle_end() + Microticks{1}; break;
+    case HeldEvent::kInWindow:
+    case HeldEvent::kOutsideWindow: place_in_slot(frame, found); break;
+    case HeldEvent::kWithoutSlot:
+      if (clock == nullptr) forget_cycles();
+      place_as_it_came(frame, length_of(frame));
+      break;
+    case HeldEvent::kFollowUp:
+    case HeldEvent::kEnded:
+    case HeldEvent::kCycleOver: break;  // not what find() finds
   }
-  if (ahead > 1 || off > 1 || off < -1) {
-    place_raw(held, length);  // of no cycle that is near: the controller will say so
-    return true;
-  }
-  const std::int64_t cycle = clock.cycle() + ahead;
-  const Microticks expected = clock.start_of(action_point) + Microticks{ahead * parameters_->pMicroPerCycle};
-  const Microticks behind = held.at - expected;
-  count_gap(cycle, held.slot, held.channel);
-  events_.arrived(behind);
-  if (ahead < 0 || behind > window_.late || behind < -window_.early) {
-    events_.missed_window(cycle, held.slot, held.channel, behind);
-    return false;
-  }
-  const bool on_a = held.channel == schedules::model::Channel::kA;
+}
+
+void ArrivalWindow::place_as_it_came(Held& held, Microticks length) {
+  held.start = held.at - held.late.value_or(Microticks{});
+  held.end = held.due = held.start + length;
+}
+
+void ArrivalWindow::place_in_slot(Held& frame, const Found& found) {
+  count_gap(found.cycle, frame.slot, frame.channel);
+  events_.arrived(found.behind);
+  if (found.event == HeldEvent::kOutsideWindow)
+    return events_.missed_window(found.cycle, frame.slot, frame.channel, found.behind);
+  const bool on_a = frame.channel == schedules::model::Channel::kA;
   const Microticks travelled{on_a ? parameters_->pDelayCompensationA : parameters_->pDelayCompensationB};
   Microticks deviation{};
-  if (header.sync && held.late) deviation = within_reach(behind - *held.late, cycle, held.slot, held.channel);
-  held.start = expected + travelled + deviation;
-  held.end = held.due = held.start + length;
-  held.placed = true;
-  return true;
+  if (found.sync && frame.late)
+    deviation = within_reach(found.behind - *frame.late, found.cycle, frame.slot, frame.channel);
+  frame.start = found.expected + travelled + deviation;
+  frame.end = frame.due = frame.start + length_of(frame);
 }
 
 // Offsets are measured in odd cycles, rates as what an odd cycle's deviation is more than that of the even one before.
-Microticks Arrivals::within_reach(Microticks deviation, std::int64_t cycle, int slot,
-                                  schedules::model::Channel channel) {
+Microticks ArrivalWindow::within_reach(Microticks deviation, std::int64_t cycle, int slot,
+                                       schedules::model::Channel channel) {
   Deviation& last = deviations_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
   const bool second = cycle % 2 == 1 && last.cycle == cycle - 1;
   const Microticks most = reach_ - Microticks{reach_.value / 8};
@@ -192,7 +190,7 @@ Microticks Arrivals::within_reach(Microticks deviation, std::int64_t cycle, int 
   return put;
 }
 
-void Arrivals::count_gap(std::int64_t cycle, int slot, schedules::model::Channel channel) {
+void ArrivalWindow::count_gap(std::int64_t cycle, int slot, schedules::model::Channel channel) {
   std::int64_t& last = heard_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
   const std::int64_t before = std::exchange(last, std::max(last, cycle));
   if (before == kNotHeard || cycle - before > kLongestGap) return;
@@ -203,18 +201,24 @@ void Arrivals::count_gap(std::int64_t cycle, int slot, schedules::model::Channel
   if (lost > 0) events_.lost(cycle, slot, channel, lost);
 }
 
-void Arrivals::drop(std::size_t place) {
+// A clock that comes anew counts anew.
+void ArrivalWindow::forget_cycles() {
+  for (auto& heard : heard_) std::fill(heard.begin(), heard.end(), kNotHeard);
+  for (auto& deviations : deviations_) std::fill(deviations.begin(), deviations.end(), Deviation{});
+}
+
+void ArrivalWindow::drop(std::size_t place) {
   free_.push_back(used_[place]);
   used_.erase(used_.begin() + static_cast<std::ptrdiff_t>(place));
 }
 
-Microticks Arrivals::next() const {
+Microticks ArrivalWindow::next() const {
   Microticks next = kNotDue;
   for (const std::uint16_t index : used_) next = std::min(next, pool_[index].due);
   return next;
 }
 
-std::optional<Arrivals::Due> Arrivals::take(Microticks now, const timebase::CycleClock* clock) {
+std::optional<ArrivalWindow::Due> ArrivalWindow::take(Microticks now, const timebase::CycleClock* clock) {
   if (handed_over_) free_.push_back(*handed_over_);
   handed_over_.reset();
   while (!used_.empty()) {
@@ -223,29 +227,26 @@ std::optional<Arrivals::Due> Arrivals::take(Microticks now, const timebase::Cycl
     });
     Held& held = pool_[*first];
     if (held.due > now) return std::nullopt;
-    const auto place_in_used = static_cast<std::size_t>(first - used_.begin());
-    if (!held.placed) {
-      if (!place(held, clock)) {
-        drop(place_in_used);
-      } else if (!held.placed && !held.awaits_follow_up && held.due <= now) {
-        // By a clock whose cycle should be over, and is not: no use in waiting for the next.
-        place_raw(held, length_of(held));
-      }
-      continue;
-    }
-    // Placed before the node had this clock, or late: its cycle is over, and the controller knows no more of it.
-    if (held.kind == Kind::kFlexRay && clock != nullptr && held.end < clock->cycle_start()) {
-      if (held.signal == bus::ports::Signal::kFrame)
+    if (held.stage != HeldStage::kPlaced) {
+      Found found = find(held, clock);
+      // By a clock whose cycle should be over, and is not: no use in waiting for the next.
+      if (found.event == HeldEvent::kOfNextCycle && clock->cycle_end() < now) found.event = HeldEvent::kWithoutSlot;
+      place(held, found, clock);
+    } else {
+      // Placed before the node had this clock, or late: its cycle is over, and the controller knows no more of it.
+      const bool over = held.kind == Kind::kFlexRay && clock != nullptr && held.end < clock->cycle_start();
+      if (over && held.signal == bus::ports::Signal::kFrame)
         events_.missed_window(clock->cycle(), held.slot, held.channel, clock->cycle_start() - held.start);
-      drop(place_in_used);
-      continue;
+      held.stage = after(held.stage, over ? HeldEvent::kCycleOver : HeldEvent::kEnded);
     }
+    if (held.stage == HeldStage::kRefused) drop(static_cast<std::size_t>(first - used_.begin()));
+    if (held.stage != HeldStage::kHandedOver) continue;
     handed_over_ = *first;
     used_.erase(first);
     Due due;
     due.kind = held.kind;
     due.at = held.at;
-    const std::span<const std::byte> bytes = std::span<const std::byte>(held.bytes).first(held.size);
+    const std::span<const std::byte> bytes = held.content();
     if (held.kind == Kind::kCan) {
       due.can_bus = held.can_bus;
       due.can = {held.identifier, held.flexible_data_rate, bytes};
@@ -259,10 +260,11 @@ std::optional<Arrivals::Due> Arrivals::take(Microticks now, const timebase::Cycl
   return std::nullopt;
 }
 
-bool Arrivals::carrier(schedules::model::Channel channel, Microticks now) const {
+bool ArrivalWindow::carrier(schedules::model::Channel channel, Microticks now) const {
   return std::any_of(used_.begin(), used_.end(), [&](std::uint16_t index) {
     const Held& held = pool_[index];
-    return held.kind == Kind::kFlexRay && held.placed && held.channel == channel && held.start <= now && held.due > now;
+    return held.kind == Kind::kFlexRay && held.stage == HeldStage::kPlaced && held.channel == channel &&
+           held.start <= now && held.due > now;
   });
 }
 

@@ -2,8 +2,9 @@
 // instants.
 //
 // FlexRay's own windows are microseconds; an ordinary kernel wakes a sender up later than that. So a medium in real
-// time has an arrival window of its own (schedules::ArrivalWindow), and this is who judges it. A frame of the static
-// segment says which slot it is of, and of which cycle. Within its window it is handed over where FlexRay expects it:
+// time has an arrival window of its own (schedules::model::ArrivalWindow), and this is who judges it. A frame of the
+// static segment says which slot it is of, and of which cycle. Within its window it is handed over where FlexRay
+// expects it:
 //
 //   a sync frame        at the instant it would have come at had its sender been in time: arrival less what the sender
 //                       says it left late by; so clock synchronisation measures clocks, not kernels. Never further from
@@ -32,6 +33,7 @@
 #include "bus/ports/flexray_port.h"
 #include "bus/ports/live_medium.h"
 #include "core/time.h"
+#include "nodes/runner/held_stage.h"
 #include "schedules/model/cluster.h"
 #include "timebase/cycle_clock.h"
 
@@ -52,15 +54,15 @@ class ArrivalEvents {
   }
 };
 
-class Arrivals {
+class ArrivalWindow {
  public:
   static constexpr std::int64_t kLongestGap = 64;
   static constexpr std::size_t kMost = 1024;  // held at a time
 
-  struct Window {
+  struct Width {
     Microticks early{}, late{};
   };
-  Arrivals(const schedules::model::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events);
+  ArrivalWindow(const schedules::model::Cluster& cluster, NodeId node, Width width, ArrivalEvents& events);
 
   // `at`: of the arrival, in this node's microticks. `late`: the same of what it says it left late by. `duration`: of a
   // symbol. `clock`: the controller's, null while it has none.
@@ -84,7 +86,7 @@ class Arrivals {
   bool carrier(schedules::model::Channel channel, Microticks now) const;
   // How long after its end a frame in its window may still be handed over: it comes late, and its follow-up as late
   // again.
-  Microticks handed_over_within() const { return {2 * window_.late.value}; }
+  Microticks handed_over_within() const { return {2 * width_.late.value}; }
   std::uint64_t held() const { return used_.size(); }
   // There was no room for them.
   std::uint64_t dropped() const { return dropped_; }
@@ -94,34 +96,43 @@ class Arrivals {
     bus::ports::LiveArrival::Kind kind{};
     bus::ports::Signal signal{};
     schedules::model::Channel channel{};
+    HeldStage stage{};
     std::uint64_t order = 0;
     Microticks at{}, due{};
     std::optional<Microticks> late;
-    bool awaits_follow_up = false;
-    bool placed = false;
-    Microticks start{}, end{};
+    Microticks start{}, end{};  // once it is placed
     int slot = 0;
     std::size_t can_bus = 0;
     std::uint32_t identifier = 0;
     bool flexible_data_rate = false;
     std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
     std::size_t size = 0;
+
+    std::span<const std::byte> content() const { return std::span<const std::byte>(bytes).first(size); }
+  };
+  // What a frame that is to be placed is found to be.
+  struct Found {
+    HeldEvent event{};
+    // In or outside its window:
+    bool sync = false;
+    std::int64_t cycle = 0;
+    Microticks expected{}, behind{};  // at the action point of its slot, and so much later
   };
   void follow_up(const bus::ports::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock);
-  // False: it is not to be handed over.
-  bool place(Held& held, const timebase::CycleClock* clock);
+  Found find(const Held& frame, const timebase::CycleClock* clock) const;
+  void place(Held& frame, const Found& found, const timebase::CycleClock* clock);
+  void place_as_it_came(Held& held, Microticks length);
+  void place_in_slot(Held& frame, const Found& found);
   Microticks length_of(const Held& frame) const;
-  void place_raw(Held& held, Microticks length);
-  bool place_in_slot(Held& held, const bus::wire::FrameHeader& header, const timebase::CycleClock& clock,
-                     Microticks length);
   Microticks within_reach(Microticks deviation, std::int64_t cycle, int slot, schedules::model::Channel channel);
   void count_gap(std::int64_t cycle, int slot, schedules::model::Channel channel);
+  void forget_cycles();
   void drop(std::size_t place);  // in used_
 
   const schedules::model::Cluster& cluster_;
   const schedules::model::NodeParameters* parameters_;  // null: off FlexRay
   const bus::controller::SlotTable slots_;
-  const Window window_;
+  const Width width_;
   ArrivalEvents& events_;
   Microticks reach_{};  // a sync frame's from its action point, at most
   struct Deviation {

@@ -13,6 +13,7 @@
 #include "bus/ports/live_medium.h"
 #include "nodes/runner/arrival_window.h"
 #include "nodes/runner/drive_clock.h"
+#include "nodes/runner/host_clock.h"
 #include "nodes/runner/timing_account.h"
 #include "timebase/oscillator.h"
 
@@ -21,13 +22,14 @@ namespace ttf::nodes::runner {
 class LiveFlexRay final : public bus::ports::FlexRayPort {
  public:
   // `latest`: behind the action point, in real time.
-  LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest,
-              bus::ports::LiveMedium& medium, const Arrivals& arrivals, TimingAccount& account);
+  LiveFlexRay(const DriveClock& clock, const HostClock& host_clock, const timebase::Oscillator& oscillator,
+              Duration latest, bus::ports::LiveMedium& medium, const ArrivalWindow& arrival_window,
+              TimingAccount& account);
 
   bool may_leave(schedules::model::Channel channel, int slot, Microticks start) override;
   void transmit(const bus::ports::Transmission& transmission) override;
-  Microticks handed_over_within() const override { return arrivals_.handed_over_within(); }
-  bool carrier(schedules::model::Channel channel) const override { return arrivals_.carrier(channel, now_); }
+  Microticks handed_over_within() const override { return arrival_window_.handed_over_within(); }
+  bool carrier(schedules::model::Channel channel) const override { return arrival_window_.carrier(channel, now_); }
 
   // The node's instant, as of everything that is asked until the next one.
   void set_now(Microticks now) { now_ = now; }
@@ -38,10 +40,11 @@ class LiveFlexRay final : public bus::ports::FlexRayPort {
   bus::ports::HostTime due(Microticks start) const { return clock_.host_time(oscillator_.time_of(start)); }
 
   const DriveClock& clock_;
+  const HostClock& host_clock_;
   const timebase::Oscillator& oscillator_;
   const Duration latest_;
   bus::ports::LiveMedium& medium_;
-  const Arrivals& arrivals_;
+  const ArrivalWindow& arrival_window_;
   TimingAccount& account_;
   Microticks now_{};
   const bus::controller::FlexRayController* controller_ = nullptr;

@@ -1,8 +1,5 @@
 #include "nodes/runner/runner.h"
 
-#include <poll.h>
-#include <time.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
@@ -19,18 +16,10 @@ namespace {
 constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
 constexpr Duration kHealthEvery = Duration::milliseconds(1000);
 constexpr Duration kRoomForHealth = Duration::microseconds(500);  // until the next thing is due
-constexpr Duration kFloorPeriod = Duration::milliseconds(5);
-constexpr Duration kFloorPhase = Duration::microseconds(3500);  // off whole milliseconds, where cycles begin
 constexpr std::uint64_t kDoneBetweenLooks = 1024;  // who has much to catch up with can be stopped all the same
 constexpr Duration kUntilTakenIn = Duration::milliseconds(1);
 constexpr std::int64_t kCyclesUntilAnew = 64;
 constexpr std::size_t kListsWaiting = 4;  // on a CAN, of the largest
-
-bool readable(int descriptor) {
-  if (descriptor < 0) return false;
-  pollfd one{descriptor, POLLIN, 0};
-  return poll(&one, 1, 0) > 0;
-}
 
 std::size_t frames_waiting(const schedules::model::Cluster& cluster, const schedules::model::CanBus& bus) {
   std::size_t most = 1;
@@ -52,19 +41,18 @@ class Runner::Watch final : public recording::records::Sink {
 };
 
 Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Step>> steps,
-               bus::ports::LiveMedium& medium, recording::records::Sink& sink)
+               bus::ports::LiveMedium& medium, HostClock& host_clock, recording::records::Sink& sink)
     : config_(config), cluster_(*config.cluster),
       oscillator_(
           host::drawn_oscillator(cluster_.node(config.node), index_of(config.node), config.seed, config.replication)),
-      medium_(medium), watch_(std::make_unique<Watch>()),
+      medium_(medium), host_clock_(host_clock), watch_(std::make_unique<Watch>()),
       account_([this](Microticks at) { return executive_->stamp(at); }, sink),
-      arrivals_(cluster_, config.node,
-                {ticks(config.clock.in_drive(cluster_.arrival_window->early)),
-                 ticks(config.clock.in_drive(cluster_.arrival_window->late))},
-                *this),
-      flexray_(config_.clock, oscillator_, cluster_.arrival_window->late, medium, arrivals_, account_),
-      floor_(kFloorPeriod, config.clock.next_turn(kFloorPeriod, kFloorPhase, bus::ports::host_now())),
-      wake_up_(2 + cluster_.can_buses.size() + 1) {
+      arrival_window_(cluster_, config.node,
+                      {ticks(config.clock.in_drive(cluster_.arrival_window->early)),
+                       ticks(config.clock.in_drive(cluster_.arrival_window->late))},
+                      *this),
+      flexray_(config_.clock, host_clock, oscillator_, cluster_.arrival_window->late, medium, arrival_window_,
+               account_) {
   const schedules::model::Node& node = cluster_.node(config.node);
   watch_->out = std::make_unique<recording::records::Tee>(std::vector<recording::records::Sink*>{&sink, watch_.get()});
   std::vector<bus::ports::CanPort*> ports;
@@ -100,7 +88,7 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Ste
   if (node.flexray) flexray_.bind(*executive_->controller());
   if (!integrated && !executive_->asleep())
     watch_->out->on(recording::records::PowerChanged{executive_->stamp(last_), true});
-  health_due_ = next_health(bus::ports::host_now());
+  health_due_ = next_health(host_clock_.now());
 }
 
 Runner::~Runner() = default;
@@ -141,7 +129,7 @@ void Runner::missed_window(std::int64_t cycle, int slot, schedules::model::Chann
 }
 
 void Runner::lost(std::int64_t cycle, int slot, schedules::model::Channel channel, std::uint32_t count) {
-  account_.frames_lost(last_, bus::ports::host_now() - host_time(last_), cycle, slot, channel, count);
+  account_.frames_lost(last_, host_clock_.now() - host_time(last_), cycle, slot, channel, count);
 }
 
 void Runner::take_in() {
@@ -150,12 +138,12 @@ void Runner::take_in() {
     if (arrival->at < powered_on_) continue;  // who has no power yet hears nothing
     std::optional<Microticks> late;
     if (arrival->late) late = ticks(config_.clock.in_drive(*arrival->late));
-    arrivals_.arrive(*arrival, ticks(config_.clock.drive_time(arrival->at)), late,
-                     ticks(config_.clock.in_drive(arrival->signal.duration)), schedule());
+    arrival_window_.arrive(*arrival, ticks(config_.clock.drive_time(arrival->at)), late,
+                           ticks(config_.clock.in_drive(arrival->signal.duration)), schedule());
   }
 }
 
-void Runner::hand_over(const Arrivals::Due& due) {
+void Runner::hand_over(const ArrivalWindow::Due& due) {
   if (due.kind == bus::ports::LiveArrival::Kind::kFlexRay) return executive_->receive(due.reception);
   for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
     const auto sensor = static_cast<SensorId>(s);
@@ -184,7 +172,7 @@ void Runner::leave(std::size_t can_bus) {
 }
 
 Microticks Runner::next_due() const {
-  Microticks next = std::min({executive_->next_event(), arrivals_.next(), tries_again_});
+  Microticks next = std::min({executive_->next_event(), arrival_window_.next(), tries_again_});
   for (const auto& can : cans_)
     if (can && can->next() < config_.end) next = std::min(next, ticks(can->next()) + Microticks{1});
   return next;
@@ -194,17 +182,17 @@ void Runner::do_due(Microticks now) {
   const Microticks until = std::min(now, ticks(config_.end));
   std::uint64_t done = 0;
   for (Microticks next = next_due(); next <= until; next = next_due()) {
-    if (++done % kDoneBetweenLooks == 0 && readable(config_.stop_descriptor)) return;
+    if (++done % kDoneBetweenLooks == 0 && host_clock_.readable(config_.stop_descriptor)) return;
     last_ = std::max(last_, next);
     flexray_.set_now(last_);
-    if (const auto due = arrivals_.take(last_, schedule())) {
+    if (const auto due = arrival_window_.take(last_, schedule())) {
       hand_over(*due);
     } else if (const auto can = std::find_if(cans_.begin(), cans_.end(),
                                              [this](const auto& one) { return one && ticks(one->next()) < last_; });
                can != cans_.end()) {
       leave(static_cast<std::size_t>(can - cans_.begin()));
     } else if (const Microticks due_tick = executive_->next_event(); due_tick <= last_) {
-      const Duration late = bus::ports::host_now() - host_time(due_tick);
+      const Duration late = host_clock_.now() - host_time(due_tick);
       account_.wake_ups.add(late);
       if (late > cluster_.arrival_window->late) account_.late_wakeup(last_, late);
       executive_->advance(last_);
@@ -235,16 +223,16 @@ void Runner::watch_lines() {
   const bool listens = executive_->promise().after_flexray != host::Promise::kNever;
   if (listens == listens_) return;
   listens_ = listens;
-  wake_up_.clear();
-  wake_up_.watch(config_.stop_descriptor);
+  host_clock_.clear();
+  host_clock_.watch(config_.stop_descriptor);
   for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
     medium_.watch(bus::ports::line_of(channel), listens);
-    if (listens) wake_up_.watch(medium_.descriptor(bus::ports::line_of(channel)));
+    if (listens) host_clock_.watch(medium_.descriptor(bus::ports::line_of(channel)));
   }
   for (std::size_t b = 0; b < cans_.size(); ++b) {
     if (!cans_[b]) continue;
     medium_.watch(bus::ports::line_of_can(b), true);
-    wake_up_.watch(medium_.descriptor(bus::ports::line_of_can(b)));
+    host_clock_.watch(medium_.descriptor(bus::ports::line_of_can(b)));
   }
 }
 
@@ -256,7 +244,7 @@ bus::ports::HostTime Runner::next_health(bus::ports::HostTime now) const {
 }
 
 void Runner::tell_health() {
-  const bus::ports::HostTime now = bus::ports::host_now();
+  const bus::ports::HostTime now = host_clock_.now();
   if (now < health_due_) return;
   const Microticks next = next_due();
   const bool room = next == kNever || host_time(next) > now + kRoomForHealth;
@@ -267,13 +255,13 @@ void Runner::tell_health() {
 }
 
 std::uint64_t Runner::dropped() const {
-  std::uint64_t dropped = arrivals_.dropped();
+  std::uint64_t dropped = arrival_window_.dropped();
   for (const auto& can : cans_)
     if (can) dropped += can->dropped();
   return dropped;
 }
 
-void Runner::record_account() { account_.record(last_, floor_.lateness(), medium_.counts(), dropped()); }
+void Runner::record_account() { account_.record(last_, host_clock_.floor(), medium_.counts(), dropped()); }
 
 Health Runner::health() const {
   Health health;
@@ -296,13 +284,12 @@ RunnerEnd Runner::run() {
   RunnerEnd how = RunnerEnd::kDone;
   bool was_behind = false;
   while (true) {
-    bus::ports::HostTime now = bus::ports::host_now();
+    bus::ports::HostTime now = host_clock_.now();
     // Who was stopped was so with the medium's threads: what they have to take in is to be there before it is missed.
     const bool behind = next_due() != kNever && now - host_time(next_due()) > config_.clock.in_real(cluster_.cycle());
     if (behind && !was_behind) {
-      const timespec pause{.tv_sec = 0, .tv_nsec = kUntilTakenIn.ns};
-      nanosleep(&pause, nullptr);
-      now = bus::ports::host_now();
+      host_clock_.sleep(kUntilTakenIn);
+      now = host_clock_.now();
     }
     was_behind = behind;
     take_in();
@@ -311,7 +298,7 @@ RunnerEnd Runner::run() {
       how = RunnerEnd::kFailed;
       break;
     }
-    if (readable(config_.stop_descriptor)) {
+    if (host_clock_.readable(config_.stop_descriptor)) {
       how = RunnerEnd::kStopped;
       break;
     }
@@ -320,7 +307,7 @@ RunnerEnd Runner::run() {
     watch_lines();
     const Microticks next = next_due();
     const bus::ports::HostTime due = next == kNever ? end : std::min(end, host_time(next));
-    wake_up_.sleep_until(std::min(due, health_due_));
+    host_clock_.wait_until(std::min(due, health_due_));
   }
   record_account();
   return how;

@@ -30,11 +30,10 @@
 #include "nodes/host/executive.h"
 #include "nodes/runner/arrival_window.h"
 #include "nodes/runner/drive_clock.h"
-#include "nodes/runner/floor.h"
+#include "nodes/runner/host_clock.h"
 #include "nodes/runner/live_flexray.h"
 #include "nodes/runner/paced_can.h"
 #include "nodes/runner/timing_account.h"
-#include "nodes/runner/wake_up.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 #include "timebase/oscillator.h"
@@ -76,24 +75,23 @@ enum class RunnerEnd : std::uint8_t {
 
 class Runner final : private host::SensorLines, private host::TrueClock, private ArrivalEvents {
  public:
-  // All must outlive it. Throws std::runtime_error where the system gives no timer.
+  // All must outlive it.
   Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Step>> steps, bus::ports::LiveMedium& medium,
-         recording::records::Sink& sink);
+         HostClock& host_clock, recording::records::Sink& sink);
   ~Runner() override;
 
   // About once a second of real time, where nothing is due at once.
-  void on_health(std::function<void(const ttf::nodes::runner::Health&)> hear) { on_health_ = std::move(hear); }
+  void on_health(std::function<void(const Health&)> hear) { on_health_ = std::move(hear); }
   RunnerEnd run();
 
   Health health() const;
   const host::ExecutiveCounts& counts() const { return executive_->counts(); }
   const TimingAccount& timing() const { return account_; }
-  recording::records::BinnedDurations floor() const { return floor_.lateness(); }
 
  private:
   class Watch;
 
-  TrueTime now() const override { return config_.clock.drive_time(bus::ports::host_now()); }
+  TrueTime now() const override { return config_.clock.drive_time(host_clock_.now()); }
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
   void arrived(Microticks behind) override;
@@ -111,7 +109,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   // What a host does: a controller that has halted is started anew, and one whose coldstart attempts are exhausted when
   // it has listened for kCyclesUntilAnew: where all nodes only listen for others nobody would ever start the cluster.
   void look_after_controller();
-  void hand_over(const Arrivals::Due& due);
+  void hand_over(const ArrivalWindow::Due& due);
   void leave(std::size_t can_bus);
   Microticks next_due() const;
   void watch_lines();
@@ -124,21 +122,20 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   const schedules::model::Cluster& cluster_;
   const timebase::Oscillator oscillator_;
   bus::ports::LiveMedium& medium_;
+  HostClock& host_clock_;
   std::unique_ptr<Watch> watch_;  // the sink, with what is seen on the way to it
   TimingAccount account_;
-  Arrivals arrivals_;
+  ArrivalWindow arrival_window_;
   LiveFlexRay flexray_;
   std::vector<std::unique_ptr<PacedCan>> cans_;         // by CAN, null where the node is not on it
   std::vector<std::optional<std::size_t>> sensor_can_;  // by sensor, the CAN of its lines
   std::unique_ptr<host::Executive> executive_;
-  Floor floor_;
-  WakeUp wake_up_;
   bus::ports::HostTime powered_on_{std::numeric_limits<std::int64_t>::min()};
   Microticks last_{};                                                 // what was done last
   bool listens_ = false;                                              // FlexRay lines are watched
   Microticks tries_again_{std::numeric_limits<std::int64_t>::max()};  // at a coldstart, if it still may only listen
   bus::ports::HostTime health_due_{};
-  std::function<void(const ttf::nodes::runner::Health&)> on_health_;
+  std::function<void(const Health&)> on_health_;
 };
 
 }  // namespace ttf::nodes::runner

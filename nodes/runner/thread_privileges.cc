@@ -81,7 +81,7 @@ std::string lock_memory() {
 
 }  // namespace
 
-std::vector<std::string> ask_for_real_time(std::size_t place, std::size_t processes) {
+std::vector<std::string> ask_for_thread_privileges(std::size_t place, std::size_t processes) {
   std::vector<std::string> refused;
   const sched_param priority{.sched_priority = kPriority};
   if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0)

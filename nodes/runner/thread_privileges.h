@@ -11,6 +11,6 @@ namespace ttf::nodes::runner {
 // where there are enough for `processes` and one besides, taken by `place` (0, 1, ...). What the process takes later is
 // locked, too, but where RLIMIT_MEMLOCK is a limit to it: there it would not get it. One sentence for each that was not
 // granted, with what would help; all of them are done without.
-std::vector<std::string> ask_for_real_time(std::size_t place, std::size_t processes);
+std::vector<std::string> ask_for_thread_privileges(std::size_t place, std::size_t processes);
 
 }  // namespace ttf::nodes::runner

@@ -44,19 +44,19 @@ struct Idle final : nodes::host::Step {
   void run(nodes::host::StepContext&) override {}
 };
 struct Port final : bus::ports::FlexRayPort {
-  const nodes::runner::Arrivals* arrivals = nullptr;
+  const nodes::runner::ArrivalWindow* window = nullptr;
   Microticks now{};
   void transmit(const bus::ports::Transmission&) override {}
-  bool carrier(schedules::model::Channel channel) const override { return arrivals->carrier(channel, now); }
+  bool carrier(schedules::model::Channel channel) const override { return window->carrier(channel, now); }
 };
 
 class Node {
  public:
-  explicit Node(bool integrated) : arrivals_(the_cluster(), kNode, {Microticks{4'000}, Microticks{20'000}}, events_) {
+  explicit Node(bool integrated) : window_(the_cluster(), kNode, {Microticks{4'000}, Microticks{20'000}}, events_) {
     const schedules::model::Cluster& cluster = the_cluster();
     const timebase::Oscillator oscillator(25'000, 0, 0);
     const TrueTime first{1'000'000};
-    port_.arrivals = &arrivals_;
+    port_.window = &window_;
     now_ = oscillator.ticks_at(first);
     const nodes::host::ExecutiveConfig config{
         &cluster,
@@ -88,16 +88,16 @@ class Node {
 
   void arrive(const bus::ports::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
               Microticks duration) {
-    arrivals_.arrive(arrival, at, late, duration, clock());
+    window_.arrive(arrival, at, late, duration, clock());
   }
 
   // As Runner::do_due() does it.
   void go_on(Microticks until) {
-    const auto next = [this] { return std::min(executive_->next_event(), arrivals_.next()); };
+    const auto next = [this] { return std::min(executive_->next_event(), window_.next()); };
     for (Microticks due = next(); due <= until; due = next()) {
       now_ = std::max(now_, due);
       port_.now = now_;
-      if (const auto arrived = arrivals_.take(now_, clock())) {
+      if (const auto arrived = window_.take(now_, clock())) {
         if (arrived->kind == bus::ports::LiveArrival::Kind::kFlexRay) {
           TTF_CHECK(arrived->reception.end <= now_, "handed over {} microticks before its end",
                     (arrived->reception.end - now_).value);
@@ -118,7 +118,7 @@ class Node {
  private:
   static constexpr NodeId kNode{4};  // the gateway: on both channels, and on a CAN
   nodes::runner::ArrivalEvents events_;
-  nodes::runner::Arrivals arrivals_;
+  nodes::runner::ArrivalWindow window_;
   Nobody lines_;
   Deaf can_;
   Port port_;

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -35,6 +36,7 @@ struct MemoryLiveBusOptions {
   std::vector<bool> can_buses;  // whether each carries CAN FD: nobody looks at it, but for the laws
   Told told = Told::kWithTheFrame;
   std::size_t room = 1024;  // signals and follow-ups on each line of each member
+  std::function<bus::ports::HostTime()> now = bus::ports::host_now;
 };
 
 class MemoryLiveBus {
@@ -116,7 +118,7 @@ class MemoryLiveBus {
 
     bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::HostTime due) override {
       const std::scoped_lock lock(hub_->mutex);
-      const bus::ports::HostTime now = bus::ports::host_now();
+      const bus::ports::HostTime now = hub_->options.now();
       bus::ports::LiveArrival arrival;
       arrival.at = arrival.received = now;
       arrival.left = now;
@@ -140,7 +142,7 @@ class MemoryLiveBus {
       const std::scoped_lock lock(hub_->mutex);
       bus::ports::LiveArrival arrival;
       arrival.kind = bus::ports::LiveArrival::Kind::kCan;
-      arrival.at = arrival.received = bus::ports::host_now();
+      arrival.at = arrival.received = hub_->options.now();
       arrival.left = arrival.at;
       arrival.can_bus = can_bus;
       arrival.can = frame;

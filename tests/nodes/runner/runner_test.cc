@@ -1,319 +1,342 @@
-// Whole node sets in real time, a thread each, on a medium in memory. What an ordinary kernel is late by is not judged:
-// what is asserted holds whatever that is, up to the arrival window. Beyond it a cluster may fall apart as FlexRay has
-// it, so a drive during which threads that do nothing were woken up so late is driven again.
+// One node in real time, by a clock that the test turns: what it does at which instant, and what it counts, to the
+// nanosecond. The others of its cluster are silent, or a script speaks for them.
 #include "nodes/runner/runner.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <time.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 
-#include <functional>
-#include <limits>
-#include <map>
-#include <memory>
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <set>
+#include <span>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "bus/wire/strobe.h"
-#include "drives/scenario.h"
-#include "drives/step_catalog.h"
-#include "drives/surroundings.h"
-#include "nodes/runner/floor.h"
-#include "recording/records/records.h"
-#include "schedules/file/loader.h"
-#include "schedules/model/ports.h"
-#include "sim/crank/cluster_simulation.h"
-#include "tests/support/memory_live_medium.h"
+#include "tests/nodes/runner/lone_node.h"
 
 namespace ttf::nodes::runner {
 namespace {
 
-struct Counted final : recording::records::Sink {
-  using recording::records::Sink::on;
-  void on(const recording::records::FeatureUsed& used) override { fresh += used.fresh && !used.stale; }
-  void on(const recording::records::ListHop& hop) override {
-    discarded += hop.hop == recording::records::Hop::kDiscarded;
-  }
-  void on(const recording::records::Measured&) override { ++measured; }
-  void on(const recording::records::SlotFrameSent&) override { ++frames; }
-  void on(const recording::records::TimingProblem& problem) override { problems[problem.what] += problem.count; }
-  void on(const recording::records::ClockCorrected& corrected) override {
-    shown[corrected.cycle] = corrected.stamp;
-    // The first pairs are what the initial clocks are apart by.
-    if (corrected.cycle > 8) largest = std::max(largest, std::abs(corrected.offset_microticks));
-  }
-  void on(const recording::records::StateChanged& changed) override {
-    states.emplace_back(changed.to_name);
-    first_state = std::min(first_state, changed.stamp.true_time);
-  }
-  void on(const recording::records::LatenessHistogram& histogram) override {
-    std::uint64_t sum = 0;
-    for (const std::uint64_t count : histogram.counts) sum += count;
-    lateness[histogram.of] = sum;
-  }
-  void on(const recording::records::MediumCounts& counts) override { medium = counts; }
-  recording::records::MediumCounts medium;  // the last
-  int fresh = 0, discarded = 0, measured = 0, frames = 0, largest = 0;
-  std::map<int, std::uint64_t> problems, lateness;
-  std::vector<std::string> states;
-  TrueTime first_state{std::numeric_limits<std::int64_t>::max()};
-  std::map<std::int64_t, recording::records::Stamp> shown;  // by cycle
-};
+TEST_F(RunnerTest, WhoIsWokenUpInTimeIsNeverLate) {
+  Alone gateway(*this, "gateway", {.lasts = ms(20)});
+  EXPECT_EQ(gateway.run(), RunnerEnd::kDone);
+  EXPECT_EQ(gateway.host.now(), gateway.at(ms(20)));
+  EXPECT_EQ(gateway.sent(), gateway_slots(4));
+  EXPECT_TRUE(gateway.out.ordered);
+  EXPECT_TRUE(gateway.out.problems.empty());
+  EXPECT_EQ(gateway.health.wakeup_longest, Duration{});
+  EXPECT_EQ(gateway.out.lateness[recording::records::kLatenessOfDepartures], (Recorded::Histogram{4 * 34, Duration{}}));
+  EXPECT_EQ(gateway.health.medium.sent, 4u * 34);
+}
 
-// Sleeps before it sends a sync frame: as late as a kernel may be, and more regularly. And stops its node for a while,
-// and hears nothing at first.
-class Sluggish final : public bus::ports::LiveMedium {
+// The window's last instant is in time, for a frame and for all else that is due.
+TEST_F(RunnerTest, WhoIsAsLateAsTheWindowAllowsIsInTime) {
+  const Duration late = cluster_.arrival_window->late;
+  Alone gateway(*this, "gateway", {.lasts = ms(20)});
+  gateway.wakes = late_by(late);
+  gateway.run();
+  EXPECT_EQ(gateway.sent(), gateway_slots(4));
+  EXPECT_TRUE(gateway.out.problems.empty());
+  EXPECT_EQ(gateway.health.wakeup_longest, late);
+  EXPECT_EQ(gateway.out.lateness[recording::records::kLatenessOfDepartures].longest, late);
+}
+
+TEST_F(RunnerTest, WhatIsANanosecondTooLateIsNotSentAndToldSo) {
+  const Duration too_late = cluster_.arrival_window->late + Duration{1};
+  Alone gateway(*this, "gateway", {.lasts = ms(20)});
+  gateway.wakes = late_by(too_late);
+  gateway.run();
+  EXPECT_EQ(gateway.sent_or_missed(), gateway_slots(4));
+  EXPECT_THAT(gateway.missed(), testing::IsSupersetOf({SlotOfCycle{0, 3, 0}, {0, 3, 1}})) << "what it is woken up for";
+  EXPECT_LE(gateway.out.lateness[recording::records::kLatenessOfDepartures].longest, cluster_.arrival_window->late);
+  EXPECT_EQ(gateway.health.timing.slots_missed, gateway.missed().size());
+  EXPECT_EQ(gateway.health.medium.sent, gateway.sent().size());
+  EXPECT_GT(gateway.health.timing.late_wakeups, 0u);
+  EXPECT_EQ(gateway.health.timing.late_wakeups, gateway.out.told(recording::records::kLateWakeUp));
+  for (const Recorded::Told& problem : gateway.out.problems) EXPECT_EQ(problem.late, too_late);
+}
+
+// Stopped in cycle 1, going on in cycle 3: it does what it missed, in order, but for what is too late to be sent.
+TEST_F(RunnerTest, WhoWasStoppedCatchesUp) {
+  Alone gateway(*this, "gateway", {.lasts = ms(20)});
+  const bus::ports::HostTime from = gateway.at(ms(7)), until = gateway.at(ms(16));
+  gateway.wakes = stopped(from, until);
+  gateway.run();
+  std::set<SlotOfCycle> too_late;
+  for (const auto& [cycle, slot, channel] : gateway_slots(4)) {
+    const bus::ports::HostTime due = gateway.action_point(cycle, slot);
+    // It waits a millisecond for the medium before it goes on.
+    if (due >= from && due + cluster_.arrival_window->late < until + ms(1)) too_late.emplace(cycle, slot, channel);
+  }
+  EXPECT_FALSE(too_late.empty());
+  EXPECT_EQ(gateway.missed(), too_late);
+  EXPECT_EQ(gateway.sent_or_missed(), gateway_slots(4));
+  EXPECT_TRUE(gateway.out.ordered);
+}
+
+// The medium's threads were stopped, too: who is more than a cycle behind gives them time to take in what has come.
+TEST_F(RunnerTest, WhoIsMoreThanACycleBehindWaitsForTheMedium) {
+  for (const Duration more : {Duration{0}, Duration{1}}) {
+    Alone gateway(*this, "gateway", {.lasts = ms(20)});
+    std::optional<bus::ports::HostTime> stops;
+    gateway.wakes = [&](bus::ports::HostTime due) {
+      if (due < gateway.action_point(1, 3) - us(1)) return due;
+      if (!stops) stops = due;
+      return std::max(due, *stops + ms(5) + more);
+    };
+    gateway.run();
+    const Duration pause = more > Duration{} ? ms(1) : Duration{};
+    EXPECT_EQ(gateway.health.wakeup_longest, ms(5) + more + pause);
+    EXPECT_EQ(gateway.sleeps.size(), pause > Duration{} ? 1u : 0u);
+  }
+}
+
+// Its fusion, due every 10 ms, takes 12.
+TEST_F(RunnerTest, WhoStaysBehindDoesNotWaitForTheMediumAgain) {
+  Alone fusion(*this, "fusion", {.lasts = ms(100)});
+  fusion.computes = ms(12);
+  fusion.run();
+  EXPECT_GE(std::count(fusion.sleeps.begin(), fusion.sleeps.end(), ms(12)), 4);
+  EXPECT_EQ(std::count(fusion.sleeps.begin(), fusion.sleeps.end(), ms(1)), 1);
+}
+
+TEST_F(RunnerTest, IsStoppedByItsDescriptor) {
+  Alone gateway(*this, "gateway", {.lasts = ms(20)});
+  gateway.stop_descriptor = eventfd(0, EFD_CLOEXEC);
+  gateway.host.at(gateway.at(ms(9)), [&] { eventfd_write(gateway.stop_descriptor, 1); });
+  EXPECT_EQ(gateway.run(), RunnerEnd::kStopped);
+  EXPECT_EQ(gateway.host.now(), gateway.at(ms(9)));
+  EXPECT_EQ(gateway.sent(), gateway_slots(2));
+  EXPECT_EQ(gateway.out.accounts, 1) << "the account is closed all the same";
+  close(gateway.stop_descriptor);
+}
+
+// A thousand seconds behind: all of it would take minutes.
+TEST_F(RunnerTest, IsStoppedWhileItCatchesUp) {
+  Alone gateway(*this, "gateway", {.lasts = ms(1'000'000)});
+  gateway.stop_descriptor = eventfd(1, EFD_CLOEXEC);
+  gateway.host.turn_to(gateway.at(ms(1'000'000)));
+  EXPECT_EQ(gateway.run(), RunnerEnd::kStopped);
+  EXPECT_LE(gateway.wake_ups, 1024u);
+  close(gateway.stop_descriptor);
+}
+
+class BrokenMedium final : public bus::ports::LiveMedium {
  public:
-  struct Stop {
-    bus::ports::HostTime at{};
-    Duration lasts{};
-  };
-  Sluggish(std::unique_ptr<bus::ports::LiveMedium> medium, Duration by, std::optional<Stop> stop,
-           bus::ports::HostTime hears_from)
-      : medium_(std::move(medium)), by_(by), stop_(stop), hears_from_(hears_from) {}
-  bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::HostTime due) override {
-    if (signal.tells_late) pause(by_);
-    return medium_->send(signal, due);
+  bus::ports::LiveStatus send(const bus::ports::LiveSignal&, bus::ports::HostTime) override {
+    return bus::ports::LiveStatus::kFailed;
   }
-  bus::ports::LiveStatus send_can(std::size_t can_bus, const bus::ports::CanFrame& frame) override {
-    return medium_->send_can(can_bus, frame);
+  bus::ports::LiveStatus send_can(std::size_t, const bus::ports::CanFrame&) override {
+    return bus::ports::LiveStatus::kFailed;
   }
-  std::optional<bus::ports::LiveArrival> receive() override {
-    if (stop_ && bus::ports::host_now() >= stop_->at) pause(std::exchange(stop_, {})->lasts);
-    while (bus::ports::host_now() < hears_from_)
-      if (!medium_->receive()) return std::nullopt;
-    return medium_->receive();
-  }
-  int descriptor(bus::ports::Line line) const override { return medium_->descriptor(line); }
-  void watch(bus::ports::Line line, bool on) override { medium_->watch(line, on); }
-  bus::ports::LiveCounts counts() const override { return medium_->counts(); }
-  const std::string& failure() const override { return medium_->failure(); }
-
- private:
-  static void pause(Duration lasts) {
-    const timespec time{lasts.ns / 1'000'000'000, lasts.ns % 1'000'000'000};
-    if (lasts.ns > 0) nanosleep(&time, nullptr);
-  }
-  std::unique_ptr<bus::ports::LiveMedium> medium_;
-  Duration by_;
-  std::optional<Stop> stop_;
-  bus::ports::HostTime hears_from_;
+  std::optional<bus::ports::LiveArrival> receive() override { return std::nullopt; }
+  int descriptor(bus::ports::Line) const override { return -1; }
+  void watch(bus::ports::Line, bool) override {}
+  bus::ports::LiveCounts counts() const override { return {}; }
+  const std::string& failure() const override { return why; }
+  std::string why;
 };
 
-constexpr Duration kYardstick = Duration::microseconds(500);  // its period
+TEST_F(RunnerTest, EndsWhenItsMediumIsOfNoUseAnyMore) {
+  Alone gateway(*this, "gateway", {.lasts = ms(20)});
+  BrokenMedium medium;
+  gateway.host.at(gateway.at(ms(9)), [&] { medium.why = "the line is down"; });
+  EXPECT_EQ(gateway.run(&medium), RunnerEnd::kFailed);
+  EXPECT_GE(gateway.host.now(), gateway.at(ms(9)));
+  EXPECT_LE(gateway.host.now(), gateway.action_point(2, 3)) << "when something was due next";
+}
 
-class RunnerTest : public testing::Test {
- protected:
-  RunnerTest() {
-    schedules::model::bind_ports(cluster_, drives::step_ports());
-    // As long as the schedule has room for, stretched four times: other tests run beside this one.
-    cluster_.arrival_window = schedules::model::ArrivalWindow{Duration::milliseconds(1), Duration::milliseconds(2)};
-    around_ = drives::surroundings_of(scenario_, cluster_, 1, 0, nullptr);
+// A frame is late or early by real time, at any scale of the drive's.
+TEST_F(RunnerTest, AFrameIsJudgedByItsWindowInRealTime) {
+  const auto [early, late] = *cluster_.arrival_window;
+  const Duration margin = us(1);  // clocks agree within microticks
+  for (const std::int64_t scale : {1'000'000, 4'000'000}) {
+    for (const Duration behind : {-early - margin, -early + margin, late - margin, late + margin}) {
+      SCOPED_TRACE(testing::Message() << "scale " << scale << ", behind by " << behind.ns);
+      Alone gateway(*this, "gateway", {.lasts = ms(10), .scale_ppm = scale});
+      gateway.host.at(gateway.action_point(1, 25) + behind, [&] { gateway.others_send(25, 1); });
+      gateway.run();
+      EXPECT_EQ(gateway.health.timing.late_frames, behind > late ? 1u : 0u);
+      EXPECT_EQ(gateway.health.timing.early_frames, behind < -early ? 1u : 0u);
+      EXPECT_EQ(gateway.out.lateness[recording::records::kLatenessOfArrivals].count, 1u);
+      EXPECT_LT(std::abs((gateway.out.lateness[recording::records::kLatenessOfArrivals].longest - behind).ns),
+                margin.ns);
+    }
   }
-  const drives::Scenario scenario_ = drives::load_scenario(TTF_SOURCE_DIR "/scenarios/paper_scenario1.yaml");
-  schedules::model::Cluster cluster_ =
-      schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
-  drives::Surroundings around_;
-  std::vector<Counted> counted_;
-  std::vector<Health> health_;
+}
 
-  struct Drive {
-    Duration lasts = Duration::milliseconds(600);
-    std::int64_t scale_ppm = 4'000'000;
-    test::Told told = test::Told::kWithTheFrame;
-    Duration sluggish{};  // every second node
-    std::function<std::optional<TrueTime>(ttf::NodeId)> power_on = {};
-    // A node that is stopped, when and for how long in the drive's time.
-    std::optional<NodeId> stopped = {};
-    Duration stopped_at{}, stopped_for{};
-    std::size_t room = 1024;
-    Duration deaf_for{};  // all nodes, in the drive's time
+// The scan's 93 frames are not ready at once: they leave as a CAN FD of the cluster's bit rates would carry them,
+// however the drive is stretched, and whoever is late with one is not late with the next.
+TEST_F(RunnerTest, FramesLeaveAsACanWouldCarryThem) {
+  for (const std::int64_t scale : {1'000'000, 4'000'000}) {
+    SCOPED_TRACE(scale);
+    Alone laser(*this, "laser", {.lasts = ms(60), .scale_ppm = scale});
+    const auto sensor = *cluster_.find_sensor("laser");
+    const std::size_t can = *schedules::model::can_of_lines(cluster_, sensor);
+    const DriveClock clock(kOrigin, scale);
+    laser.host.at(laser.at(ms(2)), [&] { laser.others_send_can(can, schedules::model::trigger_identifier(sensor)); });
+    laser.run();
+    ASSERT_THAT(laser.out.measured, testing::ElementsAre(sim::crank::kFirstCycle + ms(2))) << "at once";
+    const auto heard = laser.heard_on_can();
+    ASSERT_FALSE(heard.empty());
+    EXPECT_EQ(heard.front().identifier, schedules::model::strobe_identifier(sensor));
+    EXPECT_EQ(heard.front().at, laser.at(ms(2)));
+    EXPECT_EQ(laser.out.can_frames, static_cast<int>(heard.size()) - 1);
+    EXPECT_GE(heard.size(), 1u + 5);
+    Duration passed = ms(2) + us(500);  // until the list is there
+    for (std::size_t i = 1; i < heard.size(); ++i) {
+      passed += heard[i].duration;
+      const Duration behind = heard[i].at - laser.at(passed);
+      EXPECT_GE(behind, Duration{}) << i;
+      EXPECT_LE(behind, clock.in_real(us(2))) << i << ": microticks, and what its own clock is off by";
+    }
+  }
+}
+
+TEST_F(RunnerTest, ALineIsKnownByItsForm) {
+  Alone camera_pre(*this, "camera_pre", {.lasts = ms(10)});
+  const auto sensor = *cluster_.find_sensor("camera");
+  const std::size_t can = *schedules::model::can_of_lines(cluster_, sensor);
+  const auto strobe = bus::wire::strobe_data(7);
+  camera_pre.host.at(camera_pre.at(ms(1)), [&] {
+    camera_pre.others_send_can(can, schedules::model::strobe_identifier(sensor), strobe);
+    camera_pre.others_send_can(can, schedules::model::strobe_identifier(sensor), std::span(strobe).first(3));
+    camera_pre.others_send_can(can, schedules::model::trigger_identifier(sensor), strobe);
+    camera_pre.others_send_can(can, schedules::model::trigger_identifier(sensor));  // the device's, not its host's
+  });
+  camera_pre.run();
+  EXPECT_EQ(camera_pre.counts.refused_can_frames, 2u);
+  EXPECT_EQ(camera_pre.health.medium.received, 4u);
+}
+
+// Nodes take turns: the camera's, the second of seven, is a quarter of a second behind each whole one.
+TEST_F(RunnerTest, HealthIsToldOnceASecondAtItsTurn) {
+  for (const auto& [scale, lasts] : {std::pair(1'000'000, ms(3'500)), {4'000'000, ms(875)}}) {
+    Alone camera(*this, "camera", {.lasts = lasts, .scale_ppm = scale});
+    camera.run();
+    EXPECT_THAT(camera.told_health,
+                testing::ElementsAre(kOrigin + ms(250), kOrigin + ms(1250), kOrigin + ms(2250), kOrigin + ms(3250)));
+    EXPECT_EQ(camera.out.accounts, 5) << "and at the end";
+  }
+}
+
+// At twice the drive's time its turn comes 1.5 ms into a cycle, among its slots; the last of them is at 1.687 ms.
+TEST_F(RunnerTest, HealthIsToldWhereThereIsRoomForIt) {
+  Alone gateway(*this, "gateway", {.lasts = ms(400), .scale_ppm = 2'000'000});
+  gateway.run();
+  ASSERT_EQ(gateway.told_health.size(), 1u);
+  EXPECT_GT(gateway.told_health[0], kOrigin + ms(625));
+  EXPECT_GT(gateway.told_health[0], gateway.action_point(62, 21) - us(500));
+  EXPECT_LT(gateway.told_health[0], gateway.action_point(62, 21) + us(500));
+}
+
+// A cycle that takes half a millisecond never has room.
+TEST_F(RunnerTest, HealthIsPutOffByASecondAtMost) {
+  Alone gateway(*this, "gateway", {.lasts = ms(18'000), .scale_ppm = 100'000});
+  gateway.run();
+  ASSERT_EQ(gateway.told_health.size(), 1u);
+  EXPECT_GE(gateway.told_health[0], kOrigin + ms(1625));
+  EXPECT_LT(gateway.told_health[0], kOrigin + ms(1626));
+}
+
+// Who sends no sync frame and hears none cannot correct its clock, and halts; its host starts it anew at once.
+TEST_F(RunnerTest, AHaltedControllerIsStartedAnew) {
+  auto& parameters = *cluster_.nodes[index_of(id_of("gateway"))].flexray;
+  parameters.pKeySlotUsedForSync = parameters.pKeySlotUsedForStartup = false;
+  Alone gateway(*this, "gateway", {.lasts = ms(100)});
+  gateway.run();
+  const auto& states = gateway.out.states;
+  const auto halted = static_cast<std::size_t>(std::find(states.begin(), states.end(), "halt") - states.begin());
+  ASSERT_LT(halted, states.size());
+  EXPECT_EQ(states.back(), "integration listen");
+  for (std::size_t i = halted; i < states.size(); ++i)
+    EXPECT_EQ(gateway.out.changes[i].local, gateway.out.changes[halted].local) << states[i];
+}
+
+// Noise puts off a coldstart, unless the node had no power yet to hear it.
+TEST_F(RunnerTest, WhoHasNoPowerYetHearsNothing) {
+  const auto begins_cluster = [&](std::optional<Duration> noise) {
+    Alone gateway(*this, "gateway", {.lasts = ms(60), .power_on = [](NodeId) {
+                                       return std::optional(sim::crank::kFirstCycle + ms(10));
+                                     }});
+    if (noise) gateway.host.at(gateway.at(*noise), [&] { gateway.others_send_noise(us(100)); });
+    gateway.run();
+    return gateway.came_into("coldstart collision resolution").value_or(recording::records::Stamp{}).true_time;
   };
-  // Whether there was one that the machine did not hold up; else the test is skipped.
-  [[nodiscard]] bool drive(const Drive& how) {
-    constexpr int kTries = 3;
-    for (int i = 0; i < kTries; ++i) {
-      counted_.clear();
-      const Floor first(kYardstick, bus::ports::host_now()),
-          second(kYardstick, bus::ports::host_now() + Duration{kYardstick.ns / 2});
-      drive_once(how);
-      const Duration held_up = std::max(first.lateness().longest(), second.lateness().longest());
-      if (HasFailure() || held_up < cluster_.arrival_window->late) return true;
-    }
-    [] { GTEST_SKIP() << "the machine held up whatever ran on it, time and again"; }();
-    return false;
-  }
-  void drive_once(const Drive& how) {
-    test::MemoryLiveBusOptions options;
-    for (const schedules::model::CanBus& can : cluster_.can_buses) options.can_buses.push_back(can.flexible_data_rate);
-    options.told = how.told;
-    options.room = how.room;
-    test::MemoryLiveBus bus(options);
-    const std::size_t nodes = cluster_.nodes.size();
-    counted_.resize(nodes);
-    health_.resize(nodes);
-    const DriveClock clock(bus::ports::host_now() + Duration::milliseconds(50), how.scale_ppm);
-    std::vector<std::unique_ptr<bus::ports::LiveMedium>> media;
-    const Sluggish::Stop stop{clock.host_time(sim::crank::kFirstCycle + how.stopped_at),
-                              clock.in_real(how.stopped_for)};
-    for (std::size_t n = 0; n < nodes; ++n)
-      media.push_back(
-          std::make_unique<Sluggish>(bus.join(), n % 2 == 1 ? how.sluggish : Duration{},
-                                     how.stopped == static_cast<NodeId>(n) ? std::optional(stop) : std::nullopt,
-                                     clock.host_time(sim::crank::kFirstCycle + how.deaf_for)));
-    std::vector<std::thread> threads;
-    for (std::size_t n = 0; n < nodes; ++n)
-      threads.emplace_back([&, n] {
-        RunnerConfig config;
-        config.cluster = &cluster_;
-        config.node = static_cast<NodeId>(n);
-        config.clock = clock;
-        config.seed = 1;
-        config.first_cycle = sim::crank::kFirstCycle;
-        config.end = sim::crank::kFirstCycle + how.lasts;
-        if (how.power_on) config.power_on = how.power_on(config.node);
-        const drives::NodeSetConfig code{&scenario_,    &cluster_, ttf::fusion::strategies::StrategyKind::kTt, 1, 0,
-                                         around_.scene, nullptr};
-        Runner runner(config, drives::make_steps(code, config.node), *media[n], counted_[n]);
-        EXPECT_EQ(runner.run(), RunnerEnd::kDone);
-        health_[n] = runner.health();
-      });
-    for (std::thread& thread : threads) thread.join();
-  }
-  Counted& of(const char* node) { return counted_[index_of(*cluster_.find_node(node))]; }
-  Health& health_of(const char* node) { return health_[index_of(*cluster_.find_node(node))]; }
-};
-
-TEST_F(RunnerTest, ANodeSetDrivesInRealTime) {
-  if (!drive({})) return;
-  // 600 ms: a laser scan every 80, a camera frame every 40, an image every 40, the first of them with no tracks in it.
-  EXPECT_GE(of("laser").measured, 6);
-  EXPECT_GE(of("camera").measured, 13);
-  EXPECT_GE(of("feature").fresh, 8);
-  EXPECT_EQ(of("laser_pre").discarded + of("camera_pre").discarded, 0) << "every list has its strobe";
-  std::uint64_t missed = 0, lost = 0;
-  for (const Health& health : health_) {
-    missed += health.timing.slots_missed;
-    lost += health.timing.frames_lost;
-    EXPECT_EQ(health.drops(), 0u);
-  }
-  EXPECT_TRUE(missed > 0 || lost == 0) << lost;
-  for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) {
-    EXPECT_EQ(health_of(node).state, "normal active") << node;
-    EXPECT_GT(of(node).lateness[recording::records::kLatenessOfWakeUps], 100u) << node;
-    EXPECT_GT(of(node).lateness[recording::records::kLatenessOfFloor], 10u) << node;
-    EXPECT_GT(of(node).lateness[recording::records::kLatenessOfDepartures], 100u) << node;
-    EXPECT_GT(of(node).lateness[recording::records::kLatenessOfArrivals], 100u) << node;
-    EXPECT_EQ(of(node).lateness[recording::records::kLatenessOfTransits], health_of(node).medium.received) << node;
-    EXPECT_EQ(of(node).medium.sent, health_of(node).medium.sent) << node;
-    EXPECT_EQ(of(node).medium.received, health_of(node).medium.received) << node;
-  }
+  const TrueTime silent = begins_cluster({});
+  EXPECT_GT(silent, sim::crank::kFirstCycle + ms(10));
+  EXPECT_EQ(begins_cluster(ms(9)), silent);
+  EXPECT_GT(begins_cluster(ms(11)), silent);
 }
 
-// Two of the five sync nodes, 300 us late each time, are within the window, and nobody's clock follows them.
-TEST_F(RunnerTest, LatenessIsNotTakenForTheClock) {
-  for (const test::Told told : {test::Told::kWithTheFrame, test::Told::kInAFollowUp}) {
-    if (!drive({.told = told, .sluggish = Duration::microseconds(200)})) return;
-    for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) {
-      EXPECT_EQ(health_of(node).state, "normal active") << node;
-      EXPECT_LE(of(node).largest, 40) << node << ": 1 us; what they are late by would be 2000";
-    }
-  }
+// A startup frame lasts 65 us; a node that starts up takes it at its end, long before it has anything to do by itself.
+TEST_F(RunnerTest, WhoListensIsWokenUpByWhatItHears) {
+  Alone gateway(*this, "gateway",
+                {.lasts = ms(20), .power_on = [](NodeId) { return std::optional(sim::crank::kFirstCycle); }});
+  gateway.host.at(gateway.at(ms(3)), [&] { gateway.others_send(1, 8, true); });
+  gateway.run();
+  const auto derived = gateway.came_into("initialise schedule");
+  ASSERT_TRUE(derived.has_value());
+  EXPECT_GT(derived->true_time, sim::crank::kFirstCycle + ms(3) + us(60));
+  EXPECT_LT(derived->true_time, sim::crank::kFirstCycle + ms(3) + us(80));
 }
 
-// Clocks that are off by up to 1500 ppm (the cluster's own draws) stay together: uncorrected they would be apart by
-// hundreds of microticks within ten cycles.
-TEST_F(RunnerTest, ClocksThatDriftStayTogether) {
-  if (!drive({.lasts = Duration::milliseconds(400)})) return;
-  for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) EXPECT_LE(of(node).largest, 40);
-}
-
-// True time is when the clock showed that, not when the process came to do it, a kernel's whim later: then clocks that
-// agree within microseconds are seen to.
-TEST_F(RunnerTest, WhatClocksShowIsOfOneInstant) {
-  if (!drive({.lasts = Duration::milliseconds(400), .sluggish = Duration::microseconds(200)})) return;
-  int compared = 0;
-  for (const auto& [cycle, first] : of("laser_pre").shown) {
-    if (cycle <= 8) continue;  // what the initial clocks are apart by
-    for (const char* node : {"camera_pre", "gateway", "fusion", "feature"}) {
-      const auto other = of(node).shown.find(cycle);
-      if (other == of(node).shown.end()) continue;
-      const recording::records::Stamp& second = other->second;
-      const std::int64_t apart = (second.global.ns - second.true_time.ns) - (first.global.ns - first.true_time.ns);
-      EXPECT_LE(std::abs(apart), 10'000) << node << ", cycle " << cycle;
-      ++compared;
-    }
-  }
-  EXPECT_GE(compared, 40);
-}
-
-TEST_F(RunnerTest, AClusterStartsUpInRealTime) {
-  const auto one_by_one = [](NodeId node) {
-    return std::optional(sim::crank::kFirstCycle + Duration::milliseconds(3 * static_cast<int>(index_of(node))));
+// On such a medium it is there at once, and says how long it is.
+TEST_F(RunnerTest, ASymbolIsAsLongAsInTheDrive) {
+  const auto first_symbol = [&](std::int64_t scale) {
+    Alone gateway(*this, "gateway",
+                  {.lasts = ms(30), .scale_ppm = scale, .power_on = [](NodeId) { return sim::crank::kFirstCycle; }});
+    gateway.run();
+    const auto lengths = gateway.heard_symbols();
+    EXPECT_FALSE(lengths.empty());
+    return lengths.empty() ? Duration{} : lengths.front();
   };
-  if (!drive({.lasts = Duration::milliseconds(900), .power_on = one_by_one})) return;
-  for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"})
-    EXPECT_EQ(health_of(node).state, "normal active") << node;
+  const Duration length = first_symbol(1'000'000);
+  EXPECT_GT(length, us(3)) << "a collision avoidance symbol: some 40 bits of 100 ns";
+  EXPECT_LE(std::abs((first_symbol(4'000'000) - length * 4).ns), 4) << "rounded to nanoseconds";
 }
 
-// Nobody hears anybody until all coldstart attempts are in vain. Nobody but the hosts can help: a cluster in which all
-// only listen stays silent for good.
-TEST_F(RunnerTest, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSame) {
+// It has begun a cluster in vain as often as it may, and listens. After 64 cycles its host gives it its attempts back.
+TEST_F(RunnerTest, WhoMayOnlyListenIsStartedAnewAfter64Cycles) {
   cluster_.flexray.gColdStartAttempts = 2;
-  const auto together = [](NodeId) { return std::optional(sim::crank::kFirstCycle); };
-  if (!drive({.lasts = Duration::milliseconds(1000), .power_on = together, .deaf_for = Duration::milliseconds(200)}))
-    return;
-  int exhausted = 0;
-  for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) {
-    EXPECT_EQ(health_of(node).state, "normal active") << node;
-    const auto& states = of(node).states;
-    const auto first_active = std::find(states.begin(), states.end(), "normal active");
-    exhausted += std::count(states.begin(), first_active, "integration listen") > 0 &&
-                 std::count(states.begin(), first_active, "coldstart listen") > 1;
-  }
-  EXPECT_GE(exhausted, 2) << "nobody had used up its attempts";
+  Alone gateway(*this, "gateway",
+                {.lasts = ms(1'000), .power_on = [](NodeId) { return std::optional(sim::crank::kFirstCycle); }});
+  gateway.run();
+  const auto& states = gateway.out.states;
+  const auto gave_up = std::find(states.begin(), states.end(), "integration listen") - states.begin();
+  ASSERT_LT(gave_up + 1, static_cast<std::ptrdiff_t>(states.size()));
+  const auto& changes = gateway.out.changes;
+  const auto listened = static_cast<std::size_t>(gave_up);
+  EXPECT_EQ(changes[listened + 1].local - changes[listened].local, ms(5) * 64);
+  EXPECT_THAT(std::vector<std::string>(states.begin() + gave_up, states.end()), testing::Contains("coldstart listen"));
 }
 
-TEST_F(RunnerTest, ANodeThatComesLaterIntegrates) {
-  const NodeId late = *cluster_.find_node("feature");
-  const TrueTime comes = sim::crank::kFirstCycle + Duration::milliseconds(200);
-  const auto power_on = [=](NodeId node) { return node == late ? std::optional(comes) : std::nullopt; };
-  if (!drive({.lasts = Duration::milliseconds(900), .power_on = power_on})) return;
-  EXPECT_EQ(health_of("feature").state, "normal active");
-  EXPECT_GE(of("feature").fresh, 3);
-  EXPECT_GE(of("feature").first_state + Duration::microseconds(1), comes)
-      << "it has heard what came before its power did";
-  EXPECT_TRUE(of("fusion").states.empty()) << "the others have not noticed";
+// The fusion begins at 1.8 ms; its slot 4 is due 3.459 ms later, and then as late as the window allows.
+TEST_F(RunnerTest, AStepThatComputesForTooLongMakesTheNextSlotLate) {
+  const auto missed_after = [&](Duration computes) {
+    Alone fusion(*this, "fusion", {.lasts = ms(10)});
+    fusion.computes = computes;
+    fusion.run();
+    EXPECT_TRUE(fusion.out.ordered);
+    return fusion.missed();
+  };
+  const Duration longest = ms(5) + us(3 * 84 + 7) - us(1800) + cluster_.arrival_window->late - TurnedHost::kShortest;
+  EXPECT_THAT(missed_after(longest - us(1)), testing::IsEmpty());
+  EXPECT_THAT(missed_after(longest + us(1)), testing::ElementsAre(SlotOfCycle{1, 4, 0}, SlotOfCycle{1, 4, 1}));
 }
 
-// Twenty cycles, of which there is room for the frames of five: of the others it hears nothing when it catches up, and
-// its clock goes astray. It halts, as FlexRay has it, and integrates anew; until then it hardly disturbs the others.
-TEST_F(RunnerTest, ANodeThatWasStoppedForLongIntegratesAnew) {
-  const NodeId stopped = *cluster_.find_node("camera_pre");
-  if (!drive({.lasts = Duration::milliseconds(900),
-              .stopped = stopped,
-              .stopped_at = Duration::milliseconds(200),
-              .stopped_for = Duration::milliseconds(100),
-              .room = 64}))
-    return;
-  EXPECT_THAT(of("camera_pre").states, testing::IsSupersetOf({"halt", "initialise schedule", "normal active"}));
-  EXPECT_EQ(health_of("camera_pre").state, "normal active");
-  EXPECT_GT(health_of("camera_pre").timing.slots_missed, 10u);
-  EXPECT_GT(health_of("camera_pre").medium.lost, 0u);
-  for (const char* node : {"laser_pre", "gateway", "fusion", "feature"}) {
-    EXPECT_EQ(health_of(node).state, "normal active") << node;
-    EXPECT_LE(health_of(node).timing.early_frames, 20u) << node;
-  }
-}
-
-// What a sender says it is late by beyond the window is not sent at all.
-TEST_F(RunnerTest, WhatIsTooLateIsNotSentAndToldSo) {
-  cluster_.arrival_window->late = Duration::microseconds(1);  // no kernel is that good
-  if (!drive({.lasts = Duration::milliseconds(100)})) return;
-  EXPECT_GT(of("gateway").problems[recording::records::kSlotMissed], 0u);
-  EXPECT_EQ(of("gateway").problems[recording::records::kSlotMissed], health_of("gateway").timing.slots_missed);
-  EXPECT_GT(of("gateway").problems[recording::records::kLateWakeUp], 0u);
+// What a plain thread beside it was late by is told along with its own.
+TEST_F(RunnerTest, TheMachinesOwnLatenessIsTold) {
+  Alone gateway(*this, "gateway", {.lasts = ms(10)});
+  gateway.floor.add(us(70));
+  gateway.floor.add(us(90));
+  gateway.run();
+  EXPECT_EQ(gateway.out.lateness[recording::records::kLatenessOfFloor], (Recorded::Histogram{2, us(90)}));
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
-// The runner's small parts: the drive's clock, a paced CAN, a sensor's wires, the wake-up.
+// The runner's small parts: the drive's clock, a paced CAN, a sensor's wires.
 #include <gtest/gtest.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 #include <array>
 #include <vector>
@@ -9,9 +7,7 @@
 #include "bus/wire/can_timing.h"
 #include "bus/wire/strobe.h"
 #include "nodes/runner/drive_clock.h"
-#include "nodes/runner/floor.h"
 #include "nodes/runner/paced_can.h"
-#include "nodes/runner/wake_up.h"
 #include "schedules/file/loader.h"
 
 namespace ttf::nodes::runner {
@@ -96,40 +92,6 @@ TEST(SensorLines, AStrobeCarriesItsNumber) {
   EXPECT_EQ(bus::wire::strobe_data(0x01020304u)[0], std::byte{1});
   EXPECT_FALSE(bus::wire::strobe_sequence(std::array<std::byte, 3>{}));
   EXPECT_NE(schedules::model::strobe_identifier(SensorId{1}), schedules::model::trigger_identifier(SensorId{0}));
-}
-
-TEST(WakeUp, SleepsUntilAnInstantAndNotLess) {
-  WakeUp wake_up(1);
-  for (const std::int64_t us : {0, 1, 300, 20'000}) {
-    const bus::ports::HostTime until = bus::ports::host_now() + Duration::microseconds(us);
-    wake_up.sleep_until(until);
-    EXPECT_GE(bus::ports::host_now(), until);
-  }
-  wake_up.sleep_until(bus::ports::HostTime{-5});  // over long ago
-}
-
-TEST(WakeUp, WakesForADescriptor) {
-  WakeUp wake_up(1);
-  const int event = eventfd(1, EFD_CLOEXEC);
-  wake_up.watch(event);
-  wake_up.watch(-1);
-  const bus::ports::HostTime until = bus::ports::host_now() + Duration::milliseconds(60'000);
-  wake_up.sleep_until(until);
-  EXPECT_LT(bus::ports::host_now(), until);
-  wake_up.clear();
-  const bus::ports::HostTime soon = bus::ports::host_now() + Duration::milliseconds(2);
-  wake_up.sleep_until(soon);
-  EXPECT_GE(bus::ports::host_now(), soon);
-  close(event);
-}
-
-TEST(Floor, CountsEveryWakeUpOnce) {
-  Floor floor(Duration::milliseconds(1), bus::ports::host_now() + Duration::milliseconds(1));
-  WakeUp wake_up(0);
-  wake_up.sleep_until(bus::ports::host_now() + Duration::milliseconds(50));
-  const recording::records::BinnedDurations lateness = floor.lateness();
-  EXPECT_GE(lateness.count(), 1u);
-  EXPECT_LE(lateness.count(), 51u);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ bool set_limit(rlim_t bytes) {
 // The sentence about memory; empty where there is none.
 std::string asked() {
   std::string found;
-  for (const std::string& sentence : ask_for_real_time(kPlace, kPlace))
+  for (const std::string& sentence : ask_for_thread_privileges(kPlace, kPlace))
     if (sentence.starts_with("memory")) found += sentence;
   const sched_param none{};
   sched_setscheduler(0, SCHED_OTHER, &none);  // the rest of the test is in no hurry
@@ -99,7 +99,7 @@ int failed(const std::string& why) {
   if (code == 77) GTEST_SKIP() << "limits or privileges cannot be set so here"; \
   EXPECT_EQ(code, 0)
 
-TEST(RealTimeMemory, UnderALimitThatIsTooSmallNothingIsLocked) {
+TEST(ThreadPrivileges, UnderALimitThatIsTooSmallNothingIsLocked) {
   TRY_ALONE([] {
     if (!give_up_locking() || !set_limit(64 << 10)) return 77;
     const std::string said = asked();
@@ -112,7 +112,7 @@ TEST(RealTimeMemory, UnderALimitThatIsTooSmallNothingIsLocked) {
   });
 }
 
-TEST(RealTimeMemory, UnderALimitThatWillDoOnlyWhatIsThereIsLocked) {
+TEST(ThreadPrivileges, UnderALimitThatWillDoOnlyWhatIsThereIsLocked) {
   TRY_ALONE([] {
     if (!set_limit(512 << 20) || !give_up_locking()) return 77;
     const std::string said = asked();
@@ -126,7 +126,7 @@ TEST(RealTimeMemory, UnderALimitThatWillDoOnlyWhatIsThereIsLocked) {
   });
 }
 
-TEST(RealTimeMemory, WhoIsPrivilegedLocksAllWhateverTheLimit) {
+TEST(ThreadPrivileges, WhoIsPrivilegedLocksAllWhateverTheLimit) {
   TRY_ALONE([] {
     if (!set_limit(0) || mlock("", 1) != 0) return 77;
     munlock("", 1);
@@ -140,7 +140,7 @@ TEST(RealTimeMemory, WhoIsPrivilegedLocksAllWhateverTheLimit) {
   });
 }
 
-TEST(RealTimeMemory, WithoutALimitAllIsLocked) {
+TEST(ThreadPrivileges, WithoutALimitAllIsLocked) {
   TRY_ALONE([] {
     if (!set_limit(RLIM_INFINITY) || !give_up_locking()) return 77;
     const std::string said = asked();

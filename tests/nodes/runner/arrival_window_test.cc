@@ -40,10 +40,10 @@ struct Told final : ArrivalEvents {
 
 // The feature node of the paper's cluster: others' key slots are 1 to 4, slot 6 carries the gateway's list; 40
 // microticks to a macrotick, 200,000 to a cycle, which begins at 1,000,000.
-class ArrivalsTest : public testing::Test {
+class ArrivalWindowTest : public testing::Test {
  protected:
   static constexpr std::int64_t kStart = 1'000'000;
-  ArrivalsTest() : clock_({5000, 1'000'000, 200'000, 4900}, Microticks{kStart}, 0, kCycle) {}
+  ArrivalWindowTest() : clock_({5000, 1'000'000, 200'000, 4900}, Microticks{kStart}, 0, kCycle) {}
 
   std::int64_t action_point(int slot) const { return clock_.start_of(Macroticks{(slot - 1) * 84 + 7}).value; }
   static Microticks frame_length() { return Microticks{652 * 4}; }  // bits of 100 ns, microticks of 25 ns
@@ -60,21 +60,21 @@ class ArrivalsTest : public testing::Test {
     LiveArrival arrival;
     arrival.signal.slot = slot;
     arrival.signal.bytes = std::span<const std::byte>(bytes).first(size);
-    arrivals_.arrive(arrival, Microticks{at}, late ? std::optional(Microticks{*late}) : std::nullopt, {},
-                     clock ? &clock_ : nullptr);
+    window_.arrive(arrival, Microticks{at}, late ? std::optional(Microticks{*late}) : std::nullopt, {},
+                   clock ? &clock_ : nullptr);
   }
   void follow_up(int slot, std::int64_t late) {
     LiveArrival arrival;
     arrival.kind = LiveArrival::Kind::kFollowUp;
     arrival.signal.slot = slot;
     arrival.cycle_counter = kCycle % 64;
-    arrivals_.arrive(arrival, {}, Microticks{late}, {}, &clock_);
+    window_.arrive(arrival, {}, Microticks{late}, {}, &clock_);
   }
   void arrive_and_take(int slot, std::int64_t cycle) {
     arrive(slot, action_point(slot), false, cycle);
     EXPECT_TRUE(take(clock_.cycle_end().value));
   }
-  std::optional<Arrivals::Due> take(std::int64_t now) { return arrivals_.take(Microticks{now}, &clock_); }
+  std::optional<ArrivalWindow::Due> take(std::int64_t now) { return window_.take(Microticks{now}, &clock_); }
 
   static constexpr std::int64_t kCycle = 130;  // its counter is 2
   static constexpr std::int64_t kCompensation = 50;
@@ -82,17 +82,17 @@ class ArrivalsTest : public testing::Test {
       schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   timebase::CycleClock clock_;
   Told told_;
-  Arrivals arrivals_{cluster_, *cluster_.find_node("feature"), {Microticks{4000}, Microticks{16'000}}, told_};
+  ArrivalWindow window_{cluster_, *cluster_.find_node("feature"), {Microticks{4000}, Microticks{16'000}}, told_};
 };
 
-TEST_F(ArrivalsTest, AFrameWithinItsWindowIsHandedOverAtItsActionPoint) {
+TEST_F(ArrivalWindowTest, AFrameWithinItsWindowIsHandedOverAtItsActionPoint) {
   for (const std::int64_t behind : {-4000, -1, 0, 1, 2000, 16'000}) {
     arrive(6, action_point(6) + behind, false);
     const std::int64_t end = action_point(6) + kCompensation + frame_length().value;
-    EXPECT_EQ(arrivals_.next().value, action_point(6) + behind);
+    EXPECT_EQ(window_.next().value, action_point(6) + behind);
     const std::int64_t there = std::max(end, action_point(6) + behind);
     EXPECT_FALSE(take(there - 1)) << "before it has ended, or come";
-    EXPECT_EQ(arrivals_.next().value, there);
+    EXPECT_EQ(window_.next().value, there);
     const auto due = take(there);
     ASSERT_TRUE(due);
     EXPECT_EQ(due->reception.start.value, action_point(6) + kCompensation);
@@ -104,7 +104,7 @@ TEST_F(ArrivalsTest, AFrameWithinItsWindowIsHandedOverAtItsActionPoint) {
   EXPECT_TRUE(told_.missed.empty());
 }
 
-TEST_F(ArrivalsTest, WhatComesOutsideItsWindowIsToldAndNotUsed) {
+TEST_F(ArrivalWindowTest, WhatComesOutsideItsWindowIsToldAndNotUsed) {
   arrive(6, action_point(6) + 16'001, false);
   arrive(6, action_point(6) - 4001, false);
   EXPECT_FALSE(take(kStart + 1'000'000));
@@ -113,10 +113,10 @@ TEST_F(ArrivalsTest, WhatComesOutsideItsWindowIsToldAndNotUsed) {
   EXPECT_EQ(told_.missed[1].behind, 16'001);
   EXPECT_EQ(told_.missed[0].slot, 6);
   EXPECT_EQ(told_.missed[0].cycle, kCycle);
-  EXPECT_EQ(arrivals_.held(), 0u);
+  EXPECT_EQ(window_.held(), 0u);
 }
 
-TEST_F(ArrivalsTest, ASyncFrameIsWhereItWouldHaveBeenHadItsSenderBeenInTime) {
+TEST_F(ArrivalWindowTest, ASyncFrameIsWhereItWouldHaveBeenHadItsSenderBeenInTime) {
   for (const std::int64_t deviation : {-200, -3, 0, 7, 200}) {
     arrive(1, action_point(1) + deviation + 3000, true, kCycle, 3000);
     const auto due = take(kStart + 100'000);
@@ -125,7 +125,7 @@ TEST_F(ArrivalsTest, ASyncFrameIsWhereItWouldHaveBeenHadItsSenderBeenInTime) {
   }
 }
 
-TEST_F(ArrivalsTest, ASyncFrameIsNeverPutBeyondWhatFlexRayAllows) {
+TEST_F(ArrivalWindowTest, ASyncFrameIsNeverPutBeyondWhatFlexRayAllows) {
   arrive(1, action_point(1) + 5000, true, kCycle, 0);
   const auto due = take(kStart + 100'000);
   ASSERT_TRUE(due);
@@ -137,7 +137,7 @@ TEST_F(ArrivalsTest, ASyncFrameIsNeverPutBeyondWhatFlexRayAllows) {
 //
 //   deviation in the even cycle    5000   -3900    5000   100    5000   210    none
 //   in the odd one so much more      20     -20     -70    20      50    20    5000
-TEST_F(ArrivalsTest, WhatTheDeviationsOfADoubleCycleDifferByIsKept) {
+TEST_F(ArrivalWindowTest, WhatTheDeviationsOfADoubleCycleDifferByIsKept) {
   static constexpr std::int64_t kMost = 6 * 40 - 30;
   struct Case {
     std::int64_t even, more, put_even, put_odd;
@@ -163,7 +163,7 @@ TEST_F(ArrivalsTest, WhatTheDeviationsOfADoubleCycleDifferByIsKept) {
   EXPECT_EQ(put(5000), kMost);
 }
 
-TEST_F(ArrivalsTest, ASyncFrameWaitsForItsFollowUp) {
+TEST_F(ArrivalWindowTest, ASyncFrameWaitsForItsFollowUp) {
   arrive(1, action_point(1) + 2000, true);
   EXPECT_FALSE(take(action_point(1) + 2000 + 15'000));
   follow_up(2, 1999);  // of another slot
@@ -174,14 +174,14 @@ TEST_F(ArrivalsTest, ASyncFrameWaitsForItsFollowUp) {
   EXPECT_EQ(due->reception.start.value, action_point(1) + kCompensation + 10);
 }
 
-TEST_F(ArrivalsTest, WithoutFollowUpItSaysNothingOfTheClock) {
+TEST_F(ArrivalWindowTest, WithoutFollowUpItSaysNothingOfTheClock) {
   arrive(1, action_point(1) + 2000, true);
   const auto due = take(action_point(1) + 2000 + 16'000);
   ASSERT_TRUE(due);
   EXPECT_EQ(due->reception.start.value, action_point(1) + kCompensation);
 }
 
-TEST_F(ArrivalsTest, AFrameOfTheNextCycleWaitsForIt) {
+TEST_F(ArrivalWindowTest, AFrameOfTheNextCycleWaitsForIt) {
   arrive(1, kStart + 200'000 + 7 * 40 - 1000, true, kCycle + 1, 0);
   EXPECT_FALSE(take(kStart + 200'000));
   clock_.next_cycle(0);
@@ -192,7 +192,7 @@ TEST_F(ArrivalsTest, AFrameOfTheNextCycleWaitsForIt) {
   EXPECT_TRUE(told_.missed.empty());
 }
 
-TEST_F(ArrivalsTest, AFrameOfTheCycleBeforeIsLate) {
+TEST_F(ArrivalWindowTest, AFrameOfTheCycleBeforeIsLate) {
   arrive(6, action_point(6) - 200'000 + 300'000, false, kCycle - 1);
   EXPECT_FALSE(take(kStart + 1'000'000));
   ASSERT_EQ(told_.missed.size(), 1u);
@@ -200,7 +200,7 @@ TEST_F(ArrivalsTest, AFrameOfTheCycleBeforeIsLate) {
   EXPECT_EQ(told_.missed[0].cycle, kCycle - 1);
 }
 
-TEST_F(ArrivalsTest, WhatNeverCameIsToldByTheNextOfItsSlot) {
+TEST_F(ArrivalWindowTest, WhatNeverCameIsToldByTheNextOfItsSlot) {
   arrive_and_take(6, kCycle);
   for (int i = 0; i < 3; ++i) clock_.next_cycle(0);
   arrive_and_take(6, kCycle + 3);
@@ -211,7 +211,7 @@ TEST_F(ArrivalsTest, WhatNeverCameIsToldByTheNextOfItsSlot) {
 }
 
 // A process that was stopped finds frames of a round before, whose cycle counter is that of now.
-TEST_F(ArrivalsTest, AFrameOfTheRoundBeforeIsNotTakenForOneOfThisCycle) {
+TEST_F(ArrivalWindowTest, AFrameOfTheRoundBeforeIsNotTakenForOneOfThisCycle) {
   arrive(6, action_point(6) - 64 * 200'000, false, kCycle - 64);
   EXPECT_FALSE(take(kStart + 1'000'000));
   ASSERT_EQ(told_.missed.size(), 1u);
@@ -219,7 +219,7 @@ TEST_F(ArrivalsTest, AFrameOfTheRoundBeforeIsNotTakenForOneOfThisCycle) {
 }
 
 // The image is sent in one cycle of eight.
-TEST_F(ArrivalsTest, ASlotIsMissedOnlyInCyclesThatItIsSentIn) {
+TEST_F(ArrivalWindowTest, ASlotIsMissedOnlyInCyclesThatItIsSentIn) {
   while (clock_.cycle() % 8 != 1) clock_.next_cycle(0);
   arrive_and_take(22, clock_.cycle());
   for (int i = 0; i < 24; ++i) clock_.next_cycle(0);
@@ -227,23 +227,23 @@ TEST_F(ArrivalsTest, ASlotIsMissedOnlyInCyclesThatItIsSentIn) {
   EXPECT_EQ(told_.lost_counts, std::vector<std::uint32_t>{2});
 }
 
-TEST_F(ArrivalsTest, WhoWasAwayForLongHasLostNothing) {
+TEST_F(ArrivalWindowTest, WhoWasAwayForLongHasLostNothing) {
   arrive_and_take(6, kCycle);
   for (int i = 0; i < 65; ++i) clock_.next_cycle(0);
   arrive_and_take(6, kCycle + 65);
   EXPECT_TRUE(told_.lost_counts.empty());
 }
 
-TEST_F(ArrivalsTest, WithoutAClockAFrameKeepsItsInstant) {
+TEST_F(ArrivalWindowTest, WithoutAClockAFrameKeepsItsInstant) {
   arrive(1, 5'000'123, true, kCycle, 23, false);
-  const auto due = arrivals_.take(Microticks{5'100'000}, nullptr);
+  const auto due = window_.take(Microticks{5'100'000}, nullptr);
   ASSERT_TRUE(due);
   EXPECT_EQ(due->reception.start.value, 5'000'100);
   EXPECT_EQ(due->reception.end.value, 5'000'100 + frame_length().value);
 }
 
 // A process that was held up finds what came in the meantime, of cycles that its node has yet to get to.
-TEST_F(ArrivalsTest, WhatCameWhileTheProcessWasHeldUpIsPlacedWhenItsCycleComes) {
+TEST_F(ArrivalWindowTest, WhatCameWhileTheProcessWasHeldUpIsPlacedWhenItsCycleComes) {
   for (int ahead = 0; ahead < 5; ++ahead) arrive(6, action_point(6) + ahead * 200'000 + 900, false, kCycle + ahead);
   for (int ahead = 0; ahead < 5; ++ahead) {
     const auto due = take(clock_.cycle_end().value);
@@ -256,28 +256,28 @@ TEST_F(ArrivalsTest, WhatCameWhileTheProcessWasHeldUpIsPlacedWhenItsCycleComes) 
 }
 
 // A clock that is derived for a cycle that is over, and does not go on: nothing waits for it.
-TEST_F(ArrivalsTest, AFrameOfTheNextCycleDoesNotWaitForAClockThatStandsStill) {
+TEST_F(ArrivalWindowTest, AFrameOfTheNextCycleDoesNotWaitForAClockThatStandsStill) {
   arrive(6, action_point(6) + 200'000, false, kCycle + 1);
   const auto due = take(kStart + 900'000);
   ASSERT_TRUE(due);
   EXPECT_EQ(due->reception.start.value, action_point(6) + 200'000);
 }
 
-TEST_F(ArrivalsTest, WhatIsHandedOverTooLateForItsCycleIsTold) {
+TEST_F(ArrivalWindowTest, WhatIsHandedOverTooLateForItsCycleIsTold) {
   arrive(6, action_point(6) + 100, false, kCycle + 20);  // kept as it came
   for (int i = 0; i < 2; ++i) clock_.next_cycle(0);
   EXPECT_FALSE(take(clock_.cycle_start().value + 10));
   EXPECT_EQ(told_.missed.size(), 1u);
 }
 
-TEST_F(ArrivalsTest, AnAbsurdCycleIsTheControllersToJudge) {
+TEST_F(ArrivalWindowTest, AnAbsurdCycleIsTheControllersToJudge) {
   arrive(6, action_point(6) + 9, false, kCycle + 20);
   const auto due = take(kStart + 1'000'000);
   ASSERT_TRUE(due);
   EXPECT_EQ(due->reception.start.value, action_point(6) + 9);
 }
 
-TEST_F(ArrivalsTest, HandsOverInTheOrderOfInstants) {
+TEST_F(ArrivalWindowTest, HandsOverInTheOrderOfInstants) {
   arrive(6, action_point(6) + 3000, false);
   arrive(1, action_point(1) + 9000, true, kCycle, 9000);
   LiveArrival can;
@@ -285,7 +285,7 @@ TEST_F(ArrivalsTest, HandsOverInTheOrderOfInstants) {
   can.can_bus = 1;
   const std::array data{std::byte{1}, std::byte{2}};
   can.can = {77, true, data};
-  arrivals_.arrive(can, Microticks{action_point(1) + 100'000}, {}, {}, &clock_);
+  window_.arrive(can, Microticks{action_point(1) + 100'000}, {}, {}, &clock_);
   std::vector<std::int64_t> order;
   while (const auto due = take(kStart + 1'000'000)) {
     order.push_back(due->kind == LiveArrival::Kind::kCan ? 0 : due->reception.frame.header.frame_id);
@@ -298,7 +298,7 @@ TEST_F(ArrivalsTest, HandsOverInTheOrderOfInstants) {
   EXPECT_EQ(order, (std::vector<std::int64_t>{1, 6, 0}));
 }
 
-TEST_F(ArrivalsTest, NothingAllocatesAfterTheStart) {
+TEST_F(ArrivalWindowTest, NothingAllocatesAfterTheStart) {
   const std::int64_t before = support::allocations();
   for (int round = 0; round < 3; ++round) {
     for (const int slot : {1, 6}) arrive(slot, action_point(slot) + 100, slot == 1, clock_.cycle());
@@ -312,24 +312,24 @@ TEST_F(ArrivalsTest, NothingAllocatesAfterTheStart) {
   EXPECT_EQ(support::allocations(), before);
 }
 
-TEST_F(ArrivalsTest, ASymbolIsCarriedUntilItEnds) {
+TEST_F(ArrivalWindowTest, ASymbolIsCarriedUntilItEnds) {
   LiveArrival symbol;
   symbol.signal.signal = bus::ports::Signal::kCas;
   symbol.signal.channel = Channel::kB;
-  arrivals_.arrive(symbol, Microticks{500}, {}, Microticks{400}, nullptr);
-  EXPECT_TRUE(arrivals_.carrier(Channel::kB, Microticks{899}));
-  EXPECT_FALSE(arrivals_.carrier(Channel::kA, Microticks{899}));
-  EXPECT_FALSE(arrivals_.carrier(Channel::kB, Microticks{900}));
-  const auto due = arrivals_.take(Microticks{900}, nullptr);
+  window_.arrive(symbol, Microticks{500}, {}, Microticks{400}, nullptr);
+  EXPECT_TRUE(window_.carrier(Channel::kB, Microticks{899}));
+  EXPECT_FALSE(window_.carrier(Channel::kA, Microticks{899}));
+  EXPECT_FALSE(window_.carrier(Channel::kB, Microticks{900}));
+  const auto due = window_.take(Microticks{900}, nullptr);
   ASSERT_TRUE(due);
   EXPECT_EQ(due->reception.signal, bus::ports::Signal::kCas);
   EXPECT_EQ(due->reception.start.value, 500);
 }
 
-TEST_F(ArrivalsTest, WhatThereIsNoRoomForIsCounted) {
-  for (std::size_t i = 0; i < Arrivals::kMost + 5; ++i) arrive(6, action_point(6), false);
-  EXPECT_EQ(arrivals_.held(), Arrivals::kMost);
-  EXPECT_EQ(arrivals_.dropped(), 5u);
+TEST_F(ArrivalWindowTest, WhatThereIsNoRoomForIsCounted) {
+  for (std::size_t i = 0; i < ArrivalWindow::kMost + 5; ++i) arrive(6, action_point(6), false);
+  EXPECT_EQ(window_.held(), ArrivalWindow::kMost);
+  EXPECT_EQ(window_.dropped(), 5u);
 }
 
 }  // namespace

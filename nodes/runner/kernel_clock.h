@@ -1,0 +1,38 @@
+// The clock of a real host, CLOCK_MONOTONIC. It waits to the nanosecond that the kernel is asked for, by a timer of its
+// own (what poll() is given as a time it may stretch by a thousandth).
+#pragma once
+
+#include <poll.h>
+
+#include <vector>
+
+#include "nodes/runner/drive_clock.h"
+#include "nodes/runner/floor.h"
+#include "nodes/runner/host_clock.h"
+
+namespace ttf::nodes::runner {
+
+class KernelClock final : public HostClock {
+ public:
+  // The plain thread beside it has its turns by `drive`; it is scheduled as the thread that makes this, so ask for
+  // privileges before. Throws std::runtime_error where the system gives no timer.
+  explicit KernelClock(const DriveClock& drive);
+  ~KernelClock() override;
+  KernelClock(const KernelClock&) = delete;
+  KernelClock& operator=(const KernelClock&) = delete;
+
+  bus::ports::HostTime now() const override { return bus::ports::host_now(); }
+  void watch(int descriptor) override;
+  void clear() override;
+  void wait_until(bus::ports::HostTime until) override;
+  void sleep(Duration lasts) override;
+  bool readable(int descriptor) const override;
+  recording::records::BinnedDurations floor() const override { return floor_.lateness(); }
+
+ private:
+  Floor floor_;
+  int timer_ = -1;
+  std::vector<pollfd> watched_;  // the timer first
+};
+
+}  // namespace ttf::nodes::runner
