@@ -8,7 +8,6 @@
 namespace ttf::sim::crank {
 namespace {
 
-constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
 constexpr Microticks kUnknown{std::numeric_limits<std::int64_t>::min()};
 
 }  // namespace
@@ -23,8 +22,9 @@ Crank::Crank(const schedules::model::Cluster& cluster, std::size_t others)
 void Crank::seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on) {
   TTF_CHECK(seats_.size() < cluster_.nodes.size(), "{} nodes are all", seats_.size());
   TTF_CHECK(!power_on || *power_on >= TrueTime{}, "power-on at {} ns", power_on->ns);
-  seats_.push_back({oscillator, !power_on, TrueTime{} - Duration{1}, kUnknown, kNever, kNever, {}, {}});
-  next_.push_back(kNever);
+  seats_.push_back(
+      {oscillator, !power_on, TrueTime{} - Duration{1}, kUnknown, kNever<TrueTime>, kNever<TrueTime>, {}, {}});
+  next_.push_back(kNever<TrueTime>);
   if (power_on) set_next(seats_.size() - 1, *power_on);
 }
 
@@ -43,7 +43,7 @@ void Crank::set_disturbance(medium::Disturbance* disturbance) {
 
 void Crank::power_off(NodeId node) {
   const std::size_t n = index_of(node);
-  set_next(n, kNever);
+  set_next(n, kNever<TrueTime>);
   seats_[n].next = kUnknown;
   if (!seats_[n].powered) return;
   seats_[n].powered = false;
@@ -63,7 +63,7 @@ void Crank::change_drift(NodeId node, std::int64_t ppb) {
   const std::size_t n = index_of(node);
   seats_[n].oscillator.change_drift(now_, ppb);
   seats_[n].next = kUnknown;
-  seats_[n].ended = kNever;
+  seats_[n].ended = kNever<TrueTime>;
   if (!seats_[n].powered) return;
   drifts(n);
   refresh(n);
@@ -82,8 +82,7 @@ void Crank::refresh(std::size_t node) {
 }
 
 TrueTime Crank::next_time(const Seat& seat) const {
-  const bool never = seat.next.value == std::numeric_limits<std::int64_t>::max();
-  return never ? kNever : std::max(now_, seat.oscillator.time_of(seat.next));
+  return seat.next == kNever<Microticks> ? kNever<TrueTime> : std::max(now_, seat.oscillator.time_of(seat.next));
 }
 
 // Keeps `earliest_` the first of those that are due first.
@@ -112,7 +111,7 @@ void Crank::run_until(TrueTime end) {
       disturbance_->act(now_);
       continue;
     }
-    if (time > end || time == kNever) break;
+    if (time > end || time == kNever<TrueTime>) break;
     TTF_CHECK(time >= now_, "time goes back from {} to {} ns", now_.ns, time.ns);
     now_ = time;
     if (node_is_due) {
@@ -137,7 +136,7 @@ void Crank::step(std::size_t node) {
     seat.powered = true;
     seat.since = now_;
   }
-  set_next(node, kNever);
+  set_next(node, kNever<TrueTime>);
   while (true) {
     advance(node, at);
     seat.next = next_event(node);
