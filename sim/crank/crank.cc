@@ -36,12 +36,17 @@ void Crank::seat(const timebase::Oscillator& oscillator, std::optional<TrueTime>
   if (power_on) set_next(seats_.size() - 1, *power_on);
 }
 
-void Crank::seat_guardian(schedules::model::Channel channel, const timebase::Oscillator& oscillator) {
-  TTF_CHECK(cluster_.guardian && cluster_.topology == schedules::model::Topology::kStar, "a guardian for {}",
-            cluster_.name);
-  auto& coupler = couplers_[index_of(channel)];
-  coupler = std::make_unique<medium::StarCoupler>(cluster_, channel, oscillator);
-  medium_.set_coupler(channel, coupler.get());
+void Crank::seat_guardians(const std::function<timebase::Oscillator(schedules::model::Channel)>& crystal,
+                           const std::optional<FirstCycle>& first) {
+  for (const schedules::model::Channel channel : {schedules::model::Channel::kA, schedules::model::Channel::kB}) {
+    if (!medium::StarCoupler::needed(cluster_, channel)) continue;
+    TTF_CHECK(cluster_.topology == schedules::model::Topology::kStar, "guardians for {}, which is no star",
+              cluster_.name);
+    auto& coupler = couplers_[index_of(channel)];
+    coupler = std::make_unique<medium::StarCoupler>(cluster_, channel, crystal(channel));
+    medium_.set_coupler(channel, coupler.get());
+    if (first) coupler->start_integrated(first->start, first->length);
+  }
 }
 
 void Crank::set_disturbance(medium::Disturbance* disturbance) {

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,6 +30,12 @@ namespace ttf::sim::crank {
 
 class Crank : public Plant {
  public:
+  // Cycle 0 of nodes that begin integrated.
+  struct FirstCycle {
+    TrueTime start{};
+    Duration length{};
+  };
+
   // Everything up to and including `end`.
   void run_until(TrueTime end);
 
@@ -55,8 +62,10 @@ class Crank : public Plant {
   // The next node's clock, to be called once per node in the order of their ids. Nothing: it has its supply already,
   // and start() has been or will be called by who derives; refresh() when it can say what is next.
   void seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on);
-  // Of a cluster with guardians, the one of a channel somebody is on: powered on at once, to integrate like the nodes.
-  void seat_guardian(schedules::model::Channel channel, const timebase::Oscillator& oscillator);
+  // Of a cluster with guardians, one for each channel that somebody is on, with the oscillator that `crystal` gives it:
+  // powered on at once, to integrate like the nodes, or in the middle of `first`.
+  void seat_guardians(const std::function<timebase::Oscillator(schedules::model::Channel)>& crystal,
+                      const std::optional<FirstCycle>& first);
   // The node's next event may be another one now; most arrivals change nothing about it.
   void refresh(std::size_t node) {
     if (is_powered(node) && next_event(node) != seats_[node].next) set_next_event(node, next_event(node));
