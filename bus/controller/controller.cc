@@ -46,16 +46,16 @@ void FlexRayController::State::tell(const poc::PocEvent& event, Microticks at) {
   const poc::PocStep step = poc_step(poc_parameters, poc, event);
   poc = step.next;
   act(step.actions, at);
-  if (poc.kind != poc::PocKind::kWakeupSend) wakeup_sent = kNever;
+  if (poc.kind != poc::PocKind::kWakeupSend) wakeup_sent = kNever<Microticks>;
   if (poc.kind != from) events.state_changed(from, step, at);
 }
 
 void FlexRayController::State::act(const poc::PocActions& actions, Microticks at) {
   if (actions.empty()) return;
-  if (actions.has(poc::PocAction::kStopTimers)) listen_timer = noise_timer = kNever;
+  if (actions.has(poc::PocAction::kStopTimers)) listen_timer = noise_timer = kNever<Microticks>;
   if (actions.has(poc::PocAction::kDropSchedule)) drop_schedule();
   if (actions.has(poc::PocAction::kRestartListenTimer)) listen_timer = at + poc_parameters.listen_timeout();
-  if (actions.has(poc::PocAction::kStopListenTimer)) listen_timer = kNever;
+  if (actions.has(poc::PocAction::kStopListenTimer)) listen_timer = kNever<Microticks>;
   if (actions.has(poc::PocAction::kRestartNoiseTimer)) noise_timer = at + poc_parameters.noise_timeout();
   if (actions.has(poc::PocAction::kSendWakeupPattern)) send_wakeup_pattern(at);
   if (actions.has(poc::PocAction::kSendCas)) send_cas(at);
@@ -66,7 +66,7 @@ void FlexRayController::State::act(const poc::PocActions& actions, Microticks at
 void FlexRayController::State::drop_schedule() {
   clock.reset();
   initialisation.reset();
-  partner_overdue = kNever;
+  partner_overdue = kNever<Microticks>;
   symbol_request.reset();
 }
 
@@ -121,22 +121,22 @@ void FlexRayController::State::handle(Microticks at) {
     return port.carrier(schedules::model::Channel::kA) || port.carrier(schedules::model::Channel::kB);
   };
   if (noise_timer == at) {
-    noise_timer = kNever;
+    noise_timer = kNever<Microticks>;
     return tell({poc::PocEventKind::kNoiseTimeout}, at);
   }
   if (listen_timer == at) {
-    listen_timer = kNever;
+    listen_timer = kNever<Microticks>;
     // What is arriving may have stopped the timer, which then starts anew when the channels are idle again.
     const bool stopped = listen_timer_follows_channels(poc.kind) && busy();
     return tell({stopped ? poc::PocEventKind::kChannelActive : poc::PocEventKind::kListenTimeout}, at);
   }
   if (wakeup_sent == at) {
-    wakeup_sent = kNever;
+    wakeup_sent = kNever<Microticks>;
     return tell({poc::PocEventKind::kWakeupSent}, at);
   }
   if (partner_overdue == at) {
     initialisation.reset();
-    partner_overdue = kNever;
+    partner_overdue = kNever<Microticks>;
     return tell({poc::PocEventKind::kScheduleNotDerived}, at);
   }
   switch (segment) {

@@ -129,7 +129,7 @@ void FlexRayController::State::hear_known(const ports::Reception& reception) {
 
 void FlexRayController::State::hear_in_startup(const ports::Reception& reception, bool conflict) {
   tell({poc::PocEventKind::kChannelActive}, reception.end);
-  if (conflict && wakeup_sent != kNever) {
+  if (conflict && wakeup_sent != kNever<Microticks>) {
     tell({poc::PocEventKind::kWakeupCollision}, reception.end);
   } else if (!conflict) {
     if (reception.signal == ports::Signal::kCas) tell({poc::PocEventKind::kCasReceived}, reception.end);
@@ -165,7 +165,7 @@ void FlexRayController::State::hear(const ports::Reception& reception) {
   } else if (poc.kind == poc::PocKind::kInitialiseSchedule && heard.frame_id == poc.reference) {
     const auto schedule = initialisation.hear(heard);
     if (!schedule && heard.cycle % 2 == 0) return;  // the other channel's even frame
-    partner_overdue = kNever;
+    partner_overdue = kNever<Microticks>;
     if (!schedule) return tell({poc::PocEventKind::kScheduleNotDerived}, reception.end);
     tell(event, reception.end);
     begin_schedule(schedule->cycle_start, schedule->rate, schedule->cycle);

@@ -113,7 +113,7 @@ void FlexRayController::State::send_on_both(const FrameSlot& slot, Microticks at
 void FlexRayController::State::plan_dynamic(Channel channel, Microticks now) {
   Dynamic& d = dynamic[index_of(channel)];
   const auto own = slots.own_dynamic(channel);
-  d.due = kNever;
+  d.due = kNever<Microticks>;
   for (; d.next < own.size(); ++d.next) {
     const FrameSlot& slot = *own[d.next];
     d.minislot = d.counter.minislot_of(slot.slot);
@@ -122,7 +122,7 @@ void FlexRayController::State::plan_dynamic(Channel channel, Microticks now) {
     if (d.minislot > std::min(p.pLatestTx, minislots.count())) return;
     d.due = clock->start_of(minislots.action_point(d.minislot));
     if (d.due >= now) return;
-    d.due = kNever;  // missed: the clocks disagree by more than a minislot
+    d.due = kNever<Microticks>;  // missed: the clocks disagree by more than a minislot
   }
 }
 
@@ -130,7 +130,7 @@ void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
   Dynamic& d = dynamic[index_of(channel)];
   // A slot before this one is being used: its end will say where the counter goes on.
   if (port.carrier(channel)) {
-    d.due = kNever;
+    d.due = kNever<Microticks>;
     return;
   }
   const FrameSlot& slot = *slots.own_dynamic(channel)[d.next];

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "bus/controller/controller.h"
@@ -16,8 +15,6 @@
 #include "bus/controller/sync_collector.h"
 
 namespace ttf::bus::controller {
-
-inline constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
 
 struct FlexRayController::State {
   State(const schedules::model::Cluster& cluster, NodeId node, ports::FlexRayPort& port, ControllerEvents& events);
@@ -46,9 +43,10 @@ struct FlexRayController::State {
   int extern_offset = 0, extern_rate = 0;  // [uT], the host's
   SyncCollector sync;
   ScheduleInitialisation initialisation;
-  Microticks listen_timer = kNever, noise_timer = kNever, wakeup_sent = kNever;
-  Microticks partner_overdue = kNever;                                   // while a schedule is being derived
-  std::array<Microticks, 2> sending_from{kNever, kNever}, sending_to{};  // by channel: this node's last transmission
+  Microticks listen_timer = kNever<Microticks>, noise_timer = kNever<Microticks>, wakeup_sent = kNever<Microticks>;
+  Microticks partner_overdue = kNever<Microticks>;  // while a schedule is being derived
+  // By channel: this node's last transmission.
+  std::array<Microticks, 2> sending_from{kNever<Microticks>, kNever<Microticks>}, sending_to{};
 
   SlotBoard board;
   std::array<bool, 2> going_on{};  // by channel: what went on when the last static segment ended still does
@@ -75,18 +73,18 @@ struct FlexRayController::State {
   // kBefore: the first cycle is to start; kDynamic: with the symbol window.
   enum class Segment : std::uint8_t { kBefore, kStatic, kDynamic, kRest };
   Segment segment = Segment::kStatic;
-  Microticks due = kNever;      // next_event(), which what arrives in a static slot changes nothing about
-  std::size_t next_static = 0;  // in slots.own_static()
+  Microticks due = kNever<Microticks>;  // next_event(), which what arrives in a static slot changes nothing about
+  std::size_t next_static = 0;          // in slots.own_static()
   struct Dynamic {
     DynamicSlotCounter counter;
-    std::size_t next = 0;     // in slots.own_dynamic()
-    Microticks due = kNever;  // action point of that slot, as the counter stands
-    int minislot = 0;         // it begins in
+    std::size_t next = 0;                 // in slots.own_dynamic()
+    Microticks due = kNever<Microticks>;  // action point of that slot, as the counter stands
+    int minislot = 0;                     // it begins in
   };
   std::array<Dynamic, 2> dynamic;  // by channel
 
-  // The symbol window, planned when the static segment ends; kNever where there is none.
-  Microticks window_from = kNever, window_to = kNever, symbol_point = kNever;
+  // The symbol window, planned when the static segment ends; never where there is none.
+  Microticks window_from = kNever<Microticks>, window_to = kNever<Microticks>, symbol_point = kNever<Microticks>;
   std::optional<schedules::model::Channels> symbol_request;  // a media access test symbol is to be sent there
   std::array<SymbolWindowSeen, 2> window_seen, window_last;  // by channel: under way, and the last that is over
   std::array<bool, 2> window_element{};                      // something has begun in it
@@ -156,7 +154,7 @@ struct FlexRayController::State {
   void hear_known(const ports::Reception& reception);
   void hear_sync(const ports::Reception& reception, int slot, schedules::model::Channels channels);
   bool talks_over(const ports::Reception& reception, std::size_t channel) const {
-    return sending_from[channel] != kNever && reception.start < sending_to[channel] &&
+    return sending_from[channel] != kNever<Microticks> && reception.start < sending_to[channel] &&
            reception.end > sending_from[channel];
   }
   void hear_in_startup(const ports::Reception& reception, bool conflict);  // or without a schedule

@@ -27,7 +27,7 @@ void FlexRayController::State::plan_symbol_window() {
 }
 
 void FlexRayController::State::send_media_test_symbol(Microticks at) {
-  symbol_point = kNever;
+  symbol_point = kNever<Microticks>;
   if (!symbol_request) return;
   const Channels channels = *symbol_request;
   symbol_request.reset();

@@ -77,7 +77,7 @@ class Trial final : public sim::medium::Disturbance, public sim::crank::Plant, p
       : campaign_(campaign), cluster_(cluster), plan_{campaign.file, drawn != nullptr ? std::vector{drawn->fault}
                                                                                       : std::vector<faults::Fault>{}},
         believed_(plan_, cluster), index_(index), faulty_(settings.faulty), judge_(cluster, settings), story_(story),
-        restart_at_(cluster.nodes.size(), kNever) {
+        restart_at_(cluster.nodes.size(), kNever<TrueTime>) {
     std::vector<sim::crank::BusNode> nodes;
     std::vector<bus::controller::ControllerEvents*> events;
     const TrueTime origin = starts_up ? TrueTime{} : TrueTime{} + kBeforeFirstCycle;
@@ -213,7 +213,7 @@ class Trial final : public sim::medium::Disturbance, public sim::crank::Plant, p
     if (injector_->next() <= at) injector_->act(at);
     for (std::size_t n = 0; n < restart_at_.size(); ++n) {
       if (restart_at_[n] > at) continue;
-      restart_at_[n] = kNever;
+      restart_at_[n] = kNever<TrueTime>;
       const auto id = static_cast<NodeId>(n);
       if (!simulation_->powered(id) || simulation_->controller(id).state().kind != PocKind::kHalt) continue;
       simulation_->power_off(id);
@@ -311,8 +311,7 @@ FaultOutcome run_trial(const CampaignFile& campaign, const schedules::model::Clu
   const TrueTime origin = starts_up ? TrueTime{} : TrueTime{} + kBeforeFirstCycle;
   settings.faulty = evaluation::faults::named_by(fault, cluster);
   settings.from = faults::changes_schedule(fault) ? TrueTime{} : origin + fault.from;
-  settings.until = fault.duration == faults::Fault::kToTheEnd ? sim::medium::Disturbance::kNever
-                                                              : origin + fault.from + fault.duration;
+  settings.until = fault.duration == faults::Fault::kToTheEnd ? kNever<TrueTime> : origin + fault.from + fault.duration;
   Trial trial(campaign, cluster, &drawn, starts_up, index, settings, story, bit_true);
   trial.run(end);
   const evaluation::faults::Judgement& judgement = trial.finish();

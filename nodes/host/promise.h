@@ -2,14 +2,12 @@
 // what leaves the node: a signal on FlexRay, a frame for a CAN, a trigger or a strobe. All in the node's microticks.
 #pragma once
 
-#include <limits>
-
 #include "core/time.h"
 
 namespace ttf::nodes::host {
 
 struct Promise {
-  static constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
+  static constexpr Microticks kNever = ttf::kNever<Microticks>;
 
   Microticks silent_until{};  // no act before it, if nothing arrives until then
   // An arrival moves that forward to no sooner than this long after it; kNever: not at all.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "recording/exports/perfetto.pb.h"
 
@@ -130,7 +129,7 @@ void TraceTimeline::finish() {
     if (lane.open) put(last_ + Duration{1}, {What::kEnd, lane.track, 0, "", {}});
     lane.open = false;
   }
-  write_before(TrueTime{std::numeric_limits<std::int64_t>::max()});
+  write_before(kNever<TrueTime>);
 }
 
 void TraceTimeline::write(const Place& place, const Event& event) {

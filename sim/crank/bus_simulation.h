@@ -11,7 +11,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "schedules/model/cluster.h"
-#include "sim/crank/crank.h"
+#include "sim/crank/crank_of.h"
 #include "timebase/oscillator.h"
 
 namespace ttf::sim::crank {
@@ -26,7 +26,7 @@ struct BusNode {
   const schedules::model::Cluster* view = nullptr;
 };
 
-class BusSimulation final : public Crank {
+class BusSimulation final : public CrankOf<bus::controller::FlexRayController> {
  public:
   // `events`: one per node, told what its controller tells a host. `guardians`: the oscillators of a star's two, else
   // without drift. They begin integrated if some node does.
@@ -36,7 +36,7 @@ class BusSimulation final : public Crank {
   ~BusSimulation() override;
 
   // Of a node without supply: in default config.
-  bus::controller::FlexRayController& controller(NodeId node) { return *controllers_[index_of(node)]; }
+  bus::controller::FlexRayController& controller(NodeId node) { return *nodes_[index_of(node)]; }
   // The largest difference between the global times of the nodes that are synchronised, now, from node `first` on.
   // Their cycle numbers may differ by whole rounds of the cycle counter; only the rest counts.
   Duration precision(NodeId first = NodeId{0}) const;
@@ -44,24 +44,12 @@ class BusSimulation final : public Crank {
  private:
   void start(std::size_t node, Microticks now) override;
   void stop(std::size_t node) override;
-  Microticks next_event(std::size_t node) const override;
-  void advance(std::size_t node, Microticks now) override;
-  void receive(std::size_t node, const bus::ports::Reception& reception) override;
-  bool receive_on_both(std::size_t node, const bus::ports::Reception& reception) override;
-  bool knows(std::size_t node, const bus::ports::Reception& reception) override {
-    return controllers_[node]->knows(reception);
-  }
-  void hear_known(std::size_t node, const bus::ports::Reception& reception) override {
-    controllers_[node]->hear_known(reception);
-  }
   void happen(const medium::MediumEvent& event) override;
   void make_controller(std::size_t node);
-  void make_guardians(const std::vector<BusNode>& nodes, const std::vector<timebase::Oscillator>& oscillators);
 
   std::vector<const schedules::model::Cluster*> views_;  // these all by NodeId
   std::vector<bus::controller::ControllerEvents*> events_;
   std::vector<std::unique_ptr<CrankPort>> ports_;
-  std::vector<std::unique_ptr<bus::controller::FlexRayController>> controllers_;
 };
 
 }  // namespace ttf::sim::crank

@@ -111,10 +111,10 @@ struct ClusterSimulation::CanLog final : recording::records::Sink {
 };
 
 ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::records::Sink& sink)
-    : Crank(*config.cluster, kPendingEvents), config_(config), others_(config.others), sink_(sink),
+    : CrankOf(*config.cluster, kPendingEvents), config_(config), others_(config.others), sink_(sink),
       can_ports_(cluster_.nodes.size(), std::vector<bus::ports::CanPort*>(cluster_.can_buses.size())),
-      can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())), nodes_(cluster_.nodes.size()),
-      watches_(cluster_.nodes.size()), no_spread_(cluster_) {
+      can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())), watches_(cluster_.nodes.size()),
+      no_spread_(cluster_) {
   if (sink.wants_frames())
     medium_.set_log(&channel_log_.emplace(cluster_.flexray, medium::FlexRayMedium::kMostLogged, sink));
   else
@@ -147,20 +147,23 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::
                 crystal.ticks_at(kFirstCycle), {});
     refresh(n);
   }
-  for (const schedules::model::Channel channel : {schedules::model::Channel::kA, schedules::model::Channel::kB})
-    if (medium::StarCoupler::needed(cluster_, channel)) make_guardian(channel);
+  make_guardians();
 }
 
-// Its clock is drawn behind the nodes'.
-void ClusterSimulation::make_guardian(schedules::model::Channel channel) {
-  schedules::model::Node crystal;
-  crystal.microtick_ps = medium::StarCoupler::microtick_ps(cluster_, channel);
-  seat_guardian(channel, nodes::host::drawn_oscillator(crystal, cluster_.nodes.size() + index_of(channel), config_.seed,
-                                                       config_.replication));
-  coupler(channel)->on_intervention([this](const medium::StarCoupler::Intervention& one) { sink_.on(record_of(one)); });
+void ClusterSimulation::make_guardians() {
+  // Their clocks are drawn behind the nodes'.
+  const auto crystal = [this](schedules::model::Channel channel) {
+    schedules::model::Node guardian;
+    guardian.microtick_ps = medium::StarCoupler::microtick_ps(cluster_, channel);
+    return nodes::host::drawn_oscillator(guardian, cluster_.nodes.size() + index_of(channel), config_.seed,
+                                         config_.replication);
+  };
   bool integrated = false;
   for (std::size_t n = 0; n < nodes_.size(); ++n) integrated |= cluster_.nodes[n].flexray && is_powered(n);
-  if (integrated) coupler(channel)->start_integrated(kFirstCycle, cluster_.cycle());
+  seat_guardians(crystal, integrated ? std::optional<FirstCycle>({kFirstCycle, cluster_.cycle()}) : std::nullopt);
+  for (const schedules::model::Channel channel : {schedules::model::Channel::kA, schedules::model::Channel::kB})
+    if (medium::StarCoupler* guardian = coupler(channel))
+      guardian->on_intervention([this](const medium::StarCoupler::Intervention& one) { sink_.on(record_of(one)); });
 }
 
 ClusterSimulation::~ClusterSimulation() = default;
@@ -210,14 +213,14 @@ void ClusterSimulation::stop(std::size_t node) {
 }
 
 Microticks ClusterSimulation::next_event(std::size_t node) const {
-  if (others_ == nullptr) return nodes_[node]->next_event();
+  if (others_ == nullptr) return CrankOf::next_event(node);
   const Microticks turn = others_->outlook(node).turn();
   return is_here(node) ? std::min(turn, nodes_[node]->next_event()) : turn;
 }
 
 void ClusterSimulation::advance(std::size_t node, Microticks now) {
   if (others_ != nullptr) return take_turn(node, now);
-  nodes_[node]->advance(now);
+  CrankOf::advance(node, now);
   if (!config_.compares_clocks) return;
   const timebase::CycleClock* clock = watches_[node].clock();
   if (clock != nullptr && clock->cycle() != watches_[node].cycle) watch_cycle(node, *clock);
@@ -228,12 +231,12 @@ void ClusterSimulation::transmit(std::size_t node, const bus::ports::Transmissio
 }
 
 void ClusterSimulation::receive(std::size_t node, const bus::ports::Reception& reception) {
-  if (is_here(node)) nodes_[node]->receive(reception);
+  if (is_here(node)) CrankOf::receive(node, reception);
   if (others_ != nullptr) others_->outlook(node).hears_flexray(ticks(node));
 }
 
 bool ClusterSimulation::receive_on_both(std::size_t node, const bus::ports::Reception& reception) {
-  if (others_ == nullptr) return nodes_[node]->receive_on_both(reception);
+  if (others_ == nullptr) return CrankOf::receive_on_both(node, reception);
   receive(node, reception);
   receive(node, bus::ports::on_b(reception));
   return true;

@@ -22,7 +22,7 @@
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 #include "sim/crank/clock_spread.h"
-#include "sim/crank/crank.h"
+#include "sim/crank/crank_of.h"
 #include "sim/medium/can_medium.h"
 #include "sim/medium/channel_log.h"
 #include "sim/processes/turn_taking.h"
@@ -53,7 +53,7 @@ struct SimulationConfig {
   bool compares_clocks = true;
 };
 
-class ClusterSimulation final : public Crank, private nodes::host::SensorLines {
+class ClusterSimulation final : public CrankOf<nodes::host::Executive>, private nodes::host::SensorLines {
  public:
   ClusterSimulation(const SimulationConfig& config, recording::records::Sink& sink);
   ~ClusterSimulation() override;
@@ -94,12 +94,6 @@ class ClusterSimulation final : public Crank, private nodes::host::SensorLines {
   void advance(std::size_t node, Microticks now) override;
   void receive(std::size_t node, const bus::ports::Reception& reception) override;
   bool receive_on_both(std::size_t node, const bus::ports::Reception& reception) override;
-  bool knows(std::size_t node, const bus::ports::Reception& reception) override {
-    return nodes_[node]->knows(reception);
-  }
-  void hear_known(std::size_t node, const bus::ports::Reception& reception) override {
-    nodes_[node]->hear_known(reception);
-  }
   void drifts(std::size_t node) override;
   void happen(const medium::MediumEvent& event) override;
 
@@ -114,7 +108,7 @@ class ClusterSimulation final : public Crank, private nodes::host::SensorLines {
   }
   void pull_trigger(SensorId sensor);
   void pull_strobe(SensorId sensor, std::uint32_t sequence);
-  void make_guardian(schedules::model::Channel channel);
+  void make_guardians();
   void make_node(std::size_t node, std::optional<bus::controller::InitialClock> clock, Microticks power_on,
                  const nodes::host::NodeStart& cold);
   bool arrives(const medium::MediumEvent& event) const;
@@ -131,8 +125,7 @@ class ClusterSimulation final : public Crank, private nodes::host::SensorLines {
   std::vector<std::unique_ptr<CanTap>> can_taps_;
   std::vector<std::vector<bus::ports::CanPort*>> can_ports_;  // by NodeId and CAN, null where it is not on it
   std::unique_ptr<CanLog> can_log_;
-  std::vector<std::unique_ptr<nodes::host::Executive>> nodes_;  // by NodeId, null without supply or elsewhere
-  std::vector<Watch> watches_;                                  // by NodeId
+  std::vector<Watch> watches_;  // by NodeId
   const ClockSpread no_spread_;
   nodes::host::ExecutiveCounts gone_;  // counted by executives that are no more
   Duration precision_{};

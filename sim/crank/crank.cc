@@ -8,10 +8,18 @@
 namespace ttf::sim::crank {
 namespace {
 
-constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
 constexpr Microticks kUnknown{std::numeric_limits<std::int64_t>::min()};
 
 }  // namespace
+
+const Crank::Span& Crank::Clock::span(TrueTime start, TrueTime end) {
+  if (start != started_ || end != ended_) {
+    started_ = start;
+    ended_ = end;
+    span_ = {oscillator_.ticks_at(start), oscillator_.ticks_at(end)};
+  }
+  return span_;
+}
 
 Crank::Crank(const schedules::model::Cluster& cluster, std::size_t others)
     : cluster_(cluster), queue_(medium::FlexRayMedium::kMostPending + others),
@@ -23,17 +31,22 @@ Crank::Crank(const schedules::model::Cluster& cluster, std::size_t others)
 void Crank::seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on) {
   TTF_CHECK(seats_.size() < cluster_.nodes.size(), "{} nodes are all", seats_.size());
   TTF_CHECK(!power_on || *power_on >= TrueTime{}, "power-on at {} ns", power_on->ns);
-  seats_.push_back({oscillator, !power_on, TrueTime{} - Duration{1}, kUnknown, kNever, kNever, {}, {}});
-  next_.push_back(kNever);
+  seats_.push_back({Clock(oscillator), !power_on, TrueTime{} - Duration{1}, kUnknown});
+  next_.push_back(kNever<TrueTime>);
   if (power_on) set_next(seats_.size() - 1, *power_on);
 }
 
-void Crank::seat_guardian(schedules::model::Channel channel, const timebase::Oscillator& oscillator) {
-  TTF_CHECK(cluster_.guardian && cluster_.topology == schedules::model::Topology::kStar, "a guardian for {}",
-            cluster_.name);
-  auto& coupler = couplers_[index_of(channel)];
-  coupler = std::make_unique<medium::StarCoupler>(cluster_, channel, oscillator);
-  medium_.set_coupler(channel, coupler.get());
+void Crank::seat_guardians(const std::function<timebase::Oscillator(schedules::model::Channel)>& crystal,
+                           const std::optional<FirstCycle>& first) {
+  for (const schedules::model::Channel channel : {schedules::model::Channel::kA, schedules::model::Channel::kB}) {
+    if (!medium::StarCoupler::needed(cluster_, channel)) continue;
+    TTF_CHECK(cluster_.topology == schedules::model::Topology::kStar, "guardians for {}, which is no star",
+              cluster_.name);
+    auto& coupler = couplers_[index_of(channel)];
+    coupler = std::make_unique<medium::StarCoupler>(cluster_, channel, crystal(channel));
+    medium_.set_coupler(channel, coupler.get());
+    if (first) coupler->start_integrated(first->start, first->length);
+  }
 }
 
 void Crank::set_disturbance(medium::Disturbance* disturbance) {
@@ -43,7 +56,7 @@ void Crank::set_disturbance(medium::Disturbance* disturbance) {
 
 void Crank::power_off(NodeId node) {
   const std::size_t n = index_of(node);
-  set_next(n, kNever);
+  set_next(n, kNever<TrueTime>);
   seats_[n].next = kUnknown;
   if (!seats_[n].powered) return;
   seats_[n].powered = false;
@@ -61,9 +74,8 @@ void Crank::power_on(NodeId node, TrueTime at) {
 
 void Crank::change_drift(NodeId node, std::int64_t ppb) {
   const std::size_t n = index_of(node);
-  seats_[n].oscillator.change_drift(now_, ppb);
+  seats_[n].clock.change_drift(now_, ppb);
   seats_[n].next = kUnknown;
-  seats_[n].ended = kNever;
   if (!seats_[n].powered) return;
   drifts(n);
   refresh(n);
@@ -71,19 +83,14 @@ void Crank::change_drift(NodeId node, std::int64_t ppb) {
 
 void Crank::emit(const medium::Leaving& signal, std::optional<NodeId> source) { medium_.emit(signal, source); }
 
-void Crank::refresh(std::size_t node) {
-  Seat& seat = seats_[node];
-  if (!seat.powered) return;
-  const Microticks next = next_event(node);
-  // What most arrivals change nothing about.
-  if (next == seat.next) return;
-  seat.next = next;
-  set_next(node, next_time(seat));
+void Crank::set_next_event(std::size_t node, Microticks next) {
+  seats_[node].next = next;
+  set_next(node, next_time(seats_[node]));
 }
 
 TrueTime Crank::next_time(const Seat& seat) const {
-  const bool never = seat.next.value == std::numeric_limits<std::int64_t>::max();
-  return never ? kNever : std::max(now_, seat.oscillator.time_of(seat.next));
+  return seat.next == kNever<Microticks> ? kNever<TrueTime>
+                                         : std::max(now_, seat.clock.oscillator().time_of(seat.next));
 }
 
 // Keeps `earliest_` the first of those that are due first.
@@ -112,7 +119,7 @@ void Crank::run_until(TrueTime end) {
       disturbance_->act(now_);
       continue;
     }
-    if (time > end || time == kNever) break;
+    if (time > end || time == kNever<TrueTime>) break;
     TTF_CHECK(time >= now_, "time goes back from {} to {} ns", now_.ns, time.ns);
     now_ = time;
     if (node_is_due) {
@@ -120,7 +127,7 @@ void Crank::run_until(TrueTime end) {
     } else {
       const medium::MediumEvent event = queue_.pop();
       if (event.kind == medium::MediumEvent::Kind::kFlexRayArrival)
-        arrive(event, end);
+        go_along(event);
       else
         happen(event);
     }
@@ -131,123 +138,102 @@ void Crank::run_until(TrueTime end) {
 // Everything that the node has to do before anything else happens: often frame after frame.
 void Crank::step(std::size_t node) {
   Seat& seat = seats_[node];
-  Microticks at = seat.oscillator.ticks_at(now_);
+  Microticks at = ticks(node);
   if (!seat.powered) {
     start(node, at);
     seat.powered = true;
     seat.since = now_;
   }
-  set_next(node, kNever);
+  set_next(node, kNever<TrueTime>);
   while (true) {
     advance(node, at);
     seat.next = next_event(node);
     const TrueTime next = next_time(seat);
-    if (!comes_next({next, medium::Phase::kNode, static_cast<std::uint8_t>(node), 0, 0}, until_))
-      return set_next(node, next);
-    at = next > now_ ? seat.next : seat.oscillator.ticks_at(next);
+    if (!comes_next({next, medium::Phase::kNode, static_cast<std::uint8_t>(node), 0, 0})) return set_next(node, next);
+    at = next > now_ ? seat.next : ticks(node);
     now_ = next;
   }
 }
 
-// Goes along with a signal from receiver to receiver, as long as nothing else comes between.
-void Crank::arrive(medium::MediumEvent event, TrueTime end) {
+// Whether the signal goes on from there.
+inline bool Crank::make_stop(const medium::MediumEvent& event) {
+  const auto [arrival, goes_on] = medium_.stop_over(event, now_);
+  if (!arrival) return goes_on;
+  Seat& seat = seats_[event.node];
+  if (seat.powered) {
+    receive(event.node, reception_of(seat, *arrival));
+    refresh(event.node);
+  }
+  medium_.release(*arrival);
+  return goes_on;
+}
+
+// What comes before everything else until its last stop on both channels, as nearly everything does, makes its stops on
+// both at once: all of them, unless a node then has something to do before. Whether the signal goes on from there.
+bool Crank::make_stop_on_both(const medium::MediumEvent& event) {
+  medium::ClearFlights& clear = medium_.clear_flights();
+  const TrueTime earliest = next_[earliest_];
   while (true) {
-    if (medium_.passes_on_both(event) && comes_next(medium_.last_arrival(event), end)) {
-      if (!pass_on_both(event, end)) return;
-      continue;
-    }
-    const auto [arrival, goes_on] = medium_.stop_over(event, now_);
-    if (arrival) {
-      if (seats_[event.node].powered) deliver(event.node, *arrival);
-      medium_.release(*arrival);
-    }
+    const auto [receiver, on_a, goes_on] = clear.stop_on_both(event);
+    now_ = on_a.end;
+    const std::size_t node = index_of(receiver);
+    Seat& seat = seats_[node];
+    if (seat.powered && receive_on_both(node, reception_of(seat, on_a))) refresh(node);
+    clear.release_on_both(on_a);
+    if (!goes_on || next_[earliest_] != earliest) return goes_on;
+  }
+}
+
+// With a signal from receiver to receiver, as long as nothing else comes between.
+void Crank::go_along(medium::MediumEvent event) {
+  const medium::ClearFlights& clear = medium_.clear_flights();
+  while (true) {
+    const bool on_both = clear.stops_on_both(event) && comes_next(clear.last_arrival(event));
+    const bool goes_on = on_both ? make_stop_on_both(event) : make_stop(event);
     if (!goes_on) return;
     const medium::EventOrder next = medium_.next_arrival(event);
-    if (!comes_next(next, end)) return queue_.go_on(next, event);
+    if (!comes_next(next)) return queue_.go_on(next, event);
     now_ = next.time;
   }
 }
 
-// What comes before everything else until its last stop on both channels, as nearly everything does, makes its stops on
-// both at once. True: a node has something to do before that now, and `event` is the next stop, which is due.
-bool Crank::pass_on_both(medium::MediumEvent& event, TrueTime end) {
-  while (true) {
-    const medium::FlexRayMedium::Passage passage = medium_.pass_on_both(event);
-    now_ = passage.on_a.end;
-    const std::size_t node = index_of(passage.receiver);
-    const TrueTime earliest = next_[earliest_];
-    if (seats_[node].powered) deliver_on_both(node, passage.on_a);
-    medium_.release_on_both(passage.on_a);
-    if (!passage.goes_on) return false;
-    if (next_[earliest_] == earliest) continue;
-    const medium::EventOrder next = medium_.next_arrival(event);
-    if (comes_next(next, end)) {
-      now_ = next.time;
-      return true;
-    }
-    queue_.go_on(next, event);
-    return false;
-  }
-}
-
-bus::ports::Reception Crank::reception_of(Seat& seat, const medium::FlexRayMedium::Arrival& arrival) {
-  if (arrival.start != seat.started || arrival.end != seat.ended) {
-    seat.started = arrival.start;
-    seat.ended = arrival.end;
-    seat.start = seat.oscillator.ticks_at(arrival.start);
-    seat.end = seat.oscillator.ticks_at(arrival.end);
-  }
+bus::ports::Reception Crank::reception_of(Seat& seat, const medium::Arrival& arrival) {
+  const auto [start, end] = seat.clock.span(arrival.start, arrival.end);
+  // The rest of what was on its way at power-on.
+  if (arrival.start < seat.since)
+    return {arrival.channel, bus::ports::Signal::kUndecodable, seat.clock.oscillator().ticks_at(seat.since), end, {}};
   const bool is_frame = arrival.signal == bus::ports::Signal::kFrame;
-  bus::ports::Reception reception{arrival.channel, arrival.signal, seat.start, seat.end,
-                                  is_frame ? medium_.frame(arrival) : bus::wire::DecodedFrame{}};
-  if (arrival.start < seat.since) {
-    reception.signal = bus::ports::Signal::kUndecodable;
-    reception.start = seat.oscillator.ticks_at(seat.since);
-    reception.frame = {};
-  }
-  return reception;
+  return {arrival.channel, arrival.signal, start, end, is_frame ? medium_.frame(arrival) : bus::wire::DecodedFrame{}};
 }
 
-void Crank::deliver(std::size_t node, const medium::FlexRayMedium::Arrival& arrival) {
-  Seat& seat = seats_[node];
-  receive(node, reception_of(seat, arrival));
-  if (next_event(node) != seat.next) refresh(node);
+// It leaves now, and until it is there nobody sends and nothing else happens to those who hear it, but for tasks and
+// CANs. If there are any: the last leg is the longest.
+inline bool Crank::arrives_alone(std::span<const medium::Leg> way, TrueTime start, TrueTime end) const {
+  return start == now_ && medium_.is_clear() && !way.empty() && end + way.back().delay <= until_;
 }
 
-void Crank::deliver_on_both(std::size_t node, const medium::FlexRayMedium::Arrival& arrival) {
-  if (receive_on_both(node, reception_of(seats_[node], arrival))) refresh(node);
-}
-
+// What tells nobody anything new need not arrive.
 void Crank::transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start,
                              TrueTime end) {
+  const std::span<const medium::Leg> way = medium_.way_from(sender);
   bus::ports::Reception reception{transmission.channel, transmission.signal, {}, {}, transmission.content};
-  if (!is_known(sender, reception, start, end)) return medium_.transmit_on_both(sender, transmission, start, end);
-  for (const medium::FlexRayMedium::Leg& leg : medium_.way_from(sender)) {
+  const auto received_during = [&](const Span& span) -> const bus::ports::Reception& {
+    reception.start = span.start;
+    reception.end = span.end;
+    return reception;
+  };
+  const auto knows_it = [&](const medium::Leg& leg) {
+    Seat& seat = seats_[index_of(leg.receiver)];
+    return seat.powered &&
+           knows(index_of(leg.receiver), received_during(seat.clock.span(start + leg.delay, end + leg.delay)));
+  };
+  if (!arrives_alone(way, start, end) || !std::all_of(way.begin(), way.end(), knows_it))
+    return medium_.transmit_on_both(sender, transmission, start, end);
+  for (const medium::Leg& leg : way) {
     const std::size_t node = index_of(leg.receiver);
-    reception.start = seats_[node].start;
-    reception.end = seats_[node].end;
-    hear_known(node, reception);
+    hear_known(node, received_during(seats_[node].clock.last_span()));
   }
   medium_.told_on_both(sender, start, end);
-}
-
-// Whether it tells nobody anything new; so nothing has to arrive. It leaves now, and until it is there nobody sends and
-// nothing else happens to those who hear it, but for tasks and CANs.
-bool Crank::is_known(NodeId sender, bus::ports::Reception& reception, TrueTime start, TrueTime end) {
-  if (start != now_ || !medium_.is_clear()) return false;
-  const std::span<const medium::FlexRayMedium::Leg> way = medium_.way_from(sender);
-  if (way.empty() || end + way.back().delay > until_) return false;  // the last leg is the longest
-  for (const medium::FlexRayMedium::Leg& leg : way) {
-    const std::size_t node = index_of(leg.receiver);
-    Seat& seat = seats_[node];
-    if (!seat.powered) return false;
-    reception.start = seat.start = seat.oscillator.ticks_at(start + leg.delay);
-    reception.end = seat.end = seat.oscillator.ticks_at(end + leg.delay);
-    seat.started = start + leg.delay;
-    seat.ended = end + leg.delay;
-    if (!knows(node, reception)) return false;
-  }
-  return true;
 }
 
 void CrankPort::transmit_on_both(const bus::ports::Transmission& transmission) {

@@ -11,8 +11,10 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "bus/ports/flexray_port.h"
@@ -28,6 +30,12 @@ namespace ttf::sim::crank {
 
 class Crank : public Plant {
  public:
+  // Cycle 0 of nodes that begin integrated.
+  struct FirstCycle {
+    TrueTime start{};
+    Duration length{};
+  };
+
   // Everything up to and including `end`.
   void run_until(TrueTime end);
 
@@ -38,7 +46,7 @@ class Crank : public Plant {
   void emit(const medium::Leaving& signal, std::optional<NodeId> source) final;
 
   bool powered(NodeId node) const final { return seats_[index_of(node)].powered; }
-  const timebase::Oscillator& oscillator(NodeId node) const { return seats_[index_of(node)].oscillator; }
+  const timebase::Oscillator& oscillator(NodeId node) const { return seats_[index_of(node)].clock.oscillator(); }
   medium::FlexRayMedium& medium() { return medium_; }
   // What a node sends on both channels at once, without bytes: over the medium, unless it tells nobody anything new.
   void transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start, TrueTime end);
@@ -54,14 +62,18 @@ class Crank : public Plant {
   // The next node's clock, to be called once per node in the order of their ids. Nothing: it has its supply already,
   // and start() has been or will be called by who derives; refresh() when it can say what is next.
   void seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on);
-  // Of a cluster with guardians, the one of a channel somebody is on: powered on at once, to integrate like the nodes.
-  void seat_guardian(schedules::model::Channel channel, const timebase::Oscillator& oscillator);
-  // The node's next event may be another one now.
-  void refresh(std::size_t node);
+  // Of a cluster with guardians, one for each channel that somebody is on, with the oscillator that `crystal` gives it:
+  // powered on at once, to integrate like the nodes, or in the middle of `first`.
+  void seat_guardians(const std::function<timebase::Oscillator(schedules::model::Channel)>& crystal,
+                      const std::optional<FirstCycle>& first);
+  // The node's next event may be another one now; most arrivals change nothing about it.
+  void refresh(std::size_t node) {
+    if (is_powered(node) && next_event(node) != seats_[node].next) set_next_event(node, next_event(node));
+  }
   bool is_powered(std::size_t node) const { return seats_[node].powered; }
   // What began to be sent before has not reached this node, nor was it sent by what is there now.
   TrueTime powered_since(std::size_t node) const { return seats_[node].since; }
-  Microticks ticks(std::size_t node) const { return seats_[node].oscillator.ticks_at(now_); }
+  Microticks ticks(std::size_t node) const { return seats_[node].clock.oscillator().ticks_at(now_); }
 
   // What a node is made of. Never asked of a node without supply, but for start().
   virtual void start(std::size_t node, Microticks now) = 0;  // a cold one
@@ -84,29 +96,47 @@ class Crank : public Plant {
   medium::FlexRayMedium medium_;
 
  private:
+  // The instants of a signal on a node's clock.
+  struct Span {
+    Microticks start{}, end{};
+  };
+  // A node's oscillator. It remembers the signal that it was asked for last: the other channel's has the same instants.
+  class Clock {
+   public:
+    explicit Clock(const timebase::Oscillator& oscillator) : oscillator_(oscillator) {}
+    const timebase::Oscillator& oscillator() const { return oscillator_; }
+    void change_drift(TrueTime now, std::int64_t ppb) {
+      oscillator_.change_drift(now, ppb);
+      ended_ = kNever<TrueTime>;
+    }
+    const Span& span(TrueTime start, TrueTime end);
+    const Span& last_span() const { return span_; }
+
+   private:
+    timebase::Oscillator oscillator_;
+    TrueTime started_ = kNever<TrueTime>, ended_ = kNever<TrueTime>;
+    Span span_;
+  };
   struct Seat {
-    timebase::Oscillator oscillator;
+    Clock clock;
     bool powered = false;
     TrueTime since{};   // it is with or without supply
     Microticks next{};  // its next own event, when it was asked last
-    // What it received last, on the one and on the other clock: the other channel's frame comes at the same instants.
-    TrueTime started{}, ended{};
-    Microticks start{}, end{};
   };
+  void set_next_event(std::size_t node, Microticks next);
   void set_next(std::size_t node, TrueTime time);
   TrueTime next_time(const Seat& seat) const;
   void step(std::size_t node);
-  // `reception`'s instants are each receiver's then.
-  bool is_known(NodeId sender, bus::ports::Reception& reception, TrueTime start, TrueTime end);
-  void arrive(medium::MediumEvent event, TrueTime end);
-  bool comes_next(const medium::EventOrder& order, TrueTime end) const {
-    return order.time <= end && order < next_of_nodes() && queue_.is_first(order) &&
+  // Whether what happens at that place is the next thing to happen, within the run that is going on.
+  bool comes_next(const medium::EventOrder& order) const {
+    return order.time <= until_ && order < next_of_nodes() && queue_.is_first(order) &&
            (disturbance_ == nullptr || disturbance_->next() >= order.time);
   }
-  bool pass_on_both(medium::MediumEvent& event, TrueTime end);
-  void deliver(std::size_t node, const medium::FlexRayMedium::Arrival& arrival);
-  void deliver_on_both(std::size_t node, const medium::FlexRayMedium::Arrival& arrival);
-  bus::ports::Reception reception_of(Seat& seat, const medium::FlexRayMedium::Arrival& arrival);
+  void go_along(medium::MediumEvent event);
+  bool make_stop(const medium::MediumEvent& event);
+  bool make_stop_on_both(const medium::MediumEvent& event);
+  bus::ports::Reception reception_of(Seat& seat, const medium::Arrival& arrival);
+  bool arrives_alone(std::span<const medium::Leg> way, TrueTime start, TrueTime end) const;
   medium::EventOrder next_of_nodes() const {
     return {next_[earliest_], medium::Phase::kNode, static_cast<std::uint8_t>(earliest_), 0, 0};
   }

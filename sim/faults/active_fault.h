@@ -54,7 +54,7 @@ class ActiveFault {
   }
   virtual bool leaving(medium::Leaving& signal) { return (void)signal, true; }
   virtual bool arriving(medium::Arriving& signal) { return (void)signal, true; }
-  virtual TrueTime next() const { return medium::Disturbance::kNever; }
+  virtual TrueTime next() const { return kNever<TrueTime>; }
   virtual void act(TrueTime now) { (void)now; }
 
  protected:

@@ -27,7 +27,7 @@ class Bursts : public ActiveFault {
     ++count_;
     // Time goes on, whatever there is to send.
     next_ = std::max({now + pause, end, now + Duration{1}});
-    if (next_ >= until()) next_ = medium::Disturbance::kNever;
+    if (next_ >= until()) next_ = kNever<TrueTime>;
   }
 
  protected:
@@ -160,7 +160,7 @@ class RogueStartup final : public ActiveFault {
     }
     ++count_;
     next_ = from() + cluster().cycle() * count_;
-    if (next_ >= until()) next_ = medium::Disturbance::kNever;
+    if (next_ >= until()) next_ = kNever<TrueTime>;
   }
 
  private:

@@ -18,7 +18,8 @@ Injector::Injector(ttf::faults::FaultPlan plan, const schedules::model::Cluster&
               ttf::faults::name_of(fault.kind), fault.node_name);
     const bool always = ttf::faults::changes_schedule(fault);  // what a node believes in, it always does
     const TrueTime from = always ? origin : origin + fault.from;
-    const TrueTime until = always || fault.duration == ttf::faults::Fault::kToTheEnd ? kNever : from + fault.duration;
+    const TrueTime until =
+        always || fault.duration == ttf::faults::Fault::kToTheEnd ? kNever<TrueTime> : from + fault.duration;
     entries_.push_back({make_active_fault({fault, static_cast<std::uint32_t>(i), cluster_, plant_, *this, from, until,
                                            seed, replication}),
                         from, until});
@@ -52,7 +53,7 @@ void Injector::act(TrueTime now) {
     if (entry.begins <= now) begin(i, now);
     if (entry.fault->next() <= now) entry.fault->act(now);
     if (entry.ends <= now) {
-      entry.ends = kNever;
+      entry.ends = kNever<TrueTime>;
       report(i, recording::records::kFaultEnds, now, "it ends");
     }
   }
@@ -60,7 +61,7 @@ void Injector::act(TrueTime now) {
 }
 
 void Injector::begin(std::size_t fault, TrueTime at) {
-  entries_[fault].begins = kNever;
+  entries_[fault].begins = kNever<TrueTime>;
   report(fault, recording::records::kFaultBegins, at, "it begins");
   for (const Foreseen& one : foreseen_)
     if (one.fault == fault) acted(one.fault, at, {one.text.data(), one.size});
@@ -69,7 +70,7 @@ void Injector::begin(std::size_t fault, TrueTime at) {
 
 void Injector::acted(std::uint32_t fault, TrueTime at, std::string_view text) {
   const TrueTime begins = entries_[fault].begins;
-  if (begins != kNever && at < begins) {
+  if (begins != kNever<TrueTime> && at < begins) {
     // What it will do to a signal that is still under way when it begins is known when that leaves. It is told then.
     Foreseen& foreseen = foreseen_.emplace_back();
     foreseen.fault = fault;
@@ -77,7 +78,7 @@ void Injector::acted(std::uint32_t fault, TrueTime at, std::string_view text) {
     std::copy_n(text.begin(), foreseen.size, foreseen.text.begin());
     return;
   }
-  if (begins != kNever) begin(fault, at);  // what leaves at that very instant, before the faults act
+  if (begins != kNever<TrueTime>) begin(fault, at);  // what leaves at that very instant, before the faults act
   Activation& activation = activations_[fault];
   if (activation.times++ == 0) activation.first = at;
   activation.last = at;
@@ -93,7 +94,7 @@ void Injector::report(std::size_t fault, std::uint8_t what, TrueTime at, std::st
 }
 
 void Injector::plan_next() {
-  next_ = kNever;
+  next_ = kNever<TrueTime>;
   for (const Entry& entry : entries_) next_ = std::min({next_, entry.begins, entry.ends, entry.fault->next()});
 }
 

@@ -74,7 +74,7 @@ class Injector final : public medium::Disturbance, private FaultLog {
   std::vector<Entry> entries_;  // by index in the plan, as what follows
   std::vector<Activation> activations_;
   std::vector<Foreseen> foreseen_;
-  TrueTime next_ = kNever;
+  TrueTime next_ = kNever<TrueTime>;
 };
 
 }  // namespace ttf::sim::faults

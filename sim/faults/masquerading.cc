@@ -52,7 +52,7 @@ class InAnothersSlot final : public FrameFault {
     if (decoded.error != bus::wire::FrameError::kNone || decoded.header.frame_id != p.pKeySlotId) return true;
     const int counters = flexray().gCycleCountMax + 1;
     const int cycles = (decoded.header.cycle - counter_ + counters) % counters;
-    const bool paced = key_slot_ != medium::Disturbance::kNever && cycles > 0;
+    const bool paced = key_slot_ != kNever<TrueTime> && cycles > 0;
     const Duration cycle = paced ? Duration{(signal.start - key_slot_).ns / cycles} : cluster().cycle();
     key_slot_ = signal.start;
     counter_ = decoded.header.cycle;
@@ -61,7 +61,7 @@ class InAnothersSlot final : public FrameFault {
   }
 
   void act(TrueTime now) override {
-    due_ = medium::Disturbance::kNever;
+    due_ = kNever<TrueTime>;
     const FrameSlot* owner = nullptr;
     for (const FrameSlot& slot : cluster().frames)
       if (slot.slot == fault().slot && schedules::model::in_cycle(slot, due_counter_)) owner = &slot;
@@ -101,11 +101,11 @@ class InAnothersSlot final : public FrameFault {
     const Duration ahead{macroticks * cycle.ns / flexray().gMacroPerCycle};
     due_ = key_slot_ + (slots > 0 ? ahead : cycle + ahead);
     due_counter_ = (counter_ + (slots > 0 ? 0 : 1)) % (flexray().gCycleCountMax + 1);
-    if (due_ >= until()) due_ = medium::Disturbance::kNever;
+    if (due_ >= until()) due_ = kNever<TrueTime>;
   }
 
-  TrueTime key_slot_ = medium::Disturbance::kNever;  // start of its last frame there
-  TrueTime due_ = medium::Disturbance::kNever;
+  TrueTime key_slot_ = kNever<TrueTime>;  // start of its last frame there
+  TrueTime due_ = kNever<TrueTime>;
   int counter_ = 0, due_counter_ = 0;
   std::array<std::byte, bus::wire::kMaxPayloadBytes> payload_{};
   std::array<std::byte, bus::wire::kMaxFrameBytes> frame_{};

@@ -22,7 +22,7 @@ class Supply final : public ActiveFault {
         plant().power_off(node);
       acted("{} {}", name(node), back ? "has its supply back" : "loses its supply");
     }
-    next_ = back || fault().duration == ttf::faults::Fault::kToTheEnd ? medium::Disturbance::kNever : until();
+    next_ = back || fault().duration == ttf::faults::Fault::kToTheEnd ? kNever<TrueTime> : until();
     off_already_ = true;
   }
 
@@ -40,7 +40,7 @@ class Drift final : public ActiveFault {
   void act(TrueTime) override {
     plant().change_drift(fault().node, fault().drift_ppb);
     acted("{} drifts by {} ppm from now on", name(fault().node), static_cast<double>(fault().drift_ppb) / 1000.0);
-    next_ = medium::Disturbance::kNever;
+    next_ = kNever<TrueTime>;
   }
 
  private:

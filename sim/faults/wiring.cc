@@ -48,7 +48,7 @@ class Transient final : public ActiveFault {
   }
 
  private:
-  TrueTime last_{medium::Disturbance::kNever};
+  TrueTime last_{kNever<TrueTime>};
   NodeId last_sender_ = kNoNode;
   Channel last_channel_{};
 };

@@ -1,6 +1,4 @@
-// Clear flights: what has its channel to itself, as nearly everything has, takes no more per receiver than its arrival.
-#include "core/check.h"
-#include "sim/medium/flexray_medium.h"
+#include "sim/medium/clear_flights.h"
 
 namespace ttf::sim::medium {
 namespace {
@@ -9,144 +7,119 @@ using schedules::model::Channel;
 
 Channel other(Channel channel) { return channel == Channel::kA ? Channel::kB : Channel::kA; }
 
-// The first leg from `leg` on that leads to a receiver.
-template <class Leg> const Leg* receiving(const Leg* leg, const Leg* last, NodeId passed_over) {
-  while (leg != last && leg->receiver == passed_over) ++leg;
-  return leg;
-}
-
 }  // namespace
 
-const FlexRayMedium::Leg* FlexRayMedium::first_leg(const Flight& flight) {
-  return receiving((*flight.ways)[index_of(flight.channel)].data(), flight.last, flight.passed_over);
-}
-
-void FlexRayMedium::depart_clear(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over) {
+void ClearFlights::depart(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over) {
   // The same has left on channel A, and has not reached anybody yet: they go together.
-  Flight* const on_a = left.channel == Channel::kB && same_receivers_ ? clear_[index_of(Channel::kA)] : nullptr;
-  if (on_a != nullptr && on_a->ways == &ways && on_a->passed_over == passed_over && on_a->sender == sender &&
-      on_a->left[0].start == left.start && on_a->left[0].end == left.end && on_a->leg == first_leg(*on_a))
+  Flight* const on_a = left.channel == Channel::kB && ways_.same_on_both() ? on_[index_of(Channel::kA)] : nullptr;
+  if (on_a != nullptr && on_a->ways == &ways && on_a->passed_over == passed_over && on_a->place.sender == sender &&
+      on_a->left[0].start == left.start && on_a->left[0].end == left.end && on_a->leg == on_a->first_leg())
     return join(*on_a, left);
-  schedule(take_off_clear(sender, left, ways, passed_over));
+  schedule(take_off(sender, left, ways, passed_over));
 }
 
-FlexRayMedium::Flight& FlexRayMedium::take_off_clear(NodeId sender, const Arrival& left, const Ways& ways,
-                                                     NodeId passed_over) {
-  const auto c = index_of(left.channel);
-  Flight& flight = take_off(sender, left.channel, left.logged);
-  flight.ways = &ways;
-  flight.passed_over = passed_over;
-  flight.both_channels = false;
-  flight.left[c] = left;
-  flight.last = ways[c].data() + ways[c].size();
-  flight.leg = first_leg(flight);
-  clear_[c] = &flight;
-  return flight;
-}
-
-void FlexRayMedium::join(Flight& on_a, const Arrival& left) {
-  const auto c = index_of(left.channel);
-  on_a.both_channels = true;
-  on_a.left[c] = left;
-  clear_[c] = &on_a;
-  ++aloft_[c];
-}
-
-void FlexRayMedium::transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start,
-                                     TrueTime end) {
-  const Ways& ways = ways_[index_of(sender)];
-  const int receivers = static_cast<int>(ways[0].size());
-  if (!is_clear() || receivers == 0) {
-    transmit(sender, transmission, start, end);
-    return transmit(sender, bus::ports::on_b(transmission), start, end);
-  }
-  const std::uint32_t frame = pool_.put_content(transmission.content, 2 * receivers);
-  Arrival left{start, end, frame, Channel::kA, bus::ports::Signal::kFrame, ChannelLog::kNone};
-  Flight& flight = take_off_clear(sender, left, ways, kNoNode);
-  left.channel = Channel::kB;
-  join(flight, left);
-  told_on_both(sender, start, end);
+void ClearFlights::depart_on_both(NodeId sender, const Arrival& left, const Ways& ways) {
+  Flight& flight = take_off(sender, left, ways, kNoNode);
+  Arrival on_b = left;
+  on_b.channel = Channel::kB;
+  join(flight, on_b);
   schedule(flight);
 }
 
-void FlexRayMedium::told_on_both(NodeId sender, TrueTime start, TrueTime end) {
-  for (const Channel channel : {Channel::kA, Channel::kB}) {
-    busy_[index_of(channel)] += end - start;
-    sent_until_[lane_of(sender, channel)] = end;
-  }
+ClearFlights::Flight& ClearFlights::take_off(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over) {
+  const auto c = index_of(left.channel);
+  Flight& flight = room_[c];
+  flight.place = {sender, left.channel, 0};
+  flight.ways = &ways;
+  flight.last = ways[c].data() + ways[c].size();
+  flight.passed_over = passed_over;
+  flight.leg = flight.first_leg();
+  flight.both_channels = false;
+  flight.left[c] = left;
+  on_[c] = &flight;
+  return flight;
 }
 
-EventOrder FlexRayMedium::last_arrival(const MediumEvent& event) const {
-  const Flight& flight = flights_[event.frame];
+void ClearFlights::join(Flight& on_a, const Arrival& left) {
+  const auto c = index_of(left.channel);
+  on_a.both_channels = true;
+  on_a.left[c] = left;
+  on_[c] = &on_a;
+}
+
+void ClearFlights::schedule(Flight& flight) {
+  MediumEvent event = event_of(flight.number);
+  const EventOrder first = next_arrival(event);
+  flight.place.sequence = queue_.schedule(first.time, first.phase, first.node, event, first.rank);
+}
+
+EventOrder ClearFlights::last_arrival(const MediumEvent& event) const {
+  const Flight& flight = flight_of(event);
   const Leg* last = flight.last - 1;
   while (last != flight.leg && last->receiver == flight.passed_over) --last;
-  return order_of(flight, Channel::kB, *last);
+  FlightPlace on_b = flight.place;
+  on_b.channel = Channel::kB;
+  return order_of(on_b, last->receiver, flight.left[index_of(Channel::kB)].end + last->delay);
 }
 
-FlexRayMedium::Passage FlexRayMedium::pass_on_both(const MediumEvent& event) {
-  Flight& flight = flights_[event.frame];
+ClearFlights::StopOnBoth ClearFlights::stop_on_both(const MediumEvent& event) {
+  Flight& flight = flight_of(event);
   const Leg leg = *flight.leg;
-  flight.leg = receiving(flight.leg + 1, flight.last, flight.passed_over);
-  const Passage passage{leg.receiver, after(flight.left[0], leg.delay), flight.leg != flight.last};
-  if (!passage.goes_on) land_clear(flight);
-  return passage;
+  flight.leg = flight.receiving(flight.leg + 1);
+  const StopOnBoth stop{leg.receiver, flight.left[0].later_by(leg.delay), flight.leg != flight.last};
+  if (!stop.goes_on) land(flight);
+  return stop;
 }
 
 // On both channels: the log hears of the end of what is on A where that ends, one stop before what is on B.
-void FlexRayMedium::stopped_on_a(Flight& flight) {
-  if (receiving(flight.leg + 1, flight.last, flight.passed_over) != flight.last) return;
-  log_->arrived(flight.left[index_of(Channel::kA)].logged);
-  flight.left[index_of(Channel::kA)].logged = ChannelLog::kNone;
+void ClearFlights::stopped_on_a(Flight& flight) {
+  if (flight.receiving(flight.leg + 1) != flight.last) return;
+  Arrival& left = flight.left[index_of(Channel::kA)];
+  log_->arrived(left.logged);
+  left.logged = ChannelLog::kNone;
 }
 
-// From its last stop: on both channels, it is on A again.
-void FlexRayMedium::land_clear(Flight& flight) {
-  if (flight.both_channels) {
-    flight.logged = flight.left[index_of(Channel::kB)].logged;
-    clear_[index_of(Channel::kB)] = nullptr;
-    --aloft_[index_of(Channel::kB)];
-  }
-  clear_[index_of(flight.channel)] = nullptr;
-  land(flight);
+// From its last stop: on both channels, that was on B.
+void ClearFlights::land(Flight& flight) {
+  const Channel last = flight.both_channels ? Channel::kB : flight.place.channel;
+  if (flight.both_channels) on_[index_of(Channel::kA)] = nullptr;
+  on_[index_of(last)] = nullptr;
+  if (log_ != nullptr) log_->arrived(flight.left[index_of(last)].logged);
 }
 
-bool FlexRayMedium::carrier_of_clear(const Flight& flight, NodeId node, Channel channel, TrueTime now) const {
+bool ClearFlights::carrier(NodeId node, Channel channel, TrueTime now) const {
+  const Flight& flight = *on_[index_of(channel)];
   // On both channels, A has been where B stops next.
-  const bool ahead = flight.both_channels && channel == Channel::kA && flight.channel == Channel::kB;
+  const bool ahead = flight.both_channels && channel == Channel::kA && flight.place.channel == Channel::kB;
   for (const Leg* leg = flight.leg + (ahead ? 1 : 0); leg != flight.last; ++leg)
     if (leg->receiver == node)
       return node != flight.passed_over && flight.left[index_of(channel)].start + leg->delay <= now;
   return false;
 }
 
-void FlexRayMedium::crowd(Channel channel) {
-  Flight* const was_clear = clear_[index_of(channel)];
-  if (was_clear == nullptr) return;
-  const Flight clear = *was_clear;
-  // The event that it has in the queue remains its own.
-  clear_[index_of(clear.channel)] = nullptr;
-  was_clear->ways = nullptr;
-  was_clear->size = was_clear->next = 0;
-  was_clear->logged = clear.left[index_of(clear.channel)].logged;
-  lay_out(*was_clear, {clear.leg, clear.last}, clear.passed_over, clear.left[index_of(clear.channel)]);
-  if (!clear.both_channels) return;
+void ClearFlights::crowd(Channel channel) {
+  if (!any(channel)) return;
+  Flight& was = *on_[index_of(channel)];
+  const Channel first = was.place.channel, second = other(first);
+  on_[index_of(first)] = nullptr;
+  const Arrival& on_first = was.left[index_of(first)];
+  flights_.take_over(was.number, was.place, on_first.logged);
+  lay_out(was.number, was, was.leg, on_first);
+  was.number = flights_.reserve();
+  if (!was.both_channels) return;
   // What it has still to do on the other channel becomes a flight of its own. B follows A from stop to stop.
-  const Channel second = other(clear.channel);
-  clear_[index_of(second)] = nullptr;
-  --aloft_[index_of(second)];
-  Flight& flight = take_off(clear.sender, second, clear.left[index_of(second)].logged);
-  lay_out(flight, {clear.leg + (second == Channel::kA ? 1 : 0), clear.last}, clear.passed_over,
-          clear.left[index_of(second)]);
-  if (flight.size == 0) return land(flight);
-  flight.sequence = clear.sequence;
-  MediumEvent event = event_of(flight);
-  const EventOrder next = next_arrival(event);
-  queue_.go_on(next, event);
+  on_[index_of(second)] = nullptr;
+  const Arrival& on_second = was.left[index_of(second)];
+  const FlightNumber number = flights_.reserve();
+  flights_.take_over(number, {was.place.sender, second, was.place.sequence}, on_second.logged);
+  lay_out(number, was, was.leg + (second == Channel::kA ? 1 : 0), on_second);
+  flights_.go_on(number);
 }
 
-void FlexRayMedium::lay_out(Flight& flight, std::span<const Leg> way, NodeId passed_over, const Arrival& left) {
-  for (const Leg& leg : way)
-    if (leg.receiver != passed_over) put(flight, leg.receiver, after(left, leg.delay));
+// What has left as `left` is noted wherever it arrives, from that leg on.
+void ClearFlights::lay_out(FlightNumber number, const Flight& was, const Leg* from, const Arrival& left) {
+  for (const Leg* leg = from; leg != was.last; ++leg)
+    if (leg->receiver != was.passed_over) flights_.put(number, leg->receiver, left.later_by(leg->delay));
 }
 
 }  // namespace ttf::sim::medium

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 
 #include "bus/ports/flexray_port.h"
@@ -37,8 +36,6 @@ struct Arriving {
 
 class Disturbance {
  public:
-  static constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
-
   virtual ~Disturbance() = default;
   // Whether leaving() or arriving() may look at the bytes, or change bytes or channel, of what the node sends now.
   // Where a medium is transparent and this says no, they get no bytes.
@@ -51,7 +48,7 @@ class Disturbance {
   // Nothing may be emitted from within: the signal is not on its way before all its receivers have been asked.
   virtual bool arriving(Arriving& signal) { return (void)signal, true; }
   // When it acts by itself next, after all nodes' events of that instant; and what it does then.
-  virtual TrueTime next() const { return kNever; }
+  virtual TrueTime next() const { return kNever<TrueTime>; }
   virtual void act(TrueTime now) { (void)now; }
 };
 

@@ -1,8 +1,8 @@
-// Flights: one signal on its way to all who hear it, from its departure to its last stop, and what becomes of it where
-// another one arrives at the same time.
+#include "sim/medium/flights.h"
+
 #include <algorithm>
 
-#include "sim/medium/flexray_medium.h"
+#include "core/check.h"
 
 namespace ttf::sim::medium {
 namespace {
@@ -10,102 +10,164 @@ namespace {
 using bus::ports::Signal;
 using schedules::model::Channel;
 
-bool overlap(const FlexRayMedium::Arrival& a, const FlexRayMedium::Arrival& b) {
-  return a.start < b.end && b.start < a.end;
+bool overlap(const Arrival& a, const Arrival& b) { return a.start < b.end && b.start < a.end; }
+
+// What two make of one another, but for their frames.
+Arrival drawn_together(const Arrival& a, const Arrival& b) {
+  const bool cas = a.signal == Signal::kCas && b.signal == Signal::kCas;
+  Arrival one = a;
+  one.logged = ChannelLog::kNone;
+  one.signal = cas ? Signal::kCas : Signal::kUndecodable;
+  one.start = std::min(a.start, b.start);
+  one.end = std::max(a.end, b.end);
+  return one;
 }
 
 }  // namespace
 
-// Flights move: nobody holds on to one across this.
-void FlexRayMedium::add_flights(std::size_t count) {
+Flights::Flights(const FlexRayWays& ways, MediumQueue& queue, FramePool& pool, std::size_t room)
+    : queue_(queue), pool_(pool), lanes_(2 * ways.nodes()), most_stops_(ways.nodes_on_bus()) {
+  add_flights(room);
+}
+
+void Flights::add_flights(std::size_t count) {
   const std::size_t before = flights_.size();
-  std::array<std::size_t, 2> clear{};
-  for (std::size_t c = 0; c < clear.size(); ++c)
-    if (clear_[c] != nullptr) clear[c] = static_cast<std::size_t>(clear_[c] - flights_.data());
   flights_.resize(before + count);
   stops_.resize(flights_.size() * most_stops_);
-  free_flights_.reserve(flights_.size());
-  for (std::size_t f = flights_.size(); f-- > before;) free_flights_.push_back(static_cast<std::uint32_t>(f));
-  for (std::size_t c = 0; c < clear.size(); ++c)
-    if (clear_[c] != nullptr) clear_[c] = &flights_[clear[c]];
+  free_.reserve(flights_.size());
+  for (std::size_t f = flights_.size(); f-- > before;) free_.push_back(static_cast<FlightNumber>(f));
 }
 
-FlexRayMedium::Flight& FlexRayMedium::take_off(NodeId sender, Channel channel, ChannelLog::Id logged) {
-  if (free_flights_.empty()) add_flights(flights_.size());
-  Flight& flight = flights_[free_flights_.back()];
-  free_flights_.pop_back();
-  ++aloft_[index_of(channel)];
-  flight.size = flight.next = 0;
-  flight.last_heard = {TrueTime{}, kNoNode, 0};
-  flight.logged = logged;
-  flight.sender = sender;
-  flight.channel = channel;
-  return flight;
+FlightNumber Flights::reserve() {
+  if (free_.empty()) add_flights(flights_.size());
+  const FlightNumber number = free_.back();
+  free_.pop_back();
+  return number;
 }
 
-void FlexRayMedium::land(Flight& flight) {
-  --aloft_[index_of(flight.channel)];
-  flight.ways = nullptr;
-  free_flights_.push_back(static_cast<std::uint32_t>(&flight - flights_.data()));
-  if (log_ != nullptr) log_->arrived(flight.logged);
+FlightNumber Flights::take_off(NodeId sender, Channel channel, ChannelLog::Id logged) {
+  const FlightNumber number = reserve();
+  take_over(number, {sender, channel, 0}, logged);
+  return number;
+}
+
+void Flights::take_over(FlightNumber number, const FlightPlace& place, ChannelLog::Id logged) {
+  ++aloft_[index_of(place.channel)];
+  flights_[number] = {place, logged, 0, 0, {}};
 }
 
 // What arrives there, together with what it overlaps with: a stop more, unless something that is on its way already
 // ends last and has one.
-void FlexRayMedium::put(Flight& flight, NodeId receiver, const Arrival& arrival) {
+void Flights::put(FlightNumber number, NodeId receiver, const Arrival& arrival) {
+  Flight& flight = flights_[number];
   Lane& pending = lane(receiver, arrival.channel);
-  Pending made{arrival, next_id_++, flight.sender, false};
+  Pending made{arrival, next_id_++, flight.place.sender, false};
   const Stop own{arrival.end, receiver, made.id};
   if (flight.last_heard.receiver == kNoNode || own.end > flight.last_heard.end) flight.last_heard = own;
-  for (std::size_t i = 0; i < pending.size();) {
-    const Pending other = pending[i];
-    if (!overlap(other.arrival, made.arrival)) {
-      ++i;
-      continue;
-    }
-    // Two become one.
-    const bool cas = other.arrival.signal == Signal::kCas && made.arrival.signal == Signal::kCas;
-    release(other.arrival);
-    release(made.arrival);
-    if (log_ != nullptr) log_->lost(made.arrival.logged), log_->lost(other.arrival.logged);
-    if (other.arrival.end >= made.arrival.end) made.id = other.id;  // else the other's stop will find nothing
-    made.arrival.logged = ChannelLog::kNone;
-    made.arrival.signal = cas ? Signal::kCas : Signal::kUndecodable;
-    made.arrival.start = std::min(made.arrival.start, other.arrival.start);
-    made.arrival.end = std::max(made.arrival.end, other.arrival.end);
+  // Grown, it may reach what it did not reach before.
+  const auto is_reached = [&](const Pending& other) { return overlap(other.arrival, made.arrival); };
+  while (const std::optional<Pending> other = pending.take_out(is_reached)) {
+    release(pool_, other->arrival);
+    release(pool_, made.arrival);
+    if (log_ != nullptr) log_->lost(made.arrival.logged), log_->lost(other->arrival.logged);
+    if (other->arrival.end >= made.arrival.end) made.id = other->id;  // else the other's stop will find nothing
+    made.arrival = drawn_together(made.arrival, other->arrival);
     made.merged = true;
-    pending.take_out(i);
-    i = 0;  // grown, it may reach what it did not reach before
   }
   pending.add(made);
-  if (made.id == own.id) stops_of(flight)[flight.size++] = own;
+  if (made.id == own.id) stops_of(number)[flight.size++] = own;
 }
 
-void FlexRayMedium::depart(Flight& flight) {
+void Flights::depart(FlightNumber number) {
+  Flight& flight = flights_[number];
+  // Drawn into others everywhere: it has no stop. The log hears of it when it is over, as of any: it may break off.
+  if (flight.size == 0 && flight.logged != ChannelLog::kNone && flight.last_heard.receiver != kNoNode)
+    stops_of(number)[flight.size++] = flight.last_heard;
+  if (flight.size == 0) return land(number);
+  // As the way is, unless something has changed a signal on its last metre.
   const auto by_end = [](const Stop& a, const Stop& b) {
     return a.end != b.end ? a.end < b.end : a.receiver < b.receiver;
   };
-  // Drawn into others everywhere: it has no stop. The log hears of it when it is over, as of any: it may break off.
-  if (flight.size == 0 && flight.logged != ChannelLog::kNone && flight.last_heard.receiver != kNoNode)
-    stops_of(flight)[flight.size++] = flight.last_heard;
-  if (flight.size == 0) return land(flight);
-  // As the way is, unless something has changed a signal on its last metre.
-  const std::span<Stop> stops = stops_of(flight).first(flight.size);
+  const std::span<Stop> stops = stops_of(number).first(flight.size);
   if (!std::is_sorted(stops.begin(), stops.end(), by_end)) std::sort(stops.begin(), stops.end(), by_end);
-  schedule(flight);
-}
-
-MediumEvent FlexRayMedium::event_of(const Flight& flight) const {
-  MediumEvent event;
-  event.kind = MediumEvent::Kind::kFlexRayArrival;
-  event.frame = static_cast<std::uint32_t>(&flight - flights_.data());
-  return event;
-}
-
-void FlexRayMedium::schedule(Flight& flight) {
-  MediumEvent event = event_of(flight);
+  MediumEvent event = event_of(number);
   const EventOrder first = next_arrival(event);
-  flight.sequence = queue_.schedule(first.time, first.phase, first.node, event, first.rank);
+  flight.place.sequence = queue_.schedule(first.time, first.phase, first.node, event, first.rank);
+}
+
+void Flights::go_on(FlightNumber number) {
+  if (flights_[number].size == 0) return land(number);
+  MediumEvent event = event_of(number);
+  const EventOrder next = next_arrival(event);
+  queue_.go_on(next, event);
+}
+
+void Flights::land(FlightNumber number) {
+  const Flight& flight = flights_[number];
+  --aloft_[index_of(flight.place.channel)];
+  give_back(number);
+  if (log_ != nullptr) log_->arrived(flight.logged);
+}
+
+EventOrder Flights::next_arrival(MediumEvent& event) const {
+  const Flight& flight = flights_[event.frame];
+  const Stop& stop = stops_[event.frame * most_stops_ + flight.next];
+  return next_stop(event, flight.place, stop.receiver, stop.end);
+}
+
+Stopover Flights::stop_over(const MediumEvent& event, TrueTime now) {
+  Flight& flight = flights_[event.frame];
+  const Stop stop = stops_of(event.frame)[flight.next++];
+  Stopover here;
+  here.goes_on = flight.next < flight.size;
+  if (!here.goes_on) land(event.frame);
+  Lane& pending = lane(stop.receiver, flight.place.channel);
+  const auto found = pending.take_out([&](const Pending& one) { return one.id == stop.id; });
+  if (!found) return here;
+  TTF_CHECK(found->arrival.end == now, "an arrival of {} ns at {} ns", found->arrival.end.ns, now.ns);
+  here.arrival = found->arrival;
+  return here;
+}
+
+bool Flights::carrier(NodeId node, Channel channel, TrueTime now) const {
+  const Lane& pending = lanes_[lane_of(node, channel)];
+  return std::any_of(pending.begin(), pending.end(), [&](const Pending& one) { return one.arrival.start <= now; });
+}
+
+void Flights::talk_over(NodeId node, Channel channel, TrueTime start, TrueTime end) {
+  for (Pending& one : lane(node, channel)) {
+    if (one.arrival.end <= start || end <= one.arrival.start) continue;
+    log_->lost(one.arrival.logged);
+    one.arrival.logged = ChannelLog::kNone;
+  }
+}
+
+void Flights::lose_receiver(NodeId node, Channel channel) {
+  Lane& incoming = lane(node, channel);
+  for (const Pending& one : incoming) release(pool_, one.arrival);
+  incoming.clear();
+}
+
+void Flights::break_off(NodeId sender, Channel channel, const Way& way, TrueTime silent, TrueTime ends) {
+  std::optional<FlightNumber> rests;  // a flight of all that is left
+  for (const Leg& leg : way) {
+    const TrueTime falls_silent = silent + leg.delay, rest_ends = ends + leg.delay;
+    const auto breaks_off = [&](const Pending& one) {
+      const bool is_rest = one.arrival.signal == Signal::kUndecodable && one.arrival.end == rest_ends;
+      return one.sender == sender && !one.merged && !is_rest && one.arrival.end > falls_silent;
+    };
+    while (const std::optional<Pending> broken = lane(leg.receiver, channel).take_out(breaks_off)) {
+      release(pool_, broken->arrival);
+      if (broken->arrival.start >= rest_ends) continue;
+      Arrival rest = broken->arrival;
+      rest.signal = Signal::kUndecodable;
+      rest.end = rest_ends;
+      rest.logged = ChannelLog::kNone;
+      if (!rests) rests = take_off(sender, channel, ChannelLog::kNone);
+      put(*rests, leg.receiver, rest);
+    }
+  }
+  if (rests) depart(*rests);
 }
 
 }  // namespace ttf::sim::medium

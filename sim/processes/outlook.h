@@ -13,11 +13,11 @@ class Outlook {
  public:
   using Promise = nodes::host::Promise;
 
-  // Its promise ends then: it has to say something, if only that it goes on being silent. Promise::kNever: it is off.
+  // When its promise ends: then it has to say something, if only that it goes on being silent. Never: it is off.
   Microticks turn() const { return turn_; }
 
   void begins(Microticks now) { promises({now, Microticks{}, Microticks{}, Microticks{}}); }
-  void ends() { promises({Promise::kNever}); }
+  void ends() { promises({kNever<Microticks>}); }
   void promises(const Promise& promise) {
     promise_ = promise;
     turn_ = promise.silent_until;
@@ -29,11 +29,11 @@ class Outlook {
 
  private:
   void moves(Microticks now, Microticks after) {
-    if (after != Promise::kNever) turn_ = std::min(turn_, now + after);
+    if (after != kNever<Microticks>) turn_ = std::min(turn_, now + after);
   }
 
-  Promise promise_{Promise::kNever};
-  Microticks turn_ = Promise::kNever;
+  Promise promise_{kNever<Microticks>};
+  Microticks turn_ = kNever<Microticks>;
 };
 
 }  // namespace ttf::sim::processes

@@ -53,10 +53,9 @@ class TurnBytes {
   // Either may be never.
   Microticks instant_or_never(Microticks from, std::int64_t most, const char* what) {
     TurnBytes ahead = *this;
-    if (ahead.take<std::uint64_t>(~std::uint64_t{0}, what) ==
-        static_cast<std::uint64_t>(nodes::host::Promise::kNever.value)) {
+    if (ahead.take<std::uint64_t>(~std::uint64_t{0}, what) == static_cast<std::uint64_t>(kNever<Microticks>.value)) {
       *this = ahead;
-      return nodes::host::Promise::kNever;
+      return kNever<Microticks>;
     }
     return instant(from, most, what);
   }

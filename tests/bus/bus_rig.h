@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -299,12 +298,12 @@ class Rig {
   void power_on(std::size_t node, TrueTime at) { power_on_[node] = at; }
 
   static constexpr TrueTime kStart{1'000'000};
-  static constexpr TrueTime kNoPower{std::numeric_limits<std::int64_t>::max()};
+  static constexpr TrueTime kNoPower = kNever<TrueTime>;
 
  private:
   TrueTime due(std::size_t node) const {
     const Microticks next = controllers_[node]->next_event();
-    const bool never = next.value == std::numeric_limits<std::int64_t>::max();
+    const bool never = next == kNever<Microticks>;
     return std::min(never ? kNoPower : medium_.oscillator(node).time_of(next), power_on_[node]);
   }
   static std::vector<timebase::Oscillator> oscillators(const std::vector<std::int64_t>& drifts_ppb) {

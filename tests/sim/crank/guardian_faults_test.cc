@@ -96,7 +96,7 @@ struct Masquerade final : medium::Disturbance {
     signal.bytes = std::span(forged).first(size);
     return true;
   }
-  TrueTime next() const override { return due ? due->start : kNever; }
+  TrueTime next() const override { return due ? due->start : kNever<TrueTime>; }
   void act(TrueTime) override {
     due->bytes = std::span(forged).first(size);
     plant.emit(*due, kFaulty);

@@ -285,7 +285,7 @@ TEST_F(Bytes, TimesCountFromTheOrigin) {
   injector.act(plant_.time = injector.next());
   EXPECT_EQ(injector.next(), TrueTime{2'600});
   injector.act(plant_.time = injector.next());
-  EXPECT_EQ(injector.next(), medium::Disturbance::kNever);
+  EXPECT_EQ(injector.next(), kNever<TrueTime>);
   EXPECT_EQ(plant_.asked, (std::vector<std::string>{"off 2", "on 2 2600"}));
 }
 

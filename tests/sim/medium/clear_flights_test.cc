@@ -1,5 +1,5 @@
-// What nodes send, close together in time or far apart, on one channel or on both at once: whatever the medium notes
-// down for it, what arrives is what the delays and the overlaps say.
+// What nodes send, close together in time or far apart, on one channel or on both at once: in the fast way or in the
+// reference way, what arrives is what the delays and the overlaps say.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,9 @@ struct Line {
   };
   std::vector<Sent> sent;
 
-  Line(bool last_on_a_only, bool along) : cluster(line(last_on_a_only)), goes_along(along) {}
+  Line(bool last_on_a_only, bool along, bool fast) : cluster(line(last_on_a_only)), goes_along(along) {
+    medium.set_fast(fast);
+  }
   bool attached(std::size_t node, Channel channel) const {
     return includes(cluster.nodes[node].flexray->pChannels, channel);
   }
@@ -75,7 +77,7 @@ struct Line {
     sent.push_back(one);
   }
 
-  void note(const MediumEvent& event, const FlexRayMedium::Arrival& arrival) {
+  void note(const MediumEvent& event, const Arrival& arrival) {
     const int id = arrival.signal == Signal::kFrame ? medium.frame(arrival).header.frame_id : 0;
     reached.push_back({arrival.end.ns, event.node, arrival.channel, arrival.start.ns, arrival.signal, id});
     medium.release(arrival);
@@ -144,12 +146,15 @@ struct Line {
   }
 };
 
-class ClearFlights : public testing::TestWithParam<std::tuple<bool, bool>> {};
+class ClearFlights : public testing::TestWithParam<std::tuple<bool, bool, bool>> {
+ protected:
+  Line made() const { return std::make_from_tuple<Line>(GetParam()); }
+};
 
 TEST_P(ClearFlights, WhatArrivesIsWhatDelaysAndOverlapsSay) {
   int alone = 0, drawn_together = 0;
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
-    Line line(std::get<0>(GetParam()), std::get<1>(GetParam()));
+    Line line = made();
     RandomStream draw({seed, 0, Purpose::kTest, 0, 0});
     TrueTime now{1'000};
     for (int s = 1; s <= 40; ++s) {
@@ -180,7 +185,7 @@ TEST_P(ClearFlights, WhatArrivesIsWhatDelaysAndOverlapsSay) {
 // A noise of 100 ms, and in it 10 us bursts and frames, one behind the other: more of them than there is room for at
 // once.
 TEST_P(ClearFlights, WhatIsDrawnIntoALongNoiseIsOverWhenItEnds) {
-  Line line(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  Line line = made();
   const TrueTime begins{1'000}, ends = begins + Duration::milliseconds(100);
   line.send({NodeId{0}, Channel::kA, Signal::kUndecodable, begins, ends, 0});
   int sent = 0;
@@ -201,7 +206,7 @@ TEST_P(ClearFlights, WhatIsDrawnIntoALongNoiseIsOverWhenItEnds) {
 
 // Each ends later than all before it: none is over before the last one has begun.
 TEST_P(ClearFlights, WhereThereAreMoreThanThereIsRoomForThereIsMoreRoom) {
-  Line line(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  Line line = made();
   TrueTime now{1'000};
   const TrueTime ends = now + Duration::milliseconds(2);
   for (int sent = 0; sent < 3 * static_cast<int>(FlexRayMedium::kFlights); ++sent, now += Duration::microseconds(1)) {
@@ -216,7 +221,7 @@ TEST_P(ClearFlights, WhereThereAreMoreThanThereIsRoomForThereIsMoreRoom) {
   ASSERT_EQ(line.reached, line.expected());
 }
 
-INSTANTIATE_TEST_SUITE_P(Lines, ClearFlights, testing::Combine(testing::Bool(), testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(Lines, ClearFlights, testing::Combine(testing::Bool(), testing::Bool(), testing::Bool()));
 
 }  // namespace
 }  // namespace ttf::sim::medium

@@ -78,7 +78,7 @@ struct Bench {
   void send(std::size_t node, Signal signal, TrueTime start, TrueTime end) {
     medium.transmit(static_cast<NodeId>(node), {Channel::kA, signal, {}, {}, 0, {}}, start, end);
   }
-  std::vector<Reached> run(TrueTime until = Disturbance::kNever) {
+  std::vector<Reached> run(TrueTime until = kNever<TrueTime>) {
     std::vector<Reached> reached;
     while (!queue.empty() && queue.next().time <= until) {
       const TrueTime now = queue.next().time;

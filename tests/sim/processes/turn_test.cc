@@ -16,7 +16,7 @@ namespace {
 
 using schedules::model::Channel;
 
-constexpr nodes::host::Promise kSilent{nodes::host::Promise::kNever};
+constexpr nodes::host::Promise kSilent{kNever<Microticks>};
 
 class Turn : public testing::Test {
  protected:
@@ -117,7 +117,7 @@ TEST_F(Turn, SaysNothingThatItsNodeCannotDo) {
   refuses({static_cast<NodeId>(cluster_.nodes.size()), 0, {}, kSilent}, {});
   refuses({host_, 0, Microticks{9}, {Microticks{9}}}, {});  // its turn would never end
   refuses({host_, 0, {}, {Microticks{1}, Microticks{-1}}}, {});
-  refuses({host_, 0, {}, {nodes::host::Promise::kNever - Microticks{1}}}, {});
+  refuses({host_, 0, {}, {kNever<Microticks> - Microticks{1}}}, {});
   refuses({device_, 0, {}, kSilent}, {TriggerAct{SensorId{0}}});
   refuses(header, {StrobeAct{SensorId{0}, 0}});
   refuses(header, {TriggerAct{static_cast<SensorId>(cluster_.sensors.size())}});

@@ -1,0 +1,69 @@
+// What arrives at a receiver on the simulated FlexRay, and what is the same of all flights that bring it there
+// (sim/medium/flights.h, sim/medium/clear_flights.h).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "bus/ports/flexray_port.h"
+#include "core/ids.h"
+#include "core/time.h"
+#include "sim/medium/channel_log.h"
+#include "sim/medium/frame_pool.h"
+#include "sim/medium/medium_queue.h"
+
+namespace ttf::sim::medium {
+
+struct Arrival {
+  TrueTime start{}, end{};
+  std::uint32_t frame = 0;  // in the pool, of a frame
+  schedules::model::Channel channel{};
+  bus::ports::Signal signal{};
+  ChannelLog::Id logged = ChannelLog::kNone;  // while its receiver may still make it out
+
+  bool operator==(const Arrival&) const = default;
+  Arrival later_by(Duration delay) const { return {start + delay, end + delay, frame, channel, signal, logged}; }
+};
+
+// The arrival has been dealt with: its frame, if it is one, is used no more.
+inline void release(FramePool& pool, const Arrival& arrival) {
+  if (arrival.signal == bus::ports::Signal::kFrame) pool.release(arrival.frame);
+}
+
+// What a signal that goes from receiver to receiver brings to one of them, and whether it goes on from there. It brings
+// nothing where it was drawn into another signal.
+struct Stopover {
+  std::optional<Arrival> arrival;
+  bool goes_on = false;
+};
+
+// By which the event in the queue knows its flight.
+using FlightNumber = std::uint32_t;
+
+// What a flight's place in the queue comes from.
+struct FlightPlace {
+  NodeId sender{};
+  schedules::model::Channel channel{};  // of the next stop
+  std::uint64_t sequence = 0;           // its order of being scheduled
+};
+
+inline MediumEvent event_of(FlightNumber number) {
+  MediumEvent event;
+  event.kind = MediumEvent::Kind::kFlexRayArrival;
+  event.frame = number;
+  return event;
+}
+
+inline EventOrder order_of(const FlightPlace& place, NodeId receiver, TrueTime end) {
+  const auto rank = static_cast<std::uint16_t>((index_of(place.channel) << 8) | index_of(place.sender));
+  return {end, Phase::kArrival, static_cast<std::uint8_t>(receiver), rank, place.sequence};
+}
+
+// The flight's event becomes that of its stop at `receiver`, where it ends at `end`.
+inline EventOrder next_stop(MediumEvent& event, const FlightPlace& place, NodeId receiver, TrueTime end) {
+  event.node = static_cast<std::uint8_t>(receiver);
+  event.channel_or_bus = static_cast<std::uint8_t>(place.channel);
+  return order_of(place, receiver, end);
+}
+
+}  // namespace ttf::sim::medium

@@ -1,0 +1,132 @@
+// Flights: one signal on its way to all who hear it, from its departure to its last stop. It is a single event of the
+// queue, which goes on from one stop to the next.
+//
+// This is the reference way: what is on its way is noted at each of its receivers, and what arrives at the same time
+// becomes one there. The fast way, for what is alone on its channel (sim/medium/clear_flights.h), obeys the same laws:
+//   L1  stop_over() of a flight's event, at its instant, is what arrives there; then next_arrival() is its next stop,
+//       as long as it goes on
+//   L2  stops come in the order of (end, receiver)
+//   L3  carrier() is true from the start of an arrival until it is taken by stop_over()
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/time.h"
+#include "sim/medium/arrival.h"
+#include "sim/medium/channel_log.h"
+#include "sim/medium/frame_pool.h"
+#include "sim/medium/medium_queue.h"
+#include "sim/medium/ways.h"
+
+namespace ttf::sim::medium {
+
+class Flights {
+ public:
+  // There is room for `room` flights from the beginning, and more where there are more.
+  Flights(const FlexRayWays& ways, MediumQueue& queue, FramePool& pool, std::size_t room);
+  Flights(const Flights&) = delete;
+  Flights& operator=(const Flights&) = delete;
+
+  // Null: nobody is told what becomes of frames on their way.
+  void set_log(ChannelLog* log) { log_ = log; }
+  bool any(schedules::model::Channel channel) const { return aloft_[index_of(channel)] > 0; }
+
+  // A flight is made in three steps: it takes off, is put wherever it arrives, and departs.
+  FlightNumber take_off(NodeId sender, schedules::model::Channel channel, ChannelLog::Id logged);
+  void put(FlightNumber number, NodeId receiver, const Arrival& arrival);
+  void depart(FlightNumber number);
+
+  // The number of what is no flight here, but may become one: what is on its way to a coupler, and a flight of the fast
+  // way. When that is taken over, it keeps its place in the queue: its event is under way already, or goes on from
+  // there.
+  FlightNumber reserve();
+  void give_back(FlightNumber number) { free_.push_back(number); }
+  void take_over(FlightNumber number, const FlightPlace& place, ChannelLog::Id logged);
+  void go_on(FlightNumber number);
+
+  Stopover stop_over(const MediumEvent& event, TrueTime now);
+  EventOrder next_arrival(MediumEvent& event) const;
+  bool carrier(NodeId node, schedules::model::Channel channel, TrueTime now) const;
+
+  // The node speaks itself: what arrives there meanwhile it cannot make out. For the log.
+  void talk_over(NodeId node, schedules::model::Channel channel, TrueTime start, TrueTime end);
+  // What is on its way to the node vanishes.
+  void lose_receiver(NodeId node, schedules::model::Channel channel);
+  // The sender falls silent; both instants are where the way begins. Of its signals, what has not ended at a receiver
+  // when `silent` gets there ends when `ends` gets there, and nobody can make it out. What was drawn into another
+  // signal stays in it.
+  void break_off(NodeId sender, schedules::model::Channel channel, const Way& way, TrueTime silent, TrueTime ends);
+
+ private:
+  // What is on its way to one node on one channel.
+  struct Pending {
+    Arrival arrival;
+    std::uint32_t id = 0;  // a stop of a flight has it
+    NodeId sender{};
+    bool merged = false;  // of several signals
+  };
+  // Those on their way to one node on one channel, in no order, no two of them at once: hardly ever more than one, but
+  // for what a fault makes late.
+  class Lane {
+   public:
+    Lane() { room_.reserve(kRoom); }
+    auto begin() { return room_.begin(); }
+    auto end() { return room_.end(); }
+    auto begin() const { return room_.begin(); }
+    auto end() const { return room_.end(); }
+    void add(const Pending& pending) { room_.push_back(pending); }
+    // The first that `is_meant`.
+    template <class IsMeant> std::optional<Pending> take_out(IsMeant is_meant) {
+      const auto found = std::find_if(room_.begin(), room_.end(), is_meant);
+      if (found == room_.end()) return std::nullopt;
+      const Pending taken = *found;
+      *found = room_.back();
+      room_.pop_back();
+      return taken;
+    }
+    void clear() { room_.clear(); }
+
+   private:
+    static constexpr std::size_t kRoom = 64;
+    std::vector<Pending> room_;
+  };
+  struct Stop {
+    TrueTime end{};
+    NodeId receiver = kNoNode;
+    std::uint32_t id = 0;
+  };
+  struct Flight {
+    FlightPlace place;
+    ChannelLog::Id logged = ChannelLog::kNone;
+    std::size_t size = 0, next = 0;  // stops, by (end, receiver) once it has departed
+    Stop last_heard;                 // the end of what it brings, wherever that is drawn into
+  };
+
+  void add_flights(std::size_t count);
+  void land(FlightNumber number);
+  std::span<Stop> stops_of(FlightNumber number) { return std::span(stops_).subspan(number * most_stops_, most_stops_); }
+  static std::size_t lane_of(NodeId node, schedules::model::Channel channel) {
+    return 2 * index_of(node) + index_of(channel);
+  }
+  Lane& lane(NodeId node, schedules::model::Channel channel) { return lanes_[lane_of(node, channel)]; }
+
+  MediumQueue& queue_;
+  FramePool& pool_;
+  ChannelLog* log_ = nullptr;
+  std::vector<Lane> lanes_;  // by NodeId and channel
+  std::size_t most_stops_;   // a node each
+  std::vector<Stop> stops_;  // most_stops_ for each flight
+  std::vector<Flight> flights_;
+  std::vector<FlightNumber> free_;
+  std::array<int, 2> aloft_{};  // flights, by channel
+  std::uint32_t next_id_ = 0;
+};
+
+}  // namespace ttf::sim::medium
