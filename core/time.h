@@ -12,6 +12,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <limits>
 
 namespace ttf {
 
@@ -82,6 +83,9 @@ template <class Tag> struct Instant {
 using TrueTime = Instant<struct TrueScale>;
 using LocalTime = Instant<struct LocalScale>;
 using GlobalTime = Instant<struct GlobalScale>;
+
+// Later than every instant and longer than every delay of its type, to be compared and not to be reckoned with.
+template <class Time> inline constexpr Time kNever{std::numeric_limits<std::int64_t>::max()};
 
 // Microseconds, milliseconds, and how often one lasts within another (cycles, mostly), for people: never to compute
 // with.
