@@ -102,8 +102,4 @@ void CameraPreprocessing::run(host::StepContext& context) {
   }
 }
 
-void Gateway::run(host::StepContext& context) {
-  if (context.inputs[0].fresh) context.outputs[0].copy(*context.inputs[0].list);
-}
-
 }  // namespace ttf::nodes::sensing
