@@ -100,7 +100,7 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
   check_fusion(cluster, strategy);
   const faults::FaultPlan faults = faults::resolve(scenario.faults, cluster);
   const faults::BelievedSchedules believed(faults, cluster);
-  if (scenario.startup.cold) (void)nodes::host::node_starts(scenario.startup, cluster, scenario.seed, 0);
+  if (scenario.startup.cold) (void)node_starts(scenario.startup, cluster, scenario.seed, 0);
   (void)nodes::fusion::tracker_in(cluster, scenario.tracker, scenario.file);
 }
 
@@ -126,7 +126,7 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   simulation_config.replication = config.replication;
   simulation_config.make_steps = [&](NodeId node) { return make_steps(nodes, node); };
   if (scenario.startup.cold)
-    start_cold(simulation_config, nodes::host::node_starts(scenario.startup, cluster, config.seed, config.replication));
+    start_cold(simulation_config, node_starts(scenario.startup, cluster, config.seed, config.replication));
   const faults::FaultPlan faults = faults::resolve(scenario.faults, cluster);
   const faults::BelievedSchedules believed(faults, cluster);
   simulation_config.view = [&](NodeId node) { return believed.of(node); };

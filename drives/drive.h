@@ -61,7 +61,7 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
 // scenario, cluster and code do not fit together.
 DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out);
 
-// True time at which the drive (world or recording) starts in this cluster. In a cold one (nodes/host/cold_start.h) the
+// True time at which the drive (world or recording) starts in this cluster. In a cold one (drives/startup.h) the
 // world moves while the nodes start up: it starts when the first supply may come.
 TrueTime drive_start(const schedules::model::Cluster& cluster);
 

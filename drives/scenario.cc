@@ -33,7 +33,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
   const Duration latest = findings.size() == mistakes ? scenario.duration : kLongest;
   scenario.evaluate_from = root.duration_or("evaluate_from", Duration{}, {Duration{}, latest});
 
-  scenario.startup = nodes::host::load_startup(root, latest);
+  scenario.startup = load_startup(root, latest);
 
   YamlMap clusters = root.map("clusters");
   for (const auto strategy : {fusion::strategies::StrategyKind::kBuff, fusion::strategies::StrategyKind::kAdva,

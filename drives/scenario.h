@@ -8,11 +8,11 @@
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
+#include "drives/startup.h"
 #include "faults/plan.h"
 #include "fusion/config/tracker_config.h"
 #include "fusion/strategies/strategy.h"
 #include "nodes/camera/triangulation.h"
-#include "nodes/host/cold_start.h"
 #include "nodes/laser/laser_preprocessor.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
@@ -32,7 +32,7 @@ struct Scenario {
   std::uint64_t seed = 1;
   Duration duration{};       // of the drive, from its start (drives/drive.h)
   Duration evaluate_from{};  // likewise; measures and pictures start here, before it the tracker warms up
-  nodes::host::Startup startup;
+  Startup startup;
   std::string cluster_files[3];  // by StrategyKind, as paths that can be opened
   sim::world::WorldConfig world;
   sim::world::LaserConfig laser;

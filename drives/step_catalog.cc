@@ -5,6 +5,7 @@
 #include "core/check.h"
 #include "nodes/fusion/fusion_host.h"
 #include "nodes/sensing/emulators.h"
+#include "nodes/sensing/gateway.h"
 #include "nodes/sensing/preprocessing.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"

@@ -44,8 +44,7 @@ inline void FlexRayController::State::judge(const ports::Reception& reception, b
   if (g.gdSymbolWindow > 0 && (segment == Segment::kDynamic || segment == Segment::kRest))
     judge_symbol_window(reception, conflict);
   std::uint8_t errors = conflict ? kTransmissionConflict | kSyntaxError : 0;
-  if (reception.signal != ports::Signal::kFrame || reception.frame.error != wire::FrameError::kNone)
-    errors |= kSyntaxError;
+  if (!is_frame(reception)) errors |= kSyntaxError;
   const int slot = static_slot_at(reception.start);
   if (slot >= 1 && slot <= g.gNumberOfStaticSlots) return judge_static(reception, slot, errors);
   judge_elsewhere(reception, slot, errors, conflict);
@@ -74,12 +73,9 @@ bool FlexRayController::State::receive_on_both(const ports::Reception& reception
 // The schedule's frame that it is, if it is a valid one in its slot on both channels and nothing was heard of that slot
 // before; null where anything else may be the case.
 const FrameSlot* FlexRayController::State::first_of_slot_on_both(const ports::Reception& reception) const {
-  const wire::FrameHeader& header = reception.frame.header;
-  const int slot = header.frame_id;
-  if (slot < 1 || slot > g.gNumberOfStaticSlots || header.cycle != counter ||
-      header.payload_words != g.gPayloadLengthStatic || (header.startup && !header.sync) ||
-      reception.signal != ports::Signal::kFrame || reception.frame.error != wire::FrameError::kNone ||
-      !board.nothing(slot))
+  const int slot = reception.frame.header.frame_id;
+  if (slot < 1 || slot > g.gNumberOfStaticSlots || !is_frame(reception) ||
+      !is_of_slot(reception.frame.header, slot, counter) || !board.nothing(slot))
     return nullptr;
   const Microticks cycle_start = clock->cycle_start();
   if (reception.start < cycle_start + line(slot).from || reception.end > cycle_start + line(slot + 1).from)
@@ -150,8 +146,7 @@ void FlexRayController::State::hear_in_startup(const ports::Reception& reception
 // Without a schedule only startup frames matter: two of them make one.
 void FlexRayController::State::hear(const ports::Reception& reception) {
   const wire::FrameHeader& header = reception.frame.header;
-  if (reception.signal != ports::Signal::kFrame || reception.frame.error != wire::FrameError::kNone ||
-      !header.startup || !header.sync || header.frame_id > g.gNumberOfStaticSlots ||
+  if (!is_frame(reception) || !header.startup || !header.sync || header.frame_id > g.gNumberOfStaticSlots ||
       header.payload_words != g.gPayloadLengthStatic)
     return;
   const StartupFrame heard{reception.channel, header.frame_id, header.cycle, reception.start};
@@ -235,7 +230,8 @@ void FlexRayController::State::judge_static(const ports::Reception& reception, i
   }
   if (status.element[c]) errors |= kSyntaxError;  // a second communication element
   status.element[c] = true;
-  if (errors == 0 && !is_of_slot(reception.frame.header, slot, expected)) errors |= kContentError;
+  if (errors == 0 && (expected == nullptr || !is_of_slot(reception.frame.header, slot, slot_at.counter)))
+    errors |= kContentError;
   status.errors[c] |= errors;
   if (errors != 0) {
     // Of one that outlasts the segment this comes when that has been closed.

@@ -161,9 +161,14 @@ struct FlexRayController::State {
   void hear(const ports::Reception& reception);                            // without a schedule
   void judge(const ports::Reception& reception, bool conflict);            // within the schedule
   void judge_static(const ports::Reception& reception, int slot, std::uint8_t errors);
-  bool is_of_slot(const wire::FrameHeader& header, int slot, const schedules::model::FrameSlot* expected) const {
-    return header.frame_id == slot && header.cycle == slot_at.counter &&
-           header.payload_words == g.gPayloadLengthStatic && expected != nullptr && (header.sync || !header.startup);
+  // A frame is valid in its slot where it is one without error, lies within the slot, has that slot's header in a cycle
+  // of this counter, and is expected there.
+  static bool is_frame(const ports::Reception& reception) {
+    return reception.signal == ports::Signal::kFrame && reception.frame.error == wire::FrameError::kNone;
+  }
+  bool is_of_slot(const wire::FrameHeader& header, int slot, int of_counter) const {
+    return header.frame_id == slot && header.cycle == of_counter && header.payload_words == g.gPayloadLengthStatic &&
+           (header.sync || !header.startup);
   }
   void accept(const ports::Reception& reception, schedules::model::Channel channel, int slot,
               const schedules::model::FrameSlot& expected);

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "bus/dds/live/medium.h"
-#include "bus/socketcan/live_medium.h"
+#include "bus/socketcan/medium.h"
 #include "cli/node_set/session.h"
 #include "cli/output.h"
 
@@ -30,7 +30,7 @@ std::unique_ptr<bus::ports::LiveMedium> on_dds(const node_set::NodeSet& set, Nod
   for (std::size_t b = 0; b < set.cluster.can_buses.size(); ++b)
     add(bus::ports::line_of_can(b), bus::dds::live::live_can_topic(set.cluster.can_buses[b].name),
         [&](NodeId node) { return schedules::model::is_on_can(set.cluster.node(node), b); });
-  auto medium = std::make_unique<bus::dds::live::LiveMedium>(session_of(set, false), self, lines);
+  auto medium = std::make_unique<bus::dds::live::DdsMedium>(session_of(set, false), self, lines);
   try {
     if (patience.count() > 0) medium->wait_ready(patience);
   } catch (const bus::dds::common::NotReady& missing) {
@@ -48,7 +48,7 @@ std::unique_ptr<bus::ports::LiveMedium> on_socketcan(const node_set::NodeSet& se
     const bool on_it = schedules::model::is_on_can(set.cluster.node(self), b);
     options.cans.push_back({on_it ? set.can_interfaces[b] : "", set.cluster.can_buses[b].flexible_data_rate});
   }
-  auto medium = std::make_unique<bus::socketcan::LiveMedium>(options);
+  auto medium = std::make_unique<bus::socketcan::SocketCanMedium>(options);
   print_warnings(medium->shortages());
   return medium;
 }

@@ -22,6 +22,7 @@
 #include "cli/supervision/signal_watch.h"
 #include "core/decimal.h"
 #include "core/errors.h"
+#include "drives/startup.h"
 #include "drives/step_catalog.h"
 #include "drives/surroundings.h"
 #include "nodes/runner/health_teller.h"
@@ -131,7 +132,7 @@ nodes::runner::RunnerConfig config_of(const NodeOptions& options, const Start& s
   if (start.rejoins) {
     config.power_on = TrueTime{};
   } else if (set.scenario.startup.cold) {
-    config.cold = nodes::host::node_starts(set.scenario.startup, set.cluster, set.seed, 0)[index_of(options.node)];
+    config.cold = drives::node_starts(set.scenario.startup, set.cluster, set.seed, 0)[index_of(options.node)];
     config.power_on = config.cold.how == nodes::host::ColdStart::kSleeps ? sim::crank::kFirstCycle
                                                                          : sim::crank::kFirstCycle + config.cold.after;
   }

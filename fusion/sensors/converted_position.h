@@ -9,12 +9,16 @@
 //   along:   r^2 (lambda^-2 - 2 + (1 + lambda^4) / 2) + sr^2 (1 + lambda^4) / 2
 //   across:  (r^2 + sr^2) (1 - lambda^4) / 2
 // and with expm1, so that little noise far away is not lost in the difference of large numbers.
+//
+// What is drawn and written down needs no more than the first-order transformation: plane_position().
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
 
+#include "fusion/sensors/mounted.h"
 #include "fusion/sensors/observation.h"
+#include "fusion/sensors/plane_position.h"
 
 namespace ttf::fusion::sensors {
 
@@ -33,6 +37,18 @@ inline Observation converted_position(double range, double bearing, double sigma
   observation.r(1, 1) = along * s * s + across * c * c;
   observation.r(0, 1) = observation.r(1, 0) = (along - across) * s * c;
   return observation;
+}
+
+// Where in the vehicle's axes an observation has its object: a position as it is, once it is placed
+// (fusion/sensors/known_sensor.h); range and bearing to first order, seen from where the sensor is.
+inline PlanePosition plane_position(const Observation& observation, const Mounting& from) {
+  if (observation.kind == ObservationKind::kPosition)
+    return {observation.z(0), observation.z(1), observation.r(0, 0), observation.r(0, 1), observation.r(1, 1)};
+  const double range = observation.z(0), bearing = observation.z(1) + from.yaw;
+  const double c = std::cos(bearing), s = std::sin(bearing);
+  PlanePosition plane{from.position.x() + range * c, from.position.y() + range * s};
+  plane.set_errors(c, s, observation.r(0, 0), range * range * observation.r(1, 1));
+  return plane;
 }
 
 }  // namespace ttf::fusion::sensors

@@ -46,9 +46,10 @@ CameraObject triangulate(const CameraCalibration& k, double bearing, double disp
   const double u = 0.5 * shown, vv = std::max(0.0, 0.25 * (length * length + breadth * breadth) - u * u);
   const double narrow = breadth / shown, range = depth / c;
   const double across = u * u * vv / (range * range) * (1.0 - narrow * narrow);
-  object.sxx = dx_dd * dx_dd * vd + dx_db * dx_db * vb + dx_dp * dx_dp * vp + c * c * vh + s * s * across;
-  object.syy = dy_dd * dy_dd * vd + dy_db * dy_db * vb + dy_dp * dy_dp * vp + s * s * vh + c * c * across;
-  object.sxy = dx_dd * dy_dd * vd + dx_db * dy_db * vb + dx_dp * dy_dp * vp + c * s * (vh - across);
+  object.add_error(dx_dd, dy_dd, vd);
+  object.add_error(dx_db, dy_db, vb);
+  object.add_error(dx_dp, dy_dp, vp);
+  object.add_errors(c, s, vh, across);
   object.sigma_width = std::sqrt(dw_dd * dw_dd * vd + dw_dp * dw_dp * vp);
   // No depth in it: the span is known far better than the width.
   object.span = width_px * c / k.focal_px;

@@ -13,6 +13,7 @@
 #pragma once
 
 #include "core/strict_yaml.h"
+#include "fusion/sensors/plane_position.h"
 
 namespace ttf::nodes::camera {
 
@@ -27,10 +28,10 @@ struct CameraCalibration {
 };
 CameraCalibration load_camera_calibration(YamlMap& yaml);
 
-struct CameraObject {
-  double x = 0, y = 0, sxx = 0, sxy = 0, syy = 0;  // centre [m] and covariance
-  double width = 0, sigma_width = 0;               // of the silhouette, across the line of sight [m]
-  double span = 0, sigma_span = 0;                 // the angle it subtends [rad]
+// The position is the centre's.
+struct CameraObject : ttf::fusion::sensors::PlanePosition {
+  double width = 0, sigma_width = 0;  // of the silhouette, across the line of sight [m]
+  double span = 0, sigma_span = 0;    // the angle it subtends [rad]
 };
 
 // bearing [rad] within +-1.5, disparity [px] above zero, width [px]: the silhouette's, f * span / cos(bearing).

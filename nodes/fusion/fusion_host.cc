@@ -1,13 +1,13 @@
 #include "nodes/fusion/fusion_host.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "core/check.h"
 #include "core/counted.h"
+#include "fusion/sensors/converted_position.h"
 #include "nodes/host/signals.h"
 #include "schedules/analysis/ages.h"
 #include "schedules/analysis/settled.h"
@@ -161,26 +161,14 @@ void FusionStep::record(const host::StepContext& context, const host::Input& inp
     seen.id = {input.layout->sensor, input.list->sequence};
     seen.measured = measured;
     seen.index = static_cast<std::uint16_t>(i);
-    if (observation.kind == ttf::fusion::sensors::ObservationKind::kPosition) {
-      seen.x = observation.z(0);
-      seen.y = observation.z(1);
-      seen.sxx = observation.r(0, 0);
-      seen.sxy = observation.r(0, 1);
-      seen.syy = observation.r(1, 1);
-    } else {
-      // First-order transformation of range and bearing, from where the sensor is, to the plane.
-      const ttf::fusion::sensors::KnownSensor* sensor = ttf::fusion::sensors::known(host_->sensors, observation.sensor);
-      const ttf::fusion::sensors::Mounting from =
-          sensor != nullptr ? sensor->mounting : ttf::fusion::sensors::Mounting{};
-      const double bearing = observation.z(1) + from.yaw;
-      const double c = std::cos(bearing), s = std::sin(bearing), r = observation.z(0);
-      const double along = observation.r(0, 0), across = r * r * observation.r(1, 1);
-      seen.x = from.position.x() + r * c;
-      seen.y = from.position.y() + r * s;
-      seen.sxx = c * c * along + s * s * across;
-      seen.sxy = c * s * (along - across);
-      seen.syy = s * s * along + c * c * across;
-    }
+    const ttf::fusion::sensors::KnownSensor* sensor = ttf::fusion::sensors::known(host_->sensors, observation.sensor);
+    const ttf::fusion::sensors::PlanePosition plane =
+        plane_position(observation, sensor != nullptr ? sensor->mounting : ttf::fusion::sensors::Mounting{});
+    seen.x = plane.x;
+    seen.y = plane.y;
+    seen.sxx = plane.sxx;
+    seen.sxy = plane.sxy;
+    seen.syy = plane.syy;
     context.sink->on(seen);
   }
 }

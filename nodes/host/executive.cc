@@ -1,138 +1,76 @@
 #include "nodes/host/executive.h"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 #include "core/check.h"
-#include "core/random.h"
-#include "schedules/model/limits.h"
 
 namespace ttf::nodes::host {
 namespace {
 
-constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
 constexpr std::int64_t kNoCycle = -1;
+
+class ListsOnFlexRay final : public ListMedium {
+ public:
+  explicit ListsOnFlexRay(bus::controller::FlexRayController& controller) : controller_(controller) {}
+  bus::cni::IncomingList& incoming(PduId pdu) override { return controller_.incoming(pdu); }
+  void send(PduId pdu, const bus::cni::ListView& list) override { controller_.outgoing(pdu).write(list); }
+
+ private:
+  bus::controller::FlexRayController& controller_;
+};
+
+class ListsOnCan final : public ListMedium {
+ public:
+  explicit ListsOnCan(bus::cni::CanController& controller) : controller_(controller) {}
+  bus::cni::IncomingList& incoming(PduId pdu) override { return controller_.incoming(pdu); }
+  void send(PduId pdu, const bus::cni::ListView& list) override { controller_.send(pdu, list); }
+
+ private:
+  bus::cni::CanController& controller_;
+};
 
 }  // namespace
 
-struct Executive::TaskState {
-  const schedules::model::Task* task = nullptr;
-  std::shared_ptr<Step> step;
-  std::vector<Input> inputs;
-  std::vector<Output> outputs;
-  std::vector<std::optional<std::uint32_t>> unread;  // per input: complete, not read yet
-  std::uint32_t activations = 0;
-  std::uint32_t measurement = 0;
-  bool armed = false;  // activation by time, still due in this cycle
-  bool waiting = false;
-  Microticks activated{};  // of the waiting activation, which may come while the one before still runs
-  recording::records::Stamp activated_at;
-  recording::records::TaskRun run;  // that is going on
-};
-
-struct Executive::SensorState {
-  SensorId id{};
-  const schedules::model::Sensor* sensor = nullptr;
-  bool is_device = false, is_host = false;
-  bool runs_freely = false, follows = false;  // device
-  std::size_t task = 0;                       // the device's measuring task
-  std::uint32_t measured = 0;                 // device: measurements so far
-  bool armed = false;                         // host: trigger still due in this cycle
-  Duration phase{};                           // device, free-running: from power-on to the first measurement
-  LocalTime first{};                          // likewise: the instant of that
-  std::optional<Microticks> due;     // device, scheduled or following: measures then, at the first advance() from it on
-  Microticks ready{};                // device that follows: not before this
-  std::optional<std::size_t> after;  // host, of one that follows: the task whose end triggers
-};
-
 Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps,
-                     bus::ports::FlexRayPort* flexray, std::vector<bus::ports::CanPort*> cans, SensorLines& lines,
-                     recording::records::Sink& sink)
-    : config_(config), cluster_(*config.cluster), node_(cluster_.node(config.node)), lines_(lines), sink_(sink),
-      wants_frames_(sink.wants_frames()), strobes_(cluster_.sensors.size()) {
-  TTF_CHECK(steps.size() == node_.tasks.size(), "{} steps for {} tasks", steps.size(), node_.tasks.size());
-  if (node_.flexray) {
-    TTF_CHECK(flexray != nullptr, "{} needs a FlexRay port", node_.name);
-    flexray_ = std::make_unique<bus::controller::FlexRayController>(
-        cluster_, config.node, *flexray, static_cast<bus::controller::ControllerEvents&>(*this));
-    if (config.clock) flexray_->start_integrated(*config.clock);
-  }
-  asleep_ = flexray_ && !config.clock && config.cold == ColdStart::kSleeps;
-  cans_.resize(cluster_.can_buses.size());
-  for (std::size_t b = 0; b < cans_.size(); ++b)
-    if (b < cans.size() && cans[b] != nullptr)
-      cans_[b] = std::make_unique<bus::cni::CanController>(cluster_, config.node, b, *cans[b]);
-  for (std::size_t t = 0; t < steps.size(); ++t) {
-    TaskState state;
-    state.task = &node_.tasks[t];
-    state.step = std::move(steps[t]);
-    for (const auto& binding : state.task->reads)
-      state.inputs.push_back({binding.port, binding.pdu, &cluster_.pdu(binding.pdu), std::nullopt, false});
-    state.unread.resize(state.inputs.size());
-    for (const auto& binding : state.task->writes)
-      state.outputs.emplace_back(binding.port, binding.pdu, cluster_.pdu(binding.pdu));
-    tasks_.push_back(std::move(state));
-  }
-  ready_.reserve(tasks_.size());
-  for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
-    const schedules::model::Sensor& sensor = cluster_.sensors[s];
-    SensorState state;
-    state.id = static_cast<SensorId>(s);
-    state.sensor = &sensor;
-    state.is_device = sensor.device == config.node;
-    state.is_host = sensor.host == config.node;
-    if (!state.is_device && !state.is_host) continue;
-    state.follows = state.is_device && sensor.follows();
-    state.runs_freely = state.is_device && !sensor.scheduled && !sensor.follows();
-    if (state.is_device) {
-      const auto measuring =
-          std::find_if(node_.tasks.begin(), node_.tasks.end(), [&](const schedules::model::Task& task) {
-            return task.activation.kind == schedules::model::ActivationKind::kSensor &&
-                   task.activation.sensor == state.id;
-          });
-      TTF_CHECK(measuring != node_.tasks.end(), "{} has no measuring task for {}", node_.name, sensor.name);
-      state.task = static_cast<std::size_t>(measuring - node_.tasks.begin());
-      if (!sensor.scheduled) {
-        RandomStream phase({config.seed, config.replication, Purpose::kSensorPhase, static_cast<std::uint16_t>(s), 0});
-        state.phase = sensor.phase ? *sensor.phase : Duration{phase.integer(0, sensor.period.ns - 1)};
-      }
-    }
-    if (state.is_host && sensor.follows()) {
-      const auto after = std::find_if(node_.tasks.begin(), node_.tasks.end(),
-                                      [&](const schedules::model::Task& task) { return task.name == sensor.after; });
-      TTF_CHECK(after != node_.tasks.end(), "{} has no task {} for {}", node_.name, sensor.after, sensor.name);
-      state.after = static_cast<std::size_t>(after - node_.tasks.begin());
-    }
-    sensors_.push_back(state);
-  }
-  if (!asleep_) rise(config.power_on);
+                     bus::ports::FlexRayPort* flexray, const std::vector<bus::ports::CanPort*>& cans,
+                     SensorLines& lines, recording::records::Sink& sink)
+    : config_(config), node_(config.cluster->node(config.node)), steps_(std::move(steps)),
+      time_(config.node, config.oscillator, config.true_clock), records_(*config.cluster, time_, sink),
+      wiring_(*config.cluster, node_, connect(flexray, cans), time_, records_),
+      processor_(node_.tasks, {config.seed, config.replication, config.node}, time_, records_.counts()),
+      sensors_(*config.cluster, config.node, {config.seed, config.replication}, time_, lines),
+      asleep_(flexray_ && !config.clock && config.cold == ColdStart::kSleeps) {
+  TTF_CHECK(steps_.size() == node_.tasks.size(), "{} steps for {} tasks", steps_.size(), node_.tasks.size());
+  if (flexray_ && config.clock) flexray_->start_integrated(*config.clock);
+  if (!asleep_) power_on(config.power_on);
   arm_cycle();
   look_ahead();
 }
 
-Executive::~Executive() = default;
-
-recording::records::Stamp Executive::stamp(Microticks at) const {
-  recording::records::Stamp stamp;
-  stamp.true_time = config_.oscillator.time_of(at);
-  if (config_.true_clock != nullptr) stamp.true_time = std::max(stamp.true_time, config_.true_clock->now());
-  stamp.local = config_.oscillator.local_time(at);
-  // A node that knows no global time has only its own.
-  stamp.global = clock() != nullptr ? clock()->global_time(at) : GlobalTime{stamp.local.ns};
-  stamp.node = config_.node;
-  return stamp;
-}
-
-Microticks Executive::ticks(Duration duration) const {
-  const std::int64_t period = config_.oscillator.nominal_period_ps();
-  return {(duration.ns * 1000 + period - 1) / period};
-}
-
-void Executive::rise(Microticks now) {
-  for (SensorState& state : sensors_) {
-    state.first = config_.oscillator.local_time(now) + state.phase;
-    if (state.follows) state.due = ticks(state.first - LocalTime{});
+// A controller for each medium that the node is on, and its lists for the wiring.
+std::vector<Connection> Executive::connect(bus::ports::FlexRayPort* flexray,
+                                           const std::vector<bus::ports::CanPort*>& cans) {
+  const schedules::model::Cluster& cluster = *config_.cluster;
+  std::vector<Connection> media;
+  if (node_.flexray) {
+    TTF_CHECK(flexray != nullptr, "{} needs a FlexRay port", node_.name);
+    flexray_ = std::make_unique<bus::controller::FlexRayController>(
+        cluster, config_.node, *flexray, static_cast<bus::controller::ControllerEvents&>(*this));
+    time_.follow(*flexray_);
+    media.push_back({schedules::model::kFlexRay, std::make_unique<ListsOnFlexRay>(*flexray_)});
   }
+  cans_.resize(cluster.can_buses.size());
+  for (std::size_t b = 0; b < std::min(cans.size(), cans_.size()); ++b) {
+    if (cans[b] == nullptr) continue;
+    cans_[b] = std::make_unique<bus::cni::CanController>(cluster, config_.node, b, *cans[b]);
+    media.push_back({schedules::model::MediumId::can(b), std::make_unique<ListsOnCan>(*cans_[b])});
+  }
+  return media;
+}
+
+void Executive::power_on(Microticks now) {
+  sensors_.power_on(now);
   if (!flexray_ || config_.clock) return;
   waking_ = config_.cold == ColdStart::kWakes;
   if (!waking_) return flexray_->start_cold(now);
@@ -156,47 +94,31 @@ void Executive::start_up_after_waking(Microticks now) {
 }
 
 Microticks Executive::next_event() const {
-  if (asleep_) return rises_.value_or(kNever);
+  if (asleep_) return rises_.value_or(kNever<Microticks>);
   return flexray_ ? std::min(own_next_, flexray_->next_event()) : own_next_;
 }
 
 void Executive::look_ahead() {
   concerned_ = false;
-  Microticks next = running_ ? running_end_ : kNever;
-  if (!running_ && !ready_.empty()) next = tasks_[ready_.front()].activated;
-  if (const timebase::CycleClock* global = clock()) {
-    for (const TaskState& state : tasks_)
-      if (state.armed) next = std::min(next, global->start_of(state.task->activation.at.offset));
-    for (const SensorState& state : sensors_)
-      if (state.armed) next = std::min(next, global->start_of(state.sensor->at.offset));
-  }
-  for (const SensorState& state : sensors_) {
-    if (state.due) next = std::min(next, *state.due);
-    if (state.runs_freely)
-      next = std::min(next, ticks((state.first - LocalTime{}) + state.sensor->period * state.measured));
-  }
-  own_next_ = next;
+  own_next_ = std::min(processor_.next_event(), sensors_.next_event());
 }
 
 Promise Executive::promise() const {
-  Promise promise{next_event(), kNever, soonest_end(true), kNever};
+  Promise promise{next_event(), kNever<Microticks>, soonest_end(true), kNever<Microticks>};
   if (flexray_) promise.after_flexray = asleep_ || flexray_->answers_at_once() ? Microticks{} : soonest_end(false);
-  for (const SensorState& state : sensors_)
-    if (state.is_device && !state.runs_freely) promise.after_trigger = Microticks{};
+  if (sensors_.any_triggered()) promise.after_trigger = Microticks{};
   return promise;
 }
 
 Microticks Executive::soonest_end(bool on_can) const {
-  Microticks soonest = kNever;
-  for (const TaskState& state : tasks_) {
-    const schedules::model::Task& task = *state.task;
-    if (task.activation.kind != schedules::model::ActivationKind::kMessage) continue;
+  Microticks soonest = kNever<Microticks>;
+  for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
+    const schedules::model::Task& task = node_.tasks[t];
     const bool set_off =
         std::any_of(task.reads.begin(), task.reads.end(), [&](const schedules::model::PortBinding& port) {
-          return activates(task, port) && port.can_bus.has_value() == on_can;
+          return port.medium.is_can() == on_can && activates(task, port);
         });
-    const bool drawn = task.draw == schedules::model::ExecutionDraw::kUniform;
-    if (set_off) soonest = std::min(soonest, ticks(drawn ? task.best_case : task.worst_case));
+    if (set_off) soonest = std::min(soonest, time_.ticks(processor_.shortest(t)));
   }
   return soonest;
 }
@@ -207,12 +129,13 @@ void Executive::arm_cycle() {
   const std::int64_t cycle = global != nullptr ? global->cycle() : kNoCycle;
   if (cycle == armed_cycle_) return;
   armed_cycle_ = cycle;
-  for (TaskState& state : tasks_)
-    state.armed = global != nullptr && state.task->activation.kind == schedules::model::ActivationKind::kTime &&
-                  in_cycle(state.task->activation.at, armed_cycle_);
-  for (SensorState& state : sensors_)
-    state.armed =
-        global != nullptr && state.is_host && state.sensor->scheduled && in_cycle(state.sensor->at, armed_cycle_);
+  if (global == nullptr) {
+    processor_.disarm();
+    sensors_.disarm();
+  } else {
+    processor_.arm(cycle);
+    sensors_.arm(cycle);
+  }
 }
 
 void Executive::advance(Microticks now) {
@@ -220,11 +143,11 @@ void Executive::advance(Microticks now) {
     if (!rises_ || *rises_ > now) return;
     asleep_ = false;
     concerned_ = true;
-    sink_.on(recording::records::PowerChanged{stamp(now), true});
-    rise(now);
+    records_.woke_up(now);
+    power_on(now);
   }
   concerned_ |= own_next_ <= now;
-  if (running_ && running_end_ <= now) finish(now);
+  if (processor_.ends_by(now)) finish(now);
   if (flexray_) {
     flexray_->advance(now);
     start_up_after_waking(now);
@@ -232,172 +155,46 @@ void Executive::advance(Microticks now) {
   // As a rule the controller had a frame to send, and nobody else anything to do.
   if (!concerned_) return;
   arm_cycle();
-  activate_due(now);
+  for (const std::size_t task : sensors_.act(now)) processor_.activate(task, now);
+  processor_.activate_by_time(now);
   start_next(now);
   look_ahead();
 }
 
-void Executive::activate_due(Microticks now) {
-  for (SensorState& state : sensors_) {
-    if (state.armed && clock()->start_of(state.sensor->at.offset) <= now) {
-      state.armed = false;
-      lines_.trigger(state.id);
-    }
-    const bool by_itself =
-        state.runs_freely && ticks((state.first - LocalTime{}) + state.sensor->period * state.measured) <= now;
-    const bool due = state.due && *state.due <= now;
-    if (due) state.due.reset();
-    if (by_itself || due) measure(state, now);
-  }
-  for (std::size_t t = 0; t < tasks_.size(); ++t)
-    if (tasks_[t].armed && clock()->start_of(tasks_[t].task->activation.at.offset) <= now) {
-      tasks_[t].armed = false;
-      activate(t, now);
-    }
-}
-
-void Executive::measure(SensorState& sensor, Microticks now) {
-  tasks_[sensor.task].measurement = sensor.measured;
-  lines_.strobe(sensor.id, sensor.measured);
-  ++sensor.measured;
-  if (sensor.follows) {
-    sensor.ready = now + ticks(sensor.sensor->period);
-    sensor.due = now + ticks(sensor.sensor->longest);
-  }
-  activate(sensor.task, now);
-}
-
-void Executive::trigger(SensorId sensor, Microticks now) {
-  if (asleep_) return;
-  for (SensorState& state : sensors_)
-    if (state.id == sensor && state.is_device) state.due = state.follows ? std::max(now, state.ready) : now;
-  look_ahead();
-}
-
-void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) {
-  // Without global time there is no time of measuring: as if the strobe had not been seen.
-  const timebase::CycleClock* global = clock();
-  if (global == nullptr) return;
-  // In real time a strobe may be heard of when the cycle that it came in is over.
-  const Microticks since = std::max(now, global->cycle_start());
-  strobes_[index_of(sensor)].strobe(
-      sequence,
-      global->global_time(since) - Duration{(since - now).value * config_.oscillator.nominal_period_ps() / 1000});
-}
-
-void Executive::activate(std::size_t task, Microticks now) {
-  TaskState& state = tasks_[task];
-  if (state.waiting) {
-    ++counts_.overruns;
-    return;
-  }
-  concerned_ = true;
-  state.waiting = true;
-  state.activated = now;
-  state.activated_at = stamp(now);
-  const auto later = std::find_if(ready_.begin(), ready_.end(), [&](std::size_t other) {
-    return tasks_[other].activated > now || (tasks_[other].activated == now && other > task);
-  });
-  ready_.insert(later, task);
-}
-
-void Executive::fill_inputs(TaskState& task) {
-  for (std::size_t i = 0; i < task.inputs.size(); ++i) {
-    const schedules::model::PortBinding& binding = task.task->reads[i];
-    bus::cni::IncomingList& list = incoming(binding);
-    Input& input = task.inputs[i];
-    input.list = list.latest();
-    input.fresh = list.mark_read();
-    input.discarded = false;
-    task.unread[i].reset();
-    if (input.fresh)
-      hop(task.run.start, recording::records::Hop::kRead, binding.pdu, input.list->sequence,
-          binding.can_bus ? static_cast<int>(*binding.can_bus) : -1);
-  }
-}
-
 void Executive::start_next(Microticks now) {
-  while (!running_ && !ready_.empty()) {
-    const std::size_t index = ready_.front();
-    ready_.erase(ready_.begin());
-    TaskState& state = tasks_[index];
-    state.waiting = false;
-    state.run = {};
-    state.run.start = stamp(now);
-    state.run.task = static_cast<std::uint8_t>(index);
-    state.run.activated = state.activated_at;
-    fill_inputs(state);
-    StepContext context;
-    context.stamp = state.run.start;
-    context.activation = state.activations;
-    context.measurement = state.measurement;
-    context.global_time = clock() != nullptr;
-    context.inputs = state.inputs;
-    context.outputs = state.outputs;
-    context.strobes = strobes_;
-    context.sink = &sink_;
-    state.step->run(context);
-    counts_.unlisted_fates += context.unlisted;
-    for (std::size_t i = 0; i < state.inputs.size(); ++i) {
-      const Input& input = state.inputs[i];
-      if (!input.discarded) continue;
-      ++counts_.discarded_lists;
-      const auto& can_bus = state.task->reads[i].can_bus;
-      hop(state.run.start, recording::records::Hop::kDiscarded, input.pdu, input.list->sequence,
-          can_bus ? static_cast<int>(*can_bus) : -1);
-    }
-
-    Duration execution = state.task->worst_case;
-    if (state.task->draw == schedules::model::ExecutionDraw::kUniform) {
-      static_assert(schedules::model::kMostNamed * schedules::model::kMostTasks <= 1U << 16,
-                    "every task has a stream of its own");
-      const auto entity = static_cast<std::uint16_t>(index_of(config_.node) * schedules::model::kMostTasks + index);
-      RandomStream stream({config_.seed, config_.replication, Purpose::kExecutionTime, entity, state.activations});
-      execution = Duration{stream.integer(state.task->best_case.ns, state.task->worst_case.ns)};
-    }
-    ++state.activations;
-    running_ = index;
-    running_end_ = now + ticks(execution);
-    state.run.deadline_met = running_end_ - state.activated <= ticks(state.task->deadline);
-    if (!state.run.deadline_met) ++counts_.deadlines_missed;
-    if (running_end_ <= now) finish(now);
+  while (const Processor::Running* const running = processor_.start_next(now)) {
+    run_step(*running);
+    if (processor_.ends_by(now)) finish(now);
   }
+}
+
+void Executive::run_step(const Processor::Running& running) {
+  const recording::records::Stamp& start = running.run.start;
+  StepContext context;
+  context.stamp = start;
+  context.activation = running.activation;
+  context.measurement = sensors_.measurement(running.task);
+  context.global_time = clock() != nullptr;
+  context.inputs = wiring_.read(running.task, start);
+  context.outputs = wiring_.outputs(running.task);
+  context.strobes = sensors_.strobes();
+  context.sink = &records_.sink();
+  steps_[running.task]->run(context);
+  records_.counts().unlisted_fates += context.unlisted;
+  wiring_.tell_discarded(running.task, start);
 }
 
 void Executive::finish(Microticks now) {
-  const std::size_t ended = *running_;
-  TaskState& state = tasks_[ended];
-  running_.reset();
-  state.run.end = stamp(now);
-  for (std::size_t o = 0; o < state.outputs.size(); ++o) {
-    Output& output = state.outputs[o];
-    counts_.saturated_signals += static_cast<std::uint64_t>(output.take_saturated());
-    if (!output.written()) continue;
-    const auto& can_bus = state.task->writes[o].can_bus;
-    hop(state.run.end, recording::records::Hop::kWritten, output.pdu(), output.view().sequence,
-        can_bus ? static_cast<int>(*can_bus) : -1);
-    if (can_bus)
-      cans_[*can_bus]->send(output.pdu(), output.view());
-    else
-      flexray_->outgoing(output.pdu()).write(output.view());
-    output.clear();
-  }
-  sink_.on(state.run);
-  for (std::size_t t = 0; t < tasks_.size(); ++t)
-    if (tasks_[t].task->activation.kind == schedules::model::ActivationKind::kCompletion &&
-        tasks_[t].task->activation.after == state.task->name)
-      activate(t, now);
-  for (const SensorState& sensor : sensors_)
-    if (sensor.after == ended && !state.waiting) lines_.trigger(sensor.id);
-}
-
-bus::cni::IncomingList& Executive::incoming(const schedules::model::PortBinding& binding) {
-  return binding.can_bus ? cans_[*binding.can_bus]->incoming(binding.pdu) : flexray_->incoming(binding.pdu);
+  const Processor::Running& ended = processor_.finish(now);
+  wiring_.write(ended.task, ended.run.end);
+  records_.task_run(ended.run);
+  processor_.activate_after(ended.task, now);
+  if (!processor_.waits(ended.task)) sensors_.task_ended(ended.task);
 }
 
 void Executive::receive(const bus::ports::Reception& reception) {
   if (asleep_) {
-    if (reception.signal == bus::ports::Signal::kWakeup && !rises_) rises_ = reception.end + ticks(config_.boots);
+    if (reception.signal == bus::ports::Signal::kWakeup && !rises_) rises_ = reception.end + time_.ticks(config_.boots);
     return;
   }
   flexray_->receive(reception);
@@ -420,46 +217,29 @@ bool Executive::receive_on_both(const bus::ports::Reception& reception) {
 void Executive::receive_can(std::size_t can_bus, const bus::ports::CanFrame& frame, Microticks now) {
   if (!cans_[can_bus] || asleep_) return;
   if (const auto arrival = cans_[can_bus]->receive(frame))
-    arrived(arrival->pdu, static_cast<int>(can_bus), arrival->effect, arrival->sequence, arrival->torn, now);
+    arrived({schedules::model::MediumId::can(can_bus), arrival->pdu, arrival->effect, arrival->sequence, arrival->torn},
+            now);
   else
-    ++counts_.refused_can_frames;
+    ++records_.counts().refused_can_frames;
   if (concerned_) look_ahead();
 }
 
-void Executive::list_arrived(PduId pdu, bus::cni::ArrivalEffect effect, std::uint32_t sequence,
-                             std::optional<std::uint32_t> torn, Microticks at) {
-  arrived(pdu, -1, effect, sequence, torn, at);
+void Executive::can_frame_sent(const recording::records::CanFrameSent& frame, Microticks now) {
+  records_.can_frame_sent(frame, *cans_[frame.bus], now);
 }
 
-void Executive::arrived(PduId pdu, int can_bus, bus::cni::ArrivalEffect effect, std::uint32_t sequence,
-                        std::optional<std::uint32_t> torn, Microticks at) {
-  using enum bus::cni::ArrivalEffect;
-  if (effect == kStale || effect == kMalformed) ++counts_.refused_fragments;
-  // One fragment may end two lists: the one it tears, and its own if that is complete with it.
-  if (!torn && effect != kCompleted && effect != kStale) return;
-  const recording::records::Stamp stamp_at = stamp(at);
-  bool reported = false;  // once per arrival, however many tasks read it; never where nobody does
-  for (std::size_t t = 0; t < tasks_.size(); ++t) {
-    TaskState& state = tasks_[t];
-    for (std::size_t i = 0; i < state.inputs.size(); ++i) {
-      const schedules::model::PortBinding& binding = state.task->reads[i];
-      if (binding.pdu != pdu || (binding.can_bus ? static_cast<int>(*binding.can_bus) : -1) != can_bus) continue;
-      if (!reported && torn) {
-        ++counts_.torn_lists;
-        hop(stamp_at, recording::records::Hop::kTorn, pdu, *torn, can_bus);
-      }
-      if (!reported && effect == kCompleted) hop(stamp_at, recording::records::Hop::kReceived, pdu, sequence, can_bus);
-      if (!reported && effect == kStale) hop(stamp_at, recording::records::Hop::kStale, pdu, sequence, can_bus);
-      reported = true;
-      if (effect != kCompleted) continue;
-      if (state.unread[i]) {
-        ++counts_.overwritten_lists;
-        hop(stamp_at, recording::records::Hop::kOverwritten, pdu, *state.unread[i], can_bus);
-      }
-      state.unread[i] = sequence;
-      if (activates(*state.task, binding)) activate(t, at);
-    }
-  }
+void Executive::arrived(const ListArrival& arrival, Microticks at) {
+  for (const std::size_t task : wiring_.arrived(arrival, at)) concerned_ |= processor_.activate(task, at);
+}
+
+void Executive::trigger(SensorId sensor, Microticks now) {
+  if (asleep_) return;
+  sensors_.triggered(sensor, now);
+  look_ahead();
+}
+
+void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) {
+  sensors_.latch(sensor, sequence, now);
 }
 
 }  // namespace ttf::nodes::host

@@ -1,15 +1,9 @@
 // One node at work: its controllers, its CNI buffers and its tasks, driven from outside in its own microticks.
 //
 // The executive obeys one law under every crank: a task reads its inputs when it starts, and its outputs become visible
-// at its end. One processor, no preemption; tasks activated while it is busy wait, and an activation that meets a still
-// waiting one of the same task is an overrun, counted.
-//
-// A sensor that follows its host is triggered when the host's task ends, unless that has been activated again already:
-// one list is on its way at a time, also after one was lost and the device has measured by itself.
-//
-// Waiting tasks start in order of their activation. Of those activated at one microtick the one that stands earlier in
-// the file is first, whatever activated them: a message, the end of another task, an instant of the schedule or a
-// sensor.
+// at its end. It has three parts: the operating system says who runs when (nodes/host/processor.h), the wiring which
+// list goes where (nodes/host/wiring.h), the record keeping what is told of it (nodes/host/node_records.h);
+// nodes/host/sensor_ends.h says when sensors are triggered and measure.
 //
 // At one microtick things happen in this order: arrivals (by the crank), ends of tasks, the bus controller,
 // activations, starts. So what becomes visible at a tick is still sent or read at that tick. A sleeping node does
@@ -29,29 +23,19 @@
 #include "bus/ports/can_port.h"
 #include "core/ids.h"
 #include "nodes/host/cold_start.h"
+#include "nodes/host/executive_counts.h"
+#include "nodes/host/node_records.h"
+#include "nodes/host/node_time.h"
+#include "nodes/host/processor.h"
 #include "nodes/host/promise.h"
+#include "nodes/host/sensor_ends.h"
 #include "nodes/host/step.h"
+#include "nodes/host/wiring.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 #include "timebase/oscillator.h"
 
 namespace ttf::nodes::host {
-
-// The wires between a sensor and its host: a trigger to the device, a strobe back at the instant of measuring.
-class SensorLines {
- public:
-  virtual ~SensorLines() = default;
-  virtual void trigger(SensorId sensor) = 0;
-  virtual void strobe(SensorId sensor, std::uint32_t sequence) = 0;
-};
-
-// What an ideal observer's clock shows. In virtual time things happen when they are due, and the oscillator says when
-// that is; in real time they happen later.
-class TrueClock {
- public:
-  virtual ~TrueClock() = default;
-  virtual TrueTime now() const = 0;
-};
 
 struct ExecutiveConfig {
   const schedules::model::Cluster* cluster = nullptr;
@@ -67,26 +51,12 @@ struct ExecutiveConfig {
   const TrueClock* true_clock = nullptr;  // null: what is due happens
 };
 
-struct ExecutiveCounts {
-  std::uint64_t overruns = 0;  // activations that met a waiting one
-  std::uint64_t deadlines_missed = 0;
-  std::uint64_t torn_lists = 0;  // displaced before they were complete
-  std::uint64_t overwritten_lists = 0;
-  std::uint64_t discarded_lists = 0;  // read, but their time of measuring is not known
-  std::uint64_t slot_problems = 0;
-  std::uint64_t saturated_signals = 0;
-  std::uint64_t refused_fragments = 0;   // stale or malformed (bus/cni/list_buffer.h), on any bus
-  std::uint64_t refused_can_frames = 0;  // not of the schedule (bus/cni/can_controller.h)
-  std::uint64_t unlisted_fates = 0;      // of lists that no record tells of (fusion/strategies/strategy.h)
-};
-
 class Executive final : private bus::controller::ControllerEvents {
  public:
   // `steps`: one per task of the node, in file order. `flexray` may be null for a node off FlexRay; `cans` has one
   // entry per CAN of the cluster, null where this node is not on it.
   Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps, bus::ports::FlexRayPort* flexray,
-            std::vector<bus::ports::CanPort*> cans, SensorLines& lines, recording::records::Sink& sink);
-  ~Executive() override;
+            const std::vector<bus::ports::CanPort*>& cans, SensorLines& lines, recording::records::Sink& sink);
 
   Microticks next_event() const;
   void advance(Microticks now);
@@ -105,7 +75,7 @@ class Executive final : private bus::controller::ControllerEvents {
   void receive_can(std::size_t can_bus, const bus::ports::CanFrame& frame, Microticks now);
   // A frame of this node has left, `now`. `frame` is what the medium knows of it: bus, start, when it has left in true
   // time, identifier and data; the node reports it with its own clock's times and the list and measurement it is of.
-  void can_frame_sent(recording::records::CanFrameSent frame, Microticks now);
+  void can_frame_sent(const recording::records::CanFrameSent& frame, Microticks now);
   void trigger(SensorId sensor, Microticks now);                         // at a device
   void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);  // at a host
 
@@ -113,86 +83,79 @@ class Executive final : private bus::controller::ControllerEvents {
   void start_anew(Microticks now);
 
   // The node's oscillator has changed its drift; its ticks so far are the same.
-  void drift(const timebase::Oscillator& oscillator) { config_.oscillator = oscillator; }
+  void drift(const timebase::Oscillator& oscillator) { time_.drift(oscillator); }
 
   // It has not been woken yet.
   bool asleep() const { return asleep_; }
   // The node's clock of the cluster, null while it has none: off FlexRay, or before it has integrated.
-  const timebase::CycleClock* clock() const { return flexray_ ? flexray_->synchronised_clock() : nullptr; }
+  const timebase::CycleClock* clock() const { return time_.global(); }
   // Null off FlexRay.
   const bus::controller::FlexRayController* controller() const { return flexray_.get(); }
-  const timebase::Oscillator& oscillator() const { return config_.oscillator; }
-  recording::records::Stamp stamp(Microticks at) const;
-  const ExecutiveCounts& counts() const { return counts_; }
+  const timebase::Oscillator& oscillator() const { return time_.oscillator(); }
+  recording::records::Stamp stamp(Microticks at) const { return time_.stamp(at); }
+  const ExecutiveCounts& counts() const { return records_.counts(); }
 
  private:
-  struct TaskState;
-  struct SensorState;
-
+  // What the controller tells becomes records. What happens by the cluster's clock happens at other ticks now where
+  // that has changed.
+  void cycle_started(std::int64_t, Microticks) override { concerned_ = true; }
   void list_arrived(PduId pdu, bus::cni::ArrivalEffect effect, std::uint32_t sequence,
-                    std::optional<std::uint32_t> torn, Microticks at) override;
-  bool wants_bytes() const override { return wants_frames_; }
+                    std::optional<std::uint32_t> torn, Microticks at) override {
+    arrived({schedules::model::kFlexRay, pdu, effect, sequence, torn}, at);
+  }
+  bool wants_bytes() const override { return records_.wants_frames(); }
   bool wants_receptions() const override { return false; }
   void frame_sent(const bus::ports::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                   std::uint32_t sequence, int fragment, bool last) override {
-    if (wants_frames_ || last) tell_of_frame(transmission, cycle, null_frame, pdu, sequence, fragment, last);
+    if (last || records_.wants_frames())
+      records_.frame_sent(transmission, cycle, null_frame, pdu, sequence, fragment, last);
   }
-  void tell_of_frame(const bus::ports::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
-                     std::uint32_t sequence, int fragment, bool last);
   void slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel, bus::controller::SlotStatus status,
-                    Microticks at) override;
-  void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
-                       Microticks at) override;
-  void symbol_sent(bus::ports::Signal signal, schedules::model::Channel channel, Microticks start,
-                   Microticks end) override;
-  void state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) override;
-
-  // What happens by the cluster's clock happens at other ticks now.
-  void cycle_started(std::int64_t cycle, Microticks at) override {
-    (void)cycle, (void)at;
-    concerned_ = true;
+                    Microticks at) override {
+    records_.slot_problem(cycle, slot, channel, status, at);
   }
+  void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
+                       Microticks at) override {
+    concerned_ = true;
+    records_.clock_corrected(cycle, offset, rate, at);
+  }
+  void symbol_sent(bus::ports::Signal signal, schedules::model::Channel channel, Microticks start,
+                   Microticks end) override {
+    records_.symbol_sent(signal, channel, start, end);
+  }
+  void state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) override {
+    concerned_ = true;
+    records_.state_changed(from, step, at);
+  }
+
+  std::vector<Connection> connect(bus::ports::FlexRayPort* flexray, const std::vector<bus::ports::CanPort*>& cans);
   void look_ahead();  // own_next_, whenever something has concerned it
-  void arrived(PduId pdu, int can_bus, bus::cni::ArrivalEffect effect, std::uint32_t sequence,
-               std::optional<std::uint32_t> torn, Microticks at);
-  void rise(Microticks now);
+  void arrived(const ListArrival& arrival, Microticks at);
+  void power_on(Microticks now);
   void start_up_after_waking(Microticks now);
   void arm_cycle();
-  void activate_due(Microticks now);
-  void activate(std::size_t task, Microticks now);
   void start_next(Microticks now);
+  void run_step(const Processor::Running& running);
   void finish(Microticks now);
-  void measure(SensorState& sensor, Microticks now);
-  // The shortest time from an arrival on that medium that activates a task to the task's end.
+  // The shortest time from an arrival on that kind of medium that activates a task to the task's end.
   Microticks soonest_end(bool on_can) const;
-  void fill_inputs(TaskState& task);
-  void identify(recording::records::CanFrameSent& frame) const;
-  void hop(const recording::records::Stamp& at, recording::records::Hop what, PduId pdu, std::uint32_t sequence,
-           int can_bus);
-  bus::cni::IncomingList& incoming(const schedules::model::PortBinding& binding);
-  Microticks ticks(Duration duration) const;
 
-  ExecutiveConfig config_;
-  const schedules::model::Cluster& cluster_;
+  const ExecutiveConfig config_;
   const schedules::model::Node& node_;
-  SensorLines& lines_;
-  recording::records::Sink& sink_;
-  const bool wants_frames_;
+  const std::vector<std::shared_ptr<Step>> steps_;  // by task
+  NodeTime time_;
+  NodeRecords records_;
   std::unique_ptr<bus::controller::FlexRayController> flexray_;
-  std::vector<std::unique_ptr<bus::cni::CanController>> cans_;
-  std::vector<TaskState> tasks_;
-  std::vector<SensorState> sensors_;  // those this node is device or host of
-  std::vector<StrobeLatch> strobes_;  // by SensorId
-  std::vector<std::size_t> ready_;    // waiting tasks, by (activation, place in the file)
-  std::optional<std::size_t> running_;
-  Microticks running_end_{};
+  std::vector<std::unique_ptr<bus::cni::CanController>> cans_;  // by CAN of the cluster
+  Wiring wiring_;
+  Processor processor_;
+  SensorEnds sensors_;
   std::int64_t armed_cycle_ = -1;
   bool concerned_ = true;  // own_next_ is to be looked for anew
   Microticks own_next_{};  // next_event() but for the controller's
-  bool asleep_ = false;
+  bool asleep_;
   std::optional<Microticks> rises_;  // while asleep: when, once a wake-up pattern was heard
   bool waking_ = false;              // others: start-up comes after the wake-up
-  ExecutiveCounts counts_;
 };
 
 }  // namespace ttf::nodes::host

@@ -11,17 +11,25 @@ namespace ttf::nodes::laser {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+// Uniform over half a turn to either side.
+const double kUnknownHeading = kPi / std::sqrt(3.0);
 // What an outline's extent is trusted to besides noise and beams: the orientation's error leaves some centimetres.
 constexpr double kShapeSigma_m = 0.05;
 // A side seen so flatly that its returns are further apart may have been cut off anywhere.
 constexpr double kWidestSpacing_m = 1.2;
+// Returns that reach less far in either direction have no orientation.
+constexpr double kSmallestShape_m = 0.5;
+// A shorter face is no face, whatever the noise.
+constexpr double kShortestFace_m = 0.4;
+// Nothing is known better than to a centimetre.
+constexpr double kCentimetre_m2 = 1e-4;
 
 // The returns seen along one axis of a candidate rectangle: extent, and the face turned to the sensor if there is one.
 struct Axis {
   double cx = 1, sy = 0;     // direction
   double low = 0, high = 0;  // extent of the projections
   bool visible = false;      // a face normal to this axis is turned to the sensor
-  double near = 0, far = 0;  // its position, and the other end
+  double near = 0;           // its position
   double away = 1;           // sign of the direction away from the sensor
   double project(const PlanePoint& p) const { return cx * p.x + sy * p.y; }
 };
@@ -39,45 +47,65 @@ Axis axis_at(double angle, std::span<const PlanePoint> points) {
   }
   axis.away = axis.low + axis.high >= 0.0 ? 1.0 : -1.0;
   axis.near = axis.away > 0 ? axis.low : axis.high;
-  axis.far = axis.away > 0 ? axis.high : axis.low;
   axis.visible = axis.low > 0.0 || axis.high < 0.0;
   return axis;
 }
 
+// Moments of a face's returns.
+struct Moments {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  void add(double px, double py) {
+    n += 1.0;
+    x += px;
+    y += py;
+    xx += px * px;
+    xy += px * py;
+    yy += py * py;
+  }
+};
+
+// The summed scatter about each face's mean, the returns of the second face turned by a quarter.
+struct Scatter {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  void add(const Moments& face, bool turned) {
+    if (face.n == 0.0) return;
+    const double fxx = face.xx - face.x * face.x / face.n, fxy = face.xy - face.x * face.y / face.n;
+    const double fyy = face.yy - face.y * face.y / face.n;
+    xx += turned ? fyy : fxx;
+    xy += turned ? -fxy : fxy;
+    yy += turned ? fxx : fyy;
+  }
+  // The direction that scatters least.
+  double minor_axis() const { return 0.5 * std::atan2(2.0 * xy, xx - yy) + 0.5 * kPi; }
+};
+
+// Each return is taken for one of the nearer face in view.
+Scatter scatter_about(const Axis (&axes)[2], std::span<const PlanePoint> points) {
+  Moments faces[2];
+  for (const PlanePoint& point : points) {
+    const double d0 = std::abs(axes[0].project(point) - axes[0].near);
+    const double d1 = std::abs(axes[1].project(point) - axes[1].near);
+    const int face = !axes[1].visible || (axes[0].visible && d0 <= d1) ? 0 : 1;
+    // Relative to one of the returns: far from the sensor the squares would lose digits.
+    faces[face].add(point.x - points.front().x, point.y - points.front().y);
+  }
+  Scatter scatter;
+  scatter.add(faces[0], false);
+  scatter.add(faces[1], true);
+  return scatter;
+}
+
 // The search's angle, refined: least squares of the returns' distances to their faces. With the returns of the second
-// face turned by a quarter, both share one normal, the minor axis of the summed scatter about each face's mean.
+// face turned by a quarter, both share one normal, the minor axis of their scatter.
 double refined_angle(double angle, std::span<const PlanePoint> points) {
-  constexpr double kLargestStep = 0.15;
-  for (int iteration = 0; iteration < 3; ++iteration) {
+  constexpr int kMostSteps = 3;
+  constexpr double kLargestStep = 0.15, kSmallestStep = 1e-4;
+  for (int iteration = 0; iteration < kMostSteps; ++iteration) {
     const Axis axes[2] = {axis_at(angle, points), axis_at(angle + 0.5 * kPi, points)};
-    double n[2] = {}, x[2] = {}, y[2] = {}, xx[2] = {}, xy[2] = {}, yy[2] = {};
-    for (const PlanePoint& point : points) {
-      const double d0 = std::abs(axes[0].project(point) - axes[0].near);
-      const double d1 = std::abs(axes[1].project(point) - axes[1].near);
-      const int face = !axes[1].visible || (axes[0].visible && d0 <= d1) ? 0 : 1;
-      // Relative to one of the returns: far from the sensor the squares would lose digits.
-      const double px = point.x - points.front().x, py = point.y - points.front().y;
-      n[face] += 1.0;
-      x[face] += px;
-      y[face] += py;
-      xx[face] += px * px;
-      xy[face] += px * py;
-      yy[face] += py * py;
-    }
-    double sxx = 0.0, sxy = 0.0, syy = 0.0;
-    for (int face = 0; face < 2; ++face) {
-      if (n[face] == 0.0) continue;
-      const double fxx = xx[face] - x[face] * x[face] / n[face], fxy = xy[face] - x[face] * y[face] / n[face];
-      const double fyy = yy[face] - y[face] * y[face] / n[face];
-      sxx += face == 0 ? fxx : fyy;
-      sxy += face == 0 ? fxy : -fxy;
-      syy += face == 0 ? fyy : fxx;
-    }
-    const double normal = 0.5 * std::atan2(2.0 * sxy, sxx - syy) + 0.5 * kPi;
-    const double step = std::remainder(normal - angle, kPi);
+    const double step = std::remainder(scatter_about(axes, points).minor_axis() - angle, kPi);
     if (std::abs(step) > kLargestStep) break;
     angle += step;
-    if (std::abs(step) < 1e-4) break;
+    if (std::abs(step) < kSmallestStep) break;
   }
   return angle;
 }
@@ -100,13 +128,23 @@ LaserObject speck(const RectangleConfig& config, std::span<const PlanePoint> poi
   const double spread =
       0.5 * (config.nominal_length_m - config.nominal_width_m) / std::sqrt(3.0) + config.nominal_width_m / 2;
   object.sxx = object.syy = spread * spread;
+  object.length = config.nominal_length_m;
+  object.width = config.nominal_width_m;
+  object.sigma_length = config.length_sigma_m;
+  object.sigma_width = config.width_sigma_m;
+  object.sigma_heading = kUnknownHeading;
+  object.points = static_cast<int>(points.size());
   return object;
 }
 
-// Mean position of the face normal to `axis`: of the returns nearer to it than to the other face.
-double face(const Axis& axis, const Axis& other, std::span<const PlanePoint> points, int& count) {
+// Mean position of the face normal to `axis`, and of how many returns: those nearer to it than to the other face.
+struct Face {
+  double position = 0.0;
+  int returns = 0;
+};
+Face face(const Axis& axis, const Axis& other, std::span<const PlanePoint> points) {
   double sum = 0.0;
-  count = 0;
+  int count = 0;
   for (const PlanePoint& point : points) {
     const double d = std::abs(axis.project(point) - axis.near);
     const double d_other = other.visible ? std::abs(other.project(point) - other.near) : d + 1.0;
@@ -114,7 +152,7 @@ double face(const Axis& axis, const Axis& other, std::span<const PlanePoint> poi
     sum += axis.project(point);
     ++count;
   }
-  return count > 0 ? sum / count : axis.near;
+  return {count > 0 ? sum / count : axis.near, count};
 }
 
 // Mean of the returns of the beam at `azimuth`.
@@ -132,102 +170,119 @@ PlanePoint end_of(std::span<const PlanePoint> points, double azimuth, double ste
   return mean;
 }
 
+// The returns of the outermost beams end the outline on either side. Means over their layers, since the extremes of
+// many noisy returns would lie outside.
+struct Ends {
+  PlanePoint first, last;
+};
+
+// The outline along one axis.
+struct Extent {
+  Face near;                 // the face normal to the axis
+  double ends_middle = 0.0;  // between the outermost beams
+  double length = 0.0, sigma = 0.0;
+  double steepness = 0.0;  // sine of the incidence at the far end
+  bool measured = false;   // a face was seen along it
+};
+
+// Along an axis runs the face normal to the other one: seen only if that one is visible. Its returns are spaced by the
+// beams' step over the sine of the incidence, and the outline ends up to one such spacing further on.
+Extent extent_along(const Axis& axis, const Axis& other, const Ends& ends, std::span<const PlanePoint> points,
+                    const RectangleConfig& config) {
+  constexpr double kNearest_m = 0.1, kFlattest = 0.01;
+  const double noise = config.range_noise_m;
+  Extent extent;
+  extent.near = face(axis, other, points);
+  const double a = axis.project(ends.first), b = axis.project(ends.last);
+  const PlanePoint& far = axis.away * a > axis.away * b ? ends.first : ends.last;
+  extent.ends_middle = 0.5 * (a + b);
+  const double range = std::max(kNearest_m, std::hypot(far.x, far.y));
+  extent.steepness = std::abs(axis.cx * far.y - axis.sy * far.x) / range;
+  const double spacing = range * config.azimuth_step_rad / std::max(kFlattest, extent.steepness);
+  const double seen = axis.visible ? axis.away * (axis.project(far) - extent.near.position) : std::abs(a - b);
+  extent.length = !other.visible ? seen : axis.visible ? seen + 0.5 * spacing : seen + spacing;
+  // Each end that is not a corner in view: uniform over the spacing.
+  extent.sigma = std::hypot(spacing * std::sqrt((axis.visible ? 1.0 : 2.0) / 12.0), noise, kShapeSigma_m);
+  extent.measured = other.visible && seen > std::max(kShortestFace_m, 4.0 * noise) && spacing < kWidestSpacing_m;
+  return extent;
+}
+
+// Which axis the vehicle's length runs along: the one with an extent no width reaches, else across the rear.
+int length_axis(const Extent (&extents)[2], const RectangleConfig& config) {
+  const double whole[2] = {extents[0].measured ? extents[0].length : 0.0,
+                           extents[1].measured ? extents[1].length : 0.0};
+  if (std::max(whole[0], whole[1]) > config.widest_rear_m) return whole[0] > whole[1] ? 0 : 1;
+  if (extents[0].measured != extents[1].measured) return extents[0].measured ? 1 : 0;
+  return extents[0].steepness < extents[1].steepness ? 0 : 1;  // a face seen steeply is seen whole
+}
+
+void set_size(LaserObject& object, const Extent& along, const Extent& across, const RectangleConfig& config) {
+  object.has_length = along.measured && along.length > config.widest_rear_m;
+  object.has_width =
+      across.measured && across.length > config.narrowest_width_m && across.length < config.widest_rear_m;
+  object.length = object.has_length ? along.length : config.nominal_length_m;
+  object.width = object.has_width ? across.length : config.nominal_width_m;
+  object.sigma_length = object.has_length ? along.sigma : config.length_sigma_m;
+  object.sigma_width = object.has_width ? across.sigma : config.width_sigma_m;
+}
+
+// Of an object whose size is known: its orientation is as good as its longest face and the returns on it.
+void set_heading(LaserObject& object, const Axis& along, std::size_t returns, double noise) {
+  constexpr double kSearchSigma = 0.02;
+  object.has_heading = object.has_length || object.has_width;
+  object.heading = std::atan2(along.sy * along.away, along.cx * along.away);
+  const double longest = std::max(object.has_length ? object.length : 0.0, object.has_width ? object.width : 0.0);
+  object.sigma_heading = object.has_heading
+                             ? kSearchSigma + noise * std::sqrt(12.0 / static_cast<double>(returns)) / longest
+                             : kUnknownHeading;
+}
+
+// A length and what it is uncertain by [m].
+struct Size {
+  double value, sigma;
+};
+struct Centre {
+  double position, variance;
+};
+// Of a vehicle of that size along the axis.
+Centre centre_along(const Axis& axis, const Extent& extent, const Size& size, double noise) {
+  if (axis.visible)
+    return {extent.near.position + axis.away * 0.5 * size.value,
+            noise * noise / std::max(1, extent.near.returns) + 0.25 * size.sigma * size.sigma + kCentimetre_m2};
+  // Where only part of a face was seen, its middle may be anywhere within what is missing.
+  const double missing = std::max(0.0, size.value - (axis.high - axis.low));
+  return {extent.ends_middle, 0.25 * extent.sigma * extent.sigma + missing * missing / 12.0 + kCentimetre_m2};
+}
+
+// From where the vehicle's centre lies along either axis.
+void set_position(LaserObject& object, const Axis (&axes)[2], const Centre& first, const Centre& second) {
+  const double c = axes[0].cx, s = axes[0].sy;
+  object.x = c * first.position + axes[1].cx * second.position;
+  object.y = s * first.position + axes[1].sy * second.position;
+  object.set_errors(c, s, first.variance, second.variance);
+}
+
 }  // namespace
 
 LaserObject fit_rectangle(const RectangleConfig& config, std::span<const PlanePoint> points) {
-  LaserObject object;
+  if (points.size() < 3) return speck(config, points);
   const double noise = config.range_noise_m;
-  bool shaped = points.size() >= 3;
-  Axis axes[2];
-  if (shaped) {
-    const double angle = refined_angle(search_orientation(points, noise), points);
-    axes[0] = axis_at(angle, points);
-    axes[1] = axis_at(angle + 0.5 * kPi, points);
-    shaped = std::max(axes[0].high - axes[0].low, axes[1].high - axes[1].low) > 0.5;
-  }
-  if (!shaped || !(axes[0].visible || axes[1].visible)) {
-    object = speck(config, points);
-    object.length = config.nominal_length_m;
-    object.width = config.nominal_width_m;
-    object.sigma_length = config.length_sigma_m;
-    object.sigma_width = config.width_sigma_m;
-    object.sigma_heading = kPi / std::sqrt(3.0);
-    object.points = static_cast<int>(points.size());
-    return object;
-  }
+  const double angle = refined_angle(search_orientation(points, noise), points);
+  const Axis axes[2] = {axis_at(angle, points), axis_at(angle + 0.5 * kPi, points)};
+  const bool shaped = std::max(axes[0].high - axes[0].low, axes[1].high - axes[1].low) > kSmallestShape_m;
+  if (!shaped || !(axes[0].visible || axes[1].visible)) return speck(config, points);
 
-  // Extents, from the returns of the outermost beams: these end the outline on either side. Means over their layers,
-  // since the extremes of many noisy returns would lie outside. The outline ends up to one beam's spacing further on.
-  const PlanePoint first = end_of(points, points.front().azimuth, config.azimuth_step_rad);
-  const PlanePoint last = end_of(points, points.back().azimuth, config.azimuth_step_rad);
-  double near[2], ends_middle[2], extent[2], extent_sigma[2], steepness[2];
-  bool measured[2];
-  int near_count[2];
-  for (int k = 0; k < 2; ++k) {
-    const Axis& axis = axes[k];
-    const Axis& other = axes[1 - k];
-    near[k] = face(axis, other, points, near_count[k]);
-    const double a = axis.project(first), b = axis.project(last);
-    const PlanePoint& far = axis.away * a > axis.away * b ? first : last;
-    ends_middle[k] = 0.5 * (a + b);
-    // Along axis k runs the face normal to the other axis: seen only if that one is visible. Its returns are spaced by
-    // the beams' step over the sine of the incidence.
-    const double range = std::max(0.1, std::hypot(far.x, far.y));
-    steepness[k] = std::abs(axis.cx * far.y - axis.sy * far.x) / range;
-    const double spacing = range * config.azimuth_step_rad / std::max(0.01, steepness[k]);
-    const double raw = axis.visible ? axis.away * (axis.project(far) - near[k]) : std::abs(a - b);
-    extent[k] = !other.visible ? raw : axis.visible ? raw + 0.5 * spacing : raw + spacing;
-    // Each end that is not a corner in view: uniform over the spacing.
-    extent_sigma[k] = std::hypot(spacing * std::sqrt((axis.visible ? 1.0 : 2.0) / 12.0), noise, kShapeSigma_m);
-    measured[k] = other.visible && raw > std::max(0.4, 4.0 * noise) && spacing < kWidestSpacing_m;
-  }
-  // Which axis the vehicle's length runs along: the one with an extent no width reaches, else across the rear.
-  int along;
-  const double whole[2] = {measured[0] ? extent[0] : 0.0, measured[1] ? extent[1] : 0.0};
-  if (std::max(whole[0], whole[1]) > config.widest_rear_m)
-    along = whole[0] > whole[1] ? 0 : 1;
-  else if (measured[0] != measured[1])
-    along = measured[0] ? 1 : 0;
-  else
-    along = steepness[0] < steepness[1] ? 0 : 1;  // a face seen steeply is seen whole
-  const int across = 1 - along;
-
-  object.has_length = measured[along] && extent[along] > config.widest_rear_m;
-  object.has_width =
-      measured[across] && extent[across] > config.narrowest_width_m && extent[across] < config.widest_rear_m;
-  object.length = object.has_length ? extent[along] : config.nominal_length_m;
-  object.width = object.has_width ? extent[across] : config.nominal_width_m;
-  object.sigma_length = object.has_length ? extent_sigma[along] : config.length_sigma_m;
-  object.sigma_width = object.has_width ? extent_sigma[across] : config.width_sigma_m;
-  object.has_heading = object.has_length || object.has_width;
-  object.heading = std::atan2(axes[along].sy * axes[along].away, axes[along].cx * axes[along].away);
-  const double longest = std::max(object.has_length ? extent[along] : 0.0, object.has_width ? extent[across] : 0.0);
-  object.sigma_heading = object.has_heading
-                             ? 0.02 + noise * std::sqrt(12.0 / static_cast<double>(points.size())) / longest
-                             : kPi / std::sqrt(3.0);
-
-  const double size[2] = {along == 0 ? object.length : object.width, along == 0 ? object.width : object.length};
-  const double size_sigma[2] = {along == 0 ? object.sigma_length : object.sigma_width,
-                                along == 0 ? object.sigma_width : object.sigma_length};
-  double centre[2], variance[2];
-  for (int k = 0; k < 2; ++k) {
-    if (axes[k].visible) {
-      centre[k] = near[k] + axes[k].away * 0.5 * size[k];
-      variance[k] = noise * noise / std::max(1, near_count[k]) + 0.25 * size_sigma[k] * size_sigma[k];
-    } else {
-      centre[k] = ends_middle[k];
-      // Where only part of a face was seen, its middle may be anywhere within what is missing.
-      const double missing = std::max(0.0, size[k] - (axes[k].high - axes[k].low));
-      variance[k] = 0.25 * extent_sigma[k] * extent_sigma[k] + missing * missing / 12.0;
-    }
-    variance[k] += 1e-4;  // nothing is known better than to a centimetre
-  }
-  const double c = axes[0].cx, s = axes[0].sy;
-  object.x = c * centre[0] + axes[1].cx * centre[1];
-  object.y = s * centre[0] + axes[1].sy * centre[1];
-  object.sxx = c * c * variance[0] + s * s * variance[1];
-  object.syy = s * s * variance[0] + c * c * variance[1];
-  object.sxy = c * s * (variance[0] - variance[1]);
+  const Ends ends{end_of(points, points.front().azimuth, config.azimuth_step_rad),
+                  end_of(points, points.back().azimuth, config.azimuth_step_rad)};
+  const Extent extents[2] = {extent_along(axes[0], axes[1], ends, points, config),
+                             extent_along(axes[1], axes[0], ends, points, config)};
+  const int along = length_axis(extents, config), across = 1 - along;
+  LaserObject object;
+  set_size(object, extents[along], extents[across], config);
+  set_heading(object, axes[along], points.size(), noise);
+  const Size length{object.length, object.sigma_length}, width{object.width, object.sigma_width};
+  set_position(object, axes, centre_along(axes[0], extents[0], along == 0 ? length : width, noise),
+               centre_along(axes[1], extents[1], along == 0 ? width : length, noise));
   object.points = static_cast<int>(points.size());
   return object;
 }

@@ -4,13 +4,15 @@
 // scanners", IEEE Intelligent Vehicles Symposium 2017, closeness criterion, algorithm 4): each candidate scores how
 // near the returns lie to the two faces turned to the sensor. A face is visible where the sensor stands outside its
 // slab. The best one (orientation_search.h) is refined by least squares over both faces. Then:
-//   extents longer than a vehicle is wide are its length; a single short face is its rear or front, so the length is
-//   unknown the centre lies half the size behind each visible face; where the size is unknown the nominal one stands
-//   in, with its spread, so that the covariance along that axis is honest
+//   - extents longer than a vehicle is wide are its length; a single short face is its rear or front, so the length is
+//     unknown;
+//   - the centre lies half the size behind each visible face; where the size is unknown the nominal one stands in, with
+//     its spread, so that the covariance along that axis is honest.
 #pragma once
 
 #include <span>
 
+#include "fusion/sensors/plane_position.h"
 #include "nodes/laser/segmentation.h"
 
 namespace ttf::nodes::laser {
@@ -25,10 +27,9 @@ struct RectangleConfig {
   double narrowest_width_m = 1.3;  // a shorter face is only part of one
 };
 
-// Position [m] of the vehicle's centre and its covariance, heading [rad] of its long axis (up to half a turn), size
-// [m]. Values whose has_ flag is clear are nominal, their sigma the fleet's.
-struct LaserObject {
-  double x = 0, y = 0, sxx = 0, sxy = 0, syy = 0;
+// Position of the vehicle's centre, heading [rad] of its long axis (up to half a turn), size [m]. Values whose has_
+// flag is clear are nominal, their sigma the fleet's.
+struct LaserObject : ttf::fusion::sensors::PlanePosition {
   double heading = 0, length = 0, width = 0;
   double sigma_heading = 0, sigma_length = 0, sigma_width = 0;
   bool has_heading = false, has_length = false, has_width = false;

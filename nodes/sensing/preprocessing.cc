@@ -24,8 +24,6 @@ template <class Object> void keep_nearest(std::vector<Object>& objects, int limi
   objects.erase(objects.begin() + limit, objects.end());
 }
 
-double correlation(double sxx, double sxy, double syy) { return sxy / std::sqrt(sxx * syy); }
-
 }  // namespace
 
 LaserPreprocessing::LaserPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
@@ -62,9 +60,9 @@ void LaserPreprocessing::run(host::StepContext& context) {
                              object.heading,
                              object.length,
                              object.width,
-                             std::sqrt(object.sxx),
-                             std::sqrt(object.syy),
-                             correlation(object.sxx, object.sxy, object.syy),
+                             object.sigma_x(),
+                             object.sigma_y(),
+                             object.correlation(),
                              object.sigma_heading,
                              object.sigma_length,
                              object.sigma_width,
@@ -98,19 +96,10 @@ void CameraPreprocessing::run(host::StepContext& context) {
   out.begin(measurement->sequence, static_cast<int>(objects_.size()), measurement->at);
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
     const camera::CameraObject& object = objects_[static_cast<std::size_t>(i)];
-    const double values[] = {object.x,
-                             object.y,
-                             std::sqrt(object.sxx),
-                             std::sqrt(object.syy),
-                             correlation(object.sxx, object.sxy, object.syy),
-                             object.span,
-                             object.sigma_span};
+    const double values[] = {object.x,    object.y,         object.sigma_x(), object.sigma_y(), object.correlation(),
+                             object.span, object.sigma_span};
     for (std::size_t s = 0; s < signals_.size(); ++s) out.set(i, signals_[s], values[s]);
   }
-}
-
-void Gateway::run(host::StepContext& context) {
-  if (context.inputs[0].fresh) context.outputs[0].copy(*context.inputs[0].list);
 }
 
 }  // namespace ttf::nodes::sensing

@@ -43,10 +43,4 @@ class CameraPreprocessing final : public host::Step {
   std::vector<camera::CameraObject> objects_;
 };
 
-// Ports: `in` -> `out`, the list unchanged: fragments of the CAN are fragments of the FlexRay.
-class Gateway final : public host::Step {
- public:
-  void run(host::StepContext& context) override;
-};
-
 }  // namespace ttf::nodes::sensing

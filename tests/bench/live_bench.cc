@@ -165,7 +165,7 @@ class Member {
     ppoll(lines.data(), lines.size(), &timeout, nullptr);
   }
 
-  bus::dds::live::LiveMedium medium_;
+  bus::dds::live::DdsMedium medium_;
   Job job_;
   schedules::model::Channel channel_ = schedules::model::Channel::kB;
   std::vector<std::int64_t> ways_, sends_;  // ns

@@ -260,7 +260,7 @@ Restarted restarted(std::string_view name) {
   const TrueTime start = drive_start(drive.cluster);
   const auto scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, 1, 0, start);
   const NodeSetConfig set{&drive.scenario, &drive.cluster, drive.strategy, 1, 0, scene, nullptr};
-  const auto starts = nodes::host::node_starts(drive.scenario.startup, drive.cluster, 1, 0);
+  const auto starts = node_starts(drive.scenario.startup, drive.cluster, 1, 0);
   sim::crank::SimulationConfig config;
   config.cluster = &drive.cluster;
   config.seed = 1;

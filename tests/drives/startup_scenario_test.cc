@@ -7,17 +7,17 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "nodes/host/cold_start.h"
+#include "drives/startup.h"
 #include "tests/bus/bus_rig.h"
 
 namespace ttf::drives {
 namespace {
 
-nodes::host::Startup startup_of(const std::string& yaml) {
+Startup startup_of(const std::string& yaml) {
   const StrictYaml file = StrictYaml::parse(yaml, "drive.yaml");
   Findings findings;
   YamlMap root = file.root(findings);
-  nodes::host::Startup startup = nodes::host::load_startup(root, Duration::milliseconds(3'000));
+  Startup startup = load_startup(root, Duration::milliseconds(3'000));
   root.finish();
   findings.throw_if_any();
   return startup;
@@ -42,7 +42,7 @@ schedules::model::Cluster five() {
   return cluster;
 }
 
-std::string refusal(const nodes::host::Startup& startup, const schedules::model::Cluster& cluster) {
+std::string refusal(const Startup& startup, const schedules::model::Cluster& cluster) {
   try {
     node_starts(startup, cluster, 1, 0);
   } catch (const InputError& error) {
@@ -55,7 +55,7 @@ TEST(StartupScenario, BeginsIntegratedUnlessToldOtherwise) {
   EXPECT_FALSE(startup_of("{}").cold);
   EXPECT_FALSE(startup_of("startup: integrated").cold);
   EXPECT_FALSE(startup_of("startup: {kind: integrated}").cold);
-  const nodes::host::Startup cold = startup_of("startup: {kind: cold}");
+  const Startup cold = startup_of("startup: {kind: cold}");
   EXPECT_TRUE(cold.cold);
   EXPECT_EQ(cold.spread, Duration::milliseconds(20));
   EXPECT_TRUE(cold.power_on.empty());
@@ -63,7 +63,7 @@ TEST(StartupScenario, BeginsIntegratedUnlessToldOtherwise) {
 }
 
 TEST(StartupScenario, TakesTimesByNodeAndWhoWakes) {
-  const nodes::host::Startup startup = startup_of(
+  const Startup startup = startup_of(
       "startup:\n  kind: cold\n  spread: 5 ms\n  wake_up: node1\n  power_on: {node0: 1500 us, node2: 0 ms}\n");
   EXPECT_EQ(startup.spread, Duration::milliseconds(5));
   EXPECT_EQ(startup.wake_up, "node1");
@@ -90,7 +90,7 @@ TEST(StartupScenario, SaysWhatIsWrongWithFileLineKeyAndRange) {
 }
 
 TEST(StartupScenario, DrawsWithinTheSpreadWhatItDoesNotSay) {
-  nodes::host::Startup startup;
+  Startup startup;
   startup.cold = true;
   startup.spread = Duration::milliseconds(7);
   startup.power_on = {{"node2", Duration::milliseconds(40), 3}};
@@ -121,7 +121,7 @@ TEST(StartupScenario, WhoIsOnTheWakeupChannelSleeps) {
   schedules::model::Cluster cluster = five();
   cluster.nodes[1].flexray->pWakeupChannel = schedules::model::Channel::kA;
   cluster.nodes[3].flexray->pChannels = schedules::model::Channels::kB;
-  nodes::host::Startup startup;
+  Startup startup;
   startup.cold = true;
   startup.wake_up = "node1";
   std::vector<nodes::host::ColdStart> how;
@@ -131,7 +131,7 @@ TEST(StartupScenario, WhoIsOnTheWakeupChannelSleeps) {
 }
 
 TEST(StartupScenario, NamesAreThoseOfTheCluster) {
-  nodes::host::Startup startup;
+  Startup startup;
   startup.file = "drive.yaml";
   startup.power_on = {{"nobody", {}, 7}, {"node0", {}, 7}};
   EXPECT_NE(refusal(startup, five()).find("drive.yaml:7: startup.power_on = nobody: is no node of cluster.yaml"),

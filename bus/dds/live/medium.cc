@@ -19,8 +19,8 @@ void merge(std::vector<NodeId>& into, const std::vector<NodeId>& more) {
 
 }  // namespace
 
-LiveMedium::LiveMedium(const common::Session& session, NodeId self, const std::vector<LiveLinePlan>& lines,
-                       Delivery delivery)
+DdsMedium::DdsMedium(const common::Session& session, NodeId self, const std::vector<LiveLinePlan>& lines,
+                     Delivery delivery)
     : session_(validate(session)), participant_(session.domain, session.lease) {
   for (const LiveLinePlan& plan : lines) {
     if (plan.line >= lines_.size()) lines_.resize(plan.line + 1);
@@ -29,9 +29,9 @@ LiveMedium::LiveMedium(const common::Session& session, NodeId self, const std::v
   }
 }
 
-LiveMedium::~LiveMedium() = default;
+DdsMedium::~DdsMedium() = default;
 
-void LiveMedium::wait_ready(std::chrono::milliseconds patience) const {
+void DdsMedium::wait_ready(std::chrono::milliseconds patience) const {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   for (;;) {
     std::vector<NodeId> absent, deaf;
@@ -46,19 +46,19 @@ void LiveMedium::wait_ready(std::chrono::milliseconds patience) const {
   }
 }
 
-ports::LiveStatus LiveMedium::send(const ports::LiveSignal& signal, ports::HostTime due) {
+ports::LiveStatus DdsMedium::send(const ports::LiveSignal& signal, ports::HostTime due) {
   LiveLine* const line = find(ports::line_of(signal.channel));
   TTF_CHECK(line != nullptr, "not on channel {}", static_cast<int>(signal.channel));
   return counted(line->send(signal, due));
 }
 
-ports::LiveStatus LiveMedium::send_can(std::size_t can_bus, const ports::CanFrame& frame) {
+ports::LiveStatus DdsMedium::send_can(std::size_t can_bus, const ports::CanFrame& frame) {
   LiveLine* const line = find(ports::line_of_can(can_bus));
   TTF_CHECK(line != nullptr, "not on CAN {}", can_bus);
   return counted(line->send(frame));
 }
 
-std::optional<ports::LiveArrival> LiveMedium::receive() {
+std::optional<ports::LiveArrival> DdsMedium::receive() {
   for (const auto& line : lines_) {
     if (line == nullptr || !line->queue().pop(last_)) continue;
     ++received_;
@@ -73,16 +73,16 @@ std::optional<ports::LiveArrival> LiveMedium::receive() {
   return {};
 }
 
-int LiveMedium::descriptor(ports::Line line) const {
+int DdsMedium::descriptor(ports::Line line) const {
   const LiveLine* const found = find(line);
   return found == nullptr ? -1 : found->queue().descriptor();
 }
 
-void LiveMedium::watch(ports::Line line, bool on) {
+void DdsMedium::watch(ports::Line line, bool on) {
   if (LiveLine* const found = find(line)) found->queue().watch(on);
 }
 
-ports::LiveCounts LiveMedium::counts() const {
+ports::LiveCounts DdsMedium::counts() const {
   ports::LiveCounts counts{.sent = sent_, .received = received_, .not_sent = not_sent_};
   for (const auto& line : lines_) {
     if (line == nullptr) continue;
@@ -93,15 +93,15 @@ ports::LiveCounts LiveMedium::counts() const {
   return counts;
 }
 
-const std::string& LiveMedium::failure() const {
+const std::string& DdsMedium::failure() const {
   for (const auto& line : lines_)
     if (failure_.empty() && line != nullptr) failure_ = line->failure();
   return failure_;
 }
 
-LiveLine* LiveMedium::find(ports::Line line) const { return line < lines_.size() ? lines_[line].get() : nullptr; }
+LiveLine* DdsMedium::find(ports::Line line) const { return line < lines_.size() ? lines_[line].get() : nullptr; }
 
-ports::LiveStatus LiveMedium::counted(ports::LiveStatus status) {
+ports::LiveStatus DdsMedium::counted(ports::LiveStatus status) {
   if (status == ports::LiveStatus::kDone) ++sent_;
   if (status == ports::LiveStatus::kNoRoom) ++not_sent_;
   return status;

@@ -28,13 +28,13 @@
 
 namespace ttf::bus::dds::live {
 
-class LiveMedium final : public ports::LiveMedium {
+class DdsMedium final : public ports::LiveMedium {
  public:
   // Of the session: its domain, name and lease. `lines`: those that `self` is on, in any order.
   // Throws InputError where the session is not valid, std::runtime_error where DDS cannot do it.
-  LiveMedium(const common::Session& session, NodeId self, const std::vector<LiveLinePlan>& lines,
-             Delivery delivery = Delivery::kBestEffort);
-  ~LiveMedium() override;
+  DdsMedium(const common::Session& session, NodeId self, const std::vector<LiveLinePlan>& lines,
+            Delivery delivery = Delivery::kBestEffort);
+  ~DdsMedium() override;
 
   // Returns once this node hears everybody on its lines and they hear it. Throws NotReady when that takes longer.
   void wait_ready(std::chrono::milliseconds patience) const;

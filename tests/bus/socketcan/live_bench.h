@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/socketcan/live_medium.h"
+#include "bus/socketcan/medium.h"
 #include "tests/bus/socketcan/vcan.h"
 #include "tests/laws/live_listener.h"
 
@@ -33,7 +33,7 @@ class InItsSlot final : public ports::LiveMedium {
   const std::string& failure() const override { return medium_.failure(); }
 
  private:
-  socketcan::LiveMedium medium_;
+  socketcan::SocketCanMedium medium_;
   std::mutex& slot_;
 };
 

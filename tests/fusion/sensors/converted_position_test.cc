@@ -59,5 +59,62 @@ TEST(ConvertedPosition, LittleNoiseFarAwayIsNotLost) {
   EXPECT_NEAR(z.r(1, 1), 1e10 * 1e-8, 1e-5);
 }
 
+// To first order, seen from a sensor that is mounted aside and turned: J R J' with the Jacobian by differences.
+TEST(PlanePosition, OfRangeAndBearingIsTheFirstOrderTransformationFromTheSensor) {
+  Mounting from;
+  from.position = {3.5, -0.8};
+  from.yaw = 0.4;
+  Observation z;
+  z.kind = ObservationKind::kRangeBearingRate;
+  z.z << 40.0, -0.3, 2.0;
+  z.r.diagonal() << 0.09, 0.0004, 0.25;
+  const auto place = [&](double range, double bearing) {
+    return Eigen::Vector2d(from.position +
+                           range * Eigen::Vector2d(std::cos(bearing + from.yaw), std::sin(bearing + from.yaw)));
+  };
+  constexpr double kStep = 1e-6;
+  Eigen::Matrix2d j;
+  j.col(0) = (place(40.0 + kStep, -0.3) - place(40.0 - kStep, -0.3)) / (2.0 * kStep);
+  j.col(1) = (place(40.0, -0.3 + kStep) - place(40.0, -0.3 - kStep)) / (2.0 * kStep);
+  const Eigen::Matrix2d expected = j * z.r.topLeftCorner<2, 2>() * j.transpose();
+
+  const PlanePosition plane = plane_position(z, from);
+  EXPECT_NEAR(plane.x, place(40.0, -0.3).x(), 1e-12);
+  EXPECT_NEAR(plane.y, place(40.0, -0.3).y(), 1e-12);
+  EXPECT_NEAR(plane.sxx, expected(0, 0), 1e-7);
+  EXPECT_NEAR(plane.sxy, expected(0, 1), 1e-7);
+  EXPECT_NEAR(plane.syy, expected(1, 1), 1e-7);
+}
+
+TEST(PlanePosition, OfAPositionIsWhatItSays) {
+  Observation z;
+  z.z << 7.0, -2.0, 0.0;
+  z.r.topLeftCorner<2, 2>() << 0.5, 0.1, 0.1, 0.3;
+  Mounting aside;
+  aside.position = {1.0, 1.0};
+  const PlanePosition plane = plane_position(z, aside);
+  EXPECT_EQ(plane.x, 7.0);
+  EXPECT_EQ(plane.y, -2.0);
+  EXPECT_EQ(plane.sxx, 0.5);
+  EXPECT_EQ(plane.sxy, 0.1);
+  EXPECT_EQ(plane.syy, 0.3);
+}
+
+TEST(PlanePosition, IndependentErrorsAddUp) {
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  PlanePosition turned, added;
+  turned.set_errors(c, s, 4.0, 0.25);
+  added.add_error(c, s, 4.0);
+  added.add_error(-s, c, 0.25);
+  EXPECT_NEAR(turned.sxx, added.sxx, 1e-15);
+  EXPECT_NEAR(turned.sxy, added.sxy, 1e-15);
+  EXPECT_NEAR(turned.syy, added.syy, 1e-15);
+  PlanePosition twice = turned;
+  twice.add_errors(c, s, 4.0, 0.25);
+  EXPECT_NEAR(twice.sxy, 2.0 * turned.sxy, 1e-15);
+  EXPECT_NEAR(twice.sigma_x(), std::sqrt(2.0 * turned.sxx), 1e-15);
+  EXPECT_NEAR(twice.correlation(), turned.correlation(), 1e-15);
+}
+
 }  // namespace
 }  // namespace ttf::fusion::sensors

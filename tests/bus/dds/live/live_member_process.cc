@@ -106,7 +106,7 @@ class LiveMember {
     return true;
   }
 
-  LiveMedium medium_;
+  DdsMedium medium_;
   std::size_t self_, members_, count_;
   std::set<std::size_t> spoilt_;
   std::size_t said_ = 0;

@@ -161,8 +161,8 @@ TEST_P(DdsLiveProcesses, HearWhoWasStoppedForLongerThanItsLease) {
 TEST(DdsLiveReadiness, NamesWhoIsMissing) {
   const common::Session session = common::session(3);
   const auto plans = live_lines(3);
-  const LiveMedium here(session, NodeId{0}, lines_of(plans, NodeId{0}));
-  const LiveMedium other(session, NodeId{2}, lines_of(plans, NodeId{2}));
+  const DdsMedium here(session, NodeId{0}, lines_of(plans, NodeId{0}));
+  const DdsMedium other(session, NodeId{2}, lines_of(plans, NodeId{2}));
   try {
     here.wait_ready(200ms);
     FAIL() << "is ready without node 1";

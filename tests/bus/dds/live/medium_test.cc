@@ -57,7 +57,7 @@ template <std::size_t kMembers, bus::dds::live::Delivery kDelivery> class DdsLiv
  public:
   DdsLiveBench() : session_(bus::dds::common::session(kMembers)), plans_(bus::dds::live::live_lines(kMembers)) {
     for (const NodeId node : session_.members)
-      members_.push_back(std::make_unique<bus::dds::live::LiveMedium>(
+      members_.push_back(std::make_unique<bus::dds::live::DdsMedium>(
           session_, node, bus::dds::live::lines_of(plans_, node), kDelivery));
     for (const auto& member : members_) member->wait_ready(30s);
   }
@@ -82,7 +82,7 @@ template <std::size_t kMembers, bus::dds::live::Delivery kDelivery> class DdsLiv
  private:
   bus::dds::common::Session session_;
   std::vector<bus::dds::live::LiveLinePlan> plans_;
-  std::vector<std::unique_ptr<bus::dds::live::LiveMedium>> members_;
+  std::vector<std::unique_ptr<bus::dds::live::DdsMedium>> members_;
 };
 
 using DdsLiveBenches = testing::Types<
@@ -94,7 +94,7 @@ INSTANTIATE_TYPED_TEST_SUITE_P(Dds, LiveMediumLaws, DdsLiveBenches);
 TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
   const bus::dds::common::Session session = bus::dds::common::session(2);
   const auto plans = bus::dds::live::live_lines(2);
-  bus::dds::live::LiveMedium medium(session, NodeId{1}, bus::dds::live::lines_of(plans, NodeId{1}));
+  bus::dds::live::DdsMedium medium(session, NodeId{1}, bus::dds::live::lines_of(plans, NodeId{1}));
   auto heard_by_one = plans;
   for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
   Stranger on_a(session, heard_by_one[0]), on_can(session, heard_by_one[2]);
@@ -148,7 +148,7 @@ TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
 TEST(DdsLiveTransit, IsKnownOfWhatComesFromThisHost) {
   const bus::dds::common::Session session = bus::dds::common::session(2);
   const auto plans = bus::dds::live::live_lines(2);
-  bus::dds::live::LiveMedium medium(session, NodeId{1}, bus::dds::live::lines_of(plans, NodeId{1}));
+  bus::dds::live::DdsMedium medium(session, NodeId{1}, bus::dds::live::lines_of(plans, NodeId{1}));
   auto heard_by_one = plans;
   for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
   Stranger on_a(session, heard_by_one[0]);

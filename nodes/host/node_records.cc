@@ -1,16 +1,16 @@
-// What the executive tells of its controllers: every event as a record, with all that the node knows of it.
+#include "nodes/host/node_records.h"
+
 #include "bus/wire/pdu_codec.h"
-#include "nodes/host/executive.h"
 
 namespace ttf::nodes::host {
 
-void Executive::tell_of_frame(const bus::ports::Transmission& transmission, std::int64_t cycle, bool null_frame,
-                              PduId pdu, std::uint32_t sequence, int fragment, bool last) {
+void NodeRecords::frame_sent(const bus::ports::Transmission& transmission, std::int64_t cycle, bool null_frame,
+                             PduId pdu, std::uint32_t sequence, int fragment, bool last) {
   // A frame ends in the cycle it began in, so the clock can say now when that will be.
-  const recording::records::Stamp end = stamp(transmission.end);
+  const recording::records::Stamp end = time_.stamp(transmission.end);
   if (wants_frames_) {
     recording::records::SlotFrameSent sent;
-    sent.stamp = stamp(transmission.start);
+    sent.stamp = time_.stamp(transmission.start);
     sent.end = end;
     sent.cycle = cycle;
     sent.slot = static_cast<std::uint16_t>(transmission.slot);
@@ -23,11 +23,11 @@ void Executive::tell_of_frame(const bus::ports::Transmission& transmission, std:
     sent.bytes = transmission.bytes;
     sink_.on(sent);
   }
-  if (last) hop(end, recording::records::Hop::kSent, pdu, sequence, -1);
+  if (last) hop(end, recording::records::Hop::kSent, pdu, sequence, schedules::model::kFlexRay);
 }
 
 // The message a frame is of; none for a foreign frame, which receivers ignore, too.
-void Executive::identify(recording::records::CanFrameSent& frame) const {
+void NodeRecords::identify(recording::records::CanFrameSent& frame, const bus::cni::CanController& sender) const {
   for (const schedules::model::CanMessage& message : cluster_.can_buses[frame.bus].messages) {
     if (message.identifier != frame.identifier) continue;
     const schedules::model::PduLayout& layout = cluster_.pdu(message.pdu);
@@ -39,64 +39,65 @@ void Executive::identify(recording::records::CanFrameSent& frame) const {
     frame.fragment = static_cast<std::uint8_t>(
         bus::wire::read_header_raw(layout, payload, bus::wire::header_signal(layout, "fragment")));
     frame.sequence =
-        cans_[frame.bus]->sent_sequence(frame.pdu, static_cast<std::uint32_t>(bus::wire::read_header_raw(
-                                                       layout, payload, bus::wire::header_signal(layout, "sequence"))));
+        sender.sent_sequence(frame.pdu, static_cast<std::uint32_t>(bus::wire::read_header_raw(
+                                            layout, payload, bus::wire::header_signal(layout, "sequence"))));
   }
 }
 
-void Executive::can_frame_sent(recording::records::CanFrameSent frame, Microticks now) {
+void NodeRecords::can_frame_sent(recording::records::CanFrameSent frame, const bus::cni::CanController& sender,
+                                 Microticks now) {
   const TrueTime end = frame.end.true_time;
-  frame.end = stamp(now);
+  frame.end = time_.stamp(now);
   frame.end.true_time = end;
-  identify(frame);
+  identify(frame, sender);
   sink_.on(frame);
   if (frame.pdu == kNoPdu) return;
   const schedules::model::PduLayout& layout = cluster_.pdu(frame.pdu);
   const auto payload = frame.data.first(static_cast<std::size_t>(layout.fragment_bytes));
   const auto count = bus::wire::read_header_raw(layout, payload, bus::wire::header_signal(layout, "count"));
   const bool last = frame.fragment == layout.fragments_of(static_cast<int>(count)) - 1;
-  if (last) hop(frame.end, recording::records::Hop::kSent, frame.pdu, frame.sequence, frame.bus);
+  if (last)
+    hop(frame.end, recording::records::Hop::kSent, frame.pdu, frame.sequence,
+        schedules::model::MediumId::can(frame.bus));
 }
 
-void Executive::slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel,
-                             bus::controller::SlotStatus status, Microticks at) {
+void NodeRecords::slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel,
+                               bus::controller::SlotStatus status, Microticks at) {
   ++counts_.slot_problems;
-  sink_.on(recording::records::SlotProblem{stamp(at), cycle, static_cast<std::uint16_t>(slot),
+  sink_.on(recording::records::SlotProblem{time_.stamp(at), cycle, static_cast<std::uint16_t>(slot),
                                            static_cast<std::uint8_t>(channel), static_cast<std::uint8_t>(status)});
 }
 
-void Executive::clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
-                                const timebase::Correction& rate, Microticks at) {
-  concerned_ = true;
+void NodeRecords::clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
+                                  const timebase::Correction& rate, Microticks at) {
   // One instant by both clocks, from which others take what they were apart by: true time is when this one showed that,
   // however late it was looked at.
-  recording::records::Stamp both = stamp(at);
-  both.true_time = config_.oscillator.time_of(at);
+  recording::records::Stamp both = time_.stamp(at);
+  both.true_time = time_.oscillator().time_of(at);
   sink_.on(recording::records::ClockCorrected{both, cycle, offset.value, rate.value, offset.missing, rate.missing,
                                               offset.limit_reached, rate.limit_reached});
 }
 
-void Executive::symbol_sent(bus::ports::Signal signal, schedules::model::Channel channel, Microticks start,
-                            Microticks end) {
+void NodeRecords::symbol_sent(bus::ports::Signal signal, schedules::model::Channel channel, Microticks start,
+                              Microticks end) {
   // A collision avoidance symbol comes before there is a schedule; within one the same bits are a test of the medium.
   const std::uint8_t kind = signal == bus::ports::Signal::kWakeup ? recording::records::kSymbolWakeup
-                            : flexray_->synchronised()            ? recording::records::kSymbolMediaTest
+                            : time_.global() != nullptr           ? recording::records::kSymbolMediaTest
                                                                   : recording::records::kSymbolCas;
-  sink_.on(recording::records::SymbolSent{stamp(start), stamp(end), static_cast<std::uint8_t>(channel), kind});
+  sink_.on(
+      recording::records::SymbolSent{time_.stamp(start), time_.stamp(end), static_cast<std::uint8_t>(channel), kind});
 }
 
-void Executive::state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) {
-  concerned_ = true;
+void NodeRecords::state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) {
   const bus::poc::PocKind to = step.next.kind;
-  sink_.on(recording::records::StateChanged{stamp(at), static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
-                                            bus::poc::to_text(from), bus::poc::to_text(to),
-                                            bus::poc::to_text(step.reason), bus::poc::to_text(step.consequence)});
+  sink_.on(recording::records::StateChanged{time_.stamp(at), static_cast<std::uint8_t>(from),
+                                            static_cast<std::uint8_t>(to), to_text(from), to_text(to),
+                                            to_text(step.reason), to_text(step.consequence)});
 }
 
-void Executive::hop(const recording::records::Stamp& at, recording::records::Hop what, PduId pdu,
-                    std::uint32_t sequence, int can_bus) {
-  sink_.on(recording::records::ListHop{at, what, pdu, cluster_.pdu(pdu).sensor, sequence,
-                                       static_cast<std::int8_t>(can_bus)});
+void NodeRecords::hop(const recording::records::Stamp& at, recording::records::Hop what, PduId pdu,
+                      std::uint32_t sequence, schedules::model::MediumId medium) {
+  sink_.on(recording::records::ListHop{at, what, pdu, cluster_.pdu(pdu).sensor, sequence, medium.number()});
 }
 
 }  // namespace ttf::nodes::host

@@ -1,11 +1,12 @@
-#include "nodes/host/cold_start.h"
+#include "drives/startup.h"
 
 #include <utility>
 
 #include "core/errors.h"
+#include "core/ids.h"
 #include "core/random.h"
 
-namespace ttf::nodes::host {
+namespace ttf::drives {
 
 Startup load_startup(YamlMap& scenario, Duration latest) {
   Startup startup;
@@ -34,10 +35,10 @@ Startup load_startup(YamlMap& scenario, Duration latest) {
   return startup;
 }
 
-std::vector<NodeStart> node_starts(const Startup& startup, const schedules::model::Cluster& cluster, std::uint64_t seed,
-                                   std::uint32_t replication) {
+std::vector<nodes::host::NodeStart> node_starts(const Startup& startup, const schedules::model::Cluster& cluster,
+                                                std::uint64_t seed, std::uint32_t replication) {
   Findings findings;
-  std::vector<NodeStart> starts(cluster.nodes.size());
+  std::vector<nodes::host::NodeStart> starts(cluster.nodes.size());
   for (std::size_t n = 0; n < starts.size(); ++n) {
     RandomStream stream({seed, replication, Purpose::kPowerOn, static_cast<std::uint16_t>(n), 0});
     starts[n].after = Duration{stream.integer(0, startup.spread.ns)};
@@ -64,13 +65,13 @@ std::vector<NodeStart> node_starts(const Startup& startup, const schedules::mode
       for (std::size_t n = 0; n < starts.size(); ++n) {
         const auto& node = cluster.nodes[n].flexray;
         if (static_cast<NodeId>(n) == *waker)
-          starts[n].how = ColdStart::kWakes;
+          starts[n].how = nodes::host::ColdStart::kWakes;
         else if (node && schedules::model::includes(node->pChannels, flexray->pWakeupChannel))
-          starts[n].how = ColdStart::kSleeps;
+          starts[n].how = nodes::host::ColdStart::kSleeps;
       }
   }
   findings.throw_if_any();
   return starts;
 }
 
-}  // namespace ttf::nodes::host
+}  // namespace ttf::drives

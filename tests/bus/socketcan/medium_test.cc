@@ -1,6 +1,6 @@
 // What is particular to the real-time medium on SocketCAN: what it counts as what, when it says how late a frame left,
 // and interfaces that go away. Its laws: live_laws_test.cc.
-#include "bus/socketcan/live_medium.h"
+#include "bus/socketcan/medium.h"
 
 #include <gtest/gtest.h>
 #include <linux/can/error.h>
@@ -48,7 +48,7 @@ class LiveOnVcan : public ::testing::Test {
     return {.channel = Channel::kA, .slot = slot, .bytes = frame, .tells_late = tells_late};
   }
   // What comes within a second.
-  static std::optional<LiveArrival> next(LiveMedium& medium) {
+  static std::optional<LiveArrival> next(SocketCanMedium& medium) {
     for (int i = 0; i < 1000; ++i) {
       if (auto arrival = medium.receive()) return arrival;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -76,7 +76,7 @@ bool in_virtual_time() {
 
 // Due when its sender did not send it yet: to the nanosecond, where instants can be told that well.
 TEST_F(LiveOnVcan, AFollowUpSaysHowLateTheFrameLeft) {
-  LiveMedium sender(options()), receiver(options());
+  SocketCanMedium sender(options()), receiver(options());
   for (const std::int64_t late_ns : {0, 1'000'000, 123'456'789, -5'000'000, 2'000'000'000}) {
     const Bytes frame = drawn_frame(Channel::kA, 9, 33, 20);
     const HostTime due = ports::host_now() - Duration::nanoseconds(late_ns), begin = ports::host_now();
@@ -107,7 +107,7 @@ TEST_F(LiveOnVcan, AFollowUpSaysHowLateTheFrameLeft) {
 // It goes with the frame, without the sender doing anything more, if nothing stands before the echo.
 TEST_F(LiveOnVcan, AFollowUpIsSentAtOnce) {
   if (!in_virtual_time()) GTEST_SKIP() << "on a busy machine the kernel may take its time for the echo";
-  LiveMedium sender(options()), receiver(options());
+  SocketCanMedium sender(options()), receiver(options());
   const Bytes frame = drawn_frame(Channel::kA, 9, 33, 20);
   std::size_t told = 0;
   for (int i = 0; i < 20; ++i) {
@@ -120,7 +120,7 @@ TEST_F(LiveOnVcan, AFollowUpIsSentAtOnce) {
 
 // What another has sent stands before the echo: it is handed over first, and stays readable until then (L8).
 TEST_F(LiveOnVcan, AFollowUpWaitsForWhatIsStillToBeReceived) {
-  LiveMedium sender(options()), receiver(options());
+  SocketCanMedium sender(options()), receiver(options());
   const Bytes others = drawn_frame(Channel::kA, 2, 33, 20), own = drawn_frame(Channel::kA, 9, 33, 20);
   ASSERT_EQ(receiver.send(signal(others, 2), {}), LiveStatus::kDone);
   const HostTime due = ports::host_now();
@@ -140,7 +140,7 @@ TEST_F(LiveOnVcan, AFollowUpWaitsForWhatIsStillToBeReceived) {
 }
 
 TEST_F(LiveOnVcan, OnlyWhatIsToTellItIsFollowedUp) {
-  LiveMedium sender(options()), receiver(options());
+  SocketCanMedium sender(options()), receiver(options());
   const Bytes frame = drawn_frame(Channel::kA, 9, 33, 20);
   ASSERT_EQ(sender.send(signal(frame, 9, false), {}), LiveStatus::kDone);
   ASSERT_EQ(sender.send({.channel = Channel::kA, .signal = ports::Signal::kCas, .duration = {5'700}, .bytes = {}}, {}),
@@ -160,7 +160,7 @@ TEST_F(LiveOnVcan, OnlyWhatIsToTellItIsFollowedUp) {
 
 // Strangers' frames may bear any stamp: a queue's transmission time, for one.
 TEST_F(LiveOnVcan, NothingArrivesInTheFuture) {
-  LiveMedium receiver(options());
+  SocketCanMedium receiver(options());
   Socket socket = stranger(0);
   const sock_txtime with{.clockid = CLOCK_MONOTONIC, .flags = 0};
   ASSERT_EQ(setsockopt(socket.descriptor(), SOL_SOCKET, SO_TXTIME, &with, sizeof with), 0);
@@ -189,7 +189,7 @@ TEST_F(LiveOnVcan, NothingArrivesInTheFuture) {
 
 // As cangen writes them: classic and FD, 29 bits, remote and error frames.
 TEST_F(LiveOnVcan, ForeignFramesAreCountedAndNotHandedOver) {
-  LiveMedium medium(options());
+  SocketCanMedium medium(options());
   Socket on_a = stranger(0), on_can = stranger(2);
   const std::vector<canfd_frame> never_ours{can_of(5, 8, CANFD_FDF) /* of zeros: malformed */,
                                             can_of(5, 8, 0),
@@ -214,7 +214,7 @@ TEST_F(LiveOnVcan, ForeignFramesAreCountedAndNotHandedOver) {
 
 // Whether a CAN FD frame is all right on that CAN is for the controller to say; it has to know of it.
 TEST_F(LiveOnVcan, EveryDataFrameOfAPrivateCanIsHandedOver) {
-  LiveMedium medium(options());
+  SocketCanMedium medium(options());
   Socket socket = stranger(2);
   ASSERT_EQ(socket.send(can_of(0x7ff, 3, 0)), Status::kDone);
   ASSERT_EQ(socket.send(can_of(0, 12, CANFD_FDF)), Status::kDone);
@@ -236,7 +236,7 @@ TEST_F(LiveOnVcan, EveryDataFrameOfAPrivateCanIsHandedOver) {
 }
 
 TEST_F(LiveOnVcan, WhatHasNoRoomIsCountedAsLost) {
-  LiveMedium sender(options()), receiver(options(16));
+  SocketCanMedium sender(options()), receiver(options(16));
   const Bytes frame = drawn_frame(Channel::kA, 9, 33, 28);
   constexpr std::uint64_t kSent = 300;
   for (std::uint64_t i = 0; i < kSent; ++i) ASSERT_EQ(sender.send(signal(frame, 9), {}), LiveStatus::kDone);
@@ -252,7 +252,7 @@ TEST_F(LiveOnVcan, WhatHasNoRoomIsCountedAsLost) {
 
 // A frame that was begun is lost, a fragment that continues nothing is malformed.
 TEST_F(LiveOnVcan, FragmentsThatMakeNoFrameAreCounted) {
-  LiveMedium medium(options());
+  SocketCanMedium medium(options());
   Socket socket = stranger(0);
   const CanFrames can = frame_to_can(70, drawn_frame(Channel::kA, 70, 1, 60));
   ASSERT_EQ(can.count, 3u);
@@ -266,7 +266,7 @@ TEST_F(LiveOnVcan, FragmentsThatMakeNoFrameAreCounted) {
 
 // While one line is flooded.
 TEST_F(LiveOnVcan, EveryLineHasItsTurn) {
-  LiveMedium sender(options()), receiver(options(2048));
+  SocketCanMedium sender(options()), receiver(options(2048));
   const Bytes frame = drawn_frame(Channel::kA, 9, 33, 4);
   for (int i = 0; i < 1000; ++i) ASSERT_EQ(sender.send(signal(frame, 9), {}), LiveStatus::kDone);
   ASSERT_EQ(sender.send_can(0, {.identifier = 1, .flexible_data_rate = false, .data = {}}), LiveStatus::kDone);
@@ -280,7 +280,7 @@ TEST_F(LiveOnVcan, EveryLineHasItsTurn) {
 }
 
 TEST_F(LiveOnVcan, ANodeIsOnlyOnItsOwnLines) {
-  LiveMedium on_b({.channels = {"", vcans_[1]}, .cans = {{}}, .receive_buffer_frames = 64}), on_all(options());
+  SocketCanMedium on_b({.channels = {"", vcans_[1]}, .cans = {{}}, .receive_buffer_frames = 64}), on_all(options());
   EXPECT_EQ(on_b.descriptor(0), -1);
   EXPECT_GE(on_b.descriptor(1), 0);
   EXPECT_EQ(on_b.descriptor(2), -1);
@@ -294,7 +294,7 @@ TEST_F(LiveOnVcan, ANodeIsOnlyOnItsOwnLines) {
 
 // Those of the other lines go on; what had come before is handed over.
 TEST_F(LiveOnVcan, AnInterfaceThatGoesDownIsAFailure) {
-  LiveMedium sender(options()), receiver(options());
+  SocketCanMedium sender(options()), receiver(options());
   const Bytes frame = drawn_frame(Channel::kA, 9, 33, 4);
   ASSERT_EQ(sender.send(signal(frame, 9), {}), LiveStatus::kDone);
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -321,7 +321,7 @@ TEST_F(LiveOnVcan, AnInterfaceThatGoesDownIsAFailure) {
 }
 
 TEST_F(LiveOnVcan, AnInterfaceThatIsRemovedIsAFailure) {
-  LiveMedium medium(options());
+  SocketCanMedium medium(options());
   ASSERT_TRUE(run("ip link set " + vcans_[2] + " down && ip link del dev " + vcans_[2]));
   EXPECT_FALSE(medium.receive());
   EXPECT_FALSE(medium.receive());
@@ -332,18 +332,18 @@ TEST_F(LiveOnVcan, AnInterfaceThatIsRemovedIsAFailure) {
 
 TEST_F(LiveOnVcan, SmallerReceiveBuffersAreToldOneByOne) {
   ASSERT_EQ(seteuid(65534), 0);  // without CAP_NET_ADMIN
-  const LiveMedium medium(options(1'000'000));
+  const SocketCanMedium medium(options(1'000'000));
   ASSERT_EQ(seteuid(0), 0);
   ASSERT_EQ(medium.shortages().size(), 3u);
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(medium.shortages()[i].rfind(vcans_[i] + ": the receive buffer holds ", 0), 0u) << medium.shortages()[i];
-  EXPECT_TRUE(LiveMedium(options()).shortages().empty());
+  EXPECT_TRUE(SocketCanMedium(options()).shortages().empty());
 }
 
 TEST_F(LiveOnVcan, TwoLinesHaveTwoInterfaces) {
   LiveOptions options{.channels = {vcans_[0], vcans_[0]}, .cans = {}};
   try {
-    const LiveMedium medium(options);
+    const SocketCanMedium medium(options);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "vcan93: is to carry two lines: each needs an interface of its own");
@@ -351,11 +351,11 @@ TEST_F(LiveOnVcan, TwoLinesHaveTwoInterfaces) {
 }
 
 // On any machine.
-TEST(LiveMediumWithout, AnInterfaceIsAClearError) {
+TEST(SocketCanMediumWithout, AnInterfaceIsAClearError) {
   const std::string problem = interface_problem("vcan98", interface_state("vcan98"), true);
   ASSERT_NE(problem, "");
   try {
-    const LiveMedium medium({.channels = {"vcan98", ""}, .cans = {}});
+    const SocketCanMedium medium({.channels = {"vcan98", ""}, .cans = {}});
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()), "vcan98: " + problem);

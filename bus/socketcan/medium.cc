@@ -1,4 +1,4 @@
-#include "bus/socketcan/live_medium.h"
+#include "bus/socketcan/medium.h"
 
 #include <algorithm>
 #include <set>
@@ -19,7 +19,7 @@ bool is_can_fd(const canfd_frame& can) { return (can.flags & CANFD_FDF) != 0; }
 
 }  // namespace
 
-LiveMedium::LiveMedium(const LiveOptions& options) {
+SocketCanMedium::SocketCanMedium(const LiveOptions& options) {
   std::set<std::string> named;
   const auto join = [&](const std::string& interface, bool flexible, std::optional<FlexRay> flexray) {
     if (interface.empty()) {
@@ -42,12 +42,12 @@ LiveMedium::LiveMedium(const LiveOptions& options) {
   failure_.reserve(kLongestFailure);
 }
 
-LiveMedium::OnLine& LiveMedium::on(ports::Line line) {
+SocketCanMedium::OnLine& SocketCanMedium::on(ports::Line line) {
   TTF_CHECK(line < lines_.size() && lines_[line], "line {}: this node is not on it", line);
   return *lines_[line];
 }
 
-ports::LiveStatus LiveMedium::done(Status status, const OnLine& line) {
+ports::LiveStatus SocketCanMedium::done(Status status, const OnLine& line) {
   switch (status) {
     case Status::kDone:
     case Status::kNothing: return ports::LiveStatus::kDone;
@@ -60,14 +60,14 @@ ports::LiveStatus LiveMedium::done(Status status, const OnLine& line) {
   return ports::LiveStatus::kFailed;
 }
 
-ports::LiveStatus LiveMedium::send_all(OnLine& line, std::span<const canfd_frame> frames) {
+ports::LiveStatus SocketCanMedium::send_all(OnLine& line, std::span<const canfd_frame> frames) {
   for (const canfd_frame& can : frames)
     if (const Status status = line.socket.send(can); status != Status::kDone) return done(status, line);
   ++sent_;
   return ports::LiveStatus::kDone;
 }
 
-ports::LiveStatus LiveMedium::send(const ports::LiveSignal& signal, ports::HostTime due) {
+ports::LiveStatus SocketCanMedium::send(const ports::LiveSignal& signal, ports::HostTime due) {
   OnLine& line = on(ports::line_of(signal.channel));
   if (signal.signal != ports::Signal::kFrame) {
     const canfd_frame can = symbol_to_can(signal.channel, signal.signal, signal.duration);
@@ -83,7 +83,7 @@ ports::LiveStatus LiveMedium::send(const ports::LiveSignal& signal, ports::HostT
   return status;
 }
 
-ports::LiveStatus LiveMedium::send_can(std::size_t can_bus, const ports::CanFrame& frame) {
+ports::LiveStatus SocketCanMedium::send_can(std::size_t can_bus, const ports::CanFrame& frame) {
   TTF_CHECK(frame.identifier <= CAN_SFF_MASK, "identifier {}", frame.identifier);
   TTF_CHECK(frame.flexible_data_rate ? can_fd_length(frame.data.size()) == frame.data.size()
                                      : frame.data.size() <= CAN_MAX_DLEN,
@@ -98,7 +98,7 @@ ports::LiveStatus LiveMedium::send_can(std::size_t can_bus, const ports::CanFram
 
 // What of this node's own frames is first in line; nobody waits for what has not left yet. A kernel that left the echo
 // for later gets on with it at the first look.
-void LiveMedium::confirm(OnLine& line) {
+void SocketCanMedium::confirm(OnLine& line) {
   for (int look = 0; look < 2; ++look) {
     Status status = Status::kDone;
     while ((status = line.socket.receive_own(own_)) == Status::kDone) confirmed(line, own_);
@@ -107,14 +107,14 @@ void LiveMedium::confirm(OnLine& line) {
   }
 }
 
-void LiveMedium::confirmed(OnLine& line, const Received& own) {
+void SocketCanMedium::confirmed(OnLine& line, const Received& own) {
   FlexRay& flexray = *line.flexray;
   if (flexray.departures.none()) return;
   if (const auto told = flexray.departures.left(own.can, on_host(own.stamp_ns, clock_pair())))
     done(line.socket.send(follow_up_to_can(flexray.channel, *told)), line);
 }
 
-std::optional<ports::LiveArrival> LiveMedium::receive() {
+std::optional<ports::LiveArrival> SocketCanMedium::receive() {
   std::size_t idle = 0;
   for (int looked_at = 0; idle < lines_.size() && looked_at < kMostAtOnce;) {
     const ports::Line line = turn_;
@@ -139,7 +139,7 @@ std::optional<ports::LiveArrival> LiveMedium::receive() {
 }
 
 // What has just been received on this line, if it is to be handed over.
-std::optional<ports::LiveArrival> LiveMedium::take(ports::Line number) {
+std::optional<ports::LiveArrival> SocketCanMedium::take(ports::Line number) {
   OnLine& line = *lines_[number];
   if (received_.own) {
     confirmed(line, received_);
@@ -154,7 +154,7 @@ std::optional<ports::LiveArrival> LiveMedium::take(ports::Line number) {
   return arrival;
 }
 
-bool LiveMedium::take_signal(FlexRay& flexray, ports::LiveArrival& arrival) const {
+bool SocketCanMedium::take_signal(FlexRay& flexray, ports::LiveArrival& arrival) const {
   const Arrival arrived = flexray.reassembly.arrive(received_.can);
   if (arrived.outcome != Outcome::kComplete) return false;
   arrival.signal.channel = flexray.channel;
@@ -172,7 +172,7 @@ bool LiveMedium::take_signal(FlexRay& flexray, ports::LiveArrival& arrival) cons
   return true;
 }
 
-bool LiveMedium::take_can(OnLine& line, ports::LiveArrival& arrival) const {
+bool SocketCanMedium::take_can(OnLine& line, ports::LiveArrival& arrival) const {
   const canfd_frame& can = received_.can;
   if (can.can_id > CAN_SFF_MASK) return ++line.foreign, false;  // any of the flags, or 29 bits
   const std::size_t most = is_can_fd(can) ? CANFD_MAX_DLEN : CAN_MAX_DLEN;
@@ -182,12 +182,12 @@ bool LiveMedium::take_can(OnLine& line, ports::LiveArrival& arrival) const {
   return true;
 }
 
-int LiveMedium::descriptor(ports::Line line) const {
+int SocketCanMedium::descriptor(ports::Line line) const {
   TTF_CHECK(line < lines_.size(), "line {} of {}", line, lines_.size());
   return lines_[line] ? lines_[line]->socket.descriptor() : -1;
 }
 
-ports::LiveCounts LiveMedium::counts() const {
+ports::LiveCounts SocketCanMedium::counts() const {
   ports::LiveCounts counts{.sent = sent_, .received = received_count_, .not_sent = not_sent_};
   for (const std::optional<OnLine>& line : lines_) {
     if (!line) continue;
@@ -203,7 +203,7 @@ ports::LiveCounts LiveMedium::counts() const {
   return counts;
 }
 
-std::vector<std::string> LiveMedium::shortages() const {
+std::vector<std::string> SocketCanMedium::shortages() const {
   std::vector<std::string> sentences;
   for (const std::optional<OnLine>& line : lines_)
     if (line && !line->socket.shortage().empty()) sentences.push_back(line->socket.shortage());

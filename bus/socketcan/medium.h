@@ -40,10 +40,10 @@ struct LiveOptions {
   int receive_buffer_frames = 16'384;   // of each interface
 };
 
-class LiveMedium final : public ports::LiveMedium {
+class SocketCanMedium final : public ports::LiveMedium {
  public:
   // Throws InputError where kernel or interfaces are not as they must be, or two lines are to share one.
-  explicit LiveMedium(const LiveOptions& options);
+  explicit SocketCanMedium(const LiveOptions& options);
 
   ports::LiveStatus send(const ports::LiveSignal& signal, ports::HostTime due) override;
   ports::LiveStatus send_can(std::size_t can_bus, const ports::CanFrame& frame) override;

@@ -1,0 +1,131 @@
+// The wiring alone, on media made for the test: a medium needs no more than to be registered.
+#include "nodes/host/wiring.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/nodes/host/one_node.h"
+
+namespace ttf::nodes::host {
+namespace {
+
+constexpr PduId kOther{1};
+constexpr schedules::model::MediumId kFirst = schedules::model::MediumId::can(0),
+                                     kSecond = schedules::model::MediumId::can(1);
+
+// What goes into it stays there; what comes out of it the test has put there.
+struct Box final : ListMedium {
+  struct Content {
+    std::map<PduId, std::unique_ptr<bus::cni::IncomingList>> incoming;
+    std::vector<std::uint32_t> sent;  // sequences
+  };
+  const schedules::model::Cluster& cluster;
+  Content& content;
+  Box(const schedules::model::Cluster& of, Content& in) : cluster(of), content(in) {}
+  bus::cni::IncomingList& incoming(PduId pdu) override {
+    auto& list = content.incoming[pdu];
+    if (!list) list = std::make_unique<bus::cni::IncomingList>(cluster.pdu(pdu));
+    return *list;
+  }
+  void send(PduId, const bus::cni::ListView& list) override { content.sent.push_back(list.sequence); }
+};
+
+struct Hops final : recording::records::Sink {
+  using recording::records::Sink::on;
+  struct Hop {
+    recording::records::Hop what;
+    std::uint32_t sequence;
+    int medium;
+    bool operator==(const Hop&) const = default;
+  };
+  using All = std::vector<Hop>;
+  All hops;
+  void on(const recording::records::ListHop& hop) override { hops.push_back({hop.hop, hop.sequence, hop.can_bus}); }
+};
+
+// Task 0 is activated by kList from the first medium; task 1 reads it, too, and kOther from the second.
+struct Wired {
+  schedules::model::Cluster cluster = bus::small_cluster(1);
+  NodeTime time{NodeId{0}, timebase::Oscillator(25'000, 0, 0), nullptr};
+  Hops told;
+  NodeRecords records{cluster, time, told};
+  Box::Content first, second;
+  std::optional<Wiring> wiring;
+
+  Wired() {
+    schedules::model::Task reader = task("reader", 10), both = task("both", 10);
+    reader.reads = {{"in", bus::kList, kFirst, 0}};
+    reader.writes = {{"out", kOther, kSecond, 0}};
+    reader.activation = {schedules::model::ActivationKind::kMessage, {}, "in", kNoSensor, ""};
+    both.reads = {{"x", kOther, kSecond, 0}, {"y", bus::kList, kFirst, 0}};
+    cluster.nodes[0].tasks = {reader, both};
+    std::vector<Connection> media;
+    media.push_back({kFirst, std::make_unique<Box>(cluster, first)});
+    media.push_back({kSecond, std::make_unique<Box>(cluster, second)});
+    wiring.emplace(cluster, cluster.nodes[0], std::move(media), time, records);
+  }
+  // A whole list comes, over that medium as the wiring is told.
+  std::vector<std::size_t> comes(schedules::model::MediumId medium, PduId pdu, std::uint32_t sequence) {
+    bus::MadeList list(cluster.pdu(pdu), sequence, 3, 0);
+    bus::cni::IncomingList& incoming = *(medium == kFirst ? first : second).incoming.at(pdu);
+    const bus::cni::ArrivalEffect effect = incoming.arrive(list.fragment(0));
+    const auto set_off = wiring->arrived({medium, pdu, effect, incoming.arrived(), incoming.torn()}, Microticks{});
+    return {set_off.begin(), set_off.end()};
+  }
+};
+
+using H = recording::records::Hop;
+
+TEST(Wiring, AListActivatesWhomItIsToAndIsToldOnce) {
+  Wired wired;
+  EXPECT_EQ(wired.comes(kFirst, bus::kList, 1), (std::vector<std::size_t>{0}));
+  EXPECT_EQ(wired.told.hops, (Hops::All{{H::kReceived, 1, 0}})) << "two tasks read it";
+  EXPECT_TRUE(wired.comes(kSecond, kOther, 5).empty()) << "it is read, and activates nobody";
+}
+
+TEST(Wiring, WhatNobodyHasReadIsOverwrittenForEachOfItsReaders) {
+  Wired wired;
+  wired.comes(kFirst, bus::kList, 1);
+  EXPECT_TRUE(wired.wiring->read(0, {})[0].fresh);
+  wired.told.hops.clear();
+  wired.comes(kFirst, bus::kList, 2);
+  EXPECT_EQ(wired.told.hops, (Hops::All{{H::kReceived, 2, 0}, {H::kOverwritten, 1, 0}})) << "task 1 has not read it";
+  wired.told.hops.clear();
+  wired.comes(kFirst, bus::kList, 3);
+  EXPECT_EQ(wired.told.hops, (Hops::All{{H::kReceived, 3, 0}, {H::kOverwritten, 2, 0}, {H::kOverwritten, 2, 0}}));
+  EXPECT_EQ(wired.records.counts().overwritten_lists, 3u);
+}
+
+TEST(Wiring, ATaskIsGivenWhatItReadsAndItsUnusableInputsAreTold) {
+  Wired wired;
+  wired.comes(kFirst, bus::kList, 1);
+  const std::span<Input> inputs = wired.wiring->read(1, {});
+  ASSERT_EQ(inputs.size(), 2u);
+  EXPECT_FALSE(inputs[0].list.has_value());
+  ASSERT_TRUE(inputs[1].fresh);
+  EXPECT_EQ(inputs[1].list->sequence, 1u);
+  inputs[1].discarded = true;
+  wired.wiring->tell_discarded(1, {});
+  EXPECT_EQ(wired.told.hops.back(), (Hops::Hop{H::kDiscarded, 1, 0}));
+  EXPECT_EQ(wired.records.counts().discarded_lists, 1u);
+}
+
+TEST(Wiring, AnOutputLeavesOverItsMediumOnce) {
+  Wired wired;
+  wired.wiring->outputs(0)[0].begin(9, 3, GlobalTime{});
+  wired.wiring->write(0, {});
+  wired.wiring->write(0, {});
+  EXPECT_EQ(wired.second.sent, (std::vector<std::uint32_t>{9}));
+  EXPECT_EQ(wired.told.hops, (Hops::All{{H::kWritten, 9, 1}}));
+  EXPECT_TRUE(wired.first.sent.empty());
+}
+
+TEST(Wiring, TheSameListOverAnotherMediumIsAnotherList) {
+  Wired wired;
+  EXPECT_TRUE(wired.wiring->arrived({kSecond, bus::kList, bus::cni::ArrivalEffect::kCompleted, 1, {}}, {}).empty());
+  EXPECT_TRUE(wired.told.hops.empty()) << "no task reads it from there";
+}
+
+}  // namespace
+}  // namespace ttf::nodes::host
