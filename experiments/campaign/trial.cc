@@ -7,6 +7,7 @@
 #include "bus/wire/pdu_codec.h"
 #include "core/check.h"
 #include "core/random.h"
+#include "evaluation/faults/reach.h"
 #include "faults/believed_schedule.h"
 #include "schedules/check/checker.h"
 #include "sim/crank/bus_simulation.h"
@@ -90,7 +91,6 @@ class Trial final : public sim::medium::Disturbance, public sim::crank::Plant, p
         node.power_on = TrueTime{stream(Purpose::kCampaign, n + 1).integer(0, cluster.cycle().ns * kCyclesToPowerOn)};
       } else {
         node.clock = integrated(node.oscillator, origin, *cluster.nodes[n].flexray);
-        judge_.begins_active(id);
       }
       nodes.push_back(node);
       witnesses_.push_back(std::make_unique<Witness>(*this, id));
