@@ -28,8 +28,7 @@ class Resolver {
     check_receivers();
     check_slot();
     check_bits();
-    check_coldstart();
-    check_wires();
+    check_demand();
     check_belief();
   }
 
@@ -49,30 +48,30 @@ class Resolver {
   }
   void check_slot() {
     const int slots = cluster_.flexray.gNumberOfStaticSlots;
-    const bool shifts = fault_->kind == FaultKind::kWrongSchedule && fault_->wrong == WrongSchedule::kShiftedSlots;
     if (fault_->slot > slots) fail_number("slot", fault_->slot, fmt::format("must be 1..{}", slots));
-    for (const schedules::model::FrameSlot& frame : cluster_.frames)
-      if (fault_->kind == FaultKind::kMasquerading && frame.slot == fault_->slot && frame.sender == fault_->node)
-        return fail_number("slot", fault_->slot, "must be another's slot");
-    if (shifts && fault_->by >= slots) fail_number("by", fault_->by, fmt::format("must be 1..{}", slots - 1));
+    if (takes(fault_->kind, FaultParameter::kMasquerade))
+      for (const schedules::model::FrameSlot& frame : cluster_.frames)
+        if (frame.slot == fault_->slot && frame.sender == fault_->node)
+          return fail_number("slot", fault_->slot, "must be another's slot");
+    if (takes(fault_->kind, FaultParameter::kWrongSchedule) && fault_->wrong == WrongSchedule::kShiftedSlots &&
+        fault_->by >= slots)
+      fail_number("by", fault_->by, fmt::format("must be 1..{}", slots - 1));
   }
   void check_bits() {
+    if (!takes(fault_->kind, FaultParameter::kPayloadBits)) return;
     const int bits = 16 * cluster_.flexray.gPayloadLengthStatic;
-    if (fault_->kind != FaultKind::kBitFlipPayload) return;
     for (const int bit : fault_->bits)
       if (bit >= bits) fail_number("bits", bit, fmt::format("must be 0..{} in a static frame", bits - 1));
   }
-  void check_coldstart() {
-    const bool starts = fault_->kind == FaultKind::kLoneColdstart || fault_->kind == FaultKind::kDuplicateColdstart;
-    if (!starts || fault_->node == kNoNode || !cluster_.node(fault_->node).flexray) return;
-    if (!cluster_.node(fault_->node).flexray->pKeySlotUsedForStartup)
-      fail("node", cluster_.node(fault_->node).name, "must be a coldstart node");
-  }
-  void check_wires() {
-    if (fault_->kind != FaultKind::kChannelSwap || fault_->node == kNoNode) return;
-    const auto& parameters = cluster_.node(fault_->node).flexray;
-    if (parameters && parameters->pChannels != schedules::model::Channels::kAB)
-      fail("node", cluster_.node(fault_->node).name, "must be on both channels");
+  void check_demand() {
+    if (fault_->node == kNoNode) return;
+    const schedules::model::Node& node = cluster_.node(fault_->node);
+    const NodeDemand demand = row_of(fault_->kind).demand;
+    if (demand == NodeDemand::kColdstart && node.flexray && !node.flexray->pKeySlotUsedForStartup)
+      fail("node", node.name, "must be a coldstart node");
+    if (demand == NodeDemand::kBothChannels && node.flexray &&
+        node.flexray->pChannels != schedules::model::Channels::kAB)
+      fail("node", node.name, "must be on both channels");
   }
   void check_belief() {
     if (!changes_schedule(*fault_) || !findings_.empty()) return;
@@ -105,31 +104,6 @@ class Resolver {
 };
 
 }  // namespace
-
-std::string_view name_of(FaultKind kind) {
-  switch (kind) {
-    case FaultKind::kCrash: return "crash";
-    case FaultKind::kOmission: return "omission";
-    case FaultKind::kBabblingIdiot: return "babbling_idiot";
-    case FaultKind::kMasquerading: return "masquerading";
-    case FaultKind::kSosTiming: return "sos_timing";
-    case FaultKind::kSosValue: return "sos_value";
-    case FaultKind::kBitFlipHeader: return "bit_flip_header";
-    case FaultKind::kBitFlipPayload: return "bit_flip_payload";
-    case FaultKind::kBitFlipTrailer: return "bit_flip_trailer";
-    case FaultKind::kChannelSwap: return "channel_swap";
-    case FaultKind::kByzantineClock: return "byzantine_clock";
-    case FaultKind::kDrift: return "drift";
-    case FaultKind::kLoneColdstart: return "lone_coldstart";
-    case FaultKind::kDuplicateColdstart: return "duplicate_coldstart";
-    case FaultKind::kWrongSchedule: return "wrong_schedule";
-    case FaultKind::kNoise: return "noise";
-    case FaultKind::kTransient: return "transient";
-  }
-  TTF_CHECK(false, "fault kind {}", static_cast<int>(kind));
-}
-
-bool has_node(FaultKind kind) { return kind != FaultKind::kNoise && kind != FaultKind::kTransient; }
 
 FaultPlan resolve(FaultPlan plan, const Cluster& cluster) {
   Findings findings;

@@ -8,7 +8,6 @@
 // docs/faults.md says what every kind does and which check should see it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -19,41 +18,10 @@
 #include "core/ids.h"
 #include "core/strict_yaml.h"
 #include "core/time.h"
+#include "faults/kinds.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::faults {
-
-// Values are part of recordings and campaigns' streams: append only.
-enum class FaultKind : std::uint8_t {
-  kCrash,          // the node loses its supply; with a duration it starts cold afterwards
-  kOmission,       // frames do not leave it, or do not reach it
-  kBabblingIdiot,  // it sends besides its schedule
-  kMasquerading,   // it sends what claims to be another's
-  kSosTiming,      // slightly off the specification: frames early or late, so that receivers disagree
-  kSosValue,       // the same of the signal's shape: some receivers cannot make it out
-  kBitFlipHeader,  // bits of its frames are inverted on the way
-  kBitFlipPayload,
-  kBitFlipTrailer,
-  kChannelSwap,         // what it sends on one channel appears on the other
-  kByzantineClock,      // its frames say another time to every receiver
-  kDrift,               // its oscillator runs at another rate
-  kLoneColdstart,       // the only coldstart node that has a supply
-  kDuplicateColdstart,  // it starts the cluster while others do, or again and again
-  kWrongSchedule,       // it believes in another schedule than the cluster's
-  kNoise,               // activity on a channel that nobody sent
-  kTransient,           // everything on the channels is destroyed
-};
-inline constexpr std::array kAllFaultKinds = {
-    FaultKind::kCrash,          FaultKind::kOmission,           FaultKind::kBabblingIdiot,  FaultKind::kMasquerading,
-    FaultKind::kSosTiming,      FaultKind::kSosValue,           FaultKind::kBitFlipHeader,  FaultKind::kBitFlipPayload,
-    FaultKind::kBitFlipTrailer, FaultKind::kChannelSwap,        FaultKind::kByzantineClock, FaultKind::kDrift,
-    FaultKind::kLoneColdstart,  FaultKind::kDuplicateColdstart, FaultKind::kWrongSchedule,  FaultKind::kNoise,
-    FaultKind::kTransient,
-};
-// As in YAML: "babbling_idiot".
-std::string_view name_of(FaultKind kind);
-// Whether it is one node's; noise and transients are the medium's.
-bool has_node(FaultKind kind);
 
 enum class FaultDirection : std::uint8_t { kSend = 1, kReceive = 2, kBoth = 3 };
 enum class FaultSignal : std::uint8_t { kNoise, kFrame };
@@ -78,31 +46,6 @@ enum class WrongSchedule : std::uint8_t {
   kPayloadLength,  // static frames are `by` words longer
   kKeySlot,        // the key slot is `slot`
 };
-
-// What these are called in YAML, under `direction`, `signal`, `mode`, `pattern` and `others`.
-template <class Value> struct Named {
-  std::string_view name;
-  Value value;
-};
-inline constexpr std::array<Named<FaultDirection>, 3> kDirectionNames{
-    {{"send", FaultDirection::kSend}, {"receive", FaultDirection::kReceive}, {"both", FaultDirection::kBoth}}};
-inline constexpr std::array<Named<FaultSignal>, 2> kSignalNames{
-    {{"noise", FaultSignal::kNoise}, {"frame", FaultSignal::kFrame}}};
-inline constexpr std::array<Named<MasqueradeMode>, 2> kMasqueradeNames{
-    {{"in_slot", MasqueradeMode::kInSlot}, {"own_slot", MasqueradeMode::kOwnSlot}}};
-inline constexpr std::array<Named<ByzantinePattern>, 3> kPatternNames{{{"random", ByzantinePattern::kRandom},
-                                                                       {"pull_apart", ByzantinePattern::kPullApart},
-                                                                       {"pull_rates", ByzantinePattern::kPullRates}}};
-inline constexpr std::array<Named<DuplicateMode>, 3> kDuplicateNames{{{"cas", DuplicateMode::kCas},
-                                                                      {"startup_frames", DuplicateMode::kStartupFrames},
-                                                                      {"same_key_slot", DuplicateMode::kSameKeySlot}}};
-inline constexpr std::array<Named<WrongSchedule>, 5> kWrongScheduleNames{
-    {{"shifted_slots", WrongSchedule::kShiftedSlots},
-     {"cycle_length", WrongSchedule::kCycleLength},
-     {"static_slot", WrongSchedule::kStaticSlot},
-     {"payload_length", WrongSchedule::kPayloadLength},
-     {"key_slot", WrongSchedule::kKeySlot}}};
-inline constexpr std::array<Named<bool>, 2> kAllOthersNames{{{"coldstart", false}, {"all", true}}};
 
 // One fault. Times count from the start of cycle 0; in a cold run from its time zero. Which members a kind has is
 // what its keys in docs/faults.md say; the others are left as they are here.
@@ -149,6 +92,9 @@ struct Fault {
   bool operator==(const Fault&) const = default;
 };
 inline constexpr std::int64_t kMostDriftPpb = 50'000'000;
+
+// Whether the fault has the parameter, which its kind takes: some modes do without.
+bool applies(FaultParameter parameter, const Fault& fault);
 
 struct FaultPlan {
   std::string file;  // for messages

@@ -87,20 +87,20 @@ bool has_covariance(const fusion::sensors::Observation& observation) {
   return fusion::filters::positive_definite<2>(fusion::linear::Matrix<2>(observation.r.topLeftCorner<2, 2>()));
 }
 
-bool arrives_before(const ListArrival& a, const ListArrival& b) {
+bool arrives_before(const RecordedList& a, const RecordedList& b) {
   return std::tuple(a.arrival, a.measured, a.id.sensor) < std::tuple(b.arrival, b.measured, b.id.sensor);
 }
 
 // Numbers the lists of each sensor by their time, and those that were heard before by their arrival.
-void give_numbers(std::vector<ListArrival>& lists, std::size_t sensors) {
+void give_numbers(std::vector<RecordedList>& lists, std::size_t sensors) {
   std::stable_sort(lists.begin(), lists.end(), arrives_before);
   std::vector<std::map<GlobalTime, std::uint32_t>> times(sensors), heard(sensors);
-  for (const ListArrival& list : lists) times[index_of(list.id.sensor)].emplace(list.measured, 0);
+  for (const RecordedList& list : lists) times[index_of(list.id.sensor)].emplace(list.measured, 0);
   for (auto& of_sensor : times) {
     std::uint32_t next = 0;
     for (auto& time : of_sensor) time.second = next++;
   }
-  for (ListArrival& list : lists) {
+  for (RecordedList& list : lists) {
     const std::size_t s = index_of(list.id.sensor);
     list.id.sequence = times[s][list.measured];
     list.copy = heard[s][list.measured]++;
@@ -122,11 +122,11 @@ void list_sensors(ReplayConfig& config, const std::vector<ObservationRow>& rows,
   for (const std::string& sensor : seen) config.sensors.emplace_back(sensor, any);
 }
 
-Arrivals arrivals_of(const std::vector<ObservationRow>& rows, const ReplayConfig& config, const std::string& name,
-                     Findings& findings) {
-  Arrivals arrivals;
-  for (const auto& sensor : config.sensors) arrivals.sensors.push_back(sensor.first);
-  arrivals.classes = classes_of(rows, name);
+RecordedLists recorded_lists_of(const std::vector<ObservationRow>& rows, const ReplayConfig& config,
+                                const std::string& name, Findings& findings) {
+  RecordedLists recorded;
+  for (const auto& sensor : config.sensors) recorded.sensors.push_back(sensor.first);
+  recorded.classes = classes_of(rows, name);
   struct Place {
     std::size_t sensor;
     std::int64_t time, arrival;
@@ -134,25 +134,25 @@ Arrivals arrivals_of(const std::vector<ObservationRow>& rows, const ReplayConfig
   };
   std::map<Place, std::size_t> list_at;
   for (const ObservationRow& row : rows) {
-    const auto known = std::find(arrivals.sensors.begin(), arrivals.sensors.end(), row.sensor);
-    if (known == arrivals.sensors.end()) {
+    const auto known = std::find(recorded.sensors.begin(), recorded.sensors.end(), row.sensor);
+    if (known == recorded.sensors.end()) {
       findings.add({name, row.line, "sensor", row.sensor,
-                    fmt::format("must be a sensor of {}: {}", config.file, joined(arrivals.sensors, " or "))});
+                    fmt::format("must be a sensor of {}: {}", config.file, joined(recorded.sensors, " or "))});
       continue;
     }
-    const auto s = static_cast<std::size_t>(known - arrivals.sensors.begin());
+    const auto s = static_cast<std::size_t>(known - recorded.sensors.begin());
     fusion::sensors::Observation observation = observation_of(row, config.sensors[s].second.noise);
     if (!has_covariance(observation)) {
       findings.add({name, row.line, "covariance", "", "must be positive definite, and more than rounding"});
       continue;
     }
-    take_unfiltered(observation, row, arrivals.classes);
+    take_unfiltered(observation, row, recorded.classes);
     fusion::sensors::place(observation, static_cast<SensorId>(s), config.sensors[s].second.known);
-    const auto [place, is_new] = list_at.emplace(Place{s, row.time_ns, row.arrival_ns}, arrivals.lists.size());
+    const auto [place, is_new] = list_at.emplace(Place{s, row.time_ns, row.arrival_ns}, recorded.lists.size());
     if (is_new)
-      arrivals.lists.push_back(
+      recorded.lists.push_back(
           {{static_cast<SensorId>(s), 0}, GlobalTime{row.time_ns}, GlobalTime{row.arrival_ns}, 0, {}});
-    std::vector<fusion::sensors::Observation>& list = arrivals.lists[place->second].observations;
+    std::vector<fusion::sensors::Observation>& list = recorded.lists[place->second].observations;
     if (list.size() == config.tracker.max_observations) {
       findings.add({name, row.line, "sensor", row.sensor,
                     fmt::format("must have at most {} observations at one time (max_observations of the tracker)",
@@ -161,12 +161,12 @@ Arrivals arrivals_of(const std::vector<ObservationRow>& rows, const ReplayConfig
     }
     list.push_back(observation);
   }
-  give_numbers(arrivals.lists, arrivals.sensors.size());
-  return arrivals;
+  give_numbers(recorded.lists, recorded.sensors.size());
+  return recorded;
 }
 
-void simulate(Arrivals& arrivals, const SimulatedArrivals& simulated) {
-  for (ListArrival& list : arrivals.lists) {
+void simulate(RecordedLists& recorded, const SimulatedArrivals& simulated) {
+  for (RecordedList& list : recorded.lists) {
     const std::size_t s = index_of(list.id.sensor);
     if (s >= simulated.delays.size() || !simulated.delays[s]) continue;
     RandomStream stream({.seed = simulated.seed,
@@ -177,17 +177,17 @@ void simulate(Arrivals& arrivals, const SimulatedArrivals& simulated) {
     list.arrival =
         list.measured + Duration{stream.integer(simulated.delays[s]->least.ns, simulated.delays[s]->most.ns)};
   }
-  std::stable_sort(arrivals.lists.begin(), arrivals.lists.end(), arrives_before);
+  std::stable_sort(recorded.lists.begin(), recorded.lists.end(), arrives_before);
   if (simulated.shuffle <= 1) return;
   // No sensor's number: there are fewer of those.
   RandomStream stream({.seed = simulated.seed, .purpose = Purpose::kArrival, .entity = 0xffff});
-  for (std::size_t from = 0; from < arrivals.lists.size(); from += simulated.shuffle) {
-    const std::size_t count = std::min(simulated.shuffle, arrivals.lists.size() - from);
-    const GlobalTime together = arrivals.lists[from + count - 1].arrival;
-    for (std::size_t i = 0; i < count; ++i) arrivals.lists[from + i].arrival = together;
+  for (std::size_t from = 0; from < recorded.lists.size(); from += simulated.shuffle) {
+    const std::size_t count = std::min(simulated.shuffle, recorded.lists.size() - from);
+    const GlobalTime together = recorded.lists[from + count - 1].arrival;
+    for (std::size_t i = 0; i < count; ++i) recorded.lists[from + i].arrival = together;
     for (std::size_t i = count - 1; i > 0; --i) {
       const auto other = static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i)));
-      std::swap(arrivals.lists[from + i], arrivals.lists[from + other]);
+      std::swap(recorded.lists[from + i], recorded.lists[from + other]);
     }
   }
 }

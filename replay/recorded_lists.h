@@ -22,7 +22,7 @@
 
 namespace ttf::replay {
 
-struct ListArrival {
+struct RecordedList {
   MeasurementId id;
   GlobalTime measured{}, arrival{};
   std::uint32_t copy = 0;  // how often it was heard before
@@ -31,10 +31,10 @@ struct ListArrival {
   fusion::sensors::Scan scan() const { return {id, measured, observations}; }
 };
 
-struct Arrivals {
+struct RecordedLists {
   std::vector<std::string> sensors;  // by SensorId
   std::vector<std::string> classes;  // by fusion::ClassId, in the order of their names
-  std::vector<ListArrival> lists;    // in the order of arrival; at one instant, in that of measurement
+  std::vector<RecordedList> lists;   // in the order of arrival; at one instant, in that of measurement
 };
 
 // Where the configuration lists no sensor: lists those of the rows, by name, each as `any`. Throws InputError, naming
@@ -45,8 +45,8 @@ void list_sensors(ReplayConfig& config, const std::vector<recording::rows::Obser
 // One finding, and the row left out, for each row of a sensor that the configuration does not list, with a covariance
 // that is none, or beyond the most observations that a list may have (max_observations of the tracker). `name`: the
 // file's. Throws InputError where there are more classes than fusion::kMostClasses.
-Arrivals arrivals_of(const std::vector<recording::rows::ObservationRow>& rows, const ReplayConfig& config,
-                     const std::string& name, Findings& findings);
+RecordedLists recorded_lists_of(const std::vector<recording::rows::ObservationRow>& rows, const ReplayConfig& config,
+                                const std::string& name, Findings& findings);
 
 // Delays that are drawn in place of the recorded ones, and arrivals in disorder. Draws depend on the seed, the sensor's
 // place among the sensors, the number of the list and which copy of it it is, never on what else there is.
@@ -60,6 +60,6 @@ struct SimulatedArrivals {
   std::size_t shuffle = 1;
   std::uint64_t seed = 1;
 };
-void simulate(Arrivals& arrivals, const SimulatedArrivals& simulated);
+void simulate(RecordedLists& recorded, const SimulatedArrivals& simulated);
 
 }  // namespace ttf::replay

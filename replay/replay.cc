@@ -13,14 +13,14 @@ namespace {
 
 class Replay {
  public:
-  Replay(const Arrivals& arrivals, const ReplaySetup& setup, const TrackSink& sink)
-      : arrivals_(arrivals), setup_(setup), sink_(sink),
+  Replay(const RecordedLists& recorded, const ReplaySetup& setup, const TrackSink& sink)
+      : recorded_(recorded), setup_(setup), sink_(sink),
         strategy_(fusion::strategies::make_strategy(setup.strategy, setup.tracker, setup.timings)) {
-    account_.sensors.resize(arrivals.sensors.size());
+    account_.sensors.resize(recorded.sensors.size());
   }
 
   ReplayAccount run() {
-    for (const ListArrival& list : arrivals_.lists) {
+    for (const RecordedList& list : recorded_.lists) {
       while (const std::optional<GlobalTime> next = strategy_->next_release()) {
         if (*next >= list.arrival) break;
         fuse(*next);
@@ -41,7 +41,7 @@ class Replay {
     bool held = false;
   };
 
-  void receive(const ListArrival& list) {
+  void receive(const RecordedList& list) {
     SensorAccount& account = account_.sensors[index_of(list.id.sensor)];
     ++account.lists;
     account.observations += list.observations.size();
@@ -108,7 +108,7 @@ class Replay {
     sink_(now_, tracks);
   }
 
-  const Arrivals& arrivals_;
+  const RecordedLists& recorded_;
   const ReplaySetup& setup_;
   const TrackSink& sink_;
   std::unique_ptr<fusion::strategies::Strategy> strategy_;
@@ -121,8 +121,8 @@ class Replay {
 
 }  // namespace
 
-ReplayAccount replay(const Arrivals& arrivals, const ReplaySetup& setup, const TrackSink& sink) {
-  return Replay(arrivals, setup, sink).run();
+ReplayAccount replay(const RecordedLists& recorded, const ReplaySetup& setup, const TrackSink& sink) {
+  return Replay(recorded, setup, sink).run();
 }
 
 recording::rows::TrackRow track_row_of(const fusion::tracks::TrackView& view, GlobalTime known,

@@ -42,9 +42,9 @@ struct ReplaySetup {
   bool predict = false;  // tracks predicted to the instant of the fusion, not as of the newest measurement
 };
 
-ReplayAccount replay(const Arrivals& arrivals, const ReplaySetup& setup, const TrackSink& sink);
+ReplayAccount replay(const RecordedLists& recorded, const ReplaySetup& setup, const TrackSink& sink);
 
-// `classes`: those of the arrivals.
+// `classes`: those of the recorded lists.
 recording::rows::TrackRow track_row_of(const fusion::tracks::TrackView& view, GlobalTime known,
                                        const std::vector<std::string>& classes);
 

@@ -9,9 +9,9 @@ namespace ttf::replay {
 namespace {
 
 // Of each sensor, ascending and each once.
-std::vector<std::vector<GlobalTime>> times_measured(const Arrivals& arrivals) {
-  std::vector<std::vector<GlobalTime>> times(arrivals.sensors.size());
-  for (const ListArrival& list : arrivals.lists)
+std::vector<std::vector<GlobalTime>> times_measured(const RecordedLists& recorded) {
+  std::vector<std::vector<GlobalTime>> times(recorded.sensors.size());
+  for (const RecordedList& list : recorded.lists)
     if (list.copy == 0) times[index_of(list.id.sensor)].push_back(list.measured);
   for (auto& of_sensor : times) std::sort(of_sensor.begin(), of_sensor.end());
   return times;
@@ -22,9 +22,9 @@ std::int64_t rounds(Duration whole, Duration part) { return (whole.ns + part.ns 
 
 }  // namespace
 
-std::vector<Duration> longest_delays(const Arrivals& arrivals) {
-  std::vector<Duration> longest(arrivals.sensors.size());
-  for (const ListArrival& list : arrivals.lists) {
+std::vector<Duration> longest_delays(const RecordedLists& recorded) {
+  std::vector<Duration> longest(recorded.sensors.size());
+  for (const RecordedList& list : recorded.lists) {
     Duration& of_sensor = longest[index_of(list.id.sensor)];
     of_sensor = std::max(of_sensor, list.arrival - list.measured);
   }
@@ -52,8 +52,8 @@ std::optional<Duration> regular_period(const std::vector<GlobalTime>& times) {
   return period;
 }
 
-bool only_positions(const Arrivals& arrivals) {
-  return std::all_of(arrivals.lists.begin(), arrivals.lists.end(), [](const ListArrival& list) {
+bool only_positions(const RecordedLists& recorded) {
+  return std::all_of(recorded.lists.begin(), recorded.lists.end(), [](const RecordedList& list) {
     return std::all_of(list.observations.begin(), list.observations.end(),
                        [](const fusion::sensors::Observation& observation) {
                          return observation.kind == fusion::sensors::ObservationKind::kPosition;
@@ -61,15 +61,15 @@ bool only_positions(const Arrivals& arrivals) {
   });
 }
 
-std::vector<fusion::strategies::SensorTiming> sensor_timings(const Arrivals& arrivals, const ReplayConfig& config,
+std::vector<fusion::strategies::SensorTiming> sensor_timings(const RecordedLists& recorded, const ReplayConfig& config,
                                                              fusion::strategies::StrategyKind strategy) {
-  const std::vector<Duration> longest = longest_delays(arrivals);
-  const std::vector<std::vector<GlobalTime>> times = times_measured(arrivals);
+  const std::vector<Duration> longest = longest_delays(recorded);
+  const std::vector<std::vector<GlobalTime>> times = times_measured(recorded);
   std::vector<fusion::strategies::SensorTiming> timings;
   const fusion::oosm::Kind late = config.tracker.late;
   const bool on_schedule = strategy == fusion::strategies::StrategyKind::kTt || late == fusion::oosm::Kind::kClone;
   bool any_scheduled = false;
-  for (std::size_t s = 0; s < arrivals.sensors.size(); ++s) {
+  for (std::size_t s = 0; s < recorded.sensors.size(); ++s) {
     const SensorSetup& setup = config.sensors[s].second;
     fusion::strategies::SensorTiming timing{static_cast<SensorId>(s),
                                             fusion::strategies::Settling::after(setup.worst_delay.value_or(longest[s])),
@@ -87,7 +87,7 @@ std::vector<fusion::strategies::SensorTiming> sensor_timings(const Arrivals& arr
   if (strategy == fusion::strategies::StrategyKind::kTt && !any_scheduled)
     throw InputError({config.file.empty() ? "command line" : config.file, 0, "strategy", "tt",
                       "needs the period of at least one sensor: none is given, and none measures at regular instants"});
-  const std::string refusal = fusion::strategies::late_refusal(strategy, late, timings, only_positions(arrivals));
+  const std::string refusal = fusion::strategies::late_refusal(strategy, late, timings, only_positions(recorded));
   if (!refusal.empty())
     throw InputError({config.file, config.late_line, "tracker.late", std::string(name_of(late)), refusal});
   return timings;

@@ -63,7 +63,7 @@ class DriveJudge {
   const faults::FaultPlan plan_;
   evaluation::accuracy::DriveMeasures measures_;
   evaluation::cluster::StartupAccount startup_;
-  evaluation::faults::FaultReport faults_;
+  evaluation::faults::FaultAccount faults_;
 };
 
 }  // namespace ttf::cli::drive

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/counted.h"
-#include "evaluation/faults/judge.h"
+#include "evaluation/faults/reach.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::drive {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/campaign/trial.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::cli::experiment {
 

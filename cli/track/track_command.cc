@@ -69,18 +69,18 @@ int run_track(const TrackOptions& options) {
     if (!options.skip_damaged) findings.throw_if_any();
     throw;
   }
-  replay::Arrivals arrivals = replay::arrivals_of(rows, config, options.observations, findings);
-  tell_damage(findings, options.skip_damaged, arrivals.lists.size());
-  replay::simulate(arrivals, simulated);
+  replay::RecordedLists recorded = replay::recorded_lists_of(rows, config, options.observations, findings);
+  tell_damage(findings, options.skip_damaged, recorded.lists.size());
+  replay::simulate(recorded, simulated);
 
-  TrackResult result{std::string(drives::name_of(config.strategy)), arrivals.sensors, {}, findings.size()};
+  TrackResult result{std::string(drives::name_of(config.strategy)), recorded.sensors, {}, findings.size()};
   const replay::ReplaySetup setup{config.strategy, config.tracker,
-                                  replay::sensor_timings(arrivals, config, config.strategy), options.predict};
+                                  replay::sensor_timings(recorded, config, config.strategy), options.predict};
   std::string tracks(recording::rows::track_heading());
   result.account =
-      replay::replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::tracks::TrackView> views) {
+      replay::replay(recorded, setup, [&](GlobalTime known, std::span<const fusion::tracks::TrackView> views) {
         for (const fusion::tracks::TrackView& view : views)
-          tracks += recording::rows::track_line(replay::track_row_of(view, known, arrivals.classes));
+          tracks += recording::rows::track_line(replay::track_row_of(view, known, recorded.classes));
       });
 
   if (options.out.empty()) {

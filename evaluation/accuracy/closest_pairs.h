@@ -11,6 +11,10 @@ struct PlanePosition {
   double x = 0.0, y = 0.0;  // [m]
 };
 
+struct PlaneEstimate {
+  double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0;  // [m], [m/s]
+};
+
 struct TruthPair {
   std::size_t truth = 0, estimate = 0;
 };

@@ -11,11 +11,11 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "core/ids.h"
 #include "core/time.h"
-#include "evaluation/accuracy/closest_pairs.h"
+#include "evaluation/accuracy/image_uses.h"
 #include "evaluation/accuracy/reference_judge.h"
 #include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
@@ -78,7 +78,7 @@ struct DriveSummary {
   double position_mse_expected = kNotMeasured;  // without sampling (experiments/sweep/expected_drive.h)
 };
 
-class DriveMeasures final : public recording::records::Sink {
+class DriveMeasures final : public ImageUses {
  public:
   // Uses before `from` are not judged; image and truth further apart than `gate_m` do not belong together.
   explicit DriveMeasures(TrueTime from, double gate_m = kGate_m);
@@ -87,45 +87,20 @@ class DriveMeasures final : public recording::records::Sink {
   DriveSummary finish();
 
   bool wants_frames() const override { return false; }
-  using recording::records::Sink::on;
+  using ImageUses::on;
   void on(const recording::records::FusionInput&) override;
   void on(const recording::records::ListFused&) override;
-  void on(const recording::records::TrackState&) override;
-  void on(const recording::records::ImageWritten&) override;
-  void on(const recording::records::FeatureUsed&) override;
-  void on(const recording::records::TruthState&) override;
   void on(const recording::records::ReferenceFix&) override;
 
  private:
-  struct Predicted {
-    std::array<double, 6> state;
-    std::array<double, 36> covariance;
-  };
-  // A measurement of a sensor, known by its number as long as the sensor does not count anew.
-  struct Fused {
-    MeasurementId id;
-    TrueTime measured{};
-  };
-  // What an image shows and was made from; its objects and predictions are in the same order.
-  struct Image {
-    std::uint32_t sequence = 0;
-    std::vector<Fused> newest;
-    std::vector<Predicted> predicted;
-  };
-  const Image* image_of(std::uint32_t sequence) const;
-  struct Use {
-    TrueTime at;
-    std::uint32_t image_sequence = 0;
-    bool fresh = true;
-    std::vector<PlaneEstimate> objects;
-  };
+  void fused(SensorId sensor, Duration age) override;
+  bool used(const recording::records::FeatureUsed& use, std::span<const PlaneEstimate> objects,
+            std::span<const SensorAge> ages) override;
+  void judged(const JudgedUse& use) override;
   void note_held(const recording::records::ListFused& list);
-  void judge(const Use& use);
-  void judge_age(const Image& image, TrueTime used);
-  void judge_consistency(const Predicted& predicted, const recording::records::TruthState& truth);
+  void note_ages(std::span<const SensorAge> ages);
 
   TrueTime from_;
-  double gate_;
   DriveSummary summary_;
   std::array<double, 4> squares_{};
   double nees_sum_ = 0.0;
@@ -138,11 +113,6 @@ class DriveMeasures final : public recording::records::Sink {
   };
   static constexpr std::size_t kMostHeld = 64;  // more than any strategy keeps
   std::deque<Held> held_;                       // the first was first
-  std::map<SensorId, Fused> newest_fused_;
-  std::vector<Predicted> predicted_;  // for the image that is being written
-  std::deque<Image> images_;          // as they were written, the last few
-  std::optional<Use> pending_;
-  std::vector<recording::records::TruthState> truth_;  // of one instant
   ReferenceJudge reference_;
 };
 

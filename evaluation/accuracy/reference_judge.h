@@ -12,15 +12,11 @@
 #include <vector>
 
 #include "core/time.h"
+#include "evaluation/accuracy/closest_pairs.h"
 #include "recording/records/records.h"
 #include "sim/world/reference.h"
 
 namespace ttf::evaluation::accuracy {
-
-// In the plane; [m] and [m/s].
-struct PlaneEstimate {
-  double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0;
-};
 
 // What an interpolated fix is made of, on the average over the uses compared: with the share s of the later fix, (1 -
 // s)^2 + s^2 and 2 s (1 - s), and the square of the distance from the sensor car [m^2].

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "bus/wire/flexray_frame.h"
-#include "evaluation/faults/judge.h"
 #include "schedules/model/round.h"
 
 namespace ttf::evaluation::faults {
 namespace {
-
-using ttf::faults::FaultKind;
 
 // What is asked about is no older: losses are settled two cycles after them.
 constexpr int kCyclesRemembered = 5;
@@ -26,43 +22,11 @@ FaultCauses::FaultCauses(const ttf::faults::FaultPlan& plan, const schedules::mo
     : cluster_(cluster), patience_(cluster.cycle() * 2 * (cluster.flexray.gMaxWithoutClockCorrectionFatal + 1)) {
   for (const ttf::faults::Fault& fault : plan.faults) {
     Suspect& suspect = suspects_.emplace_back();
-    suspect.fault = &fault;
-    suspect.reach = reach_of(fault);
+    suspect.reach = reach_of(fault, cluster);
+    suspect.channels = fault.channels;
     suspect.named = named_by(fault, cluster);
     suspect.out.resize(cluster.nodes.size());
   }
-}
-
-FaultCauses::Reach FaultCauses::reach_of(const ttf::faults::Fault& fault) const {
-  const Duration frame = bus::wire::frame_duration(cluster_.flexray, static_cast<int>(bus::wire::kMaxPayloadBytes / 2));
-  Reach reach;
-  reach.lasts = frame;
-  switch (fault.kind) {
-    case FaultKind::kCrash:
-    case FaultKind::kLoneColdstart: reach.hearing = true; break;
-    case FaultKind::kOmission: reach.hearing = fault.direction != ttf::faults::FaultDirection::kSend; break;
-    case FaultKind::kNoise:
-    case FaultKind::kBabblingIdiot:
-      reach.channel = true;
-      reach.lasts = std::max(frame, fault.length);
-      break;
-    case FaultKind::kSosTiming:
-      reach.channel = reach.clocks = true;
-      reach.lasts = frame + std::max(fault.shift, Duration{});
-      break;
-    case FaultKind::kMasquerading:
-    case FaultKind::kChannelSwap: reach.channel = true; break;
-    case FaultKind::kTransient: reach.channel = reach.clocks = true; break;  // sync frames, too
-    case FaultKind::kDuplicateColdstart:
-    case FaultKind::kWrongSchedule: reach.hearing = reach.channel = reach.clocks = true; break;
-    case FaultKind::kByzantineClock: reach.clocks = true; break;
-    case FaultKind::kDrift: reach.hearing = reach.clocks = true; break;
-    case FaultKind::kSosValue:
-    case FaultKind::kBitFlipHeader:
-    case FaultKind::kBitFlipPayload:
-    case FaultKind::kBitFlipTrailer: break;
-  }
-  return reach;
 }
 
 void FaultCauses::begins(std::size_t fault, TrueTime at) { suspects_[fault].began = at; }
@@ -98,7 +62,7 @@ TrueTime FaultCauses::last_act(const Suspect& suspect, TrueTime until) {
 }
 
 bool FaultCauses::disturbs(const Suspect& suspect, const Signal& signal) const {
-  if (!suspect.reach.channel || !shares(suspect.fault->channels, signal.channels)) return false;
+  if (!suspect.reach.channel || !shares(suspect.channels, signal.channels)) return false;
   const auto first = std::lower_bound(suspect.acts.begin(), suspect.acts.end(), signal.from - suspect.reach.lasts);
   return first != suspect.acts.end() && *first <= signal.until + kRounded;
 }

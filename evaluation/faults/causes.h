@@ -21,6 +21,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "evaluation/faults/reach.h"
 #include "faults/plan.h"
 #include "schedules/model/cluster.h"
 
@@ -56,18 +57,13 @@ class FaultCauses {
   Cause of_node(NodeId node, TrueTime at) const;
 
  private:
-  struct Reach {
-    bool hearing = false, channel = false, clocks = false;
-    Duration lasts{};  // what it puts on a channel, from the instant it acts on
-  };
   struct Suspect {
-    const ttf::faults::Fault* fault = nullptr;
-    Reach reach;
-    std::vector<bool> named, out;  // by NodeId; `out` by its doing
+    FaultReach reach;
+    schedules::model::Channels channels{};  // on which it acts
+    std::vector<bool> named, out;           // by NodeId; `out` by its doing
     std::optional<TrueTime> began, ended;
     std::deque<TrueTime> acts;  // of the last cycles, and one before
   };
-  Reach reach_of(const ttf::faults::Fault& fault) const;
   static bool begun(const Suspect& suspect, TrueTime by);
   static bool acting(const Suspect& suspect, TrueTime since) { return !suspect.ended || *suspect.ended >= since; }
   static bool owns(const Suspect& suspect, NodeId node, TrueTime since);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "bus/controller/controller.h"
 #include "bus/poc/poc.h"
 #include "bus/wire/flexray_frame.h"
+#include "evaluation/faults/reach.h"
 #include "schedules/check/checker.h"
 
 namespace ttf::evaluation::faults {
@@ -17,12 +17,6 @@ Duration macroticks(const schedules::model::GlobalParameters& g, std::int64_t co
 
 schedules::model::Channels only(std::uint8_t channel) {
   return channel == 0 ? schedules::model::Channels::kA : schedules::model::Channels::kB;
-}
-
-// Of the named nodes: a lone coldstart node takes the others'.
-bool takes_supply(const ttf::faults::Fault& fault, NodeId node) {
-  return fault.kind == ttf::faults::FaultKind::kCrash ||
-         (fault.kind == ttf::faults::FaultKind::kLoneColdstart && fault.node != node);
 }
 
 // From start-up, to where it begins or ends without success.
@@ -72,38 +66,35 @@ bool FaultFindings::harmed() const {
          std::any_of(faults.begin(), faults.end(), [](const FaultSeen& fault) { return fault.harmed(); });
 }
 
-FaultReport::FaultReport(const schedules::model::Cluster& cluster, ttf::faults::FaultPlan plan, bool begins_integrated)
+FaultAccount::FaultAccount(const schedules::model::Cluster& cluster, ttf::faults::FaultPlan plan,
+                           bool begins_integrated)
     : cluster_(cluster), plan_(std::move(plan)), cycle_(cluster.cycle()),
       slot_(macroticks(cluster.flexray, cluster.flexray.gdStaticSlot)),
       action_point_(macroticks(cluster.flexray, cluster.flexray.gdActionPointOffset)),
-      assumed_precision_(schedules::check::assumed_precision(cluster.flexray)), nodes_(cluster.nodes.size()),
-      causes_(plan_, cluster), clocks_(cluster),
-      ledger_(
-          cluster, [this](NodeId node) { return counts(node); }, [this](const SlotLoss& loss) { lost(loss); }),
-      place_(plan_.faults.size()), counted_(plan_.faults.size() + 1) {
-  for (std::size_t n = 0; n < nodes_.size(); ++n)
-    (begins_integrated ? nodes_[n].active : nodes_[n].has_to_start) = cluster.nodes[n].flexray.has_value();
-}
+      assumed_precision_(schedules::check::assumed_precision(cluster.flexray)), standings_(cluster, begins_integrated),
+      cut_off_(cluster.nodes.size()), causes_(plan_, cluster), clocks_(cluster),
+      ledger_(cluster, standings_, [this](const SlotLoss& loss) { lost(loss); }), place_(plan_.faults.size()),
+      counted_(plan_.faults.size() + 1) {}
 
-void FaultReport::finish(TrueTime at) {
+void FaultAccount::finish(TrueTime at) {
   ledger_.finish(at);
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+  for (std::size_t n = 0; n < standings_.size(); ++n) {
     const auto node = static_cast<NodeId>(n);
-    if (nodes_[n].has_to_start && !nodes_[n].faulty) harm(causes_.of_node(node, at), Harm::kNotStarted, at, node);
+    if (standings_.never_started(node)) harm(causes_.of_node(node, at), Harm::kNotStarted, at, node);
   }
 }
 
-FaultEffects& FaultReport::effects(Cause cause) {
+FaultEffects& FaultAccount::effects(Cause cause) {
   return cause ? static_cast<FaultEffects&>(findings_.faults[*place_[*cause]]) : findings_.unattributed;
 }
 
 // The running cycle, by the newest that is known.
-std::int64_t FaultReport::cycle_at(TrueTime at) const {
+std::int64_t FaultAccount::cycle_at(TrueTime at) const {
   const auto [began, cycle] = cycle_began_.value_or(std::pair(TrueTime{}, std::int64_t{0}));
   return cycle + std::max<std::int64_t>(0, (at - began).ns / cycle_.ns);
 }
 
-void FaultReport::on(const recording::records::FaultActivity& activity) {
+void FaultAccount::on(const recording::records::FaultActivity& activity) {
   if (activity.fault >= place_.size()) return;  // of another plan
   const ttf::faults::Fault& fault = plan_.faults[activity.fault];
   auto& place = place_[activity.fault];
@@ -116,11 +107,12 @@ void FaultReport::on(const recording::records::FaultActivity& activity) {
     seen.begins = activity.at;
     causes_.begins(activity.fault, activity.at);
     const std::vector<bool> named = named_by(fault, cluster_);
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    for (std::size_t n = 0; n < named.size(); ++n) {
       if (!named[n]) continue;
-      nodes_[n].faulty = true;
-      nodes_[n].cut_off |= takes_supply(fault, static_cast<NodeId>(n));
-      clocks_.forget(static_cast<NodeId>(n));
+      const auto node = static_cast<NodeId>(n);
+      standings_.becomes_faulty(node);
+      if (takes_supply(fault, node)) cut_off_[n] = true;
+      clocks_.forget(node);
     }
   }
   FaultSeen& seen = findings_.faults[*place];
@@ -140,11 +132,11 @@ void FaultReport::on(const recording::records::FaultActivity& activity) {
   }
 }
 
-void FaultReport::on(const recording::records::StateChanged& change) {
+void FaultAccount::on(const recording::records::StateChanged& change) {
   constexpr auto kActive = static_cast<std::uint8_t>(bus::poc::PocKind::kNormalActive);
   const NodeId node = change.stamp.node;
   const TrueTime at = change.stamp.true_time;
-  if (index_of(node) >= nodes_.size()) return;
+  if (!knows(node)) return;
   const Cause cause = causes_.of_node(node, at);
   if (!starts_as_planned(node) || falls_back(change))
     changed(cause, node, change.from_name, change.to_name, change.why, at);
@@ -156,15 +148,14 @@ void FaultReport::on(const recording::records::StateChanged& change) {
     left_active(cause, node, at);
     return;
   }
-  nodes_[index_of(node)].active = true;
-  nodes_[index_of(node)].has_to_start = false;
+  standings_.becomes_active(node);
   causes_.is_back(node);
 }
 
-void FaultReport::on(const recording::records::PowerChanged& power) {
+void FaultAccount::on(const recording::records::PowerChanged& power) {
   const NodeId node = power.stamp.node;
   const TrueTime at = power.stamp.true_time;
-  if (index_of(node) >= nodes_.size()) return;
+  if (!knows(node)) return;
   const Cause cause = causes_.of_node(node, at);
   const std::string_view off = "without supply", on = "with supply";
   if (!power.on || !starts_as_planned(node)) changed(cause, node, power.on ? off : on, power.on ? on : off, "", at);
@@ -173,17 +164,18 @@ void FaultReport::on(const recording::records::PowerChanged& power) {
   left_active(cause, node, at);
 }
 
-void FaultReport::left_active(Cause cause, NodeId node, TrueTime at) {
+void FaultAccount::left_active(Cause cause, NodeId node, TrueTime at) {
   clocks_.forget(node);
-  if (counts(node)) harm(cause, Harm::kLeftActive, at, node);
-  if (nodes_[index_of(node)].active && cause) causes_.left(node, *cause);
-  nodes_[index_of(node)].active = false;
+  if (!standings_.active(node)) return;
+  if (standings_.counts(node)) harm(cause, Harm::kLeftActive, at, node);
+  if (cause) causes_.left(node, *cause);
+  standings_.leaves_active(node);
 }
 
-void FaultReport::on(const recording::records::SlotProblem& problem) {
+void FaultAccount::on(const recording::records::SlotProblem& problem) {
   const NodeId node = problem.stamp.node;
   const TrueTime at = problem.stamp.true_time;
-  if (index_of(node) >= nodes_.size()) return;
+  if (!knows(node)) return;
   ledger_.on(problem);
   const schedules::model::GlobalParameters& g = cluster_.flexray;
   FaultCauses::Signal signal;
@@ -200,22 +192,16 @@ void FaultReport::on(const recording::records::SlotProblem& problem) {
     signal.until = at;
     signal.from = at - bus::wire::frame_duration(g, static_cast<int>(bus::wire::kMaxPayloadBytes / 2));
   }
-  const auto seen = [&](bus::controller::SlotStatus bit, Check check) {
-    if ((problem.status & bit) == 0) return;
-    signal.silence = bit == bus::controller::kNoFrame;
+  for_each_check(problem.status, [&](Check check) {
+    signal.silence = check == Check::kNoFrame;
     notice(causes_.of_signal(signal), check, node, problem.cycle, at);
-  };
-  seen(bus::controller::kSyntaxError, Check::kSyntax);
-  seen(bus::controller::kContentError, Check::kContent);
-  seen(bus::controller::kBoundaryViolation, Check::kBoundary);
-  seen(bus::controller::kTransmissionConflict, Check::kConflict);
-  seen(bus::controller::kNoFrame, Check::kNoFrame);
+  });
 }
 
-void FaultReport::on(const recording::records::ClockCorrected& corrected) {
+void FaultAccount::on(const recording::records::ClockCorrected& corrected) {
   const NodeId node = corrected.stamp.node;
   const TrueTime at = corrected.stamp.true_time;
-  if (index_of(node) >= nodes_.size()) return;
+  if (!knows(node)) return;
   const auto seen = [&](bool yes, Check check) {
     if (yes) notice(causes_.of_node(node, at), check, node, corrected.cycle, at);
   };
@@ -223,17 +209,17 @@ void FaultReport::on(const recording::records::ClockCorrected& corrected) {
   seen(corrected.offset_limited || corrected.rate_limited, Check::kLimit);
 }
 
-void FaultReport::on(const recording::records::SlotFrameSent& frame) {
-  if (index_of(frame.stamp.node) >= nodes_.size()) return;
+void FaultAccount::on(const recording::records::SlotFrameSent& frame) {
+  if (!knows(frame.stamp.node)) return;
   ledger_.on(frame);
-  if (!counts(frame.stamp.node)) return;
+  if (!standings_.counts(frame.stamp.node)) return;
   const TrueTime at = frame.stamp.true_time;
   cycle_began_ = std::pair(at - Duration{(frame.stamp.global - GlobalTime{}).ns % cycle_.ns}, frame.cycle);
   const auto apart = clocks_.sent(frame);
   if (apart && *apart > assumed_precision_) harm(causes_.of_node(kNoNode, at), Harm::kPrecision, at, kNoNode);
 }
 
-void FaultReport::on(const recording::records::GuardianIntervention& kept) {
+void FaultAccount::on(const recording::records::GuardianIntervention& kept) {
   if (!causes_.any_begun(kept.at)) return;
   const Cause cause = causes_.of_signal({kept.branch, kNoNode, only(kept.channel), kept.at, kept.at, false});
   const std::int64_t cycle = cycle_at(kept.at);
@@ -248,7 +234,7 @@ void FaultReport::on(const recording::records::GuardianIntervention& kept) {
     guardians.push_back({kept.cut, std::string(kept.why), 1, cycle, kept.at});
 }
 
-CheckSeen& FaultReport::notice(Cause cause, Check check, bool faulty, std::int64_t cycle, TrueTime at) {
+CheckSeen& FaultAccount::notice(Cause cause, Check check, bool faulty, std::int64_t cycle, TrueTime at) {
   const auto c = static_cast<std::size_t>(check);
   FaultEffects& effects = this->effects(cause);
   CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[c];
@@ -260,14 +246,14 @@ CheckSeen& FaultReport::notice(Cause cause, Check check, bool faulty, std::int64
   return seen;
 }
 
-void FaultReport::notice(Cause cause, Check check, NodeId node, std::int64_t cycle, TrueTime at) {
+void FaultAccount::notice(Cause cause, Check check, NodeId node, std::int64_t cycle, TrueTime at) {
   if (!causes_.any_begun(at)) return;
-  CheckSeen& seen = notice(cause, check, nodes_[index_of(node)].faulty, cycle, at);
+  CheckSeen& seen = notice(cause, check, standings_.faulty(node), cycle, at);
   if (std::find(seen.nodes.begin(), seen.nodes.end(), node) == seen.nodes.end()) seen.nodes.push_back(node);
 }
 
-void FaultReport::changed(Cause cause, NodeId node, std::string_view from, std::string_view to, std::string_view why,
-                          TrueTime at) {
+void FaultAccount::changed(Cause cause, NodeId node, std::string_view from, std::string_view to, std::string_view why,
+                           TrueTime at) {
   if (!causes_.any_begun(at)) return;
   std::vector<StateSeen>& states = effects(cause).states;
   const auto known = std::find_if(states.begin(), states.end(), [&](const StateSeen& state) {
@@ -280,7 +266,7 @@ void FaultReport::changed(Cause cause, NodeId node, std::string_view from, std::
 }
 
 // On none of the channels that receiver and sender share: whatever acts on one of them may be why.
-void FaultReport::lost(const SlotLoss& loss) {
+void FaultAccount::lost(const SlotLoss& loss) {
   unsigned channels = 0;
   for (const auto channel : {schedules::model::Channel::kA, schedules::model::Channel::kB})
     if (owner_of(cluster_, loss.slot, channel, loss.cycle) == loss.sender) channels |= 1u << index_of(channel);
@@ -294,7 +280,7 @@ void FaultReport::lost(const SlotLoss& loss) {
        loss.sender, loss.slot);
 }
 
-void FaultReport::harm(Cause cause, Harm harm, TrueTime at, NodeId node, NodeId sender, int slot) {
+void FaultAccount::harm(Cause cause, Harm harm, TrueTime at, NodeId node, NodeId sender, int slot) {
   // A frame that was under way when the first fault began may be lost by it.
   if (!causes_.any_begun(at + slot_)) return;
   std::vector<HarmSeen>& harms = effects(cause).harms[static_cast<std::size_t>(harm)];

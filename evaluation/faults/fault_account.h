@@ -2,8 +2,8 @@
 // guardians, which nodes changed state, and whether a node without a fault was harmed. From the fault plan and the
 // records alone, so that a live run's report and its log's are the same.
 //
-// Checks and harms are those of evaluation/faults/judge.h, which judges single faults from inside a simulation. Records
-// tell a little less:
+// Checks and harms are those of evaluation/faults/checks.h. Where the judge of single faults
+// (evaluation/faults/judge.h) looks on from inside a simulation, records tell a little less:
 //   - a node is without a fault until a fault that names it begins
 //   - H3 is told from when frames begin (evaluation/faults/frame_clocks.h), H4 and H5 from who reports which slot
 //     (evaluation/faults/slot_ledger.h), in the static segment
@@ -21,9 +21,10 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "evaluation/faults/causes.h"
+#include "evaluation/faults/checks.h"
 #include "evaluation/faults/frame_clocks.h"
-#include "evaluation/faults/judge.h"
 #include "evaluation/faults/slot_ledger.h"
+#include "evaluation/faults/standings.h"
 #include "faults/plan.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
@@ -87,13 +88,13 @@ struct FaultFindings {
   bool harmed() const;
 };
 
-class FaultReport final : public recording::records::Sink {
+class FaultAccount final : public recording::records::Sink {
  public:
   // `plan`: resolved for the cluster, and the run's. `begins_integrated`: the nodes are in normal operation from the
   // start; else they have no supply until they say so.
-  FaultReport(const schedules::model::Cluster& cluster, ttf::faults::FaultPlan plan, bool begins_integrated);
-  FaultReport(const FaultReport&) = delete;
-  FaultReport& operator=(const FaultReport&) = delete;
+  FaultAccount(const schedules::model::Cluster& cluster, ttf::faults::FaultPlan plan, bool begins_integrated);
+  FaultAccount(const FaultAccount&) = delete;
+  FaultAccount& operator=(const FaultAccount&) = delete;
 
   // The run is over: what is open is settled. Who has not become normal active since the beginning is harmed (H2), if
   // the run began with start-up.
@@ -111,20 +112,13 @@ class FaultReport final : public recording::records::Sink {
 
  private:
   using Cause = FaultCauses::Cause;
-  struct Node {
-    bool active = false, faulty = false;
-    bool has_to_start = false;  // and has not yet
-    bool cut_off = false;       // a fault has taken its supply, or keeps it
-  };
   // A cycle is counted once however many nodes and slots it is about: by its counter, where that comes again after a
   // round.
   using Counted = std::array<std::array<std::optional<TrueTime>, 64>, 2 * kAllChecks.size()>;
 
-  bool counts(NodeId node) const { return nodes_[index_of(node)].active && !nodes_[index_of(node)].faulty; }
+  bool knows(NodeId node) const { return index_of(node) < standings_.size(); }  // a log may be of another cluster
   // Whatever is at fault, it would take these steps: only those back are anybody's doing.
-  bool starts_as_planned(NodeId node) const {
-    return nodes_[index_of(node)].has_to_start && !nodes_[index_of(node)].cut_off;
-  }
+  bool starts_as_planned(NodeId node) const { return standings_.has_to_start(node) && !cut_off_[index_of(node)]; }
   FaultEffects& effects(Cause cause);
   std::int64_t cycle_at(TrueTime at) const;
   CheckSeen& notice(Cause cause, Check check, bool faulty, std::int64_t cycle, TrueTime at);
@@ -137,7 +131,8 @@ class FaultReport final : public recording::records::Sink {
   const schedules::model::Cluster& cluster_;
   const ttf::faults::FaultPlan plan_;
   Duration cycle_, slot_, action_point_, assumed_precision_;
-  std::vector<Node> nodes_;  // by NodeId
+  Standings standings_;
+  std::vector<bool> cut_off_;  // by NodeId: a fault has taken its supply, or keeps it
   FaultCauses causes_;
   FrameClocks clocks_;
   SlotLedger ledger_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "bus/controller/slot_table.h"
 #include "schedules/model/round.h"
 
 namespace ttf::evaluation::faults {
@@ -14,9 +13,9 @@ constexpr TrueTime kEverything{std::numeric_limits<std::int64_t>::max()};
 
 }  // namespace
 
-SlotLedger::SlotLedger(const schedules::model::Cluster& cluster, std::function<bool(ttf::NodeId)> counts,
-                       std::function<void(const ttf::evaluation::faults::SlotLoss&)> told)
-    : cluster_(cluster), counts_(std::move(counts)),
+SlotLedger::SlotLedger(const schedules::model::Cluster& cluster, const Standings& standings,
+                       std::function<void(const SlotLoss&)> told)
+    : cluster_(cluster), standings_(standings),
       told_(std::move(told)), slot_{cluster.flexray.gdStaticSlot * cluster.flexray.gdMacrotick_ps / 1000} {
   for (Cycle& cycle : cycles_) {
     cycle.counted.resize(cluster.nodes.size());
@@ -38,7 +37,7 @@ SlotLedger::Cycle& SlotLedger::open(std::int64_t cycle) {
   before.counter = -1;
   page.counter = counter;
   newest_ = counter;
-  for (std::size_t n = 0; n < page.counted.size(); ++n) page.counted[n] = counts_(static_cast<NodeId>(n));
+  for (std::size_t n = 0; n < page.counted.size(); ++n) page.counted[n] = standings_.counts(static_cast<NodeId>(n));
   for (Slot& slot : page.slots) {
     slot.counted = false;
     slot.sent = {};
@@ -60,7 +59,7 @@ void SlotLedger::finish(TrueTime at) {
 }
 
 void SlotLedger::on(const recording::records::SlotFrameSent& frame) {
-  if (!counts_(frame.stamp.node)) return;  // it may be in a cycle of its own
+  if (!standings_.counts(frame.stamp.node)) return;  // it may be in a cycle of its own
   Cycle& page = open(frame.cycle);
   for (std::size_t f = 0; f < cluster_.frames.size(); ++f) {
     const schedules::model::FrameSlot& expected = cluster_.frames[f];
@@ -75,7 +74,9 @@ void SlotLedger::on(const recording::records::SlotFrameSent& frame) {
 }
 
 void SlotLedger::on(const recording::records::SlotProblem& problem) {
-  if (!counts_(problem.stamp.node) || problem.slot == 0 || problem.slot > cluster_.flexray.gNumberOfStaticSlots) return;
+  if (!standings_.counts(problem.stamp.node) || problem.slot == 0 ||
+      problem.slot > cluster_.flexray.gNumberOfStaticSlots)
+    return;
   Cycle& page = open(problem.cycle);
   for (std::size_t f = 0; f < cluster_.frames.size(); ++f)
     if (cluster_.frames[f].slot == problem.slot &&
@@ -87,17 +88,16 @@ void SlotLedger::settle(const Cycle& cycle, TrueTime over) {
   for (std::size_t f = 0; f < cluster_.frames.size(); ++f) {
     const schedules::model::FrameSlot& frame = cluster_.frames[f];
     const Slot& slot = cycle.slots[f];
-    if (frame.slot > cluster_.flexray.gNumberOfStaticSlots || !slot.counted || !counts_(frame.sender)) continue;
+    if (frame.slot > cluster_.flexray.gNumberOfStaticSlots || !slot.counted || !standings_.counts(frame.sender))
+      continue;
     // From the frame on: the slots that are left, and this one, which began an action point offset before it.
     if (slot.at + slot_ * (cluster_.flexray.gNumberOfStaticSlots - frame.slot + 1) > over) continue;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
       const auto receiver = static_cast<NodeId>(n);
-      if (receiver == frame.sender || !cluster_.nodes[n].flexray || !cycle.counted[n] || !counts_(receiver)) continue;
+      if (receiver == frame.sender || !cycle.counted[n] || !standings_.counts(receiver)) continue;
       bool shared = false, received = false, forged = false;
       for (const Channel channel : schedules::model::kBothChannels) {
-        if (!includes(frame.channels, channel) || !includes(cluster_.nodes[n].flexray->pChannels, channel) ||
-            !includes(cluster_.node(frame.sender).flexray->pChannels, channel))
-          continue;
+        if (!comes_on(frame, cluster_, receiver, channel)) continue;
         const auto c = index_of(channel);
         shared = true;
         received = received || (slot.sent[c] && !slot.reported[c][n]);

@@ -3,7 +3,7 @@
 // A receiver in normal operation reports every slot that was anything but one valid frame, per channel. So a slot that
 // it does not report was a valid frame: of the sender, if that sent there, of somebody else otherwise. A slot it
 // reports counts as not received, though a valid frame may have come before what disturbed it: reports do not tell
-// these apart.
+// these apart. Who has the frames themselves knows more: frame_ledger.h.
 //
 // A cycle is settled two cycles after it, when all have reported, or when the run is over: then those of its slots that
 // have ended. Nodes count whole rounds of the cycle counter each for itself.
@@ -16,25 +16,19 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "evaluation/faults/slot_loss.h"
+#include "evaluation/faults/standings.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::evaluation::faults {
 
-struct SlotLoss {
-  TrueTime at{};
-  NodeId receiver{}, sender{};
-  int slot = 0;
-  std::int64_t cycle = 0;  // counter
-  bool forged = false;     // a valid frame where the sender sent none; else the sender's frame came on no channel
-};
-
 class SlotLedger {
  public:
-  // `told`: every loss between nodes that `counts` says are to be counted at the time of the slot and when it is
-  // settled.
-  SlotLedger(const schedules::model::Cluster& cluster, std::function<bool(ttf::NodeId)> counts,
-             std::function<void(const ttf::evaluation::faults::SlotLoss&)> told);
+  // `told`: of every loss between nodes that count, both at the time of the slot and when it is settled. `standings`
+  // outlives this.
+  SlotLedger(const schedules::model::Cluster& cluster, const Standings& standings,
+             std::function<void(const SlotLoss&)> told);
 
   void on(const recording::records::SlotFrameSent& frame);
   void on(const recording::records::SlotProblem& problem);
@@ -60,8 +54,8 @@ class SlotLedger {
   void settle(const Cycle& cycle, TrueTime over);
 
   const schedules::model::Cluster& cluster_;
-  std::function<bool(ttf::NodeId)> counts_;
-  std::function<void(const ttf::evaluation::faults::SlotLoss&)> told_;
+  const Standings& standings_;
+  std::function<void(const SlotLoss&)> told_;
   std::array<Cycle, kCycles> cycles_;
   std::int64_t newest_ = -1;  // counter of the cycle that was opened last
   Duration slot_;             // how long a static one lasts

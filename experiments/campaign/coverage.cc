@@ -32,7 +32,7 @@ std::string_view short_name(evaluation::faults::Check check) {
 
 std::string class_text(faults::FaultKind kind, bool in_hypothesis) {
   std::string name(faults::name_of(kind));
-  if (!in_hypothesis) name += kind == faults::FaultKind::kLoneColdstart ? " *" : " A+B *";
+  if (!in_hypothesis) name += faults::has_node(kind) ? " *" : " A+B *";
   return name;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/random.h"
+#include "faults/believed_schedule.h"
 #include "schedules/model/limits.h"
 
 namespace ttf::experiments::campaign {
@@ -15,9 +16,12 @@ namespace {
 
 using faults::Fault;
 using faults::FaultKind;
+using faults::FaultParameter;
 using schedules::model::Channels;
 
 constexpr int kMostPayloadWords = schedules::model::kMostFragmentBytes / 2;  // cPayloadLengthMax
+
+bool others_fail(FaultKind kind) { return faults::row_of(kind).failing == faults::Failing::kOthers; }
 
 class Drawing {
  public:
@@ -28,17 +32,17 @@ class Drawing {
   DrawnFault fault() {
     Fault fault;
     fault.kind = kind();
-    const bool starts_up = draw_.uniform() < campaign_.startup_share || fault.kind == FaultKind::kLoneColdstart;
-    if (faults::has_node(fault.kind)) fault.node = node(needs_coldstart(fault.kind));
+    const bool starts_up = draw_.uniform() < campaign_.startup_share || others_fail(fault.kind);
+    const bool coldstart = faults::row_of(fault.kind).demand == faults::NodeDemand::kColdstart;
+    if (faults::has_node(fault.kind)) fault.node = node(coldstart);
     when(fault, starts_up);
-    parameters(fault);
+    for (const FaultParameter parameter : faults::row_of(fault.kind).parameters)
+      if (faults::applies(parameter, fault)) draw(parameter, fault);
+    if (faults::changes_schedule(fault)) always(fault);
     return {fault, starts_up};
   }
 
  private:
-  static bool needs_coldstart(FaultKind kind) {
-    return kind == FaultKind::kLoneColdstart || kind == FaultKind::kDuplicateColdstart;
-  }
   FaultKind kind() {
     std::int64_t sum = 0;
     for (const std::int64_t weight : campaign_.weights) sum += weight;
@@ -59,65 +63,61 @@ class Drawing {
   // A running cluster has had cycles without a fault, a start-up none. One in three stays to the end.
   void when(Fault& fault, bool starts_up) {
     fault.from = starts_up ? between(Duration{}, cycle_ * 12) : between(cycle_ * 4, cycle_ * 8);
-    if (fault.kind == FaultKind::kLoneColdstart) fault.from = Duration{};
+    if (others_fail(fault.kind)) fault.from = Duration{};
     if (draw_.uniform() < 2.0 / 3.0) fault.duration = between(Duration{cycle_.ns / 5}, cycle_ * 10);
-    if (fault.kind == FaultKind::kDrift) fault.duration = Fault::kToTheEnd;
-    if (fault.kind == FaultKind::kTransient && fault.duration == Fault::kToTheEnd)
+    if (faults::takes(fault.kind, FaultParameter::kFrom)) fault.duration = Fault::kToTheEnd;
+    if (faults::takes(fault.kind, FaultParameter::kPassing) && fault.duration == Fault::kToTheEnd)
       fault.duration = between(Duration::microseconds(1), cycle_);
   }
 
-  void parameters(Fault& fault) {
-    switch (fault.kind) {
-      case FaultKind::kCrash: return;
-      case FaultKind::kOmission:
+  void draw(FaultParameter parameter, Fault& fault) {
+    switch (parameter) {
+      case FaultParameter::kDirection:
         fault.direction = one_of(std::vector{faults::FaultDirection::kSend, faults::FaultDirection::kReceive,
                                              faults::FaultDirection::kBoth});
-        return occasions(fault);
-      case FaultKind::kBabblingIdiot:
+        return;
+      case FaultParameter::kSignal:
         fault.signal = one_of(std::vector{faults::FaultSignal::kNoise, faults::FaultSignal::kFrame});
-        return bursts(fault);
-      case FaultKind::kMasquerading:
+        if (fault.signal == faults::FaultSignal::kFrame) length();  // of no use to it, but part of campaigns' streams
+        return;
+      case FaultParameter::kLength: fault.length = length(); return;
+      case FaultParameter::kBursts: return bursts(fault);
+      case FaultParameter::kMasquerade:
         fault.masquerade = one_of(std::vector{faults::MasqueradeMode::kInSlot, faults::MasqueradeMode::kOwnSlot});
         fault.slot = one_of(slots_of_others(fault.node, false));
-        return occasions(fault);
-      case FaultKind::kSosTiming:
+        return;
+      case FaultParameter::kShift:
         // Up to twice the room before the action point: what leaves the slot, and what just does not.
         fault.shift = signed_up_to(Duration{2 * g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
-        receivers(fault);
-        return occasions(fault);
-      case FaultKind::kSosValue: receivers(fault); return occasions(fault);
-      case FaultKind::kBitFlipHeader:
-      case FaultKind::kBitFlipPayload:
-      case FaultKind::kBitFlipTrailer:
-        // The frame CRC finds up to five in any frame; more it misses once in 2^24.
-        fault.flips = static_cast<int>(draw_.uniform() < 0.75 ? draw_.integer(1, 5) : draw_.integer(6, 24));
-        receivers(fault);
-        return occasions(fault);
-      case FaultKind::kChannelSwap: return chosen(fault);
-      case FaultKind::kByzantineClock:
+        return;
+      case FaultParameter::kLie:
         fault.shift = between(Duration{100}, Duration{g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
         fault.pattern = one_of(std::vector{faults::ByzantinePattern::kRandom, faults::ByzantinePattern::kPullApart,
                                            faults::ByzantinePattern::kPullRates});
         return;
-      case FaultKind::kDrift: {
+      case FaultParameter::kHeaderBits:
+      case FaultParameter::kPayloadBits:
+      case FaultParameter::kTrailerBits:
+        // The frame CRC finds up to five in any frame; more it misses once in 2^24.
+        fault.flips = static_cast<int>(draw_.uniform() < 0.75 ? draw_.integer(1, 5) : draw_.integer(6, 24));
+        return;
+      case FaultParameter::kDrift: {
         // From what no clock notices to what none can follow: 10 ppm to 50000 ppm, evenly in the logarithm.
         const double ppb = 1e4 * std::pow(5'000.0, draw_.uniform());
         fault.drift_ppb = static_cast<std::int64_t>(ppb) * (draw_.uniform() < 0.5 ? -1 : 1);
         return;
       }
-      case FaultKind::kLoneColdstart: fault.all_others = draw_.uniform() < 0.5; return;
-      case FaultKind::kDuplicateColdstart:
-        fault.duplicate = one_of(duplicates(fault.node));
-        if (fault.duplicate == faults::DuplicateMode::kSameKeySlot) {
-          fault.slot = one_of(slots_of_others(fault.node, true));
-          return always(fault);
-        }
-        fault.channels = channels();
-        if (fault.duplicate == faults::DuplicateMode::kCas) bursts(fault);
-        return;
-      case FaultKind::kWrongSchedule: wrong_schedule(fault); return always(fault);
-      case FaultKind::kNoise: return bursts(fault);
-      case FaultKind::kTransient: fault.channels = channels(); return;
+      case FaultParameter::kOthers: fault.all_others = draw_.uniform() < 0.5; return;
+      case FaultParameter::kDuplicate: return duplicate(fault);
+      case FaultParameter::kWrongSchedule: return wrong_schedule(fault);
+      case FaultParameter::kReceivers: return receivers(fault);
+      case FaultParameter::kOccasions: return occasions(fault);
+      case FaultParameter::kChannels: fault.channels = channels(); return;
+      case FaultParameter::kWindow:
+      case FaultParameter::kFrom:
+      case FaultParameter::kPassing: return;  // drawn before, by when()
+      case FaultParameter::kNone:
+      case FaultParameter::kEnd: return;
     }
   }
   // What a node believes in, it believes in from the beginning to the end.
@@ -139,10 +139,18 @@ class Drawing {
     if (!slots_of_others(node, false).empty()) possible.push_back(faults::WrongSchedule::kKeySlot);
     return possible;
   }
-  std::vector<faults::DuplicateMode> duplicates(NodeId node) const {
+  void duplicate(Fault& fault) {
     std::vector possible{faults::DuplicateMode::kCas, faults::DuplicateMode::kStartupFrames};
-    if (!slots_of_others(node, true).empty()) possible.push_back(faults::DuplicateMode::kSameKeySlot);
-    return possible;
+    if (!slots_of_others(fault.node, true).empty()) possible.push_back(faults::DuplicateMode::kSameKeySlot);
+    fault.duplicate = one_of(possible);
+    switch (fault.duplicate) {
+      case faults::DuplicateMode::kCas:
+        channels();  // as its length, of no use to it, but part of campaigns' streams
+        length();
+        return;
+      case faults::DuplicateMode::kStartupFrames: return;
+      case faults::DuplicateMode::kSameKeySlot: fault.slot = one_of(slots_of_others(fault.node, true)); return;
+    }
   }
   void wrong_schedule(Fault& fault) {
     fault.wrong = one_of(wrong_schedules(fault.node));
@@ -156,24 +164,15 @@ class Drawing {
       case faults::WrongSchedule::kKeySlot: fault.slot = one_of(slots_of_others(fault.node, false)); return;
     }
   }
-  void chosen(Fault& fault) {
+  void occasions(Fault& fault) {
     if (draw_.uniform() < 0.5) fault.probability = draw_.uniform(0.05, 1.0);
     if (draw_.uniform() < 0.25) fault.every = number(2, 8);
   }
-  void occasions(Fault& fault) {
-    chosen(fault);
-    fault.channels = channels();
-  }
   void bursts(Fault& fault) {
-    const Duration length = between(Duration::microseconds(1), Duration::microseconds(300));
-    const bool noise = fault.kind == FaultKind::kNoise ||
-                       (fault.kind == FaultKind::kBabblingIdiot && fault.signal == faults::FaultSignal::kNoise);
-    if (noise) fault.length = length;  // frames and symbols are as long as they are
     // From back to back to once in some cycles, evenly in the logarithm.
     const double ns = 1e4 * std::pow(static_cast<double>(cycle_.ns) * 3e-4, draw_.uniform());
     fault.interval = Duration{static_cast<std::int64_t>(ns)};
     fault.jitter = draw_.uniform() < 0.5 ? Duration{} : between(Duration{}, fault.interval);
-    fault.channels = channels();
   }
   void receivers(Fault& fault) {
     if (draw_.uniform() < 0.5) return;
@@ -190,6 +189,7 @@ class Drawing {
     }
     return slots;
   }
+  Duration length() { return between(Duration::microseconds(1), Duration::microseconds(300)); }
   Channels channels() { return one_of(std::vector{Channels::kAB, Channels::kAB, Channels::kA, Channels::kB}); }
 
   Duration between(Duration low, Duration high) { return {draw_.integer(low.ns, high.ns)}; }
@@ -209,7 +209,7 @@ class Drawing {
 }  // namespace
 
 bool in_hypothesis(const Fault& fault) {
-  if (fault.kind == FaultKind::kLoneColdstart) return false;
+  if (others_fail(fault.kind)) return false;
   return faults::has_node(fault.kind) || fault.channels != Channels::kAB;
 }
 

@@ -1,17 +1,16 @@
 // One fault in one cluster: an own simulation of controllers on clocks of their own, the fault, and the judge.
 //
-// Every node's host writes its lists anew in every cycle, so that no two frames are alike, and restarts a halted
-// controller when the campaign says so. A trial is a pure function of campaign, wiring and index: clocks, times of
-// power-on and what the fault draws come from streams of that index.
+// Every node's host writes its lists anew in every cycle (trial_host.h), and restarts a halted controller when the
+// campaign says so (trial_run.h). A trial is a pure function of campaign, wiring and index: clocks and times of
+// power-on (trial_draws.h) and what the fault draws come from streams of that index.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
-#include "evaluation/faults/judge.h"
 #include "experiments/campaign/draw.h"
-#include "recording/records/records.h"
-#include "sim/medium/star_coupler.h"
+#include "experiments/campaign/trial_story.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::experiments::campaign {
 
@@ -30,16 +29,6 @@ struct FaultOutcome {
   std::optional<std::int64_t> reintegrated_after;  // Judgement::reintegration
 
   bool operator==(const FaultOutcome&) const = default;
-};
-
-// Told what happens in a trial, for a replay.
-class TrialStory {
- public:
-  virtual ~TrialStory() = default;
-  virtual void state_changed(NodeId node, bus::poc::PocKind from, const bus::poc::PocStep& step, TrueTime at) = 0;
-  virtual void fault_acts(const recording::records::FaultActivity& activity) = 0;
-  virtual void guardian_intervened(const sim::medium::StarCoupler::Intervention& intervention) = 0;
-  virtual void judged(const evaluation::faults::Judgement& judgement) = 0;
 };
 
 // `cluster`: as wired (cluster_of()). `story` may be null. `bit_true`: on a medium that encodes and decodes every

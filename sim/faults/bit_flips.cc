@@ -8,13 +8,13 @@
 namespace ttf::sim::faults {
 namespace {
 
-using ttf::faults::FaultKind;
-
 constexpr int kBitsOfAByte = 8;
+
+enum class FramePart { kHeader, kPayload, kTrailer };
 
 class BitFlips final : public FrameFault {
  public:
-  using FrameFault::FrameFault;
+  BitFlips(const FaultSetting& setting, FramePart part) : FrameFault(setting), part_(part) {}
 
   bool touches(NodeId sender, schedules::model::Channel channel) const override {
     return sender == fault().node && on(channel);
@@ -51,13 +51,16 @@ class BitFlips final : public FrameFault {
     constexpr int kHeader = kBitsOfAByte * static_cast<int>(bus::wire::kHeaderBytes);
     constexpr int kTrailer = kBitsOfAByte * static_cast<int>(bus::wire::kTrailerBytes);
     const int bits = kBitsOfAByte * static_cast<int>(bytes);
-    if (fault().kind == FaultKind::kBitFlipHeader) return {0, kHeader};
-    if (fault().kind == FaultKind::kBitFlipTrailer) return {bits - kTrailer, kTrailer};
-    return {kHeader, bits - kHeader - kTrailer};
+    switch (part_) {
+      case FramePart::kHeader: return {0, kHeader};
+      case FramePart::kPayload: return {kHeader, bits - kHeader - kTrailer};
+      case FramePart::kTrailer: return {bits - kTrailer, kTrailer};
+    }
+    return {};
   }
 
   // How many bits of the frame it has inverted.
-  int flip(Frame& frame, std::size_t part) const {
+  int flip(Frame& frame, std::size_t channel) const {
     const Region where = region(frame.size);
     if (!fault().bits.empty()) {
       int flips = 0;
@@ -68,7 +71,7 @@ class BitFlips final : public FrameFault {
     const int flips = std::min(fault().flips, where.count);
     // The k-th of those that are left, so that all are different: R. Floyd's way of drawing a set (Bentley, CACM 1987).
     std::array<int, 24> drawn{};
-    RandomStream stream = frame_draws(static_cast<std::uint32_t>(part));
+    RandomStream stream = frame_draws(static_cast<std::uint32_t>(channel));
     for (int i = 0; i < flips; ++i) {
       const int last = where.count - flips + i;
       const int bit = static_cast<int>(stream.integer(0, last));
@@ -82,11 +85,20 @@ class BitFlips final : public FrameFault {
     frame.bytes[static_cast<std::size_t>(bit / kBitsOfAByte)] ^= std::byte{0x80} >> (bit % kBitsOfAByte);
   }
 
+  FramePart part_;
   std::array<Frame, 2> frames_;  // by channel, the last one befallen, with its bits inverted
 };
 
 }  // namespace
 
-std::unique_ptr<ActiveFault> make_bit_flips(const FaultSetting& setting) { return std::make_unique<BitFlips>(setting); }
+std::unique_ptr<ActiveFault> make_header_flips(const FaultSetting& setting) {
+  return std::make_unique<BitFlips>(setting, FramePart::kHeader);
+}
+std::unique_ptr<ActiveFault> make_payload_flips(const FaultSetting& setting) {
+  return std::make_unique<BitFlips>(setting, FramePart::kPayload);
+}
+std::unique_ptr<ActiveFault> make_trailer_flips(const FaultSetting& setting) {
+  return std::make_unique<BitFlips>(setting, FramePart::kTrailer);
+}
 
 }  // namespace ttf::sim::faults

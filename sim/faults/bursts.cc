@@ -175,10 +175,8 @@ std::unique_ptr<ActiveFault> make_noise(const FaultSetting& setting) { return st
 std::unique_ptr<ActiveFault> make_babbling_idiot(const FaultSetting& setting) {
   return std::make_unique<BabblingIdiot>(setting);
 }
-std::unique_ptr<ActiveFault> make_repeated_cas(const FaultSetting& setting) {
-  return std::make_unique<RepeatedCas>(setting);
-}
-std::unique_ptr<ActiveFault> make_rogue_startup(const FaultSetting& setting) {
+std::unique_ptr<ActiveFault> make_duplicate_coldstart(const FaultSetting& setting) {
+  if (setting.fault.duplicate == ttf::faults::DuplicateMode::kCas) return std::make_unique<RepeatedCas>(setting);
   return std::make_unique<RogueStartup>(setting);
 }
 

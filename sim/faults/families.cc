@@ -1,38 +1,42 @@
 #include "sim/faults/families.h"
 
-#include "core/check.h"
+#include "faults/believed_schedule.h"
 
 namespace ttf::sim::faults {
+namespace {
 
-using ttf::faults::FaultKind;
+using K = ttf::faults::FaultKind;
+
+struct FamilyRow {
+  K kind{};
+  std::unique_ptr<ActiveFault> (*make)(const FaultSetting&);
+};
+constexpr std::array<FamilyRow, ttf::faults::kFaultKinds> kFamilies{{
+    {K::kCrash, make_crash},
+    {K::kOmission, make_omission},
+    {K::kBabblingIdiot, make_babbling_idiot},
+    {K::kMasquerading, make_masquerading},
+    {K::kSosTiming, make_sos_timing},
+    {K::kSosValue, make_sos_value},
+    {K::kBitFlipHeader, make_header_flips},
+    {K::kBitFlipPayload, make_payload_flips},
+    {K::kBitFlipTrailer, make_trailer_flips},
+    {K::kChannelSwap, make_channel_swap},
+    {K::kByzantineClock, make_byzantine_clock},
+    {K::kDrift, make_drift},
+    {K::kLoneColdstart, make_lone_coldstart},
+    {K::kDuplicateColdstart, make_duplicate_coldstart},
+    {K::kWrongSchedule, make_wrong_schedule},
+    {K::kNoise, make_noise},
+    {K::kTransient, make_transient},
+}};
+static_assert(ttf::faults::is_one_row_a_kind(kFamilies), "a kind that does nothing, or rows in another order");
+
+}  // namespace
 
 std::unique_ptr<ActiveFault> make_active_fault(const FaultSetting& setting) {
-  switch (setting.fault.kind) {
-    case FaultKind::kCrash: return make_crash(setting);
-    case FaultKind::kOmission: return make_omission(setting);
-    case FaultKind::kBabblingIdiot: return make_babbling_idiot(setting);
-    case FaultKind::kMasquerading: return make_masquerading(setting);
-    case FaultKind::kSosTiming: return make_sos_timing(setting);
-    case FaultKind::kSosValue: return make_sos_value(setting);
-    case FaultKind::kBitFlipHeader:
-    case FaultKind::kBitFlipPayload:
-    case FaultKind::kBitFlipTrailer: return make_bit_flips(setting);
-    case FaultKind::kChannelSwap: return make_channel_swap(setting);
-    case FaultKind::kByzantineClock: return make_byzantine_clock(setting);
-    case FaultKind::kDrift: return make_drift(setting);
-    case FaultKind::kLoneColdstart: return make_lone_coldstart(setting);
-    case FaultKind::kDuplicateColdstart:
-      switch (setting.fault.duplicate) {
-        case ttf::faults::DuplicateMode::kCas: return make_repeated_cas(setting);
-        case ttf::faults::DuplicateMode::kStartupFrames: return make_rogue_startup(setting);
-        case ttf::faults::DuplicateMode::kSameKeySlot: return make_wrong_schedule(setting);
-      }
-      break;
-    case FaultKind::kWrongSchedule: return make_wrong_schedule(setting);
-    case FaultKind::kNoise: return make_noise(setting);
-    case FaultKind::kTransient: return make_transient(setting);
-  }
-  TTF_CHECK(false, "fault kind {}", static_cast<int>(setting.fault.kind));
+  if (ttf::faults::changes_schedule(setting.fault)) return make_wrong_schedule(setting);
+  return kFamilies[index_of(setting.fault.kind)].make(setting);
 }
 
 }  // namespace ttf::sim::faults

@@ -17,22 +17,23 @@ std::unique_ptr<ActiveFault> make_drift(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_omission(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_sos_timing(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_sos_value(const FaultSetting& setting);
-std::unique_ptr<ActiveFault> make_bit_flips(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_header_flips(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_payload_flips(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_trailer_flips(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_channel_swap(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_byzantine_clock(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_masquerading(const FaultSetting& setting);
-std::unique_ptr<ActiveFault> make_wrong_schedule(const FaultSetting& setting);  // and the same key slot
+std::unique_ptr<ActiveFault> make_wrong_schedule(const FaultSetting& setting);
 
 // What comes out of nothing.
 std::unique_ptr<ActiveFault> make_babbling_idiot(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_noise(const FaultSetting& setting);
-std::unique_ptr<ActiveFault> make_repeated_cas(const FaultSetting& setting);
-std::unique_ptr<ActiveFault> make_rogue_startup(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_duplicate_coldstart(const FaultSetting& setting);  // but for the same key slot
 
 // The medium.
 std::unique_ptr<ActiveFault> make_transient(const FaultSetting& setting);
 
-// The one of these that the fault's kind and mode ask for.
+// The one of these that works as the fault's kind and mode say.
 std::unique_ptr<ActiveFault> make_active_fault(const FaultSetting& setting);
 
 }  // namespace ttf::sim::faults

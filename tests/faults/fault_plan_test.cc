@@ -4,11 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "schedules/file/loader.h"
@@ -86,6 +88,27 @@ TEST(FaultPlan, EveryKindHasANameOfItsOwnAndAnEntryHere) {
     EXPECT_TRUE(kFullEntries.contains(std::string(name_of(kind)))) << name_of(kind);
   }
   EXPECT_EQ(names.size(), 17U);
+}
+
+// What the tables of kinds are held to, at compile time.
+struct OfAKind {
+  FaultKind kind{};
+};
+constexpr std::array<OfAKind, kFaultKinds> of_every_kind() {
+  std::array<OfAKind, kFaultKinds> rows{};
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].kind = kAllFaultKinds[k];
+  return rows;
+}
+static_assert(is_one_row_a_kind(of_every_kind()));
+
+TEST(FaultPlan, ATableThatLacksAKindIsNone) {
+  auto lacking = of_every_kind();
+  lacking.back() = {};  // as where a row was not written
+  EXPECT_FALSE(is_one_row_a_kind(lacking));
+  auto in_disorder = of_every_kind();
+  std::swap(in_disorder[1], in_disorder[2]);
+  EXPECT_FALSE(is_one_row_a_kind(in_disorder));
+  EXPECT_FALSE(is_one_row_a_kind(std::array<OfAKind, 1>{}));
 }
 
 TEST(FaultPlan, EveryKindAndItsKeysAreDocumented) {

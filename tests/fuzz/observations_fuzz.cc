@@ -69,15 +69,15 @@ void check_rows(const std::vector<ObservationRow>& rows) {
 void check_tracks(const std::vector<ObservationRow>& rows) {
   replay::ReplayConfig config;
   config.tracker.history_scans = 8;  // little to set up, and soon too old
-  replay::Arrivals arrivals;
+  replay::RecordedLists arrivals;
   Findings findings;
   if (!fuzz::accepted(kFile, [&] {
         replay::list_sensors(config, rows, {}, kFile);
-        arrivals = replay::arrivals_of(rows, config, kFile, findings);
+        arrivals = replay::recorded_lists_of(rows, config, kFile, findings);
         findings.throw_if_any();
       }))
     return;
-  for (const replay::ListArrival& list : arrivals.lists)
+  for (const replay::RecordedList& list : arrivals.lists)
     TTF_CHECK(list.arrival >= list.measured && !list.observations.empty(), "list of {} ns", list.measured.ns);
   for (const auto strategy : {fusion::strategies::StrategyKind::kAdva, fusion::strategies::StrategyKind::kBuff}) {
     std::uint64_t fates = 0;

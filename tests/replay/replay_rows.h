@@ -47,10 +47,11 @@ inline std::vector<recording::rows::ObservationRow> two_cars(int seconds) {
 }
 
 // Of sensors whose noise is as usual.
-inline Arrivals arrivals_of_rows(const std::vector<recording::rows::ObservationRow>& rows, ReplayConfig& config) {
+inline RecordedLists recorded_lists_of_rows(const std::vector<recording::rows::ObservationRow>& rows,
+                                            ReplayConfig& config) {
   list_sensors(config, rows, {}, "o.csv");
   Findings findings;
-  Arrivals arrivals = arrivals_of(rows, config, "o.csv", findings);
+  RecordedLists arrivals = recorded_lists_of(rows, config, "o.csv", findings);
   findings.throw_if_any();
   return arrivals;
 }

@@ -38,7 +38,7 @@ class TrackRecorded : public testing::Test {
     const auto rows = recording::rows::observation_rows_of(input, name);
     list_sensors(config, rows, usual, name);
     Findings findings;
-    arrivals = arrivals_of(rows, config, name, findings);
+    arrivals = recorded_lists_of(rows, config, name, findings);
     findings.throw_if_any();
     for (const recording::rows::RecordedTruth& truth : input.truth)
       truth_at[(input.first_time_us + truth.time_us_from_start) * 1000] = truth;
@@ -71,7 +71,7 @@ class TrackRecorded : public testing::Test {
 
   recording::rows::RecordedInput input;
   ReplayConfig config;
-  Arrivals arrivals;
+  RecordedLists arrivals;
   std::map<std::int64_t, recording::rows::RecordedTruth> truth_at;
 };
 

@@ -24,7 +24,8 @@ struct Outcome {
   std::vector<recording::rows::TrackRow> last;
 };
 
-Outcome outcome_of(const Arrivals& arrivals, const ReplayConfig& config, StrategyKind strategy, bool predict = false) {
+Outcome outcome_of(const RecordedLists& arrivals, const ReplayConfig& config, StrategyKind strategy,
+                   bool predict = false) {
   Outcome outcome;
   const ReplaySetup setup{strategy, config.tracker, sensor_timings(arrivals, config, strategy), predict};
   outcome.account = replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::tracks::TrackView> tracks) {
@@ -58,7 +59,7 @@ std::uint64_t fates(const SensorAccount& account) {
 
 TEST(TrackReplay, FollowsBothCars) {
   ReplayConfig config;
-  const Arrivals arrivals = arrivals_of_rows(two_cars(10), config);
+  const RecordedLists arrivals = recorded_lists_of_rows(two_cars(10), config);
   const Outcome outcome = outcome_of(arrivals, config, StrategyKind::kAdva);
   EXPECT_EQ(outcome.account.tracks, 2u);
   EXPECT_EQ(outcome.account.rows, outcome.lines.size());
@@ -77,11 +78,11 @@ TEST(TrackReplay, FollowsBothCars) {
 
 TEST(TrackReplay, AdvaEndsTheSameForEveryOrderOfArrival) {
   ReplayConfig config;
-  const Arrivals in_order = arrivals_of_rows(two_cars(6), config);
+  const RecordedLists in_order = recorded_lists_of_rows(two_cars(6), config);
   const Outcome expected = outcome_of(in_order, config, StrategyKind::kAdva);
   for (const std::uint64_t seed : {1u, 2u, 3u})
     for (const std::size_t shuffle : {std::size_t{1}, std::size_t{7}, std::size_t{30}}) {
-      Arrivals arrivals = in_order;
+      RecordedLists arrivals = in_order;
       SimulatedArrivals simulated;
       if (shuffle == 1) simulated.delays.assign(2, SimulatedArrivals::Delay{Duration{}, Duration::milliseconds(400)});
       simulated.shuffle = shuffle;
@@ -98,7 +99,7 @@ TEST(TrackReplay, AdvaEndsTheSameForEveryOrderOfArrival) {
 // right.
 TEST(TrackReplay, FollowsBothCarsFromAnotherPlace) {
   ReplayConfig plain;
-  const Outcome expected = outcome_of(arrivals_of_rows(two_cars(10), plain), plain, StrategyKind::kAdva);
+  const Outcome expected = outcome_of(recorded_lists_of_rows(two_cars(10), plain), plain, StrategyKind::kAdva);
   std::vector<recording::rows::ObservationRow> rows = two_cars(10);
   for (recording::rows::ObservationRow& row : rows) {
     if (row.sensor == "radar") {
@@ -114,7 +115,7 @@ TEST(TrackReplay, FollowsBothCarsFromAnotherPlace) {
       "  camera: {mounting: {x: 1.5, y: 0.5, heading: 1.5707963267948966}}\n"
       "  radar: {mounting: {heading: 3.141592653589793}, bias: {range: 0.4, bearing: 0.02}}\n",
       "c.yaml", {});
-  const Outcome outcome = outcome_of(arrivals_of_rows(rows, placed), placed, StrategyKind::kAdva);
+  const Outcome outcome = outcome_of(recorded_lists_of_rows(rows, placed), placed, StrategyKind::kAdva);
   ASSERT_EQ(outcome.last.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_NEAR(outcome.last[i].x, expected.last[i].x, 1e-6);
@@ -133,7 +134,7 @@ TEST(TrackReplay, ConsideredBiasesAreInTheTracks) {
       parse_replay_config(std::string(kSensors) + "tracker: {systematic: consider}\n", "c.yaml", {})};
   std::vector<Outcome> outcomes;
   for (ReplayConfig& config : configs)
-    outcomes.push_back(outcome_of(arrivals_of_rows(two_cars(10), config), config, StrategyKind::kAdva));
+    outcomes.push_back(outcome_of(recorded_lists_of_rows(two_cars(10), config), config, StrategyKind::kAdva));
   ASSERT_EQ(outcomes[1].last.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     // Of y: both sensors may be wrong in it, whatever the number of observations.
@@ -149,7 +150,7 @@ TEST(TrackReplay, WhateverBuffWaitsForEveryListHasItsFate) {
        {fusion::config::BuffWaiting::kSchedule, fusion::config::BuffWaiting::kMeasured,
         fusion::config::BuffWaiting::kFixedLag}) {
     ReplayConfig config;
-    Arrivals arrivals = arrivals_of_rows(two_cars(4), config);
+    RecordedLists arrivals = recorded_lists_of_rows(two_cars(4), config);
     config.tracker.buff_waits = waits;
     config.tracker.fixed_lag = Duration::milliseconds(25);
     SimulatedArrivals simulated;
@@ -172,14 +173,14 @@ TEST(TrackReplay, WhateverBuffWaitsForEveryListHasItsFate) {
 // A measurement just before the first instant of its sensor's schedule is that instant's.
 TEST(TrackReplay, TtWaitsForTheScheduleFromItsFirstInstantOn) {
   ReplayConfig config;
-  const Arrivals arrivals =
-      arrivals_of_rows({position_row("a", 999, 1000, 1, 0), position_row("b", 999, 1000, 1, 0)}, config);
+  const RecordedLists arrivals =
+      recorded_lists_of_rows({position_row("a", 999, 1000, 1, 0), position_row("b", 999, 1000, 1, 0)}, config);
   for (auto& [name, setup] : config.sensors) {
     setup.period = Duration::milliseconds(100);
     setup.first = GlobalTime{1'000'000'000};
     setup.worst_delay = Duration::milliseconds(50);
   }
-  Arrivals alone = arrivals;
+  RecordedLists alone = arrivals;
   alone.lists.resize(1);
   const Outcome outcome = outcome_of(alone, config, StrategyKind::kTt);
   EXPECT_EQ(outcome.account.sensors[0].in_order, 1u);
@@ -200,7 +201,7 @@ TEST(TrackReplay, ClassAndThirdAxisGoWithTheTrackForEveryOrderOfArrival) {
   }
   rows.back().class_name = "zebra";  // of the radar's last list, with which the tracks end
   rows.back().score = 0.0;
-  const Arrivals in_order = arrivals_of_rows(rows, config);
+  const RecordedLists in_order = recorded_lists_of_rows(rows, config);
   EXPECT_THAT(in_order.classes, testing::ElementsAre("car", "van", "zebra"));
   const Outcome expected = outcome_of(in_order, config, StrategyKind::kAdva);
   ASSERT_EQ(expected.last.size(), 2u);
@@ -213,7 +214,7 @@ TEST(TrackReplay, ClassAndThirdAxisGoWithTheTrackForEveryOrderOfArrival) {
   EXPECT_EQ(expected.last[1 - near].class_name, "car");
   EXPECT_EQ(expected.last[1 - near].class_share, 0.5);
   EXPECT_FALSE(expected.last[1 - near].height);
-  Arrivals shuffled = in_order;
+  RecordedLists shuffled = in_order;
   SimulatedArrivals simulated;
   simulated.shuffle = 25;
   simulate(shuffled, simulated);
@@ -222,7 +223,7 @@ TEST(TrackReplay, ClassAndThirdAxisGoWithTheTrackForEveryOrderOfArrival) {
 
 TEST(TrackReplay, AllStrategiesEndTheSameAndLoseNothing) {
   ReplayConfig config;
-  Arrivals arrivals = arrivals_of_rows(two_cars(6), config);
+  RecordedLists arrivals = recorded_lists_of_rows(two_cars(6), config);
   SimulatedArrivals simulated;
   simulated.delays = {SimulatedArrivals::Delay{Duration{}, Duration::milliseconds(30)},
                       SimulatedArrivals::Delay{Duration::milliseconds(40), Duration::milliseconds(100)}};
@@ -251,7 +252,7 @@ TEST(TrackReplay, WhatIsHeldIsLetGoWhenTheWorstDelayIsOver) {
   config.tracker.confirm_hits = config.tracker.confirm_window = 1;
   config.sensors = {{"camera", {}}, {"radar", {}}};
   config.sensors[1].second.worst_delay = Duration::milliseconds(80);
-  const Arrivals arrivals = arrivals_of_rows({position_row("camera", 0, 10, 5, 0)}, config);
+  const RecordedLists arrivals = recorded_lists_of_rows({position_row("camera", 0, 10, 5, 0)}, config);
   const Outcome buff = outcome_of(arrivals, config, StrategyKind::kBuff);
   EXPECT_THAT(buff.known, testing::ElementsAre(GlobalTime{80'000'000}));
   EXPECT_EQ(buff.account.sensors[0].held, 1u);
@@ -276,7 +277,7 @@ TEST(TrackReplay, DuplicatesAndWhatIsTooOldAreCounted) {
     if (ms == 500) rows.push_back(position_row("a", ms, ms + 20, 10.0, 0.0));  // heard twice
   }
   rows.push_back(position_row("b", 100, 900, 10.0, 0.0));  // older than the history
-  const Arrivals arrivals = arrivals_of_rows(rows, config);
+  const RecordedLists arrivals = recorded_lists_of_rows(rows, config);
   for (const StrategyKind strategy : {StrategyKind::kAdva, StrategyKind::kBuff}) {
     const ReplayAccount account = outcome_of(arrivals, config, strategy).account;
     EXPECT_EQ(account.sensors[0].duplicates, 1u);
@@ -301,7 +302,7 @@ TEST(TrackReplay, NumbersFarFromZeroStayFinite) {
     rows.back().z = {1e7, -100.0, 1e4};
     rows.back().covariance = {{1e8, 0.0, 1e-8, 0.0, 0.0, 1e-8}};
   }
-  const Arrivals arrivals = arrivals_of_rows(rows, config);
+  const RecordedLists arrivals = recorded_lists_of_rows(rows, config);
   const Outcome outcome = outcome_of(arrivals, config, StrategyKind::kAdva);
   for (const std::string& line : outcome.lines) {
     EXPECT_EQ(line.find("nan"), std::string::npos) << line;

@@ -30,7 +30,7 @@ inline std::set<NodeId> harmed_nodes(const FaultEffects& effects, Harm kind) {
 // What the injector does to a drive, by a plan.
 struct Planned {
   drives::Drive drive;
-  std::optional<FaultReport> report;
+  std::optional<FaultAccount> report;
 
   explicit Planned(const char* scenario = "scenarios/paper_scenario1.yaml")
       : drive(scenario, fusion::strategies::StrategyKind::kTt) {}
@@ -42,7 +42,7 @@ struct Planned {
     if (duration_ms > 0) fault.duration = Duration::milliseconds(duration_ms);
     return fault;
   }
-  FaultReport make_report() const {
+  FaultAccount make_report() const {
     return {drive.cluster, ttf::faults::resolve(drive.scenario.faults, drive.cluster), !drive.scenario.startup.cold};
   }
   const FaultFindings& run() {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "evaluation/faults/reach.h"
+#include "faults/plan.h"
 #include "tests/sim/crank/bus_clusters.h"
 
 namespace ttf::evaluation::faults {
@@ -19,10 +21,7 @@ TrueTime in_cycle(int cycle, int us = 0) { return TrueTime{cycle * kBusCycle.ns 
 
 class Story : public testing::Test {
  protected:
-  explicit Story(bool starts_up = false) : judge_(cluster_, settings(starts_up)) {
-    if (starts_up) return;
-    for (const NodeId node : {kFaulty, kAlice, kBob}) judge_.begins_active(node);
-  }
+  explicit Story(bool starts_up = false) : judge_(cluster_, settings(starts_up)) {}
   static JudgeSettings settings(bool starts_up) {
     JudgeSettings settings;
     settings.faulty = {true, false, false};

@@ -18,7 +18,7 @@ namespace {
 
 using fusion::strategies::StrategyKind;
 
-TEST(FaultReport, ATransientOnBothChannelsHarmsOnOneItDoesNot) {
+TEST(FaultAccount, ATransientOnBothChannelsHarmsOnOneItDoesNot) {
   for (const bool both : {true, false}) {
     Planned run;
     run.add(FaultKind::kTransient, "", 1'000, 20).channels =
@@ -40,7 +40,7 @@ TEST(FaultReport, ATransientOnBothChannelsHarmsOnOneItDoesNot) {
 
 // The clocks run free for twenty cycles, too long to come together again. What comes of it is the transient's for as
 // long as a controller puts up with missing sync frames; later nobody can say any more.
-TEST(FaultReport, WhatALongTransientLeavesBehindIsItsOwnForAWhile) {
+TEST(FaultAccount, WhatALongTransientLeavesBehindIsItsOwnForAWhile) {
   Planned run;
   run.add(FaultKind::kTransient, "", 1'000, 100);
   const FaultFindings& found = run.run();
@@ -51,7 +51,7 @@ TEST(FaultReport, WhatALongTransientLeavesBehindIsItsOwnForAWhile) {
     for (const HarmSeen& one : nodes) EXPECT_GT(one.first, *found.faults[0].ends + Duration::milliseconds(49));
 }
 
-TEST(FaultReport, ACrashOfOneHarmsNoOther) {
+TEST(FaultAccount, ACrashOfOneHarmsNoOther) {
   Planned run;
   run.add(FaultKind::kCrash, "gateway", 1'000, 500);
   const FaultFindings& found = run.run();
@@ -68,7 +68,7 @@ TEST(FaultReport, ACrashOfOneHarmsNoOther) {
 }
 
 // Five nodes start while the sixth has no supply: that they do so is no effect of it. That it starts late is.
-TEST(FaultReport, TheStepsOfAStartUpAreNobodysDoing) {
+TEST(FaultAccount, TheStepsOfAStartUpAreNobodysDoing) {
   Planned run("scenarios/cold_start.yaml");
   run.add(FaultKind::kCrash, "camera", 1, 100);
   const FaultFindings& found = run.run();
@@ -81,7 +81,7 @@ TEST(FaultReport, TheStepsOfAStartUpAreNobodysDoing) {
 }
 
 // The leading node loses its supply when others have begun to follow: they are thrown back, and say so.
-TEST(FaultReport, StepsBackInAStartUpAreOfTheFault) {
+TEST(FaultAccount, StepsBackInAStartUpAreOfTheFault) {
   Planned run("scenarios/cold_start.yaml");
   run.add(FaultKind::kCrash, "fusion", 8, 0);
   const FaultFindings& found = run.run();
@@ -96,7 +96,7 @@ TEST(FaultReport, StepsBackInAStartUpAreOfTheFault) {
 }
 
 // Its node's slots are silent, and it is of that node, too: it has done nothing.
-TEST(FaultReport, WhatNeverActsHasNoEffects) {
+TEST(FaultAccount, WhatNeverActsHasNoEffects) {
   Planned run;
   run.add(FaultKind::kCrash, "camera_pre", 1'000, 0);
   run.add(FaultKind::kBabblingIdiot, "camera_pre", 1'200, 100);
@@ -108,7 +108,7 @@ TEST(FaultReport, WhatNeverActsHasNoEffects) {
 }
 
 // A burst is told no longer than its fault lasts; a frame is sent to its end, and what comes of it is the fault's.
-TEST(FaultReport, WhatABurstDoesIsItsFaults) {
+TEST(FaultAccount, WhatABurstDoesIsItsFaults) {
   for (const FaultKind kind : {FaultKind::kNoise, FaultKind::kBabblingIdiot}) {
     Planned run;
     ttf::faults::Fault& fault = run.add(kind, kind == FaultKind::kNoise ? "" : "gateway", 1'000, 1);
@@ -129,7 +129,7 @@ TEST(FaultReport, WhatABurstDoesIsItsFaults) {
 }
 
 // H2: noise that never ends keeps everybody from starting.
-TEST(FaultReport, WhoNeverStartsIsHarmed) {
+TEST(FaultAccount, WhoNeverStartsIsHarmed) {
   Planned run("scenarios/cold_start.yaml");
   ttf::faults::Fault& noise = run.add(FaultKind::kNoise, "", 0, 0);
   noise.length = Duration::milliseconds(1);
@@ -140,7 +140,7 @@ TEST(FaultReport, WhoNeverStartsIsHarmed) {
 }
 
 // Several at once, each where it belongs, whichever began or acted last.
-TEST(FaultReport, OfSeveralFaultsEachIsToldItsOwn) {
+TEST(FaultAccount, OfSeveralFaultsEachIsToldItsOwn) {
   Planned run;
   run.add(FaultKind::kCrash, "camera_pre", 1'000, 0);
   run.add(FaultKind::kBitFlipPayload, "gateway", 1'200, 300);
@@ -162,7 +162,7 @@ TEST(FaultReport, OfSeveralFaultsEachIsToldItsOwn) {
 
 // Two faults of one node, in slots that follow one another: a frame that does not leave is silence, one with inverted
 // bits is not.
-TEST(FaultReport, OfTwoFaultsOfOneNodeEachIsToldItsOwn) {
+TEST(FaultAccount, OfTwoFaultsOfOneNodeEachIsToldItsOwn) {
   Planned run;
   run.add(FaultKind::kOmission, "gateway", 1'000, 0).probability = 0.1;
   run.add(FaultKind::kBitFlipPayload, "gateway", 1'000, 0).probability = 0.1;
@@ -186,14 +186,14 @@ struct Interventions final : recording::records::Sink {
   }
 };
 
-TEST(FaultReport, WhatGuardiansBlockIsTold) {
+TEST(FaultAccount, WhatGuardiansBlockIsTold) {
   Planned run;
   run.drive.cluster.topology = schedules::model::Topology::kStar;
   run.drive.cluster.guardian = true;
   ttf::faults::Fault& babble = run.add(FaultKind::kBabblingIdiot, "feature", 1'001, 50);
   babble.channels = schedules::model::Channels::kB;
   babble.interval = Duration::milliseconds(1);
-  FaultReport report = run.make_report();
+  FaultAccount report = run.make_report();
   Interventions interventions;
   recording::records::Tee tee({&report, &interventions});
   run.drive.run(tee);
@@ -237,7 +237,7 @@ struct Endless final : sim::medium::Disturbance {
   }
 };
 
-TEST(FaultReport, WhatGuardiansCutIsTold) {
+TEST(FaultAccount, WhatGuardiansCutIsTold) {
   drives::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
   drive.cluster.topology = schedules::model::Topology::kStar;
   drive.cluster.guardian = true;
@@ -272,11 +272,11 @@ TEST(FaultReport, WhatGuardiansCutIsTold) {
 }
 
 // A log tells what the run told.
-TEST(FaultReport, IsTheSameFromTheLog) {
+TEST(FaultAccount, IsTheSameFromTheLog) {
   Planned run("scenarios/faulty_bus.yaml");
   run.drive.cluster.topology = schedules::model::Topology::kStar;
   run.drive.cluster.guardian = true;
-  FaultReport live = run.make_report(), logged = run.make_report();
+  FaultAccount live = run.make_report(), logged = run.make_report();
   const std::string path = testing::TempDir() + "/faulty_bus.mcap";
   recording::log::LogWriter log(path, {});
   recording::records::Tee tee({&live, &log});
@@ -284,7 +284,7 @@ TEST(FaultReport, IsTheSameFromTheLog) {
   log.close();
   recording::log::read_log(path, logged);
   std::filesystem::remove(path);
-  for (FaultReport* report : {&live, &logged}) report->finish(drives::drive_end(run.drive.scenario));
+  for (FaultAccount* report : {&live, &logged}) report->finish(drives::drive_end(run.drive.scenario));
   const FaultFindings &a = live.findings(), &b = logged.findings();
   ASSERT_EQ(a.faults.size(), run.drive.scenario.faults.faults.size());
   ASSERT_EQ(b.faults.size(), a.faults.size());

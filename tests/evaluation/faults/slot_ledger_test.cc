@@ -47,7 +47,8 @@ class Ledger : public testing::Test {
 
   schedules::model::Cluster cluster_ = sim::crank::bus_cluster(3, 3, 3);
   std::vector<SlotLoss> losses_;
-  SlotLedger ledger_{cluster_, [](NodeId) { return true; }, [this](const SlotLoss& loss) { losses_.push_back(loss); }};
+  Standings standings_{cluster_, true};
+  SlotLedger ledger_{cluster_, standings_, [this](const SlotLoss& loss) { losses_.push_back(loss); }};
 };
 
 TEST_F(Ledger, ALossIsSettledTwoCyclesLater) {

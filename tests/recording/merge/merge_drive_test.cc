@@ -91,8 +91,8 @@ struct Outcome {
 Outcome outcome(const Drive& drive, const log::LogManifest& manifest, const Read& read) {
   evaluation::accuracy::DriveMeasures measures(drives::evaluation_start(drive.scenario));
   evaluation::cluster::StartupAccount startup(drive.cluster.cycle());
-  evaluation::faults::FaultReport faults(drive.cluster, faults::resolve(drive.scenario.faults, drive.cluster),
-                                         !drive.scenario.startup.cold);
+  evaluation::faults::FaultAccount faults(drive.cluster, faults::resolve(drive.scenario.faults, drive.cluster),
+                                          !drive.scenario.startup.cold);
   const report::drawing::Names names = report::drawing::names_of(drive.cluster);
   const TrueTime from = drives::evaluation_start(drive.scenario), to = drives::drive_end(drive.scenario);
   report::timing::TimingDiagram timing(names, drive.cluster.cycle(), from, from + Duration::milliseconds(160));

@@ -23,9 +23,9 @@ std::vector<std::string> sentences_of(const Findings& findings) {
   return sentences;
 }
 
-TEST(Arrivals, RowsOfOneSensorTimeAndArrivalAreAList) {
+TEST(RecordedLists, RowsOfOneSensorTimeAndArrivalAreAList) {
   ReplayConfig config;
-  const Arrivals arrivals = arrivals_of_rows(
+  const RecordedLists arrivals = recorded_lists_of_rows(
       {position_row("b", 0, 90, 1, 0), position_row("a", 0, 20, 2, 0), position_row("b", 0, 90, 3, 0),
        position_row("a", 50, 70, 4, 0), position_row("b", 100, 80, 5, 0), position_row("a", 50, 95, 6, 0)},
       config);
@@ -45,7 +45,7 @@ TEST(Arrivals, RowsOfOneSensorTimeAndArrivalAreAList) {
   EXPECT_EQ(l[1].arrival, ms(70));
 }
 
-TEST(Arrivals, NoiseIsTheRowsOwnOrTheSensors) {
+TEST(RecordedLists, NoiseIsTheRowsOwnOrTheSensors) {
   ReplayConfig config;
   config.sensors = {{"s", {}}};
   config.sensors[0].second.noise = {0.4, 0.6, 0.02, 0.7, 0.1, 0.3, 0.2};
@@ -57,7 +57,7 @@ TEST(Arrivals, NoiseIsTheRowsOwnOrTheSensors) {
   rows[0].sigma_length = 0.05;
   rows[1].kind = recording::rows::ObservationRow::Kind::kRangeBearingRate;
   rows[2].kind = recording::rows::ObservationRow::Kind::kRangeBearing;
-  const Arrivals arrivals = arrivals_of_rows(rows, config);
+  const RecordedLists arrivals = recorded_lists_of_rows(rows, config);
   ASSERT_EQ(arrivals.lists.size(), 1u);
   const auto& o = arrivals.lists[0].observations;
   EXPECT_EQ(o[0].r(0, 1), 0.1);
@@ -72,7 +72,7 @@ TEST(Arrivals, NoiseIsTheRowsOwnOrTheSensors) {
   EXPECT_NEAR(o[2].z.head<2>().norm(), 5.0, 0.01);
 }
 
-TEST(Arrivals, WhatNoFilterCanTakeIsAFinding) {
+TEST(RecordedLists, WhatNoFilterCanTakeIsAFinding) {
   ReplayConfig config;
   config.file = "c.yaml";
   config.sensors = {{"a", {}}, {"b", {}}};
@@ -83,7 +83,7 @@ TEST(Arrivals, WhatNoFilterCanTakeIsAFinding) {
   for (std::size_t i = 0; i < config.tracker.max_observations; ++i) rows.push_back(position_row("a", 0, 0, 1, 0));
   rows.back().line = 99;
   Findings findings;
-  const Arrivals arrivals = arrivals_of(rows, config, "o.csv", findings);
+  const RecordedLists arrivals = recorded_lists_of(rows, config, "o.csv", findings);
   EXPECT_THAT(sentences_of(findings),
               ElementsAre("o.csv:3: sensor = c: must be a sensor of c.yaml: a or b",
                           "o.csv:4: covariance: must be positive definite, and more than rounding",
@@ -93,7 +93,7 @@ TEST(Arrivals, WhatNoFilterCanTakeIsAFinding) {
   EXPECT_EQ(arrivals.lists[0].observations.size(), 64u);
 }
 
-TEST(Arrivals, ClassesAreNumberedByTheirNames) {
+TEST(RecordedLists, ClassesAreNumberedByTheirNames) {
   ReplayConfig config;
   std::vector<recording::rows::ObservationRow> rows;
   for (int i = 0; i < 17; ++i) {
@@ -102,33 +102,33 @@ TEST(Arrivals, ClassesAreNumberedByTheirNames) {
     rows.back().line = i + 2;
   }
   try {
-    arrivals_of_rows(rows, config);
+    recorded_lists_of_rows(rows, config);
     FAIL() << "17 classes";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "o.csv:18: class = j: must be one of at most 16 classes");
   }
   rows.pop_back();
   rows.back().class_name.clear();
-  const Arrivals arrivals = arrivals_of_rows(rows, config);
+  const RecordedLists arrivals = recorded_lists_of_rows(rows, config);
   EXPECT_EQ(arrivals.classes.front(), "l");
   EXPECT_EQ(arrivals.lists[0].observations[0].class_id, fusion::sensors::ClassId{14}) << "z";
   EXPECT_EQ(arrivals.lists[0].observations[0].score, 1.0);
   EXPECT_EQ(arrivals.lists[15].observations[0].class_id, fusion::sensors::kNoClass);
 }
 
-std::map<MeasurementId, GlobalTime> arrival_of(const Arrivals& arrivals) {
+std::map<MeasurementId, GlobalTime> arrival_of(const RecordedLists& arrivals) {
   std::map<MeasurementId, GlobalTime> result;
-  for (const ListArrival& list : arrivals.lists) result[list.id] = list.arrival;
+  for (const RecordedList& list : arrivals.lists) result[list.id] = list.arrival;
   return result;
 }
 
 TEST(SimulatedArrivals, DelaysAreWithinTheirBoundsAndOfTheSeed) {
   ReplayConfig config;
-  const Arrivals recorded = arrivals_of_rows(two_cars(10), config);
+  const RecordedLists recorded = recorded_lists_of_rows(two_cars(10), config);
   SimulatedArrivals simulated;
   simulated.delays = {std::nullopt, SimulatedArrivals::Delay{Duration::milliseconds(20), Duration::milliseconds(170)}};
   simulated.seed = 3;
-  Arrivals once = recorded, twice = recorded, other = recorded;
+  RecordedLists once = recorded, twice = recorded, other = recorded;
   simulate(once, simulated);
   simulate(twice, simulated);
   simulated.seed = 4;
@@ -136,7 +136,7 @@ TEST(SimulatedArrivals, DelaysAreWithinTheirBoundsAndOfTheSeed) {
   EXPECT_EQ(arrival_of(once), arrival_of(twice));
   EXPECT_NE(arrival_of(once), arrival_of(other));
   Duration least = Duration::milliseconds(1000), most;
-  for (const ListArrival& list : once.lists) {
+  for (const RecordedList& list : once.lists) {
     const Duration delay = list.arrival - list.measured;
     if (list.id.sensor == SensorId{0}) {
       EXPECT_EQ(delay.ns, 0) << "a sensor without a delay keeps the recorded one";
@@ -150,12 +150,12 @@ TEST(SimulatedArrivals, DelaysAreWithinTheirBoundsAndOfTheSeed) {
   EXPECT_LE(most, Duration::milliseconds(170));
   EXPECT_GT(most, Duration::milliseconds(160));
   EXPECT_TRUE(std::is_sorted(once.lists.begin(), once.lists.end(),
-                             [](const ListArrival& a, const ListArrival& b) { return a.arrival < b.arrival; }));
+                             [](const RecordedList& a, const RecordedList& b) { return a.arrival < b.arrival; }));
 
   // The camera is not there: the radar's delays are as they were.
   std::vector<recording::rows::ObservationRow> rows = two_cars(10);
   std::erase_if(rows, [](const recording::rows::ObservationRow& row) { return row.sensor == "camera"; });
-  Arrivals alone = arrivals_of_rows(rows, config);
+  RecordedLists alone = recorded_lists_of_rows(rows, config);
   simulated.seed = 3;
   simulate(alone, simulated);
   const auto with_camera = arrival_of(once);
@@ -164,10 +164,10 @@ TEST(SimulatedArrivals, DelaysAreWithinTheirBoundsAndOfTheSeed) {
 
 TEST(SimulatedArrivals, AShuffleKeepsEachBlockTogether) {
   ReplayConfig config;
-  const Arrivals recorded = arrivals_of_rows(two_cars(2), config);
+  const RecordedLists recorded = recorded_lists_of_rows(two_cars(2), config);
   SimulatedArrivals simulated;
   simulated.shuffle = 8;
-  Arrivals shuffled = recorded;
+  RecordedLists shuffled = recorded;
   simulate(shuffled, simulated);
   ASSERT_EQ(shuffled.lists.size(), recorded.lists.size());
   int moved = 0;
@@ -188,7 +188,7 @@ TEST(SimulatedArrivals, AShuffleKeepsEachBlockTogether) {
 
 TEST(SensorTiming, WorstDelaysAreTheConfigurationsOrTheLongestSeen) {
   ReplayConfig config;
-  const Arrivals arrivals = arrivals_of_rows(
+  const RecordedLists arrivals = recorded_lists_of_rows(
       {position_row("a", 0, 20, 0, 0), position_row("a", 50, 110, 0, 0), position_row("b", 0, 5, 0, 0)}, config);
   EXPECT_THAT(longest_delays(arrivals), ElementsAre(Duration::milliseconds(60), Duration::milliseconds(5)));
   config.sensors[1].second.worst_delay = Duration::milliseconds(300);
@@ -210,7 +210,7 @@ TEST(SensorTiming, APeriodIsTheOneAllInstantsLieOn) {
 TEST(SensorTiming, TtNeedsASchedule) {
   ReplayConfig config;
   config.file = "c.yaml";
-  const Arrivals arrivals = arrivals_of_rows(two_cars(2), config);
+  const RecordedLists arrivals = recorded_lists_of_rows(two_cars(2), config);
   const auto seen = sensor_timings(arrivals, config, fusion::strategies::StrategyKind::kTt);
   EXPECT_TRUE(seen[0].scheduled && seen[1].scheduled);
   EXPECT_EQ(seen[0].period, Duration::milliseconds(50));
@@ -222,7 +222,7 @@ TEST(SensorTiming, TtNeedsASchedule) {
   EXPECT_EQ(given[0].first, ms(-75));
   ReplayConfig bare;
   bare.file = "c.yaml";
-  const Arrivals once = arrivals_of_rows({position_row("a", 0, 0, 0, 0)}, bare);
+  const RecordedLists once = recorded_lists_of_rows({position_row("a", 0, 0, 0, 0)}, bare);
   try {
     sensor_timings(once, bare, fusion::strategies::StrategyKind::kTt);
     FAIL() << "nothing is known of any schedule";

@@ -37,7 +37,7 @@ struct Deaf final : sim::medium::Disturbance {
 // A drive whose report is made while it runs. What is said of the fault is made up.
 struct Reported {
   schedules::model::Cluster cluster;
-  FaultReport report;
+  FaultAccount report;
   drives::LivingDrive drive;
 
   explicit Reported(FaultKind kind, const char* node = nullptr)
@@ -71,7 +71,7 @@ struct Reported {
   bool harmed() const { return report.findings().harmed(); }
 };
 
-TEST(FaultReport, OfAFaultThatDoesNothingNothingIsSeen) {
+TEST(FaultAccount, OfAFaultThatDoesNothingNothingIsSeen) {
   Reported run(FaultKind::kTransient);
   run.begins(0.5);
   run.drive.run_to(2.0);
@@ -82,7 +82,7 @@ TEST(FaultReport, OfAFaultThatDoesNothingNothingIsSeen) {
   EXPECT_TRUE(run.unattributed().nothing());
 }
 
-TEST(FaultReport, WithoutAFaultThereIsNothingToTell) {
+TEST(FaultAccount, WithoutAFaultThereIsNothingToTell) {
   Reported run(FaultKind::kTransient);
   run.drive.off("laser_pre", 0.5);
   run.drive.run_to(1.0);
@@ -91,7 +91,7 @@ TEST(FaultReport, WithoutAFaultThereIsNothingToTell) {
 }
 
 // A dead host: the four others miss its status frame in every cycle, and that harms nobody.
-TEST(FaultReport, ASilentNodeIsMissedInEveryCycleAndHarmsNobody) {
+TEST(FaultAccount, ASilentNodeIsMissedInEveryCycleAndHarmsNobody) {
   Reported run(FaultKind::kCrash, "laser_pre");
   run.begins(0.5, run.node("laser_pre"));
   run.drive.off("laser_pre", 0.5);
@@ -105,7 +105,7 @@ TEST(FaultReport, ASilentNodeIsMissedInEveryCycleAndHarmsNobody) {
 
 // The feature service hears nothing of the gateway for 20 cycles: on one channel it is told, on both it is harmed. What
 // is said to have done it is something on the channel.
-TEST(FaultReport, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
+TEST(FaultAccount, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
   for (const bool both : {false, true}) {
     Reported run(FaultKind::kTransient);
     Deaf deaf;
@@ -135,7 +135,7 @@ TEST(FaultReport, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
 }
 
 // The same deafness is of no fault of the plan where that is another node's.
-TEST(FaultReport, WhatFitsNoFaultIsUnattributed) {
+TEST(FaultAccount, WhatFitsNoFaultIsUnattributed) {
   Reported run(FaultKind::kCrash, "laser_pre");
   Deaf deaf;
   deaf.sender = run.node("gateway");
@@ -153,7 +153,7 @@ TEST(FaultReport, WhatFitsNoFaultIsUnattributed) {
 }
 
 // The last frames of a run are owed like all others: it ends when the static segment that they were lost in is over.
-TEST(FaultReport, AFrameLostInTheLastCycleIsHarm) {
+TEST(FaultAccount, AFrameLostInTheLastCycleIsHarm) {
   for (const bool told : {false, true}) {
     Reported run(FaultKind::kTransient);
     Deaf deaf;
@@ -176,7 +176,7 @@ TEST(FaultReport, AFrameLostInTheLastCycleIsHarm) {
 }
 
 // Where the faulty node's own ears are at fault it is nobody else's harm.
-TEST(FaultReport, WhatTheFaultyNodeMissesHarmsNobody) {
+TEST(FaultAccount, WhatTheFaultyNodeMissesHarmsNobody) {
   Reported run(FaultKind::kOmission, "feature");
   Deaf deaf;
   deaf.sender = run.node("gateway");
@@ -194,7 +194,7 @@ TEST(FaultReport, WhatTheFaultyNodeMissesHarmsNobody) {
 }
 
 // The fault-free clocks part when one of them drifts away: told by the frames alone, whoever is said to be at fault.
-TEST(FaultReport, ClocksThatPartAreHarmUnlessTheOneThatPartsIsFaulty) {
+TEST(FaultAccount, ClocksThatPartAreHarmUnlessTheOneThatPartsIsFaulty) {
   for (const bool named : {true, false}) {
     Reported run(named ? FaultKind::kDrift : FaultKind::kTransient, named ? "feature" : nullptr);
     run.begins(0.5, named ? run.node("feature") : kNoNode);
@@ -209,7 +209,7 @@ TEST(FaultReport, ClocksThatPartAreHarmUnlessTheOneThatPartsIsFaulty) {
 }
 
 // H1: fault-free nodes lose their supply, one after the other, while something is on the channel: every one is named.
-TEST(FaultReport, EveryNodeThatLeavesNormalActiveIsNamed) {
+TEST(FaultAccount, EveryNodeThatLeavesNormalActiveIsNamed) {
   Reported run(FaultKind::kCrash, "laser_pre");
   run.begins(0.5, run.node("laser_pre"));
   run.drive.off("laser_pre", 0.5);
@@ -241,7 +241,7 @@ struct Forged final : recording::records::Sink {
   void on(const recording::records::SlotProblem& problem) override { to->on(problem); }
 };
 
-TEST(FaultReport, AFrameThatItsOwnerDidNotSendIsForgedForAllWhoTookIt) {
+TEST(FaultAccount, AFrameThatItsOwnerDidNotSendIsForgedForAllWhoTookIt) {
   Forged forged;
   drives::LivingDrive drive(StrategyKind::kTt, &forged);
   ttf::faults::FaultPlan plan;
@@ -249,7 +249,7 @@ TEST(FaultReport, AFrameThatItsOwnerDidNotSendIsForgedForAllWhoTookIt) {
   fault.kind = FaultKind::kMasquerading;
   fault.node = *drive.drive.cluster.find_node("laser_pre");
   fault.channels = schedules::model::Channels::kB;
-  FaultReport report(drive.drive.cluster, plan, true);
+  FaultAccount report(drive.drive.cluster, plan, true);
   forged.to = &report;
   forged.sender = *drive.drive.cluster.find_node("gateway");
   forged.from = sim::crank::kFirstCycle + drive.drive.cluster.cycle() * 100;

@@ -1,0 +1,112 @@
+#include "evaluation/accuracy/image_uses.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ttf::evaluation::accuracy {
+namespace {
+
+constexpr std::size_t kImagesRemembered = 8;
+
+PlaneEstimate in_the_plane(double x, double y, double speed, double heading) {
+  return {x, y, speed * std::cos(heading), speed * std::sin(heading)};
+}
+
+}  // namespace
+
+void ImageUses::on(const recording::records::ListFused& list) {
+  if (list.disposition != recording::records::Disposition::kFused &&
+      list.disposition != recording::records::Disposition::kFusedLate)
+    return;
+  fused(list.id.sensor, list.stamp.global - list.measured);
+  const TrueTime measured = recording::records::true_time_of(list.stamp, list.measured);
+  const auto [newest, first] = newest_fused_.try_emplace(list.id.sensor, Fused{list.id, measured});
+  if (!first && measured > newest->second.measured) newest->second = {list.id, measured};
+}
+
+void ImageUses::on(const recording::records::TrackState& track) {
+  if (!track.predicted_for_image) return;
+  Predicted& predicted = predicted_.emplace_back();
+  for (std::size_t r = 0; r < 4; ++r) {
+    predicted.state[r] = track.state[r];
+    for (std::size_t c = 0; c < 4; ++c) predicted.covariance[4 * r + c] = track.covariance[6 * r + c];
+  }
+}
+
+// An image's predictions are reported before it, one an object. Where a torn log lost some, they are not to be told
+// apart.
+void ImageUses::on(const recording::records::ImageWritten& image) {
+  if (predicted_.size() != image.objects.size()) predicted_.clear();
+  Image& made = images_.emplace_back();
+  made.sequence = image.sequence;
+  made.predicted = std::move(predicted_);
+  for (const MeasurementId& id : image.newest)
+    if (const auto newest = newest_fused_.find(id.sensor); newest != newest_fused_.end() && newest->second.id == id)
+      made.newest.push_back(newest->second);
+  predicted_.clear();
+  while (images_.size() > kImagesRemembered) images_.pop_front();
+}
+
+// The last of this number: a fusion node that restarts counts its images anew.
+const ImageUses::Image* ImageUses::image_of(std::uint32_t sequence) const {
+  const auto last =
+      std::find_if(images_.rbegin(), images_.rend(), [&](const Image& image) { return image.sequence == sequence; });
+  return last == images_.rend() ? nullptr : &*last;
+}
+
+void ImageUses::on(const recording::records::FeatureUsed& used_now) {
+  finish_use();
+  Use use{used_now.stamp.true_time, used_now.image_sequence, used_now.fresh, {}};
+  for (const recording::records::FeatureObject& object : used_now.objects)
+    use.objects.push_back(in_the_plane(object.image.x, object.image.y, object.image.speed, object.image.heading));
+  std::vector<SensorAge> ages;
+  if (const Image* image = used_now.stale ? nullptr : image_of(use.image))
+    for (const Fused& newest : image->newest) ages.push_back({newest.id.sensor, use.at - newest.measured});
+  if (used(used_now, use.objects, ages)) pending_ = std::move(use);
+}
+
+void ImageUses::on(const recording::records::TruthState& truth) {
+  if (!truth_.empty() && truth_.front().at != truth.at) {
+    if (pending_ && truth_.front().at == pending_->at) finish_use();
+    truth_.clear();
+  }
+  // Once for every node that recorded it at that instant: the same truth, on other clocks.
+  if (truth_.empty() || truth_.front().node == truth.node) truth_.push_back(truth);
+}
+
+void ImageUses::finish_use() {
+  if (pending_) judge(*pending_);
+  pending_.reset();
+}
+
+void ImageUses::judge(const Use& use) {
+  if (truth_.empty() || truth_.front().at != use.at) return;
+  std::vector<PlanePosition> truth, objects;
+  for (const recording::records::TruthState& state : truth_) truth.push_back({state.x, state.y});
+  for (const PlaneEstimate& object : use.objects) objects.push_back({object.x, object.y});
+  const std::vector<TruthPair> pairs = closest_pairs(truth, objects, gate_);
+  JudgedUse result{use.at, truth.size() - pairs.size(), objects.size() - pairs.size(), {}};
+  // An image used again was predicted to its first use.
+  const Image* image = use.fresh ? image_of(use.image) : nullptr;
+  const bool predicted = image != nullptr && image->predicted.size() == use.objects.size();
+  for (const TruthPair& pair : pairs) {
+    const recording::records::TruthState& state = truth_[pair.truth];
+    const PlaneEstimate is = in_the_plane(state.x, state.y, state.speed, state.heading);
+    const PlaneEstimate& shown = use.objects[pair.estimate];
+    UsedObject& object = result.objects.emplace_back();
+    object.object = state.object;
+    object.error = {shown.x - is.x, shown.y - is.y, shown.vx - is.vx, shown.vy - is.vy};
+    if (!predicted) continue;
+    const Predicted& own = image->predicted[pair.estimate];
+    const Eigen::Vector4d error(own.state[0] - is.x, own.state[1] - is.y, own.state[2] - is.vx, own.state[3] - is.vy);
+    const Eigen::Matrix4d covariance = Eigen::Map<const Eigen::Matrix4d>(own.covariance.data()).transpose();
+    Belief& belief = object.belief.emplace();
+    for (std::size_t k = 0; k < 4; ++k) belief.sigma[k] = std::sqrt(own.covariance[5 * k]);
+    belief.nees = error.dot(covariance.ldlt().solve(error));
+  }
+  judged(result);
+}
+
+}  // namespace ttf::evaluation::accuracy

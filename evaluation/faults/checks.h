@@ -1,0 +1,75 @@
+// What a fault may do to nodes that have none, and who may notice it: common to the judge of single faults, who is told
+// by controllers inside a simulation (evaluation/faults/judge.h), and to the account of a run's faults, which has the
+// records alone (evaluation/faults/fault_account.h).
+//
+// A fault-free node is one that the fault does not name (reach.h). From the beginning of the fault on, it is
+// harmed when
+//   H1  it leaves normal active
+//   H2  it is not normal active when the run is over, and never was since the beginning (of a run that begins with
+//       start-up)
+//   H3  the global times of the fault-free nodes are further apart than the assumed precision
+//   H4  it is normal active and receives a frame of another fault-free, normal active node on none of the channels that
+//       both share with the frame
+//   H5  it accepts as valid, in a slot of a fault-free node, what that node did not send there in this cycle
+// A frame that a fault-free node sends is owed to every fault-free node that is normal active when it leaves.
+//
+// Who noticed it: the checks of the fault-free nodes' controllers and of the guardians; the faulty node's own are kept
+// apart.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "bus/controller/controller.h"
+
+namespace ttf::evaluation::faults {
+
+enum class Check : std::uint8_t {
+  kSyntax,
+  kContent,
+  kBoundary,
+  kConflict,
+  kNoFrame,  // of a slot: bus::controller::SlotStatus
+  kMissingTerm,
+  kLimit,  // of clock correction
+  kPassive,
+  kHalt,      // states
+  kGuardian,  // kept something from the others
+};
+inline constexpr std::array kAllChecks = {Check::kSyntax,  Check::kContent,     Check::kBoundary, Check::kConflict,
+                                          Check::kNoFrame, Check::kMissingTerm, Check::kLimit,    Check::kPassive,
+                                          Check::kHalt,    Check::kGuardian};
+std::string_view name_of(Check check);
+
+enum class Harm : std::uint8_t { kLeftActive, kNotStarted, kPrecision, kFrameLost, kFrameForged };
+inline constexpr std::array kAllHarms = {Harm::kLeftActive, Harm::kNotStarted, Harm::kPrecision, Harm::kFrameLost,
+                                         Harm::kFrameForged};
+std::string_view name_of(Harm harm);
+
+// Those of `all` whose bit is set, joined by "+".
+template <class All> std::string names_of(unsigned bits, const All& all) {
+  std::string out;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if ((bits >> i & 1u) == 0) continue;
+    if (!out.empty()) out += '+';
+    out += name_of(all[i]);
+  }
+  return out;
+}
+
+// Calls `seen` with every check that is in the status of a slot (bus::controller::SlotStatus).
+template <class Seen> void for_each_check(std::uint8_t status, Seen seen) {
+  constexpr std::array<std::pair<bus::controller::SlotStatus, Check>, 5> kOfSlots{
+      {{bus::controller::kSyntaxError, Check::kSyntax},
+       {bus::controller::kContentError, Check::kContent},
+       {bus::controller::kBoundaryViolation, Check::kBoundary},
+       {bus::controller::kTransmissionConflict, Check::kConflict},
+       {bus::controller::kNoFrame, Check::kNoFrame}}};
+  for (const auto& [bit, check] : kOfSlots)
+    if ((status & bit) != 0) seen(check);
+}
+
+}  // namespace ttf::evaluation::faults

@@ -1,0 +1,37 @@
+// How the nodes of a cluster stand: in normal operation or not, with a fault or without. Who is in normal operation and
+// without a fault counts.
+#pragma once
+
+#include <vector>
+
+#include "core/ids.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::evaluation::faults {
+
+class Standings {
+ public:
+  // Nodes on FlexRay are in normal operation from the start, or have to get there.
+  Standings(const schedules::model::Cluster& cluster, bool begins_integrated);
+
+  std::size_t size() const { return nodes_.size(); }
+  bool active(NodeId node) const { return nodes_[index_of(node)].active; }
+  bool faulty(NodeId node) const { return node != kNoNode && nodes_[index_of(node)].faulty; }
+  bool counts(NodeId node) const { return active(node) && !faulty(node); }
+  bool has_to_start(NodeId node) const { return nodes_[index_of(node)].has_to_start; }  // and has not yet
+  // H2 (checks.h), where the run is over.
+  bool never_started(NodeId node) const { return has_to_start(node) && !faulty(node); }
+  bool all_fault_free_active() const;
+
+  void becomes_faulty(NodeId node) { nodes_[index_of(node)].faulty = true; }
+  void becomes_active(NodeId node);
+  void leaves_active(NodeId node) { nodes_[index_of(node)].active = false; }
+
+ private:
+  struct Node {
+    bool active = false, faulty = false, has_to_start = false;
+  };
+  std::vector<Node> nodes_;  // by NodeId
+};
+
+}  // namespace ttf::evaluation::faults

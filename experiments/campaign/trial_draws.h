@@ -1,0 +1,39 @@
+// What a trial draws of its cluster: the clocks of nodes and guardians, and when nodes are powered on. A pure function
+// of the campaign's seed and the trial's index.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/random.h"
+#include "core/time.h"
+#include "schedules/model/cluster.h"
+#include "sim/crank/bus_simulation.h"
+#include "timebase/oscillator.h"
+
+namespace ttf::experiments::campaign {
+
+class TrialDraws {
+ public:
+  TrialDraws(std::uint64_t seed, std::uint32_t index, const schedules::model::Cluster& cluster)
+      : seed_(seed), index_(index), cluster_(cluster) {}
+
+  // Nodes that are powered on within some cycles, or that have integrated into a cluster whose cycle 0 starts at
+  // `origin`; by NodeId.
+  std::vector<sim::crank::BusNode> starting() const;
+  std::vector<sim::crank::BusNode> integrated(TrueTime origin) const;
+  std::vector<timebase::Oscillator> guardians() const;  // by channel
+
+ private:
+  RandomStream stream(Purpose purpose, std::size_t entity) const;
+  timebase::Oscillator oscillator(std::size_t entity, std::int64_t microtick_ps, std::optional<std::int64_t> fixed_ppb,
+                                  std::int64_t most_ppb) const;
+  sim::crank::BusNode node(std::size_t n) const;
+
+  std::uint64_t seed_;
+  std::uint32_t index_;
+  const schedules::model::Cluster& cluster_;
+};
+
+}  // namespace ttf::experiments::campaign
