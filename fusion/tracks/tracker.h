@@ -47,7 +47,7 @@ class Tracker {
 
   // Takes the scan in; scan.measured must not be before set.time.
   void step(TrackSet& set, const sensors::Scan& scan);
-  // The parts of a step that whoever takes late scans in (fusion/late/) has use for:
+  // The parts of a step that whoever takes late scans in (fusion/strategies/late/) has use for:
   // which observation of the scan each track takes, or -1: gated and assigned, no track changed; valid until the next
   // call.
   std::span<const int> assigned(const TrackSet& set, const sensors::Scan& scan);

@@ -13,7 +13,6 @@
 namespace ttf::nodes::runner {
 namespace {
 
-constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
 constexpr Duration kHealthEvery = Duration::milliseconds(1000);
 constexpr Duration kRoomForHealth = Duration::microseconds(500);  // until the next thing is due
 constexpr std::uint64_t kDoneBetweenLooks = 1024;  // who has much to catch up with can be stopped all the same
@@ -210,12 +209,12 @@ void Runner::look_after_controller() {
   const bool gave_up = state.kind == bus::poc::PocKind::kIntegrationListen && node.pKeySlotUsedForStartup &&
                        bus::poc::attempts_exhausted(state);
   if (!gave_up)
-    tries_again_ = kNever;
-  else if (tries_again_ == kNever)
+    tries_again_ = kNever<Microticks>;
+  else if (tries_again_ == kNever<Microticks>)
     tries_again_ = last_ + Microticks{kCyclesUntilAnew * node.pMicroPerCycle};
   if (state.kind != bus::poc::PocKind::kHalt && last_ < tries_again_) return;
   executive_->start_anew(last_);
-  tries_again_ = kNever;
+  tries_again_ = kNever<Microticks>;
 }
 
 // A line is watched where something is to be done as soon as something comes.
@@ -247,7 +246,7 @@ void Runner::tell_health() {
   const bus::ports::HostTime now = host_clock_.now();
   if (now < health_due_) return;
   const Microticks next = next_due();
-  const bool room = next == kNever || host_time(next) > now + kRoomForHealth;
+  const bool room = next == kNever<Microticks> || host_time(next) > now + kRoomForHealth;
   if (!room && now < health_due_ + kHealthEvery) return;
   health_due_ = next_health(now);
   record_account();
@@ -286,7 +285,7 @@ RunnerEnd Runner::run() {
   while (true) {
     bus::ports::HostTime now = host_clock_.now();
     // Who was stopped was so with the medium's threads: what they have to take in is to be there before it is missed.
-    const bool behind = next_due() != kNever && now - host_time(next_due()) > config_.clock.in_real(cluster_.cycle());
+    const bool behind = next_due() != kNever<Microticks> && now - host_time(next_due()) > config_.clock.in_real(cluster_.cycle());
     if (behind && !was_behind) {
       host_clock_.sleep(kUntilTakenIn);
       now = host_clock_.now();
@@ -306,7 +305,7 @@ RunnerEnd Runner::run() {
     tell_health();
     watch_lines();
     const Microticks next = next_due();
-    const bus::ports::HostTime due = next == kNever ? end : std::min(end, host_time(next));
+    const bus::ports::HostTime due = next == kNever<Microticks> ? end : std::min(end, host_time(next));
     host_clock_.wait_until(std::min(due, health_due_));
   }
   record_account();
