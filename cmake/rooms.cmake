@@ -1,13 +1,10 @@
 # One CMake target per room; every target compiles with the same rules.
 
 add_library(ttf_options INTERFACE)
-# Bit-reproducible arithmetic on every machine of the class, at every optimisation level: one instruction set, no
-# contraction. -mno-fma besides, because g++ 12's vectoriser joins a*b-c*d, a*b+c*d into vfmaddsub even then, and so that
-# Eigen's packets round as its scalars do.
-target_compile_options(ttf_options INTERFACE
-  -march=x86-64-v3 -mno-fma -ffp-contract=off -pthread
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
-  -Wcast-qual -Wformat=2 -Wimplicit-fallthrough -Werror)
+# The same bits at every optimisation level: no contraction. -mno-fma besides, because g++ 12's vectoriser joins a*b-c*d,
+# a*b+c*d into vfmaddsub even then, and so that Eigen's packets round as its scalars do. Which instruction set there is and
+# which warnings are errors is the presets' business (CMakePresets.json): kept hashes are those of x86-64-v3.
+target_compile_options(ttf_options INTERFACE -mno-fma -ffp-contract=off -pthread)
 target_include_directories(ttf_options INTERFACE ${PROJECT_SOURCE_DIR})
 if(TTF_SANITIZE)
   # A target's own code can be spared (ttf_test below).

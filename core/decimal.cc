@@ -33,7 +33,8 @@ std::optional<std::int64_t> parse_scaled(std::string_view text, std::int64_t sca
 std::string scaled_text(std::int64_t value, std::int64_t scale) {
   const bool negative = value < 0;
   Int128 rest = negative ? -static_cast<Int128>(value) : static_cast<Int128>(value);
-  std::string text = (negative ? "-" : "") + std::to_string(static_cast<std::uint64_t>(rest / scale));
+  std::string text = negative ? "-" : "";
+  text += std::to_string(static_cast<std::uint64_t>(rest / scale));
   rest %= scale;
   if (rest != 0) text += '.';
   for (std::int64_t place = scale / 10; rest != 0; place /= 10) {

@@ -12,7 +12,7 @@ packages=(
   libsqlite3-dev libboost-dev libopenmpi-dev openmpi-bin
   cyclonedds-dev cyclonedds-tools
   # tests
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libgtest-dev libgmock-dev libbenchmark-dev clang-format
 )
 # Programs the build and the tests call, wherever they come from, and the package that has them.
 programs=(
