@@ -193,7 +193,7 @@ Microticks Executive::soonest_end(bool on_can) const {
     if (task.activation.kind != schedules::model::ActivationKind::kMessage) continue;
     const bool set_off =
         std::any_of(task.reads.begin(), task.reads.end(), [&](const schedules::model::PortBinding& port) {
-          return activates(task, port) && port.can_bus.has_value() == on_can;
+          return activates(task, port) && port.medium.is_can() == on_can;
         });
     const bool drawn = task.draw == schedules::model::ExecutionDraw::kUniform;
     if (set_off) soonest = std::min(soonest, ticks(drawn ? task.best_case : task.worst_case));
@@ -311,8 +311,7 @@ void Executive::fill_inputs(TaskState& task) {
     input.discarded = false;
     task.unread[i].reset();
     if (input.fresh)
-      hop(task.run.start, recording::records::Hop::kRead, binding.pdu, input.list->sequence,
-          binding.can_bus ? static_cast<int>(*binding.can_bus) : -1);
+      hop(task.run.start, recording::records::Hop::kRead, binding.pdu, input.list->sequence, binding.medium.number());
   }
 }
 
@@ -342,9 +341,8 @@ void Executive::start_next(Microticks now) {
       const Input& input = state.inputs[i];
       if (!input.discarded) continue;
       ++counts_.discarded_lists;
-      const auto& can_bus = state.task->reads[i].can_bus;
       hop(state.run.start, recording::records::Hop::kDiscarded, input.pdu, input.list->sequence,
-          can_bus ? static_cast<int>(*can_bus) : -1);
+          state.task->reads[i].medium.number());
     }
 
     Duration execution = state.task->worst_case;
@@ -373,11 +371,10 @@ void Executive::finish(Microticks now) {
     Output& output = state.outputs[o];
     counts_.saturated_signals += static_cast<std::uint64_t>(output.take_saturated());
     if (!output.written()) continue;
-    const auto& can_bus = state.task->writes[o].can_bus;
-    hop(state.run.end, recording::records::Hop::kWritten, output.pdu(), output.view().sequence,
-        can_bus ? static_cast<int>(*can_bus) : -1);
-    if (can_bus)
-      cans_[*can_bus]->send(output.pdu(), output.view());
+    const schedules::model::MediumId medium = state.task->writes[o].medium;
+    hop(state.run.end, recording::records::Hop::kWritten, output.pdu(), output.view().sequence, medium.number());
+    if (medium.is_can())
+      cans_[medium.can_index()]->send(output.pdu(), output.view());
     else
       flexray_->outgoing(output.pdu()).write(output.view());
     output.clear();
@@ -392,7 +389,8 @@ void Executive::finish(Microticks now) {
 }
 
 bus::cni::IncomingList& Executive::incoming(const schedules::model::PortBinding& binding) {
-  return binding.can_bus ? cans_[*binding.can_bus]->incoming(binding.pdu) : flexray_->incoming(binding.pdu);
+  return binding.medium.is_can() ? cans_[binding.medium.can_index()]->incoming(binding.pdu)
+                                 : flexray_->incoming(binding.pdu);
 }
 
 void Executive::receive(const bus::ports::Reception& reception) {
@@ -443,7 +441,7 @@ void Executive::arrived(PduId pdu, int can_bus, bus::cni::ArrivalEffect effect, 
     TaskState& state = tasks_[t];
     for (std::size_t i = 0; i < state.inputs.size(); ++i) {
       const schedules::model::PortBinding& binding = state.task->reads[i];
-      if (binding.pdu != pdu || (binding.can_bus ? static_cast<int>(*binding.can_bus) : -1) != can_bus) continue;
+      if (binding.pdu != pdu || binding.medium.number() != can_bus) continue;
       if (!reported && torn) {
         ++counts_.torn_lists;
         hop(stamp_at, recording::records::Hop::kTorn, pdu, *torn, can_bus);

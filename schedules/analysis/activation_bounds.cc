@@ -22,8 +22,8 @@ class ArrivalFinder {
     if (task.activation.kind == model::ActivationKind::kSensor) measurements(task.activation.sensor);
     for (const model::PortBinding& binding : task.reads) {
       if (!activates(task, binding)) continue;
-      if (binding.can_bus)
-        over_can(cluster_.can_buses[*binding.can_bus], binding.pdu);
+      if (binding.medium.is_can())
+        over_can(cluster_.can(binding.medium), binding.pdu);
       else
         over_flexray(binding.pdu);
       break;
@@ -77,7 +77,7 @@ class ArrivalFinder {
       const std::vector<model::Task>& tasks = cluster_.nodes[n].tasks;
       for (std::size_t t = 0; t < tasks.size(); ++t)
         for (const model::PortBinding& binding : tasks[t].writes) {
-          if (binding.can_bus || binding.pdu != pdu) continue;
+          if (binding.medium.is_can() || binding.pdu != pdu) continue;
           const auto responses = worst_responses(cluster_, static_cast<NodeId>(n), WritersOfLists::kUnknown);
           return responses ? (*responses)[t].written : std::nullopt;
         }

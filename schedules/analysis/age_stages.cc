@@ -97,7 +97,7 @@ class Builder {
 
   void transfer(Path& path, const model::PortBinding& binding) {
     const model::PduLayout& layout = cluster_.pdu(binding.pdu);
-    if (!binding.can_bus) {
+    if (binding.medium.is_flexray()) {
       Stage stage;
       stage.name = fmt::format("{} waits for its slots and is sent", layout.name);
       stage.kind = Stage::Kind::kSlots;
@@ -108,7 +108,7 @@ class Builder {
       path.stages.push_back(std::move(stage));
       return;
     }
-    const model::CanBus& bus = cluster_.can_buses[*binding.can_bus];
+    const model::CanBus& bus = cluster_.can(binding.medium);
     const auto worst = can_worst_response(cluster_, bus, *message_of(bus, binding.pdu));
     TTF_CHECK(worst.has_value(), "{} is overloaded", bus.name);
     span(path, fmt::format("{} on {}", layout.name, bus.name), can_soonest_arrival(bus, layout.fragment_bytes), *worst);
@@ -125,7 +125,7 @@ class Builder {
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
       for (const model::Task& task : cluster_.nodes[n].tasks)
         for (const model::PortBinding& in : task.reads)
-          if (in.pdu == out.pdu && in.can_bus == out.can_bus) {
+          if (in.pdu == out.pdu && in.medium == out.medium) {
             node = static_cast<NodeId>(n);
             return &task;
           }
@@ -169,13 +169,13 @@ class Builder {
   };
   Before lists_before(const model::Node& node, const model::PortBinding& in) const {
     Before before;
-    if (!in.can_bus) return before;
-    const model::CanBus& bus = cluster_.can_buses[*in.can_bus];
+    if (in.medium.is_flexray()) return before;
+    const model::CanBus& bus = cluster_.can(in.medium);
     const model::CanMessage& own = *message_of(bus, in.pdu);
     for (const model::Task& other : node.tasks) {
       if (other.activation.kind != model::ActivationKind::kMessage) continue;
       for (const model::PortBinding& binding : other.reads) {
-        if (binding.port != other.activation.port || binding.can_bus != in.can_bus || binding.pdu == in.pdu) continue;
+        if (binding.port != other.activation.port || binding.medium != in.medium || binding.pdu == in.pdu) continue;
         const Duration lead = message_of(bus, binding.pdu)->identifier > own.identifier
                                   ? can_list_worst_case(bus, cluster_.pdu(in.pdu))
                                   : can_worst_case(bus, cluster_.pdu(in.pdu).fragment_bytes);
@@ -189,7 +189,7 @@ class Builder {
   // Does this list's arrival set the task off, rather than another list's?
   bool activates(const model::PortBinding& list, const model::Task& task) const {
     return std::any_of(task.reads.begin(), task.reads.end(), [&](const model::PortBinding& in) {
-      return in.port == task.activation.port && in.pdu == list.pdu && in.can_bus == list.can_bus;
+      return in.port == task.activation.port && in.pdu == list.pdu && in.medium == list.medium;
     });
   }
 

@@ -19,8 +19,8 @@ Duration at_most(const model::Cluster& cluster, Duration time) {
 
 // Over FlexRay nothing is counted on.
 Duration shortest_transfer(const model::Cluster& cluster, const model::PortBinding& raw) {
-  if (!raw.can_bus) return {};
-  const model::CanBus& bus = cluster.can_buses[*raw.can_bus];
+  if (raw.medium.is_flexray()) return {};
+  const model::CanBus& bus = cluster.can(raw.medium);
   const int bytes = cluster.pdu(raw.pdu).fragment_bytes;
   if (!can_data_length(bus.flexible_data_rate, bytes)) return {};
   return can_soonest_arrival(bus, bytes);
@@ -31,8 +31,8 @@ std::optional<Duration> worst_of(const model::Cluster& cluster, NodeId id, const
 }
 
 std::optional<Duration> longest_transfer(const model::Cluster& cluster, const model::PortBinding& raw) {
-  if (!raw.can_bus) return std::nullopt;
-  const model::CanBus& bus = cluster.can_buses[*raw.can_bus];
+  if (raw.medium.is_flexray()) return std::nullopt;
+  const model::CanBus& bus = cluster.can(raw.medium);
   for (const model::CanMessage& message : bus.messages)
     if (message.pdu == raw.pdu && can_data_length(bus.flexible_data_rate, cluster.pdu(raw.pdu).fragment_bytes))
       return can_worst_response(cluster, bus, message);
@@ -53,7 +53,7 @@ std::optional<SensorLoop> loop_of(const model::Cluster& cluster, SensorId id) {
       if (after.name != sensor.after) continue;
       for (const model::PortBinding& in : after.reads)
         for (const model::PortBinding& out : measuring.writes)
-          if (activates(after, in) && in.pdu == out.pdu && in.can_bus == out.can_bus)
+          if (activates(after, in) && in.pdu == out.pdu && in.medium == out.medium)
             return SensorLoop{id, &measuring, &out, &after};
     }
   }

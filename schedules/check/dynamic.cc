@@ -90,7 +90,7 @@ std::string counted_on(const model::Cluster& cluster, const model::FrameSlot& fr
     for (const model::Task& task : node.tasks)
       for (const model::PortBinding& in : task.reads) {
         if (&node == &cluster.node(frame.sender)) fuses |= cluster.pdu(in.pdu).sensor != kNoSensor;
-        if (in.pdu == frame.pdu && !in.can_bus && task.activation.kind == model::ActivationKind::kMessage &&
+        if (in.pdu == frame.pdu && in.medium.is_flexray() && task.activation.kind == model::ActivationKind::kMessage &&
             task.activation.port == in.port)
           return fmt::format("{} is activated by it", task_path(node, task));
       }

@@ -1,12 +1,12 @@
 // The checker's rules about where lists come from and go to.
 #include <fmt/format.h>
 
+#include <compare>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "schedules/check/checker.h"
@@ -14,10 +14,13 @@
 namespace ttf::schedules::check {
 namespace {
 
-using Medium = std::pair<PduId, std::ptrdiff_t>;  // CAN index, -1 for FlexRay
-Medium medium_of(const model::PortBinding& binding) {
-  return {binding.pdu, binding.can_bus ? static_cast<std::ptrdiff_t>(*binding.can_bus) : -1};
-}
+// The lists of one PDU on one medium.
+struct Flow {
+  PduId pdu{};
+  model::MediumId medium;
+  auto operator<=>(const Flow&) const = default;
+};
+Flow flow_of(const model::PortBinding& binding) { return {binding.pdu, binding.medium}; }
 
 struct End {
   NodeId node;
@@ -29,19 +32,19 @@ std::string end_path(const model::Cluster& cluster, const End& end, std::string_
   return fmt::format("{}.{}.{}", task_path(cluster.node(end.node), *end.task), direction, end.binding->port);
 }
 
-std::string medium_name(const model::Cluster& cluster, const Medium& medium) {
-  return fmt::format("{} on {}", cluster.pdu(medium.first).name,
-                     medium.second < 0 ? "flexray" : cluster.can_buses[static_cast<std::size_t>(medium.second)].name);
+std::string flow_name(const model::Cluster& cluster, const Flow& flow) {
+  return fmt::format("{} on {}", cluster.pdu(flow.pdu).name,
+                     flow.medium.is_can() ? cluster.can(flow.medium).name : "flexray");
 }
 
 // Who may send the list on its medium: the message's sender, or the owner of its slots.
-std::optional<NodeId> sender_of(const model::Cluster& cluster, const Medium& medium) {
-  if (medium.second >= 0) {
-    for (const model::CanMessage& message : cluster.can_buses[static_cast<std::size_t>(medium.second)].messages)
-      if (message.pdu == medium.first) return message.sender;
+std::optional<NodeId> sender_of(const model::Cluster& cluster, const Flow& flow) {
+  if (flow.medium.is_can()) {
+    for (const model::CanMessage& message : cluster.can(flow.medium).messages)
+      if (message.pdu == flow.pdu) return message.sender;
   } else {
     for (const model::FrameSlot& frame : cluster.frames)
-      if (frame.pdu == medium.first) return frame.sender;
+      if (frame.pdu == flow.pdu) return frame.sender;
   }
   return std::nullopt;
 }
@@ -91,7 +94,7 @@ void check_sensor(const model::Cluster& cluster, SensorId id, ClusterFindings& f
 // A sensor's lists go one way: followed from any task over what it writes, they never come back to it.
 class RingFinder {
  public:
-  RingFinder(const model::Cluster& cluster, const std::map<Medium, std::vector<End>>& readers, SensorId sensor,
+  RingFinder(const model::Cluster& cluster, const std::map<Flow, std::vector<End>>& readers, SensorId sensor,
              ClusterFindings& findings)
       : cluster_(cluster), readers_(readers), sensor_(sensor), findings_(findings) {
     for (const model::Node& node : cluster.nodes) state_.emplace_back(node.tasks.size(), State::kNew);
@@ -113,12 +116,12 @@ class RingFinder {
     if (state(node, task) != State::kNew) return;
     state(node, task) = State::kOnTheWay;
     for (const model::PortBinding& binding : task.writes) {
-      const auto ends = readers_.find(medium_of(binding));
+      const auto ends = readers_.find(flow_of(binding));
       if (cluster_.pdu(binding.pdu).sensor != sensor_ || ends == readers_.end()) continue;
       for (const End& end : ends->second) {
         if (state(end.node, *end.task) == State::kOnTheWay)
           findings_.at(binding.line, end_path(cluster_, {node, &task, &binding}, "writes"),
-                       medium_name(cluster_, ends->first),
+                       flow_name(cluster_, ends->first),
                        fmt::format("leads back to {}: a sensor's lists must not go round in a ring",
                                    task_path(cluster_.node(end.node), *end.task)));
         visit(end.node, *end.task);
@@ -128,7 +131,7 @@ class RingFinder {
   }
 
   const model::Cluster& cluster_;
-  const std::map<Medium, std::vector<End>>& readers_;
+  const std::map<Flow, std::vector<End>>& readers_;
   SensorId sensor_;
   ClusterFindings& findings_;
   std::vector<std::vector<State>> state_;  // by node and task
@@ -137,46 +140,47 @@ class RingFinder {
 }  // namespace
 
 void check_flow(const model::Cluster& cluster, ClusterFindings& findings) {
-  std::map<Medium, std::vector<End>> writers, readers;
+  std::map<Flow, std::vector<End>> writers, readers;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
     for (const model::Task& task : cluster.nodes[n].tasks) {
-      for (const model::PortBinding& b : task.reads)
-        readers[medium_of(b)].push_back({static_cast<NodeId>(n), &task, &b});
+      for (const model::PortBinding& b : task.reads) readers[flow_of(b)].push_back({static_cast<NodeId>(n), &task, &b});
       for (const model::PortBinding& b : task.writes)
-        writers[medium_of(b)].push_back({static_cast<NodeId>(n), &task, &b});
+        writers[flow_of(b)].push_back({static_cast<NodeId>(n), &task, &b});
     }
-  for (const auto& [medium, ends] : readers)
+  for (const auto& [flow, ends] : readers)
     for (const End& end : ends) {
-      const std::string name = medium_name(cluster, medium);
-      if (!writers.contains(medium))
+      const std::string name = flow_name(cluster, flow);
+      if (!writers.contains(flow))
         findings.at(end.binding->line, end_path(cluster, end, "reads"), name, "is read, but no task writes it");
-      else if (sender_of(cluster, medium) == end.node)
+      else if (sender_of(cluster, flow) == end.node)
         findings.at(end.binding->line, end_path(cluster, end, "reads"), name,
                     "is sent by the same node: a controller does not hear itself");
-      if (medium.second < 0) check_hears(cluster, end, name, findings);
+      if (flow.medium.is_flexray()) check_hears(cluster, end, name, findings);
     }
-  for (const auto& [medium, ends] : writers) {
-    const std::string name = medium_name(cluster, medium);
-    if (!readers.contains(medium))
+  for (const auto& [flow, ends] : writers) {
+    const std::string name = flow_name(cluster, flow);
+    if (!readers.contains(flow))
       findings.at(ends[0].binding->line, end_path(cluster, ends[0], "writes"), name,
                   "is written, but no task reads it");
     if (ends.size() > 1)
       findings.at(ends[1].binding->line, end_path(cluster, ends[1], "writes"), name,
                   fmt::format("has a writer already: {}", end_path(cluster, ends[0], "writes")));
-    const auto sender = sender_of(cluster, medium);
+    const auto sender = sender_of(cluster, flow);
     if (!sender || *sender != ends[0].node)
       findings.at(ends[0].binding->line, end_path(cluster, ends[0], "writes"), name,
-                  medium.second < 0 ? fmt::format("must have slots that {} owns", cluster.node(ends[0].node).name)
-                                    : fmt::format("must be a message that {} sends", cluster.node(ends[0].node).name));
+                  flow.medium.is_flexray()
+                      ? fmt::format("must have slots that {} owns", cluster.node(ends[0].node).name)
+                      : fmt::format("must be a message that {} sends", cluster.node(ends[0].node).name));
   }
-  std::set<Medium> sent;
+  std::set<Flow> sent;
   for (const model::FrameSlot& frame : cluster.frames)
-    if (frame.pdu != kNoPdu && sent.insert({frame.pdu, -1}).second && !writers.contains({frame.pdu, -1}))
+    if (frame.pdu != kNoPdu && sent.insert({frame.pdu, model::kFlexRay}).second &&
+        !writers.contains({frame.pdu, model::kFlexRay}))
       findings.at(frame.line, fmt::format("frames.slot {}", frame.slot), cluster.pdu(frame.pdu).name,
                   "has slots, but no task writes it");
   for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
     for (const model::CanMessage& message : cluster.can_buses[b].messages)
-      if (!writers.contains({message.pdu, static_cast<std::ptrdiff_t>(b)}))
+      if (!writers.contains({message.pdu, model::MediumId::can(b)}))
         findings.at(message.line,
                     fmt::format("can.{}.messages.{}", cluster.can_buses[b].name, cluster.pdu(message.pdu).name), "",
                     "is a message, but no task writes it");

@@ -13,7 +13,7 @@ void check_loops(const model::Cluster& cluster, ClusterFindings& findings) {
     if (!sensor.follows()) continue;
     const std::string path = "sensors." + sensor.name;
     const auto loop = analysis::loop_of(cluster, static_cast<SensorId>(s));
-    if (!loop || !loop->raw->can_bus) {
+    if (!loop || loop->raw->medium.is_flexray()) {
       findings.parameter(
           path + ".after", sensor.after,
           fmt::format("must be a task of {} that a list over a CAN from the measuring task of {} activates, and "

@@ -33,8 +33,8 @@ void check_written(const model::Cluster& cluster, const model::Node& node, const
   const Duration shortest{static_cast<std::int64_t>(static_cast<Int128>(written.ns) *
                                                     (1'000'000'000 - analysis::worst_drift_ppb(node)) / 1'000'000'000)};
   for (const model::PortBinding& binding : task.writes) {
-    if (!binding.can_bus) continue;
-    const model::CanBus& bus = cluster.can_buses[*binding.can_bus];
+    if (binding.medium.is_flexray()) continue;
+    const model::CanBus& bus = cluster.can(binding.medium);
     for (const model::CanMessage& message : bus.messages)
       if (message.pdu == binding.pdu && message.shortest_period > shortest)
         findings.at(message.line,

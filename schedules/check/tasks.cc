@@ -29,8 +29,8 @@ bool meet(const model::GlobalParameters& flexray, const model::Task& a, const mo
 // The shortest time between two lists that activate the task, where they are sent, or written if that is less often;
 // zero where nothing is known.
 Duration shortest_period(const model::Cluster& cluster, const model::Task& task, const model::PortBinding& binding) {
-  if (binding.can_bus) {
-    for (const model::CanMessage& message : cluster.can_buses[*binding.can_bus].messages)
+  if (binding.medium.is_can()) {
+    for (const model::CanMessage& message : cluster.can(binding.medium).messages)
       if (message.pdu == binding.pdu) return message.shortest_period;
     return {};
   }

@@ -141,7 +141,7 @@ class DbcWriter {
       const std::vector<model::Task>& tasks = cluster_.nodes[n].tasks;
       const bool reads = std::any_of(tasks.begin(), tasks.end(), [&](const model::Task& task) {
         return std::any_of(task.reads.begin(), task.reads.end(), [&](const model::PortBinding& port) {
-          return port.pdu == message.message->pdu && port.can_bus && &cluster_.can_buses[*port.can_bus] == message.bus;
+          return port.pdu == message.message->pdu && port.medium.is_can() && &cluster_.can(port.medium) == message.bus;
         });
       });
       if (reads) text += (text.empty() ? "" : ",") + nodes_[n];

@@ -280,7 +280,9 @@ class Loader {
       const std::string medium = on == std::string::npos ? "" : text.substr(on + 4);
       const auto bus = std::find_if(cluster_.can_buses.begin(), cluster_.can_buses.end(),
                                     [&](const model::CanBus& candidate) { return candidate.name == medium; });
-      if (bus != cluster_.can_buses.end()) binding.can_bus = static_cast<std::size_t>(bus - cluster_.can_buses.begin());
+      const auto can = static_cast<std::size_t>(bus - cluster_.can_buses.begin());
+      // A CAN behind the last that may be is a finding already.
+      if (bus != cluster_.can_buses.end() && can < model::kMostCans) binding.medium = model::MediumId::can(can);
       if (!found || (medium != "flexray" && bus == cluster_.can_buses.end())) {
         lines.fail(port, "must be PDU on flexray or PDU on CAN, with the names of a PDU and a CAN of this file");
         continue;

@@ -50,7 +50,8 @@ std::optional<SensorId> Cluster::find_sensor(std::string_view sensor_name) const
 }
 
 bool is_on_can(const Node& node, std::size_t can_bus) {
-  const auto leads_there = [can_bus](const PortBinding& port) { return port.can_bus == can_bus; };
+  const MediumId medium = MediumId::can(can_bus);
+  const auto leads_there = [medium](const PortBinding& port) { return port.medium == medium; };
   return std::any_of(node.tasks.begin(), node.tasks.end(), [&](const Task& task) {
     return std::any_of(task.reads.begin(), task.reads.end(), leads_there) ||
            std::any_of(task.writes.begin(), task.writes.end(), leads_there);

@@ -15,6 +15,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "schedules/model/flexray_parameters.h"
+#include "schedules/model/medium_id.h"
 #include "schedules/model/pdu.h"
 #include "schedules/model/round.h"
 
@@ -97,11 +98,11 @@ struct CanBus {
   int line = 0;
 };
 
-// Where a port of a task leads: a PDU on FlexRay (bus empty) or on a CAN.
+// Where a port of a task leads: a PDU on a medium.
 struct PortBinding {
   std::string port;  // the code's name for it
   PduId pdu{};
-  std::optional<std::size_t> can_bus;  // index in Cluster::can_buses; nothing: FlexRay
+  MediumId medium;
   int line = 0;
 };
 
@@ -210,6 +211,7 @@ struct Cluster {
   const Node& node(NodeId id) const { return nodes[index_of(id)]; }
   const PduLayout& pdu(PduId id) const { return pdus[index_of(id)]; }
   const Sensor& sensor(SensorId id) const { return sensors[index_of(id)]; }
+  const CanBus& can(MediumId id) const { return can_buses[id.can_index()]; }
   std::optional<NodeId> find_node(std::string_view name) const;
   std::optional<PduId> find_pdu(std::string_view name) const;
   std::optional<SensorId> find_sensor(std::string_view name) const;

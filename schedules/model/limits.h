@@ -7,7 +7,7 @@
 namespace ttf::schedules::model {
 
 inline constexpr std::size_t kMostNamed = 200;  // nodes, sensors, PDUs: ids are bytes, one value means none
-inline constexpr std::size_t kMostCans = 127;   // a record's bus is a signed byte, below zero for FlexRay
+inline constexpr std::size_t kMostCans = 127;   // numbered by signed bytes (schedules/model/medium_id.h)
 inline constexpr std::size_t kMostTasks = 16;   // of a node
 inline constexpr int kLastStaticSlot = 1023;    // cStaticSlotIDMax
 inline constexpr int kLastSlot = 2047;          // cSlotIDMax

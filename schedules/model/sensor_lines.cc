@@ -6,7 +6,7 @@ std::optional<std::size_t> can_of_lines(const Cluster& cluster, SensorId sensor)
   for (const Task& task : cluster.node(cluster.sensor(sensor).device).tasks) {
     if (task.activation.kind != ActivationKind::kSensor || task.activation.sensor != sensor) continue;
     for (const PortBinding& port : task.writes)
-      if (port.can_bus) return port.can_bus;
+      if (port.medium.is_can()) return port.medium.can_index();
   }
   return std::nullopt;
 }

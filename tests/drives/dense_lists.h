@@ -83,7 +83,7 @@ class FilledStep final : public nodes::host::Step {
              Filling filling)
       : filling_(filling), first_(first) {
     const schedules::model::PortBinding& out = task.writes.at(0);
-    for (const schedules::model::CanMessage& message : cluster.can_buses[out.can_bus.value()].messages)
+    for (const schedules::model::CanMessage& message : cluster.can(out.medium).messages)
       if (message.pdu == out.pdu) identifier_ = message.identifier;
     sensor_ = cluster.pdu(out.pdu).sensor;
   }

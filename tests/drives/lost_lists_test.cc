@@ -63,7 +63,7 @@ struct Host {
     task.activation.kind = schedules::model::ActivationKind::kMessage;
     task.activation.port = "in";
     task.best_case = task.worst_case = task.deadline = Duration::microseconds(1);
-    task.reads = {{"in", PduId{0}, 0, 0}};
+    task.reads = {{"in", PduId{0}, schedules::model::MediumId::can(0), 0}};
     cluster.nodes[1].tasks = {task};
     return cluster;
   }

@@ -97,7 +97,7 @@ std::set<Arrow> expected_arrows(const schedules::model::Cluster& cluster, Sensor
     for (const schedules::model::Task& task : cluster.nodes[n].tasks) {
       for (const schedules::model::PortBinding& port : task.writes) {
         if (cluster.pdu(port.pdu).sensor != sensor) continue;
-        for (const char* what : {"written", "sent", port.can_bus ? "can frame" : "slot frame"})
+        for (const char* what : {"written", "sent", port.medium.is_can() ? "can frame" : "slot frame"})
           arrows.insert({what, port.pdu, node});
       }
       for (const schedules::model::PortBinding& port : task.reads) {

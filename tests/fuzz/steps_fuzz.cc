@@ -87,8 +87,8 @@ class Host {
       return;  // a device, not a receiver
     for (std::size_t i = 0; i < task.inputs.size(); ++i) {
       const auto& binding = task.described->reads[i];
-      bus::cni::IncomingList& list =
-          binding.can_bus ? cans_[*binding.can_bus]->incoming(binding.pdu) : slots_[index_of(binding.pdu)];
+      bus::cni::IncomingList& list = binding.medium.is_can() ? cans_[binding.medium.can_index()]->incoming(binding.pdu)
+                                                             : slots_[index_of(binding.pdu)];
       task.inputs[i].list = list.latest();
       task.inputs[i].fresh = list.mark_read();
       const SensorId sensor = cluster_.pdu(binding.pdu).sensor;
@@ -171,9 +171,9 @@ class Cluster {
     hosts_[which % hosts_.size()]->run(
         which / hosts_.size(), (which & 0x80) == 0, now_, measured,
         [&](const schedules::model::PortBinding& binding, const bus::cni::ListView& list) {
-          if (!binding.can_bus) return send_slots(binding.pdu, list);
-          for (const auto& message : cluster_.can_buses[*binding.can_bus].messages)
-            if (message.pdu == binding.pdu) send_can(*binding.can_bus, message, list);
+          if (binding.medium.is_flexray()) return send_slots(binding.pdu, list);
+          for (const auto& message : cluster_.can(binding.medium).messages)
+            if (message.pdu == binding.pdu) send_can(binding.medium.can_index(), message, list);
         });
   }
 

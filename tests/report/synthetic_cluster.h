@@ -36,7 +36,7 @@ inline schedules::model::Cluster synthetic_cluster() {
   gateway.tasks = {task("forward_laser", 4300, 1, 100)};
   gateway.tasks[0].activation.kind = schedules::model::ActivationKind::kMessage;
   gateway.tasks[0].activation.port = "objects";
-  gateway.tasks[0].reads = {{"objects", PduId{0}, {}, 0}};
+  gateway.tasks[0].reads = {{"objects", PduId{0}, schedules::model::kFlexRay, 0}};
   fusion.name = "fusion";
   fusion.tasks = {task("track", 3500, 2, 3000), task("image", 2000, 8, 400)};
   feature.name = "feature";

@@ -40,15 +40,15 @@ inline model::Cluster small(bool scheduled) {
   model::Task measure = timed("measure", {}, Duration::milliseconds(1));
   measure.activation.kind = model::ActivationKind::kSensor;
   measure.activation.sensor = SensorId{0};
-  measure.writes = {{"raw", PduId{0}, std::nullopt, 0}};
+  measure.writes = {{"raw", PduId{0}, model::kFlexRay, 0}};
   cluster.nodes[0].tasks = {measure};
   model::Task fuse = timed("fuse", {1, 2, Macroticks{1000}}, Duration::milliseconds(2));
-  fuse.reads = {{"s", PduId{0}, std::nullopt, 0}};
+  fuse.reads = {{"s", PduId{0}, model::kFlexRay, 0}};
   model::Task publish = timed("publish", {0, 2, Macroticks{0}}, Duration::microseconds(100));
-  publish.writes = {{"image", PduId{1}, std::nullopt, 0}};
+  publish.writes = {{"image", PduId{1}, model::kFlexRay, 0}};
   cluster.nodes[1].tasks = {fuse, publish};
   model::Task use = timed("use", {0, 2, Macroticks{500}}, Duration::microseconds(100));
-  use.reads = {{"image", PduId{1}, std::nullopt, 0}};
+  use.reads = {{"image", PduId{1}, model::kFlexRay, 0}};
   cluster.nodes[2].tasks = {use};
   cluster.frames = {{3, model::Channels::kAB, 0, 1, NodeId{0}, PduId{0}, 0, 0},
                     {4, model::Channels::kAB, 0, 2, NodeId{1}, PduId{1}, 0, 0}};

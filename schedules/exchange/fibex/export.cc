@@ -149,7 +149,7 @@ class Exporter {
     if (frame.pdu == kNoPdu) return false;
     for (const model::Task& task : node.tasks)
       for (const model::PortBinding& port : task.reads)
-        if (!port.can_bus && port.pdu == frame.pdu) return true;
+        if (port.medium.is_flexray() && port.pdu == frame.pdu) return true;
     return false;
   }
 

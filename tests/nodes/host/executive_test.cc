@@ -108,7 +108,7 @@ TEST(Executive, ExecutionTimesAreDrawnBetweenTheirBoundsAlikeForASeed) {
 // The law: what a task writes is there at its end, not when it was computed.
 TEST(Executive, OutputsBecomeVisibleAtTheEnd) {
   schedules::model::Task writer = at(100, task("writer", 40));
-  writer.writes = {{"out", bus::kList, std::nullopt, 0}};
+  writer.writes = {{"out", bus::kList, schedules::model::kFlexRay, 0}};
   const auto write = std::make_shared<Scripted>([](StepContext& context) {
     context.outputs[0].begin(7, 3, GlobalTime{});
     for (int i = 0; i < 3; ++i) context.outputs[0].set(i, 0, 10.0 + i);

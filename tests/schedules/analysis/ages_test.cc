@@ -112,8 +112,8 @@ TEST(Ages, ListsOnOneCanComeOneAfterTheOther) {
     for (model::Task& task : node.tasks)
       for (auto* bindings : {&task.reads, &task.writes})
         for (model::PortBinding& binding : *bindings)
-          if (binding.can_bus && cluster.pdu(binding.pdu).name == "camera_objects")
-            binding.can_bus = cluster.can_buses.size() - 1;
+          if (binding.medium.is_can() && cluster.pdu(binding.pdu).name == "camera_objects")
+            binding.medium = model::MediumId::can(cluster.can_buses.size() - 1);
   EXPECT_GT(waits("laser"), Duration::milliseconds(3));
 }
 
@@ -145,13 +145,13 @@ model::Cluster over_can(bool scheduled) {
   bus.nominal_bit_rate = bus.data_bit_rate = 1'000'000;
   bus.messages = {{PduId{2}, 100, NodeId{0}, Duration::milliseconds(9), 0}};
   cluster.can_buses = {bus};
-  cluster.nodes[0].tasks[0].writes = {{"raw", PduId{2}, 0, 0}};
+  cluster.nodes[0].tasks[0].writes = {{"raw", PduId{2}, model::MediumId::can(0), 0}};
   model::Task forward = timed("forward", {}, Duration::microseconds(500));
   forward.activation.kind = model::ActivationKind::kMessage;
   forward.activation.port = "in";
   forward.best_case = Duration::microseconds(200);
-  forward.reads = {{"in", PduId{2}, 0, 0}};
-  forward.writes = {{"out", PduId{0}, std::nullopt, 0}};
+  forward.reads = {{"in", PduId{2}, model::MediumId::can(0), 0}};
+  forward.writes = {{"out", PduId{0}, model::kFlexRay, 0}};
   cluster.nodes.push_back(cluster.nodes[0]);
   cluster.nodes[3].tasks = {forward};
   cluster.frames[0].sender = NodeId{3};
@@ -204,7 +204,7 @@ TEST(Ages, PublishedWhenTheFusionEndsAndUsedWhenTheImageArrives) {
 TEST(Ages, AListWaitsForTheOneThatActivatesItsReader) {
   model::Cluster cluster = over_can(true);
   model::Task& use = cluster.nodes[2].tasks[0];
-  use.reads.push_back({"tick", PduId{0}, std::nullopt, 0});
+  use.reads.push_back({"tick", PduId{0}, model::kFlexRay, 0});
   use.activation.port = "tick";
   const auto ages = measurement_ages(cluster);
   EXPECT_EQ(ages[0].use_worst.ns, 10'336'000 + 20'000'000 + kRounding + kClocks);

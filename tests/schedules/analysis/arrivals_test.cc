@@ -122,8 +122,8 @@ TEST(Arrivals, WritersMayWaitForEachOther) {
     task.activation = {model::ActivationKind::kMessage, {}, "in", kNoSensor, ""};
     task.best_case = Duration::microseconds(100);
     task.worst_case = Duration::microseconds(300);
-    task.reads = {{"in", reads, std::nullopt, 0}};
-    task.writes = {{"out", writes, std::nullopt, 0}};
+    task.reads = {{"in", reads, model::kFlexRay, 0}};
+    task.writes = {{"out", writes, model::kFlexRay, 0}};
     cluster.nodes[index_of(*cluster.find_node(node))].tasks = {task};
   };
   answer("laser_pre", back, to);

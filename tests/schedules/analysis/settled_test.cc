@@ -102,8 +102,8 @@ TEST(Settled, WithoutSlots) {
   bus.flexible_data_rate = true;
   bus.messages = {{PduId{0}, 16, NodeId{0}, Duration::milliseconds(10), 0}};
   cluster.can_buses = {bus};
-  cluster.nodes[0].tasks[0].writes[0].can_bus = 0;
-  cluster.nodes[1].tasks[0].reads[0].can_bus = 0;
+  cluster.nodes[0].tasks[0].writes[0].medium = model::MediumId::can(0);
+  cluster.nodes[1].tasks[0].reads[0].medium = model::MediumId::can(0);
   cluster.frames.erase(cluster.frames.begin());
   const Path path = path_of(cluster, SensorId{0});
   ASSERT_EQ(path.available, 2u);

@@ -79,9 +79,9 @@ TEST_P(DbcOfShipped, NamesWhoReads) {
   for (const model::Node& node : cluster_.nodes)
     for (const model::Task& task : node.tasks)
       for (const model::PortBinding& port : task.reads)
-        for (std::size_t b = 0; port.can_bus && b < cluster_.can_buses.size(); ++b)
+        for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b)
           for (const model::CanMessage& message : cluster_.can_buses[b].messages)
-            if (b == *port.can_bus && message.pdu == port.pdu) {
+            if (port.medium == model::MediumId::can(b) && message.pdu == port.pdu) {
               for (const DbcSignal& signal : file.messages.at(message.identifier).signals)
                 EXPECT_NE(("," + signal.receivers + ",").find("," + node.name + ","), std::string::npos) << signal.name;
             }

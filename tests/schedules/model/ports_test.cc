@@ -24,13 +24,13 @@ Cluster with_ports() {
   task.name = "fuse";
   task.step = "fusion";
   task.line = 7;
-  task.reads = {{"laser", PduId{0}, std::nullopt, 8}};
+  task.reads = {{"laser", PduId{0}, kFlexRay, 8}};
   Task other;
   other.name = "forward";
   other.step = "gateway";
   other.line = 12;
-  other.reads = {{"in", PduId{0}, std::nullopt, 13}};
-  other.writes = {{"out", PduId{0}, std::nullopt, 14}};
+  other.reads = {{"in", PduId{0}, kFlexRay, 13}};
+  other.writes = {{"out", PduId{0}, kFlexRay, 14}};
   cluster.nodes.resize(1);
   cluster.nodes[0].name = "all";
   cluster.nodes[0].tasks = {task, other};
@@ -72,7 +72,7 @@ TEST(Ports, PortTheCodeNeedsIsMissingAndPortItDoesNotHaveIsThere) {
 
 TEST(Ports, ASensorsPortLeadsToAPduOfThatSensor) {
   Cluster cluster = with_ports();
-  cluster.nodes[0].tasks[0].reads = {{"camera", PduId{1}, std::nullopt, 8}, {"laser", PduId{1}, std::nullopt, 9}};
+  cluster.nodes[0].tasks[0].reads = {{"camera", PduId{1}, kFlexRay, 8}, {"laser", PduId{1}, kFlexRay, 9}};
   const auto findings = port_findings(cluster);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(

@@ -45,7 +45,7 @@ TEST_P(FibexShipped, SaysWhoReceivesWhat) {
     for (const model::FrameSlot& frame : cluster_.frames)
       for (const model::Task& task : node.tasks)
         for (const model::PortBinding& port : task.reads)
-          if (!port.can_bus && port.pdu == frame.pdu &&
+          if (port.medium.is_flexray() && port.pdu == frame.pdu &&
               std::find(expected.begin(), expected.end(), cluster_.pdu(frame.pdu).name) == expected.end())
             expected.push_back(cluster_.pdu(frame.pdu).name);
     EXPECT_EQ(import.receives[i], expected) << node.name;
