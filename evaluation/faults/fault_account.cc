@@ -6,7 +6,7 @@
 #include "bus/controller/controller.h"
 #include "bus/poc/poc.h"
 #include "bus/wire/flexray_frame.h"
-#include "schedules/check/checker.h"
+#include "schedules/model/wire_times.h"
 
 namespace ttf::evaluation::faults {
 namespace {
@@ -76,8 +76,8 @@ FaultReport::FaultReport(const schedules::model::Cluster& cluster, ttf::faults::
     : cluster_(cluster), plan_(std::move(plan)), cycle_(cluster.cycle()),
       slot_(macroticks(cluster.flexray, cluster.flexray.gdStaticSlot)),
       action_point_(macroticks(cluster.flexray, cluster.flexray.gdActionPointOffset)),
-      assumed_precision_(schedules::check::assumed_precision(cluster.flexray)), nodes_(cluster.nodes.size()),
-      causes_(plan_, cluster), clocks_(cluster),
+      assumed_precision_(assumed_precision(cluster.flexray)), nodes_(cluster.nodes.size()), causes_(plan_, cluster),
+      clocks_(cluster),
       ledger_(
           cluster, [this](NodeId node) { return counts(node); }, [this](const SlotLoss& loss) { lost(loss); }),
       place_(plan_.faults.size()), counted_(plan_.faults.size() + 1) {

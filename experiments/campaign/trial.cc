@@ -8,7 +8,7 @@
 #include "core/check.h"
 #include "core/random.h"
 #include "faults/believed_schedule.h"
-#include "schedules/check/checker.h"
+#include "schedules/model/wire_times.h"
 #include "sim/crank/bus_simulation.h"
 #include "sim/crank/clock_spread.h"
 #include "sim/faults/injector.h"
@@ -293,7 +293,7 @@ FaultOutcome run_trial(const CampaignFile& campaign, const schedules::model::Clu
   const bool starts_up = drawn.starts_up;
   const TrueTime end = TrueTime{} + cluster.cycle() * (starts_up ? campaign.startup_cycles : campaign.steady_cycles);
   evaluation::faults::JudgeSettings settings;
-  settings.assumed_precision = schedules::check::assumed_precision(cluster.flexray);
+  settings.assumed_precision = assumed_precision(cluster.flexray);
   settings.starts_up = starts_up;
   bool starts_without = true;
   if (starts_up) {

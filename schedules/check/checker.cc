@@ -62,15 +62,6 @@ std::string task_path(const model::Node& node, const model::Task& task) {
 
 std::string ms(Duration duration) { return fmt::format("{} ms", static_cast<double>(duration.ns) / 1e6); }
 
-std::int64_t assumed_precision_ps(const model::GlobalParameters& g) {
-  return (34 + 20 * static_cast<std::int64_t>(g.gClusterDriftDamping)) * g.gdMaxMicrotick_ps +
-         2 * g.gdMaxPropagationDelay_ps;
-}
-
-Duration assumed_precision(const model::GlobalParameters& g) {
-  return {model::ceil_div(assumed_precision_ps(g), 1000)};
-}
-
 std::int64_t shortest_static_slot(const model::GlobalParameters& g) {
   return around_action_points(g, frame_bits(g, g.gPayloadLengthStatic) + model::kIdleDelimiterBits, 0);
 }

@@ -67,11 +67,6 @@ void check_responses(const model::Cluster& cluster, NodeId node, ClusterFindings
 void check_flow(const model::Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
 void check_loops(const model::Cluster& cluster, ClusterFindings& findings);  // after all others
 
-// gAssumedPrecision = (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay, in picoseconds.
-std::int64_t assumed_precision_ps(const model::GlobalParameters& flexray);
-// The same rounded up to whole nanoseconds: readings of two clocks that are further apart than this are so whichever
-// way they were rounded.
-Duration assumed_precision(const model::GlobalParameters& flexray);
 // Shortest static slot that holds a frame of gPayloadLengthStatic words, in macroticks.
 std::int64_t shortest_static_slot(const model::GlobalParameters& flexray);
 
