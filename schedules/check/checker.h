@@ -18,8 +18,10 @@
 //   flow         every reader has a writer and the other way round, sensors have their tasks, no list goes in a ring
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,11 +55,16 @@ class ClusterFindings {
 std::string task_path(const model::Node& node, const model::Task& task);
 // "2.5 ms"
 std::string ms(Duration duration);
+// Of picoseconds: "0.1 us", "12.5 ns"
+std::string us(std::int64_t ps);
+std::string ns(std::int64_t ps);
+
+template <std::size_t N> bool is_one_of(const std::int64_t (&allowed)[N], std::int64_t value) {
+  return std::find(std::begin(allowed), std::end(allowed), value) != std::end(allowed);
+}
 
 void check_cycle(const model::Cluster& cluster, ClusterFindings& findings);
 void check_clocks(const model::Cluster& cluster, ClusterFindings& findings);
-void check_key_slot(const model::Cluster& cluster, NodeId node,
-                    ClusterFindings& findings);  // of a node with a controller
 void check_slots(const model::Cluster& cluster, ClusterFindings& findings);
 void check_dynamic(const model::Cluster& cluster, ClusterFindings& findings);  // after check_slots()
 void check_can(const model::Cluster& cluster, ClusterFindings& findings);

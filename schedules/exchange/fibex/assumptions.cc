@@ -13,7 +13,6 @@ namespace ttf::schedules::exchange::fibex {
 namespace {
 
 constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
-constexpr int kSamplesPerBit = 8;  // cSamplesPerBit
 
 // The legal value next to `value`.
 template <class Parameters, class Table>
@@ -81,7 +80,7 @@ model::NodeParameters assume_local(const FibexEcu& ecu, const model::GlobalParam
   };
   // pSamplesPerMicrotick = 8 pdMicrotick / gdBit; a common microtick is 25 ns, or one sample where that is
   // longer.
-  const std::int64_t sample_ps = std::max<std::int64_t>(global.gdBit_ps / kSamplesPerBit, 1);
+  const std::int64_t sample_ps = std::max<std::int64_t>(global.gdBit_ps / model::kSamplesPerBit, 1);
   if (!given("pdMicrotick"))
     p.pdMicrotick_ps = given("pSamplesPerMicrotick")
                            ? std::clamp<std::int64_t>(p.pSamplesPerMicrotick * sample_ps, 12'500, 50'000)
