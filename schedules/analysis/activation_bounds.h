@@ -23,13 +23,13 @@
 
 namespace ttf::schedules::analysis {
 
-struct Arrivals {
+struct ActivationBound {
   std::int64_t period = 0;  // T, 1 at least; nanoseconds
   std::int64_t jitter = 0;  // J
 };
 
-struct ArrivalBounds {
-  std::vector<Arrivals> all;  // empty: nothing is known
+struct ActivationBounds {
+  std::vector<ActivationBound> all;  // empty: nothing is known
 
   // In a closed window; where nothing is known, 1.
   std::int64_t most(std::int64_t window_ns) const;
@@ -41,6 +41,6 @@ struct ArrivalBounds {
 enum class WritersOfLists : bool { kUnknown, kKnown };
 
 // Of a task that messages or a sensor activate.
-ArrivalBounds arrivals_of(const model::Cluster& cluster, const model::Task& task, WritersOfLists writers);
+ActivationBounds activation_bounds(const model::Cluster& cluster, const model::Task& task, WritersOfLists writers);
 
 }  // namespace ttf::schedules::analysis

@@ -42,7 +42,7 @@ class NodeTasks {
         for (std::size_t other = 0; other < count; ++other)
           if (node_.tasks[other].name == node_.tasks[t].activation.after) before_[t] = other;
     whole_.resize(count);
-    arrivals_.resize(count);
+    bounds_.resize(count);
     following_.resize(count);
     for (std::size_t t = 0; t < count; ++t) {
       const model::Task& task = node_.tasks[t];
@@ -52,7 +52,7 @@ class NodeTasks {
         following_[t] = Following{shortest_execution(task).ns, task.worst_case.ns,
                                   std::max<std::int64_t>(1, shortest_return(cluster_, *loop).ns)};
       else
-        arrivals_[t] = arrivals_of(cluster_, task, writers);
+        bounds_[t] = activation_bounds(cluster_, task, writers);
     }
     round_ = time_of(cluster.flexray, model::kCycles, Macroticks{0}).ns;
     for (std::size_t t = 0; t < count; ++t)
@@ -99,7 +99,7 @@ class NodeTasks {
     for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
       if (before_[t] || by_time(t)) continue;
       if (ahead_[t] > 0) steps_.push_back(ahead_[t]);
-      for (const Arrivals& from : arrivals_[t].all)
+      for (const ActivationBound& from : bounds_[t].all)
         for (std::int64_t at = from.period - from.jitter % from.period; at <= busy; at += from.period)
           steps_.push_back(ahead_[t] + at);
       // Behind its step its work grows more slowly than the window.
@@ -174,7 +174,7 @@ class NodeTasks {
       if (const auto& following = following_[t])
         work += whole_[t] + following->before_last(before);
       else
-        work += static_cast<Int128>(whole_[t]) * arrivals_[t].most(before);
+        work += static_cast<Int128>(whole_[t]) * bounds_[t].most(before);
     }
     return static_cast<std::int64_t>(std::min<Int128>(work, 2 * kLongest_ns));
   }
@@ -228,7 +228,7 @@ class NodeTasks {
     response.worst = {worst - whole_[task] + node_.tasks[task].worst_case.ns};
     if (by_time(task))
       response.gap = Duration{shrunk(cluster_.cycle().ns * node_.tasks[task].activation.at.repetition)};
-    else if (const auto gap = arrivals_[task].gap())
+    else if (const auto gap = bounds_[task].gap())
       response.gap = Duration{*gap};
     set_written(task, response);
     return response;
@@ -285,7 +285,7 @@ class NodeTasks {
   std::vector<std::optional<std::size_t>> before_;              // the task whose end activates it
   std::vector<std::int64_t> ahead_;                             // how long ago its newest activation was, at least
   std::vector<std::int64_t> whole_;                             // of a chain, at its first task
-  std::vector<ArrivalBounds> arrivals_;                         // of first tasks that messages and sensors activate
+  std::vector<ActivationBounds> bounds_;                        // of first tasks that messages and sensors activate
   std::vector<std::optional<Following>> following_;             // of first tasks that a sensor waits for
   std::vector<std::pair<std::int64_t, std::size_t>> instants_;  // of 64 cycles, in global time, and the task
   std::int64_t round_ = 0;
