@@ -18,7 +18,7 @@ class BoundFinder {
   BoundFinder(const model::Cluster& cluster, WritersOfLists writers)
       : cluster_(cluster), clocks_(clock_bounds(cluster)), writers_(writers) {}
 
-  ActivationBounds of(const model::Task& task) {
+  processor::ActivationBounds of(const model::Task& task) {
     if (task.activation.kind == model::ActivationKind::kSensor) measurements(task.activation.sensor);
     for (const model::PortBinding& binding : task.reads) {
       if (!activates(task, binding)) continue;
@@ -88,27 +88,13 @@ class BoundFinder {
   const model::Cluster& cluster_;
   ClockBounds clocks_;
   WritersOfLists writers_;
-  ActivationBounds found_;
+  processor::ActivationBounds found_;
 };
 
 }  // namespace
 
-std::int64_t ActivationBounds::most(std::int64_t window_ns) const {
-  std::optional<std::int64_t> least;
-  for (const ActivationBound& one : all) {
-    const std::int64_t times = (window_ns + one.jitter) / one.period + 1;
-    least = std::min(least.value_or(times), times);
-  }
-  return least.value_or(1);
-}
-
-std::optional<std::int64_t> ActivationBounds::gap() const {
-  std::optional<std::int64_t> longest;
-  for (const ActivationBound& one : all) longest = std::max(longest.value_or(0), one.period - one.jitter);
-  return longest;
-}
-
-ActivationBounds activation_bounds(const model::Cluster& cluster, const model::Task& task, WritersOfLists writers) {
+processor::ActivationBounds activation_bounds(const model::Cluster& cluster, const model::Task& task,
+                                              WritersOfLists writers) {
   return BoundFinder(cluster, writers).of(task);
 }
 

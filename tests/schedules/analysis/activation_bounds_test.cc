@@ -73,7 +73,8 @@ TEST(ActivationBounds, NoDrawnListsComeMoreOftenThanTheirBounds) {
     const model::Cluster cluster = over_flexray(dynamic);
     for (const std::string sensor : {"laser", "camera"}) {
       SCOPED_TRACE(sensor + (dynamic ? ", dynamic" : ", static"));
-      const ActivationBounds bounds = activation_bounds(cluster, task_of(cluster, "fusion", "fuse_" + sensor), kKnown);
+      const processor::ActivationBounds bounds =
+          activation_bounds(cluster, task_of(cluster, "fusion", "fuse_" + sensor), kKnown);
       ASSERT_EQ(bounds.all.size(), 2u);
       const auto host = worst_responses(cluster, *cluster.find_node(sensor + "_pre"));
       const std::int64_t apart = (*host)[0].written->ns;
@@ -109,8 +110,8 @@ TEST(ActivationBounds, OverFlexRayTheWriterSaysHowOften) {
 }
 
 TEST(ActivationBounds, OfWhatIsUnknownThereIsOne) {
-  EXPECT_EQ(ActivationBounds{}.most(1'000'000'000), 1);
-  EXPECT_FALSE(ActivationBounds{}.gap().has_value());
+  EXPECT_EQ(processor::ActivationBounds{}.most(1'000'000'000), 1);
+  EXPECT_FALSE(processor::ActivationBounds{}.gap().has_value());
 }
 
 // Two nodes whose tasks set each other off over FlexRay: each is taken to be as fast as the other's slots.
