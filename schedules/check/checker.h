@@ -2,17 +2,17 @@
 //
 // The rules and where they come from:
 //   cycle        constraints 16 and 18, static slot length, action point against the assumed precision, durations of
-//   cycle,
-//                macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
+//                cycle, macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
 //   star         a guardian sits in a star
 //   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
 //   slots        nobody owns a slot another owns in the same cycle and channel; a sender is attached to the
 //                frame's channels; payload fits, behind the network management vector where the frame carries it; a
 //                PDU's fragments complete
 //   dynamic      minislots that all clocks count alike, frames that end within the segment
-//   (schedules/analysis/minislots.h) CAN          frames fit, identifiers are unique, worst-case load, responses within
-//   periods (schedules/analysis/can_load.h) tasks        no overlap, deadlines with every wait for other tasks, an end
-//   before the next activation
+//                (schedules/analysis/minislots.h)
+//   CAN          frames fit, identifiers are unique, worst-case load, responses within periods
+//                (schedules/analysis/can_load.h)
+//   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
 //                (schedules/analysis/responses.h)
 //   loops        a sensor that follows its host does so in a closed loop (schedules/analysis/sensor_loop.h)
 //   flow         every reader has a writer and the other way round, sensors have their tasks, no list goes in a ring

@@ -10,10 +10,11 @@
 //
 //   by time         the exact instants of a round, at the distances that the clock's corrections can shrink them to
 //   by messages     at most floor((a + J) / T) + 1 times in a window, T the shortest time between two lists where they
-//   and sensors     are sent and J by how much their way may differ from one to the next (activation_bounds.h)
-//   by a sensor     that waits for the task's end (sensor_loop.h): the next comes R after that end at the soonest, so
-//   that follows    the executions between activations in a window are at most a C / (C + R), and one C more; C the
-//                   worst case
+//   and sensors     are sent and J by how much their way may differ from one to the next; schedules/analysis/
+//                   activation_bounds.h has what is known of both
+//   by a sensor     that waits for the task's end: the next comes R after that end at the soonest, so the executions
+//   that follows    between activations in a window are at most a C / (C + R), and one C more, with C the worst case;
+//                   schedules/analysis/sensor_loop.h has R
 //
 // Durations are nanoseconds of the processor's own clock.
 #pragma once
