@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/int128.h"
+#include "schedules/file/loader.h"
 #include "schedules/model/limits.h"
 #include "schedules/model/wire_times.h"
 
@@ -123,6 +124,12 @@ std::vector<Finding> check(const model::Cluster& cluster) {
   check_flow(cluster, findings);
   check_loops(cluster, findings);
   return findings.take();
+}
+
+model::Cluster load_checked_cluster(const std::string& path) {
+  model::Cluster cluster = file::load_cluster(path);
+  if (auto findings = check(cluster); !findings.empty()) throw InputError(std::move(findings));
+  return cluster;
 }
 
 }  // namespace ttf::schedules::check

@@ -36,7 +36,10 @@ namespace ttf::schedules::check {
 // Everything that is wrong, in a fixed order; empty for a cluster that may run.
 std::vector<Finding> check(const model::Cluster& cluster);
 
-// Collects findings about one cluster; shared by the checker's parts (checker_*.cc).
+// Reads a cluster file (schedules/file/loader.h) and checks it: throws InputError with the findings of either.
+model::Cluster load_checked_cluster(const std::string& path);
+
+// Collects findings about one cluster; shared by the checker's parts.
 class ClusterFindings {
  public:
   explicit ClusterFindings(const model::Cluster& cluster) : cluster_(cluster) {}

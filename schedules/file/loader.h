@@ -39,11 +39,8 @@
 
 namespace ttf::schedules::file {
 
-// Both throw InputError. The result is complete, but not yet proved consistent: that is check()'s part.
+// Both throw InputError. The result is complete, but not yet proved consistent: that is for schedules/check.
 model::Cluster load_cluster(const std::string& path);
 model::Cluster parse_cluster(std::string text, std::string name);
-
-// Loads and checks (schedules/check/checker.h): throws InputError with the findings of either.
-model::Cluster load_checked_cluster(const std::string& path);
 
 }  // namespace ttf::schedules::file
