@@ -68,7 +68,7 @@ void print_findings(const InputError& error) {
 
 schedules::model::Cluster checked_schedule(const ScheduleOptions& options) {
   try {
-    schedules::model::Cluster cluster = schedules::file::load_checked_cluster(options.file);
+    schedules::model::Cluster cluster = schedules::check::load_checked_cluster(options.file);
     schedules::model::bind_ports(cluster, drives::step_ports());
     return cluster;
   } catch (const InputError& error) {
@@ -109,7 +109,7 @@ int check(const ScheduleOptions& options) {
 
 int show(const ScheduleOptions& options) {
   if (!options.out.empty()) report::drawing::check_picture_path(options.out);
-  const schedules::model::Cluster cluster = schedules::file::load_checked_cluster(options.file);
+  const schedules::model::Cluster cluster = schedules::check::load_checked_cluster(options.file);
   if (options.out.empty())
     fmt::print("{}", schedules::exchange::show_text(cluster));
   else
@@ -129,12 +129,12 @@ int export_cluster(const ScheduleOptions& options) {
   if (!options.can.empty() && options.format != "dbc")
     throw InputError(Finding{"command line", 0, "--can", options.can, "goes with --format dbc only"});
   if (options.format == "dbc") {
-    write_text(schedules::exchange::dbc_text(schedules::file::load_checked_cluster(options.file), options.can),
+    write_text(schedules::exchange::dbc_text(schedules::check::load_checked_cluster(options.file), options.can),
                options.out);
     return 0;
   }
   if (options.format == "fibex") {
-    write_text(schedules::exchange::fibex::fibex_text(schedules::file::load_checked_cluster(options.file)),
+    write_text(schedules::exchange::fibex::fibex_text(schedules::check::load_checked_cluster(options.file)),
                options.out);
     return 0;
   }

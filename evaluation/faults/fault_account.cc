@@ -6,7 +6,7 @@
 #include "bus/poc/poc.h"
 #include "bus/wire/flexray_frame.h"
 #include "evaluation/faults/reach.h"
-#include "schedules/check/checker.h"
+#include "schedules/model/wire_times.h"
 
 namespace ttf::evaluation::faults {
 namespace {
@@ -71,7 +71,7 @@ FaultAccount::FaultAccount(const schedules::model::Cluster& cluster, ttf::faults
     : cluster_(cluster), plan_(std::move(plan)), cycle_(cluster.cycle()),
       slot_(macroticks(cluster.flexray, cluster.flexray.gdStaticSlot)),
       action_point_(macroticks(cluster.flexray, cluster.flexray.gdActionPointOffset)),
-      assumed_precision_(schedules::check::assumed_precision(cluster.flexray)), standings_(cluster, begins_integrated),
+      assumed_precision_(assumed_precision(cluster.flexray)), standings_(cluster, begins_integrated),
       cut_off_(cluster.nodes.size()), causes_(plan_, cluster), clocks_(cluster),
       ledger_(cluster, standings_, [this](const SlotLoss& loss) { lost(loss); }), place_(plan_.faults.size()),
       counted_(plan_.faults.size() + 1) {}

@@ -6,7 +6,7 @@
 #include "evaluation/faults/reach.h"
 #include "experiments/campaign/trial_run.h"
 #include "faults/believed_schedule.h"
-#include "schedules/check/checker.h"
+#include "schedules/model/wire_times.h"
 #include "sim/medium/disturbance.h"
 
 namespace ttf::experiments::campaign {
@@ -79,7 +79,7 @@ FaultOutcome run_trial(const CampaignFile& campaign, const schedules::model::Clu
   const int cycles = drawn.starts_up ? campaign.startup_cycles : campaign.steady_cycles;
   const TrueTime end = TrueTime{} + cluster.cycle() * cycles;
   evaluation::faults::JudgeSettings judge;
-  judge.assumed_precision = schedules::check::assumed_precision(cluster.flexray);
+  judge.assumed_precision = assumed_precision(cluster.flexray);
   judge.starts_up = drawn.starts_up;
   bool starts_without = true;
   if (drawn.starts_up) {

@@ -13,12 +13,12 @@
 namespace ttf::schedules::analysis {
 namespace {
 
-class ArrivalFinder {
+class BoundFinder {
  public:
-  ArrivalFinder(const model::Cluster& cluster, WritersOfLists writers)
+  BoundFinder(const model::Cluster& cluster, WritersOfLists writers)
       : cluster_(cluster), clocks_(clock_bounds(cluster)), writers_(writers) {}
 
-  ArrivalBounds of(const model::Task& task) {
+  processor::ActivationBounds of(const model::Task& task) {
     if (task.activation.kind == model::ActivationKind::kSensor) measurements(task.activation.sensor);
     for (const model::PortBinding& binding : task.reads) {
       if (!activates(task, binding)) continue;
@@ -88,28 +88,14 @@ class ArrivalFinder {
   const model::Cluster& cluster_;
   ClockBounds clocks_;
   WritersOfLists writers_;
-  ArrivalBounds found_;
+  processor::ActivationBounds found_;
 };
 
 }  // namespace
 
-std::int64_t ArrivalBounds::most(std::int64_t window_ns) const {
-  std::optional<std::int64_t> least;
-  for (const Arrivals& one : all) {
-    const std::int64_t times = (window_ns + one.jitter) / one.period + 1;
-    least = std::min(least.value_or(times), times);
-  }
-  return least.value_or(1);
-}
-
-std::optional<std::int64_t> ArrivalBounds::gap() const {
-  std::optional<std::int64_t> longest;
-  for (const Arrivals& one : all) longest = std::max(longest.value_or(0), one.period - one.jitter);
-  return longest;
-}
-
-ArrivalBounds arrivals_of(const model::Cluster& cluster, const model::Task& task, WritersOfLists writers) {
-  return ArrivalFinder(cluster, writers).of(task);
+processor::ActivationBounds activation_bounds(const model::Cluster& cluster, const model::Task& task,
+                                              WritersOfLists writers) {
+  return BoundFinder(cluster, writers).of(task);
 }
 
 }  // namespace ttf::schedules::analysis

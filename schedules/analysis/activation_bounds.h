@@ -1,8 +1,5 @@
-// How often messages and sensors may activate a task.
+// How often messages and sensors may activate a task: every T and J (processor/activations.h) that is known.
 //
-// In a closed window of length a at most floor((a + J) / T) + 1 times, for every T and J of these that is known (as in
-// J. Y. Le Boudec, P. Thiran: Network Calculus, Springer 2001, section 1.2: a flow that is bounded twice is bounded by
-// the smaller):
 //   a sensor    T its period, J what clocks differ by where the cluster's time says when it measures
 //   over CAN    T the shortest time between two lists that the CAN is told of, J by how much their transfers differ
 //   by slots    T the shortest time between two sendings, J how much later than its first slot begins one may be over
@@ -14,33 +11,16 @@
 // slots comes with the next ones, later than J says, though never closer to another than their slots.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <vector>
-
-#include "core/ids.h"
+#include "schedules/analysis/processor/activations.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::schedules::analysis {
-
-struct Arrivals {
-  std::int64_t period = 0;  // T, 1 at least; nanoseconds
-  std::int64_t jitter = 0;  // J
-};
-
-struct ArrivalBounds {
-  std::vector<Arrivals> all;  // empty: nothing is known
-
-  // In a closed window; where nothing is known, 1.
-  std::int64_t most(std::int64_t window_ns) const;
-  // Between two activations at the least.
-  std::optional<std::int64_t> gap() const;
-};
 
 // Whether lists over FlexRay are known to be written less often than they are sent.
 enum class WritersOfLists : bool { kUnknown, kKnown };
 
 // Of a task that messages or a sensor activate.
-ArrivalBounds arrivals_of(const model::Cluster& cluster, const model::Task& task, WritersOfLists writers);
+processor::ActivationBounds activation_bounds(const model::Cluster& cluster, const model::Task& task,
+                                              WritersOfLists writers);
 
 }  // namespace ttf::schedules::analysis

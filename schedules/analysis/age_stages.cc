@@ -189,7 +189,7 @@ class Builder {
   // Does this list's arrival set the task off, rather than another list's?
   bool activates(const model::PortBinding& list, const model::Task& task) const {
     return std::any_of(task.reads.begin(), task.reads.end(), [&](const model::PortBinding& in) {
-      return in.port == task.activation.port && in.pdu == list.pdu && in.medium == list.medium;
+      return model::activates(task, in) && in.pdu == list.pdu && in.medium == list.medium;
     });
   }
 

@@ -6,10 +6,9 @@
 //   span         an execution, a CAN transfer, waiting for a busy processor: between best and worst, at any phase.
 //                A CAN transfer takes at best one frame without stuff bits, at worst a full list with maximal stuffing
 //                behind one frame of lower priority and all traffic of higher priority (schedules/analysis/can_load.h).
-//   activation   waiting for the next instant of a task that time activates (a reader that another list or another task
-//   sets
-//                off is a span: up to two periods of the slowest sensor, or one of its chain's beginning and all
-//                responses)
+//   activation   waiting for the next instant of a task that time activates (a reader that another list or another
+//                task sets off is a span: up to two periods of the slowest sensor, or one of its chain's beginning and
+//                all responses)
 //   slots        waiting for the first of the list's slots, then its transmission. A list written after that slot has
 //                begun waits for the next cycle of its frames, which is what the controller does (whole lists only). In
 //                the dynamic segment a list is there at the earliest when one frame has been sent at once, at any
@@ -19,14 +18,13 @@
 // Assumptions:
 //   A1  nothing fails: no lost frame, no deadline missed, no list replaced before it is read
 //   A2  the cluster's clocks agree to gAssumedPrecision plus one macrotick; unsynchronised spans run on oscillators
-//   that
-//       drift as far as the nodes may, and so does global time against true time. So the bounds hold on any clock.
+//       that drift as far as the nodes may, and so does global time against true time. So the bounds hold on any clock.
 //   A3  a measurement is fused as soon as the fusion node has it (ADVA, TT); BUFF's waiting is bounded separately
-//   A4  one processor per node without preemption, first come first served: schedules/analysis/responses.h bounds the
-//   wait A5  a sensor that runs freely, or follows its host, has any phase against the cycle, so the wait at the first
-//   stage on
-//       the cycle's grid is anything up to its period; from there on the grid is fixed and waits are exact. A scheduled
-//       sensor is on the grid from the start. All 64 cycles are gone through.
+//   A4  one processor per node without preemption, first come first served; schedules/analysis/responses.h bounds
+//       the wait
+//   A5  a sensor that runs freely, or follows its host, has any phase against the cycle, so the wait at the first stage
+//       on the cycle's grid is anything up to its period; from there on the grid is fixed and waits are exact. A
+//       scheduled sensor is on the grid from the start. All 64 cycles are gone through.
 // The bounds are safe: simulated ages lie between them.
 #pragma once
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "core/int128.h"
-#include "schedules/check/checker.h"
+#include "schedules/model/wire_times.h"
 
 namespace ttf::schedules::analysis {
 
@@ -14,7 +14,7 @@ std::int64_t ClockBounds::drift_ns(std::int64_t ns) const {
 
 ClockBounds clock_bounds(const model::Cluster& cluster) {
   ClockBounds bounds;
-  bounds.apart_ns = (check::assumed_precision_ps(cluster.flexray) + cluster.flexray.gdMacrotick_ps + 999) / 1000;
+  bounds.apart_ns = (assumed_precision_ps(cluster.flexray) + cluster.flexray.gdMacrotick_ps + 999) / 1000;
   for (const model::Node& node : cluster.nodes) bounds.drift_ppb = std::max(bounds.drift_ppb, worst_drift_ppb(node));
   return bounds;
 }

@@ -3,312 +3,219 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/int128.h"
+#include "core/check.h"
+#include "schedules/analysis/processor/busy_period.h"
 #include "schedules/analysis/sensor_loop.h"
 #include "schedules/model/round.h"
 
 namespace ttf::schedules::analysis {
 namespace {
 
-constexpr std::int64_t kLongest_ns = 20'000'000'000;  // twice the longest deadline a file can ask for
-constexpr int kMostRounds = 10'000;
+bool by_time(const model::Task& task) { return task.activation.kind == model::ActivationKind::kTime; }
 
-// How a sensor that waits for the task's end activates it.
-struct Following {
-  std::int64_t best = 0, worst = 0;  // execution
-  std::int64_t pause = 0;            // from its end to the next activation at the least
-  std::int64_t round() const { return best + pause; }
-  // The longest executions of activations before the last in a closed window.
-  std::int64_t before_last(std::int64_t window) const {
-    return window < round() ? 0 : static_cast<std::int64_t>(static_cast<Int128>(window) * worst / (worst + pause));
-  }
-};
+// By task: the one whose end activates it.
+std::vector<std::optional<std::size_t>> predecessors(const std::vector<model::Task>& tasks) {
+  std::vector<std::optional<std::size_t>> before(tasks.size());
+  for (std::size_t t = 0; t < tasks.size(); ++t)
+    if (tasks[t].activation.kind == model::ActivationKind::kCompletion)
+      for (std::size_t other = 0; other < tasks.size(); ++other)
+        if (tasks[other].name == tasks[t].activation.after) before[t] = other;
+  return before;
+}
 
-// This much work more in windows from this length on.
-struct Load {
-  std::int64_t window = 0;
-  std::int64_t work = 0;
-};
+// What the node's corrections may take from a distance of global time.
+std::optional<processor::ClockCorrections> corrections_of(const model::Cluster& cluster, const model::Node& node) {
+  if (!node.flexray) return std::nullopt;
+  const model::NodeParameters& p = *node.flexray;
+  return processor::ClockCorrections{
+      .cycle_ns = std::max<std::int64_t>(1, cluster.cycle().ns),
+      .microticks = std::max(p.pMicroPerCycle, 1),
+      .rate = p.pRateCorrectionOut + p.pExternRateCorrection,
+      .offset_ns = (p.pOffsetCorrectionOut + p.pExternOffsetCorrection) * p.pdMicrotick_ps / 1000 + 1};
+}
 
-class NodeTasks {
+class ChainAnalysis {
  public:
-  NodeTasks(const model::Cluster& cluster, NodeId id, WritersOfLists writers)
-      : cluster_(cluster), node_(cluster.node(id)) {
-    const std::size_t count = node_.tasks.size();
-    before_.resize(count);
-    ahead_.resize(count);
-    for (std::size_t t = 0; t < count; ++t)
-      if (node_.tasks[t].activation.kind == model::ActivationKind::kCompletion)
-        for (std::size_t other = 0; other < count; ++other)
-          if (node_.tasks[other].name == node_.tasks[t].activation.after) before_[t] = other;
-    whole_.resize(count);
-    arrivals_.resize(count);
-    following_.resize(count);
-    for (std::size_t t = 0; t < count; ++t) {
-      const model::Task& task = node_.tasks[t];
-      whole_[root(t)] += task.worst_case.ns;
-      if (before_[t] || by_time(t)) continue;
-      if (const auto loop = loop_through(cluster_, id, task))
-        following_[t] = Following{shortest_execution(task).ns, task.worst_case.ns,
-                                  std::max<std::int64_t>(1, shortest_return(cluster_, *loop).ns)};
-      else
-        arrivals_[t] = arrivals_of(cluster_, task, writers);
+  ChainAnalysis(const model::Cluster& cluster, NodeId id, WritersOfLists writers)
+      : cluster_(cluster), node_(cluster.node(id)), before_(predecessors(node_.tasks)), chain_(node_.tasks.size()) {
+    std::vector<processor::TimedInstants::Instant> instants;
+    for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
+      if (before_[t]) continue;
+      chain_[t] = set_.chains.size();
+      set_.chains.push_back({0, activation_of(id, node_.tasks[t], writers)});
+      if (by_time(node_.tasks[t])) add_instants(t, instants);
     }
-    round_ = time_of(cluster.flexray, model::kCycles, Macroticks{0}).ns;
-    for (std::size_t t = 0; t < count; ++t)
-      if (by_time(t))
-        for (std::int64_t cycle = node_.tasks[t].activation.at.base_cycle; cycle < model::kCycles;
-             cycle += node_.tasks[t].activation.at.repetition)
-          instants_.emplace_back(time_of(cluster.flexray, cycle, node_.tasks[t].activation.at.offset).ns, t);
-    std::sort(instants_.begin(), instants_.end());
+    const std::int64_t round = time_of(cluster.flexray, model::kCycles, Macroticks{0}).ns;
+    set_.timed = processor::TimedInstants(std::move(instants), round, corrections_of(cluster, node_));
+    for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
+      chain_[t] = chain_[first_of(t)];
+      if (chain_[t]) chain_of(t).work += node_.tasks[t].worst_case.ns;
+    }
   }
 
-  std::optional<std::vector<TaskResponse>> responses() {
-    for (std::size_t t = 0; t < before_.size(); ++t)
-      if (before_[root(t)]) return std::nullopt;  // round and round
-    const auto busy = busy_time();
+  std::optional<std::vector<TaskResponse>> responses() const {
+    if (std::any_of(chain_.begin(), chain_.end(), [](const auto& chain) { return !chain; })) return std::nullopt;
+    const auto busy = busy_time(set_, longest_busy_time(cluster_, node_).ns);
     if (!busy) return std::nullopt;
-    find_steps(*busy);
-    result_.resize(node_.tasks.size());
+    Responses all(node_.tasks.size());
     for (std::size_t t = 0; t < node_.tasks.size(); ++t)
-      if (!before_[t]) result_[t] = first_of_chain(t, *busy);
+      if (!before_[t]) all[t] = of_first(t, *busy, {});
     // Chains that end before they begin again meet none of their own earlier jobs.
-    for (const bool apart : {true, false}) {
-      bool confirmed = true;
-      for (std::size_t t = 0; t < node_.tasks.size(); ++t)
-        if (before_[t]) follow(t, apart);
-      for (std::size_t t = 0; t < node_.tasks.size(); ++t)
-        if (before_[t] && (!result_[root(t)].gap || ended(t) >= result_[root(t)].gap->ns)) confirmed = false;
-      if (confirmed) break;
-    }
-    return result_;
+    add_followers(all, Jobs::kApart);
+    if (!chains_end_in_time(all)) add_followers(all, Jobs::kMixed);
+    return all;
   }
 
   // Of a task that messages activate, others ahead of it.
-  std::optional<Duration> response_behind(std::size_t task, std::span<const Duration> ahead) {
-    const auto busy = busy_time();
+  std::optional<Duration> response_behind(std::size_t task, std::span<const Duration> ahead) const {
+    TTF_CHECK(!before_[task], "task {} follows another", task);
+    const auto busy = busy_time(set_, longest_busy_time(cluster_, node_).ns);
     if (!busy) return std::nullopt;
-    for (std::size_t t = 0; t < ahead.size(); ++t) ahead_[t] = ahead[t].ns;
-    find_steps(*busy);
-    return first_of_chain(task, *busy).worst;
+    std::vector<std::int64_t> by_chain(set_.chains.size());
+    for (std::size_t t = 0; t < node_.tasks.size(); ++t)
+      if (!before_[t]) by_chain[*chain_[t]] = ahead[t].ns;
+    return of_first(task, *busy, by_chain).worst;
   }
 
  private:
-  // The windows from which one more message may be in.
-  void find_steps(std::int64_t busy) {
-    for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
-      if (before_[t] || by_time(t)) continue;
-      if (ahead_[t] > 0) steps_.push_back(ahead_[t]);
-      for (const Arrivals& from : arrivals_[t].all)
-        for (std::int64_t at = from.period - from.jitter % from.period; at <= busy; at += from.period)
-          steps_.push_back(ahead_[t] + at);
-      // Behind its step its work grows more slowly than the window.
-      if (const auto& following = following_[t]) steps_.push_back(ahead_[t] + following->round());
-    }
-    std::sort(steps_.begin(), steps_.end());
-    steps_.erase(std::unique(steps_.begin(), steps_.end()), steps_.end());
+  using Responses = std::vector<TaskResponse>;
+
+  // Whether the jobs of a chain's next activation may wait among those of the last.
+  enum class Jobs : bool { kApart, kMixed };
+
+  processor::Chain::Activation activation_of(NodeId id, const model::Task& first, WritersOfLists writers) const {
+    if (by_time(first)) return processor::ByTime{};
+    if (const auto loop = loop_through(cluster_, id, first))
+      return processor::ByFollower{shortest_execution(first).ns, first.worst_case.ns,
+                                   std::max<std::int64_t>(1, shortest_return(cluster_, *loop).ns)};
+    return activation_bounds(cluster_, first, writers);
   }
 
-  bool by_time(std::size_t task) const { return node_.tasks[task].activation.kind == model::ActivationKind::kTime; }
+  void add_instants(std::size_t task, std::vector<processor::TimedInstants::Instant>& instants) const {
+    const model::CycleInstant& at = node_.tasks[task].activation.at;
+    for (std::int64_t cycle = at.base_cycle; cycle < model::kCycles; cycle += at.repetition)
+      instants.push_back({time_of(cluster_.flexray, cycle, at.offset).ns, *chain_[task]});
+  }
 
-  std::size_t root(std::size_t task) const {
+  // The chain's first task; one of a ring where its tasks go round and round.
+  std::size_t first_of(std::size_t task) const {
     for (std::size_t steps = 0; before_[task] && steps < before_.size(); ++steps) task = *before_[task];
     return task;
   }
 
   bool leads_to(std::size_t from, std::size_t to) const {
-    for (std::size_t steps = 0; steps <= before_.size(); ++steps) {
-      if (from == to) return true;
-      if (!before_[to]) return false;
-      to = *before_[to];
-    }
-    return false;
+    while (from != to && before_[to]) to = *before_[to];
+    return from == to;
   }
 
-  // A distance of global time in the node's own: every cycle may be shorter by the rate correction, every second one by
-  // an offset correction, external terms included.
-  std::int64_t shrunk(std::int64_t global_ns) const {
-    if (global_ns == 0 || !node_.flexray) return global_ns;
-    const model::NodeParameters& p = *node_.flexray;
-    const std::int64_t rate =
-        static_cast<std::int64_t>(static_cast<Int128>(global_ns) * (p.pRateCorrectionOut + p.pExternRateCorrection) /
-                                  std::max(p.pMicroPerCycle, 1)) +
-        1;
-    const std::int64_t offset = (p.pOffsetCorrectionOut + p.pExternOffsetCorrection) * p.pdMicrotick_ps / 1000 + 1;
-    const std::int64_t corrections = global_ns / (2 * std::max<std::int64_t>(1, cluster_.cycle().ns)) + 1;
-    return std::max<std::int64_t>(0, global_ns - rate - offset * corrections - model::kGranularity_ns);
-  }
+  const processor::Chain& chain_of(std::size_t task) const { return set_.chains[*chain_[task]]; }
+  processor::Chain& chain_of(std::size_t task) { return set_.chains[*chain_[task]]; }
 
-  // The k-th instant from the given one on, forward or backward, as its distance in global time and its task.
-  std::pair<std::int64_t, std::size_t> neighbour(std::size_t from, std::size_t k, bool forward) const {
-    const std::size_t count = instants_.size();
-    const std::size_t rounds = k / count, rest = k % count;
-    const std::size_t to = forward ? (from + rest) % count : (from + count - rest) % count;
-    const bool wrapped = forward ? to < from : to > from;
-    const std::int64_t apart =
-        forward ? instants_[to].first - instants_[from].first : instants_[from].first - instants_[to].first;
-    return {apart + round_ * (static_cast<std::int64_t>(rounds) + (wrapped ? 1 : 0)), instants_[to].second};
-  }
-
-  // The work that time brings from one instant on, or up to it, in windows up to `most`.
-  std::vector<Load> loads(std::size_t instant, std::int64_t most, bool forward) const {
-    std::vector<Load> list;
-    for (std::size_t k = 0;; ++k) {
-      const auto [apart, task] = neighbour(instant, k, forward);
-      const std::int64_t window = shrunk(apart);
-      if (window > most) break;
-      list.push_back({window, whole_[task]});
-    }
-    std::sort(list.begin(), list.end(), [](const Load& a, const Load& b) { return a.window < b.window; });
-    return list;
-  }
-
-  // No more than twice what is looked into: enough to know that it never ends.
-  std::int64_t sporadic(std::int64_t window) const {
-    Int128 work = 0;
-    for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
-      if (before_[t] || by_time(t)) continue;
-      // Whose newest activation was some time ago has none in the last of the window.
-      const std::int64_t before = window - ahead_[t];
-      if (before < 0) continue;
-      if (const auto& following = following_[t])
-        work += whole_[t] + following->before_last(before);
-      else
-        work += static_cast<Int128>(whole_[t]) * arrivals_[t].most(before);
-    }
-    return static_cast<std::int64_t>(std::min<Int128>(work, 2 * kLongest_ns));
-  }
-
-  // The smallest A with W(A) <= A, from below.
-  std::optional<std::int64_t> busy_time() const {
-    const std::int64_t limit = longest_busy_time(cluster_, node_).ns;
-    // Corrections that eat up cycles: not a clock to count on.
-    if (!instants_.empty() && shrunk(round_) < round_ / 2) return std::nullopt;
-    std::int64_t window = 0;
-    for (int rounds = 0; rounds < kMostRounds; ++rounds) {
-      std::int64_t timed = 0;
-      for (std::size_t i = 0; i < instants_.size(); ++i) {
-        std::int64_t work = 0;
-        for (const Load& load : loads(i, window, true)) work += load.work;
-        timed = std::max(timed, work);
-      }
-      const std::int64_t next = sporadic(window) + timed;
-      if (next <= window) return window;
-      if (next > limit) return std::nullopt;
-      window = next;
-    }
-    return std::nullopt;
-  }
-
-  // The largest W(a) - a, with what time brings given.
-  std::int64_t latest(const std::vector<Load>& timed) const {
-    std::int64_t worst = 0, work = 0;
-    std::size_t next = 0;
-    const auto look = [&](std::int64_t window) {
-      for (; next < timed.size() && timed[next].window <= window; ++next) work += timed[next].work;
-      worst = std::max(worst, sporadic(window) + work - window);
-    };
-    look(0);
-    std::size_t step = 0;
-    while (step < steps_.size() || next < timed.size())
-      if (next == timed.size() || (step < steps_.size() && steps_[step] <= timed[next].window))
-        look(steps_[step++]);
-      else
-        look(timed[next].window);
-    return worst;
-  }
-
-  TaskResponse first_of_chain(std::size_t task, std::int64_t busy) const {
-    std::int64_t worst = instants_.empty() ? latest({}) : 0;
-    for (std::size_t i = 0; i < instants_.size(); ++i)
-      if (!by_time(task) || instants_[i].second == task)
-        worst = std::max(worst, latest(loads(i, busy, !by_time(task))));
+  TaskResponse of_first(std::size_t task, std::int64_t busy, std::span<const std::int64_t> ahead) const {
+    const model::Task& first = node_.tasks[task];
+    const processor::Chain& chain = chain_of(task);
     TaskResponse response;
     // What follows the task itself is not before it.
-    response.worst = {worst - whole_[task] + node_.tasks[task].worst_case.ns};
-    if (by_time(task))
-      response.gap = Duration{shrunk(cluster_.cycle().ns * node_.tasks[task].activation.at.repetition)};
-    else if (const auto gap = arrivals_[task].gap())
-      response.gap = Duration{*gap};
-    set_written(task, response);
+    response.worst = {worst_chain_response(set_, *chain_[task], busy, ahead) - chain.work + first.worst_case.ns};
+    if (by_time(first)) {
+      response.gap = Duration{set_.timed.shortest(cluster_.cycle().ns * first.activation.at.repetition)};
+    } else if (const auto* bounds = std::get_if<processor::ActivationBounds>(&chain.activation)) {
+      if (const auto gap = bounds->gap()) response.gap = Duration{*gap};
+    }
+    if (const auto* follower = std::get_if<processor::ByFollower>(&chain.activation))
+      response.written = Duration{follower->shortest_round()};
+    else
+      response.written = shortest_written(first, response);
     return response;
   }
 
-  void set_written(std::size_t task, TaskResponse& response) const {
-    const model::Task& what = node_.tasks[task];
-    const Duration best = shortest_execution(what);
-    if (const auto& following = following_[task])
-      response.written = Duration{following->round()};
-    else if (response.gap)
-      response.written = Duration{std::max<std::int64_t>(0, (*response.gap - (response.worst - best)).ns)};
+  // Between two ends: one late, the next at once.
+  static std::optional<Duration> shortest_written(const model::Task& task, const TaskResponse& response) {
+    if (!response.gap) return std::nullopt;
+    return std::max(Duration{}, *response.gap - (response.worst - shortest_execution(task)));
+  }
+
+  void add_followers(Responses& all, Jobs jobs) const {
+    std::vector<bool> done(all.size());
+    for (std::size_t t = 0; t < all.size(); ++t) add_follower(t, jobs, all, done);
+  }
+
+  // Behind those that it follows.
+  void add_follower(std::size_t task, Jobs jobs, Responses& all, std::vector<bool>& done) const {
+    if (done[task] || !before_[task]) return;
+    add_follower(*before_[task], jobs, all, done);
+    all[task] = of_follower(task, jobs, all);
+    done[task] = true;
+  }
+
+  // It waits for whatever was activated while the task before it waited and ran.
+  TaskResponse of_follower(std::size_t task, Jobs jobs, const Responses& all) const {
+    const std::size_t previous = *before_[task];
+    const std::int64_t since = until_end(previous, all);
+    TaskResponse response;
+    response.worst = node_.tasks[task].worst_case;
+    for (std::size_t other = 0; other < node_.tasks.size(); ++other)
+      if (other != task && other != previous && may_be_before(task, other, jobs, since))
+        response.worst += node_.tasks[other].worst_case;
+    response.gap = all[previous].written;
+    response.written = shortest_written(node_.tasks[task], response);
+    return response;
+  }
+
+  // May `other` be activated between the activation of the task before `task` and its end, which is `since` after that
+  // of their chain?
+  bool may_be_before(std::size_t task, std::size_t other, Jobs jobs, std::int64_t since) const {
+    if (chain_[other] == chain_[task]) return jobs == Jobs::kMixed || !(leads_to(other, task) || leads_to(task, other));
+    if (!chain_of(task).by_time() || !by_time(node_.tasks[other])) return true;
+    for (std::size_t i = 0; i < set_.timed.size(); ++i)
+      if (set_.timed.chain(i) == chain_[task] && meets(i, *chain_[other], since)) return true;
+    return false;
+  }
+
+  // Whether time activates the chain from this instant on until `since` after it; or at the same instant.
+  bool meets(std::size_t instant, std::size_t chain, std::int64_t since) const {
+    const auto is_it = [chain](const processor::TimedInstants::Neighbour& other) { return other.chain == chain; };
+    const auto behind = set_.timed.within(instant, since, processor::TimedInstants::kForward);
+    const auto beside = set_.timed.within(instant, 0, processor::TimedInstants::kBackward);
+    return std::any_of(behind.begin(), behind.end(), is_it) || std::any_of(beside.begin(), beside.end(), is_it);
   }
 
   // From the activation of the chain's first task to the end of this one.
-  std::int64_t ended(std::size_t task) const {
-    std::int64_t sum = result_[task].worst.ns;
-    return before_[task] ? sum + ended(*before_[task]) : sum;
+  std::int64_t until_end(std::size_t task, const Responses& all) const {
+    const std::int64_t own = all[task].worst.ns;
+    return before_[task] ? until_end(*before_[task], all) + own : own;
   }
 
-  void follow(std::size_t task, bool chains_apart) {
-    const std::size_t previous = *before_[task];
-    if (before_[previous]) follow(previous, chains_apart);
-    std::int64_t worst = node_.tasks[task].worst_case.ns;
-    for (std::size_t other = 0; other < node_.tasks.size(); ++other)
-      if (other != task && other != previous && may_be_before(task, other, chains_apart))
-        worst += node_.tasks[other].worst_case.ns;
-    TaskResponse response;
-    response.worst = {worst};
-    response.gap = result_[previous].written;
-    set_written(task, response);
-    result_[task] = response;
-  }
-
-  // May `other` be activated between the activation of the task before `task` and its end?
-  bool may_be_before(std::size_t task, std::size_t other, bool chains_apart) const {
-    const std::size_t first = root(task);
-    if (root(other) == first) return !chains_apart || !(leads_to(other, task) || leads_to(task, other));
-    if (!by_time(first) || !by_time(other)) return true;
-    for (std::size_t i = 0; i < instants_.size(); ++i) {
-      if (instants_[i].second != first) continue;
-      for (const bool forward : {true, false})  // backward for what time has at the same instant
-        for (std::size_t k = 0;; ++k) {
-          const auto [apart, at] = neighbour(i, k, forward);
-          if (shrunk(apart) > (forward ? ended(*before_[task]) : 0)) break;
-          if (at == other) return true;
-        }
+  bool chains_end_in_time(const Responses& all) const {
+    for (std::size_t t = 0; t < all.size(); ++t) {
+      const auto& gap = all[first_of(t)].gap;
+      if (before_[t] && (!gap || until_end(t, all) >= gap->ns)) return false;
     }
-    return false;
+    return true;
   }
 
   const model::Cluster& cluster_;
   const model::Node& node_;
-  std::vector<std::optional<std::size_t>> before_;              // the task whose end activates it
-  std::vector<std::int64_t> ahead_;                             // how long ago its newest activation was, at least
-  std::vector<std::int64_t> whole_;                             // of a chain, at its first task
-  std::vector<ArrivalBounds> arrivals_;                         // of first tasks that messages and sensors activate
-  std::vector<std::optional<Following>> following_;             // of first tasks that a sensor waits for
-  std::vector<std::pair<std::int64_t, std::size_t>> instants_;  // of 64 cycles, in global time, and the task
-  std::int64_t round_ = 0;
-  std::vector<std::int64_t> steps_;  // see find_steps()
-  std::vector<TaskResponse> result_;
+  std::vector<std::optional<std::size_t>> before_;  // the task whose end activates it
+  std::vector<std::optional<std::size_t>> chain_;   // in set_; none of tasks that go round and round
+  processor::TaskChains set_;
 };
 
 }  // namespace
 
 Duration longest_busy_time(const model::Cluster& cluster, const model::Node& node) {
-  for (const model::Task& task : node.tasks)
-    if (task.activation.kind == model::ActivationKind::kTime) return cluster.cycle() * model::kCycles;
-  return {kLongest_ns};
+  if (std::any_of(node.tasks.begin(), node.tasks.end(), by_time)) return cluster.cycle() * model::kCycles;
+  return {processor::kLongestBusy_ns};
 }
 
 std::optional<std::vector<TaskResponse>> worst_responses(const model::Cluster& cluster, NodeId node,
                                                          WritersOfLists writers) {
-  return NodeTasks(cluster, node, writers).responses();
+  return ChainAnalysis(cluster, node, writers).responses();
 }
 
 std::optional<Duration> worst_response(const model::Cluster& cluster, NodeId node, std::size_t task,
                                        std::span<const Duration> ahead) {
-  NodeTasks tasks(cluster, node, WritersOfLists::kKnown);
+  const ChainAnalysis tasks(cluster, node, WritersOfLists::kKnown);
   if (std::any_of(ahead.begin(), ahead.end(), [](Duration lead) { return lead > Duration{}; }))
     return tasks.response_behind(task, ahead);
   const auto all = tasks.responses();

@@ -1,24 +1,11 @@
 // How long a node's tasks take at worst from their activation to their end, other tasks' turns included, and how soon
 // they may be activated again.
 //
-// One processor per node, no preemption, first come first served. Whatever runs before a job was activated after the
-// last instant at which the node was idle, and at or before the job; so a job activated a after that instant ends at
-// the latest
-//   W(a) - a
-// after its activation, W(a) being the work activated in a closed window of length a (J. Y. Le Boudec, P. Thiran:
-// Network Calculus, Springer 2001, section 1.4: the horizontal distance for a FIFO server of rate one). The bound is
-// the largest over all a up to the longest busy time, the smallest A with W(A) <= A. In W:
-//   by time      the exact instants of 64 cycles, at the distances that the node's corrections can shrink them to
-//   by messages  at most floor((a + J) / T) + 1 in a window, T the shortest time between two lists where they are sent
-//   and J and sensors  by how much their way may differ from one to the next (schedules/analysis/activation_bounds.h)
-//   by a sensor  that waits for the task's end (schedules/analysis/sensor_loop.h): the next comes R after that end at
-//   the soonest, so that follows the executions between activations in a window are at most a C / (C + R), and one C
-//   more; C the worst case after other  with the task they follow: a chain's work comes at its beginning at the
-//   earliest
-// A task that follows another starts its own account when that one ends. What may then be before it was activated since
-// the other's activation; of every task at most one activation is pending, which is what the checker demands of all (an
-// end before the next activation) and what makes these bounds hold one after the other. Durations are the node's own
-// time, in which executions and deadlines are counted.
+// One processor per node, no preemption, first come first served: schedules/analysis/processor/busy_period.h bounds the
+// first tasks of chains, each with all that follows it. A task that follows another starts its own account when that
+// one ends. What may then be before it was activated since the other's activation; of every task at most one activation
+// is pending, which is what the checker demands of all (an end before the next activation) and what makes these bounds
+// hold one after the other. Durations are the node's own time, in which executions and deadlines are counted.
 #pragma once
 
 #include <optional>

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <iterator>
 
 #include "core/int128.h"
-#include "schedules/analysis/clock_bounds.h"
+#include "schedules/file/loader.h"
 #include "schedules/model/limits.h"
 #include "schedules/model/wire_times.h"
 
@@ -25,25 +23,8 @@ std::int64_t around_action_points(const model::GlobalParameters& g, std::int64_t
   return 2 * g.gdActionPointOffset + model::ceil_div(time, shortest_macroticks(g, 1));
 }
 
-// What an offset correction can take from the macroticks behind gOffsetCorrectionStart, in the shortest cycle that rate
-// correction makes, and still leave each of them a microtick. The external terms come on top of both corrections.
-std::int64_t offset_correction_room(const model::GlobalParameters& g, const model::NodeParameters& p) {
-  const std::int64_t macroticks = g.gMacroPerCycle - g.gOffsetCorrectionStart;
-  return macroticks * (p.pMicroPerCycle - p.pRateCorrectionOut - p.pExternRateCorrection) / g.gMacroPerCycle -
-         macroticks - p.pExternOffsetCorrection;
-}
-
-template <std::size_t N> bool is_one_of(const std::int64_t (&allowed)[N], std::int64_t value) {
-  return std::find(std::begin(allowed), std::end(allowed), value) != std::end(allowed);
-}
-
-// FlexRay 2.1A: 10, 5 and 2.5 Mbit/s; the sample clock is an eighth of a bit, and a microtick 1, 2 or 4 samples.
+// FlexRay 2.1A: 10, 5 and 2.5 Mbit/s.
 constexpr std::int64_t kBits_ps[] = {100'000, 200'000, 400'000};
-constexpr std::int64_t kMicroticks_ps[] = {12'500, 25'000, 50'000};
-constexpr std::int64_t kSamples[] = {1, 2, 4};
-
-std::string us(std::int64_t ps) { return fmt::format("{} us", static_cast<double>(ps) / 1e6); }
-std::string ns(std::int64_t ps) { return fmt::format("{} ns", static_cast<double>(ps) / 1e3); }
 
 }  // namespace
 
@@ -61,15 +42,8 @@ std::string task_path(const model::Node& node, const model::Task& task) {
 }
 
 std::string ms(Duration duration) { return fmt::format("{} ms", static_cast<double>(duration.ns) / 1e6); }
-
-std::int64_t assumed_precision_ps(const model::GlobalParameters& g) {
-  return (34 + 20 * static_cast<std::int64_t>(g.gClusterDriftDamping)) * g.gdMaxMicrotick_ps +
-         2 * g.gdMaxPropagationDelay_ps;
-}
-
-Duration assumed_precision(const model::GlobalParameters& g) {
-  return {model::ceil_div(assumed_precision_ps(g), 1000)};
-}
+std::string us(std::int64_t ps) { return fmt::format("{} us", static_cast<double>(ps) / 1e6); }
+std::string ns(std::int64_t ps) { return fmt::format("{} ns", static_cast<double>(ps) / 1e3); }
 
 std::int64_t shortest_static_slot(const model::GlobalParameters& g) {
   return around_action_points(g, frame_bits(g, g.gPayloadLengthStatic) + model::kIdleDelimiterBits, 0);
@@ -139,109 +113,6 @@ void check_cycle(const model::Cluster& cluster, ClusterFindings& findings) {
           fmt::format("must be below gdMinislot = {} macroticks", g.gdMinislot));
 }
 
-// The key slot is the node's own, static, on all its channels, in every cycle. Where the node sends in nothing else
-// until its host commands ALL_SLOTS, it must have nothing else to send: no host gives that command on its own.
-void check_key_slot(const model::Cluster& cluster, NodeId id, ClusterFindings& findings) {
-  const model::Node& node = cluster.node(id);
-  const model::NodeParameters& p = *node.flexray;
-  const model::FrameSlot* other = nullptr;
-  bool owns = false;
-  for (const model::FrameSlot& frame : cluster.frames) {
-    if (frame.sender != id) continue;
-    owns |= frame.slot == p.pKeySlotId && frame.repetition == 1 && frame.channels == p.pChannels &&
-            !is_dynamic(cluster.flexray, frame);
-    if (frame.slot != p.pKeySlotId && other == nullptr) other = &frame;
-  }
-  if (!owns)
-    findings.parameter(fmt::format("nodes.{}.flexray.pKeySlotId", node.name), fmt::format("{}", p.pKeySlotId),
-                       fmt::format("must be a static slot that {} owns on {} in every cycle", node.name,
-                                   p.pChannels == model::Channels::kAB ? "both channels" : "its channel"));
-  if (p.pKeySlotOnlyEnabled && other != nullptr)
-    findings.parameter(
-        fmt::format("nodes.{}.flexray.pKeySlotOnlyEnabled", node.name), "true",
-        fmt::format("must be false: {} also has slot {} (line {}), but would send in its key slot only until "
-                    "a host commands ALL_SLOTS",
-                    node.name, other->slot, other->line));
-}
-
-void check_clocks(const model::Cluster& cluster, ClusterFindings& findings) {
-  const model::GlobalParameters& g = cluster.flexray;
-  std::int64_t worst_drift = 0;
-  int sync = 0, startup = 0, controllers = 0;
-  for (const model::Node& node : cluster.nodes)
-    if (node.flexray) {
-      worst_drift = std::max(worst_drift, analysis::worst_drift_ppb(node));
-      ++controllers;
-      sync += node.flexray->pKeySlotUsedForSync ? 1 : 0;
-      startup += node.flexray->pKeySlotUsedForStartup ? 1 : 0;
-    }
-  for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
-    const model::Node& node = cluster.nodes[n];
-    if (node.drift_ppb && std::abs(*node.drift_ppb) > node.max_drift_ppb)
-      findings.parameter(
-          fmt::format("nodes.{}.drift_ppm", node.name), fmt::format("{}", static_cast<double>(*node.drift_ppb) / 1e3),
-          fmt::format("must be within +-max_drift_ppm = {}", static_cast<double>(node.max_drift_ppb) / 1e3));
-    if (!node.flexray) continue;
-    const model::NodeParameters& p = *node.flexray;
-    const auto wrong = [&](const char* name, const std::string& value, const std::string& expected) {
-      findings.parameter(fmt::format("nodes.{}.flexray.{}", node.name, name), value, expected);
-    };
-    const auto text = [](std::int64_t value) { return fmt::format("{}", value); };
-    if (static_cast<Int128>(p.pMicroPerCycle) * p.pdMicrotick_ps != g.gdCycle_ps)
-      wrong("pMicroPerCycle", text(p.pMicroPerCycle),
-            fmt::format("must make gdCycle = {} out of microticks of {}", us(g.gdCycle_ps), ns(p.pdMicrotick_ps)));
-    if (p.pdMicrotick_ps > g.gdMaxMicrotick_ps)
-      wrong("pdMicrotick", ns(p.pdMicrotick_ps),
-            fmt::format("must be at most gdMaxMicrotick = {}", ns(g.gdMaxMicrotick_ps)));
-    if (!is_one_of(kMicroticks_ps, p.pdMicrotick_ps))
-      wrong("pdMicrotick", ns(p.pdMicrotick_ps), "must be one of 12.5, 25, 50 ns");
-    if (!is_one_of(kSamples, p.pSamplesPerMicrotick))
-      wrong("pSamplesPerMicrotick", text(p.pSamplesPerMicrotick), "must be one of 1, 2, 4");
-    else if (8 * p.pdMicrotick_ps != p.pSamplesPerMicrotick * g.gdBit_ps)
-      wrong("pSamplesPerMicrotick", text(p.pSamplesPerMicrotick),
-            fmt::format("must be as many samples of gdBit / 8 = {} as make pdMicrotick = {}", ns(g.gdBit_ps / 8),
-                        ns(p.pdMicrotick_ps)));
-    // Against the node that is farthest off to the other side, counted in own microticks.
-    const std::int64_t rate =
-        model::ceil_div(static_cast<Int128>(p.pMicroPerCycle) * (analysis::worst_drift_ppb(node) + worst_drift),
-                        1'000'000'000 - worst_drift);
-    if (p.pRateCorrectionOut < rate)
-      wrong("pRateCorrectionOut", text(p.pRateCorrectionOut),
-            fmt::format("must be at least {} microticks to follow the worst drift between two nodes", rate));
-    const std::int64_t offset = model::ceil_div(assumed_precision_ps(g), p.pdMicrotick_ps);
-    const std::int64_t room = offset_correction_room(g, p);
-    if (p.pOffsetCorrectionOut < offset || p.pOffsetCorrectionOut > room)
-      wrong("pOffsetCorrectionOut", text(p.pOffsetCorrectionOut),
-            fmt::format("must be {}..{} microticks: from the assumed precision to what fits behind "
-                        "gOffsetCorrectionStart at the fastest rate",
-                        offset, room));
-    if (static_cast<std::int64_t>(p.pClusterDriftDamping) * p.pdMicrotick_ps >
-        static_cast<std::int64_t>(g.gClusterDriftDamping) * g.gdMaxMicrotick_ps)
-      wrong("pClusterDriftDamping", text(p.pClusterDriftDamping),
-            fmt::format("must not exceed gClusterDriftDamping = {} longest microticks", g.gClusterDriftDamping));
-    if (p.pLatestTx > g.gNumberOfMinislots)
-      wrong("pLatestTx", text(p.pLatestTx),
-            fmt::format("must be at most gNumberOfMinislots = {}", g.gNumberOfMinislots));
-    if (p.pKeySlotUsedForStartup && !p.pKeySlotUsedForSync)
-      wrong("pKeySlotUsedForStartup", "true", "needs pKeySlotUsedForSync: a startup frame is a sync frame");
-    if (!includes(p.pChannels, p.pWakeupChannel))
-      wrong("pWakeupChannel", p.pWakeupChannel == model::Channel::kA ? "A" : "B",
-            fmt::format("must be a channel that {} is attached to (pChannels = {})", node.name,
-                        channels_text(p.pChannels)));
-    check_key_slot(cluster, static_cast<NodeId>(n), findings);
-  }
-  if (controllers < 2)
-    findings.parameter("nodes", fmt::format("{}", controllers), "must have at least 2 nodes on FlexRay");
-  if (sync < 2 || sync > g.gSyncNodeMax)
-    findings.parameter(
-        "flexray.gSyncNodeMax", fmt::format("{}", g.gSyncNodeMax),
-        fmt::format("must allow the nodes with pKeySlotUsedForSync, which must be at least 2: there are {}", sync));
-  const int needed = std::min(controllers, 3);
-  if (startup < std::max(needed, 2))
-    findings.parameter("nodes", fmt::format("{}", startup),
-                       fmt::format("must have at least {} nodes with pKeySlotUsedForStartup", std::max(needed, 2)));
-}
-
 std::vector<Finding> check(const model::Cluster& cluster) {
   ClusterFindings findings(cluster);
   check_cycle(cluster, findings);
@@ -253,6 +124,12 @@ std::vector<Finding> check(const model::Cluster& cluster) {
   check_flow(cluster, findings);
   check_loops(cluster, findings);
   return findings.take();
+}
+
+model::Cluster load_checked_cluster(const std::string& path) {
+  model::Cluster cluster = file::load_cluster(path);
+  if (auto findings = check(cluster); !findings.empty()) throw InputError(std::move(findings));
+  return cluster;
 }
 
 }  // namespace ttf::schedules::check

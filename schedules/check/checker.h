@@ -2,24 +2,26 @@
 //
 // The rules and where they come from:
 //   cycle        constraints 16 and 18, static slot length, action point against the assumed precision, durations of
-//   cycle,
-//                macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
+//                cycle, macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
 //   star         a guardian sits in a star
 //   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
 //   slots        nobody owns a slot another owns in the same cycle and channel; a sender is attached to the
 //                frame's channels; payload fits, behind the network management vector where the frame carries it; a
 //                PDU's fragments complete
 //   dynamic      minislots that all clocks count alike, frames that end within the segment
-//   (schedules/analysis/minislots.h) CAN          frames fit, identifiers are unique, worst-case load, responses within
-//   periods (schedules/analysis/can_load.h) tasks        no overlap, deadlines with every wait for other tasks, an end
-//   before the next activation
+//                (schedules/analysis/minislots.h)
+//   CAN          frames fit, identifiers are unique, worst-case load, responses within periods
+//                (schedules/analysis/can_load.h)
+//   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
 //                (schedules/analysis/responses.h)
 //   loops        a sensor that follows its host does so in a closed loop (schedules/analysis/sensor_loop.h)
 //   flow         every reader has a writer and the other way round, sensors have their tasks, no list goes in a ring
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +36,10 @@ namespace ttf::schedules::check {
 // Everything that is wrong, in a fixed order; empty for a cluster that may run.
 std::vector<Finding> check(const model::Cluster& cluster);
 
-// Collects findings about one cluster; shared by the checker's parts (checker_*.cc).
+// Reads a cluster file (schedules/file/loader.h) and checks it: throws InputError with the findings of either.
+model::Cluster load_checked_cluster(const std::string& path);
+
+// Collects findings about one cluster; shared by the checker's parts.
 class ClusterFindings {
  public:
   explicit ClusterFindings(const model::Cluster& cluster) : cluster_(cluster) {}
@@ -53,11 +58,16 @@ class ClusterFindings {
 std::string task_path(const model::Node& node, const model::Task& task);
 // "2.5 ms"
 std::string ms(Duration duration);
+// Of picoseconds: "0.1 us", "12.5 ns"
+std::string us(std::int64_t ps);
+std::string ns(std::int64_t ps);
+
+template <std::size_t N> bool is_one_of(const std::int64_t (&allowed)[N], std::int64_t value) {
+  return std::find(std::begin(allowed), std::end(allowed), value) != std::end(allowed);
+}
 
 void check_cycle(const model::Cluster& cluster, ClusterFindings& findings);
 void check_clocks(const model::Cluster& cluster, ClusterFindings& findings);
-void check_key_slot(const model::Cluster& cluster, NodeId node,
-                    ClusterFindings& findings);  // of a node with a controller
 void check_slots(const model::Cluster& cluster, ClusterFindings& findings);
 void check_dynamic(const model::Cluster& cluster, ClusterFindings& findings);  // after check_slots()
 void check_can(const model::Cluster& cluster, ClusterFindings& findings);
@@ -67,11 +77,6 @@ void check_responses(const model::Cluster& cluster, NodeId node, ClusterFindings
 void check_flow(const model::Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
 void check_loops(const model::Cluster& cluster, ClusterFindings& findings);  // after all others
 
-// gAssumedPrecision = (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay, in picoseconds.
-std::int64_t assumed_precision_ps(const model::GlobalParameters& flexray);
-// The same rounded up to whole nanoseconds: readings of two clocks that are further apart than this are so whichever
-// way they were rounded.
-Duration assumed_precision(const model::GlobalParameters& flexray);
 // Shortest static slot that holds a frame of gPayloadLengthStatic words, in macroticks.
 std::int64_t shortest_static_slot(const model::GlobalParameters& flexray);
 

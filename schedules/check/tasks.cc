@@ -37,7 +37,7 @@ Duration shortest_period(const model::Cluster& cluster, const model::Task& task,
   const auto slots = analysis::shortest_slot_gap(cluster, binding.pdu);
   if (!slots) return {};
   Duration shortest = slots->gap;
-  for (const analysis::Arrivals& one : arrivals_of(cluster, task, analysis::WritersOfLists::kKnown).all)
+  for (const auto& one : activation_bounds(cluster, task, analysis::WritersOfLists::kKnown).all)
     shortest = std::max(shortest, Duration{one.period});
   return shortest;
 }

@@ -24,7 +24,7 @@ std::string identifier_like(std::string_view name, std::set<std::string>& taken)
     if (text.empty() && digit) text += '_';
     text += digit || letter ? c : '_';
   }
-  if (text.empty()) text = "_";
+  if (text.empty()) text += '_';
   std::string unique = text;
   for (int n = 2; !taken.insert(unique).second; ++n) unique = fmt::format("{}_{}", text, n);
   return unique;

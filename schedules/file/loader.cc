@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/strict_yaml.h"
-#include "schedules/check/checker.h"
 #include "schedules/file/parameter_table.h"
 #include "schedules/model/limits.h"
 
@@ -402,11 +401,5 @@ model::Cluster parse_cluster(std::string text, std::string name) {
 }
 
 model::Cluster load_cluster(const std::string& path) { return load(StrictYaml::load(path)); }
-
-model::Cluster load_checked_cluster(const std::string& path) {
-  model::Cluster cluster = load_cluster(path);
-  if (auto findings = check::check(cluster); !findings.empty()) throw InputError(std::move(findings));
-  return cluster;
-}
 
 }  // namespace ttf::schedules::file

@@ -13,8 +13,8 @@
 //             of signals {name, unit, bits, low, high, resolution}, all but name and bits optional
 //   sensors: {NAME: {kind: laser|camera|radar, device, host, measurement: free, period, phase}}   phase is optional
 //         or {NAME: {kind, device, host, measurement: scheduled, base_cycle, repetition, offset}}
-//         or {NAME: {kind, device, host, measurement: completion, after: TASK_OF_HOST, shortest_period, longest_period,
-//         phase}}
+//         or {NAME: {kind, device, host, measurement: completion, after: TASK_OF_HOST,
+//                    shortest_period, longest_period, phase}}
 //   nodes:  {NAME: {flexray: {pKeySlotId: 1, ...}, drift_ppm, max_drift_ppm, tasks: {NAME: {...}}}}
 //           off FlexRay `microtick` in ns instead of `flexray`; without drift_ppm it is drawn within max_drift_ppm
 //   frames: [{slot, channels: A|B|AB, sender, base_cycle, repetition, pdu, fragments, first_fragment, fragment_step,
@@ -25,11 +25,10 @@
 // A task is {step, activation, best_case, worst_case, draw: uniform|worst, deadline, reads: {...}, writes: {...}}; its
 // activation one of {kind: time, base_cycle, repetition, offset}, {kind: message, port}, {kind: sensor, sensor} and
 // {kind: completion, after}. Ports are bound as `port: PDU on flexray` or `port: PDU on NAME_OF_A_CAN`. Times carry
-// their unit
-// (`2.5 ms`), offsets are macroticks. A frame entry with `fragments: n` stands for n consecutive slots with the
-// fragments first_fragment (0 if absent) and on; with `fragment_step: 2` they have every other one, and an entry of the
-// other channel has those between. Without `pdu` it is a status frame. Slots above gNumberOfStaticSlots are dynamic.
-// With `network_management: true` each begins with the network management vector.
+// their unit (`2.5 ms`), offsets are macroticks. A frame entry with `fragments: n` stands for n consecutive slots with
+// the fragments first_fragment (0 if absent) and on; with `fragment_step: 2` they have every other one, and an entry of
+// the other channel has those between. Without `pdu` it is a status frame. Slots above gNumberOfStaticSlots are
+// dynamic. With `network_management: true` each begins with the network management vector.
 //
 // At most 200 nodes, sensors and PDUs, 127 CANs, 16 tasks per node and 256 fragments per list: what records can number.
 #pragma once
@@ -40,11 +39,8 @@
 
 namespace ttf::schedules::file {
 
-// Both throw InputError. The result is complete, but not yet proved consistent: that is check()'s part.
+// Both throw InputError. The result is complete, but not yet proved consistent: that is for schedules/check.
 model::Cluster load_cluster(const std::string& path);
 model::Cluster parse_cluster(std::string text, std::string name);
-
-// Loads and checks (schedules/check/checker.h): throws InputError with the findings of either.
-model::Cluster load_checked_cluster(const std::string& path);
 
 }  // namespace ttf::schedules::file

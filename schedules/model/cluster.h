@@ -1,5 +1,6 @@
-// The cluster: everything about what happens and when, as data. One YAML file describes one cluster (schedules/
-// loader.h reads it, schedules/check/checker.h proves it consistent); after that it is frozen and shared by every node.
+// The cluster: everything about what happens and when, as data. One YAML file describes one cluster
+// (schedules/file/loader.h reads it, schedules/check/checker.h proves it consistent); after that it is frozen and
+// shared by every node.
 //
 // Instants on the bus' own grid are macroticks within a cycle plus cycle multiplexing (base cycle, repetition): an
 // event happens in every cycle c with c mod repetition == base_cycle.

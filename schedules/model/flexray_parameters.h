@@ -65,6 +65,8 @@ struct GlobalParameters {
   std::int64_t cycle_ps() const { return gMacroPerCycle * gdMacrotick_ps; }
 };
 
+inline constexpr int kSamplesPerBit = 8;  // cSamplesPerBit
+
 // cdCAS: low bits of a collision avoidance symbol behind its TSS (annex A) [bit].
 inline constexpr int kCasBits = 30;
 

@@ -1,11 +1,13 @@
-// Times on the wire at their longest against macroticks at their shortest: what the constraints of FlexRay 2.1A, annex
-// B, are made of. Integers: picoseconds, scaled so that cClockDeviationMax is whole.
+// Times on the wire at their longest against macroticks at their shortest, and the precision that clocks are assumed to
+// keep: what the constraints of FlexRay 2.1A, annex B, are made of. Integers: picoseconds, and for the former scaled so
+// that cClockDeviationMax is whole.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 
 #include "core/int128.h"
+#include "core/time.h"
 #include "schedules/model/flexray_parameters.h"
 
 namespace ttf::schedules::model {
@@ -24,6 +26,17 @@ constexpr Int128 longest_bits(const GlobalParameters& flexray, std::int64_t bits
 constexpr Int128 scaled(std::int64_t ps) { return static_cast<Int128>(ps) * kWhole; }
 constexpr Int128 shortest_macroticks(const GlobalParameters& flexray, std::int64_t macroticks) {
   return static_cast<Int128>(macroticks) * flexray.gdMacrotick_ps * (kWhole - kDeviation);
+}
+
+// gAssumedPrecision = (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay, in picoseconds.
+constexpr std::int64_t assumed_precision_ps(const GlobalParameters& flexray) {
+  return (34 + 20 * static_cast<std::int64_t>(flexray.gClusterDriftDamping)) * flexray.gdMaxMicrotick_ps +
+         2 * flexray.gdMaxPropagationDelay_ps;
+}
+// The same rounded up to whole nanoseconds: readings of two clocks that are further apart than this are so whichever
+// way they were rounded.
+constexpr Duration assumed_precision(const GlobalParameters& flexray) {
+  return {ceil_div(assumed_precision_ps(flexray), 1000)};
 }
 
 // adActionPointDifference: the dynamic segment's first action point lies no earlier in it than a static slot's does.

@@ -9,14 +9,14 @@
 #include "recording/capture/packet.h"
 #include "recording/capture/reader.h"
 #include "recording/exports/pcapng_writer.h"
-#include "schedules/file/loader.h"
+#include "schedules/check/checker.h"
 
 namespace ttf::recording {
 
 using schedules::model::Channel;
 
 inline schedules::model::Cluster shipped_cluster(const std::string& name = "paper_synchronised") {
-  return schedules::file::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
+  return schedules::check::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
 }
 
 // One frame on the bus; `packet()` is what a capture has of it.

@@ -18,7 +18,7 @@ TEST_P(Shipped, LoadsAndChecksClean) {
 }
 
 TEST_P(Shipped, EverySensorReachesItsUse) {
-  const model::Cluster cluster = file::load_checked_cluster(shipped_path(GetParam()));
+  const model::Cluster cluster = check::load_checked_cluster(shipped_path(GetParam()));
   const auto ages = analysis::measurement_ages(cluster);
   ASSERT_EQ(ages.size(), cluster.sensors.size());
   for (const analysis::AgePath& path : ages) {

@@ -5,17 +5,14 @@
 #include <algorithm>
 
 #include "core/decimal.h"
-#include "schedules/check/checker.h"
 #include "schedules/exchange/fibex/parameters.h"
 #include "schedules/file/parameter_table.h"
+#include "schedules/model/wire_times.h"
 
 namespace ttf::schedules::exchange::fibex {
 namespace {
 
 constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
-constexpr int kSamplesPerBit = 8;  // cSamplesPerBit
-
-std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
 // The legal value next to `value`.
 template <class Parameters, class Table>
@@ -83,7 +80,7 @@ model::NodeParameters assume_local(const FibexEcu& ecu, const model::GlobalParam
   };
   // pSamplesPerMicrotick = 8 pdMicrotick / gdBit; a common microtick is 25 ns, or one sample where that is
   // longer.
-  const std::int64_t sample_ps = std::max<std::int64_t>(global.gdBit_ps / kSamplesPerBit, 1);
+  const std::int64_t sample_ps = std::max<std::int64_t>(global.gdBit_ps / model::kSamplesPerBit, 1);
   if (!given("pdMicrotick"))
     p.pdMicrotick_ps = given("pSamplesPerMicrotick")
                            ? std::clamp<std::int64_t>(p.pSamplesPerMicrotick * sample_ps, 12'500, 50'000)
@@ -92,15 +89,15 @@ model::NodeParameters assume_local(const FibexEcu& ecu, const model::GlobalParam
   assume("pMicroPerCycle", global.cycle_ps() / p.pdMicrotick_ps);
   // Two clocks off by cClockDeviationMax = 0.0015 to either side: 0.003 / (1 - 0.0015) of a cycle apart after
   // one.
-  const std::int64_t drift = ecu.max_drift.value_or(ceil_div(std::int64_t{p.pMicroPerCycle} * 6, 1997));
+  const std::int64_t drift = ecu.max_drift.value_or(model::ceil_div(std::int64_t{p.pMicroPerCycle} * 6, 1997));
   assume("pRateCorrectionOut", drift);
   assume("pdListenTimeout", 2 * (p.pMicroPerCycle + drift));
-  const std::int64_t precision = ceil_div(check::assumed_precision_ps(global), p.pdMicrotick_ps);
+  const std::int64_t precision = model::ceil_div(assumed_precision_ps(global), p.pdMicrotick_ps);
   assume("pOffsetCorrectionOut", precision);
   assume("pdAcceptedStartupRange", precision);
   const auto initial_offset = [&](int delay) {
     return global.gdActionPointOffset +
-           ceil_div((p.pDecodingCorrection + delay) * p.pdMicrotick_ps, global.gdMacrotick_ps);
+           model::ceil_div((p.pDecodingCorrection + delay) * p.pdMicrotick_ps, global.gdMacrotick_ps);
   };
   assume("pMacroInitialOffsetA", initial_offset(p.pDelayCompensationA));
   assume("pMacroInitialOffsetB", initial_offset(p.pDelayCompensationB));

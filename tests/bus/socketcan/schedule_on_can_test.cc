@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bus/wire/can_timing.h"
+#include "schedules/check/checker.h"
 #include "schedules/check/real_time_rules.h"
-#include "schedules/file/loader.h"
 #include "tests/bus/socketcan/frames.h"
 
 namespace ttf::bus::socketcan {
@@ -58,7 +58,7 @@ Duration longest(int data_bytes, BitRates rates) {
 }
 
 Cluster shipped(const std::string& name) {
-  return schedules::file::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
+  return schedules::check::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
 }
 
 // One node off sync with slot 1 on both channels, and a payload of so many words.

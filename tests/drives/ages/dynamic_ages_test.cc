@@ -31,7 +31,7 @@ class DynamicLists : public testing::TestWithParam<const char*> {};
 TEST_P(DynamicLists, AreFusedWithinTheirBounds) {
   for (const StrategyKind strategy : {StrategyKind::kBuff, StrategyKind::kAdva}) {
     Drive drive("scenarios/paper_scenario1.yaml", strategy);
-    drive.cluster = schedules::file::load_checked_cluster(shipped(GetParam()));
+    drive.cluster = schedules::check::load_checked_cluster(shipped(GetParam()));
     FusedAges fused;
     constexpr std::uint64_t kDrives = 15;
     for (std::uint64_t seed = 1; seed <= kDrives; ++seed) drive.run(fused, seed);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "schedules/analysis/ages.h"
+#include "schedules/check/checker.h"
 #include "tests/drives/ages/drive_ages.h"
 #include "tests/drives/drive_fixture.h"
 
@@ -32,7 +33,7 @@ TEST(FittedSchedule, EveryUseFindsBothSensorsNewestListsAtTheSameAge) {
        {std::pair{"scenarios/paper_scenario1.yaml", 20u}, std::pair{"scenarios/crowd_25.yaml", 2u}}) {
     SCOPED_TRACE(file);
     Drive drive(file, fusion::strategies::StrategyKind::kTt);
-    drive.cluster = schedules::file::load_checked_cluster(shipped("schedules/paper_fitted.yaml"));
+    drive.cluster = schedules::check::load_checked_cluster(shipped("schedules/paper_fitted.yaml"));
     drive.scenario.duration = Duration::milliseconds(2500);
     Ages ages;
     for (std::uint64_t seed = 1; seed <= drives; ++seed) {

@@ -130,9 +130,10 @@ TEST(Ages, OfHeldMeasurements) {
 // The same with a CAN before the bus, and with tasks that messages and other tasks activate (classic CAN, 8 bytes at 1
 // Mbit/s: 135 us at worst, 111 us less the intermission of 3 us at best):
 //
-//   device:  measure 1 ms -> CAN;  gateway: forward, on the list's arrival, 0.2 to 0.5 ms -> list in slot 3 of every
-//   cycle fusion:  fuse 2 ms at 1 ms of odd cycles; publish 0.1 ms when it ends -> image in slot 4 of every cycle user:
-//   use, on the image's arrival
+//   device:   measure 1 ms -> CAN
+//   gateway:  forward, on the list's arrival, 0.2 to 0.5 ms -> list in slot 3 of every cycle
+//   fusion:   fuse 2 ms at 1 ms of odd cycles; publish 0.1 ms when it ends -> image in slot 4 of every cycle
+//   user:     use, on the image's arrival
 model::Cluster over_can(bool scheduled) {
   model::Cluster cluster = small(scheduled);
   model::PduLayout raw;

@@ -12,7 +12,7 @@ namespace ttf::schedules::analysis {
 namespace {
 
 TEST(DealtLists, GoOutOnBothChannelsWithinOneCycle) {
-  const model::Cluster cluster = file::load_checked_cluster(shipped_path("thousand_synchronised"));
+  const model::Cluster cluster = check::load_checked_cluster(shipped_path("thousand_synchronised"));
   const PduId image = *cluster.find_pdu("image");
   std::set<int> on_a, on_b;
   for (const model::FrameSlot& frame : cluster.frames)

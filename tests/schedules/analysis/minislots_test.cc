@@ -86,7 +86,7 @@ TEST(Minislots, OnlySlotsOfTheSameCyclesCount) {
 
 // Of the laser's and the camera's list in slots 21 to 24, 12 minislots each, behind 1000 macroticks of static segment.
 TEST(Minislots, AListGoesOutBetweenItsTurns) {
-  const model::Cluster cluster = file::load_checked_cluster(shipped_path("flexray_demo"));
+  const model::Cluster cluster = check::load_checked_cluster(shipped_path("flexray_demo"));
   const auto laser = slot_groups(cluster, *cluster.find_pdu("laser_objects"));
   const auto camera = slot_groups(cluster, *cluster.find_pdu("camera_objects"));
   ASSERT_EQ(laser.size(), 1u);
@@ -106,7 +106,7 @@ TEST(Minislots, AListGoesOutBetweenItsTurns) {
 // At best one frame: (9 + 1 + 80 + 560 + 2) bits of 0.1 us, less drift and what oscillators round off; at worst it
 // missed its turn by a nanosecond, and is sent in the next cycle behind everything else.
 TEST(Minislots, AgesCountTheWaitForATurn) {
-  const model::Cluster cluster = file::load_checked_cluster(shipped_path("flexray_demo"));
+  const model::Cluster cluster = check::load_checked_cluster(shipped_path("flexray_demo"));
   for (const AgePath& path : measurement_ages(cluster)) {
     const bool laser = cluster.sensor(path.sensor).name == "laser";
     const auto part = std::find_if(path.to_use.begin(), path.to_use.end(), [&](const Contribution& c) {
@@ -146,7 +146,7 @@ TEST(DynamicLoad, IsThatOfTheFullestCycle) {
 }
 
 TEST(DynamicLoad, IsListedAndDrawn) {
-  const model::Cluster cluster = file::load_checked_cluster(shipped_path("flexray_demo"));
+  const model::Cluster cluster = check::load_checked_cluster(shipped_path("flexray_demo"));
   const std::string text = dynamic_text(cluster);
   EXPECT_NE(text.find("80 minislots of 7 macroticks; with every slot in use A takes 48 (60.0 %), B takes 48 (60.0 %)"),
             std::string::npos)

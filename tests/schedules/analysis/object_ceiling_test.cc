@@ -14,7 +14,7 @@ namespace ttf::schedules::analysis {
 namespace {
 
 ObjectCeiling ceiling_of(const std::string& name) {
-  return object_ceiling(file::load_checked_cluster(shipped_path(name)));
+  return object_ceiling(check::load_checked_cluster(shipped_path(name)));
 }
 
 TEST(ObjectCeiling, OfTheShippedClusters) {

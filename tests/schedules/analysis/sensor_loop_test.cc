@@ -15,7 +15,7 @@ namespace {
 
 constexpr Duration microseconds(std::int64_t n) { return Duration::microseconds(n); }
 
-model::Cluster following_cluster() { return file::load_checked_cluster(shipped_path("paper_free_running")); }
+model::Cluster following_cluster() { return check::load_checked_cluster(shipped_path("paper_free_running")); }
 
 // Camera: classic CAN at 1 Mbit/s, a frame of 8 bytes takes 108 us at best without its intermission, 40 of them 5.4 ms
 // at worst. Oscillators are off by 1500 ppm at most, so that two of them make 0.3 % of every time; 101 ns of rounding

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "schedules/analysis/age_stages.h"
-#include "schedules/file/loader.h"
+#include "schedules/check/checker.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/small_cluster.h"
 
@@ -129,7 +129,7 @@ TEST(Settled, NothingWhereNothingIsFusedByTime) {
 // begins at 80 ms, the camera of 5.9 ms in that of 40 ms. Each is fused in the cycle of its slots, and waited for until
 // then.
 TEST(SettledShipped, ScheduledListsAreDueInTheCycleOfTheirSlots) {
-  const model::Cluster cluster = file::load_checked_cluster(shipped_path("paper_synchronised"));
+  const model::Cluster cluster = check::load_checked_cluster(shipped_path("paper_synchronised"));
   const auto laser = settled_round(cluster, *cluster.find_sensor("laser"));
   const auto camera = settled_round(cluster, *cluster.find_sensor("camera"));
   ASSERT_TRUE(laser.has_value() && camera.has_value());

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "schedules/check/checker.h"
+#include "schedules/model/wire_times.h"
 
 namespace ttf::schedules::check {
 namespace {

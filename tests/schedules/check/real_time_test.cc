@@ -20,7 +20,7 @@ constexpr Duration us(std::int64_t n) { return Duration::microseconds(n); }
 // Slots of 84 us from 40 of which 34 are in use, 7 us to the action point: 7 x 84 - 7 = 581 us of room. A
 // cycle of 5 ms.
 model::Cluster paper(Duration early, Duration late) {
-  model::Cluster cluster = file::load_checked_cluster(shipped_path("paper_synchronised"));
+  model::Cluster cluster = load_checked_cluster(shipped_path("paper_synchronised"));
   cluster.arrival_window = {early, late};
   return cluster;
 }
@@ -103,7 +103,7 @@ TEST(RealTime, WhereNoTimeScaleDoesItSaysSo) {
 }
 
 TEST(RealTime, EachObstacleIsNamedAtItsLine) {
-  const model::Cluster cluster = file::load_checked_cluster(shipped_path("flexray_demo"));
+  const model::Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
   const auto findings = check_real_time(cluster, kTimeScaleOne);
   ASSERT_EQ(findings.size(), 3u) << sentences(findings);
   EXPECT_EQ(findings[0].key, "real_time");
@@ -168,7 +168,7 @@ TEST(RealTime, ASensorsLinesNeedACan) {
 
 TEST(RealTime, ShippedClustersHoldAtTimeScaleOne) {
   for (const std::string& name : shipped_clusters()) {
-    const model::Cluster cluster = file::load_checked_cluster(shipped_path(name));
+    const model::Cluster cluster = load_checked_cluster(shipped_path(name));
     const bool dynamic = std::any_of(cluster.frames.begin(), cluster.frames.end(),
                                      [&](const model::FrameSlot& frame) { return is_dynamic(cluster.flexray, frame); });
     EXPECT_EQ(cluster.arrival_window.has_value(), name.starts_with("paper") && !dynamic) << name;

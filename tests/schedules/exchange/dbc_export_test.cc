@@ -23,7 +23,7 @@ std::string read_shipped(const std::string& file) {
 
 class DbcOfShipped : public testing::TestWithParam<std::string> {
  protected:
-  const model::Cluster cluster_ = file::load_checked_cluster(shipped_path(GetParam()));
+  const model::Cluster cluster_ = check::load_checked_cluster(shipped_path(GetParam()));
 };
 
 // What the reader makes of a frame by the file alone is what our own decoder makes of it: every signal of every
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Clusters, DbcOfShipped,
 // schedule export --format dbc makes them anew.
 TEST(Dbc, ShippedFilesAreWhatTheClustersSay) {
   for (const char* name : {"paper_synchronised", "laser_radar"})
-    EXPECT_EQ(read_shipped(std::string(name) + ".dbc"), dbc_text(file::load_checked_cluster(shipped_path(name))))
+    EXPECT_EQ(read_shipped(std::string(name) + ".dbc"), dbc_text(check::load_checked_cluster(shipped_path(name))))
         << name;
   // The CANs of the other paradigm are the same.
   for (const auto& [one, other] : {std::pair{"paper_synchronised", "paper_unsynchronised"},

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "schedules/check/checker.h"
 #include "tests/drives/drive_fixture.h"
 #include "tests/recording/record_text.h"
 #include "tests/support/memory_exchange.h"
@@ -101,7 +102,7 @@ struct Case {
 
   Drive drive() const {
     Drive drive(scenario, strategy);
-    if (cluster != nullptr) drive.cluster = schedules::file::load_checked_cluster(drives::shipped(cluster));
+    if (cluster != nullptr) drive.cluster = schedules::check::load_checked_cluster(drives::shipped(cluster));
     drive.scenario.startup.cold = drive.scenario.startup.cold || cold;
     drive.scenario.duration = Duration::milliseconds(milliseconds);
     if (guarded) {

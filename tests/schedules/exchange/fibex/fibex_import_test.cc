@@ -460,7 +460,7 @@ TEST(FibexImport, WhatIsLeftOutOftenIsSaidOnce) {
 TEST(FibexImport, AnyPrintableNameSurvivesTheClusterFile) {
   for (const char* name :
        {"null", "true", "12", "- a", "a: b", "a \"quoted\" \\name", "#a", "äöü", "{x}", "'", "~", "yes"}) {
-    model::Cluster cluster = file::load_checked_cluster(shipped_path("paper_synchronised"));
+    model::Cluster cluster = check::load_checked_cluster(shipped_path("paper_synchronised"));
     cluster.name = name;
     cluster.nodes.back().name = name;
     cluster.pdus.back().name = name;

@@ -30,7 +30,7 @@ void expect_round_trip(const model::Cluster& cluster) {
 
 class FibexShipped : public testing::TestWithParam<std::string> {
  protected:
-  model::Cluster cluster_ = file::load_checked_cluster(shipped_path(GetParam()));
+  model::Cluster cluster_ = check::load_checked_cluster(shipped_path(GetParam()));
 };
 INSTANTIATE_TEST_SUITE_P(Shipped, FibexShipped, testing::ValuesIn(shipped_clusters()),
                          [](const auto& one) { return one.param; });
@@ -54,7 +54,7 @@ TEST_P(FibexShipped, SaysWhoReceivesWhat) {
 
 // Each parameter at either end of its range, while the others stay.
 TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
-  const model::Cluster shipped = file::load_checked_cluster(shipped_path("paper_synchronised"));
+  const model::Cluster shipped = check::load_checked_cluster(shipped_path("paper_synchronised"));
   const auto each_end = [&](const auto& p, auto&& parameters_of) {
     for (const auto end : {p.low, p.high}) {
       model::Cluster cluster = shipped;
@@ -90,7 +90,7 @@ TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
 // Random schedules: one frame of a random list, sender, channel and multiplexing in each of 40 static and 20 dynamic
 // slots; random channels of every node.
 TEST(FibexRoundTrip, KeepsRandomSchedules) {
-  const model::Cluster shipped = file::load_checked_cluster(shipped_path("paper_unsynchronised"));
+  const model::Cluster shipped = check::load_checked_cluster(shipped_path("paper_unsynchronised"));
   std::vector<NodeId> senders;
   for (std::size_t i = 0; i < shipped.nodes.size(); ++i)
     if (shipped.nodes[i].flexray) senders.push_back(static_cast<NodeId>(i));
@@ -223,7 +223,7 @@ TEST_P(FibexShipped, PutsSignalsWhereTheCodecPutsTheirBits) {
 
 TEST(FibexExport, ByHand) {
   pugi::xml_document xml;
-  const std::string text = fibex_text(file::load_checked_cluster(shipped_path("paper_synchronised")));
+  const std::string text = fibex_text(check::load_checked_cluster(shipped_path("paper_synchronised")));
   ASSERT_TRUE(xml.load_string(text.c_str()));
   const auto at = [&](const char* path) { return std::string(xml.select_node(path).node().text().get()); };
   EXPECT_EQ(at("/fx:FIBEX/fx:ELEMENTS/fx:CLUSTERS/fx:CLUSTER/fx:SPEED"), "10000000");

@@ -67,13 +67,14 @@ std::vector<std::int64_t> arrivals_drawn(const model::Cluster& cluster, PduId pd
   return arrivals;
 }
 
-TEST(Arrivals, NoDrawnListsComeMoreOftenThanTheirBounds) {
+TEST(ActivationBounds, NoDrawnListsComeMoreOftenThanTheirBounds) {
   RandomStream draws({3, 0, Purpose::kTest, 0, 0});
   for (const bool dynamic : {true, false}) {
     const model::Cluster cluster = over_flexray(dynamic);
     for (const std::string sensor : {"laser", "camera"}) {
       SCOPED_TRACE(sensor + (dynamic ? ", dynamic" : ", static"));
-      const ArrivalBounds bounds = arrivals_of(cluster, task_of(cluster, "fusion", "fuse_" + sensor), kKnown);
+      const processor::ActivationBounds bounds =
+          activation_bounds(cluster, task_of(cluster, "fusion", "fuse_" + sensor), kKnown);
       ASSERT_EQ(bounds.all.size(), 2u);
       const auto host = worst_responses(cluster, *cluster.find_node(sensor + "_pre"));
       const std::int64_t apart = (*host)[0].written->ns;
@@ -94,26 +95,27 @@ TEST(Arrivals, NoDrawnListsComeMoreOftenThanTheirBounds) {
 
 // Written 12.4 ms apart, a list of the camera that has just missed its slots is complete 5 ms and the length of seven
 // slots later, so that two may come 6.8 ms apart; of their slots alone one would fear 4.4.
-TEST(Arrivals, OverFlexRayTheWriterSaysHowOften) {
+TEST(ActivationBounds, OverFlexRayTheWriterSaysHowOften) {
   const model::Cluster cluster = over_flexray(false);
   const model::Task& fuse = task_of(cluster, "fusion", "fuse_camera");
   const auto near = [](std::int64_t found, double expected_us) {
     EXPECT_NEAR(static_cast<double>(found), expected_us * 1e3, 50e3);
   };
-  near(*arrivals_of(cluster, fuse, kUnknown).gap(), 5'000 * 0.997 - 7 * 84);
-  near(*arrivals_of(cluster, fuse, kKnown).gap(), (400 + 108 + 12'000) * 0.997 * 0.997 - (5'000 + 7 * 84) * 1.003);
-  EXPECT_EQ(arrivals_of(cluster, fuse, kKnown).most(0), 1);
-  EXPECT_EQ(arrivals_of(cluster, fuse, kKnown).most(8'000'000), 2);
-  EXPECT_EQ(arrivals_of(cluster, fuse, kKnown).most(40'000'000), 4) << "and not nine, one each cycle";
+  near(*activation_bounds(cluster, fuse, kUnknown).gap(), 5'000 * 0.997 - 7 * 84);
+  near(*activation_bounds(cluster, fuse, kKnown).gap(),
+       (400 + 108 + 12'000) * 0.997 * 0.997 - (5'000 + 7 * 84) * 1.003);
+  EXPECT_EQ(activation_bounds(cluster, fuse, kKnown).most(0), 1);
+  EXPECT_EQ(activation_bounds(cluster, fuse, kKnown).most(8'000'000), 2);
+  EXPECT_EQ(activation_bounds(cluster, fuse, kKnown).most(40'000'000), 4) << "and not nine, one each cycle";
 }
 
-TEST(Arrivals, OfWhatIsUnknownThereIsOne) {
-  EXPECT_EQ(ArrivalBounds{}.most(1'000'000'000), 1);
-  EXPECT_FALSE(ArrivalBounds{}.gap().has_value());
+TEST(ActivationBounds, OfWhatIsUnknownThereIsOne) {
+  EXPECT_EQ(processor::ActivationBounds{}.most(1'000'000'000), 1);
+  EXPECT_FALSE(processor::ActivationBounds{}.gap().has_value());
 }
 
 // Two nodes whose tasks set each other off over FlexRay: each is taken to be as fast as the other's slots.
-TEST(Arrivals, WritersMayWaitForEachOther) {
+TEST(ActivationBounds, WritersMayWaitForEachOther) {
   model::Cluster cluster = over_flexray(false);
   const PduId to = *cluster.find_pdu("laser_objects"), back = *cluster.find_pdu("camera_objects");
   const auto answer = [&](const char* node, PduId reads, PduId writes) {
@@ -137,12 +139,12 @@ TEST(Arrivals, WritersMayWaitForEachOther) {
 }
 
 // A writer that is wrong itself: the reader's findings do not go round with it.
-TEST(Arrivals, OfAWriterThatGoesRoundAndRoundNothingIsKnown) {
+TEST(ActivationBounds, OfAWriterThatGoesRoundAndRoundNothingIsKnown) {
   model::Cluster cluster = over_flexray(true);
   model::Task& preprocess = cluster.nodes[index_of(*cluster.find_node("camera_pre"))].tasks[0];
   preprocess.activation = {model::ActivationKind::kCompletion, {}, "", kNoSensor, preprocess.name};
   EXPECT_FALSE(worst_responses(cluster, *cluster.find_node("camera_pre")).has_value());
-  EXPECT_EQ(arrivals_of(cluster, task_of(cluster, "fusion", "fuse_camera"), kKnown).all.size(), 1u);
+  EXPECT_EQ(activation_bounds(cluster, task_of(cluster, "fusion", "fuse_camera"), kKnown).all.size(), 1u);
 }
 
 TEST(Mutations, OfListsThatComeTooOftenOverFlexRay) {

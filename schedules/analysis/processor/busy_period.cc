@@ -1,0 +1,133 @@
+#include "schedules/analysis/processor/busy_period.h"
+
+#include <algorithm>
+
+#include "core/int128.h"
+
+namespace ttf::schedules::analysis::processor {
+namespace {
+
+constexpr int kMostRounds = 10'000;
+
+// This much work more in windows from this length on.
+struct Load {
+  std::int64_t window = 0;
+  std::int64_t work = 0;
+};
+
+// The work that time brings from one instant on, or up to it, in windows up to `most`; by window.
+std::vector<Load> timed_loads(const TaskChains& set, std::size_t instant, std::int64_t most,
+                              TimedInstants::Direction direction) {
+  std::vector<Load> loads;
+  for (const TimedInstants::Neighbour& other : set.timed.within(instant, most, direction))
+    loads.push_back({other.distance, set.chains[other.chain].work});
+  std::sort(loads.begin(), loads.end(), [](const Load& a, const Load& b) { return a.window < b.window; });
+  return loads;
+}
+
+std::int64_t timed_work(const TaskChains& set, std::int64_t window) {
+  std::int64_t most = 0;
+  for (std::size_t i = 0; i < set.timed.size(); ++i) {
+    std::int64_t work = 0;
+    for (const TimedInstants::Neighbour& other : set.timed.within(i, window, TimedInstants::kForward))
+      work += set.chains[other.chain].work;
+    most = std::max(most, work);
+  }
+  return most;
+}
+
+Int128 work_of(std::int64_t, const ByTime&, std::int64_t) { return 0; }
+Int128 work_of(std::int64_t work, const ActivationBounds& by, std::int64_t window) {
+  return static_cast<Int128>(work) * by.most(window);
+}
+// All of the last activation, and of those before it what fits between the pauses.
+Int128 work_of(std::int64_t work, const ByFollower& by, std::int64_t window) {
+  if (window < by.shortest_round()) return work;
+  return work + static_cast<Int128>(window) * by.worst / (by.worst + by.pause);
+}
+
+std::int64_t lead_of(Leads leads, std::size_t chain) { return leads.empty() ? 0 : leads[chain]; }
+
+// What may come at any phase: no more than twice what is looked into, enough to know that it never ends.
+std::int64_t sporadic_work(const TaskChains& set, Leads leads, std::int64_t window) {
+  Int128 work = 0;
+  for (std::size_t c = 0; c < set.chains.size(); ++c) {
+    const Chain& chain = set.chains[c];
+    // Whose newest activation was some time ago has none in the last of the window.
+    const std::int64_t before = window - lead_of(leads, c);
+    if (before >= 0)
+      work += std::visit([&](const auto& by) { return work_of(chain.work, by, before); }, chain.activation);
+  }
+  return static_cast<std::int64_t>(std::min<Int128>(work, 2 * kLongestBusy_ns));
+}
+
+void add_steps(const ByTime&, std::int64_t, std::int64_t, std::vector<std::int64_t>&) {}
+void add_steps(const ActivationBounds& by, std::int64_t lead, std::int64_t busy, std::vector<std::int64_t>& steps) {
+  for (const ActivationBound& one : by.all)
+    for (std::int64_t at = one.period - one.jitter % one.period; at <= busy; at += one.period)
+      steps.push_back(lead + at);
+}
+// Behind its step its work grows more slowly than the window.
+void add_steps(const ByFollower& by, std::int64_t lead, std::int64_t, std::vector<std::int64_t>& steps) {
+  steps.push_back(lead + by.shortest_round());
+}
+
+// The windows from which on more sporadic work may be in: in order, from none at all.
+std::vector<std::int64_t> sporadic_steps(const TaskChains& set, Leads leads, std::int64_t busy) {
+  std::vector<std::int64_t> steps{0};
+  for (std::size_t c = 0; c < set.chains.size(); ++c) {
+    const Chain& chain = set.chains[c];
+    const std::int64_t lead = lead_of(leads, c);
+    if (lead > 0 && !chain.by_time()) steps.push_back(lead);
+    std::visit([&](const auto& by) { add_steps(by, lead, busy, steps); }, chain.activation);
+  }
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  return steps;
+}
+
+// The largest W(a) - a, with what time brings given. It lies where W has a step.
+std::int64_t latest(const TaskChains& set, Leads leads, const std::vector<std::int64_t>& steps,
+                    const std::vector<Load>& timed) {
+  std::int64_t worst = 0, timed_so_far = 0;
+  auto step = steps.begin();
+  auto load = timed.begin();
+  while (step != steps.end() || load != timed.end()) {
+    const bool sporadic_next = load == timed.end() || (step != steps.end() && *step <= load->window);
+    const std::int64_t window = sporadic_next ? *step++ : load->window;
+    for (; load != timed.end() && load->window <= window; ++load) timed_so_far += load->work;
+    worst = std::max(worst, sporadic_work(set, leads, window) + timed_so_far - window);
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::optional<std::int64_t> busy_time(const TaskChains& set, std::int64_t limit) {
+  if (!set.timed.empty() && !set.timed.can_be_counted_on()) return std::nullopt;
+  // From below, so that the smallest is met first.
+  std::int64_t window = 0;
+  for (int rounds = 0; rounds < kMostRounds; ++rounds) {
+    const std::int64_t work = sporadic_work(set, {}, window) + timed_work(set, window);
+    if (work <= window) return window;
+    if (work > limit) return std::nullopt;
+    window = work;
+  }
+  return std::nullopt;
+}
+
+std::int64_t worst_chain_response(const TaskChains& set, std::size_t chain, std::int64_t busy, Leads leads) {
+  const std::vector<std::int64_t> steps = sporadic_steps(set, leads, busy);
+  if (set.timed.empty()) return latest(set, leads, steps, {});
+  // A chain of time comes at its own instants, behind what time brought up to them; any other may come when time has
+  // just begun to bring the most.
+  const bool by_time = set.chains[chain].by_time();
+  const auto direction = by_time ? TimedInstants::kBackward : TimedInstants::kForward;
+  std::int64_t worst = 0;
+  for (std::size_t i = 0; i < set.timed.size(); ++i)
+    if (!by_time || set.timed.chain(i) == chain)
+      worst = std::max(worst, latest(set, leads, steps, timed_loads(set, i, busy, direction)));
+  return worst;
+}
+
+}  // namespace ttf::schedules::analysis::processor

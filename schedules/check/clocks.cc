@@ -1,0 +1,212 @@
+// The checker's rules about clocks and who may start them: a table for each node, one for each controller, one for the
+// cluster. A finding is about one parameter, in the order of the tables.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/int128.h"
+#include "schedules/analysis/clock_bounds.h"
+#include "schedules/check/checker.h"
+#include "schedules/model/wire_times.h"
+
+namespace ttf::schedules::check {
+namespace {
+
+template <class Subject> struct Rule {
+  const char* parameter;
+  bool (*holds)(const Subject&);
+  std::string (*value)(const Subject&);
+  std::string (*sentence)(const Subject&);
+};
+
+template <class Subject, std::size_t count>
+void check_rules(const Rule<Subject> (&rules)[count], const Subject& subject, const std::string& path,
+                 ClusterFindings& findings) {
+  for (const Rule<Subject>& rule : rules)
+    if (!rule.holds(subject)) findings.parameter(path + rule.parameter, rule.value(subject), rule.sentence(subject));
+}
+
+std::string number(std::int64_t value) { return fmt::format("{}", value); }
+std::string ppm(std::int64_t ppb) { return fmt::format("{}", static_cast<double>(ppb) / 1e3); }
+
+using N = const model::Node&;
+constexpr Rule<model::Node> kNodeRules[] = {
+    {"drift_ppm", [](N n) { return !n.drift_ppb || std::abs(*n.drift_ppb) <= n.max_drift_ppb; },
+     [](N n) { return ppm(*n.drift_ppb); },
+     [](N n) { return fmt::format("must be within +-max_drift_ppm = {}", ppm(n.max_drift_ppb)); }},
+};
+
+// FlexRay 2.1A: a microtick is 1, 2 or 4 samples.
+constexpr std::int64_t kMicroticks_ps[] = {12'500, 25'000, 50'000};
+constexpr std::int64_t kSamples[] = {1, 2, 4};
+
+struct Controller {
+  const model::Cluster& cluster;
+  NodeId id;
+  std::int64_t worst_drift;  // of any controller, in parts per billion
+  const model::GlobalParameters& g = cluster.flexray;
+  const model::Node& node = cluster.node(id);
+  const model::NodeParameters& p = *node.flexray;
+};
+
+// Against the node that is farthest off to the other side, counted in own microticks.
+std::int64_t least_rate_correction(const Controller& c) {
+  return model::ceil_div(static_cast<Int128>(c.p.pMicroPerCycle) * (analysis::worst_drift_ppb(c.node) + c.worst_drift),
+                         1'000'000'000 - c.worst_drift);
+}
+
+std::int64_t least_offset_correction(const Controller& c) {
+  return model::ceil_div(assumed_precision_ps(c.g), c.p.pdMicrotick_ps);
+}
+
+// What an offset correction can take from the macroticks behind gOffsetCorrectionStart, in the shortest cycle that rate
+// correction makes, and still leave each of them a microtick. The external terms come on top of both corrections.
+std::int64_t most_offset_correction(const Controller& c) {
+  const std::int64_t macroticks = c.g.gMacroPerCycle - c.g.gOffsetCorrectionStart;
+  return macroticks * (c.p.pMicroPerCycle - c.p.pRateCorrectionOut - c.p.pExternRateCorrection) / c.g.gMacroPerCycle -
+         macroticks - c.p.pExternOffsetCorrection;
+}
+
+// The key slot is the node's own, static, on all its channels, in every cycle.
+bool owns_its_key_slot(const Controller& c) {
+  return std::any_of(c.cluster.frames.begin(), c.cluster.frames.end(), [&](const model::FrameSlot& frame) {
+    return frame.sender == c.id && frame.slot == c.p.pKeySlotId && frame.repetition == 1 &&
+           frame.channels == c.p.pChannels && !is_dynamic(c.g, frame);
+  });
+}
+
+const model::FrameSlot* frame_in_another_slot(const Controller& c) {
+  for (const model::FrameSlot& frame : c.cluster.frames)
+    if (frame.sender == c.id && frame.slot != c.p.pKeySlotId) return &frame;
+  return nullptr;
+}
+
+using C = const Controller&;
+constexpr Rule<Controller> kControllerRules[] = {
+    {"pMicroPerCycle",
+     [](C c) { return static_cast<Int128>(c.p.pMicroPerCycle) * c.p.pdMicrotick_ps == c.g.gdCycle_ps; },
+     [](C c) { return number(c.p.pMicroPerCycle); },
+     [](C c) {
+       return fmt::format("must make gdCycle = {} out of microticks of {}", us(c.g.gdCycle_ps), ns(c.p.pdMicrotick_ps));
+     }},
+    {"pdMicrotick", [](C c) { return c.p.pdMicrotick_ps <= c.g.gdMaxMicrotick_ps; },
+     [](C c) { return ns(c.p.pdMicrotick_ps); },
+     [](C c) { return fmt::format("must be at most gdMaxMicrotick = {}", ns(c.g.gdMaxMicrotick_ps)); }},
+    {"pdMicrotick", [](C c) { return is_one_of(kMicroticks_ps, c.p.pdMicrotick_ps); },
+     [](C c) { return ns(c.p.pdMicrotick_ps); }, [](C) -> std::string { return "must be one of 12.5, 25, 50 ns"; }},
+    {"pSamplesPerMicrotick", [](C c) { return is_one_of(kSamples, c.p.pSamplesPerMicrotick); },
+     [](C c) { return number(c.p.pSamplesPerMicrotick); }, [](C) -> std::string { return "must be one of 1, 2, 4"; }},
+    {"pSamplesPerMicrotick",
+     [](C c) {
+       return !is_one_of(kSamples, c.p.pSamplesPerMicrotick) ||
+              model::kSamplesPerBit * c.p.pdMicrotick_ps == c.p.pSamplesPerMicrotick * c.g.gdBit_ps;
+     },
+     [](C c) { return number(c.p.pSamplesPerMicrotick); },
+     [](C c) {
+       return fmt::format("must be as many samples of gdBit / 8 = {} as make pdMicrotick = {}",
+                          ns(c.g.gdBit_ps / model::kSamplesPerBit), ns(c.p.pdMicrotick_ps));
+     }},
+    {"pRateCorrectionOut", [](C c) { return c.p.pRateCorrectionOut >= least_rate_correction(c); },
+     [](C c) { return number(c.p.pRateCorrectionOut); },
+     [](C c) {
+       return fmt::format("must be at least {} microticks to follow the worst drift between two nodes",
+                          least_rate_correction(c));
+     }},
+    {"pOffsetCorrectionOut",
+     [](C c) {
+       return c.p.pOffsetCorrectionOut >= least_offset_correction(c) &&
+              c.p.pOffsetCorrectionOut <= most_offset_correction(c);
+     },
+     [](C c) { return number(c.p.pOffsetCorrectionOut); },
+     [](C c) {
+       return fmt::format(
+           "must be {}..{} microticks: from the assumed precision to what fits behind "
+           "gOffsetCorrectionStart at the fastest rate",
+           least_offset_correction(c), most_offset_correction(c));
+     }},
+    {"pClusterDriftDamping",
+     [](C c) {
+       return static_cast<std::int64_t>(c.p.pClusterDriftDamping) * c.p.pdMicrotick_ps <=
+              static_cast<std::int64_t>(c.g.gClusterDriftDamping) * c.g.gdMaxMicrotick_ps;
+     },
+     [](C c) { return number(c.p.pClusterDriftDamping); },
+     [](C c) {
+       return fmt::format("must not exceed gClusterDriftDamping = {} longest microticks", c.g.gClusterDriftDamping);
+     }},
+    {"pLatestTx", [](C c) { return c.p.pLatestTx <= c.g.gNumberOfMinislots; },
+     [](C c) { return number(c.p.pLatestTx); },
+     [](C c) { return fmt::format("must be at most gNumberOfMinislots = {}", c.g.gNumberOfMinislots); }},
+    {"pKeySlotUsedForStartup", [](C c) { return !c.p.pKeySlotUsedForStartup || c.p.pKeySlotUsedForSync; },
+     [](C) -> std::string { return "true"; },
+     [](C) -> std::string { return "needs pKeySlotUsedForSync: a startup frame is a sync frame"; }},
+    {"pWakeupChannel", [](C c) { return includes(c.p.pChannels, c.p.pWakeupChannel); },
+     [](C c) -> std::string { return c.p.pWakeupChannel == model::Channel::kA ? "A" : "B"; },
+     [](C c) {
+       return fmt::format("must be a channel that {} is attached to (pChannels = {})", c.node.name,
+                          channels_text(c.p.pChannels));
+     }},
+    {"pKeySlotId", owns_its_key_slot, [](C c) { return number(c.p.pKeySlotId); },
+     [](C c) {
+       return fmt::format("must be a static slot that {} owns on {} in every cycle", c.node.name,
+                          c.p.pChannels == model::Channels::kAB ? "both channels" : "its channel");
+     }},
+    // A node that sends in its key slot only until its host commands ALL_SLOTS must have nothing else to send: no host
+    // gives that command on its own.
+    {"pKeySlotOnlyEnabled", [](C c) { return !c.p.pKeySlotOnlyEnabled || frame_in_another_slot(c) == nullptr; },
+     [](C) -> std::string { return "true"; },
+     [](C c) {
+       const model::FrameSlot& other = *frame_in_another_slot(c);
+       return fmt::format(
+           "must be false: {} also has slot {} (line {}), but would send in its key slot only until "
+           "a host commands ALL_SLOTS",
+           c.node.name, other.slot, other.line);
+     }},
+};
+
+// How many nodes have a controller, how many of them keep the clocks together, and how many start them.
+struct Members {
+  int most_sync = 0;  // gSyncNodeMax
+  int controllers = 0, sync = 0, startup = 0;
+};
+
+// Two nodes need both of them, more need three.
+int least_startup(const Members& m) { return std::clamp(m.controllers, 2, 3); }
+
+using M = const Members&;
+constexpr Rule<Members> kClusterRules[] = {
+    {"nodes", [](M m) { return m.controllers >= 2; }, [](M m) { return number(m.controllers); },
+     [](M) -> std::string { return "must have at least 2 nodes on FlexRay"; }},
+    {"flexray.gSyncNodeMax", [](M m) { return m.sync >= 2 && m.sync <= m.most_sync; },
+     [](M m) { return number(m.most_sync); },
+     [](M m) {
+       return fmt::format("must allow the nodes with pKeySlotUsedForSync, which must be at least 2: there are {}",
+                          m.sync);
+     }},
+    {"nodes", [](M m) { return m.startup >= least_startup(m); }, [](M m) { return number(m.startup); },
+     [](M m) { return fmt::format("must have at least {} nodes with pKeySlotUsedForStartup", least_startup(m)); }},
+};
+
+}  // namespace
+
+void check_clocks(const model::Cluster& cluster, ClusterFindings& findings) {
+  Members members{.most_sync = cluster.flexray.gSyncNodeMax};
+  std::int64_t worst_drift = 0;
+  for (const model::Node& node : cluster.nodes) {
+    if (!node.flexray) continue;
+    worst_drift = std::max(worst_drift, analysis::worst_drift_ppb(node));
+    ++members.controllers;
+    members.sync += node.flexray->pKeySlotUsedForSync ? 1 : 0;
+    members.startup += node.flexray->pKeySlotUsedForStartup ? 1 : 0;
+  }
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
+    const model::Node& node = cluster.nodes[n];
+    check_rules(kNodeRules, node, fmt::format("nodes.{}.", node.name), findings);
+    if (node.flexray)
+      check_rules(kControllerRules, Controller{cluster, static_cast<NodeId>(n), worst_drift},
+                  fmt::format("nodes.{}.flexray.", node.name), findings);
+  }
+  check_rules(kClusterRules, members, "", findings);
+}
+
+}  // namespace ttf::schedules::check
