@@ -92,7 +92,7 @@ report::run::Drive driven(const SweepDrives& drives, const experiments::results:
   const ScratchFolder scratch;
   if (!same(drive_again(drives, known.key, scratch.path()), known))
     throw NoDrives(fmt::format("{}, driven again, came to other figures than in results.sqlite", paradigm));
-  report::run::RunFolder folder = report::run::read_run_folder(scratch.path());  // whose logs are in memory now
+  report::run::ResultsFolder folder = report::run::read_results_folder(scratch.path());  // whose logs are in memory now
   report::run::Drive drive = std::move(folder.drives.front());
   drive.folder.clear();
   drive.label = paradigm;

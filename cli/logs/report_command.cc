@@ -59,9 +59,9 @@ std::string html(const ReportOptions& options) {
          {std::pair("--file", options.file.has_value()), std::pair("--point", options.point.has_value()),
           std::pair("--no-drives", options.no_drives)})
       if (given) throw InputError({"command line", 0, name, "", "goes with an experiment, not with runs"});
-    std::vector<report::run::RunFolder> folders;
+    std::vector<report::run::ResultsFolder> folders;
     for (const std::string& path : options.folders) {
-      folders.push_back(report::run::read_run_folder(path));
+      folders.push_back(report::run::read_results_folder(path));
       for (const report::run::Drive& drive : folders.back().drives)
         if (drive.log) print_warnings(drive.log->warnings());
     }

@@ -12,7 +12,7 @@ namespace ttf::recording::exports {
 namespace {
 
 constexpr const char *kFlexRayGroup = "FlexRay", *kCanGroup = "CAN", *kFaultGroup = "faults";
-constexpr Duration kKeptBack = MeasurementFlows::kLongestWay + Duration::milliseconds(100);
+constexpr Duration kKeptBack = MeasurementWays::kLongestWay + Duration::milliseconds(100);
 constexpr std::size_t kImagesKept = 8;
 
 // Of a damaged log times may be any: within 36 years they can be computed with.
@@ -61,13 +61,14 @@ const char* words_of_problem(std::uint8_t what) {
   }
 }
 
+WayMark passed(const TraceMark& mark) { return {mark.at, mark.serial}; }
 std::int64_t whole(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 
 }  // namespace
 
 PerfettoExport::PerfettoExport(LogNames names, TraceTimeline::Write write)
-    : names_(std::move(names)),
-      timeline_(std::move(write), [this](const TraceMark& mark) { return flows_.take(mark); }) {}
+    : names_(std::move(names)), ways_({[this](const MeasurementWays::Way& way) { join(way); }, {}}),
+      timeline_(std::move(write), [this](const TraceMark& mark) { return flows_of(mark); }) {}
 
 std::string PerfettoExport::measurement(const MeasurementId& id) const {
   return fmt::format("{} {}", names_.sensor(id.sensor), id.sequence);
@@ -76,22 +77,44 @@ std::string PerfettoExport::measurement(const MeasurementId& id) const {
 // Records come in the order of time: what is long enough ago is complete.
 TrueTime PerfettoExport::come_to(TrueTime at) {
   const TrueTime now = shown(at);
-  flows_.advance(now, [this](const MeasurementFlows::Act& act, const TraceMark& run) { told(act, run); });
+  ways_.advance(now, [this](const MeasurementWays::Act& act, const WayMark& run) { told(act, run); });
   timeline_.write_before(now - kKeptBack);
   return now;
 }
 
 TraceCounts PerfettoExport::finish() {
   come_to(TrueTime{kTraceReach_ns});
-  flows_.finish();
+  ways_.finish();
   timeline_.finish();
   return timeline_.counts();
 }
 
+// A way's slices are joined by a flow. One that was not fused ends where it was lost.
+void PerfettoExport::join(const MeasurementWays::Way& way) {
+  std::vector<WayMark> marks;
+  for (const MeasurementWays::Stop& stop : way.stops)
+    if (stop.mark && stop.deed != MeasurementWays::Deed::kRefused) marks.push_back(*stop.mark);
+  if (!way.fused && way.lost) marks.push_back(*way.lost);
+  std::ranges::sort(marks);
+  marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
+  if (marks.size() < 2) return;  // there is nothing to join
+  for (const WayMark& mark : marks) flows_[mark.serial].push_back({way.number, mark == marks.back()});
+}
+
+// Complete when kLongestWay has passed since the mark; forgotten by asking.
+std::vector<TraceFlow> PerfettoExport::flows_of(const TraceMark& mark) {
+  const auto found = flows_.find(mark.serial);
+  if (found == flows_.end()) return {};
+  std::vector<TraceFlow> flows = std::move(found->second);
+  flows_.erase(found);
+  return flows;
+}
+
 // A task's slice says what it did.
-void PerfettoExport::told(const MeasurementFlows::Act& act, const TraceMark& run) {
-  const auto note = [&](const char* name, const MeasurementId& id) { timeline_.note(run, {name, measurement(id)}); };
-  using Deed = MeasurementFlows::Deed;
+void PerfettoExport::told(const MeasurementWays::Act& act, const WayMark& run) {
+  const TraceMark slice{run.at, run.serial};
+  const auto note = [&](const char* name, const MeasurementId& id) { timeline_.note(slice, {name, measurement(id)}); };
+  using Deed = MeasurementWays::Deed;
   switch (act.deed) {
     case Deed::kRead:
       for (const MeasurementId& id : act.ids) note("reads", id);
@@ -106,11 +129,15 @@ void PerfettoExport::told(const MeasurementFlows::Act& act, const TraceMark& run
       for (const MeasurementId& id : act.ids) note("fuses", id);
       break;
     case Deed::kImage:
-      timeline_.note(run, {"writes image", std::int64_t{act.image}});
+      timeline_.note(slice, {"writes image", std::int64_t{act.image}});
       for (const MeasurementId& id : act.ids) note("newest in the image", id);
       break;
-    case Deed::kUsed: timeline_.note(run, {"uses image", std::int64_t{act.image}}); break;
-    case Deed::kSent: break;
+    case Deed::kUsed: timeline_.note(slice, {"uses image", std::int64_t{act.image}}); break;
+    case Deed::kMeasured:
+    case Deed::kFrame:
+    case Deed::kRefused:
+    case Deed::kLost:
+    case Deed::kImageFrame: break;
   }
 }
 
@@ -122,7 +149,7 @@ TraceMark PerfettoExport::node_instant(NodeId node, const char* lane, TrueTime a
 void PerfettoExport::on(const records::Measured& r) {
   const TraceMark mark = node_instant(r.stamp.node, "measurements", r.stamp.true_time, measurement(r.id),
                                       {{"items", whole(r.truth_ids.size())}});
-  flows_.measured(r.id, mark);
+  ways_.measured(r.id, r.stamp.node, passed(mark));
 }
 
 void PerfettoExport::on(const records::CanFrameSent& r) {
@@ -135,7 +162,7 @@ void PerfettoExport::on(const records::CanFrameSent& r) {
   const TraceMark mark = timeline_.slice(
       kCanGroup, names_.can_bus(r.bus), shown(r.start.true_time), shown(r.end.true_time),
       r.pdu == kNoPdu ? "frame" : fmt::format("{} {}", names_.pdu(r.pdu), r.sequence), std::move(notes));
-  flows_.frame(false, r.bus, r.start.node, r.sensor, r.sequence, r.fragment, mark);
+  ways_.frame(false, r.bus, r.start.node, r.sensor, r.sequence, r.fragment, passed(mark));
 }
 
 void PerfettoExport::on(const records::SlotFrameSent& r) {
@@ -152,7 +179,7 @@ void PerfettoExport::on(const records::SlotFrameSent& r) {
                                          : r.null_frame ? "null frame"
                                                         : "status",
                                          std::move(notes));
-  if (list) flows_.frame(true, r.channel, r.stamp.node, r.sensor, r.sequence, r.fragment, mark);
+  if (list) ways_.frame(true, r.channel, r.stamp.node, r.sensor, r.sequence, r.fragment, passed(mark));
 }
 
 void PerfettoExport::on(const records::SymbolSent& r) {
@@ -182,17 +209,18 @@ void PerfettoExport::on(const records::SlotProblem& r) {
 }
 
 void PerfettoExport::on(const records::ListHop& r) {
+  using Deed = MeasurementWays::Deed;
   const MeasurementId id{r.sensor, r.sequence};
   if (const char* loss = words_of_loss(r.hop)) {
     const TraceMark mark = node_instant(r.stamp.node, "lost lists", r.stamp.true_time,
                                         fmt::format("{} {} {}", names_.pdu(r.pdu), r.sequence, loss), {});
-    if (r.sensor != kNoSensor && r.hop != records::Hop::kStale) flows_.lost(id, mark);
+    if (r.sensor != kNoSensor && r.hop != records::Hop::kStale)
+      ways_.act({Deed::kLost, mark.at, r.stamp.node, {id}, 0, passed(mark)});
     return;
   }
   const bool passes = r.hop == records::Hop::kRead || r.hop == records::Hop::kWritten;
   if (!passes || r.sensor == kNoSensor) return;
-  using Deed = MeasurementFlows::Deed;
-  flows_.act(
+  ways_.act(
       {r.hop == records::Hop::kRead ? Deed::kRead : Deed::kWritten, come_to(r.stamp.true_time), r.stamp.node, {id}, 0});
 }
 
@@ -204,7 +232,7 @@ void PerfettoExport::on(const records::TaskRun& r) {
     notes.push_back({"waited", microseconds(start - activated)});
   const TraceMark mark = timeline_.slice(node, task, start, end, task, std::move(notes));
   if (!r.deadline_met) timeline_.instant(node, task, std::max(start, end), "deadline missed", {});
-  flows_.run(r.start.node, start, end, mark);
+  ways_.run(r.start.node, start, end, passed(mark));
 }
 
 void PerfettoExport::on(const records::ClockCorrected& r) {
@@ -226,18 +254,19 @@ void PerfettoExport::on(const records::PrecisionSample& r) {
 
 void PerfettoExport::on(const records::ListFused& r) {
   const TrueTime at = come_to(r.stamp.true_time);
-  using Deed = MeasurementFlows::Deed;
+  using Deed = MeasurementWays::Deed;
   const char* lost = nullptr;
   switch (r.disposition) {
     case records::Disposition::kFused:
-    case records::Disposition::kFusedLate: flows_.act({Deed::kFused, at, r.stamp.node, {r.id}, 0}); break;
-    case records::Disposition::kHeld: flows_.act({Deed::kHeld, at, r.stamp.node, {r.id}, 0}); break;
+    case records::Disposition::kFusedLate: ways_.act({Deed::kFused, at, r.stamp.node, {r.id}, 0}); break;
+    case records::Disposition::kHeld: ways_.act({Deed::kHeld, at, r.stamp.node, {r.id}, 0}); break;
     case records::Disposition::kDroppedTooOld: lost = "too old"; break;
     case records::Disposition::kDuplicate: lost = "duplicate"; break;
   }
-  if (lost != nullptr)
-    flows_.lost(r.id, node_instant(r.stamp.node, "lost lists", r.stamp.true_time,
-                                   fmt::format("{}: {}", measurement(r.id), lost), {}));
+  if (lost == nullptr) return;
+  const TraceMark mark =
+      node_instant(r.stamp.node, "lost lists", r.stamp.true_time, fmt::format("{}: {}", measurement(r.id), lost), {});
+  ways_.act({Deed::kRefused, at, r.stamp.node, {r.id}, 0, passed(mark)});
 }
 
 void PerfettoExport::on(const records::FusionStep& r) {
@@ -245,11 +274,11 @@ void PerfettoExport::on(const records::FusionStep& r) {
 }
 
 void PerfettoExport::on(const records::ImageWritten& r) {
-  flows_.act({MeasurementFlows::Deed::kImage,
-              come_to(r.stamp.true_time),
-              r.stamp.node,
-              {r.newest.begin(), r.newest.end()},
-              r.sequence});
+  ways_.act({MeasurementWays::Deed::kImage,
+             come_to(r.stamp.true_time),
+             r.stamp.node,
+             {r.newest.begin(), r.newest.end()},
+             r.sequence});
   if (r.newest.empty() || !within_reach(r.stamp.global.ns) || !within_reach(r.newest_measurement.ns) ||
       !within_reach(r.stamp.true_time.ns))
     return;
@@ -264,7 +293,7 @@ void PerfettoExport::on(const records::FeatureUsed& r) {
                  {});
     return;
   }
-  flows_.act({MeasurementFlows::Deed::kUsed, at, r.stamp.node, {}, r.image_sequence});
+  ways_.act({MeasurementWays::Deed::kUsed, at, r.stamp.node, {}, r.image_sequence});
   const auto image = std::find_if(images_.rbegin(), images_.rend(),
                                   [&](const Image& one) { return one.sequence == r.image_sequence; });
   if (image != images_.rend())

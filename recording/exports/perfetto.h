@@ -9,7 +9,7 @@
 //                    the channel. Counter: the clocks' precision [us]
 //   CAN              a lane a bus
 //   faults           a lane a fault of the run's plan
-//   flows            a measurement's way from sensor to feature service (recording/exports/measurement_flows.h)
+//   flows            a measurement's way from sensor to feature service (recording/exports/measurement_ways.h)
 //
 // Timestamps are true times, nanoseconds since the start of the run; what was before it stands at it. The same records
 // in the same order give the same bytes. What is in memory is of the last seconds of the drive, however long it is.
@@ -17,10 +17,12 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "recording/exports/frames.h"
-#include "recording/exports/measurement_flows.h"
+#include "recording/exports/measurement_ways.h"
 #include "recording/exports/trace_timeline.h"
 #include "recording/records/records.h"
 
@@ -60,12 +62,15 @@ class PerfettoExport final : public records::Sink {
     TrueTime newest{};  // when the newest measurement in it was made
   };
   TrueTime come_to(TrueTime at);
-  void told(const MeasurementFlows::Act& act, const TraceMark& run);
+  void told(const MeasurementWays::Act& act, const WayMark& run);
+  void join(const MeasurementWays::Way& way);
+  std::vector<TraceFlow> flows_of(const TraceMark& mark);
   TraceMark node_instant(NodeId node, const char* lane, TrueTime at, std::string name, std::vector<TraceNote> notes);
   std::string measurement(const MeasurementId& id) const;
 
   LogNames names_;
-  MeasurementFlows flows_;
+  MeasurementWays ways_;
+  std::map<std::uint64_t, std::vector<TraceFlow>> flows_;  // by mark, until it is written
   TraceTimeline timeline_;
   std::deque<Image> images_;  // the last few
 };

@@ -1,18 +1,73 @@
 // Records to protobuf messages and back. Private to the room: it drags in generated code.
 //
-// encode() fills a message that is used again and again: it sets every field, so that the message need not be
-// cleared, for Clear() frees the messages within. No heap use once the lists have had their largest size. A
-// Decoder checks that every number fits its field's type and that lists have their lengths: it returns false,
-// and calls nothing, where they do not.
+// An encoder fills messages that are used again and again: it sets every field, so that a message need not be cleared,
+// for Clear() frees the messages within. No heap use once the lists have had their largest size. A Decoder checks that
+// every number fits its field's type and that lists have their lengths: it returns false, and calls nothing, where they
+// do not.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "recording/log/log.pb.h"
-#include "recording/log/manifest.h"
+#include "recording/records/kinds.h"
 #include "recording/records/records.h"
 
 namespace ttf::recording::log {
+
+// What each kind of record is written as. One without it does not compile.
+template <class Record> struct PayloadOf;
+template <> struct PayloadOf<records::Measured> : std::type_identity<ttfusion::Measured> {};
+template <> struct PayloadOf<records::CanFrameSent> : std::type_identity<ttfusion::CanFrame> {};
+template <> struct PayloadOf<records::SlotFrameSent> : std::type_identity<ttfusion::SlotFrame> {};
+template <> struct PayloadOf<records::SlotProblem> : std::type_identity<ttfusion::SlotProblem> {};
+template <> struct PayloadOf<records::ListHop> : std::type_identity<ttfusion::ListHop> {};
+template <> struct PayloadOf<records::TaskRun> : std::type_identity<ttfusion::TaskRun> {};
+template <> struct PayloadOf<records::ClockCorrected> : std::type_identity<ttfusion::ClockCorrected> {};
+template <> struct PayloadOf<records::PrecisionSample> : std::type_identity<ttfusion::Precision> {};
+template <> struct PayloadOf<records::FusionInput> : std::type_identity<ttfusion::FusionInput> {};
+template <> struct PayloadOf<records::ListFused> : std::type_identity<ttfusion::ListFused> {};
+template <> struct PayloadOf<records::FusionStep> : std::type_identity<ttfusion::FusionStep> {};
+template <> struct PayloadOf<records::TrackState> : std::type_identity<ttfusion::Track> {};
+template <> struct PayloadOf<records::ObservationSeen> : std::type_identity<ttfusion::Observation> {};
+template <> struct PayloadOf<records::ImageWritten> : std::type_identity<ttfusion::Image> {};
+template <> struct PayloadOf<records::FeatureUsed> : std::type_identity<ttfusion::Feature> {};
+template <> struct PayloadOf<records::ReferenceFix> : std::type_identity<ttfusion::Reference> {};
+template <> struct PayloadOf<records::TruthState> : std::type_identity<ttfusion::Truth> {};
+template <> struct PayloadOf<records::StateChanged> : std::type_identity<ttfusion::StateChange> {};
+template <> struct PayloadOf<records::SymbolSent> : std::type_identity<ttfusion::Symbol> {};
+template <> struct PayloadOf<records::PowerChanged> : std::type_identity<ttfusion::Power> {};
+template <> struct PayloadOf<records::FaultActivity> : std::type_identity<ttfusion::Fault> {};
+template <> struct PayloadOf<records::GuardianIntervention> : std::type_identity<ttfusion::Guardian> {};
+template <> struct PayloadOf<records::ChannelFrame> : std::type_identity<ttfusion::ChannelFrame> {};
+template <> struct PayloadOf<records::TimingProblem> : std::type_identity<ttfusion::TimingProblem> {};
+template <> struct PayloadOf<records::LatenessHistogram> : std::type_identity<ttfusion::Lateness> {};
+template <> struct PayloadOf<records::MediumCounts> : std::type_identity<ttfusion::Medium> {};
+template <class Record> using Payload = typename PayloadOf<Record>::type;
+
+// One of each, for reuse.
+class Payloads {
+ public:
+  template <class Record> Payload<Record>& of() { return std::get<Payload<Record>>(all_); }
+  // Null for what is no kind.
+  google::protobuf::Message* of(records::RecordKind kind) {
+    google::protobuf::Message* payload = nullptr;
+    records::for_kind(kind, [&]<class Record>() { payload = &of<Record>(); });
+    return payload;
+  }
+
+ private:
+  template <std::size_t... i>
+  static std::tuple<Payload<records::RecordAt<i + 1>>...> each_of(std::index_sequence<i...>);  // only its type counts
+  decltype(each_of(std::make_index_sequence<records::kKindCount>{})) all_;
+};
 
 // The two stamps MCAP keeps per message, before they are clamped to be non-negative.
 struct LogTimes {
@@ -20,84 +75,31 @@ struct LogTimes {
   std::int64_t publish = 0;
 };
 
-// One of each payload, for reuse.
-struct Payloads {
-  ttfusion::Measured measured;
-  ttfusion::CanFrame can_frame;
-  ttfusion::SlotFrame slot_frame;
-  ttfusion::SlotProblem slot_problem;
-  ttfusion::ListHop list_hop;
-  ttfusion::TaskRun task_run;
-  ttfusion::ClockCorrected clock_corrected;
-  ttfusion::Precision precision;
-  ttfusion::FusionInput fusion_input;
-  ttfusion::ListFused list_fused;
-  ttfusion::FusionStep fusion_step;
-  ttfusion::Track track;
-  ttfusion::Observation observation;
-  ttfusion::Image image;
-  ttfusion::Feature feature;
-  ttfusion::Reference reference;
-  ttfusion::Truth truth;
-  ttfusion::StateChange state_change;
-  ttfusion::Symbol symbol;
-  ttfusion::Power power;
-  ttfusion::Fault fault;
-  ttfusion::Guardian guardian;
-  ttfusion::ChannelFrame channel_frame;
-  ttfusion::TimingProblem timing_problem;
-  ttfusion::Lateness lateness;
-  ttfusion::Medium medium;
-
-  // The payload of each kind; null for a value that is no kind.
-  google::protobuf::Message* of(RecordKind kind);
-};
-
-// Fill the payload of the record's kind; returns it with its kind and times.
 struct Encoded {
-  RecordKind kind{};
-  const google::protobuf::Message* payload = nullptr;
+  records::RecordKind kind{};
+  const google::protobuf::Message& payload;
   LogTimes times;
 };
-Encoded encode(const records::Measured&, Payloads&);
-Encoded encode(const records::CanFrameSent&, Payloads&);
-Encoded encode(const records::SlotFrameSent&, Payloads&);
-Encoded encode(const records::SlotProblem&, Payloads&);
-Encoded encode(const records::ListHop&, Payloads&);
-Encoded encode(const records::TaskRun&, Payloads&);
-Encoded encode(const records::ClockCorrected&, Payloads&);
-Encoded encode(const records::PrecisionSample&, Payloads&);
-Encoded encode(const records::FusionInput&, Payloads&);
-Encoded encode(const records::ListFused&, Payloads&);
-Encoded encode(const records::FusionStep&, Payloads&);
-Encoded encode(const records::TrackState&, Payloads&);
-Encoded encode(const records::ObservationSeen&, Payloads&);
-Encoded encode(const records::ImageWritten&, Payloads&);
-Encoded encode(const records::FeatureUsed&, Payloads&);
-Encoded encode(const records::ReferenceFix&, Payloads&);
-Encoded encode(const records::TruthState&, Payloads&);
-Encoded encode(const records::StateChanged&, Payloads&);
-Encoded encode(const records::SymbolSent&, Payloads&);
-Encoded encode(const records::PowerChanged&, Payloads&);
-Encoded encode(const records::FaultActivity&, Payloads&);
-Encoded encode(const records::GuardianIntervention&, Payloads&);
-Encoded encode(const records::ChannelFrame&, Payloads&);
-Encoded encode(const records::TimingProblem&, Payloads&);
-Encoded encode(const records::LatenessHistogram&, Payloads&);
-Encoded encode(const records::MediumCounts&, Payloads&);
+// Fills the payload of every record it is told, and hands it on.
+std::unique_ptr<records::Sink> encoder(Payloads& payloads, std::function<void(const Encoded&)> out);
 
 class Decoder {
  public:
   // Parses one payload and hands the record to `sink`.
-  bool decode(RecordKind kind, std::string_view bytes, records::Sink& sink);
+  bool decode(records::RecordKind kind, std::string_view bytes, records::Sink& sink);
+
+  // What a record's lists are kept in while it is looked at.
+  struct Lists {
+    std::vector<ObjectId> truth_ids;
+    std::vector<records::ImageObject> image_objects;
+    std::vector<MeasurementId> newest;
+    std::vector<records::FeatureObject> feature_objects;
+    std::vector<std::uint64_t> counts;
+  };
 
  private:
   Payloads payloads_;
-  std::vector<ObjectId> truth_ids_;
-  std::vector<records::ImageObject> image_objects_;
-  std::vector<MeasurementId> newest_;
-  std::vector<records::FeatureObject> feature_objects_;
-  std::vector<std::uint64_t> counts_;
+  Lists lists_;
 };
 
 }  // namespace ttf::recording::log

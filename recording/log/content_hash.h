@@ -13,15 +13,15 @@
 #include <string>
 #include <string_view>
 
-#include "recording/log/manifest.h"
+#include "recording/records/kinds.h"
 
 namespace ttf::recording::log {
 
 class ContentHash {
  public:
-  // What does not count (recording/log/manifest.h) is passed over.
+  // What does not count (recording/records/records.h) is passed over.
   void add(std::uint64_t log_time, std::uint8_t kind, std::string_view payload) {
-    if (!counts_in_hash(static_cast<RecordKind>(kind))) return;
+    if (!records::counts_in_hash(static_cast<records::RecordKind>(kind))) return;
     std::uint64_t hash = mix(log_time ^ mix((static_cast<std::uint64_t>(payload.size()) << 8) | kind));
     std::size_t at = 0;
     for (; at + 8 <= payload.size(); at += 8) hash = mix(hash ^ word(payload.data() + at, 8));

@@ -1,4 +1,7 @@
+#include <utility>
+
 #include "recording/log/codec.h"
+#include "recording/records/every.h"
 
 namespace ttf::recording::log {
 namespace {
@@ -46,19 +49,15 @@ void fill_bytes(std::string& out, std::span<const std::byte> in) {
   out.assign(reinterpret_cast<const char*>(in.data()), in.size());
 }
 
-}  // namespace
-
-Encoded encode(const records::Measured& in, Payloads& payloads) {
-  auto& out = payloads.measured;
+LogTimes encode(const records::Measured& in, ttfusion::Measured& out) {
   fill(*out.mutable_stamp(), in.stamp);
   fill(*out.mutable_id(), in.id);
   out.clear_truth_ids();
   for (const ObjectId id : in.truth_ids) out.add_truth_ids(number(id));
-  return {RecordKind::kMeasured, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::CanFrameSent& in, Payloads& payloads) {
-  auto& out = payloads.can_frame;
+LogTimes encode(const records::CanFrameSent& in, ttfusion::CanFrame& out) {
   out.set_bus(in.bus);
   fill(*out.mutable_start(), in.start);
   fill(*out.mutable_end(), in.end);
@@ -69,11 +68,10 @@ Encoded encode(const records::CanFrameSent& in, Payloads& payloads) {
   out.set_fragment(in.fragment);
   out.set_sensor(number(in.sensor));
   fill_bytes(*out.mutable_data(), in.data);
-  return {RecordKind::kCanFrame, &out, times_of(in.end)};
+  return times_of(in.end);
 }
 
-Encoded encode(const records::SlotFrameSent& in, Payloads& payloads) {
-  auto& out = payloads.slot_frame;
+LogTimes encode(const records::SlotFrameSent& in, ttfusion::SlotFrame& out) {
   fill(*out.mutable_stamp(), in.stamp);
   fill(*out.mutable_end(), in.end);
   out.set_cycle(in.cycle);
@@ -85,42 +83,38 @@ Encoded encode(const records::SlotFrameSent& in, Payloads& payloads) {
   out.set_fragment(in.fragment);
   out.set_sensor(number(in.sensor));
   fill_bytes(*out.mutable_bytes(), in.bytes);
-  return {RecordKind::kSlotFrame, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::SlotProblem& in, Payloads& payloads) {
-  auto& out = payloads.slot_problem;
+LogTimes encode(const records::SlotProblem& in, ttfusion::SlotProblem& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_cycle(in.cycle);
   out.set_slot(in.slot);
   out.set_channel(in.channel);
   out.set_status(in.status);
-  return {RecordKind::kSlotProblem, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::ListHop& in, Payloads& payloads) {
-  auto& out = payloads.list_hop;
+LogTimes encode(const records::ListHop& in, ttfusion::ListHop& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_hop(number(in.hop));
   out.set_pdu(number(in.pdu));
   out.set_sequence(in.sequence);
   out.set_can_bus(in.can_bus);
   out.set_sensor(number(in.sensor));
-  return {RecordKind::kListHop, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::TaskRun& in, Payloads& payloads) {
-  auto& out = payloads.task_run;
+LogTimes encode(const records::TaskRun& in, ttfusion::TaskRun& out) {
   fill(*out.mutable_start(), in.start);
   out.set_task(in.task);
   fill(*out.mutable_activated(), in.activated);
   fill(*out.mutable_end(), in.end);
   out.set_deadline_met(in.deadline_met);
-  return {RecordKind::kTaskRun, &out, times_of(in.start)};
+  return times_of(in.start);
 }
 
-Encoded encode(const records::ClockCorrected& in, Payloads& payloads) {
-  auto& out = payloads.clock_corrected;
+LogTimes encode(const records::ClockCorrected& in, ttfusion::ClockCorrected& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_cycle(in.cycle);
   out.set_offset_microticks(in.offset_microticks);
@@ -129,19 +123,17 @@ Encoded encode(const records::ClockCorrected& in, Payloads& payloads) {
   out.set_rate_missing(in.rate_missing);
   out.set_offset_limited(in.offset_limited);
   out.set_rate_limited(in.rate_limited);
-  return {RecordKind::kClockCorrected, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::PrecisionSample& in, Payloads& payloads) {
-  auto& out = payloads.precision;
+LogTimes encode(const records::PrecisionSample& in, ttfusion::Precision& out) {
   out.set_at(in.at.ns);
   out.set_cycle(in.cycle);
   out.set_precision(in.precision.ns);
-  return {RecordKind::kPrecision, &out, {in.at.ns, in.at.ns}};
+  return {in.at.ns, in.at.ns};
 }
 
-Encoded encode(const records::FusionInput& in, Payloads& payloads) {
-  auto& out = payloads.fusion_input;
+LogTimes encode(const records::FusionInput& in, ttfusion::FusionInput& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_step(in.step);
   out.set_pdu(number(in.pdu));
@@ -150,30 +142,27 @@ Encoded encode(const records::FusionInput& in, Payloads& payloads) {
   out.set_count(in.count);
   out.set_sensor(number(in.sensor));
   fill_bytes(*out.mutable_fragments(), in.fragments);
-  return {RecordKind::kFusionInput, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::ListFused& in, Payloads& payloads) {
-  auto& out = payloads.list_fused;
+LogTimes encode(const records::ListFused& in, ttfusion::ListFused& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_step(in.step);
   fill(*out.mutable_id(), in.id);
   out.set_measured(in.measured.ns);
   out.set_disposition(number(in.disposition));
-  return {RecordKind::kListFused, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::FusionStep& in, Payloads& payloads) {
-  auto& out = payloads.fusion_step;
+LogTimes encode(const records::FusionStep& in, ttfusion::FusionStep& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_step(in.step);
   out.set_confirmed(in.confirmed);
   out.set_tentative(in.tentative);
-  return {RecordKind::kFusionStep, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::TrackState& in, Payloads& payloads) {
-  auto& out = payloads.track;
+LogTimes encode(const records::TrackState& in, ttfusion::Track& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_step(in.step);
   out.set_track(number(in.track));
@@ -183,11 +172,10 @@ Encoded encode(const records::TrackState& in, Payloads& payloads) {
   for (const double value : in.state) out.add_state(value);
   for (const double value : in.covariance) out.add_covariance(value);
   out.set_predicted_for_image(in.predicted_for_image);
-  return {RecordKind::kTrack, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::ObservationSeen& in, Payloads& payloads) {
-  auto& out = payloads.observation;
+LogTimes encode(const records::ObservationSeen& in, ttfusion::Observation& out) {
   fill(*out.mutable_stamp(), in.stamp);
   fill(*out.mutable_id(), in.id);
   out.set_measured(in.measured.ns);
@@ -197,11 +185,10 @@ Encoded encode(const records::ObservationSeen& in, Payloads& payloads) {
   out.set_sxx(in.sxx);
   out.set_sxy(in.sxy);
   out.set_syy(in.syy);
-  return {RecordKind::kObservation, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::ImageWritten& in, Payloads& payloads) {
-  auto& out = payloads.image;
+LogTimes encode(const records::ImageWritten& in, ttfusion::Image& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_sequence(in.sequence);
   out.set_valid_at(in.valid_at.ns);
@@ -210,11 +197,10 @@ Encoded encode(const records::ImageWritten& in, Payloads& payloads) {
   out.clear_newest();
   for (const auto& object : in.objects) fill(*out.add_objects(), object);
   for (const auto& id : in.newest) fill(*out.add_newest(), id);
-  return {RecordKind::kImage, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::FeatureUsed& in, Payloads& payloads) {
-  auto& out = payloads.feature;
+LogTimes encode(const records::FeatureUsed& in, ttfusion::Feature& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_image_sequence(in.image_sequence);
   out.set_image_valid_at(in.image_valid_at.ns);
@@ -230,11 +216,10 @@ Encoded encode(const records::FeatureUsed& in, Payloads& payloads) {
     out.add_time_to_collision_s(object.time_to_collision_s);
     out.add_warning(object.warning);
   }
-  return {RecordKind::kFeature, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::ReferenceFix& in, Payloads& payloads) {
-  auto& out = payloads.reference;
+LogTimes encode(const records::ReferenceFix& in, ttfusion::Reference& out) {
   out.set_measured_true(in.measured_true.ns);
   out.set_measured(in.measured.ns);
   out.set_available(in.available.ns);
@@ -246,11 +231,10 @@ Encoded encode(const records::ReferenceFix& in, Payloads& payloads) {
   out.set_vy(in.vy);
   out.set_sigma_velocity(in.sigma_velocity);
   out.set_measured_local(in.measured_local.ns);
-  return {RecordKind::kReference, &out, {in.measured_true.ns, in.measured.ns}};
+  return {in.measured_true.ns, in.measured.ns};
 }
 
-Encoded encode(const records::TruthState& in, Payloads& payloads) {
-  auto& out = payloads.truth;
+LogTimes encode(const records::TruthState& in, ttfusion::Truth& out) {
   out.set_at(in.at.ns);
   out.set_object(number(in.object));
   out.set_x(in.x);
@@ -264,11 +248,10 @@ Encoded encode(const records::TruthState& in, Payloads& payloads) {
   out.set_local(in.local.ns);
   out.set_global(in.global.ns);
   out.set_node(number(in.node));
-  return {RecordKind::kTruth, &out, {in.at.ns, in.global.ns}};
+  return {in.at.ns, in.global.ns};
 }
 
-Encoded encode(const records::StateChanged& in, Payloads& payloads) {
-  auto& out = payloads.state_change;
+LogTimes encode(const records::StateChanged& in, ttfusion::StateChange& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_from(in.from);
   out.set_to(in.to);
@@ -276,38 +259,34 @@ Encoded encode(const records::StateChanged& in, Payloads& payloads) {
   fill_text(*out.mutable_to_name(), in.to_name);
   fill_text(*out.mutable_why(), in.why);
   fill_text(*out.mutable_consequence(), in.consequence);
-  return {RecordKind::kStateChange, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::SymbolSent& in, Payloads& payloads) {
-  auto& out = payloads.symbol;
+LogTimes encode(const records::SymbolSent& in, ttfusion::Symbol& out) {
   fill(*out.mutable_stamp(), in.stamp);
   fill(*out.mutable_end(), in.end);
   out.set_channel(in.channel);
   out.set_kind(in.kind);
-  return {RecordKind::kSymbol, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::PowerChanged& in, Payloads& payloads) {
-  auto& out = payloads.power;
+LogTimes encode(const records::PowerChanged& in, ttfusion::Power& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_on(in.on);
-  return {RecordKind::kPower, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::FaultActivity& in, Payloads& payloads) {
-  auto& out = payloads.fault;
+LogTimes encode(const records::FaultActivity& in, ttfusion::Fault& out) {
   out.set_at(in.at.ns);
   out.set_fault(in.fault);
   out.set_what(in.what);
   out.set_node(number(in.node));
   fill_text(*out.mutable_kind(), in.kind);
   fill_text(*out.mutable_text(), in.text);
-  return {RecordKind::kFault, &out, {in.at.ns, in.at.ns}};
+  return {in.at.ns, in.at.ns};
 }
 
-Encoded encode(const records::GuardianIntervention& in, Payloads& payloads) {
-  auto& out = payloads.guardian;
+LogTimes encode(const records::GuardianIntervention& in, ttfusion::Guardian& out) {
   out.set_at(in.at.ns);
   out.set_branch(number(in.branch));
   out.set_channel(in.channel);
@@ -316,11 +295,10 @@ Encoded encode(const records::GuardianIntervention& in, Payloads& payloads) {
   out.set_cut(in.cut);
   out.set_until(in.until.ns);
   fill_text(*out.mutable_why(), in.why);
-  return {RecordKind::kGuardian, &out, {in.at.ns, in.at.ns}};
+  return {in.at.ns, in.at.ns};
 }
 
-Encoded encode(const records::ChannelFrame& in, Payloads& payloads) {
-  auto& out = payloads.channel_frame;
+LogTimes encode(const records::ChannelFrame& in, ttfusion::ChannelFrame& out) {
   out.set_start(in.start.ns);
   out.set_end(in.end.ns);
   out.set_sender(number(in.sender));
@@ -331,11 +309,10 @@ Encoded encode(const records::ChannelFrame& in, Payloads& payloads) {
   out.set_sent(in.sent.ns);
   out.set_sent_channel(in.sent_channel);
   fill_bytes(*out.mutable_bytes(), in.bytes);
-  return {RecordKind::kChannelFrame, &out, {in.start.ns, in.start.ns}};
+  return {in.start.ns, in.start.ns};
 }
 
-Encoded encode(const records::TimingProblem& in, Payloads& payloads) {
-  auto& out = payloads.timing_problem;
+LogTimes encode(const records::TimingProblem& in, ttfusion::TimingProblem& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_what(in.what);
   out.set_late(in.late.ns);
@@ -343,21 +320,19 @@ Encoded encode(const records::TimingProblem& in, Payloads& payloads) {
   out.set_slot(in.slot);
   out.set_channel(in.channel);
   out.set_count(in.count);
-  return {RecordKind::kTimingProblem, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::LatenessHistogram& in, Payloads& payloads) {
-  auto& out = payloads.lateness;
+LogTimes encode(const records::LatenessHistogram& in, ttfusion::Lateness& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_of(in.of);
   out.set_longest(in.longest.ns);
   out.clear_counts();
   for (const std::uint64_t count : in.counts) out.add_counts(count);
-  return {RecordKind::kLateness, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
 }
 
-Encoded encode(const records::MediumCounts& in, Payloads& payloads) {
-  auto& out = payloads.medium;
+LogTimes encode(const records::MediumCounts& in, ttfusion::Medium& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_sent(in.sent);
   out.set_received(in.received);
@@ -366,7 +341,30 @@ Encoded encode(const records::MediumCounts& in, Payloads& payloads) {
   out.set_foreign(in.foreign);
   out.set_malformed(in.malformed);
   out.set_dropped(in.dropped);
-  return {RecordKind::kMedium, &out, times_of(in.stamp)};
+  return times_of(in.stamp);
+}
+
+class Encoder final : public records::Every<Encoder> {
+ public:
+  Encoder(Payloads& payloads, std::function<void(const Encoded&)> out) : payloads_(payloads), out_(std::move(out)) {}
+
+  template <class Record> void each(const Record& record) {
+    Payload<Record>& payload = payloads_.of<Record>();
+    static_assert(
+        requires { encode(record, payload); }, "a kind of record that the log does not encode");
+    const LogTimes times = encode(record, payload);
+    out_({records::kKindOf<Record>, payload, times});
+  }
+
+ private:
+  Payloads& payloads_;
+  std::function<void(const Encoded&)> out_;
+};
+
+}  // namespace
+
+std::unique_ptr<records::Sink> encoder(Payloads& payloads, std::function<void(const Encoded&)> out) {
+  return std::make_unique<Encoder>(payloads, std::move(out));
 }
 
 }  // namespace ttf::recording::log

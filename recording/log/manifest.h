@@ -2,8 +2,6 @@
 // can label lanes and curves without loading the cluster.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -43,53 +41,5 @@ struct LogManifest {
 // True times are what the clock of the process' host showed since the run was to start, in the drive's time; after a
 // merge of several hosts' logs, on the one scale that they were put on (recording/merge/common_time.h).
 inline constexpr std::string_view kWallClock = "wall", kCommonClock = "common";
-
-// The kinds of record, in the order of records::Sink. Values are MCAP channel and schema ids and go into the
-// content hash: append only.
-enum class RecordKind : std::uint8_t {
-  kMeasured = 1,
-  kCanFrame,
-  kSlotFrame,
-  kSlotProblem,
-  kListHop,
-  kTaskRun,
-  kClockCorrected,
-  kPrecision,
-  kFusionInput,
-  kListFused,
-  kFusionStep,
-  kTrack,
-  kObservation,
-  kImage,
-  kFeature,
-  kReference,
-  kTruth,
-  kStateChange,
-  kSymbol,
-  kPower,
-  kFault,
-  kGuardian,
-  kChannelFrame,
-  kTimingProblem,
-  kLateness,
-  kMedium,
-};
-inline constexpr std::size_t kRecordKinds = 26;
-
-// What is not of the run but of the machine it ran on, or of one who sees all clocks, which a node set of separate
-// processes has not: it does not count in the content hash.
-constexpr bool counts_in_hash(RecordKind kind) {
-  return kind != RecordKind::kPrecision && kind != RecordKind::kTimingProblem && kind != RecordKind::kLateness &&
-         kind != RecordKind::kMedium;
-}
-
-// Topic of each kind, by value - 1.
-inline constexpr std::array<std::string_view, kRecordKinds> kTopics{
-    "/measured",  "/can_frame",     "/slot_frame",     "/slot_problem", "/list_hop", "/task_run",    "/clock_corrected",
-    "/precision", "/fusion_input",  "/list_fused",     "/fusion_step",  "/track",    "/observation", "/image",
-    "/feature",   "/reference",     "/truth",          "/state_change", "/symbol",   "/power",       "/fault",
-    "/guardian",  "/channel_frame", "/timing_problem", "/lateness",     "/medium"};
-
-constexpr std::string_view topic_of(RecordKind kind) { return kTopics[static_cast<std::size_t>(kind) - 1]; }
 
 }  // namespace ttf::recording::log

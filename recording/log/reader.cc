@@ -39,8 +39,8 @@ class Collector final : public mcap::McapHandler {
     if (on_chunk_) on_chunk_(content);
   }
   bool on_message(std::uint16_t channel, std::uint64_t log_time, std::string_view payload) override {
-    if (channel < 1 || channel > kRecordKinds) return false;
-    const auto kind = static_cast<RecordKind>(channel);
+    if (!records::is_kind(channel)) return false;
+    const auto kind = static_cast<records::RecordKind>(channel);
     if (!decoder_.decode(kind, payload, sink_)) return false;
     info_.records.add(log_time, static_cast<std::uint8_t>(kind), payload);
     ++info_.counts[channel - 1u];

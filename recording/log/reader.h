@@ -16,6 +16,7 @@
 
 #include "recording/log/content_hash.h"
 #include "recording/log/manifest.h"
+#include "recording/records/kinds.h"
 #include "recording/records/records.h"
 
 namespace ttf::recording::log {
@@ -27,18 +28,18 @@ struct Attachment {
 
 struct LogInfo {
   LogManifest manifest;
-  bool manifest_sound = false;                       // else it is missing, or may be wrong
-  std::vector<Attachment> attachments;               // in file order
-  bool truncated = false;                            // the file ends before its closing record
-  std::string warning;                               // sentences, empty for a sound file
-  std::array<std::uint64_t, kRecordKinds> counts{};  // records read, by RecordKind - 1
+  bool manifest_sound = false;                              // else it is missing, or may be wrong
+  std::vector<Attachment> attachments;                      // in file order
+  bool truncated = false;                                   // the file ends before its closing record
+  std::string warning;                                      // sentences, empty for a sound file
+  std::array<std::uint64_t, records::kKindCount> counts{};  // records read, by the number of their kind - 1
   std::uint64_t chunks_read = 0;
   std::uint64_t chunks_lost = 0;                     // damaged ones that were recognised as chunks
   std::uint64_t content_hash = 0;                    // over the records read
   ContentHash records;                               // the same, for adding up over several logs
   std::optional<std::uint64_t> stated_content_hash;  // as the writer wrote it at the end; absent in a torn file
 
-  std::uint64_t count(RecordKind kind) const { return counts[static_cast<std::size_t>(kind) - 1]; }
+  std::uint64_t count(records::RecordKind kind) const { return counts[records::number_of(kind) - 1]; }
 };
 
 // Throws InputError if the file cannot be read, is not MCAP, is MCAP but no log of this program, or is cut off before

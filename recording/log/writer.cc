@@ -49,6 +49,18 @@ std::string ContentHash::text(std::uint64_t hash) { return fmt::format("{:016x}"
 struct LogWriter::Impl {
   explicit Impl(const std::string& path) : mcap(path, kLogProfile, "ttfusion") {}
 
+  void write(const Encoded& record) {
+    // No maps and no unknown fields in our payloads: fields are written in the order of their numbers, always.
+    bytes.clear();
+    const auto kind = static_cast<std::uint8_t>(record.kind);
+    TTF_CHECK(record.payload.AppendToString(&bytes), "kind {}", kind);
+    const LogMessage message{kind, unsigned_time(record.times.log), unsigned_time(record.times.publish), bytes};
+    if (behind)
+      behind->add(message);
+    else
+      store(message);
+  }
+
   void store(const LogMessage& message) {
     hash.add(message.log_time, message.kind, message.payload);
     mcap.add_message(message.kind, message.log_time, message.publish_time, message.payload);
@@ -65,16 +77,16 @@ struct LogWriter::Impl {
 };
 
 LogWriter::LogWriter(const std::string& path, const LogManifest& manifest, Writing writing)
-    : impl_(std::make_unique<Impl>(path)) {
+    : impl_(std::make_unique<Impl>(path)),
+      encoder_(encoder(impl_->payloads, [this](const Encoded& record) { impl_->write(record); })) {
   mcap::McapWriter& mcap = impl_->mcap;
   mcap.add_metadata(kManifestName, manifest_entries(manifest));
-  for (std::size_t i = 1; i <= kRecordKinds; ++i) {
-    const auto kind = static_cast<RecordKind>(i);
-    const auto* type = impl_->payloads.of(kind)->GetDescriptor();
-    const auto id = static_cast<std::uint16_t>(i);
+  records::for_each_kind([&]<class Record>() {
+    const auto* type = Payload<Record>::descriptor();
+    const auto id = static_cast<std::uint16_t>(records::kKindOf<Record>);
     mcap.add_schema(id, type->full_name(), "protobuf", schema_of(*type));
-    mcap.add_channel(id, id, topic_of(kind), "protobuf");
-  }
+    mcap.add_channel(id, id, records::topic_of(records::kKindOf<Record>), "protobuf");
+  });
   impl_->bytes.reserve(64 * 1024);
   if (writing == Writing::kBehind) impl_->behind.emplace([this](const LogMessage& message) { impl_->store(message); });
 }
@@ -103,45 +115,5 @@ void LogWriter::close() {
 
 std::uint64_t LogWriter::content_hash() const { return impl_->hash.value(); }
 std::string LogWriter::content_hash_text() const { return ContentHash::text(content_hash()); }
-
-template <class Record> void LogWriter::write(const Record& record) {
-  const Encoded encoded = encode(record, impl_->payloads);
-  // No maps and no unknown fields in our payloads: fields are written in the order of their numbers, always.
-  impl_->bytes.clear();
-  TTF_CHECK(encoded.payload->AppendToString(&impl_->bytes), "kind {}", static_cast<int>(encoded.kind));
-  const LogMessage message{static_cast<std::uint8_t>(encoded.kind), unsigned_time(encoded.times.log),
-                           unsigned_time(encoded.times.publish), impl_->bytes};
-  if (impl_->behind)
-    impl_->behind->add(message);
-  else
-    impl_->store(message);
-}
-
-void LogWriter::on(const records::Measured& record) { write(record); }
-void LogWriter::on(const records::CanFrameSent& record) { write(record); }
-void LogWriter::on(const records::SlotFrameSent& record) { write(record); }
-void LogWriter::on(const records::SlotProblem& record) { write(record); }
-void LogWriter::on(const records::ListHop& record) { write(record); }
-void LogWriter::on(const records::TaskRun& record) { write(record); }
-void LogWriter::on(const records::ClockCorrected& record) { write(record); }
-void LogWriter::on(const records::PrecisionSample& record) { write(record); }
-void LogWriter::on(const records::FusionInput& record) { write(record); }
-void LogWriter::on(const records::ListFused& record) { write(record); }
-void LogWriter::on(const records::FusionStep& record) { write(record); }
-void LogWriter::on(const records::TrackState& record) { write(record); }
-void LogWriter::on(const records::ObservationSeen& record) { write(record); }
-void LogWriter::on(const records::ImageWritten& record) { write(record); }
-void LogWriter::on(const records::FeatureUsed& record) { write(record); }
-void LogWriter::on(const records::ReferenceFix& record) { write(record); }
-void LogWriter::on(const records::TruthState& record) { write(record); }
-void LogWriter::on(const records::StateChanged& record) { write(record); }
-void LogWriter::on(const records::SymbolSent& record) { write(record); }
-void LogWriter::on(const records::PowerChanged& record) { write(record); }
-void LogWriter::on(const records::FaultActivity& record) { write(record); }
-void LogWriter::on(const records::GuardianIntervention& record) { write(record); }
-void LogWriter::on(const records::ChannelFrame& record) { write(record); }
-void LogWriter::on(const records::TimingProblem& record) { write(record); }
-void LogWriter::on(const records::LatenessHistogram& record) { write(record); }
-void LogWriter::on(const records::MediumCounts& record) { write(record); }
 
 }  // namespace ttf::recording::log

@@ -12,11 +12,11 @@
 #include <string_view>
 
 #include "recording/log/manifest.h"
-#include "recording/records/records.h"
+#include "recording/records/every.h"
 
 namespace ttf::recording::log {
 
-class LogWriter final : public records::Sink {
+class LogWriter final : public records::Every<LogWriter> {
  public:
   enum class Writing : std::uint8_t {
     kAtOnce,  // by the thread that records
@@ -42,38 +42,13 @@ class LogWriter final : public records::Sink {
   // The hash as the program prints it: 16 hex digits.
   std::string content_hash_text() const;
 
-  void on(const records::Measured&) override;
-  void on(const records::CanFrameSent&) override;
-  void on(const records::SlotFrameSent&) override;
-  void on(const records::SlotProblem&) override;
-  void on(const records::ListHop&) override;
-  void on(const records::TaskRun&) override;
-  void on(const records::ClockCorrected&) override;
-  void on(const records::PrecisionSample&) override;
-  void on(const records::FusionInput&) override;
-  void on(const records::ListFused&) override;
-  void on(const records::FusionStep&) override;
-  void on(const records::TrackState&) override;
-  void on(const records::ObservationSeen&) override;
-  void on(const records::ImageWritten&) override;
-  void on(const records::FeatureUsed&) override;
-  void on(const records::ReferenceFix&) override;
-  void on(const records::TruthState&) override;
-  void on(const records::StateChanged&) override;
-  void on(const records::SymbolSent&) override;
-  void on(const records::PowerChanged&) override;
-  void on(const records::FaultActivity&) override;
-  void on(const records::GuardianIntervention&) override;
-  void on(const records::ChannelFrame&) override;
-  void on(const records::TimingProblem&) override;
-  void on(const records::LatenessHistogram&) override;
-  void on(const records::MediumCounts&) override;
+  template <class Record> void each(const Record& record) { encoder_->on(record); }
 
  private:
   struct Impl;
-  template <class Record> void write(const Record& record);
 
   std::unique_ptr<Impl> impl_;
+  std::unique_ptr<records::Sink> encoder_;  // writes to impl_
 };
 
 }  // namespace ttf::recording::log

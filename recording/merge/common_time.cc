@@ -9,6 +9,7 @@
 
 #include "core/int128.h"
 #include "recording/merge/stored_log.h"
+#include "recording/records/every.h"
 #include "schedules/model/round.h"
 
 namespace ttf::recording::merge {
@@ -52,6 +53,61 @@ std::vector<CommonTime::Point> points_of(const Stamps& stamps, std::int64_t offs
   }
   return points;
 }
+
+void rescale(const CommonTime& time, TrueTime& at) { at = time(at); }
+void rescale(const CommonTime& time, records::Stamp& stamp) { stamp.true_time = time(stamp.true_time); }
+template <class... Instants> void rescale_all(const CommonTime& time, Instants&... instants) {
+  (rescale(time, instants), ...);
+}
+
+// All instants of true time that a record holds.
+void put_on(const CommonTime& time, records::Measured& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::CanFrameSent& r) { rescale_all(time, r.start, r.end); }
+void put_on(const CommonTime& time, records::SlotFrameSent& r) { rescale_all(time, r.stamp, r.end); }
+void put_on(const CommonTime& time, records::SlotProblem& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::ListHop& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::TaskRun& r) { rescale_all(time, r.activated, r.start, r.end); }
+void put_on(const CommonTime& time, records::ClockCorrected& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::PrecisionSample& r) { rescale_all(time, r.at); }
+void put_on(const CommonTime& time, records::FusionInput& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::ListFused& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::FusionStep& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::TrackState& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::ObservationSeen& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::ImageWritten& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::FeatureUsed& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::ReferenceFix& r) { rescale_all(time, r.measured_true); }
+void put_on(const CommonTime& time, records::TruthState& r) { rescale_all(time, r.at); }
+void put_on(const CommonTime& time, records::StateChanged& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::SymbolSent& r) { rescale_all(time, r.stamp, r.end); }
+void put_on(const CommonTime& time, records::PowerChanged& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::FaultActivity& r) { rescale_all(time, r.at); }
+void put_on(const CommonTime& time, records::GuardianIntervention& r) { rescale_all(time, r.at, r.until); }
+void put_on(const CommonTime& time, records::ChannelFrame& r) {
+  if (r.slot == 0)
+    rescale_all(time, r.start, r.end);  // no controller sent it
+  else
+    rescale_all(time, r.start, r.end, r.sent);
+}
+void put_on(const CommonTime& time, records::TimingProblem& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::LatenessHistogram& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::MediumCounts& r) { rescale_all(time, r.stamp); }
+
+class OnCommonTime final : public records::Every<OnCommonTime> {
+ public:
+  OnCommonTime(const CommonTime& time, records::Sink& out) : time_(time), out_(out) {}
+
+  template <class Record> void each(Record record) {
+    static_assert(
+        requires { put_on(time_, record); }, "a kind of record whose times the merge does not know");
+    put_on(time_, record);
+    out_.on(record);
+  }
+
+ private:
+  const CommonTime& time_;
+  records::Sink& out_;
+};
 
 }  // namespace
 
@@ -97,49 +153,8 @@ std::vector<CommonTime> common_times(const std::vector<StoredLog>& logs, std::ve
   return times;
 }
 
-template <class Record, class... Members> void OnCommonTime::pass(Record record, Members... times) const {
-  (put(record.*times), ...);
-  out_.on(record);
+std::unique_ptr<records::Sink> on_common_time(const CommonTime& time, records::Sink& out) {
+  return std::make_unique<OnCommonTime>(time, out);
 }
-
-void OnCommonTime::on(const records::Measured& r) { pass(r, &records::Measured::stamp); }
-void OnCommonTime::on(const records::CanFrameSent& r) {
-  pass(r, &records::CanFrameSent::start, &records::CanFrameSent::end);
-}
-void OnCommonTime::on(const records::SlotFrameSent& r) {
-  pass(r, &records::SlotFrameSent::stamp, &records::SlotFrameSent::end);
-}
-void OnCommonTime::on(const records::SlotProblem& r) { pass(r, &records::SlotProblem::stamp); }
-void OnCommonTime::on(const records::ListHop& r) { pass(r, &records::ListHop::stamp); }
-void OnCommonTime::on(const records::TaskRun& r) {
-  pass(r, &records::TaskRun::activated, &records::TaskRun::start, &records::TaskRun::end);
-}
-void OnCommonTime::on(const records::ClockCorrected& r) { pass(r, &records::ClockCorrected::stamp); }
-void OnCommonTime::on(const records::PrecisionSample& r) { pass(r, &records::PrecisionSample::at); }
-void OnCommonTime::on(const records::FusionInput& r) { pass(r, &records::FusionInput::stamp); }
-void OnCommonTime::on(const records::ListFused& r) { pass(r, &records::ListFused::stamp); }
-void OnCommonTime::on(const records::FusionStep& r) { pass(r, &records::FusionStep::stamp); }
-void OnCommonTime::on(const records::TrackState& r) { pass(r, &records::TrackState::stamp); }
-void OnCommonTime::on(const records::ObservationSeen& r) { pass(r, &records::ObservationSeen::stamp); }
-void OnCommonTime::on(const records::ImageWritten& r) { pass(r, &records::ImageWritten::stamp); }
-void OnCommonTime::on(const records::FeatureUsed& r) { pass(r, &records::FeatureUsed::stamp); }
-void OnCommonTime::on(const records::ReferenceFix& r) { pass(r, &records::ReferenceFix::measured_true); }
-void OnCommonTime::on(const records::TruthState& r) { pass(r, &records::TruthState::at); }
-void OnCommonTime::on(const records::StateChanged& r) { pass(r, &records::StateChanged::stamp); }
-void OnCommonTime::on(const records::SymbolSent& r) { pass(r, &records::SymbolSent::stamp, &records::SymbolSent::end); }
-void OnCommonTime::on(const records::PowerChanged& r) { pass(r, &records::PowerChanged::stamp); }
-void OnCommonTime::on(const records::FaultActivity& r) { pass(r, &records::FaultActivity::at); }
-void OnCommonTime::on(const records::GuardianIntervention& r) {
-  pass(r, &records::GuardianIntervention::at, &records::GuardianIntervention::until);
-}
-void OnCommonTime::on(const records::ChannelFrame& r) {
-  if (r.slot == 0)
-    pass(r, &records::ChannelFrame::start, &records::ChannelFrame::end);  // no controller sent it
-  else
-    pass(r, &records::ChannelFrame::start, &records::ChannelFrame::end, &records::ChannelFrame::sent);
-}
-void OnCommonTime::on(const records::TimingProblem& r) { pass(r, &records::TimingProblem::stamp); }
-void OnCommonTime::on(const records::LatenessHistogram& r) { pass(r, &records::LatenessHistogram::stamp); }
-void OnCommonTime::on(const records::MediumCounts& r) { pass(r, &records::MediumCounts::stamp); }
 
 }  // namespace ttf::recording::merge

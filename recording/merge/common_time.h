@@ -17,6 +17,7 @@
 // and every other one has come on as that clock has. What goes back, or stands still, is passed over.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,46 +54,7 @@ class CommonTime {
 // synchronised node, which gets a warning.
 std::vector<CommonTime> common_times(const std::vector<StoredLog>& logs, std::vector<std::string>& warnings);
 
-// Passes every record on with its true times put on the common scale.
-class OnCommonTime final : public records::Sink {
- public:
-  OnCommonTime(const CommonTime& time, records::Sink& out) : time_(time), out_(out) {}
-
-  void on(const records::Measured&) override;
-  void on(const records::CanFrameSent&) override;
-  void on(const records::SlotFrameSent&) override;
-  void on(const records::SlotProblem&) override;
-  void on(const records::ListHop&) override;
-  void on(const records::TaskRun&) override;
-  void on(const records::ClockCorrected&) override;
-  void on(const records::PrecisionSample&) override;
-  void on(const records::FusionInput&) override;
-  void on(const records::ListFused&) override;
-  void on(const records::FusionStep&) override;
-  void on(const records::TrackState&) override;
-  void on(const records::ObservationSeen&) override;
-  void on(const records::ImageWritten&) override;
-  void on(const records::FeatureUsed&) override;
-  void on(const records::ReferenceFix&) override;
-  void on(const records::TruthState&) override;
-  void on(const records::StateChanged&) override;
-  void on(const records::SymbolSent&) override;
-  void on(const records::PowerChanged&) override;
-  void on(const records::FaultActivity&) override;
-  void on(const records::GuardianIntervention&) override;
-  void on(const records::ChannelFrame&) override;
-  void on(const records::TimingProblem&) override;
-  void on(const records::LatenessHistogram&) override;
-  void on(const records::MediumCounts&) override;
-
- private:
-  void put(TrueTime& at) const { at = time_(at); }
-  void put(records::Stamp& stamp) const { stamp.true_time = time_(stamp.true_time); }
-  template <class Record, class... Members>
-  void pass(Record record, Members... times) const;  // members: stamps and instants
-
-  const CommonTime& time_;
-  records::Sink& out_;
-};
+// Passes every record on with its true times put on the common scale. Both must outlive the sink.
+std::unique_ptr<records::Sink> on_common_time(const CommonTime& time, records::Sink& out);
 
 }  // namespace ttf::recording::merge

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -149,8 +150,8 @@ std::vector<std::string> MergedLogs::warnings() const {
 void MergedLogs::read(records::Sink& sink) const {
   MergeWalk walk(logs_, times_);
   log::Decoder decoder;
-  std::vector<OnCommonTime> sinks;
-  for (const CommonTime& time : times_) sinks.emplace_back(time, sink);
+  std::vector<std::unique_ptr<records::Sink>> sinks;
+  for (const CommonTime& time : times_) sinks.push_back(on_common_time(time, sink));
   while (true) {
     const std::vector<MergeWalk::Message>& instant = walk.next();
     if (instant.empty()) return;
@@ -161,7 +162,7 @@ void MergedLogs::read(records::Sink& sink) const {
         const auto [a, b] = std::minmax(message.log, instant[i - 1].log);
         throw InputError(given_twice(logs_[b], logs_[a]));
       }
-      records::Sink& out = times_[message.log].changes_nothing() ? sink : sinks[message.log];
+      records::Sink& out = times_[message.log].changes_nothing() ? sink : *sinks[message.log];
       decoder.decode(message.kind, message.payload, out);
     }
   }

@@ -14,8 +14,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 
-#include "recording/log/manifest.h"
 #include "recording/records/records.h"
 
 namespace ttf::recording::merge {
@@ -27,41 +28,7 @@ struct RecordPlace {
   std::uint64_t about = 0;  // the node, else what of the run's it is: numbers in the order they are to have
 };
 
-// Tells the place of every record that it sees.
-class Placing : public records::Sink {
- public:
-  virtual void placed(const RecordPlace& place) = 0;
-
-  void on(const records::Measured&) override;
-  void on(const records::CanFrameSent&) override;
-  void on(const records::SlotFrameSent&) override;
-  void on(const records::SlotProblem&) override;
-  void on(const records::ListHop&) override;
-  void on(const records::TaskRun&) override;
-  void on(const records::ClockCorrected&) override;
-  void on(const records::PrecisionSample&) override;
-  void on(const records::FusionInput&) override;
-  void on(const records::ListFused&) override;
-  void on(const records::FusionStep&) override;
-  void on(const records::TrackState&) override;
-  void on(const records::ObservationSeen&) override;
-  void on(const records::ImageWritten&) override;
-  void on(const records::FeatureUsed&) override;
-  void on(const records::ReferenceFix&) override;
-  void on(const records::TruthState&) override;
-  void on(const records::StateChanged&) override;
-  void on(const records::SymbolSent&) override;
-  void on(const records::PowerChanged&) override;
-  void on(const records::FaultActivity&) override;
-  void on(const records::GuardianIntervention&) override;
-  void on(const records::ChannelFrame&) override;
-  void on(const records::TimingProblem&) override;
-  void on(const records::LatenessHistogram&) override;
-  void on(const records::MediumCounts&) override;
-
- private:
-  void of_node(log::RecordKind kind, TrueTime at, NodeId node);
-  void of_run(log::RecordKind kind, TrueTime at, std::uint64_t about);
-};
+// Tells `placed` the place of every record it sees.
+std::unique_ptr<records::Sink> placing(std::function<void(const RecordPlace&)> placed);
 
 }  // namespace ttf::recording::merge

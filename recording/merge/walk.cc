@@ -8,13 +8,6 @@
 namespace ttf::recording::merge {
 namespace {
 
-// The decoder calls it once for a readable payload, and not at all for any other.
-class PlaceOfOne final : public Placing {
- public:
-  RecordPlace place;
-  void placed(const RecordPlace& found) override { place = found; }
-};
-
 // The records of one instant, into their order.
 void put_in_order(std::vector<MergeWalk::Message>& instant) {
   if (instant.size() < 2) return;
@@ -59,14 +52,15 @@ void MergeWalk::open(const Upcoming& upcoming) {
   const StoredLog& log = logs_[upcoming.log];
   const auto records = opener_.open(log.content(log.chunks()[upcoming.chunk]), chunk->buffer);
   if (!records) return;  // it was sound when the log was read through
-  PlaceOfOne placing;
+  RecordPlace place;     // the decoder tells it once for a readable payload, and not at all for any other
+  const std::unique_ptr<records::Sink> sink = placing([&place](const RecordPlace& found) { place = found; });
   std::uint64_t in_log = std::uint64_t{upcoming.chunk} << 32;
   mcap::for_each_message(*records, [&](std::uint16_t channel, std::uint64_t, std::string_view payload) {
-    if (channel < 1 || channel > log::kRecordKinds) return false;
-    const auto kind = static_cast<log::RecordKind>(channel);
-    if (!decoder_.decode(kind, payload, placing)) return false;
-    placing.place.at = times_[upcoming.log](placing.place.at);
-    chunk->messages.push_back({placing.place, kind, upcoming.log, 0, in_log++, payload});
+    if (!records::is_kind(channel)) return false;
+    const auto kind = static_cast<records::RecordKind>(channel);
+    if (!decoder_.decode(kind, payload, *sink)) return false;
+    place.at = times_[upcoming.log](place.at);
+    chunk->messages.push_back({place, kind, upcoming.log, 0, in_log++, payload});
     return true;
   });
   std::sort(chunk->messages.begin(), chunk->messages.end(), [](const Message& a, const Message& b) {

@@ -20,7 +20,7 @@ class MergeWalk {
   // A record in an open chunk.
   struct Message {
     RecordPlace place;
-    log::RecordKind kind{};
+    records::RecordKind kind{};
     std::uint32_t log = 0;
     std::uint32_t repetition = 0;  // how many of its node, kind and instant its log has before it
     std::uint64_t in_log = 0;      // place in its log

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <tuple>
 
 #include "core/ids.h"
 #include "core/time.h"
@@ -363,39 +364,63 @@ struct MediumCounts {
   std::uint64_t dropped = 0;    // no room in the process itself, on its way in or out
 };
 
-// The port. One function per kind of record; an implementation overrides what it cares for.
-class Sink {
+// The kinds of record: this is the one list of them. A kind's number is its row, counted from 1. Logs hold that number
+// and the content hash covers it, so a new kind goes to the end and no row ever moves. The log, the merge of logs and
+// the place of a record in it treat every kind: none of them compiles while it does not know a row.
+template <class Record> struct Kind {
+  using Type = Record;
+  std::string_view topic;  // its name in a log
+  bool in_hash = true;
+};
+// For what is not of the run but of the machine it ran on, or of one who sees all clocks, which a node set of separate
+// processes has not.
+inline constexpr bool kNotInHash = false;
+
+inline constexpr std::tuple kKinds{
+    Kind<Measured>{"/measured"},
+    Kind<CanFrameSent>{"/can_frame"},
+    Kind<SlotFrameSent>{"/slot_frame"},
+    Kind<SlotProblem>{"/slot_problem"},
+    Kind<ListHop>{"/list_hop"},
+    Kind<TaskRun>{"/task_run"},
+    Kind<ClockCorrected>{"/clock_corrected"},
+    Kind<PrecisionSample>{"/precision", kNotInHash},
+    Kind<FusionInput>{"/fusion_input"},
+    Kind<ListFused>{"/list_fused"},
+    Kind<FusionStep>{"/fusion_step"},
+    Kind<TrackState>{"/track"},
+    Kind<ObservationSeen>{"/observation"},
+    Kind<ImageWritten>{"/image"},
+    Kind<FeatureUsed>{"/feature"},
+    Kind<ReferenceFix>{"/reference"},
+    Kind<TruthState>{"/truth"},
+    Kind<StateChanged>{"/state_change"},
+    Kind<SymbolSent>{"/symbol"},
+    Kind<PowerChanged>{"/power"},
+    Kind<FaultActivity>{"/fault"},
+    Kind<GuardianIntervention>{"/guardian"},
+    Kind<ChannelFrame>{"/channel_frame"},
+    Kind<TimingProblem>{"/timing_problem", kNotInHash},
+    Kind<LatenessHistogram>{"/lateness", kNotInHash},
+    Kind<MediumCounts>{"/medium", kNotInHash},
+};
+inline constexpr std::size_t kKindCount = std::tuple_size_v<decltype(kKinds)>;
+template <std::size_t number> using RecordAt = typename std::tuple_element_t<number - 1, decltype(kKinds)>::Type;
+
+// The port. One function per kind of record, in the order of the list; an implementation overrides what it cares for.
+template <std::size_t kinds> class SinkOf : public SinkOf<kinds - 1> {
  public:
-  virtual ~Sink() = default;
+  using SinkOf<kinds - 1>::on;
+  virtual void on(const RecordAt<kinds>&) {}
+};
+template <> class SinkOf<0> {
+ public:
+  virtual ~SinkOf() = default;
   // Whether SlotFrameSent and ChannelFrame are looked at, nearly all that a drive records. Where nobody does, a drive
   // tells of none, and its FlexRay carries what frames say instead of their bits; every other record is the same.
   virtual bool wants_frames() const { return true; }
-  virtual void on(const Measured&) {}
-  virtual void on(const CanFrameSent&) {}
-  virtual void on(const SlotFrameSent&) {}
-  virtual void on(const SlotProblem&) {}
-  virtual void on(const ListHop&) {}
-  virtual void on(const TaskRun&) {}
-  virtual void on(const ClockCorrected&) {}
-  virtual void on(const PrecisionSample&) {}
-  virtual void on(const FusionInput&) {}
-  virtual void on(const ListFused&) {}
-  virtual void on(const FusionStep&) {}
-  virtual void on(const TrackState&) {}
-  virtual void on(const ObservationSeen&) {}
-  virtual void on(const ImageWritten&) {}
-  virtual void on(const FeatureUsed&) {}
-  virtual void on(const ReferenceFix&) {}
-  virtual void on(const TruthState&) {}
-  virtual void on(const StateChanged&) {}
-  virtual void on(const SymbolSent&) {}
-  virtual void on(const PowerChanged&) {}
-  virtual void on(const FaultActivity&) {}
-  virtual void on(const GuardianIntervention&) {}
-  virtual void on(const ChannelFrame&) {}
-  virtual void on(const TimingProblem&) {}
-  virtual void on(const LatenessHistogram&) {}
-  virtual void on(const MediumCounts&) {}
+  void on() = delete;  // the name, which each kind adds to
 };
+class Sink : public SinkOf<kKindCount> {};
 
 }  // namespace ttf::recording::records

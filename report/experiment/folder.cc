@@ -26,47 +26,47 @@ class AnswerReader {
   [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
     throw InputError({path_, 0, key, "", expected});
   }
-  const run::Json& object(const run::Json& in, const std::string& place, const char* key) const {
-    const run::Json& value = at(in, place, key);
+  const Json& object(const Json& in, const std::string& place, const char* key) const {
+    const Json& value = at(in, place, key);
     if (!value.is_object() || value.empty()) refuse(place + key, "must be a mapping with an entry at least");
     return value;
   }
   // Empty where there is none.
-  const run::Json& list(const run::Json& in, const char* key) const {
-    static const run::Json kNone = run::Json::array();
+  const Json& list(const Json& in, const char* key) const {
+    static const Json kNone = Json::array();
     const auto found = in.find(key);
     if (found == in.end()) return kNone;
     if (!found->is_array()) refuse(key, "must be a list");
     return *found;
   }
-  std::string text(const run::Json& in, const std::string& place, const char* key) const {
-    const run::Json& value = at(in, place, key);
+  std::string text(const Json& in, const std::string& place, const char* key) const {
+    const Json& value = at(in, place, key);
     if (!value.is_string()) refuse(place + key, "must be text");
     return value.get<std::string>();
   }
-  std::uint64_t count(const run::Json& in, const std::string& place, const char* key) const {
-    const run::Json& value = at(in, place, key);
+  std::uint64_t count(const Json& in, const std::string& place, const char* key) const {
+    const Json& value = at(in, place, key);
     if (!value.is_number_unsigned()) refuse(place + key, "must be a whole number from 0 on");
     return value.get<std::uint64_t>();
   }
-  bool yes(const run::Json& in, const std::string& place, const char* key) const {
-    const run::Json& value = at(in, place, key);
+  bool yes(const Json& in, const std::string& place, const char* key) const {
+    const Json& value = at(in, place, key);
     if (!value.is_boolean()) refuse(place + key, "must be true or false");
     return value.get<bool>();
   }
   // Not a number where it is null.
-  double number(const run::Json& in, const std::string& place, const char* key) const {
-    const run::Json& value = at(in, place, key);
+  double number(const Json& in, const std::string& place, const char* key) const {
+    const Json& value = at(in, place, key);
     if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
     if (!value.is_number()) refuse(place + key, "must be a number or null");
     return value.get<double>();
   }
-  experiments::results::Interval interval(const run::Json& in, const std::string& place) const {
+  experiments::results::Interval interval(const Json& in, const std::string& place) const {
     return {count(in, place, "count"), number(in, place, "mean"), number(in, place, "half_width")};
   }
 
  private:
-  const run::Json& at(const run::Json& in, const std::string& place, const char* key) const {
+  const Json& at(const Json& in, const std::string& place, const char* key) const {
     if (!in.is_object()) refuse(place.empty() ? place : place.substr(0, place.size() - 1), "must be a mapping");
     const auto found = in.find(key);
     if (found == in.end()) refuse(place + key, "is missing");
@@ -75,18 +75,18 @@ class AnswerReader {
   std::string path_;
 };
 
-std::vector<std::string> keys_of(const run::Json& object) {
+std::vector<std::string> keys_of(const Json& object) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : object.items()) keys.push_back(key);
   return keys;
 }
 
-void read_points(const AnswerReader& reader, const run::Json& json, ExperimentFolder& folder) {
-  const run::Json& points = reader.list(json, "points");
+void read_points(const AnswerReader& reader, const Json& json, ExperimentFolder& folder) {
+  const Json& points = reader.list(json, "points");
   if (points.empty()) reader.refuse("points", "must have one at least");
   for (std::size_t p = 0; p < points.size(); ++p) {
     const std::string place = fmt::format("points[{}].", p);
-    const run::Json& paradigms = reader.object(points[p], place, "paradigms");
+    const Json& paradigms = reader.object(points[p], place, "paradigms");
     if (p == 0) {
       if (points[p].contains("axes")) folder.axes = keys_of(reader.object(points[p], place, "axes"));
       folder.paradigms = keys_of(paradigms);
@@ -102,10 +102,10 @@ void read_points(const AnswerReader& reader, const run::Json& json, ExperimentFo
       point.settings.push_back(reader.text(reader.object(points[p], place, "axes"), place + "axes.", axis.c_str()));
     for (const std::string& paradigm : folder.paradigms) {
       const std::string in_paradigm = place + "paradigms." + paradigm + ".";
-      const run::Json& cells = reader.object(paradigms, place + "paradigms.", paradigm.c_str());
+      const Json& cells = reader.object(paradigms, place + "paradigms.", paradigm.c_str());
       std::vector<Estimate>& row = point.estimates.emplace_back();
       for (const ExperimentMeasure& measure : folder.measures) {
-        const run::Json& cell = reader.object(cells, in_paradigm, measure.name.c_str());
+        const Json& cell = reader.object(cells, in_paradigm, measure.name.c_str());
         Estimate estimate{reader.interval(cell, in_paradigm + measure.name + "."), std::nullopt};
         if (const auto difference = cell.find("difference"); difference != cell.end())
           estimate.difference = reader.interval(*difference, in_paradigm + measure.name + ".difference.");
@@ -133,7 +133,7 @@ void read_store(const std::string& path, ExperimentFolder& folder) {
 }
 
 ExperimentFolder parse_answer(std::string_view text, const std::string& file) {
-  const run::Json json = run::parse_json(text, file);
+  const Json json = run::parse_json(text, file);
   const AnswerReader reader(file);
   ExperimentFolder folder;
   folder.name = reader.text(json, "", "experiment");
@@ -149,23 +149,23 @@ ExperimentFolder parse_answer(std::string_view text, const std::string& file) {
   read_points(reader, json, folder);
   if (const auto measures = json.find("measures"); measures != json.end())
     for (ExperimentMeasure& measure : folder.measures) {
-      const run::Json& one = reader.object(*measures, "measures.", measure.name.c_str());
+      const Json& one = reader.object(*measures, "measures.", measure.name.c_str());
       measure.unit = reader.text(one, "measures." + measure.name + ".", "unit");
       measure.meaning = reader.text(one, "measures." + measure.name + ".", "meaning");
     }
-  const run::Json& crossings = reader.list(json, "crossings");
+  const Json& crossings = reader.list(json, "crossings");
   for (std::size_t c = 0; c < crossings.size(); ++c) {
     const std::string place = fmt::format("crossings[{}].", c);
     folder.crossings.push_back({reader.text(crossings[c], place, "paradigm"), reader.text(crossings[c], place, "axis"),
                                 reader.text(crossings[c], place, "others"), reader.number(crossings[c], place, "at"),
                                 reader.yes(crossings[c], place, "certain")});
   }
-  const run::Json& expectations = reader.list(json, "expectations");
+  const Json& expectations = reader.list(json, "expectations");
   for (std::size_t e = 0; e < expectations.size(); ++e) {
     const std::string place = fmt::format("expectations[{}].", e);
     ExperimentExpectation one{
         reader.text(expectations[e], place, "expected"), reader.yes(expectations[e], place, "holds"), {}};
-    for (const run::Json& where : reader.list(expectations[e], "where_not"))
+    for (const Json& where : reader.list(expectations[e], "where_not"))
       one.where_not.push_back(where.is_string() ? where.get<std::string>() : where.dump());
     folder.expectations.push_back(std::move(one));
   }

@@ -76,6 +76,8 @@ class PositionPlots : public recording::records::Sink {
   const PositionOptions& options() const { return options_; }
 
  private:
+  class Selector;
+  static double seconds(TrueTime t) { return static_cast<double>(t.ns) * 1e-9; }
   struct Step {
     std::uint32_t step;
     double t;
@@ -95,7 +97,6 @@ class PositionPlots : public recording::records::Sink {
     std::uint32_t image;
     double t;  // s
   };
-  bool is_used(const Image& image) const;
   struct Positioned {
     Sample sample;
     std::uint32_t step;

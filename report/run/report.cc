@@ -23,9 +23,9 @@ namespace {
 constexpr std::size_t kMostPictures = 6;  // drives
 
 // Its labels are words that tell the drives apart: strategies, or folders with them.
-void label_drives(std::vector<RunFolder>& folders) {
+void label_drives(std::vector<ResultsFolder>& folders) {
   std::map<std::string, int> known;
-  for (RunFolder& folder : folders) {
+  for (ResultsFolder& folder : folders) {
     std::filesystem::path path = std::filesystem::path(folder.path).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();
     for (Drive& drive : folder.drives) {
@@ -35,7 +35,7 @@ void label_drives(std::vector<RunFolder>& folders) {
   }
 }
 
-void asked(page::Page& page, const std::vector<RunFolder>& folders, const std::vector<ToldDrive>& drives) {
+void asked(page::Page& page, const std::vector<ResultsFolder>& folders, const std::vector<ToldDrive>& drives) {
   page.section("What was asked");
   std::set<std::string> described;
   for (const ToldDrive& told : drives)
@@ -43,7 +43,7 @@ void asked(page::Page& page, const std::vector<RunFolder>& folders, const std::v
       if (const ScenarioWords words = scenario_in(*told.drive->log);
           !words.description.empty() && described.insert(words.description).second)
         page.paragraph(words.description);
-  for (const RunFolder& folder : folders) {
+  for (const ResultsFolder& folder : folders) {
     const Drive& first = folder.drives.front();
     std::vector<std::string> strategies;
     for (const Drive& drive : folder.drives) strategies.push_back(drive.strategy);
@@ -58,7 +58,7 @@ void asked(page::Page& page, const std::vector<RunFolder>& folders, const std::v
   }
 }
 
-void answered(page::Page& page, const std::vector<RunFolder>& folders, const std::vector<ToldDrive>& drives) {
+void answered(page::Page& page, const std::vector<ResultsFolder>& folders, const std::vector<ToldDrive>& drives) {
   const RunAnswer answer = run_answer(drives);
   page.section("What came out");
   page.lead(answer.answer);
@@ -67,7 +67,7 @@ void answered(page::Page& page, const std::vector<RunFolder>& folders, const std
   page::PageTable table = measure_table(drives);
   table.caption = "Errors are root mean squares at the instants an image is used";
   if (!table.rows.empty()) page.table(table);
-  for (const RunFolder& folder : folders)
+  for (const ResultsFolder& folder : folders)
     for (const std::string& remark : folder.remarks) page.paragraph(folder.path + ": " + remark);
 }
 
@@ -147,11 +147,11 @@ void made(page::Page& page, const std::vector<ToldDrive>& drives) {
 
 }  // namespace
 
-std::string run_report_html(std::vector<RunFolder> folders, const DiagramWindow& window) {
+std::string run_report_html(std::vector<ResultsFolder> folders, const DiagramWindow& window) {
   label_drives(folders);
   std::vector<ToldDrive> drives;
   std::set<std::string> scenarios;
-  for (const RunFolder& folder : folders)
+  for (const ResultsFolder& folder : folders)
     for (const Drive& drive : folder.drives) {
       drives.push_back(told_of(drive));
       scenarios.insert(drive.scenario);

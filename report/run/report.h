@@ -9,6 +9,6 @@
 
 namespace ttf::report::run {
 
-std::string run_report_html(std::vector<RunFolder> folders, const DiagramWindow& window);
+std::string run_report_html(std::vector<ResultsFolder> folders, const DiagramWindow& window);
 
 }  // namespace ttf::report::run

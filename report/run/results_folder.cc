@@ -17,18 +17,18 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string word_at(const page::Json& object, const char* key) {
+std::string word_at(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-std::uint64_t count_at(const page::Json& object, const char* key) {
+std::uint64_t count_at(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
 
 // The folder may have been moved since: a log is where its summary is.
-void find_logs(RunFolder& folder) {
+void find_logs(ResultsFolder& folder) {
   std::error_code none;
   for (Drive& drive : folder.drives) {
     drive.folder = folder.path;
@@ -45,20 +45,20 @@ void find_logs(RunFolder& folder) {
 
 }  // namespace
 
-page::Json parse_json(std::string_view text, const std::string& file) {
+Json parse_json(std::string_view text, const std::string& file) {
   try {
-    return page::Json::parse(text);
-  } catch (const page::Json::parse_error& error) {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
     const std::string_view before = text.substr(0, error.byte > 0 ? error.byte - 1 : 0);
     const auto line = 1 + static_cast<int>(std::ranges::count(before, '\n'));
     throw InputError({file, line, "", "", "must be JSON: it is damaged here, or cut off"});
-  } catch (const page::Json::exception&) {  // 1e999
+  } catch (const Json::exception&) {  // 1e999
     throw InputError({file, 0, "", "", "must be JSON: a number in it is none"});
   }
 }
 
-RunFolder parse_run_summary(std::string_view text, const std::string& file) {
-  RunFolder folder;
+ResultsFolder parse_run_summary(std::string_view text, const std::string& file) {
+  ResultsFolder folder;
   folder.summary = parse_json(text, file);
   const auto bad = [&](const std::string& key, const std::string& expected) {
     throw InputError({file, 0, key, "", expected});
@@ -67,7 +67,7 @@ RunFolder parse_run_summary(std::string_view text, const std::string& file) {
   const auto strategies = folder.summary.find("strategies");
   if (strategies == folder.summary.end() || !strategies->is_array() || strategies->empty())
     bad("strategies", "must be the run's strategies, at least one");
-  for (const page::Json& one : *strategies) {
+  for (const Json& one : *strategies) {
     if (!one.is_object() || word_at(one, "strategy").empty()) bad("strategies", "must name a strategy each");
     Drive drive;
     drive.scenario = word_at(folder.summary, "scenario");
@@ -89,8 +89,8 @@ FolderKind kind_of_folder(const std::string& path) {
       {path, 0, "", "", "is neither a run (no summary.json, no *.mcap) nor an experiment (no answer.json)"});
 }
 
-RunFolder read_run_folder(const std::string& path) {
-  RunFolder folder;
+ResultsFolder read_results_folder(const std::string& path) {
+  ResultsFolder folder;
   std::error_code none;
   if (const std::string summary = path + "/summary.json"; fs::exists(summary, none)) {
     folder = parse_run_summary(read_file(summary), summary);

@@ -26,17 +26,17 @@ struct Drive {
   std::shared_ptr<const recording::merge::MergedLogs> log;  // none: the run kept none
 };
 
-struct RunFolder {
+struct ResultsFolder {
   std::string path;
   nlohmann::ordered_json summary;    // of all; null where there are logs alone
   std::vector<Drive> drives;         // at least one
   std::vector<std::string> remarks;  // sentences: what is missing or damaged
 };
 // Throws InputError: a summary that is none, a log that cannot be read.
-RunFolder read_run_folder(const std::string& path);
+ResultsFolder read_results_folder(const std::string& path);
 
 // What summary.json says by itself, drives without their logs. `file` is for messages. Throws InputError.
-RunFolder parse_run_summary(std::string_view text, const std::string& file);
+ResultsFolder parse_run_summary(std::string_view text, const std::string& file);
 // Throws InputError with the file and what is wrong.
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& file);
 

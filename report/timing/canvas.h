@@ -9,6 +9,7 @@
 #include "report/drawing/names.h"
 #include "report/drawing/svg.h"
 #include "report/timing/data.h"
+#include "report/timing/lanes.h"
 #include "report/timing/tags.h"
 #include "report/timing/ways.h"
 

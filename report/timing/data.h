@@ -19,6 +19,9 @@ struct TimingData {
     TrueTime start, end;
     PduId pdu;
     std::uint32_t sequence;
+    std::uint8_t fragment;
+    NodeId node;
+    SensorId sensor;
   };
   struct SlotFrame {
     TrueTime start, end;
@@ -31,13 +34,14 @@ struct TimingData {
     PduId pdu;
     std::uint32_t sequence;
     std::uint8_t fragment;
-    bool by_the_cluster = true;  // else its sender had no global time yet (records::Stamp)
+    SensorId sensor;
+    bool by_the_cluster = true;  // else its sender had no global time yet (recording::records::Stamp)
   };
   struct HopAt {
     TrueTime at;
     NodeId node;
     recording::records::Hop hop;
-    PduId pdu;
+    SensorId sensor;
     std::uint32_t sequence;
   };
   struct Run {
@@ -79,7 +83,7 @@ struct TimingData {
     NodeId node;
     std::string kind, text;
   };
-  struct OnChannel {  // records::ChannelFrame
+  struct OnChannel {  // recording::records::ChannelFrame
     TrueTime start, end;
     NodeId sender;
     std::uint8_t channel, state;
@@ -87,7 +91,7 @@ struct TimingData {
     TrueTime sent;
     std::uint8_t sent_channel;
   };
-  struct Problem {  // records::TimingProblem
+  struct Problem {  // recording::records::TimingProblem
     TrueTime at;
     NodeId node;
     std::uint8_t what;

@@ -29,18 +29,19 @@ void TimingDiagram::on(const recording::records::Measured& r) {
 }
 void TimingDiagram::on(const recording::records::CanFrameSent& r) {
   if (near(r.start.true_time, r.end.true_time))
-    data_.can_frames.push_back({r.bus, r.start.true_time, r.end.true_time, r.pdu, r.sequence});
+    data_.can_frames.push_back(
+        {r.bus, r.start.true_time, r.end.true_time, r.pdu, r.sequence, r.fragment, r.start.node, r.sensor});
 }
 void TimingDiagram::on(const recording::records::SlotFrameSent& r) {
   const bool in_a_run = drawing::possible(r.stamp.global.ns) && drawing::possible_cycle(r.cycle);
   if (in_a_run && near(r.stamp.true_time, r.end.true_time))
     data_.slot_frames.push_back({r.stamp.true_time, r.end.true_time, r.stamp.global, r.stamp.node, r.cycle, r.slot,
-                                 r.channel, r.null_frame, r.pdu, r.sequence, r.fragment,
+                                 r.channel, r.null_frame, r.pdu, r.sequence, r.fragment, r.sensor,
                                  r.stamp.global.ns != r.stamp.local.ns});
 }
 void TimingDiagram::on(const recording::records::ListHop& r) {
   if (near(r.stamp.true_time, r.stamp.true_time))
-    data_.hops.push_back({r.stamp.true_time, r.stamp.node, r.hop, r.pdu, r.sequence});
+    data_.hops.push_back({r.stamp.true_time, r.stamp.node, r.hop, r.sensor, r.sequence});
 }
 void TimingDiagram::on(const recording::records::TaskRun& r) {
   if (drawing::possible(r.start.true_time.ns) && near(r.activated.true_time, r.end.true_time))

@@ -5,6 +5,7 @@
 
 #include "report/drawing/svg.h"
 #include "report/timing/canvas.h"
+#include "report/timing/transfers.h"
 
 namespace ttf::report::timing {
 

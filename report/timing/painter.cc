@@ -12,7 +12,9 @@
 #include "report/timing/cycles.h"
 #include "report/timing/faults.h"
 #include "report/timing/labels.h"
+#include "report/timing/lanes.h"
 #include "report/timing/problems.h"
+#include "report/timing/transfers.h"
 #include "report/timing/ways.h"
 
 namespace ttf::report::timing {
@@ -25,12 +27,9 @@ class TimingPainter : TimingCanvas {
 
  public:
   TimingPainter(const TimingCanvas& empty, Duration cycle)
-      : TimingCanvas(empty), cycle_(cycle), transfers_(transfers_of(data)),
-        ways_(measurement_ways(data, names, transfers_)), images_(image_ways(data, names, transfers_)),
+      : TimingCanvas(empty), cycle_(cycle), transfers_(transfers_of(data)), ways_(ways_of(data)),
         faults_(data, names, from, to) {
-    std::vector<Way> all = ways_;
-    all.insert(all.end(), images_.begin(), images_.end());
-    lanes_ = lanes_of(data, names, all);
+    lanes_ = lanes_of(data, names, ways_);
     const double ms = (to - from).seconds() * 1e3;
     plot.x = faults_.label_width() > 0 ? faults_.label_width() + 24 : 24;
     for (const Lane& lane : lanes_) plot.x = std::max(plot.x, drawing::text_width(lane.label, 11) + 24);
@@ -44,7 +43,7 @@ class TimingPainter : TimingCanvas {
       y += lane_height(lanes_[i]);
     }
     plot.height = y - plot.y;
-    legend_ = timing_legend(data, names, ways_, !images_.empty(), from, to);
+    legend_ = timing_legend(data, names, ways_.measurements, !ways_.images.empty(), from, to);
     for (const auto& r : data.on_channel)
       if (const ChannelMark mark = channel_mark(r, names);
           visible(mark.start, mark.end) && centres.contains({LaneKey::Kind::kChannel, mark.channel, 0}))
@@ -73,8 +72,8 @@ class TimingPainter : TimingCanvas {
     tasks();
     svg.close_group();
     svg.open_group("ways", plot);
-    for (const Way& way : images_) draw_way(svg, *this, way);
-    for (const Way& way : ways_) draw_way(svg, *this, way);
+    for (const Way& way : ways_.images) draw_way(svg, *this, way);
+    for (const Way& way : ways_.measurements) draw_way(svg, *this, way);
     svg.close_group();
     svg.open_group("events", plot);
     instants();
@@ -151,8 +150,7 @@ class TimingPainter : TimingCanvas {
           fmt::format("slot {}, cycle {}, {}{} #{} fragment {}, from {}", f.slot, f.cycle,
                       f.null_frame ? "null frame, " : "", names.pdu(f.pdu), f.sequence, f.fragment, names.node(f.node));
       const drawing::Area area{x(f.start), centre - kBox / 2, width, kBox};
-      svg_->tag_next(tags.span(f.start, f.end) +
-                     (f.pdu == kNoPdu ? "" : tags.list(names.sensor_of(f.pdu), f.sequence)));
+      svg_->tag_next(tags.span(f.start, f.end) + (f.pdu == kNoPdu ? "" : tags.list(f.sensor, f.sequence)));
       if (f.null_frame && tags.on()) {
         svg_->rect(area, {.fill = "#ffffff", .stroke = drawing::kGrey, .width = 0.3}, hover, "null");
       } else if (f.null_frame && width > 3) {
@@ -241,7 +239,7 @@ class TimingPainter : TimingCanvas {
                                tags.on() ? " is measured" : fmt::format(" at {} ms", drawing::number(in_ms(m.at)))),
                    "measured");
     }
-    for (const Way& way : ways_) {
+    for (const Way& way : ways_.measurements) {
       if (!way.dropped || !visible(way.last.at, way.last.at)) continue;
       svg_->tag_next(tags.at(way.last.at) + tags.list(way.id.sensor, way.id.sequence));
       svg_->marker(drawing::Marker::kCross, {x(way.last.at), y(way.last.lane)}, 11,
@@ -251,7 +249,7 @@ class TimingPainter : TimingCanvas {
 
   Duration cycle_;
   std::vector<Transfer> transfers_;
-  std::vector<Way> ways_, images_;
+  Ways ways_;
   FaultLanes faults_;
   std::vector<ChannelMark> marks_;
   std::optional<ProblemMarks> problems_;  // when the lanes are known

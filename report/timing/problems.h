@@ -10,8 +10,8 @@
 #include "report/drawing/axes.h"
 #include "report/drawing/names.h"
 #include "report/timing/data.h"
+#include "report/timing/lanes.h"
 #include "report/timing/tags.h"
-#include "report/timing/ways.h"
 
 namespace ttf::report::timing {
 

@@ -30,10 +30,8 @@ class TimingTags {
   std::string span(TrueTime a, TrueTime b) const {
     return on_ ? fmt::format(" data-a=\"{}\" data-b=\"{}\"", ms(a), ms(b)) : "";
   }
-  // Sequence numbers of a list on the wire may have wrapped: eight bits are what all of them have in common.
   std::string list(SensorId sensor, std::uint32_t sequence) const {
-    if (!on_) return "";
-    return fmt::format(" data-id=\"{}:{}\"", index_of(sensor), sequence & 0xffu);
+    return on_ ? fmt::format(" data-id=\"{}:{}\"", index_of(sensor), sequence) : "";
   }
   std::string since(TrueTime measured) const { return on_ ? fmt::format(" data-since=\"{}\"", ms(measured)) : ""; }
   std::string beyond() const { return on_ ? " data-beyond=\"\"" : ""; }

@@ -1,75 +1,156 @@
 #include "report/timing/ways.h"
 
 #include <algorithm>
-#include <bitset>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <tuple>
+#include <utility>
+
+#include "recording/exports/measurement_ways.h"
 
 namespace ttf::report::timing {
 namespace {
 
-constexpr Duration kSameList = Duration::milliseconds(100);    // largest gap between two frames of one list
-constexpr Duration kLongestWay = Duration::milliseconds(500);  // from a measurement to the last trace of it
-constexpr Duration kTolerance = Duration::microseconds(2);     // between a task's start and what it reports then
-
-bool same_sequence(std::uint32_t a, std::uint32_t b) { return ((a ^ b) & 0xffu) == 0; }
-
-std::set<NodeId> fusion_nodes(const TimingData& data) {
-  std::set<NodeId> nodes;
-  for (const auto& s : data.steps) nodes.insert(s.node);
-  for (const auto& i : data.images) nodes.insert(i.node);
-  return nodes;
-}
-
-// The run of a task of `node` that was going on at `at` (a run that starts there wins over one that ends
-// there).
-const TimingData::Run* run_at(const TimingData& data, NodeId node, TrueTime at) {
-  const TimingData::Run* best = nullptr;
-  for (const auto& run : data.runs)
-    if (run.node == node && run.start <= at + kTolerance && at <= run.end + kTolerance &&
-        (best == nullptr || run.start > best->start))
-      best = &run;
-  return best;
-}
-
-LaneKey task_lane(NodeId node, const TimingData::Run* run) {
-  return {LaneKey::Kind::kTask, index_of(node), run != nullptr ? run->task : std::uint8_t{0}};
-}
+using recording::exports::MeasurementWays;
+using recording::exports::WayMark;
+using Deed = MeasurementWays::Deed;
 
 // A stay of a list in one lane.
-struct Segment {
+struct Stay {
   LaneKey lane;
   TrueTime in, out;
 };
 
-bool belongs(const MeasurementId& id, TrueTime measured, const drawing::Names& names, PduId pdu, std::uint32_t sequence,
-             TrueTime at) {
-  return same_sequence(sequence, id.sequence) && at >= measured && at < measured + kLongestWay &&
-         names.sensor_of(pdu) == id.sensor;
-}
-
-// Drops later stays in a lane the list has already been in, and channel B where channel A carried it.
-void sort_and_thin(std::vector<Segment>& segments) {
-  std::ranges::stable_sort(segments, {}, [](const Segment& s) { return std::tuple(s.in, s.out, s.lane); });
-  std::set<LaneKey> seen;
-  std::erase_if(segments, [&](const Segment& s) {
-    LaneKey lane = s.lane;
-    if (lane.kind == LaneKey::Kind::kChannel) lane.index = 0;
-    return !seen.insert(lane).second;
-  });
-}
-
-std::vector<Leg> legs_through(const Stop& first, const std::vector<Segment>& segments) {
-  std::vector<Leg> legs;
-  Stop from = first;
-  for (const Segment& s : segments) {
-    legs.push_back({from, {s.lane, s.in}, Leg::Kind::kMoves});
-    from = {s.lane, s.out};
+// Tells the follower what the window holds, in the order of time. A mark's serial is the place of its stay.
+class Followed {
+ public:
+  explicit Followed(const TimingData& data) : data_(data) {
+    for (const Event& event : events()) {
+      follower_.advance(event.at, [](const MeasurementWays::Act&, const WayMark&) {});
+      tell(event);
+    }
+    follower_.advance(TrueTime{std::numeric_limits<std::int64_t>::max()},
+                      [](const MeasurementWays::Act&, const WayMark&) {});
+    follower_.finish();
   }
-  return legs;
-}
+
+  const Stay& stay(const WayMark& mark) const { return stays_[mark.serial]; }
+  // In the order of the records.
+  const std::vector<MeasurementWays::Way>& ways() const { return ways_; }
+  const std::vector<MeasurementWays::Image>& images() const { return images_; }
+
+ private:
+  enum class What : std::uint8_t { kSlotFrame, kCanFrame, kHop, kMeasured, kFused, kImage, kUse, kRun };
+  struct Event {
+    TrueTime at;
+    What what;          // causes before effects, as in merged logs (recording/merge/record_place.h)
+    std::size_t about;  // the node; of frames on FlexRay the channel
+    std::size_t index;
+    auto operator<=>(const Event&) const = default;
+  };
+
+  std::vector<Event> events() const {
+    std::vector<Event> events;
+    const auto add = [&](What what, const auto& list, auto at, auto about) {
+      for (std::size_t i = 0; i < list.size(); ++i) events.push_back({list[i].*at, what, about(list[i]), i});
+    };
+    const auto by_node = [](const auto& one) { return index_of(one.node); };
+    using Data = TimingData;
+    add(What::kSlotFrame, data_.slot_frames, &Data::SlotFrame::start,
+        [](const Data::SlotFrame& frame) { return std::size_t{frame.channel}; });
+    add(What::kCanFrame, data_.can_frames, &Data::CanFrame::end, [](const Data::CanFrame& frame) { return frame.bus; });
+    add(What::kHop, data_.hops, &Data::HopAt::at, by_node);
+    add(What::kMeasured, data_.measurements, &Data::Measurement::at,
+        [](const Data::Measurement& one) { return index_of(one.id.sensor); });
+    add(What::kFused, data_.fused, &Data::Fused::at, by_node);
+    add(What::kImage, data_.images, &Data::Image::at, by_node);
+    add(What::kUse, data_.uses, &Data::Use::at, by_node);
+    add(What::kRun, data_.runs, &Data::Run::start, by_node);
+    std::ranges::sort(events);
+    return events;
+  }
+
+  WayMark mark(const Stay& stay) {
+    stays_.push_back(stay);
+    return {stay.in, stays_.size() - 1};
+  }
+
+  void tell(const Event& event) {
+    using Kind = LaneKey::Kind;
+    switch (event.what) {
+      case What::kSlotFrame: {
+        const auto& f = data_.slot_frames[event.index];
+        if (!f.null_frame && f.pdu != kNoPdu)
+          follower_.frame(true, f.channel, f.node, f.sensor, f.sequence, f.fragment,
+                          mark({{Kind::kChannel, f.channel, 0}, f.start, f.end}));
+        break;
+      }
+      case What::kCanFrame: {
+        const auto& f = data_.can_frames[event.index];
+        follower_.frame(false, static_cast<std::uint8_t>(f.bus), f.node, f.sensor, f.sequence, f.fragment,
+                        mark({{Kind::kCan, f.bus, 0}, f.start, f.end}));
+        break;
+      }
+      case What::kHop: tell(data_.hops[event.index]); break;
+      case What::kMeasured: {
+        const auto& m = data_.measurements[event.index];
+        records_.push_back(event.index);
+        follower_.measured(m.id, kNoNode, mark({{Kind::kSensor, index_of(m.id.sensor), 0}, m.at, m.at}));
+        break;
+      }
+      case What::kFused: tell(data_.fused[event.index]); break;
+      case What::kImage: {
+        const auto& i = data_.images[event.index];
+        follower_.act({Deed::kImage, i.at, i.node, i.newest, i.sequence});
+        break;
+      }
+      case What::kUse: {
+        const auto& u = data_.uses[event.index];
+        if (!u.stale) follower_.act({Deed::kUsed, u.at, u.node, {}, u.image});
+        break;
+      }
+      case What::kRun: {
+        const auto& r = data_.runs[event.index];
+        follower_.run(r.node, r.start, r.end, mark({{Kind::kTask, index_of(r.node), r.task}, r.start, r.end}));
+        break;
+      }
+    }
+  }
+  void tell(const TimingData::HopAt& h) {
+    if (h.sensor == kNoSensor) return;
+    const auto act = [&](Deed deed) { follower_.act({deed, h.at, h.node, {{h.sensor, h.sequence}}}); };
+    switch (h.hop) {
+      case recording::records::Hop::kRead: act(Deed::kRead); break;
+      case recording::records::Hop::kWritten: act(Deed::kWritten); break;
+      case recording::records::Hop::kTorn:
+      case recording::records::Hop::kOverwritten:
+      case recording::records::Hop::kDiscarded: act(Deed::kLost); break;
+      case recording::records::Hop::kSent:
+      case recording::records::Hop::kReceived:
+      case recording::records::Hop::kStale: break;
+    }
+  }
+  void tell(const TimingData::Fused& f) {
+    const auto act = [&](Deed deed) { follower_.act({deed, f.at, f.node, {f.id}}); };
+    switch (f.what) {
+      case recording::records::Disposition::kFused:
+      case recording::records::Disposition::kFusedLate: act(Deed::kFused); break;
+      case recording::records::Disposition::kHeld: act(Deed::kHeld); break;
+      case recording::records::Disposition::kDroppedTooOld:
+      case recording::records::Disposition::kDuplicate: act(Deed::kRefused); break;
+    }
+  }
+
+  const TimingData& data_;
+  std::vector<Stay> stays_;
+  std::vector<std::size_t> records_;  // of the measurements, by number - 1
+  std::vector<MeasurementWays::Way> ways_ = std::vector<MeasurementWays::Way>(data_.measurements.size());
+  std::vector<MeasurementWays::Image> images_;
+  MeasurementWays follower_{{[this](const MeasurementWays::Way& way) { ways_[records_[way.number - 1]] = way; },
+                             [this](const MeasurementWays::Image& image) { images_.push_back(image); }}};
+};
 
 // Ids of the lists that arrived at the fusion node after one that had been measured later.
 std::set<std::pair<MeasurementId, TrueTime>> out_of_sequence(const TimingData& data) {
@@ -84,7 +165,8 @@ std::set<std::pair<MeasurementId, TrueTime>> out_of_sequence(const TimingData& d
     for (; i < data.fused.size() && data.fused[i].at == at; ++i) {
       const auto& f = data.fused[i];
       const auto [entry, first] = seen.try_emplace(f.id, f.at);
-      if (!first && f.at - entry->second < kLongestWay && f.what != recording::records::Disposition::kFusedLate)
+      if (!first && f.at - entry->second < MeasurementWays::kLongestWay &&
+          f.what != recording::records::Disposition::kFusedLate)
         continue;
       entry->second = f.at;
       if ((newest && f.measured < *newest) || f.what == recording::records::Disposition::kFusedLate)
@@ -96,206 +178,127 @@ std::set<std::pair<MeasurementId, TrueTime>> out_of_sequence(const TimingData& d
   return late;
 }
 
-// From the step that fused a measurement to the first image that has it as its sensor's newest.
-void lead_to_image(const TimingData& data, Way& way) {
-  for (const auto& image : data.images) {
-    if (image.at < way.last.at || image.at >= way.last.at + kLongestWay) continue;
-    const bool in_it = std::ranges::any_of(image.newest, [&](const MeasurementId& id) {
-      return id.sensor == way.id.sensor && same_sequence(id.sequence, way.id.sequence);
-    });
-    if (!in_it) continue;
-    const TimingData::Run* writer = run_at(data, image.node, image.at);
-    const TimingData::Run* fuser = run_at(data, image.node, way.last.at);
-    const Stop start{task_lane(image.node, writer), writer != nullptr ? writer->start : image.at};
-    const Stop fused{way.last.lane, fuser != nullptr && fuser->end <= start.at ? fuser->end : way.last.at};
-    if (start.lane != fused.lane) way.legs.push_back({fused, start, Leg::Kind::kMoves});
-    return;
+// The ways as arrows.
+class Arrows {
+ public:
+  Arrows(const TimingData& data, const Followed& followed)
+      : followed_(followed), fusion_(fusion_nodes(data)), late_(out_of_sequence(data)) {}
+
+  Way of(const MeasurementWays::Way& followed) const {
+    const Stop measured{{LaneKey::Kind::kSensor, index_of(followed.id.sensor), 0}, followed.measured};
+    Way way = through(followed.id, measured, stays_to_fusion(followed));
+    way.dropped = followed.lost.has_value();
+    const MeasurementWays::Stop* end = lead_to_fusion(followed, way);
+    if (end != nullptr && !way.dropped) lead_to_image(followed, *end, way);
+    return way;
   }
-}
 
-}  // namespace
-
-std::vector<Transfer> transfers_of(const TimingData& data) {
-  std::vector<Transfer> transfers;
-  std::map<std::tuple<LaneKey, PduId, std::uint32_t>, std::size_t> open;
-  const auto add = [&](const Transfer& t) {
-    const auto [entry, first] = open.try_emplace({t.lane, t.pdu, t.sequence}, transfers.size());
-    if (!first && t.start - transfers[entry->second].end < kSameList) {
-      transfers[entry->second].end = std::max(transfers[entry->second].end, t.end);
-      return;
-    }
-    entry->second = transfers.size();
-    transfers.push_back(t);
-  };
-  for (const auto& f : data.can_frames) add({{LaneKey::Kind::kCan, f.bus, 0}, f.start, f.end, f.pdu, f.sequence});
-  // A state message is sent again whenever its slots come round: what travels is the first time of each
-  // fragment.
-  struct Sent {
-    std::bitset<256> fragments;
-    TrueTime last;
-  };
-  std::map<std::tuple<std::uint8_t, PduId, std::uint32_t>, Sent> sent;
-  for (const auto& f : data.slot_frames) {
-    if (f.null_frame || f.pdu == kNoPdu) continue;
-    const auto [entry, first] = sent.try_emplace({f.channel, f.pdu, f.sequence}, Sent{{}, f.end});
-    if (f.start - entry->second.last >= kSameList) entry->second.fragments.reset();  // the counter has come round
-    entry->second.last = f.end;
-    if (entry->second.fragments[f.fragment]) continue;
-    entry->second.fragments.set(f.fragment);
-    add({{LaneKey::Kind::kChannel, f.channel, 0}, f.start, f.end, f.pdu, f.sequence});
-  }
-  return transfers;
-}
-
-std::vector<Way> measurement_ways(const TimingData& data, const drawing::Names& names,
-                                  const std::vector<Transfer>& transfers) {
-  const std::set<NodeId> fusion = fusion_nodes(data);
-  const auto late = out_of_sequence(data);
-  std::vector<Way> ways;
-  for (const auto& m : data.measurements) {
-    std::vector<Segment> segments;
-    for (const Transfer& t : transfers)
-      if (belongs(m.id, m.at, names, t.pdu, t.sequence, t.start)) segments.push_back({t.lane, t.start, t.end});
-    bool lost = false;
-    for (const auto& h : data.hops) {
-      if (!belongs(m.id, m.at, names, h.pdu, h.sequence, h.at)) continue;
-      if (h.hop == recording::records::Hop::kTorn || h.hop == recording::records::Hop::kOverwritten ||
-          h.hop == recording::records::Hop::kDiscarded)
-        lost = true;
-      const bool passes = h.hop == recording::records::Hop::kRead || h.hop == recording::records::Hop::kWritten;
-      if (!passes || fusion.contains(h.node)) continue;
-      const TimingData::Run* run = run_at(data, h.node, h.at);
-      if (run != nullptr && run->start >= m.at) segments.push_back({task_lane(h.node, run), run->start, run->end});
-    }
-    sort_and_thin(segments);
-
-    Way way{m.id, legs_through({{LaneKey::Kind::kSensor, index_of(m.id.sensor), 0}, m.at}, segments), false, false, {}};
-    way.last = segments.empty() ? Stop{{LaneKey::Kind::kSensor, index_of(m.id.sensor), 0}, m.at}
-                                : Stop{segments.back().lane, segments.back().out};
-    bool reached = false;
-    for (const auto& f : data.fused) {
-      const bool mine = f.id.sensor == m.id.sensor && same_sequence(f.id.sequence, m.id.sequence) && f.at >= m.at &&
-                        f.at < m.at + kLongestWay;
-      if (!mine) continue;
-      const TimingData::Run* run = run_at(data, f.node, f.at);
-      const Stop step{task_lane(f.node, run), run != nullptr ? run->start : f.at};
-      // However many steps hold a list back, it waits once.
-      if (reached && way.legs.back().kind == Leg::Kind::kHeld)
-        way.legs.back().to = step;
-      else
-        way.legs.push_back({way.last, step, reached ? Leg::Kind::kHeld : Leg::Kind::kMoves});
-      way.last = step;
-      reached = true;
-      if (late.contains({f.id, f.at})) way.out_of_sequence = true;
-      lost = f.what == recording::records::Disposition::kDroppedTooOld ||
-             f.what == recording::records::Disposition::kDuplicate;
-      if (f.what != recording::records::Disposition::kHeld) break;
-    }
-    way.dropped = lost;
-    if (reached && !lost) lead_to_image(data, way);
-    ways.push_back(std::move(way));
-  }
-  return ways;
-}
-
-std::vector<Way> image_ways(const TimingData& data, const drawing::Names& names,
-                            const std::vector<Transfer>& transfers) {
-  std::vector<Way> ways;
-  for (const auto& image : data.images) {
-    const TimingData::Run* writer = run_at(data, image.node, image.at);
-    const TrueTime written = writer != nullptr ? writer->end : image.at;
-    // The image's PDU descends from no sensor; its slots belong to the node that wrote it.
-    std::set<PduId> own;
-    for (const auto& f : data.slot_frames)
-      if (f.node == image.node && f.pdu != kNoPdu && names.sensor_of(f.pdu) == kNoSensor) own.insert(f.pdu);
-    std::vector<Segment> segments;
-    for (const Transfer& t : transfers)
-      if (t.lane.kind == LaneKey::Kind::kChannel && own.contains(t.pdu) && same_sequence(t.sequence, image.sequence) &&
-          t.start >= image.at && t.start < image.at + kLongestWay)
-        segments.push_back({t.lane, t.start, t.end});
-    sort_and_thin(segments);
-    Way way{{kNoSensor, image.sequence},
-            legs_through({task_lane(image.node, writer), written}, segments),
-            false,
-            false,
-            {}};
-    way.last = segments.empty() ? Stop{task_lane(image.node, writer), written}
-                                : Stop{segments.back().lane, segments.back().out};
-    for (const auto& u : data.uses) {
-      if (u.stale || !same_sequence(u.image, image.sequence) || u.at < image.at || u.at >= image.at + kLongestWay)
-        continue;
-      const TimingData::Run* run = run_at(data, u.node, u.at);
-      const Stop use{task_lane(u.node, run), run != nullptr ? run->start : u.at};
+  Way of(const MeasurementWays::Image& image) const {
+    const MeasurementWays::Stop& written = image.stops.front();
+    std::vector<Stay> stays;
+    for (const MeasurementWays::Stop& stop : image.stops)
+      if (stop.deed == Deed::kImageFrame) add(followed_.stay(*stop.mark), stays);
+    Way way = through({kNoSensor, image.sequence}, {lane_of(written), end_of(written)}, std::move(stays));
+    for (const MeasurementWays::Stop& stop : image.stops) {
+      if (stop.deed != Deed::kUsed) continue;
+      const Stop use = start_of(stop);
       // Down to the reader's lane when the last frame has arrived, then along it until it is read.
       const Stop received{use.lane, std::min(way.last.at, use.at)};
       way.legs.push_back({way.last, received, Leg::Kind::kMoves});
       way.legs.push_back({received, use, Leg::Kind::kStored});
       way.last = use;
-      break;
     }
-    ways.push_back(std::move(way));
+    return way;
   }
-  return ways;
+
+ private:
+  LaneKey lane_of(const MeasurementWays::Stop& stop) const {
+    return stop.mark ? followed_.stay(*stop.mark).lane : LaneKey{LaneKey::Kind::kTask, index_of(stop.node), 0};
+  }
+  Stop start_of(const MeasurementWays::Stop& stop) const {
+    return {lane_of(stop), stop.mark ? followed_.stay(*stop.mark).in : stop.at};
+  }
+  TrueTime end_of(const MeasurementWays::Stop& stop) const {
+    return stop.mark ? followed_.stay(*stop.mark).out : stop.at;
+  }
+
+  // A list stays on a medium from its first frame to its last, and with a task the first time.
+  static void add(const Stay& stay, std::vector<Stay>& stays) {
+    const auto there = std::ranges::find(stays, stay.lane, &Stay::lane);
+    if (there == stays.end())
+      stays.push_back(stay);
+    else if (stay.lane.kind != LaneKey::Kind::kTask)
+      there->out = std::max(there->out, stay.out);
+  }
+  std::vector<Stay> stays_to_fusion(const MeasurementWays::Way& followed) const {
+    std::vector<Stay> stays;
+    for (const MeasurementWays::Stop& stop : followed.stops) {
+      const bool task = (stop.deed == Deed::kRead || stop.deed == Deed::kWritten) && !fusion_.contains(stop.node);
+      if ((task || stop.deed == Deed::kFrame) && stop.mark) add(followed_.stay(*stop.mark), stays);
+    }
+    return stays;
+  }
+
+  static Way through(const MeasurementId& id, const Stop& first, std::vector<Stay> stays) {
+    std::ranges::stable_sort(stays, {}, [](const Stay& s) { return std::tuple(s.in, s.out, s.lane); });
+    Way way{id, {}, false, false, first};
+    for (const Stay& stay : stays) {
+      way.legs.push_back({way.last, {stay.lane, stay.in}, Leg::Kind::kMoves});
+      way.last = {stay.lane, stay.out};
+    }
+    return way;
+  }
+
+  // To the step that had done with it, or the last that held it back; null where none had it.
+  const MeasurementWays::Stop* lead_to_fusion(const MeasurementWays::Way& followed, Way& way) const {
+    const MeasurementWays::Stop* last = nullptr;
+    for (const MeasurementWays::Stop& stop : followed.stops) {
+      if (stop.deed != Deed::kHeld && stop.deed != Deed::kFused && stop.deed != Deed::kRefused) continue;
+      const Stop step = start_of(stop);
+      // However many steps hold a list back, it waits once.
+      if (last != nullptr && way.legs.back().kind == Leg::Kind::kHeld)
+        way.legs.back().to = step;
+      else
+        way.legs.push_back({way.last, step, last != nullptr ? Leg::Kind::kHeld : Leg::Kind::kMoves});
+      way.last = step;
+      way.out_of_sequence |= late_.contains({followed.id, stop.at});
+      way.dropped = stop.deed == Deed::kRefused;
+      last = &stop;
+      if (stop.deed != Deed::kHeld) break;
+    }
+    return last;
+  }
+
+  // From there to the first image that has it as its sensor's newest.
+  void lead_to_image(const MeasurementWays::Way& followed, const MeasurementWays::Stop& fused, Way& way) const {
+    const auto image = std::ranges::find(followed.stops, Deed::kImage, &MeasurementWays::Stop::deed);
+    if (image == followed.stops.end()) return;
+    const Stop start = start_of(*image);
+    const TrueTime done = end_of(fused) <= start.at ? end_of(fused) : way.last.at;
+    if (start.lane != way.last.lane) way.legs.push_back({{way.last.lane, done}, start, Leg::Kind::kMoves});
+  }
+
+  const Followed& followed_;
+  std::set<NodeId> fusion_;
+  std::set<std::pair<MeasurementId, TrueTime>> late_;
+};
+
+}  // namespace
+
+std::set<NodeId> fusion_nodes(const TimingData& data) {
+  std::set<NodeId> nodes;
+  for (const auto& s : data.steps) nodes.insert(s.node);
+  for (const auto& i : data.images) nodes.insert(i.node);
+  return nodes;
 }
 
-std::vector<Lane> lanes_of(const TimingData& data, const drawing::Names& names, const std::vector<Way>& ways) {
-  using Kind = LaneKey::Kind;
-  const std::set<NodeId> fusion = fusion_nodes(data);
-  std::set<NodeId> features;
-  for (const auto& u : data.uses) features.insert(u.node);
-  std::set<LaneKey> keys;
-  for (const auto& m : data.measurements) keys.insert({Kind::kSensor, index_of(m.id.sensor), 0});
-  for (const auto& f : data.can_frames) keys.insert({Kind::kCan, f.bus, 0});
-  for (const auto& f : data.slot_frames) keys.insert({Kind::kChannel, f.channel, 0});
-  for (const auto& r : data.runs) keys.insert({Kind::kTask, index_of(r.node), r.task});
-  // Steps are reported without a task where the log holds no task runs.
-  for (const Way& way : ways)
-    for (const Leg& leg : way.legs) keys.insert({leg.from.lane, leg.to.lane});
-
-  // Mean position along the ways, for whole nodes so that their tasks stay together.
-  struct Mean {
-    double sum = 0;
-    int n = 0;
-  };
-  std::map<std::pair<Kind, std::size_t>, Mean> position;
-  for (const Way& way : ways) {
-    double p = 0;
-    for (const Leg& leg : way.legs) {
-      Mean& mean = position[{leg.to.lane.kind, leg.to.lane.index}];
-      mean.sum += ++p;
-      ++mean.n;
-    }
-  }
-  struct Ranked {
-    double rank;
-    Lane lane;
-  };
-  std::vector<Ranked> ranked;
-  for (const LaneKey& key : keys) {
-    Lane lane{key, {}, 1};
-    const auto mean = position.find({key.kind, key.index});
-    double rank = mean != position.end() ? mean->second.sum / mean->second.n : 1e9;
-    switch (key.kind) {
-      case Kind::kSensor: lane.label = names.sensor(SensorId(key.index)), lane.section = 0, rank = 0; break;
-      case Kind::kCan: lane.label = names.can_bus(key.index); break;
-      case Kind::kChannel: lane.label = key.index == 0 ? "FlexRay A" : "FlexRay B", lane.section = 2, rank = 0; break;
-      case Kind::kTask: {
-        const NodeId node{static_cast<std::uint8_t>(key.index)};
-        const std::string task = names.task(node, key.task);
-        lane.label = names.node(node) == task ? task : names.node(node) + ": " + task;
-        if (fusion.contains(node))
-          lane.section = 3, rank = 0;
-        else if (features.contains(node))
-          lane.section = 4, rank = 0;
-        break;
-      }
-    }
-    ranked.push_back({rank, std::move(lane)});
-  }
-  std::ranges::stable_sort(ranked, {}, [](const Ranked& r) { return std::tuple(r.lane.section, r.rank, r.lane.key); });
-  std::vector<Lane> lanes;
-  for (Ranked& r : ranked) lanes.push_back(std::move(r.lane));
-  return lanes;
+Ways ways_of(const TimingData& data) {
+  const Followed followed(data);
+  const Arrows arrows(data, followed);
+  Ways ways;
+  for (const MeasurementWays::Way& way : followed.ways()) ways.measurements.push_back(arrows.of(way));
+  for (const MeasurementWays::Image& image : followed.images()) ways.images.push_back(arrows.of(image));
+  return ways;
 }
 
 }  // namespace ttf::report::timing

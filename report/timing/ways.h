@@ -1,15 +1,12 @@
-// The ways of measurements and images through a cluster, reconstructed from the records of a time window.
-//
-// A list is recognised by its PDU, the low eight bits of its sequence number (a counter on the wire wraps)
-// and nearness in time.
+// The ways of measurements and images through a cluster, from the records of a time window, as arrows between the lanes
+// of a timing diagram. What is passed is what recording/exports/measurement_ways.h says; here it becomes legs.
 #pragma once
 
 #include <compare>
 #include <cstdint>
-#include <string>
+#include <set>
 #include <vector>
 
-#include "report/drawing/names.h"
 #include "report/timing/data.h"
 
 namespace ttf::report::timing {
@@ -22,15 +19,6 @@ struct LaneKey {
   std::uint8_t task = 0;
   constexpr auto operator<=>(const LaneKey&) const = default;
 };
-
-// Frames of one list on one medium, merged.
-struct Transfer {
-  LaneKey lane;
-  TrueTime start{}, end{};
-  PduId pdu = kNoPdu;
-  std::uint32_t sequence = 0;
-};
-std::vector<Transfer> transfers_of(const TimingData& data);
 
 struct Stop {
   LaneKey lane;
@@ -53,19 +41,13 @@ struct Way {
   Stop last;
 };
 
-// One way per measurement, in the order of the records; from its instant to the fusion step that used it.
-std::vector<Way> measurement_ways(const TimingData& data, const drawing::Names& names,
-                                  const std::vector<Transfer>& transfers);
-// One way per image: from the task that wrote it to the use by the feature service.
-std::vector<Way> image_ways(const TimingData& data, const drawing::Names& names,
-                            const std::vector<Transfer>& transfers);
-
-struct Lane {
-  LaneKey key;
-  std::string label;
-  int section = 0;  // 0 sensors, 1 up to the gateway, 2 FlexRay, 3 fusion, 4 features
+struct Ways {
+  std::vector<Way> measurements;  // in the order of the records: from the instant to the step that fused it
+  std::vector<Way> images;        // in that of time: from the task that wrote it to the use by the feature service
 };
-// From top to bottom; section 1 in the order in which measurements pass.
-std::vector<Lane> lanes_of(const TimingData& data, const drawing::Names& names, const std::vector<Way>& ways);
+Ways ways_of(const TimingData& data);
+
+// Those that told of steps or images.
+std::set<NodeId> fusion_nodes(const TimingData& data);
 
 }  // namespace ttf::report::timing

@@ -7,7 +7,7 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ttf;
   constexpr char kFile[] = "summary.json";
-  report::run::RunFolder folder;
+  report::run::ResultsFolder folder;
   if (!fuzz::accepted(kFile, [&] { folder = report::run::parse_run_summary(fuzz::text_of(data, size), kFile); }))
     return 0;
   for (const report::run::Drive& drive : folder.drives)
@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string page = report::run::run_report_html({folder}, {});
   fuzz::check_page(page);
   TTF_CHECK(page == report::run::run_report_html({folder}, {}), "another page of the same run");
-  report::run::RunFolder other = folder;
+  report::run::ResultsFolder other = folder;
   other.path = "other";
   for (report::run::Drive& drive : other.drives) ++drive.seed;
   fuzz::check_page(report::run::run_report_html({folder, other}, {}));

@@ -340,7 +340,7 @@ void log_seeds(const fs::path& folder) {
     write(folder / "diagram" / name, window + payloads.messages);
     write(folder / "trace" / name, payloads.messages);
   };
-  constexpr int kKinds = recording::log::kRecordKinds;
+  constexpr int kKinds = recording::records::kKindCount;
   add("empty", Values::kZero, 1, 0, 1);
   for (int kind = 1; kind <= kKinds; ++kind) {
     add("zero_" + std::to_string(kind), Values::kZero, kind, kind, 1);

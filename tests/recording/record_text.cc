@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/check.h"
 #include "core/random.h"
 #include "recording/records/lateness_bins.h"
 
@@ -144,86 +145,95 @@ class Draw {
   RandomStream stream_;
 };
 
+std::string text_of(const records::Measured& r) { return line("measured", r.stamp, r.id, r.truth_ids); }
+std::string text_of(const records::CanFrameSent& r) {
+  return line("can", r.bus, r.start, r.end, r.identifier, r.flexible_data_rate, r.pdu, r.sensor, r.sequence, r.fragment,
+              r.data);
+}
+std::string text_of(const records::SlotFrameSent& r) {
+  return line("slot", r.stamp, r.end, r.cycle, r.slot, r.channel, r.null_frame, r.pdu, r.sensor, r.sequence, r.fragment,
+              r.bytes);
+}
+std::string text_of(const records::SlotProblem& r) {
+  return line("problem", r.stamp, r.cycle, r.slot, r.channel, r.status);
+}
+std::string text_of(const records::ListHop& r) {
+  return line("hop", r.stamp, r.hop, r.pdu, r.sensor, r.sequence, r.can_bus);
+}
+std::string text_of(const records::TaskRun& r) {
+  return line("task", r.start, r.task, r.activated, r.end, r.deadline_met);
+}
+std::string text_of(const records::ClockCorrected& r) {
+  return line("clock", r.stamp, r.cycle, r.offset_microticks, r.rate_microticks, r.offset_missing, r.rate_missing,
+              r.offset_limited, r.rate_limited);
+}
+std::string text_of(const records::PrecisionSample& r) { return line("precision", r.at, r.cycle, r.precision); }
+std::string text_of(const records::FusionInput& r) {
+  return line("input", r.stamp, r.step, r.pdu, r.sensor, r.sequence, r.measured, r.count, r.fragments);
+}
+std::string text_of(const records::ListFused& r) {
+  return line("fused", r.stamp, r.step, r.id, r.measured, r.disposition);
+}
+std::string text_of(const records::FusionStep& r) { return line("step", r.stamp, r.step, r.confirmed, r.tentative); }
+std::string text_of(const records::TrackState& r) {
+  return line("track", r.stamp, r.step, r.track, r.valid_at, r.state, r.covariance, r.predicted_for_image);
+}
+std::string text_of(const records::ObservationSeen& r) {
+  return line("observation", r.stamp, r.id, r.measured, r.index, r.x, r.y, r.sxx, r.sxy, r.syy);
+}
+std::string text_of(const records::ImageWritten& r) {
+  return line("image", r.stamp, r.sequence, r.valid_at, r.newest_measurement, r.objects, r.newest);
+}
+std::string text_of(const records::FeatureUsed& r) {
+  return line("feature", r.stamp, r.image_sequence, r.image_valid_at, r.fresh, r.objects, r.stale);
+}
+std::string text_of(const records::ReferenceFix& r) {
+  return line("reference", r.measured_true, r.measured, r.available, r.object, r.x, r.y, r.sigma, r.vx, r.vy,
+              r.sigma_velocity, r.measured_local);
+}
+std::string text_of(const records::TruthState& r) {
+  return line("truth", r.at, r.object, r.x, r.y, r.heading, r.speed, r.acceleration, r.yaw_rate, r.length, r.width,
+              r.local, r.global, r.node);
+}
+
+std::string text_of(const records::StateChanged& r) {
+  return line("state", r.stamp, r.from, r.to, r.from_name, r.to_name, r.why, r.consequence);
+}
+std::string text_of(const records::SymbolSent& r) { return line("symbol", r.stamp, r.end, r.channel, r.kind); }
+std::string text_of(const records::PowerChanged& r) { return line("power", r.stamp, r.on); }
+std::string text_of(const records::FaultActivity& r) {
+  return line("fault", r.at, r.fault, r.what, r.node, r.kind, r.text);
+}
+std::string text_of(const records::GuardianIntervention& r) {
+  return line("guardian", r.at, r.branch, r.channel, r.signal, r.reason, r.cut, r.until, r.why);
+}
+
+std::string text_of(const records::ChannelFrame& r) {
+  return line("channel", r.start, r.end, r.sender, r.channel, r.state, r.slot, r.cycle_counter, r.sent, r.sent_channel,
+              r.bytes);
+}
+std::string text_of(const records::TimingProblem& r) {
+  return line("timing", r.stamp, r.what, r.late, r.cycle, r.slot, r.channel, r.count);
+}
+std::string text_of(const records::LatenessHistogram& r) {
+  return line("lateness", r.stamp, r.of, r.longest, r.counts);
+}
+std::string text_of(const records::MediumCounts& r) {
+  return line("medium", r.stamp, r.sent, r.received, r.not_sent, r.lost, r.foreign, r.malformed, r.dropped);
+}
+
+class Text final : public records::Every<Text> {
+ public:
+  explicit Text(std::vector<std::string>& lines) : lines_(lines) {}
+  template <class Record> void each(const Record& record) { lines_.push_back(text_of(record)); }
+
+ private:
+  std::vector<std::string>& lines_;
+};
+
 }  // namespace
 
-void TextSink::on(const records::Measured& r) { lines.push_back(line("measured", r.stamp, r.id, r.truth_ids)); }
-void TextSink::on(const records::CanFrameSent& r) {
-  lines.push_back(line("can", r.bus, r.start, r.end, r.identifier, r.flexible_data_rate, r.pdu, r.sensor, r.sequence,
-                       r.fragment, r.data));
-}
-void TextSink::on(const records::SlotFrameSent& r) {
-  lines.push_back(line("slot", r.stamp, r.end, r.cycle, r.slot, r.channel, r.null_frame, r.pdu, r.sensor, r.sequence,
-                       r.fragment, r.bytes));
-}
-void TextSink::on(const records::SlotProblem& r) {
-  lines.push_back(line("problem", r.stamp, r.cycle, r.slot, r.channel, r.status));
-}
-void TextSink::on(const records::ListHop& r) {
-  lines.push_back(line("hop", r.stamp, r.hop, r.pdu, r.sensor, r.sequence, r.can_bus));
-}
-void TextSink::on(const records::TaskRun& r) {
-  lines.push_back(line("task", r.start, r.task, r.activated, r.end, r.deadline_met));
-}
-void TextSink::on(const records::ClockCorrected& r) {
-  lines.push_back(line("clock", r.stamp, r.cycle, r.offset_microticks, r.rate_microticks, r.offset_missing,
-                       r.rate_missing, r.offset_limited, r.rate_limited));
-}
-void TextSink::on(const records::PrecisionSample& r) { lines.push_back(line("precision", r.at, r.cycle, r.precision)); }
-void TextSink::on(const records::FusionInput& r) {
-  lines.push_back(line("input", r.stamp, r.step, r.pdu, r.sensor, r.sequence, r.measured, r.count, r.fragments));
-}
-void TextSink::on(const records::ListFused& r) {
-  lines.push_back(line("fused", r.stamp, r.step, r.id, r.measured, r.disposition));
-}
-void TextSink::on(const records::FusionStep& r) {
-  lines.push_back(line("step", r.stamp, r.step, r.confirmed, r.tentative));
-}
-void TextSink::on(const records::TrackState& r) {
-  lines.push_back(line("track", r.stamp, r.step, r.track, r.valid_at, r.state, r.covariance, r.predicted_for_image));
-}
-void TextSink::on(const records::ObservationSeen& r) {
-  lines.push_back(line("observation", r.stamp, r.id, r.measured, r.index, r.x, r.y, r.sxx, r.sxy, r.syy));
-}
-void TextSink::on(const records::ImageWritten& r) {
-  lines.push_back(line("image", r.stamp, r.sequence, r.valid_at, r.newest_measurement, r.objects, r.newest));
-}
-void TextSink::on(const records::FeatureUsed& r) {
-  lines.push_back(line("feature", r.stamp, r.image_sequence, r.image_valid_at, r.fresh, r.objects, r.stale));
-}
-void TextSink::on(const records::ReferenceFix& r) {
-  lines.push_back(line("reference", r.measured_true, r.measured, r.available, r.object, r.x, r.y, r.sigma, r.vx, r.vy,
-                       r.sigma_velocity, r.measured_local));
-}
-void TextSink::on(const records::TruthState& r) {
-  lines.push_back(line("truth", r.at, r.object, r.x, r.y, r.heading, r.speed, r.acceleration, r.yaw_rate, r.length,
-                       r.width, r.local, r.global, r.node));
-}
-
-void TextSink::on(const records::StateChanged& r) {
-  lines.push_back(line("state", r.stamp, r.from, r.to, r.from_name, r.to_name, r.why, r.consequence));
-}
-void TextSink::on(const records::SymbolSent& r) { lines.push_back(line("symbol", r.stamp, r.end, r.channel, r.kind)); }
-void TextSink::on(const records::PowerChanged& r) { lines.push_back(line("power", r.stamp, r.on)); }
-void TextSink::on(const records::FaultActivity& r) {
-  lines.push_back(line("fault", r.at, r.fault, r.what, r.node, r.kind, r.text));
-}
-void TextSink::on(const records::GuardianIntervention& r) {
-  lines.push_back(line("guardian", r.at, r.branch, r.channel, r.signal, r.reason, r.cut, r.until, r.why));
-}
-
-void TextSink::on(const records::ChannelFrame& r) {
-  lines.push_back(line("channel", r.start, r.end, r.sender, r.channel, r.state, r.slot, r.cycle_counter, r.sent,
-                       r.sent_channel, r.bytes));
-}
-void TextSink::on(const records::TimingProblem& r) {
-  lines.push_back(line("timing", r.stamp, r.what, r.late, r.cycle, r.slot, r.channel, r.count));
-}
-void TextSink::on(const records::LatenessHistogram& r) {
-  lines.push_back(line("lateness", r.stamp, r.of, r.longest, r.counts));
-}
-void TextSink::on(const records::MediumCounts& r) {
-  lines.push_back(line("medium", r.stamp, r.sent, r.received, r.not_sent, r.lost, r.foreign, r.malformed, r.dropped));
-}
+std::unique_ptr<records::Sink> text_into(std::vector<std::string>& lines) { return std::make_unique<Text>(lines); }
 
 void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std::int64_t at_ns) {
   Draw d(kind, values, index, at_ns);
@@ -340,6 +350,7 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
       return sink.on(records::MediumCounts{stamp, d.get<U64>(), d.get<U64>(), d.get<U64>(), d.get<U64>(), d.get<U64>(),
                                            d.get<U64>(), d.get<U64>()});
   }
+  TTF_CHECK(false, "nothing to draw of kind {}", kind);
 }
 
 }  // namespace ttf::recording

@@ -44,15 +44,22 @@ struct SyntheticRun {
     f.slot = static_cast<std::uint16_t>(number);
     f.null_frame = null_frame;
     f.pdu = pdu;
+    f.sensor = sensor_of(pdu);
     f.sequence = sequence;
     f.fragment = static_cast<std::uint8_t>(fragment);
     for (f.channel = 0; f.channel < 2; ++f.channel) sink.on(f);
   }
 
+  // Whose measurement a list of the PDU is: raw data and objects of the two sensors in turn, then the image.
+  static SensorId sensor_of(PduId pdu) {
+    return index_of(pdu) < 4 ? SensorId(static_cast<std::uint8_t>(index_of(pdu) % 2)) : kNoSensor;
+  }
+
   void hop(recording::records::Sink& sink, std::int64_t us, int node, recording::records::Hop what, int pdu,
            std::uint32_t sequence, int bus = -1) const {
-    sink.on(recording::records::ListHop{stamp(us, node), what, PduId(static_cast<std::uint8_t>(pdu)), kNoSensor,
-                                        sequence, static_cast<std::int8_t>(bus)});
+    const PduId list{static_cast<std::uint8_t>(pdu)};
+    sink.on(recording::records::ListHop{stamp(us, node), what, list, sensor_of(list), sequence,
+                                        static_cast<std::int8_t>(bus)});
   }
 
   void task(recording::records::Sink& sink, std::int64_t activated, std::int64_t start, std::int64_t end, int node,
@@ -69,6 +76,7 @@ struct SyntheticRun {
       f.start = stamp(start + (end - start) * i / 4, sender);
       f.end = stamp(start + (end - start) * (i + 1) / 4 - 20, sender);
       f.pdu = PduId(static_cast<std::uint8_t>(pdu));
+      f.sensor = sensor_of(f.pdu);
       f.sequence = sequence;
       f.fragment = static_cast<std::uint8_t>(i);
       sink.on(f);

@@ -241,7 +241,7 @@ TEST(PerfettoExport, RecordsNoRunCanHaveStillMakeATrace) {
   std::uint32_t n = 0;
   for (const Values values : {Values::kSmallest, Values::kZero, Values::kDrawn, Values::kLargest, Values::kDrawn})
     for (int round = 0; round < 20; ++round)
-      for (int kind = 1; kind <= static_cast<int>(log::kRecordKinds); ++kind, ++n)
+      for (int kind = 1; kind <= static_cast<int>(records::kKindCount); ++kind, ++n)
         emit(drive.trace, kind, values, n, std::int64_t{n} * 3 * kMs);
   const PerfettoTrace trace = drive.finished();
   EXPECT_THAT(trace.problems, IsEmpty());

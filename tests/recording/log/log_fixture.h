@@ -53,8 +53,8 @@ inline LogManifest sample_manifest() {
 // The kinds in turn, not in their order, all of them.
 inline int kind_of(std::uint32_t i) {
   constexpr std::size_t kStride = 7;
-  static_assert(std::gcd(kStride, kRecordKinds) == 1);
-  return static_cast<int>(i * kStride % kRecordKinds) + 1;
+  static_assert(std::gcd(kStride, records::kKindCount) == 1);
+  return static_cast<int>(i * kStride % records::kKindCount) + 1;
 }
 
 // `count` drawn records of all kinds, one per millisecond.

@@ -21,14 +21,14 @@ namespace ttf::recording::log {
 
 namespace {
 
-constexpr int kKinds = static_cast<int>(kRecordKinds);
+constexpr int kKinds = static_cast<int>(records::kKindCount);
 
 TEST(Log, ReturnsEveryKindOfRecordWithExtremeValuesBitForBit) {
   TextSink written, read;
   const std::string path = scratch("extremes.mcap");
   LogWriter writer(path, sample_manifest());
   records::Tee both({&writer, &written});
-  std::array<std::uint64_t, kRecordKinds> counts{};
+  std::array<std::uint64_t, records::kKindCount> counts{};
   for (const Values values : {Values::kZero, Values::kSmallest, Values::kLargest, Values::kDrawn})
     for (int kind = 1; kind <= kKinds; ++kind)
       for (std::uint32_t i = 0; i < 20; ++i, ++counts[static_cast<std::size_t>(kind - 1)])
@@ -115,16 +115,17 @@ TEST(Log, HashChangesWithAnyRecordAndNotWithTheOrderOfArrival) {
   std::set<std::uint64_t> seen{hash({})};
   for (int kind = 1; kind <= kKinds; ++kind)
     for (const Values values : {Values::kZero, Values::kSmallest, Values::kLargest, Values::kDrawn}) {
-      const bool counts = counts_in_hash(static_cast<RecordKind>(kind));
+      const bool counts = records::counts_in_hash(static_cast<records::RecordKind>(kind));
       EXPECT_EQ(seen.insert(hash({{kind, values}})).second, counts) << "kind " << kind;
     }
   // All but these: what takes one who sees all clocks, and what is of the machine.
   int passed_over = 0;
-  for (int kind = 1; kind <= kKinds; ++kind) passed_over += counts_in_hash(static_cast<RecordKind>(kind)) ? 0 : 1;
+  for (int kind = 1; kind <= kKinds; ++kind)
+    passed_over += records::counts_in_hash(static_cast<records::RecordKind>(kind)) ? 0 : 1;
   EXPECT_EQ(passed_over, 4);
-  for (const auto kind :
-       {RecordKind::kPrecision, RecordKind::kTimingProblem, RecordKind::kLateness, RecordKind::kMedium})
-    EXPECT_EQ(hash({{static_cast<int>(kind), Values::kDrawn}}), hash({})) << topic_of(kind);
+  for (const auto kind : {records::kKindOf<records::PrecisionSample>, records::kKindOf<records::TimingProblem>,
+                          records::kKindOf<records::LatenessHistogram>, records::kKindOf<records::MediumCounts>})
+    EXPECT_EQ(hash({{static_cast<int>(kind), Values::kDrawn}}), hash({})) << records::topic_of(kind);
   // Twice the same record is not once, nor none.
   EXPECT_TRUE(seen.insert(hash({{1, Values::kZero}, {1, Values::kZero}})).second);
   EXPECT_EQ(hash({{1, Values::kZero}, {17, Values::kDrawn}}), hash({{17, Values::kDrawn}, {1, Values::kZero}}));
@@ -208,8 +209,10 @@ TEST(Log, AHistogramHasNoMoreBinsThanThereAre) {
   Decoder decoder;
   TextSink read;
   for (const std::size_t bins : {records::kLatenessBins, records::kLatenessBins + 1}) {
-    encode(records::LatenessHistogram{.stamp = {}, .counts = std::span(counts).first(bins)}, payloads);
-    EXPECT_EQ(decoder.decode(RecordKind::kLateness, payloads.lateness.SerializeAsString(), read),
+    encoder(payloads, [](const Encoded&) {
+    })->on(records::LatenessHistogram{.stamp = {}, .counts = std::span(counts).first(bins)});
+    const std::string bytes = payloads.of<records::LatenessHistogram>().SerializeAsString();
+    EXPECT_EQ(decoder.decode(records::kKindOf<records::LatenessHistogram>, bytes, read),
               bins == records::kLatenessBins);
   }
   EXPECT_EQ(read.lines.size(), 1u);
@@ -225,13 +228,14 @@ TEST(Log, AReferenceWithoutVelocityHasNone) {
   records::ReferenceFix fix;
   fix.x = 3.0;
   Payloads payloads;
-  encode(fix, payloads);
+  encoder(payloads, [](const Encoded&) {})->on(fix);
+  auto& payload = payloads.of<records::ReferenceFix>();
   Decoder decoder;
-  ASSERT_TRUE(decoder.decode(RecordKind::kReference, payloads.reference.SerializeAsString(), fixes));
-  payloads.reference.clear_vx();
-  payloads.reference.clear_vy();
-  payloads.reference.clear_sigma_velocity();
-  ASSERT_TRUE(decoder.decode(RecordKind::kReference, payloads.reference.SerializeAsString(), fixes));
+  ASSERT_TRUE(decoder.decode(records::kKindOf<records::ReferenceFix>, payload.SerializeAsString(), fixes));
+  payload.clear_vx();
+  payload.clear_vy();
+  payload.clear_sigma_velocity();
+  ASSERT_TRUE(decoder.decode(records::kKindOf<records::ReferenceFix>, payload.SerializeAsString(), fixes));
   ASSERT_EQ(fixes.all.size(), 2u);
   EXPECT_EQ(fixes.all[0].vx, 0.0);
   EXPECT_EQ(fixes.all[1].x, 3.0);

@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   const LogInfo info = read_log(argv[1], nothing);
   if (!info.warning.empty()) return 1;
   std::map<std::string_view, std::uint64_t> counts;
-  for (std::size_t i = 0; i < kRecordKinds; ++i) counts[kTopics[i]] = info.counts[i];
+  for (std::size_t i = 0; i < records::kKindCount; ++i) counts[records::kTopics[i]] = info.counts[i];
   std::string text;
   for (const auto& [topic, count] : counts) text += fmt::format("{}\"{}\":{}", text.empty() ? "" : ",", topic, count);
   fmt::print("{{\"counts\":{{{}}},\"hash\":\"{}\"}}\n", text, writer.content_hash_text());

@@ -38,18 +38,14 @@ TEST(CommonTime, IsLinearBetweenItsPointsAndGoesOnAtTheHostsRate) {
 
 // Where a record stands among the others is by its own time: so every kind has to be put on the common scale.
 TEST(CommonTime, MovesEveryKindOfRecord) {
-  struct Where final : Placing {
-    TrueTime at{};
-    void placed(const RecordPlace& place) override { at = place.at; }
-  };
   const CommonTime later({{ms(0), ms(1000)}});
-  for (int kind = 1; kind <= static_cast<int>(log::kRecordKinds); ++kind) {
-    Where before, after;
-    OnCommonTime moved(later, after);
-    emit(before, kind, Values::kDrawn, 3, 5'000'000);
-    emit(moved, kind, Values::kDrawn, 3, 5'000'000);
-    EXPECT_GE(before.at, ms(4)) << kind;
-    EXPECT_EQ(after.at - before.at, Duration::milliseconds(1000)) << kind;
+  for (int kind = 1; kind <= static_cast<int>(records::kKindCount); ++kind) {
+    TrueTime before, after;
+    emit(*placing([&](const RecordPlace& place) { before = place.at; }), kind, Values::kDrawn, 3, 5'000'000);
+    const auto placed = placing([&](const RecordPlace& place) { after = place.at; });
+    emit(*on_common_time(later, *placed), kind, Values::kDrawn, 3, 5'000'000);
+    EXPECT_GE(before, ms(4)) << kind;
+    EXPECT_EQ(after - before, Duration::milliseconds(1000)) << kind;
   }
 }
 
@@ -78,14 +74,14 @@ struct Hosts {
 
   Hosts(const Drive& drive, const std::vector<Host>& hosts, const std::function<std::size_t(ttf::NodeId)>& host_of) {
     std::vector<std::unique_ptr<log::LogWriter>> writers;
-    std::vector<std::unique_ptr<OnCommonTime>> clocks;
+    std::vector<std::unique_ptr<records::Sink>> clocks;
     for (const Host& host : hosts) {
       log::LogManifest manifest = log::sample_manifest();
       manifest.cycle_ns = drive.cluster.cycle().ns;
       manifest.host = host.name;
       paths.push_back(log::scratch(host.name + ".mcap"));
       writers.push_back(std::make_unique<log::LogWriter>(paths.back(), manifest));
-      clocks.push_back(std::make_unique<OnCommonTime>(host.clock, *writers.back()));
+      clocks.push_back(on_common_time(host.clock, *writers.back()));
     }
     std::vector<records::Sink*> of_node;
     for (std::size_t n = 0; n < drive.cluster.nodes.size(); ++n)

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "report/timing/diagram.h"
+#include "report/timing/transfers.h"
 #include "report/timing/ways.h"
 #include "tests/report/layout.h"
 #include "tests/report/synthetic_run.h"
@@ -264,19 +265,21 @@ class Ways : public ::testing::Test {
                                  std::uint8_t sensor = 0) {
     return {at_us(us), NodeId{5}, 1, {SensorId{sensor}, sequence}, {measured_us * 1000}, what};
   }
-  std::vector<Way> ways() const { return measurement_ways(data_, synthetic_names(), transfers_of(data_)); }
+  std::vector<Way> ways() const { return ways_of(data_).measurements; }
   TimingData data_;
 };
 
 TEST_F(Ways, LeadFromTheSensorThroughEveryHop) {
   // measured 0 -> CAN 1..3 -> task of node 2, 4..9 -> slots 10..11 on A and B -> fused at 13
   data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
-  data_.can_frames = {{0, at_us(1000), at_us(2000), PduId{0}, 7}, {0, at_us(2500), at_us(3000), PduId{0}, 7}};
-  data_.hops = {{at_us(4000), NodeId{2}, recording::records::Hop::kRead, PduId{0}, 7}};
+  data_.can_frames = {{0, at_us(1000), at_us(2000), PduId{0}, 7, 0, NodeId{0}, SensorId{0}},
+                      {0, at_us(2500), at_us(3000), PduId{0}, 7, 1, NodeId{0}, SensorId{0}}};
+  data_.hops = {{at_us(4000), NodeId{2}, recording::records::Hop::kRead, SensorId{0}, 7}};
   data_.runs = {{at_us(3000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
                 {at_us(13000), at_us(13000), at_us(14000), NodeId{5}, 0, true}};
   for (std::uint8_t channel : {0, 1})
-    data_.slot_frames.push_back({at_us(10000), at_us(11000), {}, NodeId{4}, 2, 3, channel, false, PduId{2}, 7, 0});
+    data_.slot_frames.push_back(
+        {at_us(10000), at_us(11000), {}, NodeId{4}, 2, 3, channel, false, PduId{2}, 7, 0, SensorId{0}});
   data_.steps = {{at_us(13000), NodeId{5}, 1}};
   data_.fused = {fused(13000, 7, 0, Disposition::kFused)};
   const auto all = ways();
@@ -330,8 +333,18 @@ TEST_F(Ways, ARepeatedStateMessageTravelsTheFirstTime) {
   data_.measurements = {{at_us(0), {SensorId{0}, 0}}};
   for (std::int64_t cycle = 2; cycle < 8; ++cycle) {
     const std::uint8_t fragment = cycle % 2 == 0 ? 0 : 1;
-    data_.slot_frames.push_back(
-        {at_us(cycle * 5000), at_us(cycle * 5000 + 70), {}, NodeId{4}, cycle, 3, 0, false, PduId{2}, 0, fragment});
+    data_.slot_frames.push_back({at_us(cycle * 5000),
+                                 at_us(cycle * 5000 + 70),
+                                 {},
+                                 NodeId{4},
+                                 cycle,
+                                 3,
+                                 0,
+                                 false,
+                                 PduId{2},
+                                 0,
+                                 fragment,
+                                 SensorId{0}});
   }
   const auto transfers = transfers_of(data_);
   ASSERT_EQ(transfers.size(), 1u);
@@ -352,7 +365,7 @@ TEST_F(Ways, HoweverManyStepsHoldAListItWaitsOnce) {
 TEST_F(Ways, ADroppedOrOverwrittenListEndsThere) {
   data_.measurements = {{at_us(0), {SensorId{0}, 0}}, {at_us(80000), {SensorId{0}, 1}}};
   data_.fused = {fused(13000, 0, 0, Disposition::kDroppedTooOld)};
-  data_.hops = {{at_us(90000), NodeId{2}, recording::records::Hop::kOverwritten, PduId{0}, 1}};
+  data_.hops = {{at_us(90000), NodeId{2}, recording::records::Hop::kOverwritten, SensorId{0}, 1}};
   const auto all = ways();
   EXPECT_TRUE(all[0].dropped);
   EXPECT_TRUE(all[1].dropped);
@@ -361,7 +374,7 @@ TEST_F(Ways, ADroppedOrOverwrittenListEndsThere) {
 TEST_F(Ways, AWrappedCounterIsNotMistakenForAnOldList) {
   // Sequence 3 and, 256 measurements later, 259 (3 on an eight-bit wire).
   data_.measurements = {{at_us(0), {SensorId{0}, 3}}, {at_us(20'480'000), {SensorId{0}, 259}}};
-  data_.fused = {fused(13000, 3, 0, Disposition::kFused), fused(20'493'000, 3, 20'480'000, Disposition::kFused)};
+  data_.fused = {fused(13000, 3, 0, Disposition::kFused), fused(20'493'000, 259, 20'480'000, Disposition::kFused)};
   const auto all = ways();
   ASSERT_EQ(all[0].legs.size(), 1u);
   ASSERT_EQ(all[1].legs.size(), 1u);
@@ -369,14 +382,48 @@ TEST_F(Ways, AWrappedCounterIsNotMistakenForAnOldList) {
   EXPECT_EQ(all[1].last.at, at_us(20'493'000));
 }
 
+// Number 259 is no 3, however near: on an eight-bit wire it would look like one.
+TEST_F(Ways, AnotherNumberIsAnotherList) {
+  data_.measurements = {{at_us(0), {SensorId{0}, 3}}};
+  data_.can_frames = {{0, at_us(1000), at_us(2000), PduId{0}, 3, 0, NodeId{0}, SensorId{0}},
+                      {1, at_us(3000), at_us(4000), PduId{1}, 3, 0, NodeId{1}, SensorId{1}},
+                      {2, at_us(5000), at_us(6000), PduId{0}, 259, 0, NodeId{0}, SensorId{0}}};
+  data_.fused = {fused(13000, 259, 0, Disposition::kFused)};
+  const auto all = ways();
+  ASSERT_EQ(all[0].legs.size(), 1u);
+  EXPECT_EQ(all[0].last.lane, (LaneKey{LaneKey::Kind::kCan, 0, 0}));
+}
+
+// A task that ends as the next begins: what is written then is the first one's.
+TEST_F(Ways, WhatIsWrittenIsOfTheRunThatEndsThen) {
+  data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
+  data_.runs = {{at_us(4000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
+                {at_us(9000), at_us(9000), at_us(9500), NodeId{2}, 1, true}};
+  data_.hops = {{at_us(9000), NodeId{2}, recording::records::Hop::kWritten, SensorId{0}, 7}};
+  const auto all = ways();
+  ASSERT_EQ(all[0].legs.size(), 1u);
+  EXPECT_EQ(all[0].last.lane, (LaneKey{LaneKey::Kind::kTask, 2, 0}));
+  EXPECT_EQ(all[0].last.at, at_us(9000));
+}
+
+// As exports do (recording/exports/measurement_ways.h): for a second and a half.
+TEST_F(Ways, AListThatIsHeldForLongIsFollowed) {
+  data_.measurements = {{at_us(0), {SensorId{0}, 0}}, {at_us(1'000), {SensorId{0}, 1}}};
+  data_.fused = {fused(13'000, 0, 0, Disposition::kHeld), fused(900'000, 0, 0, Disposition::kFused),
+                 fused(1'600'000, 1, 1'000, Disposition::kFused)};
+  const auto all = ways();
+  EXPECT_EQ(all[0].last.at, at_us(900'000));
+  EXPECT_TRUE(all[1].legs.empty());
+}
+
 TEST_F(Ways, AnImageGoesOverItsSlotsToTheFeatureService) {
   data_.images = {{at_us(1000), NodeId{5}, 4, {}}};
   data_.runs = {{at_us(1000), at_us(1000), at_us(1500), NodeId{5}, 1, true},
                 {at_us(30000), at_us(30000), at_us(30300), NodeId{6}, 0, true}};
-  data_.slot_frames = {{at_us(5000), at_us(5100), {}, NodeId{5}, 1, 12, 0, false, PduId{4}, 4, 0},
-                       {at_us(5100), at_us(5200), {}, NodeId{5}, 1, 13, 0, false, PduId{4}, 4, 1}};
+  data_.slot_frames = {{at_us(5000), at_us(5100), {}, NodeId{5}, 1, 12, 0, false, PduId{4}, 4, 0, kNoSensor},
+                       {at_us(5100), at_us(5200), {}, NodeId{5}, 1, 13, 0, false, PduId{4}, 4, 1, kNoSensor}};
   data_.uses = {{at_us(30000), NodeId{6}, 4, true}};
-  const auto all = image_ways(data_, synthetic_names(), transfers_of(data_));
+  const auto all = ways_of(data_).images;
   ASSERT_EQ(all.size(), 1u);
   ASSERT_EQ(all[0].legs.size(), 3u);
   EXPECT_EQ(all[0].legs[0].from.at, at_us(1500));

@@ -1,0 +1,162 @@
+#include "recording/exports/measurement_ways.h"
+
+#include <algorithm>
+
+namespace ttf::recording::exports {
+
+bool MeasurementWays::Carried::takes(std::uint8_t on_channel, std::uint8_t fragment) {
+  if (!channel) channel = on_channel;
+  if (*channel != on_channel || fragments[fragment]) return false;
+  fragments.set(fragment);
+  return true;
+}
+
+void MeasurementWays::measured(const MeasurementId& id, NodeId node, const WayMark& mark) {
+  // A sensor that has started anew counts anew.
+  if (const auto old = ways_.find(id); old != ways_.end()) end(old);
+  Way& way = ways_[id].way;
+  way.id = id;
+  way.number = ++numbers_;
+  way.measured = mark.at;
+  way.stops = {{Deed::kMeasured, mark.at, node, mark}};
+  begun_.emplace_back(mark.at, id);
+}
+
+void MeasurementWays::frame(bool flexray, std::uint8_t channel, NodeId sender, SensorId sensor, std::uint32_t sequence,
+                            std::uint8_t fragment, const WayMark& mark) {
+  if (sensor != kNoSensor) {
+    const auto followed = ways_.find({sensor, sequence});
+    if (followed != ways_.end() && (!flexray || followed->second.on_flexray.takes(channel, fragment)))
+      followed->second.way.stops.push_back({Deed::kFrame, mark.at, sender, mark});
+    return;
+  }
+  // In its turn: which image it is of may not be known before.
+  if (flexray) acts_.push_back({Deed::kImageFrame, mark.at, sender, {}, sequence, mark, channel, fragment});
+}
+
+void MeasurementWays::run(NodeId node, TrueTime start, TrueTime end, const WayMark& mark) {
+  runs_[node].push_back({start, end, mark});
+}
+
+void MeasurementWays::act(Act act) { acts_.push_back(std::move(act)); }
+
+// What is written is of the run that ends then, all else of the one that starts then, or, where tasks are told of less
+// exactly, of the last that had started.
+std::optional<WayMark> MeasurementWays::run_of(const Act& act) const {
+  if (act.deed == Deed::kImageFrame || act.deed == Deed::kLost) return std::nullopt;
+  const auto of_node = runs_.find(act.node);
+  if (of_node == runs_.end()) return std::nullopt;
+  const Run* best = nullptr;
+  for (const Run& run : of_node->second) {
+    if (run.start > act.at + kTolerance || run.end + kTolerance < act.at) continue;
+    const bool ends = act.deed == Deed::kWritten && run.end <= act.at + kTolerance;
+    if (ends) return run.mark;
+    if (best == nullptr || run.start > best->start) best = &run;
+  }
+  return best != nullptr ? std::optional(best->mark) : std::nullopt;
+}
+
+// A run that began before the measurement was another list's.
+void MeasurementWays::pass(const MeasurementId& id, const Stop& stop) {
+  const auto followed = ways_.find(id);
+  if (followed == ways_.end()) return;
+  Way& way = followed->second.way;
+  way.stops.push_back(stop);
+  if (stop.mark && stop.mark->at < way.measured) way.stops.back().mark.reset();
+}
+
+std::optional<WayMark> MeasurementWays::perform(const Act& act) {
+  const std::optional<WayMark> run = run_of(act);
+  const Stop stop{act.deed, act.at, act.node, run};
+  switch (act.deed) {
+    case Deed::kMeasured:
+    case Deed::kFrame: break;  // not a task's
+    case Deed::kRead:
+    case Deed::kWritten:
+    case Deed::kHeld:
+      for (const MeasurementId& id : act.ids) pass(id, stop);
+      break;
+    case Deed::kFused:
+      for (const MeasurementId& id : act.ids) {
+        pass(id, stop);
+        if (const auto followed = ways_.find(id); followed != ways_.end()) followed->second.way.fused = true;
+      }
+      break;
+    case Deed::kRefused:
+    case Deed::kLost:
+      for (const MeasurementId& id : act.ids) {
+        pass(id, stop);
+        if (const auto followed = ways_.find(id); followed != ways_.end() && !followed->second.way.lost)
+          followed->second.way.lost = act.mark;
+      }
+      break;
+    case Deed::kImage: write_image(act, stop); break;
+    case Deed::kImageFrame: send_image(act); break;
+    case Deed::kUsed: use_image(act, stop); break;
+  }
+  return run;
+}
+
+void MeasurementWays::write_image(const Act& act, const Stop& stop) {
+  FollowedImage image{{act.at, act.node, act.image, {stop}}, {}, {}};
+  for (const MeasurementId& id : act.ids) {
+    const auto followed = ways_.find(id);
+    if (followed == ways_.end() || !followed->second.way.fused || followed->second.way.in_image) continue;
+    followed->second.way.in_image = true;
+    pass(id, stop);
+    image.ids.push_back(id);
+  }
+  images_.push_back(std::move(image));
+}
+
+void MeasurementWays::send_image(const Act& act) {
+  const auto sent = std::find_if(images_.rbegin(), images_.rend(), [&](const FollowedImage& one) {
+    return one.image.node == act.node && one.image.sequence == act.image;
+  });
+  if (sent == images_.rend() || !sent->on_flexray.takes(act.channel, act.fragment)) return;
+  const Stop stop{Deed::kImageFrame, act.at, act.node, act.mark};
+  sent->image.stops.push_back(stop);
+  for (const MeasurementId& id : sent->ids)
+    if (const auto followed = ways_.find(id); followed != ways_.end()) followed->second.way.stops.push_back(stop);
+}
+
+void MeasurementWays::use_image(const Act& act, const Stop& stop) {
+  const auto used = std::find_if(images_.rbegin(), images_.rend(),
+                                 [&](const FollowedImage& one) { return one.image.sequence == act.image; });
+  if (used == images_.rend() || used->image.used) return;
+  used->image.used = true;
+  used->image.stops.push_back(stop);
+  for (const MeasurementId& id : used->ids) {
+    pass(id, stop);
+    if (const auto followed = ways_.find(id); followed != ways_.end()) end(followed);
+  }
+  used->ids.clear();
+}
+
+void MeasurementWays::end(Ways::iterator followed) {
+  if (ended_.way) ended_.way(followed->second.way);
+  ways_.erase(followed);
+}
+
+void MeasurementWays::forget(TrueTime now) {
+  while (!begun_.empty() && begun_.front().first + kLongestWay < now) {
+    const auto followed = ways_.find(begun_.front().second);
+    if (followed != ways_.end() && followed->second.way.measured == begun_.front().first) end(followed);
+    begun_.pop_front();
+  }
+  while (!images_.empty() && images_.front().image.at + kLongestWay < now) {
+    if (ended_.image) ended_.image(images_.front().image);
+    images_.pop_front();
+  }
+  for (auto& [node, runs] : runs_)
+    while (!runs.empty() && runs.front().start + kLongestWay < now) runs.pop_front();
+}
+
+void MeasurementWays::finish() {
+  while (!ways_.empty()) end(ways_.begin());
+  for (const FollowedImage& one : images_)
+    if (ended_.image) ended_.image(one.image);
+  images_.clear();
+}
+
+}  // namespace ttf::recording::exports

@@ -1,0 +1,183 @@
+// What a position plot shows of all that was recorded: the chosen object's, in the window.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "report/plots/position_plot.h"
+
+namespace ttf::report::plots {
+namespace {
+
+constexpr double kLongestUse = 1.0;  // s from an image to its last use; older ones are refused
+
+bool earlier(const PositionPlots::Sample& a, const PositionPlots::Sample& b) { return a.t < b.t; }
+
+// Records arrive in the order of a log, which may be by process.
+std::vector<PositionPlots::Sample> by_time(std::vector<PositionPlots::Sample> samples) {
+  std::ranges::stable_sort(samples, earlier);
+  return samples;
+}
+
+// Linear interpolation in samples ordered by time; nothing outside them (by more than `slack`).
+std::optional<PositionPlots::Sample> interpolate(const std::vector<PositionPlots::Sample>& samples, double t,
+                                                 double slack) {
+  if (samples.empty() || t < samples.front().t - slack || t > samples.back().t + slack) return std::nullopt;
+  const auto after = std::ranges::lower_bound(samples, t, {}, &PositionPlots::Sample::t);
+  if (after == samples.begin()) return samples.front();
+  if (after == samples.end()) return samples.back();
+  const PositionPlots::Sample &a = *(after - 1), &b = *after;
+  const double f = b.t > a.t ? (t - a.t) / (b.t - a.t) : 0;
+  return PositionPlots::Sample{t, a.x + f * (b.x - a.x), a.y + f * (b.y - a.y), {}};
+}
+
+}  // namespace
+
+class PositionPlots::Selector {
+ public:
+  explicit Selector(const PositionPlots& plots)
+      : plots_(plots), truth_(by_time(plots.truth_)), fixes_(by_time(plots.fixes_)) {
+    for (const Positioned& p : plots.tracks_) tracks_[p.step].push_back(p.sample);
+    for (const Step& s : plots.steps_) step_times_[s.step] = s.t;
+  }
+
+  Selection selection() {
+    std::ranges::copy_if(truth_, std::back_inserter(out_.truth), [&](const Sample& s) { return inside(s.t); });
+    std::ranges::copy_if(fixes_, std::back_inserter(out_.reference), [&](const Sample& s) { return inside(s.t); });
+    choose_observations();
+    choose_images();
+    find_instants();
+    return std::move(out_);
+  }
+
+ private:
+  bool inside(double t) const {
+    const PositionOptions& window = plots_.options_;
+    return (!window.from || t >= seconds(*window.from)) && (!window.to || t <= seconds(*window.to));
+  }
+
+  // Where the chosen object was is known from the truth, else from the reference, else not at all: then everything in
+  // the window is shown.
+  bool shows_all() const { return truth_.empty() && fixes_.empty(); }
+  std::optional<Sample> object_at(double t) const {
+    return truth_.empty() ? interpolate(fixes_, t, 0.5) : interpolate(truth_, t, 0.1);
+  }
+
+  // To the chosen object; none of another object, or out of the window.
+  std::optional<double> distance(const Sample& s) const {
+    if (!inside(s.t) || !std::isfinite(s.x) || !std::isfinite(s.y)) return std::nullopt;
+    if (shows_all()) return 0.0;
+    const auto at = object_at(s.t);
+    if (!at) return std::nullopt;
+    const double d = std::hypot(s.x - at->x, s.y - at->y);
+    return d <= plots_.options_.gate_m ? std::optional(d) : std::nullopt;
+  }
+
+  // Of candidates for the object at one instant the nearest, or all where all are shown.
+  std::vector<Sample> shown_of(const std::vector<Sample>& candidates) const {
+    std::vector<Sample> shown;
+    double least = 0;
+    for (const Sample& s : candidates) {
+      const auto d = distance(s);
+      if (!d) continue;
+      if (shows_all() || shown.empty())
+        shown.push_back(s), least = *d;
+      else if (*d < least)
+        shown.front() = s, least = *d;
+    }
+    return shown;
+  }
+
+  // Of each list the nearest. A list is one measurement: id and time, because a sensor that starts anew counts anew.
+  void choose_observations() {
+    struct Nearest {
+      double distance;
+      std::size_t at;  // in chosen_
+    };
+    std::map<std::pair<MeasurementId, std::int64_t>, Nearest> lists;
+    for (const Sample& s : plots_.observations_) {
+      const auto d = distance(s);
+      if (!d) continue;
+      const auto [list, first] = lists.try_emplace({s.id, std::llround(s.t * 1e6)}, Nearest{*d, chosen_.size()});
+      Nearest& nearest = list->second;
+      if (first || shows_all())
+        chosen_.push_back(s);
+      else if (*d < nearest.distance)
+        nearest.distance = *d, chosen_[nearest.at] = s;
+    }
+    for (const Sample& s : chosen_) {
+      out_.observations.resize(std::max(out_.observations.size(), index_of(s.id.sensor) + 1));
+      out_.observations[index_of(s.id.sensor)].push_back(s);
+    }
+  }
+
+  // A fusion node that restarts counts its images anew: a use belongs to an image of just before.
+  bool is_used(const Image& image) const {
+    return std::ranges::any_of(plots_.uses_, [&](const Use& use) {
+      return use.image == image.sequence && use.t >= image.written && use.t < image.written + kLongestUse;
+    });
+  }
+
+  void choose_images() {
+    for (const Image& image : plots_.images_) {
+      std::vector<Sample>& of_kind = is_used(image) ? out_.fusion : out_.unused;
+      for (const Sample& s : shown_of(image.objects)) {
+        of_kind.push_back(s);
+        images_.push_back(s);
+      }
+    }
+    for (auto* list : {&out_.fusion, &out_.unused, &images_}) std::ranges::stable_sort(*list, earlier);
+  }
+
+  const Sample* measured(const FusedList& list) const {
+    const Sample* newest = nullptr;
+    for (const Sample& s : chosen_)
+      if (s.id == list.id && std::abs(s.t - list.measured) < 1e-3) newest = &s;
+    return newest;
+  }
+
+  // Where the fused result was at a step: the nearest track, else the image, else the observation itself.
+  std::optional<Sample> result_at(std::uint32_t step, double t, const Sample* observation) const {
+    if (const auto tracks = tracks_.find(step); tracks != tracks_.end())
+      if (const auto nearest = shown_of(tracks->second); !nearest.empty()) return nearest.front();
+    if (const auto image = interpolate(images_, t, 0.05)) return image;
+    return observation != nullptr ? std::optional(*observation) : std::nullopt;
+  }
+
+  void find_instants() {
+    std::map<std::uint32_t, Instant> instants;
+    for (const FusedList& f : plots_.fused_) {
+      const auto t = step_times_.find(f.step);
+      if (t == step_times_.end() || !inside(t->second)) continue;
+      const Sample* observation = measured(f);
+      std::optional<Sample> at = result_at(f.step, t->second, observation);
+      if (!at) continue;
+      at->t = t->second;
+      const bool laser = drawing::look_of(plots_.names_.sensor(f.id.sensor)) == drawing::SensorLook::kLaser;
+      instants.try_emplace(f.step, Instant{f.step, *at, false}).first->second.laser |= laser;
+      if (laser && observation != nullptr) out_.laser_arrows.push_back({*observation, *at, f.late});
+    }
+    for (const auto& [step, instant] : instants) out_.instants.push_back(instant);
+  }
+
+  const PositionPlots& plots_;
+  std::vector<Sample> truth_, fixes_;                    // by time
+  std::map<std::uint32_t, std::vector<Sample>> tracks_;  // by step
+  std::map<std::uint32_t, double> step_times_;
+  std::vector<Sample> chosen_;  // observations
+  std::vector<Sample> images_;  // used or not, by time
+  Selection out_;
+};
+
+bool PositionPlots::Selection::empty() const {
+  return truth.empty() && reference.empty() && fusion.empty() && unused.empty() &&
+         std::ranges::all_of(observations, [](const auto& list) { return list.empty(); });
+}
+
+PositionPlots::Selection PositionPlots::select() const { return Selector(*this).selection(); }
+
+}  // namespace ttf::report::plots
