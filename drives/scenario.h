@@ -53,6 +53,4 @@ Scenario load_scenario(const std::string& path);
 // The same of a text; `name` is what errors call it, and clusters are looked for in its folder.
 Scenario parse_scenario(std::string text, std::string name);
 
-using fusion::strategies::name_of;
-
 }  // namespace ttf::drives
