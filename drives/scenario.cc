@@ -5,15 +5,6 @@
 
 namespace ttf::drives {
 
-std::string_view name_of(fusion::strategies::StrategyKind strategy) {
-  switch (strategy) {
-    case fusion::strategies::StrategyKind::kBuff: return "buff";
-    case fusion::strategies::StrategyKind::kAdva: return "adva";
-    case fusion::strategies::StrategyKind::kTt: return "tt";
-  }
-  return "";
-}
-
 namespace {
 
 Scenario read_scenario(const StrictYaml& yaml) {
@@ -36,9 +27,8 @@ Scenario read_scenario(const StrictYaml& yaml) {
   scenario.startup = load_startup(root, latest);
 
   YamlMap clusters = root.map("clusters");
-  for (const auto strategy : {fusion::strategies::StrategyKind::kBuff, fusion::strategies::StrategyKind::kAdva,
-                              fusion::strategies::StrategyKind::kTt}) {
-    const std::string file = clusters.text(name_of(strategy));
+  for (const auto& [name, strategy] : fusion::strategies::kStrategyNames) {
+    const std::string file = clusters.text(name);
     scenario.cluster_files[static_cast<std::size_t>(strategy)] =
         (std::filesystem::path(path).parent_path() / file).lexically_normal().string();
   }

@@ -2,6 +2,7 @@
 // file under scenarios/; everything it leaves open has a documented default in the room that uses it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -33,7 +34,8 @@ struct Scenario {
   Duration duration{};       // of the drive, from its start (drives/drive.h)
   Duration evaluate_from{};  // likewise; measures and pictures start here, before it the tracker warms up
   Startup startup;
-  std::string cluster_files[3];  // by StrategyKind, as paths that can be opened
+  std::array<std::string, fusion::strategies::kStrategyCount>
+      cluster_files;  // by StrategyKind, as paths that can be opened
   sim::world::WorldConfig world;
   sim::world::LaserConfig laser;
   sim::world::CameraConfig camera;
@@ -50,8 +52,5 @@ struct Scenario {
 Scenario load_scenario(const std::string& path);
 // The same of a text; `name` is what errors call it, and clusters are looked for in its folder.
 Scenario parse_scenario(std::string text, std::string name);
-
-// "buff", "adva", "tt".
-std::string_view name_of(fusion::strategies::StrategyKind strategy);
 
 }  // namespace ttf::drives

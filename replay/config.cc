@@ -58,10 +58,9 @@ ReplayConfig parse_replay_config(const std::string& text, const std::string& nam
   YamlMap root = yaml.root(findings);
   ReplayConfig config;
   config.file = name;
+  using fusion::strategies::kStrategyNames;
   config.strategy = root.choice_or<fusion::strategies::StrategyKind>("strategy", config.strategy,
-                                                                     {{"buff", fusion::strategies::StrategyKind::kBuff},
-                                                                      {"adva", fusion::strategies::StrategyKind::kAdva},
-                                                                      {"tt", fusion::strategies::StrategyKind::kTt}});
+                                                                     {kStrategyNames.begin(), kStrategyNames.end()});
   if (std::optional<YamlMap> tracker = root.map_if("tracker")) {
     config.tracker = fusion::config::load_tracker(*tracker);
     if (!config.tracker.sensors.empty())

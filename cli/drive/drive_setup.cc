@@ -29,7 +29,7 @@ schedules::model::Cluster checked_cluster(const drives::Scenario& scenario, fusi
     (void)read_file(file);
   } catch (const InputError& error) {
     Findings none;
-    const std::string name(drives::name_of(strategy));
+    const std::string name(name_of(strategy));
     YamlMap clusters = StrictYaml::parse(scenario.text, scenario.file).root(none).map("clusters");
     throw InputError({scenario.file, clusters.line(name), "clusters." + name, file,
                       "must be a cluster file, but it " + error.findings().front().expected});
@@ -52,7 +52,7 @@ recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const 
   manifest.seed = seed;
   manifest.scenario_name = scenario.name;
   manifest.cluster_name = cluster.name;
-  manifest.strategy = drives::name_of(strategy);
+  manifest.strategy = name_of(strategy);
   manifest.cycle_ns = cluster.cycle().ns;
   manifest.bit_ps = cluster.flexray.gdBit_ps;
   manifest.hashes = {{"scenario", hex_hash(scenario.text)}, {"cluster", hex_hash(cluster.text)}};
@@ -74,12 +74,21 @@ recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const 
   return manifest;
 }
 
+std::vector<std::string> strategy_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : fusion::strategies::kStrategyNames) names.emplace_back(name);
+  return names;
+}
+
+fusion::strategies::StrategyKind strategy_of(const std::string& name) {
+  if (const auto kind = fusion::strategies::strategy_named(name)) return *kind;
+  throw InputError(
+      {"command line", 0, "--strategy", name, fmt::format("must be one of {}", fmt::join(strategy_names(), ", "))});
+}
+
 std::vector<fusion::strategies::StrategyKind> chosen(const std::string& name) {
-  std::vector<fusion::strategies::StrategyKind> strategies;
-  for (const auto kind : {fusion::strategies::StrategyKind::kBuff, fusion::strategies::StrategyKind::kAdva,
-                          fusion::strategies::StrategyKind::kTt})
-    if (name.empty() || drives::name_of(kind) == name) strategies.push_back(kind);
-  return strategies;
+  if (!name.empty()) return {strategy_of(name)};
+  return {fusion::strategies::kAllStrategies.begin(), fusion::strategies::kAllStrategies.end()};
 }
 
 std::unique_ptr<recording::log::LogWriter> begin_log(const std::string& path,

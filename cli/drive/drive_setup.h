@@ -41,7 +41,11 @@ std::unique_ptr<recording::log::LogWriter> begin_log(const std::string& path,
                                                      const drives::Scenario& scenario,
                                                      const schedules::model::Cluster& cluster);
 
-// All strategies where none is named.
+// What --strategy may be.
+std::vector<std::string> strategy_names();
+// --strategy. Throws InputError where there is no strategy of this name.
+fusion::strategies::StrategyKind strategy_of(const std::string& name);
+// The same, and all strategies where none is named.
 std::vector<fusion::strategies::StrategyKind> chosen(const std::string& name);
 // --seed: the same rule as for a scenario's seed, and decimal digits only.
 std::uint64_t seed_of(const std::string& text);

@@ -40,7 +40,7 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
   std::vector<recording::records::Sink*> sinks = judge.sinks();
   std::unique_ptr<recording::log::LogWriter> log;
   if (!options.no_log) {
-    result.log_path = fmt::format("{}/{}.mcap", folder, drives::name_of(strategy));
+    result.log_path = fmt::format("{}/{}.mcap", folder, name_of(strategy));
     if (!options.input.empty()) refuse_overwriting(options.input, result.log_path, "--out");
     log = begin_log(result.log_path, manifest_of(scenario, result.cluster, strategy, seed, recording), scenario,
                     result.cluster);
@@ -69,8 +69,7 @@ int run_scenario(const RunOptions& options) {
 
   std::vector<StrategyResult> results;
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
-    fmt::print(stderr, "{}: {:g} s with {} ...\n", scenario.name, scenario.duration.seconds(),
-               drives::name_of(strategy));
+    fmt::print(stderr, "{}: {:g} s with {} ...\n", scenario.name, scenario.duration.seconds(), name_of(strategy));
     results.push_back(run_strategy(options, scenario, strategy, seed, recording, folder));
   }
   if (!options.no_pictures && !options.no_log) write_pictures(scenario, results, folder);
@@ -83,8 +82,7 @@ int run_scenario(const RunOptions& options) {
                comparison_table(results));
     if (!scenario.faults.empty())
       for (const StrategyResult& result : results)
-        fmt::print("\n{}",
-                   faults_text(drives::name_of(result.strategy), result.faults, result.fault_free, result.cluster));
+        fmt::print("\n{}", faults_text(name_of(result.strategy), result.faults, result.fault_free, result.cluster));
   }
   std::fflush(stdout);  // both may go to one file
   fmt::print(stderr, "written to {}\n", folder);
@@ -99,7 +97,7 @@ void add_run(CLI::App& app, Action& action) {
   command->footer("Example: ttfusion run scenarios/paper_scenario1.yaml --seed 7 --out out/drive");
   command->add_option("scenario", options->scenario, "Scenario file")->required();
   command->add_option("--strategy", options->strategy, "Only one strategy; all three otherwise")
-      ->check(CLI::IsMember({"buff", "adva", "tt"}));
+      ->check(CLI::IsMember(strategy_names()));
   command->add_option("--seed", options->seed, "Seed of every random stream, instead of the scenario's");
   command->add_option("--input", options->input, "Recorded observations in place of the sensor models")->check(kNamed);
   command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")->check(kNamed);

@@ -134,7 +134,7 @@ constexpr const char* kOfStrategy[] = {"startup", "lateness", "timing", "over_ti
 
 report::plots::PositionOptions position_options(const drives::Scenario& scenario, const StrategyResult& result) {
   report::plots::PositionOptions options;
-  options.title = fmt::format("{}, {}", scenario.name, drives::name_of(result.strategy));
+  options.title = fmt::format("{}, {}", scenario.name, name_of(result.strategy));
   options.from = drives::evaluation_start(scenario);
   options.to = drives::drive_end(scenario);
   for (std::size_t o = 0; o < scenario.world.objects.size(); ++o)
@@ -146,7 +146,7 @@ report::plots::PositionOptions position_options(const drives::Scenario& scenario
 
 std::string comparison_table(const std::vector<StrategyResult>& results) {
   std::vector<std::string> header{"measure"};
-  for (const StrategyResult& result : results) header.emplace_back(drives::name_of(result.strategy));
+  for (const StrategyResult& result : results) header.emplace_back(name_of(result.strategy));
   report::drawing::Table table(header);
   const auto add = [&](const Row& row) {
     std::vector<std::string> cells{row.name};
@@ -178,7 +178,7 @@ nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t s
   for (const StrategyResult& result : results) {
     const evaluation::accuracy::DriveSummary& s = result.summary;
     nlohmann::ordered_json one;
-    one["strategy"] = drives::name_of(result.strategy);
+    one["strategy"] = name_of(result.strategy);
     one["cluster"] = result.cluster.name;
     one["rmse_truth"] = {{"position_m", s.position_rmse_truth},
                          {"velocity_mps", s.velocity_rmse_truth},
@@ -266,8 +266,8 @@ void write_pictures(const drives::Scenario& scenario, const std::vector<Strategy
   std::vector<std::string> titles;
   for (const StrategyResult& result : results) {
     report::drawing::Names names = report::drawing::names_of(result.cluster);
-    names.run = fmt::format("{}, {}", scenario.name, drives::name_of(result.strategy));
-    const std::string strategy(drives::name_of(result.strategy));
+    names.run = fmt::format("{}, {}", scenario.name, name_of(result.strategy));
+    const std::string strategy(name_of(result.strategy));
     // The timing diagram shows 160 ms, four images, from where the drive is judged.
     const TrueTime from = drives::evaluation_start(scenario);
     report::timing::TimingDiagram timing(names, result.cluster.cycle(), from, from + Duration::milliseconds(160));

@@ -25,7 +25,7 @@ std::string startup_text(const std::vector<StrategyResult>& results, bool cold) 
                  node.active ? report::drawing::cell(in_ms(node.active->at), 1) : "-",
                  on_flexray ? fmt::format("{}: {}", node.state, node.why) : "not on FlexRay"});
     }
-    const std::string name(drives::name_of(result.strategy)), body = table.text();
+    const std::string name(name_of(result.strategy)), body = table.text();
     const auto same =
         std::find_if(tables.begin(), tables.end(), [&](const auto& other) { return other.second == body; });
     if (same != tables.end())

@@ -55,8 +55,7 @@ void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& resu
   fmt::print("{}\n{}{}{}", set.scenario.description, startup_text(results, set.scenario.startup.cold),
              comparison_table(results), real_time_text(result));
   if (!set.scenario.faults.empty())
-    fmt::print("\n{}",
-               drive::faults_text(drives::name_of(set.strategy), result.faults, result.fault_free, set.cluster));
+    fmt::print("\n{}", drive::faults_text(name_of(set.strategy), result.faults, result.fault_free, set.cluster));
 }
 
 // Who was not in operation at the end, and what there is nothing of to compare, in a sentence each. The exit code: a

@@ -86,7 +86,7 @@ nlohmann::ordered_json facts_of(const node_set::NodeSet& set) {
   return {{"version", TTF_VERSION},
           {"scenario", {{"name", set.scenario.name}, {"file", set.file}, {"hash", hex_hash(set.scenario.text)}}},
           {"cluster", {{"name", set.cluster.name}, {"file", set.cluster.file}, {"hash", hex_hash(set.cluster.text)}}},
-          {"strategy", drives::name_of(set.strategy)},
+          {"strategy", name_of(set.strategy)},
           {"seed", set.seed},
           {"bus", set.bus.text()},
           {"virtual_time", set.virtual_time},

@@ -36,7 +36,7 @@ drive::StrategyResult merged_result(const node_set::NodeSet& set, const std::vec
   result.cluster = set.cluster;
   const recording::merge::MergedLogs merged(logs);
   print_warnings(merged.warnings());
-  result.log_path = fmt::format("{}/{}", set.folder, merged_log(drives::name_of(set.strategy)));
+  result.log_path = fmt::format("{}/{}", set.folder, merged_log(name_of(set.strategy)));
   recording::merge::write_merged(merged, result.log_path);
   result.content_hash = recording::log::ContentHash::text(merged.content_hash().value());
   drive::DriveJudge judge(set.scenario, set.cluster);

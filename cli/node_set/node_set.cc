@@ -83,12 +83,6 @@ std::string session_option(const std::string& name) {
   }
 }
 
-fusion::strategies::StrategyKind strategy_of(const std::string& name) {
-  for (const auto kind : {fusion::strategies::StrategyKind::kBuff, fusion::strategies::StrategyKind::kAdva})
-    if (drives::name_of(kind) == name) return kind;
-  return fusion::strategies::StrategyKind::kTt;
-}
-
 // As its name is known to the system.
 std::string this_host() {
   std::array<char, 256> name{};
@@ -143,7 +137,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
       ->required();
   command
       .add_option("--strategy", arguments.strategy, "Fusion strategy, and with it the scenario's cluster (default: tt)")
-      ->check(CLI::IsMember({"buff", "adva", "tt"}));
+      ->check(CLI::IsMember(drive::strategy_names()));
   command.add_option("--seed", arguments.seed, "Seed of every random stream, instead of the scenario's");
   command.add_option("--bus", arguments.bus,
                      "dds (default), or socketcan:IF[,IF] with the interfaces of channels A and B");
@@ -163,7 +157,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
 NodeSet read_node_set(const NodeSetArguments& arguments) {
   NodeSet set;
   set.file = arguments.scenario;
-  set.strategy = strategy_of(arguments.strategy);
+  set.strategy = drive::strategy_of(arguments.strategy);
   set.bus = supervision::Bus::parse(arguments.bus);
   set.session = session_option(arguments.session);
   set.virtual_time = arguments.virtual_time;
@@ -200,7 +194,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
 std::vector<std::string> NodeSet::options() const {
   std::vector<std::string> list{file,
                                 "--strategy",
-                                std::string(drives::name_of(strategy)),
+                                std::string(name_of(strategy)),
                                 "--seed",
                                 fmt::to_string(seed),
                                 "--bus",

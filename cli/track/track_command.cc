@@ -56,7 +56,7 @@ int run_track(const TrackOptions& options) {
   const replay::SensorSetup usual = usual_sensor(options.format == "laser_radar");
   replay::ReplayConfig config;
   if (!options.config.empty()) config = replay::load_replay_config(options.config, usual);
-  if (!options.strategy.empty()) config.strategy = drive::chosen(options.strategy).front();
+  if (!options.strategy.empty()) config.strategy = drive::strategy_of(options.strategy);
   Findings findings;
   const std::vector<recording::rows::ObservationRow> rows = read_rows(options, findings);
   replay::list_sensors(config, rows, usual, options.observations);
@@ -73,7 +73,7 @@ int run_track(const TrackOptions& options) {
   tell_damage(findings, options.skip_damaged, recorded.lists.size());
   replay::simulate(recorded, simulated);
 
-  TrackResult result{std::string(drives::name_of(config.strategy)), recorded.sensors, {}, findings.size()};
+  TrackResult result{std::string(name_of(config.strategy)), recorded.sensors, {}, findings.size()};
   const replay::ReplaySetup setup{config.strategy, config.tracker,
                                   replay::sensor_timings(recorded, config, config.strategy), options.predict};
   std::string tracks(recording::rows::track_heading());
@@ -125,7 +125,7 @@ void add_track(CLI::App& app, Action& action) {
       ->add_option("--format", options->format, "csv (docs/track.md; the default) or laser_radar (docs/recordings.md)")
       ->check(CLI::IsMember({"csv", "laser_radar"}));
   command->add_option("--strategy", options->strategy, "Instead of the configuration's; adva where there is none")
-      ->check(CLI::IsMember({"buff", "adva", "tt"}));
+      ->check(CLI::IsMember(drive::strategy_names()));
   add_sensor_options(*command, *options);
   command->add_option("--shuffle", options->shuffle, "Each so many lists arrive together, in drawn order")
       ->check(CLI::Range(1, 1000));

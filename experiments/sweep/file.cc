@@ -105,9 +105,9 @@ class Reader {
       Paradigm paradigm;
       paradigm.name = name;
       if (!is_name(name)) map.fail("", std::string(kNames));
-      using fusion::strategies::StrategyKind;
-      paradigm.strategy = map.choice<StrategyKind>(
-          "strategy", {{"buff", StrategyKind::kBuff}, {"adva", StrategyKind::kAdva}, {"tt", StrategyKind::kTt}});
+      using fusion::strategies::kStrategyNames;
+      paradigm.strategy =
+          map.choice<fusion::strategies::StrategyKind>("strategy", {kStrategyNames.begin(), kStrategyNames.end()});
       if (map.has("cluster")) paradigm.cluster_file = path_of(map.text("cluster"));
       if (map.has("set"))
         for (const auto& [key, value] : map.named_texts("set"))

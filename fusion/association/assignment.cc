@@ -4,125 +4,153 @@
 #include <limits>
 
 #include "core/check.h"
+#include "core/ids.h"
 
 namespace ttf::fusion::association {
 namespace {
 
 // More than any gain, so that a pair outside its gate is never chosen over leaving the row alone (cost 0).
 constexpr double kForbidden = 1e12;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 Assignment::Assignment(std::size_t max_rows, std::size_t max_columns)
     : max_rows_(max_rows), components_(max_rows + max_columns) {
   column_of_.resize(max_rows);
+  sorted_.reserve(max_rows * max_columns);
   component_rows_.reserve(max_rows);
   component_columns_.reserve(max_rows * max_columns);  // of every candidate, before they are made unique
   local_column_.resize(max_columns);
-  sorted_.reserve(max_rows * max_columns);
-  // Each row also has a column of its own that stands for "unassigned".
   const std::size_t width = max_columns + max_rows;
   cost_ = std::make_unique_for_overwrite<double[]>(max_rows * width);  // touched only as far as it is needed
-  u_.resize(max_rows + 1);
-  v_.resize(width + 1);
-  shortest_.resize(width + 1);
-  match_.resize(width + 1);
-  way_.resize(width + 1);
-  used_.resize(width + 1);
+  row_potential_.resize(max_rows + 1);
+  column_potential_.resize(width + 1);
+  row_of_.resize(width + 1);
+  reached_.resize(width + 1);
+  distance_.resize(width + 1);
+  before_.resize(width + 1);
 }
 
 void Assignment::solve(std::span<const Candidate> candidates, std::size_t rows, std::size_t columns) {
   TTF_CHECK(rows <= max_rows_ && rows + columns <= components_.capacity(), "{} rows, {} columns", rows, columns);
   rows_ = rows;
-  columns_ = columns;
-  std::fill(column_of_.begin(), column_of_.begin() + static_cast<std::ptrdiff_t>(rows), -1);
-  components_.reset(rows + columns);
+  std::fill_n(column_of_.begin(), rows, -1);
+  sort_by_component(candidates, columns);
+  const std::span<const Candidate> sorted(sorted_);
+  for (std::size_t first = 0, last = 0; first < sorted.size(); first = last) {
+    const int component = components_.root(sorted[first].row);
+    while (last < sorted.size() && components_.root(sorted[last].row) == component) ++last;
+    if (last - first == 1)
+      column_of_[index_of(sorted[first].row)] = sorted[first].column;
+    else
+      solve_component(sorted.subspan(first, last - first));
+  }
+}
+
+void Assignment::sort_by_component(std::span<const Candidate> candidates, std::size_t columns) {
+  components_.reset(rows_ + columns);
   sorted_.assign(candidates.begin(), candidates.end());
-  for (const Candidate& candidate : sorted_) components_.join(candidate.row, static_cast<int>(rows) + candidate.column);
+  for (const Candidate& candidate : sorted_)
+    components_.join(candidate.row, static_cast<int>(rows_) + candidate.column);
   std::sort(sorted_.begin(), sorted_.end(), [&](const Candidate& a, const Candidate& b) {
     const int ra = components_.root(a.row), rb = components_.root(b.row);
     if (ra != rb) return ra < rb;
     return a.row != b.row ? a.row < b.row : a.column < b.column;
   });
-  for (first_ = 0; first_ < sorted_.size(); first_ = last_) {
-    const int component = components_.root(sorted_[first_].row);
-    last_ = first_;
-    while (last_ < sorted_.size() && components_.root(sorted_[last_].row) == component) ++last_;
-    if (last_ - first_ == 1)
-      column_of_[static_cast<std::size_t>(sorted_[first_].row)] = sorted_[first_].column;
-    else
-      solve_component();
-  }
 }
 
-// Rows are inserted one by one along the shortest augmenting path; potentials u, v keep reduced costs
-// non-negative.
-void Assignment::solve_component() {
+// The rows join the matching one by one.
+void Assignment::solve_component(std::span<const Candidate> component) {
+  number_component(component);
+  fill_costs(component);
+  std::fill_n(row_potential_.begin(), component_rows_.size() + 1, 0.0);
+  std::fill_n(column_potential_.begin(), width() + 1, 0.0);
+  std::fill_n(row_of_.begin(), width() + 1, 0);
+  for (std::size_t row = 1; row <= component_rows_.size(); ++row) {
+    row_of_[0] = static_cast<int>(row);
+    match_along_path(nearest_free_column());
+  }
+  for (std::size_t j = 0; j < component_columns_.size(); ++j)
+    if (const int row = row_of_[j + 1]; row != 0)
+      column_of_[index_of(component_rows_[index_of(row - 1)])] = component_columns_[j];
+}
+
+void Assignment::number_component(std::span<const Candidate> component) {
   component_rows_.clear();
   component_columns_.clear();
-  for (std::size_t c = first_; c < last_; ++c) {
-    if (component_rows_.empty() || component_rows_.back() != sorted_[c].row) component_rows_.push_back(sorted_[c].row);
-    component_columns_.push_back(sorted_[c].column);
+  for (const Candidate& candidate : component) {
+    if (component_rows_.empty() || component_rows_.back() != candidate.row) component_rows_.push_back(candidate.row);
+    component_columns_.push_back(candidate.column);
   }
   std::sort(component_columns_.begin(), component_columns_.end());
   component_columns_.erase(std::unique(component_columns_.begin(), component_columns_.end()), component_columns_.end());
-  const std::size_t n = component_rows_.size(), tracks = component_columns_.size(), m = tracks + n;
-  for (std::size_t j = 0; j < tracks; ++j)
-    local_column_[static_cast<std::size_t>(component_columns_[j])] = static_cast<int>(j);
-  std::fill_n(cost_.get(), n * m, kForbidden);
-  for (std::size_t i = 0; i < n; ++i) cost_[i * m + tracks + i] = 0.0;
-  std::size_t i = 0;
-  for (std::size_t c = first_; c < last_; ++c) {
-    while (component_rows_[i] != sorted_[c].row) ++i;
-    cost_[i * m + static_cast<std::size_t>(local_column_[static_cast<std::size_t>(sorted_[c].column)])] =
-        -sorted_[c].gain;
-  }
+  for (std::size_t j = 0; j < component_columns_.size(); ++j)
+    local_column_[index_of(component_columns_[j])] = static_cast<int>(j);
+}
 
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::fill(u_.begin(), u_.begin() + static_cast<std::ptrdiff_t>(n + 1), 0.0);
-  std::fill(v_.begin(), v_.begin() + static_cast<std::ptrdiff_t>(m + 1), 0.0);
-  std::fill(match_.begin(), match_.begin() + static_cast<std::ptrdiff_t>(m + 1), 0);
-  for (std::size_t row = 1; row <= n; ++row) {
-    match_[0] = static_cast<int>(row);
-    std::fill(shortest_.begin(), shortest_.begin() + static_cast<std::ptrdiff_t>(m + 1), kInfinity);
-    std::fill(used_.begin(), used_.begin() + static_cast<std::ptrdiff_t>(m + 1), 0);
-    std::size_t column = 0;
-    do {
-      used_[column] = 1;
-      const auto current = static_cast<std::size_t>(match_[column]);
-      double delta = kInfinity;
-      std::size_t next = 0;
-      for (std::size_t j = 1; j <= m; ++j) {
-        if (used_[j]) continue;
-        const double reduced = cost_[(current - 1) * m + j - 1] - u_[current] - v_[j];
-        if (reduced < shortest_[j]) {
-          shortest_[j] = reduced;
-          way_[j] = static_cast<int>(column);
-        }
-        if (shortest_[j] < delta) {
-          delta = shortest_[j];
-          next = j;
-        }
-      }
-      for (std::size_t j = 0; j <= m; ++j)
-        if (used_[j]) {
-          u_[static_cast<std::size_t>(match_[j])] += delta;
-          v_[j] -= delta;
-        } else {
-          shortest_[j] -= delta;
-        }
-      column = next;
-    } while (match_[column] != 0);
-    while (column != 0) {
-      const auto previous = static_cast<std::size_t>(way_[column]);
-      match_[column] = match_[previous];
-      column = previous;
-    }
+void Assignment::fill_costs(std::span<const Candidate> component) {
+  const std::size_t rows = component_rows_.size(), tracks = component_columns_.size();
+  std::fill_n(cost_.get(), rows * width(), kForbidden);
+  for (std::size_t i = 0; i < rows; ++i) cost_[i * width() + tracks + i] = 0.0;
+  std::size_t i = 0;
+  for (const Candidate& candidate : component) {
+    while (component_rows_[i] != candidate.row) ++i;
+    cost_[i * width() + index_of(local_column_[index_of(candidate.column)])] = -candidate.gain;
   }
-  for (std::size_t j = 1; j <= tracks; ++j)
-    if (match_[j] != 0)
-      column_of_[static_cast<std::size_t>(component_rows_[static_cast<std::size_t>(match_[j] - 1)])] =
-          component_columns_[j - 1];
+}
+
+// From the row that waits, along shortest paths (Dijkstra); the potentials follow, so that the path's reduced costs
+// are 0.
+std::size_t Assignment::nearest_free_column() {
+  std::fill_n(reached_.begin(), width() + 1, 0);
+  std::fill_n(distance_.begin(), width() + 1, kInfinity);
+  std::size_t column = 0;
+  do {
+    reached_[column] = 1;
+    const Near next = nearest_from(column);
+    move_potentials(next.distance);
+    column = next.column;
+  } while (row_of_[column] != 0);
+  return column;
+}
+
+// The nearest column that is not reached, now that those are nearer that are near to this column's row.
+Assignment::Near Assignment::nearest_from(std::size_t column) {
+  const std::size_t columns = width();
+  const std::size_t row = index_of(row_of_[column]);
+  Near nearest{0, kInfinity};
+  for (std::size_t j = 1; j <= columns; ++j) {
+    if (reached_[j]) continue;
+    const double reduced = cost_[(row - 1) * columns + j - 1] - row_potential_[row] - column_potential_[j];
+    if (reduced < distance_[j]) {
+      distance_[j] = reduced;
+      before_[j] = static_cast<int>(column);
+    }
+    if (distance_[j] < nearest.distance) nearest = {j, distance_[j]};
+  }
+  return nearest;
+}
+
+// Brings all that is reached nearer by `distance`.
+void Assignment::move_potentials(double distance) {
+  const std::size_t columns = width();
+  for (std::size_t j = 0; j <= columns; ++j)
+    if (reached_[j]) {
+      row_potential_[index_of(row_of_[j])] += distance;
+      column_potential_[j] -= distance;
+    } else {
+      distance_[j] -= distance;
+    }
+}
+
+// Each column takes over the row of the one before it, the first the row that waits.
+void Assignment::match_along_path(std::size_t column) {
+  while (column != 0) {
+    const auto previous = index_of(before_[column]);
+    row_of_[column] = row_of_[previous];
+    column = previous;
+  }
 }
 
 }  // namespace ttf::fusion::association

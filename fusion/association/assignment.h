@@ -4,6 +4,12 @@
 // solved one by one with shortest augmenting paths (Hungarian method with potentials: Kuhn 1955, Munkres
 // 1957), which leaves an observation unassigned where that is cheaper. Storage is taken at construction;
 // solving allocates nothing.
+//
+// In a component, cost(i, j) is the negative gain of row i in column j, 0 in the row's column for "unassigned", and out
+// of reach elsewhere. Potentials u of rows and v of columns keep every reduced cost
+//   cost(i, j) - u(i) - v(j)
+// at 0 or above, and at 0 for matched pairs: a path along 0 from a row to a free column can be matched the other way
+// round, and the matching then is the best for one row more.
 #pragma once
 
 #include <cstddef>
@@ -31,18 +37,37 @@ class Assignment {
   std::span<const int> column_of() const { return {column_of_.data(), rows_}; }
 
  private:
-  void solve_component();
+  void sort_by_component(std::span<const Candidate> candidates, std::size_t columns);
+  void solve_component(std::span<const Candidate> component);
+  void number_component(std::span<const Candidate> component);
+  void fill_costs(std::span<const Candidate> component);
+  std::size_t nearest_free_column();
+  struct Near {
+    std::size_t column;
+    double distance;
+  };
+  Near nearest_from(std::size_t column);
+  void move_potentials(double distance);
+  void match_along_path(std::size_t column);
+  // Of the component, with a column of its own for each row.
+  std::size_t width() const { return component_columns_.size() + component_rows_.size(); }
 
-  std::size_t rows_ = 0, columns_ = 0, max_rows_;
+  std::size_t rows_ = 0, max_rows_;
   std::vector<int> column_of_;
-  Components components_;  // of rows, then columns
+  Components components_;          // of rows, then columns
+  std::vector<Candidate> sorted_;  // by component, row, column
+
+  // The component that is solved. Its rows and columns are numbered anew in ascending order, behind its columns follows
+  // a column for each row that stands for "unassigned".
   std::vector<int> component_rows_, component_columns_, local_column_;
-  std::vector<Candidate> sorted_;
-  std::size_t first_ = 0, last_ = 0;  // candidates of the component being solved
-  std::unique_ptr<double[]> cost_;
-  std::vector<double> u_, v_, shortest_;
-  std::vector<int> match_, way_;
-  std::vector<char> used_;
+  std::unique_ptr<double[]> cost_;  // by row, numbered from 0
+  // The matching. Here rows and columns are numbered from 1: row 0 is none, and in column 0 waits the row that is next.
+  std::vector<int> row_of_;  // of each column
+  std::vector<double> row_potential_, column_potential_;
+  // The search for a free column.
+  std::vector<char> reached_;
+  std::vector<double> distance_;  // of columns that are not reached, from the nearest that is
+  std::vector<int> before_;       // the column before each on its shortest path
 };
 
 }  // namespace ttf::fusion::association

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "core/ids.h"
+
 namespace ttf::fusion::association {
 
 class Components {
@@ -17,12 +19,12 @@ class Components {
   void reset(std::size_t nodes) { std::iota(parent_.begin(), parent_.begin() + static_cast<std::ptrdiff_t>(nodes), 0); }
   void join(int first, int second) {
     const int a = root(first), b = root(second);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    parent_[index_of(std::max(a, b))] = std::min(a, b);
   }
   int root(int node) {
-    while (parent_[static_cast<std::size_t>(node)] != node) {
-      int& parent = parent_[static_cast<std::size_t>(node)];
-      parent = parent_[static_cast<std::size_t>(parent)];
+    while (parent_[index_of(node)] != node) {
+      int& parent = parent_[index_of(node)];
+      parent = parent_[index_of(parent)];
       node = parent;
     }
     return node;

@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "core/ids.h"
 
 namespace ttf::fusion::association {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 void sort_unique(std::vector<int>& values) {
   std::sort(values.begin(), values.end());
@@ -43,8 +42,18 @@ void JointAssociation::solve(std::span<const Pair> pairs, std::size_t rows, std:
   TTF_CHECK(rows <= row_sums_.size() && columns <= none_.size() && pairs.size() <= sorted_.capacity(),
             "{} pairs of {} rows, {} columns", pairs.size(), rows, columns);
   rows_ = rows;
-  components_.reset(rows + columns);
-  for (const Pair& pair : pairs) components_.join(pair.row, static_cast<int>(rows) + pair.column);
+  sort_into_clusters(pairs, columns);
+  std::fill_n(none_.begin(), columns, 1.0);
+  for (std::size_t first = 0, last = 0; first < sorted_.size(); first = last) {
+    while (last < sorted_.size() && sorted_[last].cluster == sorted_[first].cluster) ++last;
+    solve_cluster({sorted_.data() + first, last - first});
+  }
+  share_by_column(columns);
+}
+
+void JointAssociation::sort_into_clusters(std::span<const Pair> pairs, std::size_t columns) {
+  components_.reset(rows_ + columns);
+  for (const Pair& pair : pairs) components_.join(pair.row, static_cast<int>(rows_) + pair.column);
   sorted_.clear();
   for (const Pair& pair : pairs) {
     TTF_CHECK(pair.weight > 0.0 && pair.weight <= kLargestWeight, "a weight of {}", pair.weight);
@@ -54,12 +63,9 @@ void JointAssociation::solve(std::span<const Pair> pairs, std::size_t rows, std:
     if (a.cluster != b.cluster) return a.cluster < b.cluster;
     return a.pair.row != b.pair.row ? a.pair.row < b.pair.row : a.pair.column < b.pair.column;
   });
-  std::fill_n(none_.begin(), columns, 1.0);
-  for (std::size_t first = 0, last = 0; first < sorted_.size(); first = last) {
-    while (last < sorted_.size() && sorted_[last].cluster == sorted_[first].cluster) ++last;
-    solve_cluster({sorted_.data() + first, last - first});
-  }
+}
 
+void JointAssociation::share_by_column(std::size_t columns) {
   std::sort(sorted_.begin(), sorted_.end(), [](const Sorted& a, const Sorted& b) {
     return a.pair.column != b.pair.column ? a.pair.column < b.pair.column : a.pair.row < b.pair.row;
   });
@@ -67,7 +73,7 @@ void JointAssociation::solve(std::span<const Pair> pairs, std::size_t rows, std:
   std::size_t next = 0;
   for (std::size_t column = 0; column < columns; ++column) {
     begin_[column] = next;
-    for (; next < sorted_.size() && at(sorted_[next].pair.column) == column; ++next)
+    for (; next < sorted_.size() && index_of(sorted_[next].pair.column) == column; ++next)
       shared_.push_back({sorted_[next].pair.row, sorted_[next].probability});
   }
   begin_[columns] = next;
@@ -77,9 +83,22 @@ void JointAssociation::solve_cluster(std::span<Sorted> cluster) {
   if (cluster.size() == 1) {
     Sorted& only = cluster.front();
     only.probability = only.pair.weight / (1.0 + only.pair.weight);
-    none_[at(only.pair.column)] = 1.0 / (1.0 + only.pair.weight);
+    none_[index_of(only.pair.column)] = 1.0 / (1.0 + only.pair.weight);
     return;
   }
+  list_nodes(cluster);
+  const std::size_t bits = std::min(cluster_rows_.size(), cluster_columns_.size());
+  const std::size_t steps = std::max(cluster_rows_.size(), cluster_columns_.size());
+  if (bits <= most_bits() && (steps + 1) << bits <= kLargestTable) {
+    const bool columns_are_bits = cluster_columns_.size() <= cluster_rows_.size();
+    solve_exactly(cluster, {columns_are_bits, bits, steps, std::size_t{1} << bits});
+  } else {
+    solve_cheaply(cluster);
+    ++approximated_;
+  }
+}
+
+void JointAssociation::list_nodes(std::span<const Sorted> cluster) {
   cluster_rows_.clear();
   cluster_columns_.clear();
   for (const Sorted& one : cluster) {
@@ -88,15 +107,6 @@ void JointAssociation::solve_cluster(std::span<Sorted> cluster) {
   }
   sort_unique(cluster_rows_);
   sort_unique(cluster_columns_);
-  const bool columns_are_bits = cluster_columns_.size() <= cluster_rows_.size();
-  const std::size_t bits = std::min(cluster_rows_.size(), cluster_columns_.size());
-  const std::size_t steps = std::max(cluster_rows_.size(), cluster_columns_.size());
-  if (bits <= most_bits() && (steps + 1) << bits <= kLargestTable) {
-    solve_exactly(cluster, columns_are_bits);
-  } else {
-    solve_cheaply(cluster);
-    ++approximated_;
-  }
 }
 
 // With w(i, k) of the i-th step and the k-th bit, and T a set of bits:
@@ -104,23 +114,36 @@ void JointAssociation::solve_cluster(std::span<Sorted> cluster) {
 //              all ways in which the first i steps take just T;
 //   backward:  B_n = 1,  B_i(T) = B_i+1(T) + sum_(k not in T) w(i, k) B_i+1(T + k),
 //              all ways in which the others go on behind T.
-void JointAssociation::solve_exactly(std::span<Sorted> cluster, bool columns_are_bits) {
-  const std::vector<int>& bit_nodes = columns_are_bits ? cluster_columns_ : cluster_rows_;
-  const std::vector<int>& step_nodes = columns_are_bits ? cluster_rows_ : cluster_columns_;
-  const std::size_t bits = bit_nodes.size(), steps = step_nodes.size(), sets = std::size_t{1} << bits;
-  for (std::size_t r = 0; r < cluster_rows_.size(); ++r) local_[at(cluster_rows_[r])] = static_cast<int>(r);
-  for (std::size_t c = 0; c < cluster_columns_.size(); ++c)
-    local_[rows_ + at(cluster_columns_[c])] = static_cast<int>(c);
-  const auto place = [&](const Pair& pair) {
-    const std::size_t row = at(local_[at(pair.row)]), column = at(local_[rows_ + at(pair.column)]);
-    return columns_are_bits ? row * bits + column : column * bits + row;
-  };
-  std::fill_n(weights_.begin(), steps * bits, 0.0);
-  for (const Sorted& one : cluster) weights_[place(one.pair)] = one.pair.weight;
+// All events together weigh sum_T F_n(T); those in which step i takes bit k
+//   sum_(T without k) F_i(T) w(i, k) B_i+1(T + k).
+void JointAssociation::solve_exactly(std::span<Sorted> cluster, const Subsets& subsets) {
+  number_nodes();
+  std::fill_n(weights_.begin(), subsets.steps * subsets.bits, 0.0);
+  for (const Sorted& one : cluster) weights_[place_of(one.pair, subsets)] = one.pair.weight;
+  go_forward(subsets);
+  const double all = weigh_all(subsets);
+  go_backward(subsets, all);
+  for (Sorted& one : cluster) one.probability = weights_[place_of(one.pair, subsets)];
+}
 
+void JointAssociation::number_nodes() {
+  for (std::size_t r = 0; r < cluster_rows_.size(); ++r) local_[index_of(cluster_rows_[r])] = static_cast<int>(r);
+  for (std::size_t c = 0; c < cluster_columns_.size(); ++c)
+    local_[rows_ + index_of(cluster_columns_[c])] = static_cast<int>(c);
+}
+
+std::size_t JointAssociation::place_of(const Pair& pair, const Subsets& subsets) const {
+  const std::size_t row = index_of(local_[index_of(pair.row)]);
+  const std::size_t column = index_of(local_[rows_ + index_of(pair.column)]);
+  return subsets.columns_are_bits ? row * subsets.bits + column : column * subsets.bits + row;
+}
+
+// F of all steps.
+void JointAssociation::go_forward(const Subsets& subsets) {
+  const std::size_t bits = subsets.bits, sets = subsets.sets;
   std::fill_n(forward_.begin(), sets, 0.0);
   forward_[0] = 1.0;
-  for (std::size_t i = 0; i < steps; ++i) {
+  for (std::size_t i = 0; i < subsets.steps; ++i) {
     const double *w = &weights_[i * bits], *from = &forward_[i * sets];
     double* to = &forward_[(i + 1) * sets];
     for (std::size_t taken = 0; taken < sets; ++taken) {
@@ -130,25 +153,37 @@ void JointAssociation::solve_exactly(std::span<Sorted> cluster, bool columns_are
       to[taken] = sum;
     }
   }
-  const double* complete = &forward_[steps * sets];
-  double all = 0.0;
-  for (std::size_t taken = 0; taken < sets; ++taken) all += complete[taken];
-  if (columns_are_bits)
-    for (std::size_t k = 0; k < bits; ++k) {
-      double without = 0.0;
-      for (std::size_t taken = 0; taken < sets; ++taken)
-        if (!(taken >> k & 1u)) without += complete[taken];
-      none_[at(bit_nodes[k])] = without / all;
-    }
+}
 
-  // Backward; the weights give way to the probabilities.
+// The weight of all events together. Where the tracks are the bits, a track has no observation in the events that end
+// with a set without its bit.
+double JointAssociation::weigh_all(const Subsets& subsets) {
+  const double* complete = &forward_[subsets.steps * subsets.sets];
+  double all = 0.0;
+  for (std::size_t taken = 0; taken < subsets.sets; ++taken) all += complete[taken];
+  if (!subsets.columns_are_bits) return all;
+  for (std::size_t k = 0; k < subsets.bits; ++k) {
+    double without = 0.0;
+    for (std::size_t taken = 0; taken < subsets.sets; ++taken)
+      if (!(taken >> k & 1u)) without += complete[taken];
+    none_[index_of(cluster_columns_[k])] = without / all;
+  }
+  return all;
+}
+
+// B of one step after the other, the last first; the weights give way to the probabilities. Where the tracks are the
+// steps, a track has no observation in the events in which its step takes no bit: sum_T F_i(T) B_i+1(T).
+void JointAssociation::go_backward(const Subsets& subsets, double all) {
+  const std::size_t bits = subsets.bits, sets = subsets.sets;
   std::fill_n(backward_.begin(), sets, 1.0);
-  for (std::size_t i = steps; i-- > 0;) {
+  for (std::size_t i = subsets.steps; i-- > 0;) {
     double* w = &weights_[i * bits];
     const double* before = &forward_[i * sets];
-    double alone = 0.0;
-    for (std::size_t taken = 0; taken < sets; ++taken) alone += before[taken] * backward_[taken];
-    if (!columns_are_bits) none_[at(step_nodes[i])] = alone / all;
+    if (!subsets.columns_are_bits) {
+      double alone = 0.0;
+      for (std::size_t taken = 0; taken < sets; ++taken) alone += before[taken] * backward_[taken];
+      none_[index_of(cluster_columns_[i])] = alone / all;
+    }
     double shares[most_bits()] = {};
     for (std::size_t taken = 0; taken < sets; ++taken) {
       double sum = backward_[taken];
@@ -158,27 +193,26 @@ void JointAssociation::solve_exactly(std::span<Sorted> cluster, bool columns_are
         shares[k] += before[taken] * onward;
         sum += onward;
       }
-      backward_[taken] = sum;  // of sets that are larger only was there need
+      backward_[taken] = sum;  // B_i+1 is needed of larger sets only from here on
     }
     for (std::size_t k = 0; k < bits; ++k) w[k] = shares[k] / all;
   }
-  for (Sorted& one : cluster) one.probability = weights_[place(one.pair)];
 }
 
 void JointAssociation::solve_cheaply(std::span<Sorted> cluster) {
-  for (const int row : cluster_rows_) row_sums_[at(row)] = 0.0;
-  for (const int column : cluster_columns_) column_sums_[at(column)] = 0.0;
+  for (const int row : cluster_rows_) row_sums_[index_of(row)] = 0.0;
+  for (const int column : cluster_columns_) column_sums_[index_of(column)] = 0.0;
   for (const Sorted& one : cluster) {
-    row_sums_[at(one.pair.row)] += one.pair.weight;
-    column_sums_[at(one.pair.column)] += one.pair.weight;
+    row_sums_[index_of(one.pair.row)] += one.pair.weight;
+    column_sums_[index_of(one.pair.column)] += one.pair.weight;
   }
   for (Sorted& one : cluster) {
     const double w = one.pair.weight;
-    const double others = (row_sums_[at(one.pair.row)] - w) + (column_sums_[at(one.pair.column)] - w);
+    const double others = (row_sums_[index_of(one.pair.row)] - w) + (column_sums_[index_of(one.pair.column)] - w);
     one.probability = w / (1.0 + w + std::max(0.0, others));
-    none_[at(one.pair.column)] -= one.probability;
+    none_[index_of(one.pair.column)] -= one.probability;
   }
-  for (const int column : cluster_columns_) none_[at(column)] = std::max(0.0, none_[at(column)]);
+  for (const int column : cluster_columns_) none_[index_of(column)] = std::max(0.0, none_[index_of(column)]);
 }
 
 }  // namespace ttf::fusion::association

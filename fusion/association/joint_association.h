@@ -66,18 +66,35 @@ class JointAssociation {
     int cluster = 0;
     double probability = 0.0;
   };
+  // Exactly: the events of a cluster, built up step by step. The fewer of its rows and columns are the bits of a set,
+  // each of the others is a step that takes one bit or none. Both are numbered in ascending order.
+  struct Subsets {
+    bool columns_are_bits;
+    std::size_t bits, steps, sets;
+  };
+  void sort_into_clusters(std::span<const Pair> pairs, std::size_t columns);
+  void share_by_column(std::size_t columns);
   void solve_cluster(std::span<Sorted> cluster);
-  void solve_exactly(std::span<Sorted> cluster, bool columns_are_bits);
+  void list_nodes(std::span<const Sorted> cluster);
+  void solve_exactly(std::span<Sorted> cluster, const Subsets& subsets);
+  void number_nodes();
+  std::size_t place_of(const Pair& pair, const Subsets& subsets) const;
+  void go_forward(const Subsets& subsets);
+  double weigh_all(const Subsets& subsets);
+  void go_backward(const Subsets& subsets, double all);
   void solve_cheaply(std::span<Sorted> cluster);
 
   std::size_t rows_ = 0;
-  Components components_;
-  std::vector<Sorted> sorted_;
+  Components components_;                                    // of rows, then columns
+  std::vector<Sorted> sorted_;                               // by cluster, row, column; in the end by column, row
   std::vector<int> cluster_rows_, cluster_columns_, local_;  // local_: of rows, then of columns
-  std::vector<double> weights_, forward_, backward_;
-  std::vector<double> row_sums_, column_sums_, none_;
-  std::vector<Shared> shared_;
-  std::vector<std::size_t> begin_;
+  std::vector<double> weights_;                              // by step and bit; behind go_backward() probabilities
+  std::vector<double> forward_;                              // F, by step and set
+  std::vector<double> backward_;                             // B of one step, by set
+  std::vector<double> row_sums_, column_sums_;
+  std::vector<double> none_;        // by column
+  std::vector<Shared> shared_;      // by column, row
+  std::vector<std::size_t> begin_;  // in shared_, by column
   std::uint64_t approximated_ = 0;
 };
 

@@ -1,6 +1,8 @@
 #include "fusion/strategies/strategy.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -266,6 +268,17 @@ class TimeTriggered final : public HistoryStrategy {
   }
 };
 
+using Maker = std::unique_ptr<Strategy> (*)(const config::TrackerConfig& config, std::span<const SensorTiming> sensors,
+                                            std::unique_ptr<tracks::TrackHistory> history);
+template <class Kind>
+std::unique_ptr<Strategy> make(const config::TrackerConfig& config, std::span<const SensorTiming> sensors,
+                               std::unique_ptr<tracks::TrackHistory> history) {
+  return std::make_unique<Kind>(config, sensors, std::move(history));
+}
+// In the order of StrategyKind.
+constexpr std::array<Maker, kStrategyCount> kMakers{make<Buff>, make<Adva>, make<TimeTriggered>};
+static_assert(std::find(kMakers.begin(), kMakers.end(), nullptr) == kMakers.end(), "every strategy can be made");
+
 }  // namespace
 
 std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors,
@@ -283,6 +296,7 @@ std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const Sen
 
 std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const config::TrackerConfig& config,
                                         std::span<const SensorTiming> sensors) {
+  TTF_CHECK(kind < StrategyKind::kCount, "strategy {}", static_cast<int>(kind));
   const std::string refusal = late_refusal(kind, config.late, sensors, true);
   TTF_CHECK(refusal.empty(), "late {}", refusal);
   std::unique_ptr<tracks::TrackHistory> history;
@@ -290,12 +304,7 @@ std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const config::Tracker
     history = std::make_unique<tracks::Timeline>(config, config.max_observations);
   else
     history = std::make_unique<late::LateUpdates>(config, config.max_observations, sensors);
-  switch (kind) {
-    case StrategyKind::kBuff: return std::make_unique<Buff>(config, sensors, std::move(history));
-    case StrategyKind::kAdva: return std::make_unique<Adva>(config, sensors, std::move(history));
-    case StrategyKind::kTt: return std::make_unique<TimeTriggered>(config, sensors, std::move(history));
-  }
-  TTF_CHECK(false, "strategy {}", static_cast<int>(kind));
+  return kMakers[static_cast<std::size_t>(kind)](config, sensors, std::move(history));
 }
 
 }  // namespace ttf::fusion::strategies

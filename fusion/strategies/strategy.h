@@ -28,11 +28,16 @@
 // After construction nothing allocates.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/ids.h"
@@ -44,7 +49,33 @@
 
 namespace ttf::fusion::strategies {
 
-enum class StrategyKind : std::uint8_t { kBuff = 0, kAdva = 1, kTt = 2 };
+// kCount is no strategy: it counts them.
+enum class StrategyKind : std::uint8_t { kBuff = 0, kAdva = 1, kTt = 2, kCount };
+inline constexpr std::size_t kStrategyCount = static_cast<std::size_t>(StrategyKind::kCount);
+
+// The names that files, options and logs give the strategies, in the order of StrategyKind.
+inline constexpr std::array<std::pair<std::string_view, StrategyKind>, kStrategyCount> kStrategyNames{
+    {{"buff", StrategyKind::kBuff}, {"adva", StrategyKind::kAdva}, {"tt", StrategyKind::kTt}}};
+inline constexpr std::array<StrategyKind, kStrategyCount> kAllStrategies = [] {
+  std::array<StrategyKind, kStrategyCount> all{};
+  for (std::size_t i = 0; i < kStrategyCount; ++i) all[i] = static_cast<StrategyKind>(i);
+  return all;
+}();
+static_assert(std::equal(kStrategyNames.begin(), kStrategyNames.end(), kAllStrategies.begin(),
+                         [](const auto& named, StrategyKind kind) {
+                           return !named.first.empty() && named.second == kind;
+                         }),
+              "every strategy has its name, in its place");
+
+// Empty for what is no strategy.
+constexpr std::string_view name_of(StrategyKind kind) {
+  return kind < StrategyKind::kCount ? kStrategyNames[static_cast<std::size_t>(kind)].first : std::string_view{};
+}
+constexpr std::optional<StrategyKind> strategy_named(std::string_view name) {
+  for (const auto& [known, kind] : kStrategyNames)
+    if (known == name) return kind;
+  return std::nullopt;
+}
 
 // What the schedule promises about a sensor.
 struct SensorTiming {

@@ -46,7 +46,10 @@ void PaperDriveMeasured(benchmark::State& state) {
   }
   state.counters["drives/s"] = benchmark::Counter(1, benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK(PaperDriveMeasured)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(benchmark::kMillisecond);
+BENCHMARK(PaperDriveMeasured)
+    ->DenseRange(0, fusion::strategies::kStrategyCount - 1)
+    ->ArgName("strategy")
+    ->Unit(benchmark::kMillisecond);
 
 void DriveWithoutLog(benchmark::State& state) {
   const Drive drive("scenarios/paper_scenario1.yaml", static_cast<fusion::strategies::StrategyKind>(state.range(0)));
@@ -59,7 +62,10 @@ void DriveWithoutLog(benchmark::State& state) {
   state.counters["x real time"] =
       benchmark::Counter(drive.scenario.duration.seconds(), benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK(DriveWithoutLog)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(benchmark::kMillisecond);
+BENCHMARK(DriveWithoutLog)
+    ->DenseRange(0, fusion::strategies::kStrategyCount - 1)
+    ->ArgName("strategy")
+    ->Unit(benchmark::kMillisecond);
 
 void DriveWithLog(benchmark::State& state) {
   const Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kTt);

@@ -25,7 +25,11 @@ expect 2 \
   --help
 expect 2 '^error: draw is no command of schedule: must be check, show or export$' schedule draw x.yaml
 expect 2 '^error: command line: .*--fast' run "$source/scenarios/paper_scenario1.yaml" --fast
-expect 2 "^error: command line: --strategy" run "$source/scenarios/paper_scenario1.yaml" --strategy best
+for command in run launch 'node fusion' track; do
+  # shellcheck disable=SC2086
+  expect 2 '^error: command line: --strategy: best not in \{buff,adva,tt\} \(--help says more\)$' $command \
+    "$source/scenarios/paper_scenario1.yaml" --strategy best
+done
 expect 2 "nothing.yaml: cannot be read" run "$work/nothing.yaml"
 
 for seed in 12x 010x 4611686018427387905 99999999999999999999999; do

@@ -76,7 +76,7 @@ TEST_P(Allocations, NoneWithFullLists) {
   EXPECT_GT(seen.most_hits, 1'200u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Strategies, Allocations, testing::ValuesIn(kStrategies),
+INSTANTIATE_TEST_SUITE_P(Strategies, Allocations, testing::ValuesIn(fusion::strategies::kAllStrategies),
                          [](const auto& strategy) { return std::string(name_of(strategy.param)); });
 
 }  // namespace

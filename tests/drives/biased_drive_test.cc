@@ -54,7 +54,7 @@ Drive standing_car(StrategyKind strategy) {
 TEST(BiasedDrive, EveryStrategyHasTheSameDrawAndEveryDriveItsOwn) {
   double plain[3];
   LaserSightings of[3];
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     const auto s = static_cast<std::size_t>(strategy);
     Drive drive = standing_car(strategy);
     LaserSightings exact;
@@ -137,7 +137,7 @@ TEST(BiasedDrive, ConsideredItIsConsistentIgnoredItIsNot) {
 
 // A scene behind the vehicle, seen by sensors that look backwards, is the scene ahead, turned.
 TEST(MountedDrive, BackwardsIsForwardsTurned) {
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     const Drive ahead("scenarios/paper_scenario1.yaml", strategy);
     Drive behind = ahead;
     sim::world::ObjectConfig& car = behind.scenario.world.objects[0];

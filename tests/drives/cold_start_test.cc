@@ -95,7 +95,7 @@ TEST(ColdStart, EveryNodeBecomesActiveWhateverThePowerOnTimes) {
 // up to the noise of one drive, which differs as measurements are made some milliseconds later. Pooled over ten drives
 // of either kind, errors agree within a quarter.
 TEST(ColdStart, IsWorthWhatAnIntegratedDriveIs) {
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     Drive drive("scenarios/paper_scenario2.yaml", strategy);
     double squares[2] = {}, velocities[2] = {}, ages[2] = {};
     std::uint64_t matched[2] = {}, missed[2] = {};

@@ -133,7 +133,7 @@ TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryStrategy, Crowd,
-                         testing::Combine(testing::ValuesIn(kStrategies),
+                         testing::Combine(testing::ValuesIn(fusion::strategies::kAllStrategies),
                                           testing::Values(std::uint64_t{1}, std::uint64_t{2})),
                          [](const auto& run) {
                            return std::string(name_of(std::get<fusion::strategies::StrategyKind>(run.param))) + "_" +

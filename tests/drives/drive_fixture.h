@@ -30,8 +30,4 @@ struct Drive {
   }
 };
 
-inline constexpr fusion::strategies::StrategyKind kStrategies[] = {fusion::strategies::StrategyKind::kBuff,
-                                                                   fusion::strategies::StrategyKind::kAdva,
-                                                                   fusion::strategies::StrategyKind::kTt};
-
 }  // namespace ttf::drives

@@ -29,7 +29,7 @@ std::string log_of(const Drive& drive, std::uint64_t seed, const std::string& na
 }
 
 TEST(Drive, SameSeedSameLogBytesOtherSeedOthers) {
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     const Drive drive("scenarios/paper_scenario2.yaml", strategy);
     const std::string first = log_of(drive, 5, "first"), second = log_of(drive, 5, "second");
     EXPECT_GT(first.size(), 100'000u);
@@ -50,7 +50,7 @@ struct FusedLists final : recording::records::Sink {
 
 TEST(Drive, ShippedDrivesHaveOutOfSequenceArrivalsAndTheStrategiesDiffer) {
   std::vector<Images> images(3);
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     const Drive drive("scenarios/paper_scenario1.yaml", strategy);
     evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
     recording::records::Tee tee({&measures, &images[static_cast<std::size_t>(strategy)]});
@@ -79,7 +79,7 @@ TEST(Drive, ShippedDrivesHaveOutOfSequenceArrivalsAndTheStrategiesDiffer) {
 }
 
 TEST(Drive, EveryListIsFusedExactlyOnce) {
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     FusedLists fused;
     Drive("scenarios/paper_scenario2.yaml", strategy).run(fused);
     std::sort(fused.ids.begin(), fused.ids.end());
@@ -91,7 +91,7 @@ TEST(Drive, EveryListIsFusedExactlyOnce) {
 // What the feature service uses is the very image that was written under its sequence number, in every field, decoded
 // from the bus and not handed over.
 TEST(Drive, TheFeatureServiceUsesWhatTheBusCarried) {
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     const Drive drive("scenarios/paper_scenario1.yaml", strategy);
     Images images;
     drive.run(images);

@@ -15,7 +15,7 @@ namespace {
 using fusion::strategies::StrategyKind;
 
 class Living : public testing::TestWithParam<StrategyKind> {};
-INSTANTIATE_TEST_SUITE_P(All, Living, testing::ValuesIn(kStrategies),
+INSTANTIATE_TEST_SUITE_P(All, Living, testing::ValuesIn(fusion::strategies::kAllStrategies),
                          [](const auto& kind) { return std::string(name_of(kind.param)); });
 
 // No list fused twice, none but of what was measured, none older than the schedule says: BUFF and TT may wait for what

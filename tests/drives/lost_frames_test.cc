@@ -115,7 +115,7 @@ class Beside final : public recording::records::Sink {
 };
 
 TEST(LostFrames, ImagesAreThoseOfAFusionNodeThatWasNeverSentWhatGotLost) {
-  for (const StrategyKind kind : kStrategies)
+  for (const StrategyKind kind : fusion::strategies::kAllStrategies)
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       Everything everything;
       LivingDrive whole(kind, &everything, seed);

@@ -123,7 +123,7 @@ std::string log_of(const Drive& drive, const std::string& name) {
 }
 
 TEST(Log, ReplayingTheFusionNodesInputsGivesEveryImageBitForBit) {
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     const Drive drive("scenarios/paper_scenario2.yaml", strategy);
     const std::string path = log_of(drive, "replay");
     FusionReplay replay(drive);

@@ -58,7 +58,7 @@ TrueTime seconds(double s) { return TrueTime{static_cast<std::int64_t>(s * 1e9)}
 // Away for longer than a round of the cycle counter: it comes back with another cycle number, and the precision is
 // measured on.
 TEST(Restart, TheFusionNodeComesBackWithNothing) {
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     Cluster cluster(strategy);
     Seen seen;
     sim::crank::ClusterSimulation simulation(cluster.config, seen);
@@ -87,7 +87,7 @@ TEST(Restart, TheFusionNodeComesBackWithNothing) {
 }
 
 TEST(Restart, AColdStartedClusterFuses) {
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     Cluster cluster(strategy);
     RandomStream draw({7, 0, Purpose::kTest, 0, 0});
     std::vector<TrueTime> at;
@@ -149,7 +149,7 @@ std::uint64_t story(StrategyKind strategy, std::uint64_t seed, Duration blackout
 }
 
 TEST(Restart, AClusterSurvivesBlackoutsAndIsAFunctionOfItsSeed) {
-  for (const StrategyKind strategy : kStrategies)
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies)
     for (std::uint64_t seed = 0; seed < 3; ++seed)
       EXPECT_EQ(story(strategy, seed, Duration::milliseconds(6'000)),
                 story(strategy, seed, Duration::milliseconds(6'000)));

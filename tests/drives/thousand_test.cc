@@ -30,7 +30,7 @@ TEST_P(Hundreds, OfObjectsAreTrackedNearlyAllTheTime) {
   EXPECT_EQ(outcome.counts.torn_lists, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryStrategy, Hundreds, testing::ValuesIn(kStrategies),
+INSTANTIATE_TEST_SUITE_P(EveryStrategy, Hundreds, testing::ValuesIn(fusion::strategies::kAllStrategies),
                          [](const auto& run) { return std::string(name_of(run.param)); });
 
 }  // namespace

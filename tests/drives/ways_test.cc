@@ -149,7 +149,7 @@ TEST_P(WaysOfMeasurements, SequenceNumbersCountOnWhereTheFieldWraps) {
   EXPECT_EQ(found.arrows, expected.arrows);
 }
 
-INSTANTIATE_TEST_SUITE_P(Strategies, WaysOfMeasurements, testing::ValuesIn(kStrategies),
+INSTANTIATE_TEST_SUITE_P(Strategies, WaysOfMeasurements, testing::ValuesIn(fusion::strategies::kAllStrategies),
                          [](const auto& strategy) { return std::string(name_of(strategy.param)); });
 
 }  // namespace

@@ -15,10 +15,10 @@
 namespace ttf::fusion {
 
 // The name of a test that is run for every strategy.
-inline std::string name_of(const testing::TestParamInfo<strategies::StrategyKind>& kind) {
-  return kind.param == strategies::StrategyKind::kBuff   ? "Buff"
-         : kind.param == strategies::StrategyKind::kAdva ? "Adva"
-                                                         : "Tt";
+inline std::string name_of_strategy(const testing::TestParamInfo<strategies::StrategyKind>& kind) {
+  std::string name(name_of(kind.param));
+  name.front() = static_cast<char>(name.front() - 'a' + 'A');
+  return name;
 }
 
 // What the schedule promises of a sensor: measurements at unknown instants, or every `period_ms` from

@@ -209,7 +209,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       "L\t10\t0\t1000\t10\t0\t1\t0\t0\t0\nR\t10\t0\t1\t2000\t10\t0\t1\t0\t0\t0\n", "rows.txt"));
   fuzz::Source source(data, size);
   const schedules::model::Cluster& described = kClusters[source.take<std::uint8_t>() % 2];
-  const auto strategy = static_cast<fusion::strategies::StrategyKind>(source.take<std::uint8_t>() % 3);
+  const auto strategy =
+      fusion::strategies::kAllStrategies[source.take<std::uint8_t>() % fusion::strategies::kStrategyCount];
   Cluster cluster({&kScenario, &described, strategy, 1, 0, fuzz::nothing_there(), kRows});
   while (!source.empty()) {
     switch (source.take<std::uint8_t>() % 4) {

@@ -92,8 +92,7 @@ TEST_F(TrackRecorded, DelaysChangeNothingInTheEnd) {
   SimulatedArrivals simulated;
   simulated.delays = {std::nullopt, SimulatedArrivals::Delay{Duration::milliseconds(20), Duration::milliseconds(90)}};
   simulate(arrivals, simulated);
-  for (const auto strategy : {fusion::strategies::StrategyKind::kBuff, fusion::strategies::StrategyKind::kAdva,
-                              fusion::strategies::StrategyKind::kTt}) {
+  for (const auto strategy : fusion::strategies::kAllStrategies) {
     const Error late = error_of(strategy);
     EXPECT_EQ(late.last.time_ns, in_order.last.time_ns);
     EXPECT_EQ(late.last.x, in_order.last.x);

@@ -14,7 +14,7 @@ namespace {
 using fusion::strategies::StrategyKind;
 
 TEST(Ages, SimulatedAgesLieWithinTheBounds) {
-  for (const StrategyKind strategy : kStrategies) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     const Drive drive("scenarios/paper_scenario1.yaml", strategy);
     Ages ages;
     constexpr std::uint64_t kDrives = 40;

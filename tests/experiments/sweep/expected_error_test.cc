@@ -259,9 +259,8 @@ TEST_P(AgainstStrategies, TheErrorIsTheExpectedOne) {
   RecordProperty("sampled_m2", std::to_string(interval.mean) + " +- " + std::to_string(interval.half_width));
 }
 
-INSTANTIATE_TEST_SUITE_P(Strategies, AgainstStrategies,
-                         testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
-                         [](const auto& one) { return std::string(drives::name_of(one.param)); });
+INSTANTIATE_TEST_SUITE_P(Strategies, AgainstStrategies, testing::ValuesIn(fusion::strategies::kAllStrategies),
+                         [](const auto& one) { return std::string(name_of(one.param)); });
 
 // Two equal sensors of one period, the other one `phase` (0 to 1) of it behind: the variance of the predicted position,
 // averaged over time, when both have settled. A list is known when it has been under way for `delay_ms`.

@@ -128,19 +128,17 @@ Judged judge(const Case& c, double noise_times, std::uint32_t drives) {
 
 std::vector<Case> every_case() {
   std::vector<Case> all;
-  const std::pair<strategies::StrategyKind, std::string> strategies[] = {{strategies::StrategyKind::kBuff, "buff"},
-                                                                         {strategies::StrategyKind::kAdva, "adva"},
-                                                                         {strategies::StrategyKind::kTt, "tt"}};
   const std::pair<config::MotionModel, std::string> motions[] = {
       {config::MotionModel::kConstantVelocity, "constant_velocity"},
       {config::MotionModel::kConstantAcceleration, "constant_acceleration"},
       {config::MotionModel::kCtrv, "ctrv"},
       {config::MotionModel::kCtra, "ctra"}};
-  for (const auto& [strategy, how] : strategies)
+  for (const auto& [how, strategy] : strategies::kStrategyNames)
     for (const auto& [motion, model] : motions)
       for (const config::FilterKind filter : {config::FilterKind::kExtended, config::FilterKind::kUnscented}) {
-        all.push_back({how + " " + model + (filter == config::FilterKind::kExtended ? " extended" : " unscented"),
-                       strategy, motion, filter, oosm::Kind::kRewind});
+        all.push_back(
+            {std::string(how) + " " + model + (filter == config::FilterKind::kExtended ? " extended" : " unscented"),
+             strategy, motion, filter, oosm::Kind::kRewind});
         const bool straight =
             motion == config::MotionModel::kConstantVelocity || motion == config::MotionModel::kConstantAcceleration;
         if (filter != config::FilterKind::kExtended || !straight || strategy == strategies::StrategyKind::kBuff)
@@ -148,7 +146,8 @@ std::vector<Case> every_case() {
         for (const oosm::NamedKind& method : oosm::kKinds)
           if (method.kind != oosm::Kind::kRewind &&
               (strategy == strategies::StrategyKind::kAdva || method.kind == oosm::Kind::kClone))
-            all.push_back({how + " " + model + " " + std::string(method.name), strategy, motion, filter, method.kind});
+            all.push_back({std::string(how) + " " + model + " " + std::string(method.name), strategy, motion, filter,
+                           method.kind});
       }
   return all;
 }

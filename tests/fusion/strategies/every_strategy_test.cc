@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "fusion/tracks/timeline.h"
@@ -14,8 +15,14 @@ namespace ttf::fusion::strategies {
 namespace {
 
 class EveryStrategy : public testing::TestWithParam<StrategyKind> {};
-INSTANTIATE_TEST_SUITE_P(All, EveryStrategy,
-                         testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt), tracks::name_of);
+INSTANTIATE_TEST_SUITE_P(All, EveryStrategy, testing::ValuesIn(kAllStrategies), name_of_strategy);
+
+TEST_P(EveryStrategy, IsKnownByItsName) { EXPECT_EQ(strategy_named(name_of(GetParam())), GetParam()); }
+
+TEST(StrategyNames, AnUnknownOneIsNoStrategy) {
+  for (const std::string_view name : {"", "best", "TT", "tt ", "buf"}) EXPECT_EQ(strategy_named(name), std::nullopt);
+  EXPECT_EQ(name_of(StrategyKind::kCount), "");
+}
 
 TEST_P(EveryStrategy, EndsWithTheBitsOfInOrderProcessing) {
   const std::vector<Arrival> arrivals = drawn_drive(1, 40);

@@ -1,8 +1,7 @@
 // A stamp from the future says nothing of what else may come: waiting goes on as before.
 #include <gtest/gtest.h>
 
-#include "fusion/strategies/strategy.h"
-#include "tests/fusion/scenes.h"
+#include "tests/fusion/drives.h"
 
 namespace ttf::fusion::strategies {
 namespace {
@@ -12,7 +11,7 @@ namespace {
 //   1/0 (20 ms) waits for sensor 0 until 20 + 60 = 80, however late the stamp of 0/0 is.
 class FutureStamp : public testing::TestWithParam<StrategyKind> {};
 INSTANTIATE_TEST_SUITE_P(WhoWait, FutureStamp, testing::Values(StrategyKind::kBuff, StrategyKind::kTt),
-                         [](const auto& kind) { return kind.param == StrategyKind::kBuff ? "Buff" : "Tt"; });
+                         name_of_strategy);
 
 TEST_P(FutureStamp, EndsNobodysWaiting) {
   const bool scheduled = GetParam() == StrategyKind::kTt;

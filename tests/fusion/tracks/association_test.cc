@@ -95,8 +95,7 @@ TEST_P(EveryOption, EveryStrategyEndsWithTheBitsOfInOrderProcessing) {
   std::vector<TrackView> expected, image;
   for (const Track& track : timeline.current().tracks)
     if (track.confirmed) expected.push_back(shown(track, timeline.current().time, at_ms(1700)));
-  for (const strategies::StrategyKind kind :
-       {strategies::StrategyKind::kBuff, strategies::StrategyKind::kAdva, strategies::StrategyKind::kTt}) {
+  for (const strategies::StrategyKind kind : strategies::kAllStrategies) {
     const auto strategy = make_strategy(kind, config(), laser_and_camera());
     run(*strategy, arrivals, 2000);
     strategy->image(at_ms(1700), image);

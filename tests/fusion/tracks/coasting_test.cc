@@ -13,15 +13,7 @@ namespace ttf::fusion::tracks {
 namespace {
 
 class Coasting : public testing::TestWithParam<strategies::StrategyKind> {};
-std::string name_of(const testing::TestParamInfo<strategies::StrategyKind>& kind) {
-  return kind.param == strategies::StrategyKind::kBuff   ? "Buff"
-         : kind.param == strategies::StrategyKind::kAdva ? "Adva"
-                                                         : "Tt";
-}
-INSTANTIATE_TEST_SUITE_P(All, Coasting,
-                         testing::Values(strategies::StrategyKind::kBuff, strategies::StrategyKind::kAdva,
-                                         strategies::StrategyKind::kTt),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(All, Coasting, testing::ValuesIn(strategies::kAllStrategies), name_of_strategy);
 
 constexpr std::int64_t kLast = 760;  // [ms], of the newest measurement
 

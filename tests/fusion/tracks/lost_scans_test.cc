@@ -15,10 +15,7 @@ namespace ttf::fusion::tracks {
 namespace {
 
 class LostScans : public testing::TestWithParam<strategies::StrategyKind> {};
-INSTANTIATE_TEST_SUITE_P(All, LostScans,
-                         testing::Values(strategies::StrategyKind::kBuff, strategies::StrategyKind::kAdva,
-                                         strategies::StrategyKind::kTt),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(All, LostScans, testing::ValuesIn(strategies::kAllStrategies), name_of_strategy);
 
 // A span of the drive in which a sensor is dead; its last list may be on its way still.
 struct Silence {

@@ -65,8 +65,8 @@ void expect_honest(const Told& told) {
 }
 
 class ImageExtent : public testing::TestWithParam<ttf::fusion::strategies::StrategyKind> {};
-INSTANTIATE_TEST_SUITE_P(All, ImageExtent, testing::ValuesIn(drives::kStrategies),
-                         [](const auto& kind) { return std::string(drives::name_of(kind.param)); });
+INSTANTIATE_TEST_SUITE_P(All, ImageExtent, testing::ValuesIn(ttf::fusion::strategies::kAllStrategies),
+                         [](const auto& kind) { return std::string(name_of(kind.param)); });
 
 TEST_P(ImageExtent, IsHonestForACarThatDrivesAhead) {
   const Sizes sizes = driven(Drive("scenarios/paper_scenario1.yaml", GetParam()));

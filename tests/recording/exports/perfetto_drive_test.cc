@@ -99,7 +99,7 @@ TEST_P(PerfettoDrive, EveryUsedMeasurementsWayIsThereFromSensorToFeatureService)
   EXPECT_EQ(in("FlexRay"), drive.used.slot_frames);
   EXPECT_EQ(trace.slices.size(), drive.counts.slices + drive.counts.instants);
 }
-INSTANTIATE_TEST_SUITE_P(Strategies, PerfettoDrive, testing::ValuesIn(drives::kStrategies));
+INSTANTIATE_TEST_SUITE_P(Strategies, PerfettoDrive, testing::ValuesIn(fusion::strategies::kAllStrategies));
 
 TEST(PerfettoDrives, AFaultyDriveIsASoundTraceAndTheSameEachTime) {
   const Exported drive = exported("scenarios/faulty_bus.yaml", fusion::strategies::StrategyKind::kTt);

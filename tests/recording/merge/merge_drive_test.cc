@@ -164,7 +164,8 @@ void compare(const char* scenario, StrategyKind strategy) {
 }
 
 TEST(MergeDrive, WithEveryStrategy) {
-  for (const StrategyKind strategy : drives::kStrategies) compare("scenarios/paper_scenario1.yaml", strategy);
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies)
+    compare("scenarios/paper_scenario1.yaml", strategy);
 }
 TEST(MergeDrive, ThatBeginsWithAStartUp) { compare("scenarios/cold_start.yaml", StrategyKind::kTt); }
 TEST(MergeDrive, WithFaults) { compare("scenarios/faulty_bus.yaml", StrategyKind::kTt); }

@@ -230,7 +230,7 @@ std::uint64_t hash(fusion::strategies::StrategyKind strategy, std::uint64_t seed
 }
 
 TEST(TransparentMedium, DrivesLeaveTheSameRecords) {
-  for (const fusion::strategies::StrategyKind strategy : drives::kStrategies)
+  for (const fusion::strategies::StrategyKind strategy : fusion::strategies::kAllStrategies)
     for (const bool flips : {false, true})
       for (std::uint64_t seed = 1; seed < 4; ++seed)
         EXPECT_EQ(hash(strategy, seed, flips, kReference), hash(strategy, seed, flips, kTransparent))

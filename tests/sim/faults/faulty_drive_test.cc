@@ -114,8 +114,8 @@ TEST_P(FaultyDrive, NamesThatTheClusterHasNotAreRefusedBeforeAnythingRuns) {
   EXPECT_EQ(sum.frames, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Strategies, FaultyDrive, testing::ValuesIn(drives::kStrategies),
-                         [](const auto& strategy) { return std::string(drives::name_of(strategy.param)); });
+INSTANTIATE_TEST_SUITE_P(Strategies, FaultyDrive, testing::ValuesIn(fusion::strategies::kAllStrategies),
+                         [](const auto& strategy) { return std::string(name_of(strategy.param)); });
 
 }  // namespace
 }  // namespace ttf::sim::faults

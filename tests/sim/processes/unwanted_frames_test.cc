@@ -47,7 +47,7 @@ void compare(const drives::Drive& drive) {
 }
 
 TEST(UnwantedFrames, LeaveAllOtherRecordsAsTheyAre) {
-  for (const fusion::strategies::StrategyKind strategy : drives::kStrategies)
+  for (const fusion::strategies::StrategyKind strategy : fusion::strategies::kAllStrategies)
     compare({"scenarios/paper_scenario1.yaml", strategy});
 }
 
@@ -77,7 +77,7 @@ TEST(UnwantedFrames, MayBeOutsideOfTheirSlots) {
 }
 
 TEST(UnwantedFrames, AreStillSubjectToFaults) {
-  for (const fusion::strategies::StrategyKind strategy : drives::kStrategies)
+  for (const fusion::strategies::StrategyKind strategy : fusion::strategies::kAllStrategies)
     compare({"scenarios/faulty_bus.yaml", strategy});
 }
 
