@@ -285,7 +285,8 @@ RunnerEnd Runner::run() {
   while (true) {
     bus::ports::HostTime now = host_clock_.now();
     // Who was stopped was so with the medium's threads: what they have to take in is to be there before it is missed.
-    const bool behind = next_due() != kNever<Microticks> && now - host_time(next_due()) > config_.clock.in_real(cluster_.cycle());
+    const bool behind =
+        next_due() != kNever<Microticks> && now - host_time(next_due()) > config_.clock.in_real(cluster_.cycle());
     if (behind && !was_behind) {
       host_clock_.sleep(kUntilTakenIn);
       now = host_clock_.now();
