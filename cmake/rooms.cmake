@@ -7,12 +7,9 @@ add_library(ttf_options INTERFACE)
 target_compile_options(ttf_options INTERFACE -mno-fma -ffp-contract=off -pthread)
 target_include_directories(ttf_options INTERFACE ${PROJECT_SOURCE_DIR})
 if(TTF_SANITIZE)
-  # A target's own code can be spared (ttf_test below).
-  set(TTF_INSTRUMENTED $<NOT:$<BOOL:$<TARGET_PROPERTY:TTF_UNINSTRUMENTED>>>)
   # g++ 12 sees uninitialised reads inside the standard library where sanitizers keep it from inlining.
   target_compile_options(ttf_options INTERFACE
-    $<${TTF_INSTRUMENTED}:-fsanitize=${TTF_SANITIZE}>
-    $<${TTF_INSTRUMENTED}:-fno-sanitize-recover=all> -fno-omit-frame-pointer
+    -fsanitize=${TTF_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(ttf_options INTERFACE -fsanitize=${TTF_SANITIZE})
 endif()
@@ -21,7 +18,7 @@ if(TTF_FUZZ)
     message(FATAL_ERROR "TTF_FUZZ needs clang++ (libFuzzer); use the preset asan-ubsan")
   endif()
   # Coverage of our own code guides the fuzzers; libFuzzer itself is linked into the targets alone (tests/fuzz).
-  target_compile_options(ttf_options INTERFACE $<${TTF_INSTRUMENTED}:-fsanitize=fuzzer-no-link>)
+  target_compile_options(ttf_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # g++ collects its garbage as if memory were scarce: a twelfth of a build's time.
@@ -92,21 +89,20 @@ function(ttf_slow)
 endfunction()
 
 # ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [SLOW | SLOW_TESTS <patterns...>]
-# [UNSANITIZED | UNSANITIZED_TESTS <patterns...>] [UNINSTRUMENTED] [COST <n>]): one GoogleTest program, one ctest entry per
-# test program; SLOW, it is as ttf_slow() has it; SLOW_TESTS, these of it are another entry, <name>_slow, labelled slow.
-# Sanitizers are spared what they would only make longer: UNSANITIZED, statistics over thousands of runs and whole drives of
-# which others run, the program or these tests of it are not run; UNINSTRUMENTED, headers full of arithmetic take the
-# compiler minutes, its own code is as ever.
+# [UNSANITIZED | UNSANITIZED_TESTS <patterns...>] [COST <n>]): one GoogleTest program, one ctest entry per test program;
+# SLOW, it is as ttf_slow() has it; SLOW_TESTS, these of it are another entry, <name>_slow, labelled slow.
+# Sanitizers get what they can find something in: bytes, buffers, lifetimes. They are spared statistics over thousands of
+# runs, whole drives of which others run, and headers full of arithmetic that take the compiler minutes: an UNSANITIZED
+# program is not built, UNSANITIZED_TESTS are not run.
 function(ttf_test name)
-  cmake_parse_arguments(TEST "UNSANITIZED;UNINSTRUMENTED;SLOW" "COST" "SOURCES;DEPS;SLOW_TESTS;UNSANITIZED_TESTS" ${ARGN})
+  cmake_parse_arguments(TEST "UNSANITIZED;SLOW" "COST" "SOURCES;DEPS;SLOW_TESTS;UNSANITIZED_TESTS" ${ARGN})
+  if(TEST_UNSANITIZED AND TTF_SANITIZE)
+    return()
+  endif()
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_DEPS} ttf_options GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TTF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   ttf_as_test(${name})
-  set_target_properties(${name} PROPERTIES TTF_UNINSTRUMENTED ${TEST_UNINSTRUMENTED})
-  if(TEST_UNSANITIZED AND TTF_SANITIZE)
-    return()
-  endif()
   set(elsewhere ${TEST_SLOW_TESTS})
   if(TTF_SANITIZE)
     set(elsewhere ${TEST_UNSANITIZED_TESTS})
