@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# What takes too long for .ci/run, by hand and now and then: hours on two cores. Each check that passes leaves the commit it
+# passed on, and the day, in tools/long_checks.passed, to be committed.
+#   tools/long_checks.sh [CHECK...]      default: all of those below
+set -euo pipefail
+cd "$(dirname "$0")/.."
+kept=tools/long_checks.passed
+
+plain_g++() { tools/plain_build.sh g++; }                              # everything, as those build it who know no presets
+plain_clang++() { tools/plain_build.sh clang++; }
+clang_warnings() {                                                     # everything, benchmarks too, warnings as errors
+  cmake --preset release -B build/clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
+  cmake --build build/clang --target all benchmarks slow_tests
+}
+sanitizers() { tools/sanitize.sh --slow; }                             # what is slow, and by the wall clock, too
+threads() {                                                            # the thread sanitizer
+  tools/build.sh tsan
+  ctest --test-dir build/tsan --output-on-failure -j"$(nproc)" -R 'test_(sweep|fault_campaign|runner|dds|log)'
+}
+tidy() { tools/tidy.sh; }                                              # every source and header
+fuzz() { tools/fuzz.sh 300; }                                          # five minutes a target
+
+all=(plain_g++ plain_clang++ clang_warnings sanitizers threads tidy fuzz)
+[[ $# -gt 0 ]] || set -- "${all[@]}"
+tools/install_deps.sh --gates
+[[ -z $(git status --porcelain) ]] || { echo "error: commit first: what passes is kept with its commit" >&2; exit 2; }
+commit=$(git rev-parse --short=12 HEAD)
+failed=0
+for check; do
+  declare -F "$check" >/dev/null || { echo "error: $check is no check: must be one of ${all[*]}" >&2; exit 2; }
+  echo "== $check"
+  start=$SECONDS
+  # Not in a condition, where -e would not hold.
+  set +e
+  (set -e; "$check")
+  result=$?
+  set -e
+  if [[ $result -eq 0 ]]; then
+    { grep -v "^$check " "$kept" || true; echo "$check $commit $(date -u +%F) $((SECONDS - start)) s"; } | LC_ALL=C sort >"$kept.new"
+    mv "$kept.new" "$kept"
+  else
+    failed=1
+  fi
+  echo "== $check: $([[ $result -eq 0 ]] && echo passed || echo failed), $((SECONDS - start)) s"
+done
+exit $failed

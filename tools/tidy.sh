@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# clang-tidy (.clang-tidy) on sources, and headers by themselves: each must compile without another one before it.
+#   tools/tidy.sh             all of the rooms
+#   tools/tidy.sh --changed   what changed since the long checks last passed (tools/long_checks.passed), the newest first, as many
+#                             as begin within 100 seconds; tools/long_checks.sh has the rest
+#   tools/tidy.sh FILE...
+# Exit code 1 if something is found. How to compile a source is known from the preset asan-ubsan.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=build/asan-ubsan
+[[ -f $build/compile_commands.json ]] || tools/build.sh asan-ubsan
+until=$((SECONDS + 100000))
+case ${1:-} in
+  --changed)
+    until=$((SECONDS + 100))
+    since=$(sed -n 's/^tidy \([0-9a-f]*\).*/\1/p' tools/long_checks.passed)
+    range=HEAD
+    git cat-file -e "${since:-none}^{commit}" 2>/dev/null && range=$since..HEAD
+    mapfile -t files < <(git log --format= --name-only --diff-filter=AM "$range" -- '*.h' '*.cc' ':!tests' | awk '!seen[$0]++')
+    ;;
+  "") mapfile -t files < <(git ls-files '*.h' '*.cc' ':!tests') ;;
+  *) files=("$@") ;;
+esac
+
+flags=(-std=c++20 -march=x86-64-v3 -ffp-contract=off -DTTF_VERSION='""' -I. "-isystem$build"
+  -I/usr/include/eigen3 $(pkg-config --cflags ompi-c librsvg-2.0 CycloneDDS 2>/dev/null || pkg-config --cflags ompi-c librsvg-2.0))
+check() {
+  local file=$1
+  [[ $SECONDS -lt $until && -f $file ]] || return 0
+  case $file in
+    *.h) clang++ "${flags[@]}" -fsyntax-only -Wno-pragma-once-outside-header -x c++ "$file" ;;
+    *) clang-tidy --quiet "$file" -- "${flags[@]}" 2>/dev/null ;;
+  esac || { echo "$file: see above" >&2; return 1; }
+  checked=$((checked + 1))
+}
+
+# Every second file each, on two processors.
+half() {
+  local i checked=0 failed=0
+  for ((i = $1; i < ${#files[@]}; i += 2)); do check "${files[i]}" || failed=1; done
+  echo "$checked of $(((${#files[@]} + 1 - $1) / 2)) files checked"
+  return $failed
+}
+half 0 &
+failed=0
+half 1 || failed=1
+wait $! || failed=1
+exit $failed
