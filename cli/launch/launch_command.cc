@@ -61,7 +61,7 @@ void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& resu
 // Who was not in operation at the end, and what there is nothing of to compare, in a sentence each. The exit code: a
 // drive at whose end nobody is left in the cluster has failed, however well its processes ended.
 int tell_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::StrategyResult* result, int exit_code,
-             supervision::RunFolder& folder) {
+             supervision::LaunchFolder& folder) {
   const std::string absent = end.sentence();
   const bool failed = end.nobody && exit_code == 0;
   if (!absent.empty()) fmt::print(stderr, "{}: {}\n", failed ? "error" : "warning", absent);
@@ -78,7 +78,7 @@ int tell_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::Str
 
 // What an earlier launch left, so that nobody takes it for this one's; and nothing else that is in the folder.
 void remove_earlier(const std::optional<supervision::EarlierLaunch>& earlier, const LaunchPlan& plan,
-                    const supervision::RunFolder& folder) {
+                    const supervision::LaunchFolder& folder) {
   for (const supervision::NodeSpec& node : plan.nodes) folder.remove_logs(node.name);
   if (!earlier) return;
   for (const std::string& node : earlier->nodes) {
@@ -96,7 +96,7 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   nlohmann::ordered_json facts{{"command", command_line()}};
   facts.update(facts_of(plan.set));
   const auto earlier = supervision::earlier_launch(plan.set.folder);
-  supervision::RunFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
+  supervision::LaunchFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
   remove_earlier(earlier, plan, folder);
   // Before the exchange begins a thread, which would take signals else.
   std::optional<supervision::SignalWatch> held_back(std::in_place);

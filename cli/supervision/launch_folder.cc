@@ -65,19 +65,19 @@ std::optional<EarlierLaunch> earlier_launch(const std::string& folder) {
   return earlier;
 }
 
-RunFolder::RunFolder(std::string folder, nlohmann::ordered_json facts, WallInstant now)
+LaunchFolder::LaunchFolder(std::string folder, nlohmann::ordered_json facts, WallInstant now)
     : folder_(std::move(folder)), facts_(std::move(facts)), began_(now) {
   cli::create_folder(folder_);
   lock_.emplace(folder_);
   write();
 }
 
-std::size_t RunFolder::add_node(const Entry& entry) {
+std::size_t LaunchFolder::add_node(const Entry& entry) {
   nodes_.push_back({entry, opened(folder_ + "/" + file_stem(entry.name) + ".txt"), {}});
   return nodes_.size() - 1;
 }
 
-std::vector<std::string> RunFolder::logs_of(std::string_view node) const {
+std::vector<std::string> LaunchFolder::logs_of(std::string_view node) const {
   std::vector<std::string> logs;
   std::string log = log_path(node);
   for (int n = 2; std::filesystem::exists(log); ++n) {
@@ -87,27 +87,27 @@ std::vector<std::string> RunFolder::logs_of(std::string_view node) const {
   return logs;
 }
 
-std::vector<std::string> RunFolder::logs() const {
+std::vector<std::string> LaunchFolder::logs() const {
   std::vector<std::string> all;
   for (const Node& node : nodes_)
     for (std::string& log : logs_of(node.entry.name)) all.push_back(std::move(log));
   return all;
 }
 
-void RunFolder::remove_logs(std::string_view node) const {
+void LaunchFolder::remove_logs(std::string_view node) const {
   for (const std::string& log : logs_of(node)) std::filesystem::remove(log);
 }
 
-void RunFolder::remove(const std::string& name) const {
+void LaunchFolder::remove(const std::string& name) const {
   TTF_CHECK(name.find('/') == std::string::npos, "{} is not in the folder", name);
   const std::filesystem::path path(folder_ + "/" + name);
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
 }
 
-Descriptor RunFolder::open_launch_log() const { return opened(folder_ + "/launch.log"); }
+Descriptor LaunchFolder::open_launch_log() const { return opened(folder_ + "/launch.log"); }
 
-void RunFolder::output(std::size_t node, std::string_view bytes) {
+void LaunchFolder::output(std::size_t node, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(nodes_[node].text.get(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
@@ -118,11 +118,11 @@ void RunFolder::output(std::size_t node, std::string_view bytes) {
   }
 }
 
-void RunFolder::process_began(std::size_t node, pid_t pid, WallInstant now) {
+void LaunchFolder::process_began(std::size_t node, pid_t pid, WallInstant now) {
   nodes_[node].processes.push_back({pid, now, std::nullopt, std::nullopt, ""});
 }
 
-void RunFolder::process_ended(std::size_t node, const Ending& ending, WallInstant now, std::string_view why) {
+void LaunchFolder::process_ended(std::size_t node, const Ending& ending, WallInstant now, std::string_view why) {
   auto& processes = nodes_[node].processes;
   if (processes.empty() || processes.back().ended)
     processes.push_back({std::nullopt, now, std::nullopt, std::nullopt, ""});
@@ -131,7 +131,7 @@ void RunFolder::process_ended(std::size_t node, const Ending& ending, WallInstan
   processes.back().why = why;
 }
 
-void RunFolder::finish(int exit_code, std::string_view why, WallInstant now) {
+void LaunchFolder::finish(int exit_code, std::string_view why, WallInstant now) {
   state_ = "ended";
   exit_code_ = exit_code;
   why_ = why;
@@ -139,7 +139,7 @@ void RunFolder::finish(int exit_code, std::string_view why, WallInstant now) {
   write();
 }
 
-nlohmann::ordered_json RunFolder::json() const {
+nlohmann::ordered_json LaunchFolder::json() const {
   nlohmann::ordered_json json = facts_;
   json["state"] = state_;
   json["began"] = utc_text(began_);
@@ -174,7 +174,7 @@ nlohmann::ordered_json RunFolder::json() const {
   return json;
 }
 
-void RunFolder::write() const {
+void LaunchFolder::write() const {
   const std::string path = folder_ + "/manifest.json", next = path + ".new";
   // Names and arguments may be any bytes: what is no UTF-8 is replaced, not refused.
   cli::write_file(next, json().dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');

@@ -42,12 +42,12 @@ struct EarlierLaunch {
 // Nothing where there has been none, or what is there cannot be read.
 std::optional<EarlierLaunch> earlier_launch(const std::string& folder);
 
-class RunFolder {
+class LaunchFolder {
  public:
   // Makes the folder, which is this launch's alone from then on, and writes the manifest: `facts` (an object: command
   // line, scenario, seed, hashes) first, then state and nodes. Throws InputError where another launch has it,
   // std::runtime_error where the folder or a file cannot be written.
-  RunFolder(std::string folder, nlohmann::ordered_json facts, WallInstant now);
+  LaunchFolder(std::string folder, nlohmann::ordered_json facts, WallInstant now);
 
   struct Entry {
     std::string name;

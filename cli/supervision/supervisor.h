@@ -56,7 +56,7 @@ struct SupervisorConfig {
   StopOrder::Grace grace;
   Duration health_every = Duration::milliseconds(10'000);  // while it runs, on a terminal only; 0: never
   int screen = 2;                                          // where words go; -1: nowhere
-  RunFolder* folder = nullptr;                             // outlives the supervisor; nothing: leaves no files
+  LaunchFolder* folder = nullptr;                          // outlives the supervisor; nothing: leaves no files
 };
 
 // Called from run(), on its thread; they may use say() and request_stop(). `node` counts as in SupervisorConfig::nodes.

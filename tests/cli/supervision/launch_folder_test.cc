@@ -23,7 +23,7 @@ class Folder : public Launching {
 };
 
 TEST_F(Folder, TellsFromTheStartWhatItIs) {
-  RunFolder run(path("run"), {{"scenario", "s.yaml"}, {"seed", 7}}, at(1));
+  LaunchFolder run(path("run"), {{"scenario", "s.yaml"}, {"seed", 7}}, at(1));
   const json first = manifest();
   EXPECT_EQ(first["scenario"], "s.yaml");
   EXPECT_EQ(first["seed"], 7);
@@ -34,7 +34,7 @@ TEST_F(Folder, TellsFromTheStartWhatItIs) {
 }
 
 TEST_F(Folder, TellsEveryProcess) {
-  RunFolder run(path("run"), {{"seed", 7}}, at(0));
+  LaunchFolder run(path("run"), {{"seed", 7}}, at(0));
   const auto fusion = run.add_node({"fusion", "restart", {"ttfusion", "node", "fusion"}});
   const auto lost = run.add_node({"lost", "optional", {"nothing"}});
   run.process_began(fusion, 100, at(10));
@@ -71,7 +71,7 @@ TEST_F(Folder, TellsEveryProcess) {
 }
 
 TEST_F(Folder, KeepsOutputAsItIs) {
-  RunFolder run(path("run"), json::object(), at(0));
+  LaunchFolder run(path("run"), json::object(), at(0));
   const auto node = run.add_node({"a", "required", {"a"}});
   run.output(node, std::string_view("\x00\x1b\xff", 3));
   run.output(node, "more\r\n");
@@ -89,7 +89,7 @@ TEST_F(Folder, IsLeftByNoName) {
 }
 
 TEST_F(Folder, TakesNamesThatAreNoText) {
-  RunFolder run(path("run"), json::object(), at(0));
+  LaunchFolder run(path("run"), json::object(), at(0));
   run.add_node({"\xff", "required", {"\xfe"}});
   run.write();
   EXPECT_EQ(manifest()["nodes"][0]["output"], "%FF.txt");
@@ -98,7 +98,7 @@ TEST_F(Folder, TakesNamesThatAreNoText) {
 TEST_F(Folder, TellsWhoHasBeenInIt) {
   EXPECT_FALSE(earlier_launch(path("run")));
   {
-    RunFolder run(path("run"), {{"strategy", "adva"}}, at(0));
+    LaunchFolder run(path("run"), {{"strategy", "adva"}}, at(0));
     run.add_node({"a/b", "required", {"a"}});
     run.add_node({"c", "required", {"c"}});
     run.finish(0, "", at(1));
@@ -123,7 +123,7 @@ TEST_F(Folder, TellsWhoHasBeenInIt) {
 }
 
 TEST_F(Folder, RemovesPlainFilesOnly) {
-  const RunFolder run(path("run"), json::object(), at(0));
+  const LaunchFolder run(path("run"), json::object(), at(0));
   std::ofstream(path("run/truth.mcap")) << "old";
   std::filesystem::create_directory(path("run/summary.json"));
   for (const char* const name : {"truth.mcap", "summary.json", "nothing"}) EXPECT_NO_THROW(run.remove(name));
@@ -134,7 +134,7 @@ TEST_F(Folder, RemovesPlainFilesOnly) {
 TEST_F(Folder, SaysWhyItCannotBe) {
   std::ofstream(path("file")) << "x";
   try {
-    RunFolder run(path("file/run"), json::object(), at(0));
+    LaunchFolder run(path("file/run"), json::object(), at(0));
     FAIL() << "a folder within a file";
   } catch (const std::runtime_error& error) {
     EXPECT_EQ(dynamic_cast<const InputError*>(&error), nullptr) << "what cannot be written is no input";
@@ -152,7 +152,7 @@ TEST_F(Folder, IsOfOneLaunchAtATime) {
       return error.what();
     }
   };
-  const auto another = [&] { RunFolder(path("run"), {{"seed", 8}}, at(1)); };
+  const auto another = [&] { LaunchFolder(path("run"), {{"seed", 8}}, at(1)); };
   const auto look = [&] { FolderLock::refuse_if_held(path("run")); };
   EXPECT_EQ(sentence_of(look), "");
   EXPECT_FALSE(std::filesystem::exists(path("run")));
@@ -160,7 +160,7 @@ TEST_F(Folder, IsOfOneLaunchAtATime) {
       fmt::format("command line: --out = {}: must be another folder: it is of a launch that still runs, process {}",
                   path("run"), getpid());
   {
-    const RunFolder run(path("run"), {{"seed", 7}}, at(0));
+    const LaunchFolder run(path("run"), {{"seed", 7}}, at(0));
     EXPECT_EQ(sentence_of(another), expected);
     EXPECT_EQ(sentence_of(look), expected);
     EXPECT_EQ(manifest()["seed"], 7) << "written over by who was refused";

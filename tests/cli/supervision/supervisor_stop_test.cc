@@ -141,7 +141,7 @@ TEST_F(Stopping, TakesGrandchildrenAlong) {
 }
 
 TEST_F(Stopping, ManifestIsCompleteAllTheSame) {
-  RunFolder folder(path("run"), json::object(), std::chrono::system_clock::now());
+  LaunchFolder folder(path("run"), json::object(), std::chrono::system_clock::now());
   auto given = config({{"a", Policy::kRequired, child({"ready", "wait"})}});
   given.folder = &folder;
   EXPECT_EQ(run_interrupted(std::move(given)).exit_code, 130);

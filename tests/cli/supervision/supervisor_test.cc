@@ -252,7 +252,7 @@ TEST_F(Supervising, TimeStampsEveryLine) {
 }
 
 TEST_F(Supervising, AFloodWithoutNewlineIsShownInPieces) {
-  RunFolder folder(path("run"), json::object(), std::chrono::system_clock::now());
+  LaunchFolder folder(path("run"), json::object(), std::chrono::system_clock::now());
   auto given = config({{"a", Policy::kRequired, child({"flood:300000", "ready"})}});
   given.folder = &folder;
   EXPECT_EQ(run(std::move(given)).exit_code, 0);
@@ -267,7 +267,7 @@ TEST_F(Supervising, AFloodWithoutNewlineIsShownInPieces) {
 }
 
 TEST_F(Supervising, LeavesAFolderThatTellsAll) {
-  RunFolder folder(path("run"), {{"scenario", "s.yaml"}}, std::chrono::system_clock::now());
+  LaunchFolder folder(path("run"), {{"scenario", "s.yaml"}}, std::chrono::system_clock::now());
   auto given =
       config({{"sensor", Policy::kRestart, child({"try:" + path("tries") + ":2", "print:ff0a", "ready", "start"})},
               {"fusion", Policy::kRequired, child({"ready", "start", "tell:{\"health\":{\"drops\":5}}", "raise:9"})}});
