@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # clang-tidy (.clang-tidy) on sources, and headers by themselves: each must compile without another one before it.
 #   tools/tidy.sh             all of the rooms
-#   tools/tidy.sh --changed   what changed since the long checks last passed (tools/long_checks.passed), the newest first, as many
-#                             as begin within 100 seconds; tools/long_checks.sh has the rest
+#   tools/tidy.sh --changed   what changed since the long checks last passed (tools/long_checks.passed; never: with the last
+#                             commit), the newest first, as many as begin within 100 seconds; tools/long_checks.sh has the rest
 #   tools/tidy.sh FILE...
 # Exit code 1 if something is found. How to compile a source is known from the preset asan-ubsan.
 set -euo pipefail
@@ -14,7 +14,7 @@ case ${1:-} in
   --changed)
     until=$((SECONDS + 100))
     since=$(sed -n 's/^tidy \([0-9a-f]*\).*/\1/p' tools/long_checks.passed)
-    range=HEAD
+    range=HEAD~1..HEAD
     git cat-file -e "${since:-none}^{commit}" 2>/dev/null && range=$since..HEAD
     mapfile -t files < <(git log --format= --name-only --diff-filter=AM "$range" -- '*.h' '*.cc' ':!tests' | awk '!seen[$0]++')
     ;;
