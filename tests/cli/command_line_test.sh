@@ -360,7 +360,7 @@ expect 2 'must be another file than the input' export "$work"/nodes/node{0,1}.mc
   -o "$work/nodes/node1.mcap"
 printf 'damage' | dd of="$work/nodes/node1.mcap" bs=1 seek=60000 conv=notrunc status=none
 expect 0 'warning: .*node1.mcap: the chunk at byte' export "$work"/nodes/*.mcap --format csv -o "$work/of_many"
-grep -vxFf "$work/of_one" "$work/of_many" | grep -q . && fail "a damaged log adds frames"
+LC_ALL=C comm -13 <(LC_ALL=C sort "$work/of_one") <(LC_ALL=C sort "$work/of_many") | grep -q . && fail "a damaged log adds frames"
 [[ $(wc -l <"$work/of_many") -lt $(wc -l <"$work/of_one") ]] || fail "a damaged chunk costs no frame"
 
 # In a cold drive nobody is active at first: that is no harm. Who never becomes active is harmed.
