@@ -13,6 +13,7 @@ set -euo pipefail
 project=$(cd "$(dirname "$0")/.." && pwd)
 cache=$project/build/test-bed
 symbols=$project/tools/test_bed/kernel.symbols
+changes=$project/tools/test_bed/kernel.patch
 package=linux-source-6.1
 source=/usr/src/$package.tar.xz
 
@@ -24,22 +25,19 @@ fail() {
 version=$(dpkg-query -W -f='${Version}' "$package" 2>/dev/null) && [[ -f $source ]] ||
   fail "$package is not installed: tools/install_deps.sh --gates"
 [[ $(uname -m) == x86_64 ]] || fail "User-Mode Linux is built for x86_64, this is $(uname -m)"
-# This kernel has room for 2696 bytes of a program's floating-point registers, and the machine's own wants them whole
-# (11008 with AMX) or not at all; what is too much it leaves alone. The stacks these are on grow with it
-# (KERNEL_STACK_ORDER).
-register_bytes=12288
-kernel=$cache/linux-$version-$({ cat "$symbols"; echo "$register_bytes"; } | sha256sum | cut -c1-12)
+kernel=$cache/linux-$version-$(cat "$symbols" "$changes" | sha256sum | cut -c1-12)
 
 build() {
   local work=$cache/work
   local options=(ARCH=um LOCALVERSION= KBUILD_BUILD_TIMESTAMP=@0 KBUILD_BUILD_USER=ttfusion KBUILD_BUILD_HOST=ttfusion)
   command -v ccache >/dev/null && options+=("CC=ccache gcc")
+  # A quarter of the source: all that a kernel of these symbols is made of.
+  local folders=(arch/um arch/x86 block certs crypto drivers/base drivers/char drivers/net/{Space.c,loopback.c,can} drivers/tty
+    fs include init io_uring ipc kernel lib mm net scripts security tools/include usr virt)
   rm -rf "$work"
   mkdir -p "$work/out"
-  tar -xJf "$source" -C "$work"
-  local offsets=$work/$package/arch/x86/um/user-offsets.c
-  sed -i "s/HOST_FP_SIZE, 2696/HOST_FP_SIZE, $register_bytes/" "$offsets"
-  grep -q "HOST_FP_SIZE, $register_bytes" "$offsets"
+  tar -xJf "$source" -C "$work" --wildcards "$package/*"{Kconfig,Makefile,Kbuild}'*' "${folders[@]/#/$package/}"
+  (cd "$work/$package" && busybox patch -p1) <"$changes"
   sed -E '/^(#|$)/d; s/^[^=]+$/&=y/; s/^/CONFIG_/' "$symbols" >"$work/fragment"
   make -C "$work/$package" O="$work/out" "${options[@]}" KCONFIG_ALLCONFIG="$work/fragment" allnoconfig
   # A symbol that this kernel does not know, or not on these terms, is not silently left out.

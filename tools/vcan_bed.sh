@@ -3,53 +3,75 @@
 #   tools/vcan_bed.sh                    exit code 1 if one fails
 #   tools/vcan_bed.sh --update-golden    only the drives whose hashes are kept in tests/golden/vcan_hashes: shows what
 #                                        has changed, and keeps what was computed
+# shellcheck disable=SC2016   # lines for at_once, which are another bash's
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install_deps.sh --gates
 tools/build.sh release --target test_socketcan vcan_peer ttfusion
 tools/test_bed.sh --build
-peer=build/release/tests/test_bed/vcan_peer
-ttfusion=build/release/ttfusion
-out=build/test-bed/exchange
+export out=build/test-bed/vcan peer=build/release/tests/test_bed/vcan_peer ttfusion=build/release/ttfusion
 rm -rf "$out"
 mkdir -p "$out"
 
-# What comes before a drive takes time there, 256 ns for each look at the clock, and moves what comes after: the locale a shell
-# loads, the folders a program is looked for in, how deep the project lies. So all of them are the same everywhere.
-#   bed SECONDS COMMAND [ARGUMENT...]
-bed() {
-  env -i LC_ALL=C HOME=/ PATH=/usr/sbin:/usr/bin:/sbin:/bin tools/test_bed.sh --seconds "$1" bash -c \
-    'mkdir /run/project && busybox mount --bind "$PWD" /run/project && cd /run/project && exec "$@"' bed "${@:2}"
+# at_once LINE...: lines of bash, which have this script's functions, as many at once as there are processors; what one said
+# is shown when it ends, and none is begun after one has failed. Each has a processor to itself: a bed's processes take
+# turns, and turns that go from one processor to another take half as long again.
+at_once() {
+  local processors
+  processors=$(python3 -c 'import os; print(*os.sched_getaffinity(0))')
+  export processors
+  printf '%s\0' "$@" |
+    xargs -0 -n 1 -P "$(wc -w <<<"$processors")" --process-slot-var=slot bash -euo pipefail -c 'at_its_place "$1"' at_once ||
+    return 1
+}
+at_its_place() {
+  local of=($processors) words code=0
+  words=$(taskset -c "${of[slot]}" bash -euo pipefail -c "$1" 2>&1) || code=$?
+  echo "vcan bed: $1: $SECONDS s${words:+$'\n'$words}"
+  [[ $code -eq 0 ]] || exit 255   # xargs begins nothing more
 }
 
-# Both beds' words in the order of the commands, each a script with its arguments in one word.
-two_at_once() {
-  local k=0 script beds=()
-  for script; do
-    k=$((k + 1))
-    # shellcheck disable=SC2086
-    bed 240 $script >"$out/bed_$k" 2>&1 &
-    beds+=($!)
-  done
-  for ((k = 0; k < $#; ++k)); do
-    wait "${beds[k]}" || { cat "$out/bed_$((k + 1))" >&2; exit 1; }
-    cat "$out/bed_$((k + 1))"
-  done
+# bed [NAME=VALUE...] COMMAND [ARGUMENT...]: in these variables and those alone, whoever calls.
+bed() { env -i LC_ALL=C HOME=/ PATH=/usr/sbin:/usr/bin:/sbin:/bin tools/test_bed.sh env "$@"; }
+script() { bed "tests/test_bed/$1.sh" "${@:2}"; }
+
+the_bed_itself() {
+  ends_with 7 60 bash -c 'sleep 3600; exit 7'        # an hour of virtual time
+  ends_with 124 3 bash -c 'while :; do :; done'
+  ends_with 125 60 busybox poweroff -f
+}
+ends_with() {
+  local code=0 words
+  words=$(tools/test_bed.sh --seconds "$2" "${@:3}" 2>&1) || code=$?
+  [[ $code -eq $1 ]] || { echo "exit code $code, not $1: ${*:3}"$'\n'"$words"; return 1; }
 }
 
-# The drives of processes on vcans that are the same, bit for bit, whenever and wherever they are run.
+sockets_tests() {
+  bed build/release/tests/socketcan/test_socketcan >"$out/sockets_tests" || { cat "$out/sockets_tests"; return 1; }
+  tail -2 "$out/sockets_tests"
+  ! grep '^\[  SKIPPED' "$out/sockets_tests"   # none is
+}
+
+# drive SCRIPT REPEAT [NAME=VALUE...]: processes on vcans, the same, bit for bit, whenever and wherever they are run.
+drive() { bed "${@:3}" LOGS="$out/$1.$2.mcap" "tests/test_bed/$1.sh" "$ttfusion" >"$out/$1.$2"; }
+# The dynamic loader looks for libraries in more sub-folders, the more the processor can do: here in none, or in all of them
+# in one folder more. Where the environment is larger, all that is on a stack lies elsewhere.
+export fewer_looks=GLIBC_TUNABLES=glibc.cpu.hwcap_mask=0:glibc.cpu.hwcaps=-POPCNT
+more_looks="LD_LIBRARY_PATH=/run/nowhere LARGE=$(printf %05000d 0)"
+export more_looks
+drives=('drive node_set_restart 1' 'drive node_set_restart 2 $more_looks' 'drive node_set 1' 'drive node_set 2 $fewer_looks')
+
+export -f at_its_place bed script the_bed_itself ends_with sockets_tests drive
+
 golden=tests/golden/vcan_hashes
 made_with='bash g++-12 libc6 libddsc0debian libfmt9 libopenmpi3 libprotobuf32 librsvg2-2 libsqlite3-0 libstdc++6 libyaml-cpp0.7 libzstd1 linux-source-6.1'
-golden_drives() {
-  : >"$out/golden"
-  for script in node_set node_set_restart; do
-    echo "vcan bed: $script, twice, the same log"
-    two_at_once "env LOGS=$out/$script.1.mcap tests/test_bed/$script.sh $ttfusion" \
-      "env LOGS=$out/$script.2.mcap tests/test_bed/$script.sh $ttfusion"
-    cmp "$out/$script.1.mcap" "$out/$script.2.mcap" || exit 1
-    echo "$script $(sed -n 's/.*"content_hash": "\(.*\)"/\1/p' "$out/bed_1")" >>"$out/golden"
-  done
-  # What a process does between two looks at the clock is its libraries' and the kernel's business, too.
+compare_drives() {
+  local drive
+  for drive in node_set node_set_restart; do
+    cmp "$out/$drive.1.mcap" "$out/$drive.2.mcap" >&2 || exit 1
+    echo "$drive $(sed -n 's/.*"content_hash": "\(.*\)"/\1/p' "$out/$drive.1")"
+  done >"$out/golden"
+  # Who is woken first at an instant, and for how long somebody sleeps, is the kernel's and the libraries' business, too.
   echo "made_with $(dpkg-query -W -f '${Package} ${Version}\n' $made_with | sha256sum | cut -c 1-16)" >>"$out/golden"
   if [[ ${1:-} != --update-golden && $(grep ^made_with "$golden") != $(grep ^made_with "$out/golden") ]]; then
     echo "vcan bed: $golden was made with other versions of $made_with: its hashes are not compared"
@@ -62,45 +84,23 @@ golden_drives() {
   fi
 }
 if [[ ${1:-} == --update-golden ]]; then
-  golden_drives --update-golden
+  at_once "${drives[@]}"
+  compare_drives --update-golden
   exit
 fi
 
-echo "vcan bed: the bed itself"
-ends_with() {
-  local code=0
-  bed "$2" "${@:3}" >"$out/bed" 2>&1 || code=$?
-  [[ $code -eq $1 ]] || { echo "vcan bed: exit code $code, not $1: ${*:3}" >&2; cat "$out/bed" >&2; exit 1; }
-}
-ends_with 7 60 bash -c 'sleep 3600; exit 7'        # an hour of virtual time
-ends_with 124 3 bash -c 'while :; do :; done'
-ends_with 125 60 busybox poweroff -f
-
-echo "vcan bed: the socket's tests, none skipped"
-bed 300 build/release/tests/socketcan/test_socketcan >"$out/tests" || { cat "$out/tests"; exit 1; }
-tail -2 "$out/tests"
-if grep '^\[  SKIPPED' "$out/tests"; then exit 1; fi
-
-echo "vcan bed: strangers on the bus"
-bed 120 tests/test_bed/strangers.sh "$peer"
-
-golden_drives
-echo "vcan bed: strangers beside the node set, interfaces that go down"
-two_at_once "tests/test_bed/node_set_strangers.sh $ttfusion $peer" "tests/test_bed/node_set_down.sh $ttfusion"
-
-repeats=12
-echo "vcan bed: ten processes, $repeats times, two beds at once"
-for i in $(seq 1 2 "$repeats"); do
-  beds=()
-  for k in "$i" $((i + 1)); do
-    bed 120 tests/test_bed/exchange.sh "$peer" "$out/$k" &
-    beds+=($!)
-  done
-  for bed in "${beds[@]}"; do wait "$bed"; done
-done
-for k in $(seq "$repeats"); do (cd "$out/$k" && sha256sum node_* | sha256sum); done | sort | uniq -c >"$out/hashes"
-cat "$out/hashes"
-if [[ $(wc -l <"$out/hashes") -ne 1 ]]; then
+exchanges=()
+for k in {1..12}; do exchanges+=("script exchange \$peer \$out/$k"); done
+compare_exchanges() {
+  for k in {1..12}; do (cd "$out/$k" && sha256sum node_* | sha256sum); done | sort | uniq -c >"$out/hashes"
+  [[ $(wc -l <"$out/hashes") -eq 1 ]] && return
+  cat "$out/hashes" >&2
   echo "vcan bed: the same exchange gave other stamps" >&2
   exit 1
-fi
+}
+
+# What takes longest begins first.
+at_once 'script node_set_strangers $ttfusion $peer' sockets_tests "${drives[@]:0:2}" 'script node_set_down $ttfusion' \
+  "${drives[@]:2}" "${exchanges[@]}" 'script strangers $peer' the_bed_itself
+compare_drives
+compare_exchanges
