@@ -77,7 +77,7 @@ ends_with 124 3 bash -c 'while :; do :; done'
 ends_with 125 60 busybox poweroff -f
 
 echo "vcan bed: the socket's tests, none skipped"
-bed 300 build/release/tests/socketcan/test_socketcan >"$out/tests" || { cat "$out/tests"; exit 1; }
+bed 300 build/release/tests/bus/socketcan/test_socketcan >"$out/tests" || { cat "$out/tests"; exit 1; }
 tail -2 "$out/tests"
 if grep '^\[  SKIPPED' "$out/tests"; then exit 1; fi
 
