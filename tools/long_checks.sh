@@ -17,7 +17,7 @@ threads() {                                                            # the thr
   tools/build.sh tsan
   ctest --test-dir build/tsan --output-on-failure -j"$(nproc)" -R 'test_(sweep|fault_campaign|runner|dds|log)'
 }
-tidy() { tools/tidy.sh; }                                              # every source and header
+tidy() { tools/tidy.sh; }                                              # every source and header of the rooms
 fuzz() { tools/fuzz.sh 300; }                                          # five minutes a target
 
 all=(plain_g++ plain_clang++ clang_warnings sanitizers threads tidy fuzz)
