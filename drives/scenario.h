@@ -34,8 +34,8 @@ struct Scenario {
   Duration duration{};       // of the drive, from its start (drives/drive.h)
   Duration evaluate_from{};  // likewise; measures and pictures start here, before it the tracker warms up
   Startup startup;
-  std::array<std::string, fusion::strategies::kStrategyCount>
-      cluster_files;  // by StrategyKind, as paths that can be opened
+  // By StrategyKind, as paths that can be opened.
+  std::array<std::string, fusion::strategies::kStrategyCount> cluster_files;
   sim::world::WorldConfig world;
   sim::world::LaserConfig laser;
   sim::world::CameraConfig camera;

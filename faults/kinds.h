@@ -1,6 +1,6 @@
-// The kinds of faults: one row says all that a plan needs to know of a kind. What else there is to know kind by kind is
-// a table of such rows where it is used: how a fault of the kind works (sim/faults/families.cc), and what may be its
-// doing (evaluation/faults/reach.cc). is_one_row_a_kind() holds every one of them to this list.
+// The kinds of faults: one row says all that a plan needs to know of a kind. Two other tables have a row for each
+// kind, too: one says how its faults work (sim/faults/families.cc), one what may be their doing
+// (evaluation/faults/reach.cc). is_one_row_a_kind() holds every table to this list.
 #pragma once
 
 #include <array>

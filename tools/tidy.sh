@@ -16,7 +16,8 @@ case ${1:-} in
     since=$(sed -n 's/^tidy \([0-9a-f]*\).*/\1/p' tools/long_checks.passed)
     range=HEAD~1..HEAD
     git cat-file -e "${since:-none}^{commit}" 2>/dev/null && range=$since..HEAD
-    mapfile -t files < <(git log --format= --name-only --diff-filter=AM "$range" -- '*.h' '*.cc' ':!tests' | awk '!seen[$0]++')
+    changed=$(git log --format= --name-only --diff-filter=AM "$range" -- '*.h' '*.cc' ':!tests')
+    mapfile -t files < <(awk 'NF && !seen[$0]++' <<<"$changed")
     ;;
   "") mapfile -t files < <(git ls-files '*.h' '*.cc' ':!tests') ;;
   *) files=("$@") ;;
@@ -29,7 +30,7 @@ check() {
   [[ $SECONDS -lt $until && -f $file ]] || return 0
   case $file in
     *.h) clang++ "${flags[@]}" -fsyntax-only -Wno-pragma-once-outside-header -x c++ "$file" ;;
-    *) clang-tidy --quiet "$file" -- "${flags[@]}" 2>/dev/null ;;
+    *) clang-tidy --quiet "$file" -- "${flags[@]}" 2> >(grep -v ' warnings\? generated' >&2) ;;
   esac || { echo "$file: see above" >&2; return 1; }
   checked=$((checked + 1))
 }

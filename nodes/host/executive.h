@@ -41,8 +41,8 @@ struct ExecutiveConfig {
   const schedules::model::Cluster* cluster = nullptr;
   NodeId node{};
   timebase::Oscillator oscillator;
-  std::optional<bus::controller::InitialClock>
-      clock;               // of a node that begins integrated; else it starts up at power_on
+  // Of a node that begins integrated; else it starts up at power_on.
+  std::optional<bus::controller::InitialClock> clock;
   std::uint64_t seed = 0;  // of the execution times
   std::uint32_t replication = 0;
   Microticks power_on{};                  // free-running sensors count their phase from here, too

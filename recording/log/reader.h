@@ -43,8 +43,7 @@ struct LogInfo {
 };
 
 // Throws InputError if the file cannot be read, is not MCAP, is MCAP but no log of this program, or is cut off before
-// its manifest. Spans
-// handed to the sink are valid during the call only.
+// its manifest. Spans handed to the sink are valid during the call only.
 LogInfo read_log(const std::string& path, records::Sink& sink);
 
 // The same on bytes in memory; `name` is what errors and warnings call it. `on_chunk` hears of every sound chunk before

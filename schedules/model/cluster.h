@@ -206,8 +206,8 @@ struct Cluster {
   std::vector<CanBus> can_buses;
   std::vector<Sensor> sensors;
   std::optional<ArrivalWindow> arrival_window;  // `real_time`; none: this schedule is for virtual time only
-  std::map<std::string, int, std::less<>>
-      parameter_lines;  // "nodes", "guardian", "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId"
+  // By "nodes", "guardian", "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId".
+  std::map<std::string, int, std::less<>> parameter_lines;
 
   const Node& node(NodeId id) const { return nodes[index_of(id)]; }
   const PduLayout& pdu(PduId id) const { return pdus[index_of(id)]; }

@@ -2,7 +2,7 @@
 //
 // A flight is clear while its signal is as it left and is alone on its channel: then it stops wherever its way leads,
 // and is noted at no receiver. When something else comes onto the channel, what it has still to do becomes a flight of
-// the reference way (sim/medium/flights.h), whose laws it obeys, too; whoever meets it sees no difference.
+// the plain way (sim/medium/flights.h), whose laws it obeys, too; whoever meets it sees no difference.
 //
 // What leaves on both channels at once and is clear on both, for the same receivers, is one flight, which stops on A
 // and then on B; or on both at once, where nothing else happens until its last stop.
@@ -26,7 +26,7 @@ class ClearFlights {
 
   // Null: nobody is told what becomes of frames on their way.
   void set_log(ChannelLog* log) { log_ = log; }
-  // Whether one is on the channel. There is never one beside a flight of the reference way.
+  // Whether one is on the channel. There is never one beside a flight of the plain way.
   bool any(schedules::model::Channel channel) const { return on_[index_of(channel)] != nullptr; }
   // Whether the event is one.
   bool is_one(const MediumEvent& event) const {
@@ -68,7 +68,7 @@ class ClearFlights {
  private:
   struct Flight {
     FlightPlace place;
-    FlightNumber number = 0;  // it stays until a flight takes it along into the reference way
+    FlightNumber number = 0;  // it stays until a flight takes it along into the plain way
     const Ways* ways = nullptr;
     const Leg* leg = nullptr;   // to the next stop; on both channels the legs are the same
     const Leg* last = nullptr;  // behind the last one

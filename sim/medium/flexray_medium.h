@@ -7,7 +7,7 @@
 // carries what they say, and bytes only where a disturbance or a coupler may look at them: all that anybody receives is
 // the same.
 //
-// How signals go from receiver to receiver is the business of flights, of which there are two kinds: the reference way
+// How signals go from receiver to receiver is the business of flights, of which there are two kinds: the plain way
 // (sim/medium/flights.h), and a fast way for what has its channel to itself (sim/medium/clear_flights.h).
 #pragma once
 
@@ -57,7 +57,7 @@ class FlexRayMedium {
   void set_log(ChannelLog* log);
   // In the middle of a star; null: it forwards everything.
   void set_coupler(schedules::model::Channel channel, Coupler* coupler) { coupler_[index_of(channel)] = coupler; }
-  // False: all goes the reference way.
+  // False: all goes the plain way.
   void set_fast(bool fast) { fast_ = fast; }
   bool wants_bytes(NodeId sender, schedules::model::Channel channel) const {
     return log_ != nullptr || carries_bytes(sender, channel);

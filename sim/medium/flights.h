@@ -1,7 +1,7 @@
 // Flights: one signal on its way to all who hear it, from its departure to its last stop. It is a single event of the
 // queue, which goes on from one stop to the next.
 //
-// This is the reference way: what is on its way is noted at each of its receivers, and what arrives at the same time
+// This is the plain way: what is on its way is noted at each of its receivers, and what arrives at the same time
 // becomes one there. The fast way, for what is alone on its channel (sim/medium/clear_flights.h), obeys the same laws:
 //   L1  stop_over() of a flight's event, at its instant, is what arrives there; then next_arrival() is its next stop,
 //       as long as it goes on

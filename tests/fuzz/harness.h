@@ -1,7 +1,7 @@
 // What the fuzz targets share: taking values out of bytes, and what a refusal must look like.
 //
-// A target is one function of bytes, LLVMFuzzerTestOneInput. With TTF_FUZZ it is driven by libFuzzer; else by
-// replay_main.cc, which feeds it the seeds and the committed regressions. A law that does not hold fails a check.
+// A target is one function of bytes, LLVMFuzzerTestOneInput, driven by libFuzzer (TTF_FUZZ, tools/fuzz.sh), which
+// begins with the seeds and the committed regressions. A law that does not hold fails a check.
 #pragma once
 
 #include <cstddef>

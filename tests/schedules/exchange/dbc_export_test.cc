@@ -140,7 +140,7 @@ TEST(Dbc, CommentsSayHowListsAreCut) {
     }
 }
 
-// tests/socketcan holds it against the bytes that are sent.
+// tests/bus/socketcan holds it against the bytes that are sent.
 TEST(Dbc, TheChannelsSymbolsAreThereUnlessACanHasTheirIdentifier) {
   model::Cluster cluster = file::load_cluster(shipped_path("paper_synchronised"));
   const DbcMessage with = read_dbc(dbc_text(cluster)).messages.at(0);

@@ -1,4 +1,4 @@
-// The transparent medium and the bit-true one, the fast way and the reference way: nobody can tell which it was.
+// The transparent medium and the bit-true one, the fast way and the plain way: nobody can tell which it was.
 #include <gtest/gtest.h>
 
 #include <algorithm>

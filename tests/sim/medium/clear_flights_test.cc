@@ -1,5 +1,5 @@
 // What nodes send, close together in time or far apart, on one channel or on both at once: in the fast way or in the
-// reference way, what arrives is what the delays and the overlaps say.
+// plain way, what arrives is what the delays and the overlaps say.
 #include <gtest/gtest.h>
 
 #include <algorithm>
