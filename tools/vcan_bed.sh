@@ -89,50 +89,12 @@ if [[ ${1:-} == --update-golden ]]; then
   exit
 fi
 
-<<<<<<< HEAD
 exchanges=()
 for k in {1..12}; do exchanges+=("script exchange \$peer \$out/$k"); done
 compare_exchanges() {
   for k in {1..12}; do (cd "$out/$k" && sha256sum node_* | sha256sum); done | sort | uniq -c >"$out/hashes"
   [[ $(wc -l <"$out/hashes") -eq 1 ]] && return
   cat "$out/hashes" >&2
-=======
-echo "vcan bed: the bed itself"
-ends_with() {
-  local code=0
-  bed "$2" "${@:3}" >"$out/bed" 2>&1 || code=$?
-  [[ $code -eq $1 ]] || { echo "vcan bed: exit code $code, not $1: ${*:3}" >&2; cat "$out/bed" >&2; exit 1; }
-}
-ends_with 7 60 bash -c 'sleep 3600; exit 7'        # an hour of virtual time
-ends_with 124 3 bash -c 'while :; do :; done'
-ends_with 125 60 busybox poweroff -f
-
-echo "vcan bed: the socket's tests, none skipped"
-bed 300 build/release/tests/bus/socketcan/test_socketcan >"$out/tests" || { cat "$out/tests"; exit 1; }
-tail -2 "$out/tests"
-if grep '^\[  SKIPPED' "$out/tests"; then exit 1; fi
-
-echo "vcan bed: strangers on the bus"
-bed 120 tests/test_bed/strangers.sh "$peer"
-
-golden_drives
-echo "vcan bed: strangers beside the node set, interfaces that go down"
-two_at_once "tests/test_bed/node_set_strangers.sh $ttfusion $peer" "tests/test_bed/node_set_down.sh $ttfusion"
-
-repeats=12
-echo "vcan bed: ten processes, $repeats times, two beds at once"
-for i in $(seq 1 2 "$repeats"); do
-  beds=()
-  for k in "$i" $((i + 1)); do
-    bed 120 tests/test_bed/exchange.sh "$peer" "$out/$k" &
-    beds+=($!)
-  done
-  for bed in "${beds[@]}"; do wait "$bed"; done
-done
-for k in $(seq "$repeats"); do (cd "$out/$k" && sha256sum node_* | sha256sum); done | sort | uniq -c >"$out/hashes"
-cat "$out/hashes"
-if [[ $(wc -l <"$out/hashes") -ne 1 ]]; then
->>>>>>> review
   echo "vcan bed: the same exchange gave other stamps" >&2
   exit 1
 }
