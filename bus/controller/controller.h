@@ -11,8 +11,7 @@
 //   L1  next_event() is never in the past of the last advance(), and advance(t) does everything due up to t
 //   L2  receive() is called with the medium's order (flexray_port.h L3); a frame is judged at its end
 //   L3  in a static slot it owns it always sends (a null frame where the CNI has no such fragment), in a dynamic slot
-//   what
-//       has not left yet, elsewhere never; and never anything that protocol operation control does not allow
+//       what has not left yet, elsewhere never; and never anything that protocol operation control does not allow
 //   L4  nothing here allocates after construction
 //
 // Readings taken where the sources leave room: a startup frame sent before normal operation is a null frame. A second

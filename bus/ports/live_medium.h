@@ -5,18 +5,17 @@
 // The wall is lower than flexray_port.h's: here are bytes and instants of the host's clock. Whether a frame came in its
 // time, what slot that is and what the node's own clock shows is the runner's.
 //   L1  what is sent on a line reaches every other node on that line exactly once, its bytes unchanged, or is counted
-//   as
-//       lost (counts().lost) by who should have heard it, where the medium can know
+//       as lost (counts().lost) by who should have heard it, where the medium can know
 //   L2  a node does not hear itself
 //   L3  what one node sends on one line arrives in the order in which it was sent
 //   L4  LiveArrival::at lies between the begin of send() and LiveArrival::received, which is no later than the return
-//   of
-//       receive(): all on the receiver's host; so does LiveArrival::left, where it is told
+//       of receive(): all on the receiver's host; so does LiveArrival::left, where it is told
 //   L5  the medium keeps no reference to bytes after send() returns; an arrival's bytes are valid until the next
-//   receive() L6  send() and receive() never block; after construction nothing allocates on the way, and nothing throws
+//       receive()
+//   L6  send() and receive() never block; after construction nothing allocates on the way, and nothing throws
 //   L7  what is none of our signals or frames is counted (counts().foreign, malformed) and never handed over
 //   L8  once something is there, descriptor(line) of a line that is watched is readable until receive() has handed it
-//   over
+//       over
 //
 // Instants of departure. A process sends later than it should, by what its kernel takes to wake it up; and clock
 // synchronisation must not take that for the sender's clock. So a sync frame says how late it left: the medium measures

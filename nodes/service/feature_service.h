@@ -26,9 +26,9 @@ FeatureConfig load_feature(YamlMap& yaml);
 // speed is in them already. Clearance: distance along the line of sight to the outline, which is what is typical of
 // vehicles where it was not measured (records.h).
 //   time to collision  clearance / closing speed, the closing speed being - d(range)/dt, as ISO 15623 has it for
-//   constant speeds time gap           clearance / own speed of what is ahead, as ISO 15622 has it: the time until the
-//   sensor car is where the
-//                      object's near edge is now
+//                      constant speeds
+//   time gap           clearance / own speed of what is ahead, as ISO 15622 has it: the time until the sensor car is
+//                      where the object's near edge is now
 // Infinite where the denominator is not positive (time to collision: not above what noise makes of zero).
 recording::records::FeatureObject judge(const recording::records::ImageObject& object, const FeatureConfig& config);
 

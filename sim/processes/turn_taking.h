@@ -8,11 +8,10 @@
 // without waiting. So
 //
 //   T1  all processes see the same acts and turns in the same order, which is that of sim/medium/event_queue.h: what a
-//   node
-//       records is what it records where one process simulates them all
+//       node records is what it records where one process simulates them all
 //   T2  somebody can always go on: the node whose turn is first waits for nobody
 //   T3  a node that is gone (bus/ports/exchange.h) is without supply from the turn on that it did not take, for all
-//   others alike
+//       others alike
 //
 // A static schedule makes turns rare: a frame in an own slot, the end of a task. Where nodes start up, or have frames
 // in the dynamic segment, every arrival may be answered, and there is a turn for each.

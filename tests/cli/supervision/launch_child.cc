@@ -11,8 +11,7 @@
 //   pid:FILE         its number, into a file         descend:FILE   a child of its own, which waits for ever
 //   try:FILE:N       exit 7 unless this is the N-th time
 //   supervise:DIR    is a supervisor itself, of a process that waits, as does that one's own child; their numbers are
-//   in
-//                    DIR/child and DIR/grandchild
+//                    in DIR/child and DIR/grandchild
 #include <signal.h>
 #include <unistd.h>
 
