@@ -2,8 +2,8 @@
 // newer list replaces an older one, and a list that is not complete under one sequence number is never handed out.
 //
 //   L1  a list is handed out whole, every fragment of one sequence number and count, or not at all
-//   L2  an older list never replaces a newer one. Sequence numbers compare on the circle of the field's 2^bits values,
-//       as in RFC 1982: b is newer than a where (b - a) mod 2^bits is 1..2^(bits-1). Fragments older than the newest
+//   L2  an older list never replaces a newer one. Sequence numbers compare on the circle of the field's 2^bits values
+//       (as in RFC 1982): b is newer than a where (b - a) mod 2^bits is 1..2^(bits-1). Fragments older than the newest
 //       list begun are stale: refused
 //   L3  a sender that counts anew is believed at its kRestartLists-th list: that many stale lists in a row, each newer
 //       than the one before and no other fragment between them, are no stragglers. The buffer begins again with the

@@ -2,17 +2,17 @@
 //
 //   kind: fault_campaign
 //   name: fault_campaign
-//   cluster: ../schedules/flexray_demo.yaml       from this file's folder
-//   faults: 100000                                each injected alone, once in every variant
+//   cluster: ../schedules/flexray_demo.yaml     from this file's folder
+//   faults: 100000                              each injected alone, once in every variant
 //   seed: 1
-//   start_up: 0.25                                share of the faults that meet a start-up; others a running cluster
-//   cycles: {steady_state: 60, start_up: 90}      how long a run lasts
-//   restart_halted_after: 2                       cycles after which its host restarts a halted controller; 0: never
-//   classes: {crash: 1, drift: 2, ...}            weights, 0 where not named; all alike without `classes`
+//   start_up: 0.25                              share of the faults that meet a start-up; the others a running cluster
+//   cycles: {steady_state: 60, start_up: 90}    how long a run lasts
+//   restart_halted_after: 2                     cycles after which its host restarts a halted controller; 0: never
+//   classes: {crash: 1, drift: 2, ...}          weights, 0 where not named; all alike without `classes`
 //   variants:
 //     guardian: {topology: star, guardian: true, channels: AB}
 //     bus: {topology: bus, guardian: false, channels: AB}
-//   expect: {harmed_with_guardian: 0}             at most so many faults of the hypothesis; optional
+//   expect: {harmed_with_guardian: 0}           at most so many faults of the hypothesis; optional
 #pragma once
 
 #include <array>

@@ -22,8 +22,8 @@
 //
 // Going back is the default; by TrackerConfig::late, ADVA takes late scans in by any method for single states, and TT
 // by clones (fusion/strategies/late/late_updates.h), where late_refusal() has nothing against it. BUFF takes nothing
-// late by design: what it must repair nevertheless it always goes back for. Order among scans: (measured, sensor,
-// sequence).
+// late by design: what it must repair nevertheless it always goes back for.
+// Order among scans: (measured, sensor, sequence).
 //
 // After construction nothing allocates.
 #pragma once

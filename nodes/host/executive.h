@@ -6,8 +6,8 @@
 // nodes/host/sensor_ends.h says when sensors are triggered and measure.
 //
 // At one microtick things happen in this order: arrivals (by the crank), ends of tasks, the bus controller,
-// activations, starts. So what becomes visible at a tick is still sent or read at that tick. A sleeping node does
-// nothing and hears nothing but a wake-up pattern.
+// activations, starts. So what becomes visible at a tick is still sent or read at that tick.
+// A sleeping node does nothing and hears nothing but a wake-up pattern.
 //   L1  after advance(t) and without further arrivals, next_event() is after t
 //   L2  nothing allocates or throws after construction
 #pragma once

@@ -3,7 +3,8 @@
 // The orientation is searched for (Zhang, Xu, Dong, Dolan: "Efficient L-shape fitting for vehicle detection using laser
 // scanners", IEEE Intelligent Vehicles Symposium 2017, closeness criterion, algorithm 4): each candidate scores how
 // near the returns lie to the two faces turned to the sensor. A face is visible where the sensor stands outside its
-// slab. The best one (orientation_search.h) is refined by least squares over both faces. Then:
+// slab. The best one (orientation_search.h) is refined by least squares over both faces.
+// Then:
 //   - extents longer than a vehicle is wide are its length; a single short face is its rear or front, so the length is
 //     unknown;
 //   - the centre lies half the size behind each visible face; where the size is unknown the nominal one stands in, with

@@ -5,8 +5,8 @@
 //   turn   u8 node, u32 number (counted from 0), i64 instant [uT of the node], i64 silent_until [uT],
 //          i64 after_flexray, i64 after_can, i64 after_trigger [uT], u16 number of acts, the acts
 //   act    u8 kind, then
-//     1 signal    u8 channel (0 A, 1 B), u8 bus::Signal, i64 start [uT], i64 end [uT], u16 slot, u16 size,
-//                 the frame's bytes
+//     1 signal    u8 channel (0 A, 1 B), u8 bus::Signal, i64 start [uT], i64 end [uT], u16 slot, u16 size, the frame's
+//                 bytes
 //     2 CAN frame u8 bus, u32 identifier, u8 flexible data rate (0, 1), u8 size, the data
 //     3 trigger   u8 sensor
 //     4 strobe    u8 sensor, u32 sequence
