@@ -47,7 +47,7 @@ ends_with() {
 }
 
 sockets_tests() {
-  bed build/release/tests/socketcan/test_socketcan >"$out/sockets_tests" || { cat "$out/sockets_tests"; return 1; }
+  bed build/release/tests/bus/socketcan/test_socketcan >"$out/sockets_tests" || { cat "$out/sockets_tests"; return 1; }
   tail -2 "$out/sockets_tests"
   ! grep '^\[  SKIPPED' "$out/sockets_tests"   # none is
 }
