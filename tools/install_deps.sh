@@ -30,7 +30,7 @@ fi
 
 missing=()
 for package in "${packages[@]}"; do
-  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+  [[ $(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) == 'install ok installed' ]] || missing+=("$package")
 done
 for program in "${programs[@]}"; do
   command -v "${program%%:*}" >/dev/null || missing+=("${program##*:}")

@@ -34,7 +34,7 @@ except sqlite3.Error: print(0)" "$work/killed/results.sqlite")
   sleep 0.02
 done
 for rank in $(pgrep -P "$all"); do
-  if tr '\0' '\n' <"/proc/$rank/environ" 2>/dev/null | grep -qx OMPI_COMM_WORLD_RANK=2; then victim=$rank; fi
+  if grep -zqx OMPI_COMM_WORLD_RANK=2 "/proc/$rank/environ" 2>/dev/null; then victim=$rank; fi
 done
 kill -9 "${victim:?no rank 2}" || fail "rank 2 was done before it could be killed"
 wait "$all" && fail "a rank that died leaves exit code 0"
