@@ -1,0 +1,205 @@
+#!/usr/bin/env python3
+"""Measures the words of comments and documents: how long sentences are, and where a reader stumbles.
+
+    tools/words.py FILE...      for each file: sentences, mean words a sentence, the longest, and each find with its line
+    tools/words.py --check      all of the tree against the bounds in tools/words.toml: exit 1 and name what is over
+    tools/words.py --update     lowers the bounds to the values of today; never raises one
+
+A text is what comments (C++, shell, Python, CMake, YAML) and Markdown pages say in sentences. Code blocks, tables,
+drawings and formulas are left out. A sentence ends at a full stop, question or exclamation mark, at a colon that ends a
+line, at an empty line, and at each item of a list. A find is a phrase of PHRASES below.
+"""
+import re
+import subprocess
+import sys
+import tomllib
+from collections import defaultdict
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+BOUNDS = ROOT / "tools" / "words.toml"
+
+# A phrase, and the reason why a reader stumbles over it.
+PHRASES = [
+    (r"^(Of|That|Not|Nor|Lest|Hence) ", "a fragment"),
+    (r"^(What|Who|Whoever|Whatever|Whichever|Which) [^?]*$", "a clause as a subject"),
+    (r"\b[Ww]ho(so)?ever\b", "name the actor"),
+    (r"\b[Nn]obody\b", "say what is empty or absent"),
+    (r"\b[Nn]one (is|are|was|were|the)\b", "say what is empty or absent"),
+    (r"\b(and|or|of|from|for|to|by|with|in|on|than) what\b", "a clause as a noun"),
+    (r"\b(that|those|them|he|she|they) who\b", "name the actor"),
+    (r"\b(be it|but for|none the less|nonetheless|lest|whence|thereof|therein|wherein|whereof)\b", "an old word"),
+]
+CODE_SUFFIXES = {".h", ".cc", ".inc"}
+HASH_SUFFIXES = {".sh", ".py", ".cmake", ".toml", ".yaml", ".yml"}
+
+
+def commented(path, marker):
+    """Lines (number, text) of comments; None ends a block. A comment behind code is a block of its own."""
+    previous = 0
+    for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
+        if line.startswith("#!"):
+            continue
+        match = re.match(r"^(.*?)(?:^|\s)(" + marker + r")(?!\d)\s?(.*)$", line)
+        if not match or match[1].count('"') % 2 or match[1].count("'") % 2:
+            continue
+        alone = not match[1].strip()
+        if not alone or number != previous + 1:
+            yield number, None
+        yield number, match[3]
+        previous = number if alone else 0
+
+
+def docstrings(path):
+    for match in re.finditer(r'"""(.*?)"""', path.read_text(errors="replace"), re.S):
+        number = match.string.count("\n", 0, match.start()) + 1
+        yield number, None
+        for offset, line in enumerate(match[1].splitlines()):
+            yield number + offset, line
+
+
+def markdown(path):
+    fenced = False
+    for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
+        if line.lstrip().startswith("```"):
+            fenced = not fenced
+            yield number, None
+        elif fenced or re.match(r"^(\||#|!\[|<|    )", line):
+            yield number, None
+        else:
+            yield number, line
+
+
+def lines_of(path):
+    if path.suffix == ".md":
+        yield from markdown(path)
+    elif path.suffix in CODE_SUFFIXES:
+        yield from commented(path, "//+")
+    else:
+        yield from commented(path, "#+")
+        if path.suffix == ".py":
+            yield from docstrings(path)
+
+
+def is_prose(line):
+    """Neither a drawing, nor a formula, nor a line of code or of a table."""
+    text = line.strip()
+    letters = sum(c.isalpha() or c.isspace() for c in text)
+    return len(text) > 0 and letters >= 0.7 * len(text) and not re.search(r"[;{}]$|^NOLINT|clang-format|\s{3,}\S", text)
+
+
+def sentences(path):
+    """(line, sentence), in order."""
+    block, first = [], 0
+
+    def flush():
+        text = " ".join(block)
+        block.clear()
+        text = re.sub(r"`[^`]*`", "X", text)
+        text = re.sub(r"\]\([^)]*\)", "]", text)
+        text = re.sub(r"\b(e\.g|i\.e|cf|eq|Eq|eqs|sec|Sec|ch|no|vs|Rev|resp|approx|fig|Fig)\.", r"\1", text)
+        for sentence in re.split(r"(?<=[.!?])[)\"*_]*\s+(?=[A-Z0-9\"(*_`\[])", text):
+            if len(re.findall(r"[A-Za-z]{2,}", sentence)) >= 3:
+                yield first, sentence.strip(" *_-")
+
+    for number, line in lines_of(path):
+        item = line is not None and re.match(r"^\s*([*+-]|\d+[.)]) ", line)
+        indented = line is not None and re.match(r"^\s{2,}\S", line) and not item and path.suffix != ".md"
+        if line is None or not is_prose(line) or item or indented:
+            yield from flush()
+        if line is None or not is_prose(line) or indented:
+            continue
+        text = re.sub(r"^\s*([*+-]|\d+[.)]) ", "", line).strip()
+        if not block:
+            first = number
+        block.append(text)
+        if text.endswith(":"):
+            yield from flush()
+    yield from flush()
+
+
+def measure(path):
+    said = list(sentences(path))
+    lengths = [len(re.findall(r"[^\s]+", sentence)) for _, sentence in said]
+    finds = [(line, reason, match[0], sentence)
+             for line, sentence in said
+             for phrase, reason in PHRASES
+             if (match := re.search(phrase, sentence))]
+    return said, lengths, finds
+
+
+def room_of(name):
+    if name.suffix == ".md":
+        return "documents"
+    return name.parts[0] if len(name.parts) > 1 else "."
+
+
+def measured_tree():
+    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard"],
+                            check=True, capture_output=True, text=True).stdout.splitlines()
+    words, count, finds = defaultdict(int), defaultdict(int), defaultdict(int)
+    for name in sorted(map(Path, listed)):
+        known = name.suffix in CODE_SUFFIXES | HASH_SUFFIXES | {".md"} or name.name == "CMakeLists.txt"
+        if not known or not (ROOT / name).is_file():
+            continue
+        _, lengths, found = measure(ROOT / name)
+        room = room_of(name)
+        words[room] += sum(lengths)
+        count[room] += len(lengths)
+        finds[room] += len(found)
+    return {room: {"sentences": count[room], "mean": words[room] / count[room], "finds": finds[room]}
+            for room in sorted(count) if count[room]}
+
+
+def write_bounds(bounds):
+    lines = ["# The most that tools/words.py allows: mean words a sentence, and finds. Lowered by tools/words.py --update.", ""]
+    lines += [f'{room} = {{ mean = {b["mean"]:.1f}, finds = {b["finds"]} }}' for room, b in sorted(bounds.items())]
+    BOUNDS.write_text("\n".join(lines) + "\n")
+
+
+def check(update):
+    today = measured_tree()
+    bounds = tomllib.loads(BOUNDS.read_text()) if BOUNDS.exists() else {}
+    over = []
+    for room, now in today.items():
+        mean, finds = int(now["mean"] * 10 + 0.999) / 10, now["finds"]
+        bound = bounds.get(room)
+        if update:
+            kept = bound or {"mean": mean, "finds": finds}
+            bounds[room] = {"mean": min(kept["mean"], mean), "finds": min(kept["finds"], finds)}
+        elif bound is None:
+            over.append(f"{room}: has no bound in tools/words.toml")
+        else:
+            if mean > bound["mean"]:
+                over.append(f'{room}: {mean} words a sentence, the bound is {bound["mean"]}')
+            if finds > bound["finds"]:
+                over.append(f'{room}: {finds} finds, the bound is {bound["finds"]}')
+        print(f'{room:12} {now["sentences"]:6} sentences, {now["mean"]:5.1f} words each, {finds:4} finds')
+    if update:
+        write_bounds({room: bound for room, bound in bounds.items() if room in today})
+    for line in over:
+        print(f"error: {line}; see tools/words.py FILE", file=sys.stderr)
+    return 1 if over else 0
+
+
+def main(arguments):
+    if arguments in (["--check"], ["--update"]):
+        return check(arguments == ["--update"])
+    if not arguments or arguments[0].startswith("-"):
+        print(__doc__)
+        return 2
+    for name in arguments:
+        said, lengths, finds = measure(Path(name))
+        if not said:
+            print(f"{name}: no sentences")
+            continue
+        longest = max(range(len(said)), key=lambda i: lengths[i])
+        print(f"{name}: {len(said)} sentences, {sum(lengths) / len(said):.1f} words each, "
+              f"{lengths[longest]} the longest (line {said[longest][0]}), {len(finds)} finds")
+        for line, reason, match, sentence in finds:
+            print(f"  {name}:{line}: {reason}: '{match.strip()[:40]}' in: {sentence[:90]}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
