@@ -1,9 +1,8 @@
-// The vocabulary of the filters: fixed-size vectors and matrices, the normal distribution, one linear step and one
-// linear measurement of it.
+// Types of the filters: fixed-size vectors and matrices, the normal distribution, one linear transition and one
+// linear measurement.
 //
-// Prediction over a step  x' = F x + w, w ~ N(0, Q):   x <- F x,  P <- F P F' + Q.
-// Update with  z = H x + v, v ~ N(0, R): filters/correct.h, and with what methods for late measurements keep of it,
-// oosm/correction.h.
+// Prediction by  x' = F x + w, w ~ N(0, Q):   x <- F x,  P <- F P F' + Q.
+// Update with  z = H x + v, v ~ N(0, R):      filters/correct.h, and for late measurements oosm/correction.h.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +12,7 @@ namespace ttf::fusion::linear {
 template <int Rows> using Vector = Eigen::Matrix<double, Rows, 1>;
 template <int Rows, int Columns = Rows> using Matrix = Eigen::Matrix<double, Rows, Columns>;
 
-// Mean and covariance, symmetric positive semi-definite.
+// A mean and a covariance; the covariance is symmetric positive semi-definite.
 template <int N> struct Gaussian {
   Vector<N> x = Vector<N>::Zero();
   Matrix<N> p = Matrix<N>::Zero();
@@ -24,7 +23,7 @@ template <int N> struct LinearStep {
   Matrix<N> q = Matrix<N>::Zero();  // symmetric positive semi-definite
 };
 
-// r is symmetric positive definite.
+// A linear measurement; r is symmetric positive definite.
 template <int N, int M> struct LinearMeasurement {
   Vector<M> z = Vector<M>::Zero();
   Matrix<M, N> h = Matrix<M, N>::Zero();

@@ -1,4 +1,4 @@
-// Angles in radians: differences belong to the nearest turn.
+// Angles in radians; a difference of angles is at most half a turn.
 #pragma once
 
 #include <cmath>
@@ -6,13 +6,13 @@
 
 namespace ttf::fusion::motion {
 
-// To [-pi, pi]; what lies there already keeps its bits.
+// Maps an angle to [-pi, pi]; an angle already in that interval keeps its bits.
 inline double to_half_turn(double angle) {
   constexpr double kPi = std::numbers::pi;
   return std::abs(angle) <= kPi ? angle : std::remainder(angle, 2.0 * kPi);
 }
 
-// To [-pi/2, pi/2]: of a direction whose front and back cannot be told apart.
+// Maps a direction to [-pi/2, pi/2], for objects whose front looks like their back.
 inline double to_quarter_turn(double angle) {
   constexpr double kPi = std::numbers::pi;
   return std::abs(angle) <= 0.5 * kPi ? angle : std::remainder(angle, kPi);

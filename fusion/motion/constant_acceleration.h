@@ -1,5 +1,6 @@
-// Constant acceleration, driven by white jerk of spectral density q [m^2/s^5] in either axis: state (x, y, vx, vy, ax,
-// ay). Bar-Shalom, Li, Kirubarajan: "Estimation with Applications to Tracking and Navigation", 2001, eq. 6.2.3-7.
+// The constant-acceleration model has the state (x, y, vx, vy, ax, ay). White jerk of spectral density q
+// [m^2/s^5] drives each axis. Bar-Shalom, Li, Kirubarajan: "Estimation with Applications to Tracking and
+// Navigation", 2001, eq. 6.2.3-7.
 #pragma once
 
 #include "fusion/motion/integrator_chain.h"

@@ -1,5 +1,6 @@
-// Constant velocity, driven by white acceleration of spectral density q [m^2/s^3] in either axis: state (x, y, vx, vy).
-// Bar-Shalom, Li, Kirubarajan: "Estimation with Applications to Tracking and Navigation", 2001, eq. 6.2.2-8.
+// The constant-velocity model has the state (x, y, vx, vy). White acceleration of spectral density q [m^2/s^3]
+// drives each axis. Bar-Shalom, Li, Kirubarajan: "Estimation with Applications to Tracking and Navigation",
+// 2001, eq. 6.2.2-8.
 #pragma once
 
 #include "fusion/motion/integrator_chain.h"

@@ -1,15 +1,16 @@
-// One layout's estimate in another layout, to first order: what mixing of different motion models needs
-// (filters/imm.h).
+// Converts an estimate from one layout to another, to first order. The IMM needs it to mix different motion
+// models (filters/imm.h).
 //
-// The way goes through (x, y, vx, vy, ax, ay). What the source does not know (a constant-velocity model has no
-// acceleration) is what the destination believes of it itself, uncorrelated with the rest: were it taken as zero and
-// certain, mixing would make the destination certain of what nobody has measured (Granstroem, Willett, Bar-Shalom:
-// "Systematic approach to IMM mixing for unequal dimension states", IEEE TAES 51(4), 2015).
+// The conversion goes through (x, y, vx, vy, ax, ay). The source may lack components: a constant-velocity model
+// has no acceleration. The destination then keeps its own belief of these, uncorrelated with the rest. A
+// certain zero instead would make the destination certain of unmeasured quantities (Granstroem, Willett,
+// Bar-Shalom: "Systematic approach to IMM mixing for unequal dimension states", IEEE TAES 51(4), 2015).
 //   polar to Cartesian:  v = speed t,  a = acceleration t + speed turn_rate n,  t = (cos h, sin h), n = (-sin h, cos h)
-//   Cartesian to polar:  h = course of v, speed = |v|, turn_rate = (v x a) / v^2, acceleration = a . t; where the
-//   destination believes to be reversing, heading and speed point backwards.
-// What is slower than kSlowest has no course: the destination's own heading and all behind it are kept. Slower than
-// kTurning, a turn rate that is a quotient of acceleration and speed says nothing: the destination's own is kept.
+//   Cartesian to polar:  h = course of v, speed = |v|, turn_rate = (v x a) / v^2, acceleration = a . t
+//   If the destination believes that the object reverses, heading and speed change their sign.
+// Below kSlowest an object has no course: the destination keeps its own heading and all later components. Below
+// kTurning the quotient of acceleration and speed is meaningless: the destination keeps its own turn rate and
+// acceleration.
 #pragma once
 
 #include <cmath>
@@ -23,7 +24,7 @@ namespace ttf::fusion::motion {
 
 inline constexpr double kTurning = 1.0;  // [m/s]
 
-// (x, y, vx, vy, ax, ay), or only the first four of them.
+// An estimate of (x, y, vx, vy, ax, ay), or of only the first four.
 struct Whole {
   linear::Gaussian<6> estimate;
   bool knows_acceleration = false;

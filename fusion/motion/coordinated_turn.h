@@ -1,16 +1,16 @@
-// Coordinated turns: along a bend of constant turn rate, with constant speed (CTRV) or constant acceleration along the
+// Coordinated turns have a constant turn rate and constant speed (CTRV) or constant acceleration along the
 // heading (CTRA). Schubert, Richter, Wanielik: "Comparison and evaluation of advanced motion models for vehicle
-// tracking", FUSION 2008, written with the moments of turn_moments.h so that they hold at any turn rate,
+// tracking", FUSION 2008. Here the equations use the moments of turn_moments.h, so they hold at any turn rate,
 // zero included.
 //
-// With heading h, speed v, turn rate w, acceleration a, u = w dt, and the turned moments C_k = cos h c_k - sin h s_k
-// and S_k = sin h c_k + cos h s_k:
+// The symbols are heading h, speed v, turn rate w, acceleration a, u = w dt, and the turned moments
+//   C_k = cos h c_k - sin h s_k,  S_k = sin h c_k + cos h s_k:
 //   x += v dt C_0 + a dt^2 C_1,  y += v dt S_0 + a dt^2 S_1,  h += w dt,  v += a dt.
 //
-// Noise: the turn rate is driven by white turn acceleration, the speed (CTRV) by white acceleration or the acceleration
-// (CTRA) by white jerk. Its covariance int F(dt-s) G diag(q) G' F(dt-s)' ds along the way of x (Saerkkae, Solin:
-// "Applied Stochastic Differential Equations", 2019) is taken by four-point Gauss-Legendre, exact
-// while straight on; its relative error is below 1e-5 for |w dt| <= 0.5.
+// White turn acceleration drives the turn rate. White acceleration drives the speed (CTRV), or white jerk the
+// acceleration (CTRA). The noise covariance is int F(dt-s) G diag(q) G' F(dt-s)' ds along the path of x
+// (Saerkkae, Solin: "Applied Stochastic Differential Equations", 2019). Four-point Gauss-Legendre quadrature
+// takes the integral. It is exact for straight motion; its relative error is below 1e-5 for |w dt| <= 0.5.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ template <int N> struct CoordinatedTurn : Polar<N> {
   static constexpr bool kLinear = false;
   static constexpr bool kAccelerates = N == 6;
 
-  double turn_density = 1.0;   // of the turn acceleration [rad^2/s^3], >= 0
-  double along_density = 1.0;  // of the acceleration [m^2/s^3], or of the jerk [m^2/s^5]; >= 0
+  double turn_density = 1.0;   // spectral density of the turn acceleration [rad^2/s^3], >= 0
+  double along_density = 1.0;  // spectral density of the acceleration [m^2/s^3] or the jerk [m^2/s^5], >= 0
 
   linear::Vector<N> move(const linear::Vector<N>& x, double dt) const {
     TTF_CHECK(dt >= 0.0, "prediction by {} s", dt);
@@ -96,7 +96,7 @@ template <int N> struct CoordinatedTurn : Polar<N> {
   }
 
  private:
-  // Moved but for its position, on which no derivative depends.
+  // Moves all components except the position; no derivative depends on the position.
   static linear::Vector<N> turned(linear::Vector<N> x, double dt) {
     x(2) = to_half_turn(x(2) + x(4) * dt);
     if constexpr (kAccelerates) x(3) += x(5) * dt;

@@ -1,5 +1,6 @@
-// Constant turn rate and acceleration: state (x, y, heading, speed, turn rate, acceleration along the heading). Noise:
-// white turn acceleration [rad^2/s^3] and white jerk along the heading [m^2/s^5].
+// The constant turn rate and acceleration model (CTRA) has the state (x, y, heading, speed, turn rate,
+// acceleration along the heading). The noise is white turn acceleration [rad^2/s^3] and white jerk along the
+// heading [m^2/s^5].
 #pragma once
 
 #include "fusion/motion/coordinated_turn.h"

@@ -1,5 +1,5 @@
-// Constant turn rate and speed: state (x, y, heading, speed, turn rate). Noise: white turn acceleration [rad^2/s^3] and
-// white acceleration along the heading [m^2/s^3].
+// The constant turn rate and velocity model (CTRV) has the state (x, y, heading, speed, turn rate). The noise is white
+// turn acceleration [rad^2/s^3] and white acceleration along the heading [m^2/s^3].
 #pragma once
 
 #include "fusion/motion/coordinated_turn.h"

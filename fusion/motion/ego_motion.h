@@ -1,9 +1,10 @@
-// States are of the object over ground, in the axes of the vehicle that carries the sensors. When the vehicle has
-// moved, the same object has other coordinates: this is that change, of state and covariance.
+// States describe the object's motion over ground, in the axes of the vehicle that carries the sensors. When
+// the vehicle moves, state and covariance change their coordinates.
 //
-// With the vehicle's new pose (t, yaw) in its old axes:  p <- R' (p - t),  v <- R' v,  a <- R' a,  heading <- heading -
-// yaw, P <- J P J' + G C G', J the rotation of the layout, C the covariance of (t, yaw), G the derivative of the new
-// state by them. Turn rate, speed and acceleration along the heading stay.
+// The vehicle's new pose (t, yaw) is given in its old axes:
+//   p <- R' (p - t),  v <- R' v,  a <- R' a,  heading <- heading - yaw,  P <- J P J' + G C G'
+// J is the rotation of the layout, C the covariance of (t, yaw), G the derivative of the new state by (t, yaw).
+// Turn rate, speed and acceleration along the heading stay.
 #pragma once
 
 #include <cmath>
@@ -13,11 +14,11 @@
 
 namespace ttf::fusion::motion {
 
-// The vehicle's pose at the later instant, in its axes at the earlier one.
+// The vehicle's pose at the later instant, in its axes at the earlier instant.
 struct PlanarMotion {
   linear::Vector<2> translation = linear::Vector<2>::Zero();  // [m]
   double yaw = 0.0;                                           // [rad]
-  linear::Matrix<3> covariance = linear::Matrix<3>::Zero();   // of (x, y, yaw): how well odometry knows it
+  linear::Matrix<3> covariance = linear::Matrix<3>::Zero();   // of (x, y, yaw), the error of the odometry
 };
 
 template <Model M> void compensate(linear::Gaussian<M::kStates>& state, const PlanarMotion& ego) {
@@ -35,7 +36,7 @@ template <Model M> void compensate(linear::Gaussian<M::kStates>& state, const Pl
 
   linear::Matrix<kN, 3> g = linear::Matrix<kN, 3>::Zero();
   g.template topLeftCorner<2, 2>() = -back;
-  for (int i = 0; i < kVectors; i += 2) {  // d (R' a) / d yaw = (y, -x) of what has been turned
+  for (int i = 0; i < kVectors; i += 2) {  // d (R' a) / d yaw = (y, -x) of the rotated vector
     g(i, 2) = state.x(i + 1);
     g(i + 1, 2) = -state.x(i);
   }

@@ -1,7 +1,8 @@
-// Both axes alike: each component is the integral of the next one of its axis, the last one is driven by white noise.
-// With K components per axis, F = f (x) I and Q = q (x) I in the order (x, y, vx, vy, ...), f upper triangular with
-// f_ij = dt^(j-i) / (j-i)!, and q the exact integral for a spectral density s (Bar-Shalom, Li, Kirubarajan: "Estimation
-// with Applications to Tracking and Navigation", 2001, 6.2.2 and 6.2.3):
+// A chain of integrators moves both axes alike: each component is the integral of the next one of its axis, and
+// white noise drives the last one. With K components per axis in the order (x, y, vx, vy, ...), F = f (x) I and
+// Q = q (x) I. The matrix f is upper triangular with f_ij = dt^(j-i) / (j-i)!. The matrix q is the exact
+// integral for a spectral density s (Bar-Shalom, Li, Kirubarajan: "Estimation with Applications to Tracking and
+// Navigation", 2001, 6.2.2 and 6.2.3):
 //   q_ij = s dt^(a+b+1) / (a! b! (a+b+1)),   a = K-1-i, b = K-1-j.
 #pragma once
 
@@ -15,7 +16,7 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
   static constexpr int kStates = 2 * K;
   static constexpr bool kLinear = true;
 
-  double spectral_density = 1.0;  // of the noise that drives each axis [m^2/s^(2K-1)], >= 0
+  double spectral_density = 1.0;  // of each axis's driving noise [m^2/s^(2K-1)], >= 0
 
   linear::Vector<kStates> move(const linear::Vector<kStates>& x, double dt) const {
     linear::Vector<kStates> moved = x;
@@ -37,7 +38,7 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
     return {jacobian(anywhere, dt), noise(anywhere, dt)};
   }
 
-  // F P F' as sums of rows, then of columns.
+  // Computes F P F' + Q: F P F' as sums of rows, then of columns.
   void advance(linear::Gaussian<kStates>& state, double dt) const {
     TTF_CHECK(dt >= 0.0, "prediction by {} s", dt);
     advance_rows(state.x, dt);
@@ -53,7 +54,7 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
 
   static double step_by(double dt, int n) { return power(dt, n) * (1.0 / factorial(n)); }
 
-  // From the top downwards: the rows below are still those before the step.
+  // Goes from the top downwards: the rows below still have their old values.
   template <class Rows> static void advance_rows(Rows& a, double dt) {
     unrolled<K>([&](auto i) {
       unrolled<K - 1 - i>([&](auto below) {

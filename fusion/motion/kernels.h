@@ -1,5 +1,5 @@
-// Products of small matrices as plain loops, for what is instantiated for many shapes: a compiler takes a tenth of the
-// time that it needs for the same as an expression template. The order of summation is the order of the loops.
+// Products of small matrices as plain loops, for templates with many shapes. They compile in a tenth of the
+// time of expression templates. The loops fix the order of summation.
 #pragma once
 
 #include <type_traits>
@@ -9,18 +9,18 @@
 
 namespace ttf::fusion::motion {
 
-// body(0), ..., body(N - 1) with indices that are constants: g++ at -O2 keeps most small loops as loops.
+// Calls body(0), ..., body(N - 1) with constant indices: g++ at -O2 does not unroll most small loops.
 template <int N, class Body> constexpr void unrolled(const Body& body) {
   [&]<int... I>(std::integer_sequence<int, I...>) { (body(std::integral_constant<int, I>{}), ...); }
   (std::make_integer_sequence<int, N>{});
 }
 
-// The lower triangle becomes the upper one's mirror image: of what is symmetric but for rounding.
+// Copies the lower triangle to the upper one; the matrix is symmetric up to rounding.
 template <int N> void mirror(linear::Matrix<N>& p) {
   unrolled<N>([&](auto c) { unrolled<c>([&](int r) { p(c.value, r) = p(r, c.value); }); });
 }
 
-// A B.
+// Returns A B.
 template <int R, int K, int C>
 linear::Matrix<R, C> times(const linear::Matrix<R, K>& a, const linear::Matrix<K, C>& b) {
   linear::Matrix<R, C> out;
@@ -33,7 +33,7 @@ linear::Matrix<R, C> times(const linear::Matrix<R, K>& a, const linear::Matrix<K
   return out;
 }
 
-// A B'.
+// Returns A B'.
 template <int R, int K, int C>
 linear::Matrix<R, C> times_transposed(const linear::Matrix<R, K>& a, const linear::Matrix<C, K>& b) {
   linear::Matrix<R, C> out;
@@ -46,7 +46,7 @@ linear::Matrix<R, C> times_transposed(const linear::Matrix<R, K>& a, const linea
   return out;
 }
 
-// J P J'. Only the innermost loops are unrolled: most of the gain, little of the compiler's time.
+// Returns J P J'. Only the innermost loops are unrolled: that brings most of the speed at little compile time.
 template <int N, int K> linear::Matrix<N> sandwich(const linear::Matrix<N, K>& j, const linear::Matrix<K>& p) {
   linear::Matrix<N, K> jp;
   for (int c = 0; c < K; ++c)
@@ -65,12 +65,12 @@ template <int N, int K> linear::Matrix<N> sandwich(const linear::Matrix<N, K>& j
   return out;
 }
 
-// P += weight v v'.
+// Adds weight v v' to P.
 template <int N> void add_outer(linear::Matrix<N>& p, double weight, const linear::Vector<N>& v) {
   for (int c = 0; c < N; ++c) unrolled<N>([&](int r) { p(r, c) += weight * (v(r) * v(c)); });
 }
 
-// a += weight b, of any shape.
+// Adds weight b to a, in any shape.
 template <int N, int K> void add_scaled(linear::Matrix<N, K>& a, double weight, const linear::Matrix<N, K>& b) {
   for (int c = 0; c < K; ++c)
     for (int r = 0; r < N; ++r) a(r, c) += weight * b(r, c);

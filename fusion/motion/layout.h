@@ -1,8 +1,8 @@
-// What the components of a state mean, and how its kinematics follow. Two layouts:
+// A layout names the components of a state and derives its kinematics. There are two layouts:
 //   Cartesian<4>  (x, y, vx, vy)                      Cartesian<6>  (x, y, vx, vy, ax, ay)
 //   Polar<5>      (x, y, heading, speed, turn rate)   Polar<6>      (..., acceleration along the heading)
-// A Cartesian state's heading is its course, the direction of its velocity. A polar state's speed may be negative
-// (reversing): the heading is where its front points to.
+// The heading of a Cartesian state is its course, the direction of its velocity. The heading of a polar state
+// is the direction of the object's front; its speed is negative in reverse.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace ttf::fusion::motion {
 
-// Slower than this [m/s], a course says nothing of the heading.
+// Below this speed [m/s] a course gives no heading.
 inline constexpr double kSlowest = 0.1;
 
 template <int N> struct Cartesian {

@@ -1,12 +1,12 @@
-// What a motion model is. A new one is a small header that derives from a layout (layout.h) and says, with dt >= 0 in
-// seconds and x the state:
-//   move(x, dt)      where x is after dt;
+// A motion model is a small header that derives from a layout (layout.h). With dt >= 0 in seconds and the state
+// x it has:
+//   move(x, dt)      the state after dt;
 //   jacobian(x, dt)  d move / d x;
-//   noise(x, dt)     covariance of what white noise adds in dt to what starts at x, symmetric positive semi-definite.
-// Laws, tested over every model: moving by dt in one step or in two is the same to rounding; jacobian is the
-// derivative; noise is the integral of the driving noise along the way of x, to first order of that noise.
-// A linear model says its step besides; what is a chain of integrators in both axes (integrator_chain.h) moves
-// covariances at a fraction of the cost of the matrix product.
+//   noise(x, dt)     the covariance that white noise adds within dt from x on, symmetric positive semi-definite.
+// Tests hold every model to three laws. One transition by dt equals two shorter ones, up to rounding. The
+// jacobian is the derivative. The noise is the integral of the driving noise along the path of x, to first
+// order of that noise. A linear model also has step(dt). A chain of integrators (integrator_chain.h) also moves
+// covariances, at a fraction of the matrix product's cost.
 #pragma once
 
 #include <concepts>
@@ -35,7 +35,8 @@ concept LinearModel = Model<M> && M::kLinear && requires(const M& model, double 
   { model.step(dt) } -> std::same_as<linear::LinearStep<M::kStates>>;
 };
 
-// Adds a step to state and covariance in place; the same as step(dt), but for rounding.
+// A structured model also adds a transition to state and covariance in place; it equals step(dt) up to
+// rounding.
 template <class M>
 concept StructuredModel = LinearModel<M> && requires(const M& model, linear::Gaussian<M::kStates>& state, double dt) {
   {model.advance(state, dt)};

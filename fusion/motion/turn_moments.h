@@ -1,10 +1,10 @@
-// c_k(u) = int_0^1 t^k cos(u t) dt and s_k(u) = int_0^1 t^k sin(u t) dt, k = 0, 1, 2: all that a drive along a bend,
-// with u = turn rate times duration, and its derivatives are made of.
+// The turn moments are c_k(u) = int_0^1 t^k cos(u t) dt and s_k(u) = int_0^1 t^k sin(u t) dt, k = 0, 1, 2. With
+// u = turn rate times duration, they make up the motion along a bend and its derivatives.
 //
-// By parts, c_k = (sin u - k s_(k-1)) / u and s_k = (k c_(k-1) - cos u) / u for k > 0, c_0 = sin u / u,
-// s_0 = (1 - cos u) / u. That cancels for small u, so |u| < 1 takes the power series
-//   c_k = sum (-1)^j u^(2j) / ((2j)! (2j + k + 1)),   s_k = u sum (-1)^j u^(2j) / ((2j + 1)! (2j + k + 2)),
-// whose eleventh terms are below 1e-19, by Horner's rule. Both agree to a few 1e-16 where they meet.
+// By parts, c_k = (sin u - k s_(k-1)) / u and s_k = (k c_(k-1) - cos u) / u for k > 0, c_0 = sin u / u, s_0 =
+// (1 - cos u) / u. These forms cancel for small u, so |u| < 1 uses the power series
+//   c_k = sum (-1)^j u^(2j) / ((2j)! (2j + k + 1)),   s_k = u sum (-1)^j u^(2j) / ((2j + 1)! (2j + k + 2)).
+// Horner's rule sums ten terms; the eleventh is below 1e-19. Both forms agree to a few 1e-16 at |u| = 1.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct TurnMoments {
 
 inline constexpr std::size_t kTurnTerms = 10;
 
-// Coefficients of (u^2)^j, those of the three moments side by side.
+// Coefficients of (u^2)^j; the three moments lie side by side.
 struct TurnSeries {
   std::array<std::array<double, 3>, kTurnTerms> c, s;
 };
