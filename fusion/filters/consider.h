@@ -1,9 +1,9 @@
-// The Schmidt (consider) form: systematic errors b with known covariance B are carried, not estimated. Their
-// correlation with the state, C = cov(x, b), is kept, so that the covariance of the state stays true although every
-// measurement errs the same way (Schmidt: "Application of state space methods to navigation problems", Advances in
-// Control Systems 3, 1966).
+// The Schmidt (consider) filter carries systematic errors b of known covariance B without estimating them. It
+// keeps their correlation with the state, C = cov(x, b). So the state's covariance stays true although all
+// measurements share the same error (Schmidt: "Application of state space methods to navigation problems",
+// Advances in Control Systems 3, 1966).
 //
-// z = h(x) + D b + v:
+// Update with z = h(x) + D b + v:
 //   W = H P + D C',  S = W H' + (H C + D B) D' + R,  K = W' S^-1,
 //   x <- x + K nu,  C <- C - K (H C + D B),  T = P - K W,  P <- T - (T H' + C_after D' - K R) K',
 // the last in Joseph form (correct.h).
@@ -22,7 +22,7 @@ template <int B> struct Consider {
   static constexpr int kBiases = B;
 
   linear::Matrix<B> bias =
-      linear::Matrix<B>::Zero();  // covariance of what is left after known biases are corrected for
+      linear::Matrix<B>::Zero();  // covariance of the errors that remain after correction for known biases
 
   template <motion::Model M> void predict(const M& model, Considered<M::kStates, B>& considered, double dt) const {
     considered.cross =
@@ -30,7 +30,7 @@ template <int B> struct Consider {
     Extended{}.predict(model, considered.state, dt);
   }
 
-  // Here and in update() the sensor's biases are those from index First on.
+  // Returns the innovation without an update. Here and in update() the sensor's biases begin at index First.
   template <int First = 0, motion::Model M, sensors::Biased S>
   requires(First + S::kBiases <= B) Innovation<S::kDimension> innovate(const M&, const S& sensor,
                                                                        const sensors::Measurement<S::kDimension>& z,
@@ -42,7 +42,7 @@ template <int B> struct Consider {
     return sight.innovation;
   }
 
-  // The covariance of what the sensor is expected to say, with noise z.r; z.z does not matter.
+  // Returns the covariance of the expected measurement, with noise z.r; z.z is not used.
   template <int First = 0, motion::Model M, sensors::Biased S>
   requires(First + S::kBiases <= B) linear::Matrix<S::kDimension> spread(const M&, const S& sensor,
                                                                          const sensors::Measurement<S::kDimension>& z,
@@ -86,10 +86,10 @@ template <int B> struct Consider {
     linear::Matrix<S::kDimension, S::kBiases> d;
     linear::Matrix<S::kDimension, M::kStates> w;  // cov(z, x)
     linear::Matrix<S::kDimension, B> with_bias;   // cov(z, b)
-    Innovation<S::kDimension> innovation;         // but for what judge() says
+    Innovation<S::kDimension> innovation;         // without the fields that judge() sets
   };
 
-  // False, and nothing is to be learnt, where the sensor does not see it.
+  // Fills `sight`; returns false when the sensor cannot see the state, and the caller changes nothing.
   template <int First, motion::Model M, sensors::Biased S>
   bool look(const S& sensor, const sensors::Measurement<S::kDimension>& z, const Considered<M::kStates, B>& c,
             Sight<M, S>& sight) const {

@@ -1,5 +1,5 @@
-// What is kept of an object whose sensors' systematic errors are considered (consider.h): N states and their
-// correlation with the B biases of all sensors together, each sensor's one after the other.
+// The estimate of the consider filter (consider.h): N states and their correlation with the B biases of all
+// sensors together, sensor after sensor.
 #pragma once
 
 #include "fusion/linear/gaussian.h"

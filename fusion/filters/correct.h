@@ -1,10 +1,11 @@
-// The update that the Kalman, the extended and the Schmidt filter share, with H = [H_c 0] of C leading columns:
+// The update that the Kalman, the extended and the Schmidt filter share. H = [H_c 0] with C leading columns:
 //   W = H P,  S = W H' + R,  K = W' S^-1,  x <- x + K nu,
-// and the covariance in Joseph form, (I - K H) P (I - K H)' + K R K' (Bar-Shalom, Li, Kirubarajan 2001, 5.2.3-18),
-// multiplied out so that I - K H is never formed:
+// The covariance is in Joseph form, (I - K H) P (I - K H)' + K R K' (Bar-Shalom, Li, Kirubarajan 2001,
+// 5.2.3-18), multiplied out so that I - K H is never formed:
 //   T = P - K W,   P <- T - (T H' - K R) K'.
-// T H' - K R is zero but for rounding of K: the second term takes the first order of what K is wrong by out of P, which
-// is what the Joseph form is for. O(n^2 m), and zero columns of H cost nothing. Direct: H_c is the identity.
+// T H' - K R is zero except for the rounding of K. The second term removes the first-order effect of K's error
+// from P, which is the purpose of the Joseph form. The cost is O(n^2 m); zero columns of H cost nothing. With Direct,
+// H_c is the identity.
 #pragma once
 
 #include "fusion/filters/filter.h"
@@ -12,7 +13,7 @@
 
 namespace ttf::fusion::filters {
 
-// W' and S: whole columns, as everything here.
+// Computes W' and S; the code works on whole columns.
 template <bool Direct, int N, int M, int C>
 void project(const linear::Matrix<N>& p, const linear::Matrix<M, C>& h, const linear::Matrix<M>& r,
              linear::Matrix<N, M>& w, linear::Matrix<M>& s) {
@@ -26,14 +27,14 @@ void project(const linear::Matrix<N>& p, const linear::Matrix<M, C>& h, const li
   }
 }
 
-// An innovation whose nu and S are known.
+// Completes an innovation from its nu and S.
 template <int M> void judge(Innovation<M>& innovation, const Ldl<M>& ldl) {
   innovation.nis = ldl.norm_squared(innovation.nu);
   innovation.determinant = ldl.determinant();
   innovation.used = true;
 }
 
-// What correct() finds, changing nothing.
+// Returns the innovation that correct() would find, and changes nothing.
 template <bool Direct, int N, int M, int C>
 Innovation<M> innovate(const linear::Gaussian<N>& state, const linear::Vector<M>& nu, const linear::Matrix<M, C>& h,
                        const linear::Matrix<M>& r) {

@@ -1,5 +1,5 @@
-// The extended Kalman filter: models linearised at the estimate, to first order (Bar-Shalom, Li, Kirubarajan 2001,
-// 10.3). On linear models it is the Kalman filter.
+// The extended Kalman filter linearises the models at the estimate, to first order (Bar-Shalom, Li, Kirubarajan
+// 2001, 10.3). With linear models it is the Kalman filter.
 #pragma once
 
 #include "fusion/filters/kalman.h"

@@ -1,7 +1,7 @@
-// What a filter is: a value without state of its own that moves a normal distribution with a motion model and updates
-// it with a sensor model. Filters: Kalman (linear models), Extended, Unscented; several motion models at once: imm.h;
-// systematic errors that are carried, not estimated: consider.h. innovate() is what update() finds, to the bit, and
-// changes nothing: what a gate asks. Nothing here allocates.
+// A filter is a value without state: it predicts a normal distribution with a motion model and updates it with
+// a sensor model. The filters are Kalman (linear models), Extended and Unscented. Imm (imm.h) combines several
+// motion models, and Consider (consider.h) carries systematic errors without estimating them. For gates,
+// innovate() returns the result of update() to the bit and changes nothing. Filters never allocate.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@
 
 namespace ttf::fusion::filters {
 
-// What an update found: the innovation and its covariance. Not used (nothing changed) where the sensor model has no
-// derivative at the expected state, or sees one of the sigma points not.
+// The innovation of an update and its covariance. It is unused, and nothing has changed, when the sensor model
+// has no derivative at the expected state or cannot see one of the sigma points.
 template <int M> struct Innovation {
   linear::Vector<M> nu = linear::Vector<M>::Zero();
   linear::Matrix<M> s = linear::Matrix<M>::Identity();
@@ -23,7 +23,7 @@ template <int M> struct Innovation {
   double determinant = 1.0;  // of S
   bool used = false;
 
-  // Of the measurement, given all before it.
+  // Returns the logarithm of the measurement's likelihood, given all earlier measurements.
   double log_likelihood() const { return -0.5 * (nis + std::log(determinant) + M * std::log(2.0 * std::numbers::pi)); }
 };
 

@@ -1,13 +1,16 @@
-// Interacting multiple models: the object obeys one of several motion models at a time and changes between them as a
-// Markov chain (Blom, Bar-Shalom: "The interacting multiple model algorithm for systems with Markovian switching
-// coefficients", IEEE TAC 33(8), 1988; Bar-Shalom, Li, Kirubarajan 2001, 11.6.6). With mode probabilities mu and
-// transitions p_ij:
+// Interacting multiple models (IMM): the object obeys one of several motion models at a time and switches
+// between them as a Markov chain. (Blom, Bar-Shalom: "The interacting multiple model algorithm for systems with
+// Markovian switching coefficients", IEEE TAC 33(8), 1988; Bar-Shalom, Li, Kirubarajan 2001, 11.6.6.) With mode
+// probabilities mu and transitions p_ij:
 //   mixing      c_j = sum_i p_ij mu_i,  mu_i|j = p_ij mu_i / c_j,  mode j starts from the mixture with weights mu_i|j;
-//   prediction, update of every mode by itself;
-//   mu_j <- c_j L_j / sum, L the likelihood of the innovation (all in logarithms). What is below the smallest number is
-//   zero, and stays so until time passes and the chain leads back to it; the others have sum 1 whatever was measured.
-// Modes may have different layouts. There is no common state: each mode is mixed in its own layout, the others'
-// estimates converted to it (motion/conversion.h); what comes out is the mixture of all, (x, y, vx, vy, ax, ay).
+//   prediction and update of each mode by itself;
+//   mu_j <- c_j L_j / sum, L the likelihood of the innovation, all in logarithms.
+// A probability below the smallest number becomes zero. It stays zero until the chain leads back to its mode;
+// the sum stays 1 after every measurement.
+//
+// Modes may have different layouts, so there is no common state. Each mode mixes in its own layout, with the
+// other estimates converted to it (motion/conversion.h). The result is the mixture of all modes in
+// (x, y, vx, vy, ax, ay).
 #pragma once
 
 #include <algorithm>
@@ -24,11 +27,12 @@
 
 namespace ttf::fusion::filters {
 
-// How modes change with time: after `seconds` on the average a mode is drawn anew, mode j with probability share(j). So
-//   P(dt) = e I + (1 - e) 1 share',  e = exp(-dt / seconds),
-// for which P(a) P(b) = P(a + b): asynchronous sensors see the same chain, and nothing changes within no time.
+// The Markov chain of the modes. After `seconds` on average it draws a new mode, mode j with probability
+// share(j):
+//   P(dt) = e I + (1 - e) 1 share',  e = exp(-dt / seconds).
+// P(a) P(b) = P(a + b) holds: asynchronous sensors see the same chain, and no time means no change.
 template <int K> struct ModeChain {
-  linear::Vector<K> share = linear::Vector<K>::Constant(1.0 / K);  // positive, of sum 1
+  linear::Vector<K> share = linear::Vector<K>::Constant(1.0 / K);  // positive, with sum 1
   double seconds = 5.0;                                            // above 0
 
   linear::Matrix<K> transition(double dt) const {
@@ -50,7 +54,8 @@ template <class F, motion::Model... Ms> class Imm {
     each([&]<std::size_t J>() { filter_.predict(std::get<J>(models_), std::get<J>(modes.estimates), dt); });
   }
 
-  // p_ij in row i, rows of sum 1. A mode of probability zero before and after keeps its own estimate.
+  // Mixes the modes; p_ij is in row i, and each row has sum 1. A mode with probability zero before and after
+  // keeps its estimate.
   void mix(Modes<Ms...>& modes, const linear::Matrix<kModes>& transition) const {
     const linear::Vector<kModes> c = transition.transpose() * modes.probability;
     const auto before = modes.estimates;
@@ -63,7 +68,8 @@ template <class F, motion::Model... Ms> class Imm {
     modes.probability = c;
   }
 
-  // The innovation of the mixture: mean and covariance of the modes' predictions. Used if every mode can use it.
+  // Returns the innovation of the mixture: mean and covariance of the modes' predictions. It is used if every
+  // mode can use it.
   template <sensors::Model S>
   Innovation<S::kDimension> innovate(const S& sensor, const sensors::Measurement<S::kDimension>& z,
                                      const Modes<Ms...>& modes) const {
@@ -87,14 +93,15 @@ template <class F, motion::Model... Ms> class Imm {
     for (int j = 0; j < kModes; ++j)
       log_weight(j) = of[static_cast<std::size_t>(j)].log_likelihood() + std::log(modes.probability(j));
     const Innovation<S::kDimension> mixed = mixture(sensor, of, modes.probability);
-    // One at a time: Eigen's vectorised exponential ends at 1e-309. log 0 = -infinity, of which exp makes 0.
+    // Takes each exponential alone: Eigen's vectorised exponential ends at 1e-309. log 0 is -infinity, and exp
+    // makes it 0.
     const double most = log_weight.maxCoeff();
     for (int j = 0; j < kModes; ++j) modes.probability(j) = std::exp(log_weight(j) - most);
     modes.probability /= modes.probability.sum();
     return mixed;
   }
 
-  // The mixture of two, mode by mode (merge.h): each mode's estimates weighed with its probability in either.
+  // Merges two estimates mode by mode (merge.h); each mode's weight is its probability in that estimate.
   void merge(Modes<Ms...>& first, double a, const Modes<Ms...>& second, double b) const {
     each([&]<std::size_t J>() {
       using M = std::tuple_element_t<J, std::tuple<Ms...>>;
@@ -105,7 +112,7 @@ template <class F, motion::Model... Ms> class Imm {
     first.probability = (a * first.probability + b * second.probability) / (a + b);
   }
 
-  // Mean and covariance of (x, y, vx, vy, ax, ay) over all modes; a mode that knows no acceleration has none.
+  // Returns mean and covariance of (x, y, vx, vy, ax, ay) over all modes; unknown accelerations count as zero.
   linear::Gaussian<6> whole(const Modes<Ms...>& modes) const {
     std::array<linear::Gaussian<6>, static_cast<std::size_t>(kModes)> of;
     each([&]<std::size_t J>() {
@@ -134,7 +141,7 @@ template <class F, motion::Model... Ms> class Imm {
     (std::index_sequence_for<Ms...>{});
   }
 
-  // As differences from the most probable mode's innovation, so that angles average as angles.
+  // Works on differences from the most probable mode's innovation, so that angles average as angles.
   template <sensors::Model S, int M = S::kDimension>
   static Innovation<M> mixture(const S& sensor, const std::array<Innovation<M>, static_cast<std::size_t>(kModes)>& of,
                                const linear::Vector<kModes>& probability) {
@@ -168,7 +175,7 @@ template <class F, motion::Model... Ms> class Imm {
     constexpr int kN = To::kStates;
     const linear::Gaussian<kN> own = std::get<J>(before);
     std::array<linear::Gaussian<kN>, static_cast<std::size_t>(kModes)> in_own;
-    linear::Vector<kN> shift = linear::Vector<kN>::Zero();  // of the mean, from this mode's own
+    linear::Vector<kN> shift = linear::Vector<kN>::Zero();  // of the mean, from this mode's own mean
     each([&]<std::size_t I>() {
       using From = std::tuple_element_t<I, std::tuple<Ms...>>;
       const double weight = weights(static_cast<int>(I));

@@ -1,5 +1,5 @@
-// The Kalman filter: linear motion, linear measurement, exact. Models that know their structure move the covariance
-// themselves (motion/integrator_chain.h); the general product otherwise.
+// The Kalman filter is exact for linear motion and linear measurements. Structured models move the covariance
+// themselves (motion/integrator_chain.h); other models use the general matrix product.
 #pragma once
 
 #include "fusion/filters/correct.h"

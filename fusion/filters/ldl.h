@@ -1,6 +1,7 @@
-// L D L' of small symmetric matrices: L unit lower triangular, D diagonal. Without pivoting, which positive definite
-// matrices do not need (Higham: "Accuracy and Stability of Numerical Algorithms", 2nd ed., 10.1): unrolled, nothing
-// branches on the numbers but the check that they are one. Only the lower triangle is read.
+// L D L' decomposition of small symmetric matrices; L is unit lower triangular, D diagonal. Positive definite
+// matrices need no pivoting (Higham: "Accuracy and Stability of Numerical Algorithms", 2nd ed., 10.1). The
+// loops are unrolled, and only the check of the pivots branches on values. The decompositions read only the
+// lower triangle.
 #pragma once
 
 #include <cmath>
@@ -11,8 +12,8 @@
 
 namespace ttf::fusion::filters {
 
-// What whoever takes in a covariance from outside asks of it (fusion/sensors/sensor_model.h): finite, symmetric to the
-// bit, and no pivot that is rounding only, within 1e-12 of its diagonal element.
+// Returns whether a covariance from outside is usable (fusion/sensors/sensor_model.h): finite, symmetric to the
+// bit, and without pivots that are only rounding, within 1e-12 of the diagonal element.
 template <int M> bool positive_definite(const linear::Matrix<M>& a) {
   constexpr double kRounding = 1e-12;
   linear::Matrix<M> l;
@@ -31,8 +32,8 @@ template <int M> bool positive_definite(const linear::Matrix<M>& a) {
   return true;
 }
 
-// Of a positive definite matrix, for solving; anything else is a mistake of the program (positive_definite() above is
-// for asking).
+// Decomposes a positive definite matrix to solve with it. Any other matrix is a mistake of the program;
+// positive_definite() tests matrices from outside.
 template <int M> class Ldl {
  public:
   explicit Ldl(const linear::Matrix<M>& a) : l_(a) {
@@ -52,7 +53,7 @@ template <int M> class Ldl {
     });
   }
 
-  // B A^-1, for B with columns of any length: whole columns at a time.
+  // Returns B A^-1 for a B of any number of rows; works on whole columns.
   template <int Rows> linear::Matrix<Rows, M> divide(linear::Matrix<Rows, M> b) const {
     motion::unrolled<M>(
         [&](auto i) { motion::unrolled<i>([&](int k) { b.col(i.value) -= l_(i.value, k) * b.col(k); }); });
@@ -64,7 +65,7 @@ template <int M> class Ldl {
     return b;
   }
 
-  // v' A^-1 v.
+  // Returns v' A^-1 v.
   double norm_squared(linear::Vector<M> v) const {
     double sum = 0.0;
     motion::unrolled<M>([&](auto row) {
@@ -86,8 +87,8 @@ template <int M> class Ldl {
   double d_[M], inverse_[M];
 };
 
-// A lower triangular with A A' = P for a positive semi-definite P: a pivot that is zero within rounding leaves a zero
-// column, for there is no uncertainty in that direction.
+// Returns a lower triangular A with A A' = P for a positive semi-definite P. A pivot of zero within rounding
+// leaves a zero column: that direction has no uncertainty.
 template <int N> linear::Matrix<N> square_root(const linear::Matrix<N>& p) {
   constexpr double kRounding = 1e-14;
   linear::Matrix<N> a = linear::Matrix<N>::Zero();

@@ -1,4 +1,4 @@
-// A sensor model at a state of a motion model: the chain rule between them, once for all pairs.
+// Linearises a sensor model at a state of a motion model, by the chain rule, for all pairs of models.
 #pragma once
 
 #include "fusion/motion/motion_model.h"
@@ -6,7 +6,7 @@
 
 namespace ttf::fusion::filters {
 
-// H_c: d expected / d (the leading components of the state, all that it depends on).
+// Returns H_c = d expected / d (the leading components of the state); the measurement depends on no others.
 template <motion::Model M, sensors::Model S>
 linear::Matrix<S::kDimension, motion::leading_columns(S::kParts)> measurement_matrix(
     const S& sensor, const motion::Kinematics& k, const linear::Vector<M::kStates>& x) {

@@ -1,8 +1,9 @@
-// Two normal distributions of one state as one: mean and covariance of their mixture. With weights a and b, d = x_b -
-// x_a:
+// Merges two normal distributions of one state into mean and covariance of their mixture. With weights a and b
+// and d = x_b - x_a:
 //   x <- x_a + b / (a + b) d,   P <- (a P_a + b P_b) / (a + b) + a b / (a + b)^2 d d'.
-// Positive semi-definite, symmetric to the bit where both are. Merging one after the other gives the moments of all
-// (Salmond: "Mixture reduction algorithms for target tracking in clutter", SPIE 1305, 1990), angles as angles.
+// The result is positive semi-definite, and symmetric to the bit if both inputs are. Repeated merging gives the
+// moments of all (Salmond: "Mixture reduction algorithms for target tracking in clutter", SPIE 1305, 1990),
+// with angles treated as angles.
 #pragma once
 
 #include "fusion/motion/kernels.h"
@@ -10,7 +11,8 @@
 
 namespace ttf::fusion::filters {
 
-// Weights not negative, not both zero; one of zero leaves the other as it is.
+// Takes weights that are not negative and not both zero; a weight of zero leaves the other distribution as it
+// is.
 template <motion::Model M>
 void merge(linear::Gaussian<M::kStates>& first, double a, const linear::Gaussian<M::kStates>& second, double b) {
   constexpr int kN = M::kStates;

@@ -1,5 +1,4 @@
-// What is kept of an object that obeys one of several motion models at a time (imm.h): each mode's estimate in its own
-// layout, and how probable the mode is.
+// The estimate of the IMM (imm.h): each mode's estimate in its own layout, and the mode's probability.
 #pragma once
 
 #include <tuple>

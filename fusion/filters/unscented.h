@@ -1,20 +1,23 @@
 // The unscented Kalman filter, scaled, with additive noise (Julier, Uhlmann: "Unscented filtering and nonlinear
 // estimation", Proc. IEEE 92(3), 2004; van der Merwe: "Sigma-point Kalman filters", 2004).
 //
-// Points x and x +- sqrt(n + lambda) a_i, a_i the columns of a square root of P, lambda = alpha^2 (n + kappa) - n;
-// weights lambda / (n + lambda) for the centre, 1 / (2 (n + lambda)) for the others; the centre counts with 1 - alpha^2
-// + beta more in covariances. Means are taken as differences from the centre's image, through the models' difference
-// and residual, so that angles average as angles. The default (alpha 1, beta 0, kappa 0) is the cubature rule of third
-// degree (Arasaratnam, Haykin: "Cubature Kalman filters", IEEE TAC 54(6), 2009): no negative weight, no digits lost to
-// large ones; of a quadratic's variance, 2 sigma^4, it makes (n - 1) sigma^4, in general alpha^2 (n - 1) + beta.
-// Smaller alpha with beta 2 come nearer to that, with a negative centre.
+// The sigma points are x and x +- sqrt(n + lambda) a_i. The a_i are the columns of a square root of P, and
+// lambda = alpha^2 (n + kappa) - n. The centre has the weight lambda / (n + lambda), every other point
+// 1 / (2 (n + lambda)). In covariances the centre's weight is larger by 1 - alpha^2 + beta. Means are formed
+// from differences from the centre's image, by the models' difference and residual, so that angles average as
+// angles.
 //
-// A measurement is used only where the sensor sees every one of the points: of one it does not see there is nothing to
-// average, a course of something slow, say, that one point has and another has not.
+// The default (alpha 1, beta 0, kappa 0) is the cubature rule of third degree (Arasaratnam, Haykin: "Cubature
+// Kalman filters", IEEE TAC 54(6), 2009). It has no negative weight and loses no digits to large weights. It
+// computes a quadratic's variance, 2 sigma^4, as (n - 1) sigma^4; in general the factor is alpha^2 (n - 1) +
+// beta. A smaller alpha with beta 2 comes nearer to the true variance, with a negative weight of the centre.
 //
-// Points are drawn anew before an update, with the process noise in them. The covariance of the update is the sum over
-// the points of their own errors, sum w (dx - K dz)(dx - K dz)' + K R K': the Joseph form of sigma points, positive for
-// positive weights whatever K's rounding.
+// The filter uses a measurement only if the sensor sees every point: an unseen point has no image to average.
+// For example, one point of a slow object may have a course and another point none.
+//
+// Each update draws new points, which include the process noise. The updated covariance is the sum of the
+// points' own errors, sum w (dx - K dz)(dx - K dz)' + K R K'. This is the Joseph form of sigma points: it is
+// positive for positive weights, whatever the rounding of K.
 #pragma once
 
 #include <cmath>
@@ -92,7 +95,8 @@ struct Unscented {
       centre_of_covariance = (scale - n) / scale + 1.0 - u.alpha * u.alpha + u.beta;
     }
 
-    // Of images d of the points as differences from the centre's, which become differences from their mean, `shift`.
+    // Returns the covariance of the images d. Takes d as differences from the centre's image, returns it as
+    // differences from the mean; `shift` is the mean minus the centre's image.
     template <int D, int Points>
     linear::Matrix<D> spread_of(linear::Matrix<D, Points>& d, linear::Vector<D>& shift) const {
       shift.setZero();
@@ -109,16 +113,16 @@ struct Unscented {
     double spread, other, centre_of_covariance;
   };
 
-  // The points, seen: their distances a from the centre, their images d as differences from the mean of all, which is
-  // the centre's image plus `shift`.
+  // The sigma points and their images: a, the points minus the centre, and d, the images minus their mean. The
+  // mean is the centre's image plus `shift`.
   template <class M, class S> struct Sight {
     linear::Matrix<M::kStates> a;
     linear::Matrix<S::kDimension, 2 * M::kStates> d;
     linear::Vector<S::kDimension> shift;
-    Innovation<S::kDimension> innovation;  // but for what judge() says
+    Innovation<S::kDimension> innovation;  // without the fields that judge() sets
   };
 
-  // False, and nothing is to be learnt, where the sensor does not see one of the points.
+  // Fills `sight`; returns false when the sensor cannot see one of the points, and the caller changes nothing.
   template <motion::Model M, sensors::Model S>
   static bool look(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
                    const linear::Gaussian<M::kStates>& state, const Weights& w, Sight<M, S>& sight) {

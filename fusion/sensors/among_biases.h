@@ -1,13 +1,15 @@
-// A sensor whose systematic errors are some of the biases of all sensors together (fusion/filters/consider.h): the same
-// sensor, and d expected / d (all of them), zero but for its own.
+// Wraps a sensor whose systematic errors are some of the biases of all sensors together
+// (fusion/filters/consider.h). The derivative d expected / d (all biases) is zero except for the sensor's own
+// biases.
 //
-// What a sensor errs by is in its own axes (fusion/sensors/known_sensor.h), polar or Cartesian; what it measures is
-// either a position, which has been placed in the vehicle's axes, or range, bearing and range rate from where it is
-// mounted. With q from the sensor to the object, p the position, v the velocity, all in the vehicle's axes:
-//   polar errors of a position      q / |q| by the range, (-q_y, q_x) by the bearing
+// A sensor's errors are in its own axes (fusion/sensors/known_sensor.h), polar or Cartesian. Its measurement is
+// a position that is already placed in the vehicle's axes, or range, bearing and range rate from its mounting.
+// The derivatives are as follows, with q the vector from sensor to object, p the position and v the velocity,
+// all in the vehicle's axes:
+//   polar errors of a position      q / |q| for the range, (-q_y, q_x) for the bearing
 //   polar errors of range, bearing and range rate   one each
-//   Cartesian errors                d expected / d p, by the sensor's axes
-//   the stamp's error               d expected / d p, by v
+//   Cartesian errors                d expected / d p, along the sensor's axes
+//   the time stamp's error          d expected / d p, along v
 #pragma once
 
 #include <array>
@@ -19,9 +21,10 @@
 
 namespace ttf::fusion::sensors {
 
-// Where a sensor's biases are among all, and where the sensor is. Index -1: it has no such error.
+// The indices of a sensor's biases among all, and the sensor's mounting. Index -1 means that it has no such
+// error.
 struct OwnBiases {
-  std::array<int, 4> index{-1, -1, -1, -1};  // of the components (SystematicErrors::sigma), the stamp last
+  std::array<int, 4> index{-1, -1, -1, -1};  // of the components (SystematicErrors::sigma), the time stamp last
   ErrorAxes axes = ErrorAxes::kPolar;
   Mounting mounting{};
   double time_variance = 0.0;  // [s^2]

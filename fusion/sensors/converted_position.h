@@ -1,16 +1,16 @@
-// A position from range and bearing, for a sensor that tells no range rate: unbiased polar-to-Cartesian conversion.
+// Converts range and bearing to a position without bias, for sensors that do not measure the range rate.
 //
 //   lambda = exp(-sb^2 / 2),   (x, y) = r (cos b, sin b) / lambda
 //   R11 = c r^2 cos^2 b + (r^2 + sr^2) (1 + lambda^4 cos 2b) / 2,       c = lambda^-2 - 2
 //   R22 = c r^2 sin^2 b + (r^2 + sr^2) (1 - lambda^4 cos 2b) / 2
 //   R12 = c r^2 sin b cos b + (r^2 + sr^2) lambda^4 sin 2b / 2
-// (Longbin, Xiaoquan, Yiyu, Kang, Bar-Shalom: "Unbiased converted measurements for tracking", IEEE TAES 34(3), 1998,
-// pp. 1023-1027.) Computed along and across the line of sight, where it is
+// (Longbin, Xiaoquan, Yiyu, Kang, Bar-Shalom: "Unbiased converted measurements for tracking", IEEE TAES 34(3),
+// 1998, pp. 1023-1027.) The code computes the variances along and across the line of sight:
 //   along:   r^2 (lambda^-2 - 2 + (1 + lambda^4) / 2) + sr^2 (1 + lambda^4) / 2
 //   across:  (r^2 + sr^2) (1 - lambda^4) / 2
-// and with expm1, so that little noise far away is not lost in the difference of large numbers.
+// It uses expm1, so that small noise at a large range survives the difference of large numbers.
 //
-// What is drawn and written down needs no more than the first-order transformation: plane_position().
+// Drawings and records need only the first-order transformation: plane_position().
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,8 @@
 
 namespace ttf::fusion::sensors {
 
-// range r > 0 [m] and bearing b [rad, from x to y], of independent errors with sigmas sr > 0 and 0 < sb < 1.
+// Takes a range r > 0 [m] and a bearing b [rad, from x to y] with independent errors of sigma sr > 0 and 0 < sb
+// < 1.
 inline Observation converted_position(double range, double bearing, double sigma_range, double sigma_bearing) {
   const double v = sigma_bearing * sigma_bearing;
   // With e = expm1(v) = lambda^-2 - 1 and f = -expm1(-2v) = 1 - lambda^4.
@@ -39,8 +40,8 @@ inline Observation converted_position(double range, double bearing, double sigma
   return observation;
 }
 
-// Where in the vehicle's axes an observation has its object: a position as it is, once it is placed
-// (fusion/sensors/known_sensor.h); range and bearing to first order, seen from where the sensor is.
+// Returns the object's position in the vehicle's axes. A placed position (fusion/sensors/known_sensor.h) stays
+// as it is; range and bearing are converted to first order, from the sensor's mounting `from`.
 inline PlanePosition plane_position(const Observation& observation, const Mounting& from) {
   if (observation.kind == ObservationKind::kPosition)
     return {observation.z(0), observation.z(1), observation.r(0, 0), observation.r(0, 1), observation.r(1, 1)};

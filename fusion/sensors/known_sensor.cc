@@ -14,7 +14,7 @@ namespace {
 
 constexpr Range<double> kPlace{-50.0, 50.0}, kHeading{-7.0, 7.0};
 
-// What may be said of a bias, by the component it is of.
+// The name and the limits of a bias of one component.
 struct Component {
   const char* name;
   ErrorAxes axes;
@@ -28,7 +28,7 @@ constexpr std::array<Component, 5> kComponents{{{"range", ErrorAxes::kPolar, 0, 
                                                 {"x", ErrorAxes::kCartesian, 0, 10.0, "m"},
                                                 {"y", ErrorAxes::kCartesian, 1, 10.0, "m"}}};
 
-// Those that the mapping gives, from `least` times their most on.
+// Reads the given components, each from `least` times its most on.
 template <class Values>
 void read_components(YamlMap& yaml, double least, Values& values, std::optional<ErrorAxes>& axes) {
   for (const Component& component : kComponents) {

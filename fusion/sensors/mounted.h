@@ -1,7 +1,8 @@
-// A sensor at its place on the vehicle: the object's kinematics in the vehicle's axes, seen from there.
+// A sensor at its mounting on the vehicle. It receives the object's kinematics in the vehicle's axes and sees
+// them in its own:
 //   p' = R' (p - t),  v' = R' (v - w),  heading' = heading - yaw
-// with (t, yaw) the mounting pose and w the sensor's own velocity over ground, in the vehicle's axes. Around a sensor
-// with systematic errors (systematic.h) it is one, too: the same errors, at the kinematics seen from there.
+// (t, yaw) is the mounting pose and w the sensor's own velocity over ground, in the vehicle's axes. A mounted
+// sensor with systematic errors (systematic.h) has the same errors, at the kinematics in its own axes.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +15,11 @@ namespace ttf::fusion::sensors {
 struct Mounting {
   linear::Vector<2> position = linear::Vector<2>::Zero();  // [m] in the vehicle's axes
   double yaw = 0.0;                                        // [rad] from the vehicle's x axis to the sensor's
-  linear::Vector<2> velocity = linear::Vector<2>::Zero();  // [m/s], zero on a vehicle that stands: see carried()
+  linear::Vector<2> velocity = linear::Vector<2>::Zero();  // [m/s], zero on a standing vehicle: see carried()
 };
 
-// The same mounting on a vehicle that drives: velocity of its origin over ground, in its own axes, and its yaw rate
-// [rad/s].
+// Returns the mounting on a moving vehicle, from the velocity of its origin over ground, in its own axes, and
+// its yaw rate [rad/s].
 inline Mounting carried(Mounting mounting, const linear::Vector<2>& velocity, double yaw_rate) {
   mounting.velocity = velocity + yaw_rate * linear::Vector<2>(-mounting.position.y(), mounting.position.x());
   return mounting;

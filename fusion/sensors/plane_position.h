@@ -1,4 +1,4 @@
-// A position in the plane and how uncertain it is, put together from errors that are independent of each other.
+// A position in the plane with its covariance, composed of independent errors.
 #pragma once
 
 #include <cmath>
@@ -10,19 +10,19 @@ struct PlanePosition {
   double x = 0.0, y = 0.0;
   double sxx = 0.0, sxy = 0.0, syy = 0.0;
 
-  // Two errors [m^2] and no other: along the direction (c, s), of length 1, and across it.
+  // Sets the covariance from two errors [m^2]: along the direction (c, s) of length 1, and across it.
   void set_errors(double c, double s, double along, double across) {
     sxx = c * c * along + s * s * across;
     sxy = c * s * (along - across);
     syy = s * s * along + c * c * across;
   }
-  // One more, of this variance; one unit of it moves the position by (dx, dy).
+  // Adds one error of this variance; one unit of the error moves the position by (dx, dy).
   void add_error(double dx, double dy, double variance) {
     sxx += dx * dx * variance;
     sxy += dx * dy * variance;
     syy += dy * dy * variance;
   }
-  // Two more, as set_errors() has them.
+  // Adds two more errors, as in set_errors().
   void add_errors(double c, double s, double along, double across) {
     sxx = sxx + c * c * along + s * s * across;
     sxy += c * s * (along - across);

@@ -1,5 +1,5 @@
-// z = (x, y, orientation) [m, m, rad] of a box that was fitted to an outline: front and back look alike, so its
-// orientation is the heading up to half a turn. Its length and width are measured besides: fusion/tracks/extent.h.
+// z = (x, y, orientation) [m, m, rad] of a box fitted to an outline. Front and back look alike, so the
+// orientation is the heading up to half a turn. fusion/tracks/extent.h takes the box's length and width.
 #pragma once
 
 #include "fusion/motion/angles.h"

@@ -8,7 +8,7 @@
 
 namespace ttf::fusion::sensors {
 
-// Nearer than this [m], an object has no bearing.
+// Below this distance [m] an object has no bearing.
 inline constexpr double kNearest = 1e-3;
 
 struct RangeBearing {

@@ -1,5 +1,5 @@
-// z = (range, bearing, range rate) [m, rad, m/s]: a radar. The range rate is the velocity relative to the sensor along
-// the line of sight, positive when going away.
+// z = (range, bearing, range rate) [m, rad, m/s] of a radar. The range rate is the velocity relative to the
+// sensor along the line of sight, positive for a receding object.
 #pragma once
 
 #include <algorithm>

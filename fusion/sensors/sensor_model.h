@@ -1,14 +1,15 @@
-// What a sensor model is. A new one is a small header over the kinematics (fusion/motion/kinematics.h), in the sensor's
-// own axes; what it is systematically wrong by (systematic.h) is put around it, and where it is mounted (mounted.h)
-// around both: Mounted<Systematic<S>>, in this order only.
+// A sensor model is a small header over the kinematics (fusion/motion/kinematics.h) in the sensor's own axes.
+// Systematic errors (systematic.h) wrap the model, and the mounting (mounted.h) wraps both. The only order is
+// Mounted<Systematic<S>>. A model has:
 //   kDimension     numbers of one measurement;
-//   kParts         which kinematics it depends on: kPositionOnly, kWithVelocity, kWithHeading;
-//   expected(k)    the measurement of noise-free sight of k;
+//   kParts         the kinematics that it depends on: kPositionOnly, kWithVelocity, kWithHeading;
+//   expected(k)    the measurement of k without noise;
 //   jacobian(k)    d expected / d (the first kParts of x, y, vx, vy, heading);
 //   residual(z, e) z - e, angles wrapped;
-//   sees(k)        whether that derivative exists: not at range zero, nor of a heading that is not known.
-// Laws, tested over every sensor: jacobian is the derivative of expected wherever sees; residual(z, z) is zero.
-// A sensor that reads the leading components of the state as they are, H = [I 0], may say `kDirect = true`.
+//   sees(k)        whether that derivative exists: false at range zero and for an unknown heading.
+// Tests hold every sensor to two laws: jacobian is the derivative of expected wherever sees() holds, and
+// residual(z, z) is zero. A sensor that reads the leading components of the state unchanged, H = [I 0], may set
+// `kDirect = true`.
 #pragma once
 
 #include <concepts>
@@ -17,12 +18,14 @@
 
 namespace ttf::fusion::sensors {
 
-// z with the covariance of its white noise, symmetric positive definite. That is a promise of whoever makes one, for
-// every update factors S = H P H' + R and stops the program at a pivot that is not positive (filters/ldl.h): what comes
-// from outside is checked where it enters, a sensor's noise when its configuration is loaded, a covariance that a
-// message carries when it is unpacked, by positive_definite() there. R must also not drown in the rounding of H P H':
-// 1e-12 of it is enough. The methods of fusion/oosm/ ask the same of R (fusion/linear/gaussian.h); that their
-// whitening.h lets pivots of zero pass is for predicted covariances and process noise, which may be semi-definite.
+// z with the covariance of its white noise. The covariance must be symmetric positive definite: every update
+// factors S = H P H' + R, and a pivot that is not positive stops the program (filters/ldl.h). So
+// positive_definite() there checks covariances where they enter. A sensor's noise enters when its configuration
+// is loaded, a message's covariance when it is unpacked. R must also exceed the rounding of H P H'; 1e-12 of it
+// is enough.
+//
+// The methods of fusion/oosm/ ask the same of R. Their whitening.h lets zero pivots pass only for predicted
+// covariances and process noise, which may be semi-definite.
 template <int M> struct Measurement {
   linear::Vector<M> z = linear::Vector<M>::Zero();
   linear::Matrix<M> r = linear::Matrix<M>::Identity();
@@ -44,13 +47,13 @@ concept Direct = Model<S> && S::kLinear && requires {
   requires S::kDirect;
 };
 
-// One that knows its place on the vehicle: its kinematics are not in the sensor's own axes.
+// A sensor with a mounting; its kinematics are in the vehicle's axes, not in its own.
 template <class S>
 concept Placed = Model<S> && requires {
   requires S::kPlaced;
 };
 
-// One with systematic errors: d expected / d (what it is wrong by).
+// A sensor with systematic errors; bias_jacobian is d expected / d (errors).
 template <class S>
 concept Biased = Model<S> && requires(const S& sensor, const motion::Kinematics& k) {
   { sensor.bias_jacobian(k) } -> std::same_as<linear::Matrix<S::kDimension, S::kBiases>>;

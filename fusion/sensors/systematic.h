@@ -1,13 +1,13 @@
-// A sensor that is wrong the same way every time:  z = h(k(t + tau)) + b + v.
-//   b    constant bias of the measurement, in its units;
-//   tau  constant bias of its time stamp [s]: what is stamped t was measured at t + tau, when the object was further by
+// A sensor with constant systematic errors:  z = h(k(t + tau)) + b + v.
+//   b    bias of the measurement, in its units;
+//   tau  bias of the time stamp [s]: a measurement stamped t happened at t + tau, when the object was further on by
 //        velocity * tau (to first order).
-// All of it in the sensor's own axes: b belongs to its measurements, and within tau the object moves by its velocity
-// relative to the sensor. So a sensor on a vehicle is Mounted<Systematic<S>> (mounted.h), which hands k over relative
-// to the sensor; Systematic<Mounted<S>> would move the object over ground and leave the vehicle where it was, and is
-// refused. That the vehicle turns within tau is neglected: an error of yaw rate * tau in the bearing.
-// What is known of them is corrected for, as expected() says. What is not known, their errors, is carried by the
-// Schmidt form (fusion/filters/consider.h) through bias_jacobian, d expected / d (b, tau).
+// Both are in the sensor's own axes: b belongs to its measurements, and within tau the object moves by its
+// velocity relative to the sensor. So a sensor on a vehicle is Mounted<Systematic<S>> (mounted.h), which passes
+// k relative to the sensor. Systematic<Mounted<S>> does not compile: it would move the object over ground and
+// leave the vehicle in place. The turn of the vehicle within tau is neglected; it is an error of yaw rate * tau
+// in the bearing. expected() corrects for the known errors. The Schmidt filter (fusion/filters/consider.h)
+// carries the unknown rest through bias_jacobian, d expected / d (b, tau).
 #pragma once
 
 #include <algorithm>
