@@ -9,7 +9,7 @@
 namespace ttf::fusion::association {
 namespace {
 
-// More than any gain, so that a pair outside its gate is never chosen over leaving the row alone (cost 0).
+// Larger than any gain, so that leaving a row unassigned (cost 0) beats a pair outside its gate.
 constexpr double kForbidden = 1e12;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -20,10 +20,10 @@ Assignment::Assignment(std::size_t max_rows, std::size_t max_columns)
   column_of_.resize(max_rows);
   sorted_.reserve(max_rows * max_columns);
   component_rows_.reserve(max_rows);
-  component_columns_.reserve(max_rows * max_columns);  // of every candidate, before they are made unique
+  component_columns_.reserve(max_rows * max_columns);  // of every candidate, before duplicates go
   local_column_.resize(max_columns);
   const std::size_t width = max_columns + max_rows;
-  cost_ = std::make_unique_for_overwrite<double[]>(max_rows * width);  // touched only as far as it is needed
+  cost_ = std::make_unique_for_overwrite<double[]>(max_rows * width);  // only the used part is touched
   row_potential_.resize(max_rows + 1);
   column_potential_.resize(width + 1);
   row_of_.resize(width + 1);
@@ -60,7 +60,7 @@ void Assignment::sort_by_component(std::span<const Candidate> candidates, std::s
   });
 }
 
-// The rows join the matching one by one.
+// Adds the rows to the matching one by one.
 void Assignment::solve_component(std::span<const Candidate> component) {
   number_component(component);
   fill_costs(component);
@@ -100,8 +100,8 @@ void Assignment::fill_costs(std::span<const Candidate> component) {
   }
 }
 
-// From the row that waits, along shortest paths (Dijkstra); the potentials follow, so that the path's reduced costs
-// are 0.
+// Searches from the waiting row along shortest paths (Dijkstra). The potentials move along, so that the path's
+// reduced costs are 0.
 std::size_t Assignment::nearest_free_column() {
   std::fill_n(reached_.begin(), width() + 1, 0);
   std::fill_n(distance_.begin(), width() + 1, kInfinity);
@@ -115,7 +115,7 @@ std::size_t Assignment::nearest_free_column() {
   return column;
 }
 
-// The nearest column that is not reached, now that those are nearer that are near to this column's row.
+// Updates the distances over this column's row; returns the nearest column that is not reached.
 Assignment::Near Assignment::nearest_from(std::size_t column) {
   const std::size_t columns = width();
   const std::size_t row = index_of(row_of_[column]);
@@ -132,7 +132,7 @@ Assignment::Near Assignment::nearest_from(std::size_t column) {
   return nearest;
 }
 
-// Brings all that is reached nearer by `distance`.
+// Brings all reached columns nearer by `distance`.
 void Assignment::move_potentials(double distance) {
   const std::size_t columns = width();
   for (std::size_t j = 0; j <= columns; ++j)
@@ -144,7 +144,7 @@ void Assignment::move_potentials(double distance) {
     }
 }
 
-// Each column takes over the row of the one before it, the first the row that waits.
+// Gives each column the row of the column before it; the first column gets the waiting row.
 void Assignment::match_along_path(std::size_t column) {
   while (column != 0) {
     const auto previous = index_of(before_[column]);

@@ -1,15 +1,15 @@
 // Optimal assignment of observations to tracks (global nearest neighbour).
 //
-// The candidates are sparse: only pairs inside their gate. They fall into independent components that are
-// solved one by one with shortest augmenting paths (Hungarian method with potentials: Kuhn 1955, Munkres
-// 1957), which leaves an observation unassigned where that is cheaper. Storage is taken at construction;
-// solving allocates nothing.
+// The candidates are sparse: only pairs inside their gate. They fall into independent components. Shortest
+// augmenting paths solve each component (Hungarian method with potentials: Kuhn 1955, Munkres 1957); an
+// observation stays unassigned where that costs less. The constructor allocates all storage; solving allocates
+// nothing.
 //
-// In a component, cost(i, j) is the negative gain of row i in column j, 0 in the row's column for "unassigned", and out
-// of reach elsewhere. Potentials u of rows and v of columns keep every reduced cost
+// In a component, cost(i, j) is the negative gain of row i in column j, 0 in the row's own column for
+// "unassigned", and kForbidden elsewhere. Potentials u of rows and v of columns keep every reduced cost
 //   cost(i, j) - u(i) - v(j)
-// at 0 or above, and at 0 for matched pairs: a path along 0 from a row to a free column can be matched the other way
-// round, and the matching then is the best for one row more.
+// at 0 or above, and at 0 for matched pairs. A path of zeros from a row to a free column can swap its matched
+// and unmatched pairs; the new matching is optimal with one row more.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ class Assignment {
  public:
   Assignment(std::size_t max_rows, std::size_t max_columns);
 
-  // column_of()[row] is the column of each row, -1 for none; the sum of gains is the largest possible.
+  // Solves for the largest sum of gains. column_of()[row] is the row's column, or -1.
   void solve(std::span<const Candidate> candidates, std::size_t rows, std::size_t columns);
   std::span<const int> column_of() const { return {column_of_.data(), rows_}; }
 
@@ -49,7 +49,7 @@ class Assignment {
   Near nearest_from(std::size_t column);
   void move_potentials(double distance);
   void match_along_path(std::size_t column);
-  // Of the component, with a column of its own for each row.
+  // Returns the columns of the component plus one column for each row.
   std::size_t width() const { return component_columns_.size() + component_rows_.size(); }
 
   std::size_t rows_ = 0, max_rows_;
@@ -57,16 +57,16 @@ class Assignment {
   Components components_;          // of rows, then columns
   std::vector<Candidate> sorted_;  // by component, row, column
 
-  // The component that is solved. Its rows and columns are numbered anew in ascending order, behind its columns follows
-  // a column for each row that stands for "unassigned".
+  // The component being solved. Its rows and columns are renumbered in ascending order. Behind its columns,
+  // each row has a column for "unassigned".
   std::vector<int> component_rows_, component_columns_, local_column_;
   std::unique_ptr<double[]> cost_;  // by row, numbered from 0
-  // The matching. Here rows and columns are numbered from 1: row 0 is none, and in column 0 waits the row that is next.
+  // The matching, with rows and columns numbered from 1. Row 0 means no row; column 0 holds the waiting row.
   std::vector<int> row_of_;  // of each column
   std::vector<double> row_potential_, column_potential_;
   // The search for a free column.
   std::vector<char> reached_;
-  std::vector<double> distance_;  // of columns that are not reached, from the nearest that is
+  std::vector<double> distance_;  // of unreached columns, from the nearest reached one
   std::vector<int> before_;       // the column before each on its shortest path
 };
 

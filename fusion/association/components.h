@@ -1,5 +1,5 @@
-// Which nodes hang together: union-find with path halving, the least node of each component being its root. Storage is
-// taken at construction.
+// Connected components by union-find with path halving; the least node of each component is its root. The
+// constructor allocates all storage.
 #pragma once
 
 #include <algorithm>

@@ -13,14 +13,14 @@ void sort_unique(std::vector<int>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-// The largest s with (s + 1) 2^s in the table: more rows than these never go with as many columns.
+// The largest s with (s + 1) 2^s within the table: an exact cluster has at most s rows or at most s columns.
 constexpr std::size_t most_bits() {
   std::size_t bits = 1;
   while ((bits + 2) << (bits + 1) <= JointAssociation::kLargestTable) ++bits;
   return bits;
 }
 
-// Where there is nothing to associate there is nothing to keep.
+// Returns the size of the tables; without rows or columns they are empty.
 std::size_t table_of(std::size_t max_rows, std::size_t max_columns) {
   return max_rows == 0 || max_columns == 0 ? 0 : JointAssociation::kLargestTable;
 }
@@ -34,7 +34,7 @@ JointAssociation::JointAssociation(std::size_t max_rows, std::size_t max_columns
   const std::size_t most = max_rows * max_columns;
   sorted_.reserve(most);
   shared_.reserve(most);
-  cluster_rows_.reserve(most);  // of every pair, before they are made unique
+  cluster_rows_.reserve(most);  // of every pair, before duplicates go
   cluster_columns_.reserve(most);
 }
 
@@ -109,12 +109,12 @@ void JointAssociation::list_nodes(std::span<const Sorted> cluster) {
   sort_unique(cluster_columns_);
 }
 
-// With w(i, k) of the i-th step and the k-th bit, and T a set of bits:
-//   forward:   F_0 = 1 of the empty set,  F_i+1(T) = F_i(T) + sum_(k in T) w(i, k) F_i(T - k),
-//              all ways in which the first i steps take just T;
+// With w(i, k) of step i and bit k, and T a set of bits:
+//   forward:   F_0 = 1 for the empty set,  F_i+1(T) = F_i(T) + sum_(k in T) w(i, k) F_i(T - k),
+//              all ways in which the first i steps take exactly T;
 //   backward:  B_n = 1,  B_i(T) = B_i+1(T) + sum_(k not in T) w(i, k) B_i+1(T + k),
-//              all ways in which the others go on behind T.
-// All events together weigh sum_T F_n(T); those in which step i takes bit k
+//              all ways in which the other steps continue after T.
+// The weight of all events is sum_T F_n(T). The events in which step i takes bit k weigh
 //   sum_(T without k) F_i(T) w(i, k) B_i+1(T + k).
 void JointAssociation::solve_exactly(std::span<Sorted> cluster, const Subsets& subsets) {
   number_nodes();
@@ -138,7 +138,7 @@ std::size_t JointAssociation::place_of(const Pair& pair, const Subsets& subsets)
   return subsets.columns_are_bits ? row * subsets.bits + column : column * subsets.bits + row;
 }
 
-// F of all steps.
+// Computes F of all steps.
 void JointAssociation::go_forward(const Subsets& subsets) {
   const std::size_t bits = subsets.bits, sets = subsets.sets;
   std::fill_n(forward_.begin(), sets, 0.0);
@@ -155,8 +155,8 @@ void JointAssociation::go_forward(const Subsets& subsets) {
   }
 }
 
-// The weight of all events together. Where the tracks are the bits, a track has no observation in the events that end
-// with a set without its bit.
+// Returns the weight of all events. If tracks are bits, a track has no observation in events that end in a set
+// without its bit.
 double JointAssociation::weigh_all(const Subsets& subsets) {
   const double* complete = &forward_[subsets.steps * subsets.sets];
   double all = 0.0;
@@ -171,8 +171,8 @@ double JointAssociation::weigh_all(const Subsets& subsets) {
   return all;
 }
 
-// B of one step after the other, the last first; the weights give way to the probabilities. Where the tracks are the
-// steps, a track has no observation in the events in which its step takes no bit: sum_T F_i(T) B_i+1(T).
+// Computes B step by step, the last step first, and replaces the weights by probabilities. If tracks are steps,
+// a track has no observation in events whose step takes no bit: sum_T F_i(T) B_i+1(T).
 void JointAssociation::go_backward(const Subsets& subsets, double all) {
   const std::size_t bits = subsets.bits, sets = subsets.sets;
   std::fill_n(backward_.begin(), sets, 1.0);
@@ -193,7 +193,7 @@ void JointAssociation::go_backward(const Subsets& subsets, double all) {
         shares[k] += before[taken] * onward;
         sum += onward;
       }
-      backward_[taken] = sum;  // B_i+1 is needed of larger sets only from here on
+      backward_[taken] = sum;  // only larger sets need B_i+1 from here on
     }
     for (std::size_t k = 0; k < bits; ++k) w[k] = shares[k] / all;
   }

@@ -1,23 +1,24 @@
-// How probable it is that an observation is of a track, over all joint events: every way in which each observation is
-// of one track or of none, and each track has one observation or none (joint probabilistic data association: Fortmann,
-// Bar-Shalom, Scheffe: "Sonar tracking of multiple targets using joint probabilistic data association", IEEE J. Oceanic
-// Eng. 8(3), 1983; Bar-Shalom, Fortmann: "Tracking and Data Association", 1988, 9.3).
+// The probability that an observation belongs to a track, over all joint events. An event gives each
+// observation to one track or to none, and each track one observation or none. This is joint probabilistic data
+// association (Fortmann, Bar-Shalom, Scheffe: "Sonar tracking of multiple targets using joint probabilistic
+// data association", IEEE J. Oceanic Eng. 8(3), 1983; Bar-Shalom, Fortmann: "Tracking and Data Association",
+// 1988, 9.3).
 //
-// An event's probability is proportional to the product of the weights of its pairs, w > 0 being how much more probable
-// the pair is than both alone, observation as clutter and track unseen:
+// An event's probability is proportional to the product of its pairs' weights. The weight w > 0 is the
+// probability of the pair relative to both alone, the observation as clutter and the track unseen:
 //   P(event) = prod w / sum over all events of prod w.
-// Pairs share an event only where they share gates: observations and tracks fall into clusters that are computed one by
+// Only pairs with overlapping gates interact: observations and tracks fall into clusters that are solved one by
 // one.
 //
-// Exact, in a cluster of s tracks and l >= s observations, or the other way round, as long as (l + 1) 2^s <= 65536: the
-// sum over the events, of which there may be s! or more, is built up one of the l at a time over the subsets of the s
-// that are taken (forward, backward), all terms positive. Beyond that, "cheap JPDA" (Fitzgerald: "Development of
-// practical PDA logic for multitarget tracking by microprocessor", ACC 1986): with S the sums of weights over a row and
-// a column,
-//   P(pair) = w / (S_row + S_column - w + 1),
-// which is exact for a track or an observation that has no rival, and counted in approximated().
+// A cluster of s tracks and l >= s observations, or the other way round, is solved exactly while (l + 1) 2^s <=
+// 65536. The sum may have s! events or more. Forward and backward passes build it over the subsets of the s
+// that are taken, one of the l at a time; all terms are positive. Larger clusters use "cheap JPDA" (Fitzgerald:
+// "Development of practical PDA logic for multitarget tracking by microprocessor", ACC 1986). With S the sums
+// of weights over a row and a column:
+//   P(pair) = w / (S_row + S_column - w + 1).
+// This is exact for a track or an observation without rivals. approximated() counts such clusters.
 //
-// Storage is taken at construction; solving allocates nothing.
+// The constructor allocates all storage; solving allocates nothing.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,7 @@
 
 namespace ttf::fusion::association {
 
-// Row: observation; column: track. Weight above 0, at most kLargestWeight.
+// Row: observation; column: track. The weight is above 0 and at most kLargestWeight.
 struct Pair {
   int row = 0;
   int column = 0;
@@ -38,26 +39,27 @@ struct Pair {
 
 class JointAssociation {
  public:
-  // So that no sum overflows.
+  // Keeps every sum from overflowing.
   static constexpr double kLargestWeight = 1e20;
   static constexpr std::size_t kLargestTable = 65536;
 
   JointAssociation(std::size_t max_rows, std::size_t max_columns);
 
-  // Each pair at most once, in any order.
+  // Takes each pair at most once, in any order.
   void solve(std::span<const Pair> pairs, std::size_t rows, std::size_t columns);
 
   struct Shared {
     int row = 0;
     double probability = 0.0;
   };
-  // Of the last solve(): the observations a track may have, in their order, and that it has none of them.
+  // The result of the last solve(): a track's possible observations in ascending order, and the probability of
+  // none.
   std::span<const Shared> of_column(std::size_t column) const {
     return {shared_.data() + begin_[column], shared_.data() + begin_[column + 1]};
   }
   double none_of_column(std::size_t column) const { return none_[column]; }
 
-  // Clusters since construction that were too large to be exact.
+  // Returns the number of approximated clusters since construction.
   std::uint64_t approximated() const { return approximated_; }
 
  private:
@@ -66,8 +68,8 @@ class JointAssociation {
     int cluster = 0;
     double probability = 0.0;
   };
-  // Exactly: the events of a cluster, built up step by step. The fewer of its rows and columns are the bits of a set,
-  // each of the others is a step that takes one bit or none. Both are numbered in ascending order.
+  // The subsets for exact solving. The fewer of rows and columns are the bits of a set; each of the others is a
+  // step that takes one bit or none. Both are numbered in ascending order.
   struct Subsets {
     bool columns_are_bits;
     std::size_t bits, steps, sets;
@@ -88,7 +90,7 @@ class JointAssociation {
   Components components_;                                    // of rows, then columns
   std::vector<Sorted> sorted_;                               // by cluster, row, column; in the end by column, row
   std::vector<int> cluster_rows_, cluster_columns_, local_;  // local_: of rows, then of columns
-  std::vector<double> weights_;                              // by step and bit; behind go_backward() probabilities
+  std::vector<double> weights_;                              // by step and bit; after go_backward() probabilities
   std::vector<double> forward_;                              // F, by step and set
   std::vector<double> backward_;                             // B of one step, by set
   std::vector<double> row_sums_, column_sums_;

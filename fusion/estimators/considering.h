@@ -1,12 +1,13 @@
-// The estimator whose sensors' biases are considered (fusion/filters/consider.h): motion in straight lines under the
-// extended filter, with the correlation between every object and all biases.
+// The estimator that considers the sensors' biases (fusion/filters/consider.h). Objects move in straight lines
+// under the extended filter, and each object keeps its correlation with all biases.
 //
-// An object starts from an observation that errs by D b + v (fusion/sensors/among_biases.h). What is made of it, J
-// times the measurement, errs by J (D b + v): so at the start cov(x, b) = -J D B, and J D B D' J' is in the covariance
-// besides the noise. Whatever else that sensor says of the object errs by the same b, which the filter then knows.
+// An object starts from an observation with the error D b + v (fusion/sensors/among_biases.h). The first
+// estimate, J times the measurement, has the error J (D b + v). So at the start cov(x, b) = -J D B, and the
+// covariance contains J D B D' J' beside the noise. Later observations of that sensor have the same b, and the
+// filter accounts for it.
 //
-// The stamp's error moves an object by v tau. The filter takes v for known there; that it is not, adds var(v) var(tau)
-// to the measurement's noise, to second order: much for an object just born, little ever after.
+// The time stamp's error moves an object by v tau. The filter treats v as known there. The uncertainty of v
+// adds var(v) var(tau) to the measurement's noise, to second order: much for a new object, little later.
 #pragma once
 
 #include <cmath>
@@ -24,7 +25,7 @@
 
 namespace ttf::fusion::estimators {
 
-// The biases of all sensors in one row: those with a sigma above zero, by SensorId, then in the components' order.
+// The biases of all sensors in one row: those with a sigma above zero, ordered by SensorId, then by component.
 class AllBiases {
  public:
   explicit AllBiases(std::span<const sensors::KnownSensor> sensors);
@@ -38,7 +39,7 @@ class AllBiases {
   linear::Matrix<sensors::kMostBiases> covariance_ = linear::Matrix<sensors::kMostBiases>::Zero();
 };
 
-// d (x, y, vx, vy) / d measurement of first_estimate(), in the vehicle's axes.
+// Returns d (x, y, vx, vy) / d measurement of first_estimate(), in the vehicle's axes.
 linear::Matrix<4, 3> first_jacobian(const sensors::Observation& observation, const sensors::Mounting& mounting);
 
 template <motion::Model M>
@@ -99,8 +100,8 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
 
   void update(Estimate& estimate, const sensors::Observation& o) const override { take_in(own_of(estimate), o); }
 
-  // No explanation says anything of the biases, whose mean is zero: the mixture's covariance with them is the mean of
-  // the explanations'.
+  // Merges the explanations. The biases keep mean zero, so the mixture's correlation with them is the mean of
+  // the explanations' correlations.
   void update(Estimate& estimate, std::span<const Explanation> explanations) const override {
     Own& own = own_of(estimate);
     const Own before = own;
@@ -160,7 +161,7 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
     return body(sensors::AmongBiases<Radar>{Radar(own.mounting), own}, sensors::Measurement<3>{o.z, o.r});
   }
 
-  // What the stamp's error adds to the noise for the velocity is not known.
+  // Adds the noise of the time stamp's error that comes from the uncertain velocity.
   template <class S> static void blur(const Own& own, const S& sensor, sensors::Measurement<S::kDimension>& z) {
     if (sensor.own.time_variance == 0.0) return;
     const motion::Kinematics k = M::template kinematics<motion::kWithVelocity>(own.state.x);

@@ -1,7 +1,7 @@
-// What is believed of one object, in the terms of the estimator that made it (fusion/estimators/estimator.h): a value
-// of fixed size, that copies no more than it holds. Only an estimator looks inside; everybody else asks it for
-// position() or cartesian(). Which alternative is held is part of the belief: an object whose course is not known yet
-// has no polar state, whatever the model (fusion/estimators/model_estimator.h).
+// The estimate of one object, in the layout of its estimator (fusion/estimators/estimator.h). It is a value of
+// fixed size, and a copy copies only the held alternative. Only estimators look inside; others call position()
+// or cartesian(). The alternative is part of the belief: an object of unknown course has no polar state,
+// whatever the model (fusion/estimators/model_estimator.h).
 #pragma once
 
 #include <variant>
@@ -15,8 +15,8 @@
 
 namespace ttf::fusion::estimators {
 
-// (x, y, vx, vy, ax, ay) in metres and seconds, ISO 8855 axes: what images and metrics speak of. What a model holds
-// constant at zero is zero and certain.
+// (x, y, vx, vy, ax, ay) in metres and seconds, in ISO 8855 axes, for images and metrics. A component that a
+// model fixes at zero is zero with zero variance.
 using State = linear::Vector<6>;
 using Covariance = linear::Matrix<6>;
 using Cartesian = linear::Gaussian<6>;

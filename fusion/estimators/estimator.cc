@@ -8,7 +8,7 @@
 namespace ttf::fusion::estimators {
 namespace {
 
-// From the sensor's place and axes to the vehicle's.
+// Converts an estimate from the sensor's mounting and axes to the vehicle's axes.
 void carry_over(linear::Gaussian<4>& estimate, const sensors::Mounting& mounting) {
   const double c = std::cos(mounting.yaw), s = std::sin(mounting.yaw);
   linear::Matrix<4> j = linear::Matrix<4>::Zero();

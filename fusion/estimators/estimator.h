@@ -1,14 +1,14 @@
-// One object's estimator: a motion model, a filter and the sensors' models, chosen when the tracker is made and unknown
-// to all who use it. It has no state: everything is a pure function of the estimate, so that the tracker may copy
-// estimates, keep them and go back to them. Nothing allocates.
+// An estimator combines a motion model, a filter and the sensors' models for one object. The tracker's
+// configuration chooses it; its users do not know the choice. It has no state: each function depends on the
+// estimate alone, so the tracker may copy estimates, keep them and return to them. Estimators never allocate.
 //
 // Laws, tested over every motion model and filter (tests/fusion/estimators/estimator_test.cc):
 //   1. predict by zero seconds changes nothing; covariances stay symmetric and positive semi-definite.
 //   2. position() is the leading part of cartesian().
-//   3. An observation is its own best explanation: of the initial estimate it made, its distance is zero.
-//   4. The same calls give the same bits, whatever was called in between.
-//   5. An update by one explanation of weight 1 is the update by its observation, or nothing at all, to the bit; the
-//      order of explanations does not matter but for rounding.
+//   3. An observation explains its own initial estimate best: its distance to that estimate is zero.
+//   4. The same calls give the same bits, whatever calls came between.
+//   5. An update by one explanation of weight 1 equals, to the bit, the update by its observation, or no change without
+//      one; the order of explanations changes only the rounding.
 #pragma once
 
 #include <memory>
@@ -21,14 +21,15 @@
 
 namespace ttf::fusion::estimators {
 
-// How well an estimate explains an observation: nu' S^-1 nu, and the density of N(0, S) at nu, per unit of the
-// observation: [1/m^2] of a position, [1/(m rad m/s)] of range, bearing and range rate.
+// The fit of an observation to an estimate: nu' S^-1 nu, and the density of N(0, S) at nu. The density is per
+// unit of the observation: [1/m^2] for a position, [1/(m rad m/s)] for range, bearing and range rate.
 struct Fit {
   double distance_squared = 0.0;
   double density = 0.0;
 };
 
-// One of several things that may have happened: `observation` is of the object, or, where it is null, none is.
+// One of several possible explanations: `observation` belongs to the object, or, if null, the object was not
+// observed.
 struct Explanation {
   const sensors::Observation* observation = nullptr;
   double weight = 0.0;  // its probability
@@ -37,29 +38,30 @@ struct Explanation {
 class Estimator {
  public:
   virtual ~Estimator() = default;
-  // From a first observation: its position, velocity unknown but for what a radar's range rate says.
+  // Starts an estimate from a first observation. The velocity is unknown, except along a radar's line of sight.
   virtual Estimate initial(const sensors::Observation& observation) const = 0;
-  // By dt >= 0 seconds.
+  // Predicts by dt >= 0 seconds.
   virtual void predict(Estimate& estimate, double dt) const = 0;
-  // nu' S^-1 nu of an observation's innovation, for gating. Nothing where the sensor model has no derivative, an object
-  // at the sensor's origin: such an observation cannot be used.
+  // Returns nu' S^-1 nu of an observation's innovation, for gating. Returns no value for an unusable
+  // observation: the sensor model has no derivative, for example for an object at the sensor's origin.
   virtual std::optional<double> distance_squared(const Estimate& estimate,
                                                  const sensors::Observation& observation) const = 0;
-  // The same distance, and the density. Of several motion models, the mixture's mean and covariance.
+  // Returns the same distance and the density. Several motion models use mean and covariance of their mixture.
   virtual std::optional<Fit> fit(const Estimate& estimate, const sensors::Observation& observation) const = 0;
-  // Takes the observation in; changes nothing where it has no distance.
+  // Updates by the observation; changes nothing if it has no distance.
   virtual void update(Estimate& estimate, const sensors::Observation& observation) const = 0;
-  // Takes in one of several explanations nobody knows which, weights not negative and of sum 1: mean and covariance of
-  // the mixture of what each of them makes of the estimate,
-  //   x = sum w_i x_i,   P = sum w_i (P_i + (x_i - x)(x_i - x)'),
-  // which for a linear filter is the update of probabilistic data association with its spread-of-innovations term
-  // (Bar-Shalom, Fortmann 1988, 6.4), and holds as well where every observation has a gain of its own. Of several
-  // motion models at a time: mode by mode, each weighed with its probability after the explanation.
+  // Updates by several explanations of which one is true; weights are not negative and have sum 1. The result
+  // is mean and covariance of the mixture of the explanations' results,
+  //   x = sum w_i x_i,   P = sum w_i (P_i + (x_i - x)(x_i - x)').
+  // For a linear filter this is the update of probabilistic data association with its spread-of-innovations
+  // term (Bar-Shalom, Fortmann 1988, 6.4). It also holds if every observation has its own gain. Several motion
+  // models update mode by mode, each weighted by its probability after the explanation.
   virtual void update(Estimate& estimate, std::span<const Explanation> explanations) const = 0;
   virtual linear::Gaussian<2> position(const Estimate& estimate) const = 0;  // (x, y) [m]
   virtual Cartesian cartesian(const Estimate& estimate) const = 0;
-  // Where a sensor that is all right but for its systematic errors is expected to see it: position(), unless errors are
-  // considered. With the noise of an observation of a position, the distribution its distance is of.
+  // Returns the position that a sensor without noise is expected to measure: position(), unless systematic
+  // errors are considered. With the noise of a position observation added, it is the distribution behind that
+  // observation's distance.
   virtual linear::Gaussian<2> seen_position(const Estimate& estimate, SensorId) const { return position(estimate); }
 };
 

@@ -1,5 +1,5 @@
-// Several motion models at a time (fusion/filters/imm.h), as ModelEstimator takes it: an object that drives straight on
-// and turns now and then.
+// The kernel of two motion models (fusion/filters/imm.h) for ModelEstimator: an object drives straight on and
+// turns now and then.
 #pragma once
 
 #include <optional>

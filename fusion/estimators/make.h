@@ -1,5 +1,5 @@
-// The estimators by motion model, each under the filter that the configuration names. One source file each: the
-// compiler takes its time over them.
+// Makes the estimators, one function and one source file for each kind of motion: these templates compile
+// slowly.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,10 @@ std::shared_ptr<const Estimator> make_straight(const config::TrackerConfig& conf
 std::shared_ptr<const Estimator> make_turning(const config::TrackerConfig& config);   // CTRV, CTRA
 std::shared_ptr<const Estimator> make_interacting(const config::TrackerConfig& config);  // constant velocity and CTRV
 
-// Constant velocity and acceleration under the extended filter, the sensors' biases considered.
+// Constant velocity and acceleration under the extended filter; it considers the sensors' biases.
 std::shared_ptr<const Estimator> make_considering(const config::TrackerConfig& config);
 
-// make<F>() gives the kernel under filter F.
+// Returns a ModelEstimator over the kernel make<F>() with the configured filter F.
 template <class Make>
 std::shared_ptr<const Estimator> under_the_filter(const config::TrackerConfig& config, const Make& make) {
   const auto under = [&]<class F>() -> std::shared_ptr<const Estimator> {
@@ -29,7 +29,7 @@ std::shared_ptr<const Estimator> under_the_filter(const config::TrackerConfig& c
                                                          : under.template operator()<filters::Extended>();
 }
 
-// What is believed of any road vehicle's turn rate, and of its acceleration, per axis or along its heading.
+// Returns the prior of any road vehicle's turn rate, and of its acceleration per axis or along its heading.
 template <motion::Model M> linear::Gaussian<M::kStates> prior_of(const config::TrackerConfig& config) {
   linear::Gaussian<M::kStates> prior;
   if constexpr (!M::kCartesian)

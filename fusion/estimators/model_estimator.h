@@ -1,13 +1,14 @@
-// The estimator over a kernel: one motion model under a filter (single.h), or several (interacting.h). It chooses the
-// sensor's model by the observation's kind, and starts an object.
+// The estimator over a kernel of one motion model under a filter (single.h), or of several (interacting.h). It
+// chooses the sensor's model by the observation's kind and starts objects.
 //
-// A polar state needs a course to begin with: with heading and speed unknown, nothing derived at one heading holds, and
-// a filter that starts there errs for good. So where a kernel needs a course, an object moves by constant velocity
-// until it is known that it moves, and where to: its velocity's spread (the root of its covariance's trace) is at most
-// kKnown of its speed, 0.25 rad across. Then it is converted (fusion/motion/conversion.h). The accelerations until
-// then are white noise of the density that in one second gives the velocity the spread that an unknown constant
-// acceleration gives it, initial_acceleration_sigma^2 times 1 s. Something that stands, or creeps, stays so; what has
-// stood until its course is forgotten (kForgotten) begins again.
+// A polar state needs a course to begin with. With unknown heading and speed no linearisation holds, and a
+// filter that starts there never recovers. So for a kernel that needs a course, an object first moves by
+// constant velocity. Its course is known once the velocity's spread, the root of its covariance's trace, is at
+// most kKnown of its speed: 0.25 rad across. Then the estimate is converted (fusion/motion/conversion.h).
+//
+// Until then the acceleration is white noise. In one second it spreads the velocity as an unknown constant
+// acceleration would: its density is initial_acceleration_sigma^2 times 1 s. A standing or creeping object
+// stays in this state. An object that stands until its course is forgotten (kForgotten) returns to it.
 #pragma once
 
 #include <cmath>
@@ -30,11 +31,11 @@ inline constexpr double kKnown = 0.25;
 inline bool at_the_origin(const sensors::Mounting& mounting) {
   return mounting.position.x() == 0.0 && mounting.position.y() == 0.0 && mounting.yaw == 0.0;
 }
-// Position and velocity as one observation has them, `velocity_variance` in every direction it says nothing of; of a
-// sensor at the origin where `sensor` is null.
+// Returns position and velocity from one observation, with `velocity_variance` in every unobserved direction. A
+// null `sensor` stands at the origin.
 linear::Gaussian<4> first_estimate(const sensors::Observation& observation, double velocity_variance,
                                    const sensors::KnownSensor* sensor);
-// Whether it is known that this moves, and where to.
+// Returns whether the object is known to move, and in which direction.
 bool knows_course(const linear::Gaussian<4>& state);
 
 template <class F, class Kernel> class ModelEstimator final : public Estimator {
@@ -85,7 +86,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
     follow_course(estimate);
   }
 
-  // What each explanation makes of the estimate is of one layout: whether the course is known is asked at the end.
+  // Merges the explanations in one layout and only then checks whether the course is known.
   void update(Estimate& estimate, std::span<const Explanation> explanations) const override {
     bool observed = false;
     with(estimate, [&](const auto& kernel, auto& own) {
@@ -116,7 +117,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
   }
 
  private:
-  // Over to the kernel once the course is known, and back where it is lost.
+  // Converts the estimate to the kernel's layout once the course is known, and back when it is lost.
   void follow_course(Estimate& estimate) const {
     if constexpr (Kernel::kNeedsCourse) {
       if (const auto* young = std::get_if<linear::Gaussian<4>>(&estimate)) {
@@ -135,13 +136,14 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
     return body(kernel_, *own);
   }
 
-  // In one place, for the sake of the hot path: of two the compiler would inline neither filter.
+  // One function for both updates, for speed: with two copies the compiler would inline neither filter.
   template <class K, class Own>
   [[gnu::noinline]] void take_in(const K& kernel, Own& own, const sensors::Observation& observation) const {
     through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
   }
 
-  // What is a position has been placed in the vehicle's axes before (fusion/sensors/known_sensor.h).
+  // Calls the body with the sensor's model and the measurement. Positions are already in the vehicle's axes
+  // (fusion/sensors/known_sensor.h).
   template <class Body> auto through_sensor(const sensors::Observation& o, const Body& body) const {
     if (o.kind == sensors::ObservationKind::kPosition)
       return body(sensors::Position{},

@@ -1,4 +1,4 @@
-// One motion model under one filter, as ModelEstimator takes it.
+// The kernel of one motion model under one filter, for ModelEstimator.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,12 @@
 
 namespace ttf::fusion::estimators {
 
-// Standard deviation of a heading [rad] beyond which nothing derived at it holds.
+// Standard deviation of a heading [rad] above which no linearisation at it holds.
 inline constexpr double kForgotten = 0.7;
 
-// A heading is never known less than not at all, uniform over the circle. Of something that stands for long, white
-// turn acceleration would say otherwise; scaling its row and column alike keeps the covariance positive.
+// Bounds the heading's variance by that of a uniform distribution over the circle. White turn acceleration
+// would exceed it for an object that stands for long. Scaling row and column alike keeps the covariance
+// positive.
 template <class M> void bound_heading(linear::Gaussian<M::kStates>& state) {
   if constexpr (!M::kCartesian) {
     constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
@@ -34,15 +35,15 @@ template <class F, motion::Model M> struct Single {
   static constexpr bool kNeedsCourse = !M::kCartesian;
 
   M model{};
-  Own prior{};  // what is believed of an object before anything is known of it
+  Own prior{};  // of an object before its first observation
   [[no_unique_address]] F filter{};
 
-  // From position and velocity, the rest being as of any object.
+  // Starts from position and velocity; the other components come from the prior.
   Own from(const linear::Gaussian<4>& known) const {
     return motion::converted<motion::ConstantVelocity, M>(known, prior);
   }
-  // Position and velocity of what does not know its course any more; nothing, where it does. It may move as fast as its
-  // speed says, whereto nobody knows.
+  // Returns position and velocity of an object that has lost its course, and no value while the course is
+  // known. The object may move at its speed in any direction.
   std::optional<linear::Gaussian<4>> without_course(const Own& own) const {
     if constexpr (kNeedsCourse) {
       if (own.p(M::kHeading, M::kHeading) <= kForgotten * kForgotten) return std::nullopt;
