@@ -5,8 +5,8 @@
 namespace ttf::fusion::config {
 namespace {
 
-// There all is linear but a radar's measurement: what carries more than the estimate, errors of sensors or a past, is
-// for these alone.
+// Returns whether everything is linear except a radar's measurement. Considered errors and methods for late
+// measurements need that.
 bool is_straight_and_extended(const TrackerConfig& c) {
   return (c.motion == MotionModel::kConstantVelocity || c.motion == MotionModel::kConstantAcceleration) &&
          c.filter == FilterKind::kExtended;
@@ -48,7 +48,7 @@ void load_association(YamlMap& yaml, TrackerConfig& c) {
   c.merge_scans = static_cast<int>(yaml.integer_or("merge_scans", c.merge_scans, {1, 255}, "scans"));
 }
 
-// Last: what it may be depends on the others.
+// Runs last: the allowed methods depend on the other keys.
 void load_late(YamlMap& yaml, TrackerConfig& c) {
   Choices<oosm::Kind> methods;
   for (const oosm::NamedKind& named : oosm::kKinds) methods.emplace_back(named.name, named.kind);
@@ -106,7 +106,7 @@ TrackerConfig load_tracker(YamlMap& yaml) {
       yaml.integer_or("max_observations", static_cast<std::int64_t>(c.max_observations), {1, 4096}));
   c.history_scans = static_cast<std::size_t>(
       yaml.integer_or("history_scans", static_cast<std::int64_t>(c.history_scans), {2, 4096}, "scans"));
-  // What is remembered is taken beforehand: scans times the tracks that each may have, confirmed and tentative.
+  // The storage is reserved beforehand: lists times the tracks that each may have, confirmed and tentative.
   constexpr std::size_t kMostRemembered = 1'000'000;
   const std::size_t tracks = static_cast<std::size_t>(c.max_objects) + 3 * c.max_observations;
   if ((c.history_scans + 1) * tracks > kMostRemembered)
