@@ -1,24 +1,25 @@
-// How probable it is that a track's object exists: integrated probabilistic data association (Musicki, Evans,
-// Stankovic: "Integrated probabilistic data association", IEEE TAC 39(6), 1994; jointly of several tracks: Musicki,
-// Evans: "Joint integrated probabilistic data association: JIPDA", IEEE TAES 40(3), 2004).
+// The probability that a track's object exists: integrated probabilistic data association (Musicki, Evans,
+// Stankovic: "Integrated probabilistic data association", IEEE TAC 39(6), 1994; jointly for several tracks:
+// Musicki, Evans: "Joint integrated probabilistic data association: JIPDA", IEEE TAES 40(3), 2004).
 //
-// With existence e, detection probability P_D, gate probability P_G, clutter density lambda and the density f of the
-// track's observation (fusion/estimators/estimator.h), unnormalised by the gate:
+// The symbols are existence e, detection probability P_D, gate probability P_G, clutter density lambda, and the
+// density f of the track's observation (fusion/estimators/estimator.h), not normalised by the gate:
 //   prediction over dt   e <- e exp(-dt / survival_seconds);
-//   a list               L = 1 - P_D P_G + P_D f / lambda, the second term only of a track with an observation,
+//   a list               L = 1 - P_D P_G + P_D f / lambda, the second term only for a track with an observation,
 //                        e <- L e / (1 - e + L e).
-// Joint: an observation weighs P_D e f / (lambda (1 - P_D P_G e)) against track and observation both alone, and of a
-// track alone the object exists with probability e (1 - P_D P_G) / (1 - P_D P_G e). With one track and one observation
-// both say the same. With e = 1 they are JPDA without existence.
+// In the joint form a pair weighs P_D e f / (lambda (1 - P_D P_G e)) relative to track and observation both
+// alone. An unobserved track's object exists with probability e (1 - P_D P_G) / (1 - P_D P_G e). With one track
+// and one observation both forms agree. With e = 1 they are JPDA without existence.
 //
-// Every list counts, of every sensor: the tracker knows no field of view. Where an object is outside a sensor's, that
-// sensor's lists count against it as if they had overlooked it, each with the factor 1 - P_D P_G to the odds; one
-// observation by another sensor outweighs many of them as long as clutter is rare. A detection probability is therefore
-// that of the lists of all sensors together: about a half, where one of two sensors that are as fast sees the object.
+// Every list of every sensor counts: the tracker knows no fields of view. A sensor that cannot see the object
+// counts as overlooking it: each of its lists multiplies the odds by 1 - P_D P_G. If clutter is rare, one
+// observation by another sensor outweighs many such lists. So the detection probability describes the lists of
+// all sensors together: it is about a half if one of two equally fast sensors sees the object.
 //
-// Clutter. Positions: lambda is the configuration's, [1/m^2]. Range, bearing and range rate: what is uniform in the
-// plane with density lambda has r lambda to the metre and radian at range r; its range rate is taken as uniform over
-// the width that has the standard deviation of velocities of which nothing is known, 2 sqrt(3) initial_velocity_sigma:
+// For positions, the clutter density lambda is the configuration's, [1/m^2]. For range, bearing and range rate,
+// a uniform density lambda in the plane is r lambda per metre and radian at range r. The range rate is assumed
+// uniform over the width 2 sqrt(3) initial_velocity_sigma, which gives the standard deviation of an unknown
+// velocity:
 //   lambda r / (2 sqrt(3) sigma_v)   [1/(m rad m/s)].
 #pragma once
 
@@ -33,12 +34,12 @@ namespace ttf::fusion::tracks {
 
 inline double clutter_at(const sensors::Observation& observation, const config::TrackerConfig& config) {
   if (observation.kind == sensors::ObservationKind::kPosition) return config.clutter_density;
-  constexpr double kNearest = 0.1;  // [m], nearer than any sensor sees
+  constexpr double kNearest = 0.1;  // [m], below the shortest range of any sensor
   const double width = 2.0 * std::sqrt(3.0) * config.initial_velocity_sigma;
   return config.clutter_density * std::max(kNearest, observation.z(0)) / width;
 }
 
-// P_D f / lambda.
+// Returns P_D f / lambda.
 inline double likelihood_ratio(const sensors::Observation& observation, double density,
                                const config::TrackerConfig& config) {
   return config.detection_probability * density / clutter_at(observation, config);
@@ -52,13 +53,13 @@ inline double survived(double existence, double dt, const config::TrackerConfig&
   return existence * std::exp(-dt / config.survival_seconds);
 }
 
-// L, ratio being zero where there is no observation.
+// Returns the existence after a list; ratio is zero without an observation.
 inline double after_list(double existence, double ratio, const config::TrackerConfig& config) {
   const double likelihood = 1.0 - seen_in_gate(config) + ratio;
   return likelihood * existence / (1.0 - existence + likelihood * existence);
 }
 
-// Of pairs in joint events. The smallest number above zero, and a bound, keep all sums finite (joint_association.h).
+// Returns the weight of a pair in joint events. The bounds keep all sums finite (joint_association.h).
 inline double joint_weight(double existence, double ratio, const config::TrackerConfig& config) {
   constexpr double kLeast = 1e-300;
   const double weight = existence * ratio / (1.0 - seen_in_gate(config) * existence);

@@ -10,8 +10,8 @@ constexpr double kWorstAspectSigma = 0.3;  // [rad]
 constexpr double kCompatible = 3.0;        // sigmas
 constexpr double kFlattest = 4.0;          // sigmas of the aspect
 
-// One measured combination h' (length, width) with innovation nu, variance `white` + `repeating`: Joseph
-// form.
+// Updates by one measured combination h' (length, width) with innovation nu and variance `white` + `repeating`,
+// in Joseph form.
 void correct(Extent& extent, const Eigen::Vector2d& h, double nu, double white, double repeating) {
   const Eigen::Vector2d ph = extent.covariance * h;
   const double before = h.dot(ph);
@@ -47,7 +47,7 @@ void correct_width(Extent& extent, double width, double sigma) {
 }
 
 Subtended subtended(double range, double aspect, const Eigen::Vector2d& size) {
-  // Along and across the line of sight; the corners' azimuths are measured from it.
+  // Coordinates along and across the line of sight; the corners' azimuths count from it.
   const double c = std::cos(aspect), s = std::sin(aspect);
   Subtended result;
   double low = 0.0, high = 0.0;
@@ -76,8 +76,8 @@ void correct_span(Extent& extent, const Aspect& aspect, double span, double sigm
   if (aspect.sigma_angle > kWorstAspectSigma) return;
   const Subtended expected = subtended(aspect.range, aspect.angle, extent.size);
   if (expected.angle <= 0.0) return;
-  // Seen end on, the span is smallest, and grows to either side: the larger difference, not the derivative,
-  // which is none.
+  // Seen end on, the span has a kink: it is smallest there and grows to either side. So the larger difference
+  // stands for the derivative.
   const double left = subtended(aspect.range, aspect.angle + aspect.sigma_angle, extent.size).angle,
                right = subtended(aspect.range, aspect.angle - aspect.sigma_angle, extent.size).angle;
   const double by_aspect = std::max(std::abs(left - expected.angle), std::abs(right - expected.angle));

@@ -6,7 +6,7 @@
 
 namespace ttf::fusion::tracks {
 
-// Every living track may have a name, and as many that died may come to life again.
+// Every living track may have a name; as many dead ones may return to life.
 Identities::Identities(std::size_t max_tracks) { known_.reserve(2 * max_tracks); }
 
 void Identities::name(TrackSet& set, GlobalTime oldest) {

@@ -1,16 +1,16 @@
-// Who is who: the ids of confirmed tracks, stable however late scans rewrite the past.
+// The ids of confirmed tracks, which stay stable while late lists rewrite the past.
 //
-// A track's birth is the observation it began with. That is a pure function of the scans in order, so that
-// taking in scans again gives the same births; a number counted up at each birth would not be: a late scan
-// with one more object would shift all that follow. The id is a name for it, given when a track is first
-// confirmed, which is when anybody hears of it.
-//   I1  a track that is confirmed keeps its id as long as it lives
-//   I2  the same birth has the same id, also where a late scan undid its confirmation, or ended it, for a while
-//   I3  where a late scan moves a birth (the object was seen before, which begins the track now), the id goes
-//       to the track that took the same newest observation
-//   I4  an id is not given again before 65535 others were
-// Names are in order of confirmation as it happened, so two strategies may name the same tracks differently;
-// births do not differ.
+// A track's birth is the observation with which it began. Births depend only on the lists in order, so taking
+// lists in again gives the same births. A counter of births would not do: a late list with one more object
+// would shift all later numbers. The id is a name for the birth. A track gets it when it is first confirmed,
+// and so visible.
+//   I1  a confirmed track keeps its id as long as it lives
+//   I2  the same birth has the same id, even if a late list undid its confirmation, or ended it, for a while
+//   I3  if a late list moves a birth, because an earlier observation now begins the track, the id goes to the track
+//       with the same newest observation
+//   I4  an id is reused only after 65535 others
+// Names follow the order of confirmation as it happened. So two strategies may name the same tracks
+// differently, but their births agree.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,7 @@ namespace ttf::fusion::tracks {
 class Identities {
  public:
   explicit Identities(std::size_t max_tracks);
-  // Writes the ids into the newest set. Scans from before `oldest` cannot be taken in any more. Allocates
-  // nothing.
+  // Writes the ids into the newest set. No list older than `oldest` can come in any more. Allocates nothing.
   void name(TrackSet& set, GlobalTime oldest);
 
  private:

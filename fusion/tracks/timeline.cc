@@ -26,7 +26,7 @@ bool Timeline::contains(const MeasurementId& id, GlobalTime measured) const {
 
 Timeline::Insertion Timeline::insert(const sensors::Scan& scan) {
   if (base_is_scan_ && before(scan.id, scan.measured, base_id_, base_time_)) return Insertion::kTooOld;
-  // From the end: late scans are rarely very late.
+  // Searches from the end: late lists are rarely very late.
   std::size_t position = order_.size();
   while (position > 0) {
     const StoredScan& previous = entries_[order_[position - 1]].scan;

@@ -1,13 +1,13 @@
-// The tracker's past, so that it can be gone back to: recent scans in chronological order and the tracks
-// after each.
+// The timeline keeps the tracker's past so that it can be rewound: recent lists in chronological order, and the
+// tracks after each.
 //
-//      base | scan 0 | scan 1 | ... | scan n-1
+//      base | list 0 | list 1 | ... | list n-1
 //   tracks  ^        ^        ^               ^  current
 //
-// Inserting at the end is a step of the tracker; inserting before goes back to the tracks before the gap and
-// takes in again all scans from there, so the result is bit-identical to in-order processing for every order
-// of arrival; only the names of the tracks (fusion/tracks/identities.h) are kept from what was before. The oldest
-// scan is dropped into the base when the history is full; older scans than the base cannot be taken in.
+// A list inserted at the end is one step of the tracker. A list inserted earlier restores the tracks before it
+// and takes in all later lists again. So the result is bit-identical to processing in order, for every order of
+// arrival. Only the names of the tracks (fusion/tracks/identities.h) remain from before. A full history drops
+// its oldest list into the base; a list older than the base cannot be taken in.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace ttf::fusion::tracks {
 
-// A scan with its own copy of the observations.
+// A list with its own copy of the observations.
 struct StoredScan {
   MeasurementId id;
   GlobalTime measured{};
@@ -58,7 +58,7 @@ class Timeline final : public TrackHistory {
   TrackSet base_;
   MeasurementId base_id_{};
   GlobalTime base_time_{};
-  bool base_is_scan_ = false;  // something was dropped into the base
+  bool base_is_scan_ = false;  // the base holds a dropped list
 };
 
 }  // namespace ttf::fusion::tracks

@@ -21,12 +21,12 @@ double nearest_half_turn(double axis, double expected) {
 }
 
 Facing facing_of(const estimators::Cartesian& estimate, const Scalar& axis) {
-  // Variance of an angle of which nothing is known.
+  // Variance of a completely unknown angle.
   constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
   const double vx = estimate.x(2), vy = estimate.x(3), speed = std::hypot(vx, vy);
   const Eigen::Vector2d along = speed > 1e-9 ? Eigen::Vector2d(vx / speed, vy / speed) : Eigen::Vector2d(1.0, 0.0);
   const Eigen::Vector2d across(-along(1), along(0));
-  // The direction of motion tells the heading the better, the faster the object is.
+  // The faster the object, the better its course gives the heading.
   const double course = std::atan2(along(1), along(0));
   const double course_variance = across.dot(estimate.p.block<2, 2>(2, 2) * across) / std::max(1e-6, speed * speed);
   const bool moving = course_variance < kUnknown / 4.0;

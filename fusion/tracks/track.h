@@ -1,4 +1,4 @@
-// A track, and what an image shows of it.
+// A track, and its view in an image.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace ttf::fusion::tracks {
 
-// A scalar with its variance; `known` once something was measured.
+// A scalar with its variance; `known` after the first measurement.
 struct Scalar {
   double value = 0.0;
   double variance = 0.0;
@@ -20,8 +20,8 @@ struct Scalar {
 };
 Scalar predicted(const Scalar& scalar, double noise, double dt);
 
-// One observation among all: the index-th of a measurement. A sensor that restarts counts its measurements anew; what
-// was measured at another instant is another one all the same.
+// The identity of an observation: the index-th of a measurement. A restarted sensor counts its measurements
+// anew, so the instant distinguishes them.
 struct ObservationId {
   MeasurementId measurement;
   std::uint16_t index = 0;
@@ -30,30 +30,31 @@ struct ObservationId {
 };
 
 struct Track {
-  TrackId id = kNoTrack;        // once it has one (fusion/tracks/identities.h)
-  ObservationId birth, newest;  // the first observation it took, and the last: how long it has been coasting
+  TrackId id = kNoTrack;        // set on confirmation (fusion/tracks/identities.h)
+  ObservationId birth, newest;  // the first observation and the last
   estimators::Estimate estimate;
-  Scalar heading;  // [rad], the direction it faces
+  Scalar heading;  // [rad], of the object's front
   Extent extent;
   Unfiltered unfiltered;
-  std::uint32_t hits = 0;  // bit i: the scan i scans ago had an observation of it
+  std::uint32_t hits = 0;  // bit i: the list i lists ago had an observation of the track
   int scans = 0;           // since birth, the first included
-  int misses = 0;          // scans in a row without an observation
+  int misses = 0;          // lists in a row without an observation
   bool confirmed = false;
-  std::uint8_t twin_scans = 0;  // lists in a row that had it for its twin (fusion/tracks/twins.h)
-  ObservationId twin;           // the other's birth, where there are any
+  std::uint8_t twin_scans = 0;  // lists in a row that suggested a twin (fusion/tracks/twins.h)
+  ObservationId twin;           // the twin's birth, if twin_scans > 0
   double existence = 1.0;       // probability that the object exists (fusion/tracks/existence.h); 1 for births m_of_n
 };
 
-// The direction an object faces [rad]: the direction of motion weighed with the measured axis, and with its
-// turn; sigma is that of an angle of which nothing is known where neither tells.
+// The direction of the object's front [rad]: the course combined with the measured axis, turned by half a turn
+// if needed. Without both, sigma is that of an unknown angle.
 struct Facing {
   double heading = 0.0;
   double sigma = 0.0;
 };
 Facing facing_of(const estimators::Cartesian& estimate, const Scalar& axis);
 
-// An object's axis is measured up to half a turn: the turn that fits the expected direction better is meant.
+// Returns the axis or the axis plus half a turn, whichever is nearer to the expected direction: an axis is
+// measured up to half a turn.
 double nearest_half_turn(double axis, double expected);
 
 struct TrackView {
@@ -61,28 +62,28 @@ struct TrackView {
   GlobalTime valid_at{};
   estimators::State state = estimators::State::Zero();  // (fusion/estimators/estimate.h)
   estimators::Covariance covariance = estimators::Covariance::Zero();
-  // Speed: magnitude of the velocity; acceleration: along the heading.
+  // The speed is the magnitude of the velocity; the acceleration is along the heading.
   double heading = 0.0, sigma_heading = 0.0;
   double speed = 0.0, sigma_speed = 0.0;
   double acceleration = 0.0, sigma_acceleration = 0.0;
-  // What is typical of vehicles, with its spread, where has_ is clear.
+  // Without its has_ flag, a side has the typical size of vehicles with its spread.
   double length = 0.0, sigma_length = 0.0;
   double width = 0.0, sigma_width = 0.0;
   bool has_length = false, has_width = false;
   bool confirmed = false;
-  bool coasting = false;  // not observed of late: predicted only
+  bool coasting = false;  // not observed of late: only predicted
   Unfiltered unfiltered;
 };
-// Whether a track whose state is of `time` has ended at `at`, as it is without observations since its newest: by scans
-// that did not see it the tracker ends it itself (TrackerConfig::delete_misses); where none come,
-//   - when the newest is older than delete_after,
+// Returns whether a track with a state of instant `time` has ended by silence at `at`. Lists that miss it end
+// it in the tracker (TrackerConfig::delete_misses). Without lists it ends
+//   - when its newest observation is older than delete_after,
 //   - or older than coast_after, and the position predicted to `at` is less certain than delete_position_sigma on an
 //     axis.
-// Such a track is in no image and takes no observation any more: what it might have been is born anew.
+// Such a track appears in no image and takes no observation; its object begins a new track.
 bool given_up(const Track& track, GlobalTime time, GlobalTime at, const config::TrackerConfig& config,
               const estimators::Estimator& estimator);
 
-// A track whose state is of `time`, predicted to `at`; never backwards.
+// Returns the view of a track with a state of instant `time`, predicted to `at`, never backwards.
 TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const config::TrackerConfig& config,
                   const estimators::Estimator& estimator);
 

@@ -1,6 +1,6 @@
-// What a strategy takes scans into, in whatever order they come: the tracks, and as much of their past as taking in
-// late ones needs. Timeline (fusion/tracks/timeline.h) goes back and takes in again what came after; LateUpdates
-// (fusion/strategies/late/late_updates.h) mends the newest tracks by a method for single states.
+// A track history takes lists in for a strategy, in any order. It keeps the tracks and as much of their past as
+// late lists need. Timeline (fusion/tracks/timeline.h) rewinds and takes later lists in again. LateUpdates
+// (fusion/strategies/late/late_updates.h) corrects the newest tracks by a method for single states.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace ttf::fusion::tracks {
 
-// The chronological order of scans, ties included.
+// Returns whether list a precedes list b in chronological order, ties included.
 inline bool before(const MeasurementId& a, GlobalTime a_time, const MeasurementId& b, GlobalTime b_time) {
   if (a_time != b_time) return a_time < b_time;
   return a < b;
@@ -25,10 +25,11 @@ class TrackHistory {
 
   enum class Insertion : std::uint8_t { kInOrder, kLate, kTooOld };
   virtual Insertion insert(const sensors::Scan& scan) = 0;
-  // The newest tracks, confirmed ones with their ids.
+  // Returns the newest tracks; confirmed ones have their ids.
   virtual const TrackSet& current() const = 0;
   virtual const estimators::Estimator& estimator() const = 0;  // of the tracks' estimates
-  // Whether this measurement is in it: a sensor that restarts gives its numbers again, to other instants.
+  // Returns whether this measurement is in the history. The instant counts too: a restarted sensor reuses its
+  // numbers.
   virtual bool contains(const MeasurementId& id, GlobalTime measured) const = 0;
 };
 

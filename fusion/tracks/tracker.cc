@@ -24,10 +24,10 @@ void correct_scalar(Scalar& scalar, double innovation, double measured, double s
   scalar.variance = (1.0 - gain) * (1.0 - gain) * scalar.variance + gain * gain * variance;
 }
 
-// Confirmed tracks take precedence over tentative ones for the same observation.
+// Makes confirmed tracks take precedence over tentative ones for the same observation.
 constexpr double kConfirmedBonus = 100.0;
 
-// A bound that is rounded leaves nothing out.
+// Makes a rounded bound exclude no pair inside a gate.
 constexpr double kRoundedUp = 1.0 + 1e-12;
 
 }  // namespace
@@ -120,7 +120,7 @@ void Tracker::sort_by_x(const TrackSet& set, SensorId seen_by) {
             [](const Placed& a, const Placed& b) { return a.x != b.x ? a.x < b.x : a.track < b.track; });
 }
 
-// In the order of the tracks along x; what is assigned does not depend on the order of candidates.
+// Goes through the tracks along x; the order of candidates does not change the assignment.
 void Tracker::associate(const TrackSet& set, const sensors::Scan& scan) {
   candidates_.clear();
   pairs_.clear();
@@ -133,7 +133,7 @@ void Tracker::associate(const TrackSet& set, const sensors::Scan& scan) {
     auto at = by_x_.begin();
     double to = std::numeric_limits<double>::infinity();
     if (position) {
-      // Further away than the least certain of all tracks reaches: outside every gate.
+      // Beyond the reach of the least certain track: outside every gate.
       const double reach = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + z.r(0, 0)));
       at = std::partition_point(at, by_x_.end(), [&](const Placed& placed) { return placed.x < z.z(0) - reach; });
       to = z.z(0) + reach;
@@ -142,7 +142,7 @@ void Tracker::associate(const TrackSet& set, const sensors::Scan& scan) {
       const std::size_t t = at->track;
       const Track& track = set.tracks[t];
       if (position) {
-        // Cheap bound first: outside the gate on one axis alone is outside the gate.
+        // A cheap bound comes first: outside the gate on one axis means outside the gate.
         const double dx = z.z(0) - at->x, dy = z.z(1) - at->y;
         if (dx * dx > gate * (at->variance_x + z.r(0, 0)) || dy * dy > gate * (at->variance_y + z.r(1, 1))) continue;
       }
@@ -153,7 +153,7 @@ void Tracker::associate(const TrackSet& set, const sensors::Scan& scan) {
       const std::optional<double> distance_squared = estimator_->distance_squared(track.estimate, z);
       if (!distance_squared || *distance_squared > gate) continue;
       if (track.confirmed) near_track_[o] = 1;
-      // Never exactly zero: a pair on the gate's edge is still better than none.
+      // Never zero: a pair on the gate's edge still beats no pair.
       const double gain = gate - *distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
       candidates_.push_back({static_cast<int>(o), static_cast<int>(t), gain});
     }
@@ -167,8 +167,8 @@ void Tracker::associate(const TrackSet& set, const sensors::Scan& scan) {
     if (columns[o] >= 0) observation_of_[static_cast<std::size_t>(columns[o])] = static_cast<int>(o);
 }
 
-// The most probable joint event has the largest product of weights; a pair that is less probable than both alone is in
-// none such.
+// Offers a pair. The most probable joint event has the largest product of weights; it contains no pair that is
+// less probable than both alone.
 void Tracker::offer(const Track& track, const sensors::Observation& z, int row, int column) {
   const std::optional<estimators::Fit> fit = estimator_->fit(track.estimate, z);
   if (!fit || fit->distance_squared > gate_[dimension_of(z.kind)]) return;
@@ -178,18 +178,18 @@ void Tracker::offer(const Track& track, const sensors::Observation& z, int row, 
   if (weight > 1.0) candidates_.push_back({row, column, std::log(weight)});
 }
 
-// Before the update: by what the observation says of the prediction.
+// Updates the existence from the prediction, before the update of the estimate.
 void Tracker::judge_existence(Track& track, const sensors::Observation* z) const {
   const std::optional<estimators::Fit> fit = z ? estimator_->fit(track.estimate, *z) : std::nullopt;
   track.existence = after_list(track.existence, fit ? likelihood_ratio(*z, fit->density, config_) : 0.0, config_);
 }
 
-// All in the track's gate, with their probabilities given that its object exists.
+// Updates by all observations in the track's gate, with their probabilities given that its object exists.
 void Tracker::take_in_all(Track& track, std::size_t column, const sensors::Scan& scan) {
   const double unseen = joint_.none_of_column(column) * exists_unseen(track.existence, config_);
   double exists = unseen;
   for (const association::JointAssociation::Shared& shared : joint_.of_column(column)) exists += shared.probability;
-  if (!(exists > 0.0)) return;  // it is long gone, and nothing has been seen of it
+  if (!(exists > 0.0)) return;  // a long lost track without any observation
   explanations_.clear();
   explanations_.push_back({nullptr, unseen / exists});
   for (const association::JointAssociation::Shared& shared : joint_.of_column(column))
@@ -212,8 +212,7 @@ void Tracker::correct_outline(Track& track, const sensors::Observation& z) const
   correct_extent(track, z);
 }
 
-// The span needs the aspect: it comes last, when position, course and axis know what this observation says of
-// them.
+// Corrects the extent. The span needs the aspect, so it comes last, after position, course and axis.
 void Tracker::correct_extent(Track& track, const sensors::Observation& z) const {
   if (z.has_length) correct_length(track.extent, z.length, z.sigma_length);
   if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
@@ -231,8 +230,8 @@ void Tracker::correct_extent(Track& track, const sensors::Observation& z) const 
       z.sigma_span);
 }
 
-// An observation no track took becomes a tentative track, unless it lies in the gate of a confirmed one: that
-// is a second echo of an object which is known already.
+// An unassigned observation becomes a tentative track, unless it lies in the gate of a confirmed one: there it
+// is a second echo of a known object.
 void Tracker::give_birth(TrackSet& set, const sensors::Scan& scan) {
   const auto columns = assignment_.column_of();
   for (std::size_t o = 0; o < scan.observations.size(); ++o) {
@@ -267,7 +266,7 @@ void Tracker::prune(TrackSet& set) const {
     if (estimator_->position(track.estimate).p.diagonal().maxCoeff() > largest) return track.misses > 0;
     if (by_existence) return track.existence < config_.delete_existence;
     if (track.confirmed) return track.misses >= config_.delete_misses;
-    // A tentative track goes when M hits cannot be reached within its window any more.
+    // A tentative track ends when M hits are out of reach within its window.
     const int hits = std::popcount(track.hits & window);
     const int left = config_.confirm_window - std::min(track.scans, config_.confirm_window);
     return hits + left < config_.confirm_hits;

@@ -1,17 +1,19 @@
-// The multi-object tracker all strategies share: prediction, gating, association, confirmation, deletion by scans that
-// did not see a track, and by silence (given_up() in fusion/tracks/track.h).
+// The multi-object tracker of all strategies: prediction, gating, association and confirmation. Tracks end
+// after lists that missed them, or by silence (given_up() in fusion/tracks/track.h).
 //
-// Association. nearest: global nearest neighbour (fusion/association/assignment.h), confirmed tracks first. jpda: the
-// estimate takes in every observation in its gate with the probability that it is the track's
-// (fusion/association/joint_association.h). Who had what, for hits and misses, what is newest, axis, extent, class and
-// births, is then the one most probable joint event. Birth. m_of_n: confirmed by M observations in N scans, ended by
-// scans without. existence: both by the probability that the object exists (fusion/tracks/existence.h); delete_misses,
-// confirm_hits and confirm_window are not asked. Twins: two tracks of one object become one, if told
-// (fusion/tracks/twins.h).
+// Association. nearest is global nearest neighbour (fusion/association/assignment.h), confirmed tracks first.
+// With jpda an estimate takes in every observation in its gate, weighted by the probability that it belongs to
+// the track (fusion/association/joint_association.h). The most probable joint event then decides hits and
+// misses, the newest observation, axis, extent, class and births.
 //
-// A step is a pure function of the tracks, the scan and the configuration; tracks are values, so that a
-// strategy can keep snapshots and go back. Heading and extent are random-walk filters beside the estimate of
-// the motion (fusion/estimators/estimator.h). Storage is taken at construction: nothing allocates afterwards.
+// Birth. With m_of_n, M observations in N lists confirm a track, and lists without an observation end it. With
+// existence, the probability that the object exists decides both (fusion/tracks/existence.h); delete_misses,
+// confirm_hits and confirm_window are not used. Two tracks of one object become one if the configuration says
+// so (fusion/tracks/twins.h).
+//
+// A step is a pure function of the tracks, the list and the configuration. Tracks are values, so a strategy can
+// keep snapshots and go back. Random-walk filters estimate heading and extent beside the motion
+// (fusion/estimators/estimator.h). The constructor allocates all storage.
 #pragma once
 
 #include <cstdint>
@@ -33,11 +35,11 @@ namespace ttf::fusion::tracks {
 
 struct TrackSet {
   std::vector<Track> tracks;  // in order of birth
-  GlobalTime time{};          // the tracks' states are of this instant
+  GlobalTime time{};          // of the tracks' states
   bool started = false;
 
   explicit TrackSet(std::size_t capacity = 0) { tracks.reserve(capacity); }
-  // Copies within the capacity: no allocation.
+  // Copies within the capacity, without allocation.
   void assign(const TrackSet& other);
 };
 
@@ -45,21 +47,20 @@ class Tracker {
  public:
   Tracker(const config::TrackerConfig& config, std::size_t max_observations);
 
-  // Takes the scan in; scan.measured must not be before set.time.
+  // Takes the list in; scan.measured must not be before set.time.
   void step(TrackSet& set, const sensors::Scan& scan);
-  // The parts of a step that whoever takes late scans in (fusion/strategies/late/) has use for:
-  // which observation of the scan each track takes, or -1: gated and assigned, no track changed; valid until the next
-  // call.
+  // The following parts of a step serve methods for late lists (fusion/strategies/late/). assigned() gates and
+  // assigns, and changes no track. It returns the observation of each track, or -1, valid until the next call.
   std::span<const int> assigned(const TrackSet& set, const sensors::Scan& scan);
-  // Heading and extent, of an object that is where its estimate says.
+  // Corrects heading and extent of an object at its estimate.
   void correct_outline(Track& track, const sensors::Observation& observation) const;
   // Confirms and ends tracks by their counts.
   void prune(TrackSet& set) const;
-  // Room for tentative and confirmed tracks together.
+  // Returns the room for tentative and confirmed tracks together.
   std::size_t max_tracks() const { return max_tracks_; }
   const config::TrackerConfig& config() const { return config_; }
   const estimators::Estimator& estimator() const { return *estimator_; }
-  // Clusters of a jpda tracker, in all steps, that were too large for exact probabilities
+  // Returns the number of jpda clusters, over all steps, that were too large for exact probabilities
   // (fusion/association/joint_association.h).
   std::uint64_t approximated_clusters() const { return joint_.approximated(); }
 
@@ -70,7 +71,7 @@ class Tracker {
   void offer(const Track& track, const sensors::Observation& observation, int row, int column);
   void judge_existence(Track& track, const sensors::Observation* observation) const;
   void take_in_all(Track& track, std::size_t column, const sensors::Scan& scan);
-  // What is estimated, and carried, beside the motion.
+  // Corrects everything except the motion.
   void correct_beside(Track& track, const sensors::Observation& observation) const {
     correct_outline(track, observation);
     carry(track.unfiltered, observation);
@@ -79,7 +80,7 @@ class Tracker {
   void give_birth(TrackSet& set, const sensors::Scan& scan);
 
   config::TrackerConfig config_;
-  std::shared_ptr<const estimators::Estimator> estimator_;  // without state: copies of the tracker share it
+  std::shared_ptr<const estimators::Estimator> estimator_;  // stateless: copies of the tracker share it
   std::size_t max_observations_, max_tracks_;
   double gate_[4] = {};  // by dimension of the observation
   association::Assignment assignment_;
@@ -88,7 +89,7 @@ class Tracker {
     double x = 0.0, y = 0.0, variance_x = 0.0, variance_y = 0.0;
     std::size_t track = 0;
   };
-  std::vector<Placed> by_x_;  // the tracks, sorted: who is far away is not looked at
+  std::vector<Placed> by_x_;  // the tracks sorted by x, so that far ones are skipped
   double largest_variance_x_ = 0.0;
   association::JointAssociation joint_;  // without storage unless jpda
   std::vector<association::Pair> pairs_;

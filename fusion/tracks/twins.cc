@@ -30,7 +30,7 @@ Difference difference_of(const estimators::Cartesian& a, const Extent& a_size, c
   return difference;
 }
 
-// How uncertain a track's motion is, in one number.
+// Returns the uncertainty of a track's motion as one number.
 double volume_of(const Track& track, const estimators::Estimator& estimator) {
   return estimator.cartesian(track.estimate).p.topLeftCorner<4, 4>().eval().determinant();
 }
@@ -82,7 +82,7 @@ void Twins::find_nearest(const std::vector<Track>& tracks, const estimators::Est
     return a.at.x(0) != b.at.x(0) ? a.at.x(0) < b.at.x(0) : a.track < b.track;
   });
   for (std::size_t i = 0; i < by_x_.size(); ++i) {
-    // Further apart in x alone than the quantile allows of the most degrees: not alike to anybody from here on.
+    // Beyond this distance in x, the quantile of the most degrees excludes every further track.
     const double reach = std::sqrt(quantile_[6] * (by_x_[i].at.p(0, 0) + largest)) * (1.0 + 1e-12);
     for (std::size_t j = i + 1; j < by_x_.size() && by_x_[j].at.x(0) - by_x_[i].at.x(0) <= reach; ++j) {
       const std::size_t elder = std::min(by_x_[i].track, by_x_[j].track);

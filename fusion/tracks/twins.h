@@ -1,22 +1,25 @@
-// Two tracks of one object, such as one that the laser's lists feed and one that the camera's do, become one.
+// Twins are two tracks of one object, for example one fed by the laser's lists and one by the camera's. They
+// become one.
 //
-// After each list, of two confirmed tracks the younger is alike to the elder if
-//   d' (P_elder + P_younger)^-1 d <= the quantile of chi-square for merge_probability,
-// d being the difference of (x, y, vx, vy), and of length and width where both know them: as many degrees of freedom as
-// are compared. Both have been driven by the same noise and by one object, so that their errors are correlated and the
-// sum is an upper bound; what tells cars that drive side by side apart is the second condition. A list has an object
-// once (as association assumes): the list in which both have an observation shows two objects, and the count begins
-// anew. A list that has neither counts for nothing. After merge_scans lists in a row that had one of them, the younger
-// alike to the same elder, the two are united:
+// After each list, the younger of two confirmed tracks is alike to the elder if
+//   d' (P_elder + P_younger)^-1 d <= the quantile of chi-square for merge_probability.
+// d is the difference of (x, y, vx, vy), and of length and width if both tracks know them; each compared
+// quantity is a degree of freedom. The same noise and the same object have driven both tracks, so their errors
+// are correlated and the sum is an upper bound.
+//
+// A second condition tells cars side by side apart. A list contains an object once, as association assumes. So
+// a list with an observation of both tracks shows two objects and resets the count; a list with neither does
+// not count. The two tracks are united after merge_scans counted lists in a row with the younger alike to the
+// same elder:
 //   - the elder's birth, and so its identity, stays;
-//   - of the estimates the more certain one is kept, whole: that of the smaller determinant of the covariance of (x, y,
-//     vx, vy). It is covariance intersection with all weight on one side (Julier, Uhlmann: "A non-divergent estimation
-//     algorithm in the presence of unknown correlations", ACC 1997): consistent whatever the correlation, which nobody
-//     knows here, and a belief of one layout with its modes, which a mixture of two layouts would not be;
-//   - heading and extent likewise, each the more certain one; classes are added up, since each observation was counted
-//     once; hits are joined, and what is newest is the newer's.
-// A younger track has for its twin the nearest elder by that distance, of equal ones the eldest; the youngest is asked
-// first. Storage is taken at construction.
+//   - the more certain estimate is kept whole: the one with the smaller determinant of the covariance of
+//     (x, y, vx, vy). This is covariance intersection with all weight on one side (Julier, Uhlmann: "A non-divergent
+//     estimation algorithm in the presence of unknown correlations", ACC 1997). It is consistent for every
+//     correlation, which is unknown here, and keeps one layout with its modes, unlike a mixture of two layouts;
+//   - the more certain heading and the more certain extent are kept; classes add up, since each observation counted
+//     once; hits are combined; the newest observation is the newer of the two.
+// The twin of a younger track is the nearest elder by that distance, and among equals the eldest. The youngest
+// track comes first. The constructor allocates all storage.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +34,7 @@ namespace ttf::fusion::tracks {
 class Twins {
  public:
   Twins(const config::TrackerConfig& config, std::size_t max_tracks);
-  // After a list was taken in: hits says who had an observation in it. Tracks in order of birth.
+  // Unites twins after a list; hits shows which tracks had an observation in it. Tracks are in order of birth.
   void unite(std::vector<Track>& tracks, const estimators::Estimator& estimator);
 
  private:
@@ -41,7 +44,7 @@ class Twins {
   };
   struct Nearest {
     int elder = -1;
-    double distance = 0.0;  // of the quantile, squared
+    double distance = 0.0;  // relative to the quantile, squared
   };
   void find_nearest(const std::vector<Track>& tracks, const estimators::Estimator& estimator);
 

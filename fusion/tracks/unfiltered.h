@@ -1,7 +1,7 @@
-// What a track carries along without a filter: what its observations take it for, and their third axis.
+// The part of a track that no filter estimates: the class of its object and the third axis.
 //
-// Being part of the track, a value, it goes back with the track where a late scan rewrites the past: sums and newest
-// values are those of its observations in the order of measurement, whatever the order of arrival, to the last bit.
+// It is a value within the track, so it rewinds with the track when a late list rewrites the past. Sums and
+// newest values follow the order of measurement to the last bit, whatever the order of arrival.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ struct Classification {
   std::array<double, sensors::kMostClasses> sums{};
 
   void add(sensors::ClassId what, double score) { sums[static_cast<std::size_t>(what)] += score; }
-  // The class of the largest sum, of equal ones the first; kNoClass where nothing above zero was added.
+  // Returns the class of the largest sum, of equal ones the first; kNoClass if no sum is above zero.
   sensors::ClassId best() const {
     std::size_t best = 0;
     for (std::size_t i = 1; i < sums.size(); ++i)
       if (sums[i] > sums[best]) best = i;
     return sums[best] > 0.0 ? static_cast<sensors::ClassId>(best) : sensors::kNoClass;
   }
-  // Of all that was added, the part that the best class has; 0 where there is none.
+  // Returns the best class's part of all scores; 0 without scores.
   double share() const {
     double all = 0.0, most = 0.0;
     for (const double sum : sums) {
