@@ -1,29 +1,28 @@
-// The three ways to fuse observations that arrive late and out of order (paper, section II-B), behind one
+// The three strategies that fuse lists which arrive late and out of order (paper, section II-B), behind one
 // interface.
 //
-// BUFF  keeps a scan back until chronological order is certain: for every other sensor, a scan that is not
-//       older has arrived, or none can arrive any more (fusion/strategies/settling.h). Then fuses in order. Or until
-//       the delays that were measured so far, or a fixed lag, say so (BuffWaiting): then what is later still is taken
-//       in late.
-// ADVA  takes scans as they come. One that is older than what is fused already is taken in exactly: the
-//       tracker goes back to before it, takes it in, and takes in again what came after, associations
-//       included. That is bit-identical to having received everything in order.
-// TT    relies on the schedule: the instants of all measurements are known beforehand. A scan waits only for
-//       scheduled older measurements of other sensors that have not arrived and are not yet due; one that
-//       misses its due instant is not waited for: the first fusion instant at which the schedule has it
-//       arrived (fusion/strategies/settling.h).
+// BUFF  holds a list back until chronological order is certain: for every other sensor, a list that is not older has
+//       arrived, or none can arrive any more (fusion/strategies/settling.h). Then it fuses in order. Instead it can
+//       wait for the longest delay measured so far, or for a fixed lag (BuffWaiting); a list that comes still later
+//       is late.
+// ADVA  fuses lists as they come. A late list is taken in exactly: the tracker rewinds to the instant before it, takes
+//       it in, and takes in all later lists again, associations included. The result is bit-identical to receiving
+//       everything in order.
+// TT    uses the schedule, which gives the instants of all measurements beforehand. A list waits only for scheduled
+//       older measurements of other sensors that have not arrived and are not yet due. A measurement is due at the
+//       first fusion instant at which the schedule has it arrived (fusion/strategies/settling.h).
 //
-// A list that is lost, torn, or of a sensor that is dead was never there: no strategy waits for it longer than the
-// schedule says it could still come, and what is fused is what in-order processing of the lists that did come gives. A
-// sensor that restarts counts its lists anew: a list is known again by its number and its instant together.
+// A list that is lost, torn, or of a dead sensor counts as absent. No strategy waits for it longer than the
+// schedule allows, and the result is that of the arrived lists in order. A restarted sensor counts its lists
+// anew, so number and instant together identify a list.
 //
-// Whatever a strategy fused too early (a broken promise) is repaired as in ADVA and reported as late. Scans
-// older than the history are dropped and reported; one with a stamp from the future waits until its time.
+// A list that breaks the schedule may come after younger ones were fused. It is taken in as by ADVA and
+// reported as late. Lists older than the history are dropped and reported. A list with a stamp from the future
+// waits until that instant.
 //
-// Going back is the default; by TrackerConfig::late, ADVA takes late scans in by any method for single states, and TT
-// by clones (fusion/strategies/late/late_updates.h), where late_refusal() has nothing against it. BUFF takes nothing
-// late by design: what it must repair nevertheless it always goes back for.
-// Order among scans: (measured, sensor, sequence).
+// Rewinding is the default. With TrackerConfig::late, ADVA takes late lists in by any method for single states,
+// and TT by clones (fusion/strategies/late/late_updates.h), unless late_refusal() objects. BUFF has no late
+// lists by design; for repairs it always rewinds. Order of lists: (measured, sensor, sequence).
 //
 // After construction nothing allocates.
 #pragma once
@@ -49,11 +48,11 @@
 
 namespace ttf::fusion::strategies {
 
-// kCount is no strategy: it counts them.
+// kCount is the number of strategies.
 enum class StrategyKind : std::uint8_t { kBuff = 0, kAdva = 1, kTt = 2, kCount };
 inline constexpr std::size_t kStrategyCount = static_cast<std::size_t>(StrategyKind::kCount);
 
-// The names that files, options and logs give the strategies, in the order of StrategyKind.
+// The strategies' names in files, options and logs, in the order of StrategyKind.
 inline constexpr std::array<std::pair<std::string_view, StrategyKind>, kStrategyCount> kStrategyNames{
     {{"buff", StrategyKind::kBuff}, {"adva", StrategyKind::kAdva}, {"tt", StrategyKind::kTt}}};
 inline constexpr std::array<StrategyKind, kStrategyCount> kAllStrategies = [] {
@@ -67,7 +66,7 @@ static_assert(std::equal(kStrategyNames.begin(), kStrategyNames.end(), kAllStrat
                          }),
               "every strategy has its name, in its place");
 
-// Empty for what is no strategy.
+// Returns the name, empty for any other value.
 constexpr std::string_view name_of(StrategyKind kind) {
   return kind < StrategyKind::kCount ? kStrategyNames[static_cast<std::size_t>(kind)].first : std::string_view{};
 }
@@ -77,7 +76,7 @@ constexpr std::optional<StrategyKind> strategy_named(std::string_view name) {
   return std::nullopt;
 }
 
-// What the schedule promises about a sensor.
+// The schedule's knowledge of a sensor.
 struct SensorTiming {
   SensorId sensor{};
   Settling settling;       // when its measurements have arrived at the latest
@@ -93,43 +92,45 @@ struct FusedScan {
   Disposition disposition = Disposition::kFused;
 };
 
-// Most scans that can wait: of one more, the oldest is fused at once.
+// The most lists that can wait; one more fuses the oldest at once.
 inline constexpr std::size_t kMaxPending = 32;
-// Most scans accepted between two fusion instants whose fate is certain to be listed. An accept() settles at most one,
-// a duplicate or the oldest that waits, and the fusion instant what waits then; of what accepting more settles, the
-// first kMaxListedArrivals are listed and the rest is counted.
+// The most lists between two fusion instants whose dispositions are certain to be listed. An accept() decides
+// at most one list, a duplicate or the oldest waiting one; the fusion instant decides the waiting ones. With
+// more accepted lists, the first kMaxListedArrivals are listed and the others counted.
 inline constexpr std::size_t kMaxListedArrivals = 64;
 
 class Strategy {
  public:
   virtual ~Strategy() = default;
-  // Takes a scan from the controller (copied). Fuses nothing yet.
+  // Takes a list from the controller, as a copy; fuses nothing yet.
   virtual void accept(const sensors::Scan& scan) = 0;
-  // The fusion instant: fuses what may be fused at `now`.
+  // Fuses all lists that may be fused at the fusion instant `now`.
   virtual void fuse(GlobalTime now) = 0;
-  // The first instant after the last fusion instant from which a scan that is held may be fused though nothing arrives;
-  // nothing where none is held.
+  // Returns the first instant after the last fusion instant from which a held list may be fused though no other
+  // list arrives. Without a held list there is no value.
   virtual std::optional<GlobalTime> next_release() const = 0;
-  // What became of each scan at the last fusion instant or since the one before it, and which are held.
+  // Returns the dispositions since the fusion instant before the last one, held lists included.
   virtual std::span<const FusedScan> last_fused() const = 0;
-  // How many fates since construction last_fused() had no room for (kMaxListedArrivals).
+  // Returns the number of dispositions since construction that last_fused() had no room for
+  // (kMaxListedArrivals).
   virtual std::uint64_t unlisted() const = 0;
-  // Confirmed tracks predicted to `at`, into `out` (which keeps its capacity), without those that are given up by then
-  // (fusion/tracks/track.h). Never touches the filter state; where `at` is before the newest measurement, the tracks
-  // are shown as of that measurement.
+  // Writes the confirmed tracks, predicted to `at`, into `out`, which keeps its capacity; leaves out tracks
+  // that are given up by then (fusion/tracks/track.h). Never changes the filter's state. If `at` is before the
+  // newest measurement, the tracks are of that measurement's instant.
   virtual void image(GlobalTime at, std::vector<tracks::TrackView>& out) const = 0;
-  // Confirmed tracks at the instant of the newest fused measurement, without those that were given up by the last
-  // fuse().
+  // Returns the confirmed tracks at the instant of the newest fused measurement, without those given up by the
+  // last fuse().
   virtual std::span<const tracks::TrackView> tracks() const = 0;
-  // The newest fused measurement of each sensor that has one, and the newest of all.
+  // Returns the newest fused measurement of each sensor that has one; newest_measured() is the newest instant
+  // of all.
   virtual std::span<const MeasurementId> newest() const = 0;
   virtual GlobalTime newest_measured() const = 0;
   virtual int confirmed_count() const = 0;
   virtual int tentative_count() const = 0;
 };
 
-// Why a strategy cannot take late scans in by that method: what TrackerConfig::late must be instead, in the words of a
-// Finding; empty where it can. only_positions: no sensor measures anything but positions.
+// Returns why a strategy cannot use this method for late lists, empty if it can. The text is the required value
+// of TrackerConfig::late, in the words of a Finding. With only_positions, all sensors measure positions.
 std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors,
                          bool only_positions);
 
