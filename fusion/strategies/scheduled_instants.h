@@ -1,4 +1,4 @@
-// The instants at which the schedule has a sensor measure: first, first + period, ...
+// The instants at which the schedule lets a sensor measure: first, first + period, ...
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@ namespace ttf::fusion::strategies {
 
 struct ScheduledInstants {
   GlobalTime first{};
-  Duration period{};  // longer than nothing
+  Duration period{};  // above zero
 
-  // Time stamps are clock readings: an instant of the schedule is recognised within a quarter of the period.
+  // Time stamps are clock readings, so a stamp matches an instant within a quarter of the period.
   Duration tolerance() const { return {period.ns / 4}; }
 
-  // The instant that a time stamp is of; nothing where it fits none.
+  // Returns the instant of a time stamp, or no value if none matches.
   std::optional<GlobalTime> of(GlobalTime stamp) const {
     const std::int64_t since = (stamp - first).ns + period.ns / 2;
     const std::int64_t cycle = since >= 0 ? since / period.ns : -((period.ns - 1 - since) / period.ns);
@@ -24,7 +24,7 @@ struct ScheduledInstants {
     if (off > tolerance() || -off > tolerance()) return std::nullopt;
     return instant;
   }
-  // The newest that is not after `time`, which is not before the first.
+  // Returns the newest instant not after `time`, which is not before the first.
   GlobalTime newest_at(GlobalTime time) const { return first + period * ((time - first).ns / period.ns); }
 };
 

@@ -1,4 +1,4 @@
-// Until when a sensor has nothing more to deliver: the promise of a schedule, as a step function of time.
+// The instant up to which a sensor's measurements are settled, as the schedule says: a step function of time.
 //
 //   settled(now)
 //     |                      o-----------  measured(1)
@@ -7,8 +7,8 @@
 //     +----------+-----------+-----------> now
 //              at(0)       at(1)
 //
-// Before at(1) a list of measured(1) may still come; from at(1) on, it and all older ones have come or never
-// will. The steps repeat with the schedule.
+// Before at(1) a list of measured(1) may still come. From at(1) on, that list and all older ones have arrived
+// or never will. The steps repeat with the schedule.
 #pragma once
 
 #include <vector>
@@ -24,15 +24,14 @@ class Settling {
     GlobalTime at{};
     GlobalTime measured{};
   };
-  // One round of steps: at least one, strictly increasing in both, the last less than a round after the
-  // first.
+  // Takes one round of steps: at least one, strictly increasing in both fields, the last less than a round
+  // after the first.
   Settling(std::vector<Step> steps, Duration round);
-  // Where no schedule says more than that nothing takes longer than `worst_delay`: settled(now) = now -
-  // worst.
+  // Returns the settling of a schedule that only bounds the delay: settled(now) = now - worst_delay.
   static Settling after(Duration worst_delay);
 
   GlobalTime settled(GlobalTime now) const;
-  // The first instant at which settled() is `measured` or later.
+  // Returns the first instant at which settled() is `measured` or later.
   GlobalTime settled_from(GlobalTime measured) const;
 
  private:

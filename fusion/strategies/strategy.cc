@@ -20,8 +20,8 @@ namespace {
 
 constexpr GlobalTime kLongAgo{std::numeric_limits<std::int64_t>::min()};
 
-// What the three share: the scans that wait, the tracks with their history, and the account of what happened. They
-// differ in which waiting scan may be fused.
+// The common part of the three strategies: the waiting lists, the tracks with their history, and the account of
+// dispositions. The strategies differ only in the waiting lists that they may fuse.
 class HistoryStrategy : public Strategy {
  public:
   HistoryStrategy(const config::TrackerConfig& config, std::span<const SensorTiming> sensors,
@@ -56,7 +56,7 @@ class HistoryStrategy : public Strategy {
       return;
     }
     if (free_.empty()) {
-      // More waits than there is room for: the oldest waits no longer, what it overtakes is repaired as late.
+      // The room is full: the oldest list is fused now, and still older ones will be late.
       const std::size_t oldest = waiting_.front();
       waiting_.erase(waiting_.begin());
       note_between(take(pending_[oldest]));
@@ -76,7 +76,7 @@ class HistoryStrategy : public Strategy {
     report_.assign(between_.begin(), between_.end());
     between_.clear();
     now_ = now;
-    // A stamp from the future tells nothing of what else may still come from its sensor.
+    // A list with a stamp from the future does not count as received: it says nothing about its sensor.
     for (const std::size_t slot : waiting_)
       if (pending_[slot].measured <= now && !std::exchange(seen_[slot], 1)) receive(pending_[slot]);
     std::size_t kept = 0;
@@ -84,8 +84,8 @@ class HistoryStrategy : public Strategy {
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const std::size_t slot = waiting_[i];
       const tracks::StoredScan& scan = pending_[slot];
-      // In chronological order: what must wait holds back all that is younger. A stamp from the future is
-      // wrong, and would make everything after it late.
+      // Goes in chronological order: a waiting list holds back all younger ones. A stamp from the future is
+      // wrong; its fusion would make all later lists late.
       blocked = blocked || fuses_from(scan) > now;
       if (blocked) {
         report_.push_back({scan.id, scan.measured, Disposition::kHeld});
@@ -120,22 +120,23 @@ class HistoryStrategy : public Strategy {
   }
 
  protected:
-  // From when on a scan may be fused if nothing more arrives; over, where it may be now.
+  // Returns the instant from which a list may be fused if no other list arrives; an instant in the past means
+  // now.
   virtual GlobalTime may_fuse_from(const tracks::StoredScan& scan) const = 0;
 
   const config::TrackerConfig& config() const { return config_; }
-  // The longest that a list of sensor s was on its way, as far as fusion instants tell.
+  // Returns the longest delay of sensor s's lists, as measured at fusion instants.
   std::optional<Duration> longest_delay(std::size_t s) const { return longest_delay_[s]; }
 
   std::size_t sensor_count() const { return sensors_.size(); }
   const SensorTiming& sensor(std::size_t s) const { return sensors_[s]; }
-  // A scan of sensor s that is not older than `instant` has arrived.
+  // Returns whether a list of sensor s that is not older than `instant` has arrived.
   bool arrived_since(std::size_t s, GlobalTime instant) const {
     return any_received_[s] && newest_received_[s] >= instant;
   }
 
  private:
-  // How many scans arrive between two fusion instants is not ours to say.
+  // Bounds the report: any number of lists may arrive between two fusion instants.
   void note_between(const FusedScan& what) {
     if (between_.size() < kMaxListedArrivals)
       between_.push_back(what);
@@ -195,13 +196,13 @@ class HistoryStrategy : public Strategy {
   const estimators::Estimator* estimator_;   // the history's
   std::vector<tracks::StoredScan> pending_;  // storage
   std::vector<std::size_t> free_, waiting_;  // waiting: chronological
-  std::vector<char> seen_;                   // by a fusion instant, of those that wait
-  std::vector<FusedScan> report_, between_;  // between_: what happened since the last fusion instant
+  std::vector<char> seen_;                   // by slot: a fusion instant has seen the list
+  std::vector<FusedScan> report_, between_;  // between_: since the last fusion instant
   std::uint64_t unlisted_ = 0;
   std::vector<tracks::TrackView> views_;
   int tentative_ = 0;
   std::vector<MeasurementId> newest_;
-  std::vector<GlobalTime> newest_stamps_;  // of these
+  std::vector<GlobalTime> newest_stamps_;  // of newest_
   std::vector<GlobalTime> newest_received_;
   std::vector<char> any_received_;
   std::vector<std::optional<Duration>> longest_delay_;
@@ -221,7 +222,7 @@ class Buff final : public HistoryStrategy {
     return from;
   }
 
-  // When all that sensor s measured until `instant` has arrived, or never will.
+  // Returns when all measurements of sensor s until `instant` have arrived or never will.
   GlobalTime settled_from(std::size_t s, GlobalTime instant) const {
     const auto longest = longest_delay(s);
     const bool by_measured = config().buff_waits == config::BuffWaiting::kMeasured && longest;
@@ -257,9 +258,8 @@ class TimeTriggered final : public HistoryStrategy {
 
   static ScheduledInstants instants_of(const SensorTiming& timing) { return {timing.first, timing.period}; }
 
-  // Instants are compared on the schedule, not by their stamps: two sensors that measure at the same instant
-  // wait for each other whichever stamp happens to be smaller. A measurement that fits no instant stands for
-  // itself.
+  // Returns the list's instant on the schedule, or its own stamp if none matches. Two sensors that measure at
+  // the same instant so wait for each other, whichever stamp is smaller.
   GlobalTime scheduled_instant(const tracks::StoredScan& scan) const {
     for (std::size_t s = 0; s < sensor_count(); ++s)
       if (sensor(s).sensor == scan.id.sensor && sensor(s).scheduled)

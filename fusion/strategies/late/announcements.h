@@ -1,9 +1,9 @@
-// Which instants a schedule tells the clones of (fusion/oosm/clone.h), and by which stamp.
+// The scheduled instants that are announced to the clones (fusion/oosm/clone.h), and their stamps.
 //
-// A list comes from a scheduled instant, give or take what clocks are off. When a list is taken in that is newer than
-// all before, time passes the scheduled instants up to its own; of those whose lists are not there, clones are made.
-// An instant's stamp is the schedule's own, (instant, sensor, 0): what the list will be numbered, and what its clock
-// will read, nobody knows beforehand.
+// A list belongs to a scheduled instant, up to the error of its clock. When a list newer than all before is
+// taken in, time passes the scheduled instants up to its own. The method clones the state at each instant whose
+// list is missing. An instant's stamp is the schedule's own, (instant, sensor, 0): the list's number and clock
+// reading are unknown beforehand.
 #pragma once
 
 #include <cstddef>
@@ -20,23 +20,23 @@ namespace ttf::fusion::strategies::late {
 
 class Announcements {
  public:
-  // Of those of the sensors that are scheduled.
+  // Announces instants of the scheduled sensors only.
   explicit Announcements(std::span<const SensorTiming> sensors);
 
-  // When a list was measured: off an announced instant, or at a stamp of its own.
+  // Returns when a list was measured: near an announced instant, or at its own stamp.
   When when(const sensors::Scan& scan) const;
-  // What is to be announced before this list is taken, which is newer than all before; valid until the next call. Of
-  // each sensor the newest kClones at most. Nothing of what lies before the first list.
+  // Returns the stamps to announce before taking this list, which is newer than all before; valid until the
+  // next call. Each sensor has at most its newest kClones; instants before the first list are left out.
   std::span<const oosm::Stamp> pass(const sensors::Scan& scan);
 
  private:
   struct Sensor {
     SensorId sensor{};
     ScheduledInstants instants;
-    std::optional<GlobalTime> next{};  // the first that time has not passed
+    std::optional<GlobalTime> next{};  // the first instant that time has not passed
   };
   static oosm::Stamp stamp_of(SensorId sensor, GlobalTime instant) { return {instant, {sensor, 0}}; }
-  // The scheduled instant of this list; nothing where its stamp fits none.
+  // Returns the scheduled instant of this list, or no value if none matches its stamp.
   std::optional<GlobalTime> instant_of(const sensors::Scan& scan) const;
 
   std::vector<Sensor> sensors_;

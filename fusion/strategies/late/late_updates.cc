@@ -10,7 +10,7 @@ namespace {
 
 bool is_taken(oosm::Taken taken) { return taken == oosm::Taken::kInOrder || taken == oosm::Taken::kLate; }
 
-// A list at its place, `since` lists before the newest.
+// Counts a list at its place, `since` lists before the newest.
 void count(tracks::Track& track, int since, bool hit) {
   if (since < 32) {
     const std::uint32_t later = (1u << since) - 1u;
@@ -75,7 +75,7 @@ void LateUpdates::step(const sensors::Scan& scan) {
     const sensors::Observation& z = scan.observations[track.newest.index];
     if (z.third.has_z) object.z_at = scan.measured;
     if (z.third.has_height) object.height_at = scan.measured;
-    // A stamp that fits nothing the method knows: it begins anew, with what the tracker knows.
+    // The stamp does not fit the method: it starts anew from the tracker's estimate.
     if (track.birth != track.newest && !is_taken(pasts_->take(object.slot, when, z)))
       pasts_->start(object.slot, set_.time, track.estimate);
   }
@@ -139,7 +139,7 @@ void LateUpdates::mend(tracks::Track& track, Object& object, const tracks::Obser
     track.newest = which;
 }
 
-// Tracks are in order of birth: those that ended are gone from between, those that were born are behind.
+// Drops ended tracks and adds new ones. Tracks are in order of birth, so new ones are at the end.
 void LateUpdates::align() {
   std::size_t kept = 0;
   for (const Object& object : objects_) {

@@ -1,8 +1,8 @@
-// What a method for late measurements (fusion/oosm/) keeps of every object, each in a slot of its own: the wall between
-// the tracks, which know neither state nor motion, and the methods, which know nothing of objects.
+// The pasts of all objects under a method for late measurements (fusion/oosm/), each in its own slot. This
+// interface separates the tracks, which know neither state nor motion, from the methods, which know no objects.
 //
-// Methods take positions of objects in straight motion: there everything is linear and Gaussian. An estimate is as an
-// estimator makes it (fusion/estimators/estimate.h). Nothing allocates after construction.
+// Methods take positions of objects in straight motion: there everything is linear and Gaussian. Estimates have
+// an estimator's layout (fusion/estimators/estimate.h). Nothing allocates after construction.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,13 @@
 
 namespace ttf::fusion::strategies::late {
 
-inline constexpr int kRemembered = 16;  // measurements of an object that a method can reach behind, births included
-inline constexpr int kClones = 8;       // of an object, at a time
+inline constexpr int kRemembered = 16;  // measurements of an object that a method can reach behind, birth included
+inline constexpr int kClones = 8;       // of an object at a time
 
-// Measured `after` the stamp's instant, or before: by what a clock is off the schedule. A position of then is taken as
-// H F(after) x + v of the instant's state. What noise does to the object meanwhile is left out: in position a variance
-// of q after^3 / 3, and a covariance of q after^2 lag / 2 with where it is now; of 1 us a tenth of a second ago, at
-// q = 3 m^2/s^3, 1e-18 m^2 and 1.5e-13 m^2.
+// The measurement happened `after` the stamp's instant, or before it if negative: the clock's deviation from
+// the schedule. The position is taken as H F(after) x + v of the instant's state. The object's noise within
+// `after` is neglected. It adds a position variance of q after^3 / 3 and a covariance of q after^2 lag / 2 with
+// the present position. For 1 us and a lag of 0.1 s at q = 3 m^2/s^3 these are 1e-18 m^2 and 1.5e-13 m^2.
 struct When {
   oosm::Stamp stamp;
   Duration after{};
@@ -32,20 +32,21 @@ struct When {
 class Pasts {
  public:
   virtual ~Pasts() = default;
-  // Forgets what the slot held: an object is believed to be at `estimate` at `time`.
+  // Forgets the slot's content; the object starts with `estimate` at `time`.
   virtual void start(std::size_t slot, GlobalTime time, const estimators::Estimate& estimate) = 0;
   virtual void announce(std::size_t slot, const oosm::Stamp& stamp) = 0;
-  // What a position measured then is an innovation to (law L9 of fusion/oosm/method.h); nothing where take() would not
-  // take it.
+  // Returns the state that a position measured then is an innovation to (law L9 of fusion/oosm/method.h); no
+  // value if take() would refuse it.
   virtual std::optional<estimators::Estimate> at(std::size_t slot, const When& when) const = 0;
   virtual oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& position) = 0;
-  // Predicted to `time`.
+  // Returns the newest estimate, predicted to `time`.
   virtual estimators::Estimate newest(std::size_t slot, GlobalTime time) const = 0;
 };
 
-// For straight motion, config.late, and so many objects. What a slot takes: fusion/strategies/late/late_updates.h.
+// Makes the pasts for straight motion and config.late. fusion/strategies/late/late_updates.h lists the memory of
+// a slot.
 std::unique_ptr<Pasts> make_pasts(const config::TrackerConfig& config, std::size_t slots);
-// Of one motion. One source file each: the compiler takes its time over them.
+// Make the pasts of one motion, each in its own source file: these templates compile slowly.
 std::unique_ptr<Pasts> make_at_constant_velocity(const config::TrackerConfig& config, std::size_t slots);
 std::unique_ptr<Pasts> make_at_constant_acceleration(const config::TrackerConfig& config, std::size_t slots);
 

@@ -1,4 +1,4 @@
-// Pasts (fusion/strategies/late/pasts.h) of one motion, under every method.
+// The pasts (fusion/strategies/late/pasts.h) of one motion, under every method.
 #pragma once
 
 #include <memory>
@@ -42,7 +42,7 @@ template <motion::LinearModel M, oosm::Method X> class PastsOf final : public Pa
   }
   estimators::Estimate newest(std::size_t slot, GlobalTime time) const override {
     const Duration elapsed = time - methods_[slot].time();
-    if (elapsed < Duration{}) return moved(methods_[slot].state(), elapsed);  // an instant of a clock that is ahead
+    if (elapsed < Duration{}) return moved(methods_[slot].state(), elapsed);  // the instant of a fast clock
     return oosm::advanced<kN>(methods_[slot].state(), motion_, elapsed);
   }
 
@@ -53,7 +53,7 @@ template <motion::LinearModel M, oosm::Method X> class PastsOf final : public Pa
   linear::Matrix<kN> transition(Duration by) const {
     return motion_.jacobian(linear::Vector<kN>::Zero(), by.seconds());
   }
-  // By what a clock is off, forwards or backwards: no noise.
+  // Moves a state by a clock's deviation, forwards or backwards, without noise.
   State moved(const State& state, Duration by) const {
     if (by == Duration{}) return state;
     const linear::Matrix<kN> f = transition(by);
