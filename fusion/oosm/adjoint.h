@@ -1,14 +1,14 @@
-// The adjoint (Bryson-Frazier) pass: what the innovations after tau say about x(tau), gathered backwards from the
-// newest update to the first after tau, without any inverse of F or P (Bryson, Frazier: "Smoothing for Linear and
-// Nonlinear Dynamic Systems", 1963; here with the cross-covariance to the newest instant).
+// The adjoint (Bryson-Frazier) pass gathers the information about x(tau) from all later innovations, backwards
+// from the newest update to the first after tau. It needs no inverse of F or P (Bryson, Frazier: "Smoothing for
+// Linear and Nonlinear Dynamic Systems", 1963; here with the cross-covariance to the newest instant).
 //
-// With the last estimate not after tau predicted to tau, xb, Pb, and r = 0, L = 0, Phi = I, for i = k down to the
-// first update after tau, M(i) = I - K H:
+// xb, Pb are the last estimate not after tau, predicted to tau. The pass starts with r = 0, L = 0, Phi = I and
+// runs from i = k down to the first update after tau, with M(i) = I - K H:
 //   r <- H' S^-1 nu + M' r,  L <- H' S^-1 H + M' L M,  then over the step before it, F(i):  r <- F' r,  L <- F' L F,
 //   Phi <- Phi M F;     x(tau) = xb + Pb r,  P(tau) = Pb - Pb L Pb,  cov(x(k), x(tau)) = Phi Pb.
-// Exact       one late measurement, at any lag. Gains and innovations before t(k) are not those of a filter that
-//             knew it, so what was stored is of no more use for another one: after each late measurement the
-//             history begins anew at t(k), and what is older is too old. So whatever is taken is exact.
+// Exact       one late measurement, at any lag. Gains and innovations before t(k) do not know that measurement, so they
+//             are useless for another one. After each late measurement the history restarts at t(k), and older stamps
+//             are too old. So every measurement that is taken is exact.
 // Stores      stamp, x, P, F, M, H' S^-1 nu, H' S^-1 H of every measurement in order since, within the capacity.
 // Costs       some seven products of n x n per lag, and some in order to store them.
 #pragma once
@@ -91,7 +91,7 @@ template <int N, int M, Motion<N> Model, int Capacity> class Adjoint {
     entry.information = whitened.h.transpose() * whitened.h;
   }
 
-  // `first` is the first entry after tau.
+  // Retrodicts to tau; `first` is the first entry after tau.
   [[gnu::flatten]] Retrodicted<N> retrodicted(GlobalTime tau, int first) const {
     linear::Vector<N> r = linear::Vector<N>::Zero();
     linear::Matrix<N> information = linear::Matrix<N>::Zero(), transition = linear::Matrix<N>::Identity();

@@ -1,12 +1,12 @@
-// Al1: Algorithm A over any number of lags, by an equivalent measurement (fusion/oosm/collapsed.h).
+// Al1 extends Algorithm A to any number of lags by an equivalent measurement (fusion/oosm/collapsed.h).
 //
-// Exact       at one lag, one late measurement after each in order, where it is Algorithm A. Further back "a few
-//             percent" worse than optimal: the late measurement sees the later ones as if all were of t(k).
-//             Estimates of earlier instants are not mended, so a second late measurement before the next in order
-//             is approximate, too.
+// Exact       at one lag, for one late measurement after each in order; there it is Algorithm A. Further back it is "a
+//             few percent" worse than optimal: the equivalent measurement treats all later ones as if made at t(k).
+//             Estimates of earlier instants stay as they are, so a second late measurement before the next in order is
+//             approximate, too.
 // Stores      x, P of every measurement in order within the capacity; no measurement.
-// Costs       constant in the lag: two steps of the motion, an inverse of F, a factorisation of P*, some ten
-//             products of n x n.
+// Costs       constant in the lag: two steps of the motion, an inverse of F, a factorisation of P*, some ten products
+//             of n x n.
 #pragma once
 
 #include "fusion/oosm/collapsed.h"

@@ -1,13 +1,13 @@
-// Algorithm A (Bar-Shalom 2002, section III): exact for one late measurement of the last interval.
+// Algorithm A (Bar-Shalom 2002, section III) is exact for one late measurement of the last interval.
 //
-// The noise v between tau and t(k) is not zero in the mean any more once z(k) is known. With P- = P(k|k-1), and of
-// the last update u = H' S^-1 nu, U = H' S^-1 H:
+// Given z(k), the noise v between tau and t(k) has a mean other than zero. With P- = P(k|k-1), and u = H' S^-1
+// nu and U = H' S^-1 H of the last update:
 //   E v = Q u,  cov(v) = Q - Q U Q,  cov(x(k), v) = Q - P- U Q.
-// Exact       one late measurement after each in order. A second one of the same interval is taken as if the first
-//             had been measured at t(k), in its effect on x(k): u <- u + P-^-1 dx, U <- U + P-^-1 (P - P+) P-^-1.
-//             That keeps every covariance positive, and is not exact.
+// Exact       one late measurement after each in order. For a second one of the same interval, the first counts as
+//             measured at t(k), by its effect on x(k): u <- u + P-^-1 dx, U <- U + P-^-1 (P - P+) P-^-1. Every
+//             covariance stays positive, but the result is not exact.
 // Stores      x, P; P-, u, U of the last update.
-// Costs       a step backwards: an inverse of F and some ten products of n x n; no history is looked at.
+// Costs       a step backwards: an inverse of F and some ten products of n x n; no history.
 #pragma once
 
 #include "fusion/oosm/one_lag.h"

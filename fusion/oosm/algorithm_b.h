@@ -1,6 +1,6 @@
-// Algorithm B (Bar-Shalom 2002, section IV): Algorithm A without the last innovation. The noise v between tau and
-// t(k) is taken as zero in the mean, with  cov(v) = Q,  cov(x(k), v) = Q - P- U Q,  P- = P(k|k-1),  U = H' S^-1 H
-// of the last update.
+// Algorithm B (Bar-Shalom 2002, section IV) is Algorithm A without the last innovation. It assumes that the
+// noise v between tau and t(k) has mean zero. With P- = P(k|k-1), and U = H' S^-1 H of the last update:
+//   cov(v) = Q,  cov(x(k), v) = Q - P- U Q.
 //
 // Exact       without process noise only. "Practically indistinguishable" from A in the paper's examples.
 //             A second late measurement of the same interval: as in algorithm_a.h.

@@ -1,8 +1,8 @@
-// Algorithm C (Bar-Shalom 2002, section V): the noise between tau and t(k) is ignored, x(tau) = F^-1 x(k).
+// Algorithm C (Bar-Shalom 2002, section V) ignores the noise between tau and t(k): x(tau) = F^-1 x(k).
 //
-// Exact       without process noise only. With it the covariance is too small, and at high noise the estimate is
-//             worse than without the late measurement: a yardstick, not a choice.
-// Stores      x, P, nothing else.
+// Exact       without process noise only. With noise the covariance is too small, and with strong noise the estimate is
+//             worse than without the late measurement. It serves as a yardstick, not as a choice.
+// Stores      only x, P.
 // Costs       a step backwards: an inverse of F and four products of n x n.
 #pragma once
 

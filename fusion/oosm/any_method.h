@@ -1,5 +1,5 @@
-// A method chosen at run time. It satisfies the same laws as the one inside; what is exact is asked of the object.
-// Its size is that of the largest, the augmented state, whatever is chosen.
+// A method chosen at run time. It satisfies the laws of the method inside; exactness() returns that method's
+// exactness. Its size is always that of the largest, the augmented state.
 #pragma once
 
 #include <cstddef>
@@ -24,12 +24,12 @@ namespace ttf::fusion::oosm {
 template <int N, int M, Motion<N> Model, int Capacity = 16, int Clones = 8> class AnyMethod {
  public:
   static constexpr int kStates = N, kDimension = M;
-  static constexpr Exactness kExactness = Exactness::kApproximate;  // the least that may be inside
+  static constexpr Exactness kExactness = Exactness::kApproximate;  // the least exactness of all
 
   AnyMethod(Kind kind, const Model& motion) : method_(make(kind, motion)) {}
 
   Kind kind() const { return kKinds[method_.index()].kind; }
-  // Of the one inside.
+  // Returns the exactness of the method inside.
   Exactness exactness() const {
     return std::visit([](const auto& method) { return std::decay_t<decltype(method)>::kExactness; }, method_);
   }

@@ -1,14 +1,13 @@
-// Augmented state: the newest state and those of the last instants are estimated together (fusion/oosm/joint.h), so
-// that a late measurement is an ordinary one of an earlier part of the whole (Challa, Evans, Wang: "A Bayesian
-// solution and its approximations to out-of-sequence measurement problems", Information Fusion 4(3), 2003; Koch,
-// Govaers 2011).
+// The augmented state estimates the newest state and those of the last instants together (fusion/oosm/joint.h).
+// So a late measurement is an ordinary measurement of an earlier part of the joint state (Challa, Evans, Wang:
+// "A Bayesian solution and its approximations to out-of-sequence measurement problems", Information Fusion
+// 4(3), 2003; Koch, Govaers 2011).
 //
-// A late measurement of an instant between two becomes an instant of its own, by Markov interpolation, and is kept,
-// because what is measured between the same two later depends on it.
-// Exact       whatever is taken, in any order of arrival, to rounding (the motion composes).
+// A late measurement between two instants adds an instant by Markov interpolation. The instant stays, because
+// later measurements between the same two depend on it.
+// Exact       everything that is taken, in any order of arrival, to rounding (the motion composes).
 // Stores      the joint distribution of the newest and Capacity - 1 earlier instants: O(capacity^2 n^2).
-// Costs       O(instants^2 n^2 m) for every update, late or not, whatever the lag; what is forgotten costs nothing
-//             any more.
+// Costs       O(instants^2 n^2 m) for every update, late or not, at every lag; forgotten instants cost nothing.
 #pragma once
 
 #include <array>
@@ -76,7 +75,7 @@ template <int N, int M, Motion<N> Model, int Capacity> class Augmented {
 
   static std::size_t place(int slot) { return static_cast<std::size_t>(slot); }
 
-  // Late stamps only: the newest state is after them.
+  // Takes late stamps only: the newest state is after them.
   Neighbours neighbours(const Stamp& stamp) const {
     Neighbours found;
     for (int i = 0; i < joint_.size(); ++i) {
@@ -103,7 +102,7 @@ template <int N, int M, Motion<N> Model, int Capacity> class Augmented {
     return result;
   }
 
-  // With the newest, no more than Capacity instants: the oldest goes.
+  // Keeps at most Capacity instants, the newest included: drops the oldest.
   void forget() {
     if (joint_.size() < Capacity) return;
     int oldest = 0;

@@ -1,9 +1,8 @@
-// Bl1: Algorithm B over any number of lags, by an equivalent measurement (fusion/oosm/collapsed.h).
+// Bl1 extends Algorithm B to any number of lags by an equivalent measurement (fusion/oosm/collapsed.h).
 //
-// Exact       without process noise, one late measurement after each in order.
+// Exact       without process noise, for one late measurement after each in order.
 // Stores      x, P of every measurement in order within the capacity; no measurement.
-// Costs       as Al1, little less. Its mean and Al1's covariance must not be mixed: that is inconsistent at several
-//             lags.
+// Costs       as Al1, slightly less. Do not mix its mean with Al1's covariance: that is inconsistent at several lags.
 #pragma once
 
 #include "fusion/oosm/collapsed.h"

@@ -1,14 +1,14 @@
-// Forward fixed-point clones: the schedule knows at which instants will be measured, so the state of such an
-// instant is cloned when time passes it without the measurement, and every later update mends the clone too
-// (fixed-point smoothing, Meditch: "Stochastic Optimal Linear Estimation and Control", 1969). When the measurement
-// comes it corrects clone and newest state together, and the clone has served.
+// Forward fixed-point clones. The schedule knows the instants of all measurements. When time passes such an
+// instant without the measurement, its state is cloned. Every later update corrects the clone, too (fixed-point
+// smoothing, Meditch: "Stochastic Optimal Linear Estimation and Control", 1969). The measurement, when it
+// comes, corrects clone and newest state together; then the clone is dropped.
 //
-// A clone's instant is announced by its stamp before anything later is taken, else announce() is false. A late
-// measurement of a stamp without a clone is not taken: kUnannounced; kTooOld if it is not after a clone that had to
-// go, unserved, because all were in use. A clone whose measurement never comes stays until then. Remembers no stamp
-// but the newest.
-// Exact       whatever is taken, several clones at once, in any order of arrival, to rounding (the motion composes).
-//             Announced instants split the steps of the motion, which rounds otherwise than one step.
+// A clone's instant is announced by its stamp before any later measurement is taken; otherwise announce()
+// returns false. A late measurement without a clone is refused as kUnannounced. It is kTooOld if its stamp is
+// not after a clone that was dropped without its measurement because all clones were in use. A clone whose
+// measurement never comes stays until it is dropped so. Only the newest stamp is remembered.
+// Exact       everything that is taken, several clones at once, in any order of arrival, to rounding (the motion
+//             composes). Announced instants split the steps of the motion, which rounds differently from one step.
 // Stores      x, P; of every clone its mean, covariance, and cross-covariances to the newest state and the other
 //             clones. No history.
 // Costs       late: O(n^2 m) per clone and pair of clones, the same at every lag; in order O(n^3) per clone and
@@ -24,7 +24,7 @@
 
 namespace ttf::fusion::oosm {
 
-// Clones at once, and as many announcements of instants that time has not passed yet.
+// Clones is the most clones at once, and the most announced instants that time has not passed.
 template <int N, int M, Motion<N> Model, int Clones> class Clone {
  public:
   static constexpr int kStates = N, kDimension = M;
@@ -38,7 +38,7 @@ template <int N, int M, Motion<N> Model, int Clones> class Clone {
     pending_ = 0;
   }
 
-  // False if the stamp is not after the newest taken, or too many are announced already.
+  // Returns false if the stamp is not after the newest taken one, or if too many are announced.
   bool announce(const Stamp& stamp) {
     if (stamp <= last_) return false;
     const auto end = announced_.begin() + pending_;
@@ -86,7 +86,7 @@ template <int N, int M, Motion<N> Model, int Clones> class Clone {
     if (elapsed > Duration{}) joint_.propagate(motion_.step(elapsed.seconds()));
   }
 
-  // Clones what was announced before `stamp`; `stamp` itself is about to be taken.
+  // Clones the announced instants before `stamp`; `stamp` itself is about to be taken.
   void pass(const Stamp& stamp) {
     reached_ = last_.time();
     int i = 0;

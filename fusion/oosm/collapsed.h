@@ -1,13 +1,13 @@
-// What Al1 and Bl1 have in common (Bar-Shalom, Chen, Mallick: "One-Step Solution for the Multistep
-// Out-of-Sequence-Measurement Problem in Tracking", IEEE TAES 40(1), 2004): everything that was measured after tau
-// is collapsed into one equivalent measurement of all of x(k), so that a measurement of any age is taken in as if
-// it were one lag late.
+// The common part of Al1 and Bl1 (Bar-Shalom, Chen, Mallick: "One-Step Solution for the Multistep
+// Out-of-Sequence-Measurement Problem in Tracking", IEEE TAES 40(1), 2004). They collapse all measurements
+// after tau into one equivalent measurement of x(k). So a measurement of any age is taken in as if it were one
+// lag late.
 //
 // With x(j), P(j) the last estimate not after tau, and x*, P* its prediction to t(k):
 //   S*^-1 = P*^-1 - P*^-1 P P*^-1,  S*^-1 nu* = P*^-1 (x - x*);  cov(x(k), v) = Q - P* S*^-1 Q = P P*^-1 Q,
 //   Al1: E v = Q S*^-1 nu*, cov(v) = Q - Q S*^-1 Q;  Bl1: E v = 0, cov(v) = Q.
-// No equivalent measurement is ever formed, and only P* is factored, which must be regular: some noise, or a prior
-// that knows nothing exactly.
+// The code never forms the equivalent measurement and factors only P*. P* must be regular: with some noise, or
+// with a prior without exact components.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ namespace ttf::fusion::oosm {
 
 enum class Noise : std::uint8_t { kRetrodicted = 0, kIgnored = 1 };  // Al1, Bl1
 
-// `predicted` is (x*, P*), `step` goes from tau to t(k).
+// Retrodicts from t(k) to tau. `predicted` is (x*, P*), `step` goes from tau to t(k).
 template <int N>
 [[gnu::flatten]] Retrodicted<N> retrodict_collapsed(const linear::Gaussian<N>& now,
                                                     const linear::Gaussian<N>& predicted,
@@ -35,7 +35,7 @@ template <int N>
   return retrodict<N>(now, step.f, mean, step.q - share.transpose() * step.q + share.transpose() * cross, cross);
 }
 
-// Remembers the stamps taken in order, and nothing of late ones.
+// Remembers the stamps taken in order and forgets late ones.
 template <int N, int M, Motion<N> Model, int Capacity, Noise kNoise> class Collapsed {
  public:
   static constexpr int kStates = N, kDimension = M;
@@ -79,10 +79,10 @@ template <int N, int M, Motion<N> Model, int Capacity, Noise kNoise> class Colla
  private:
   struct Entry {
     Stamp stamp;
-    linear::Gaussian<N> estimate;  // as it was when the next one came
+    linear::Gaussian<N> estimate;  // before the next entry
   };
 
-  // `then` is the last not after tau.
+  // Retrodicts to tau; `then` is the last entry not after tau.
   Retrodicted<N> retrodicted(GlobalTime tau, const Entry& then) const {
     const linear::Gaussian<N> predicted = advanced<N>(then.estimate, motion_, time() - then.stamp.time());
     const Duration lag = time() - tau;

@@ -1,11 +1,12 @@
-// The update in order that all methods here share, and what they keep of it. With S = H P H' + R = L L' (Cholesky):
+// The update in order that all methods here share, and its parts for later use. With S = H P H' + R = L L'
+// (Cholesky):
 //   h = L^-1 H,  nu = L^-1 (z - H x),  V = P h',  K = V L^-1;   x <- x + V nu,  T = P - V V',
-//   P <- T - (T H' - K R) K',   which is the Joseph form multiplied out: O(n^2 m), and I - K H is never formed.
-// It is the update of fusion/filters/correct.h up to rounding, at any P and H. What later measurements say about
-// earlier states is made of h, nu and V alone:  H' S^-1 H = h' h,  H' S^-1 nu = h' nu,  K H = V h.
+//   P <- T - (T H' - K R) K',   the Joseph form multiplied out: O(n^2 m), and I - K H is never formed.
+// It equals the update of fusion/filters/correct.h up to rounding, for any P and H. Retrodiction needs only h,
+// nu and V of it:  H' S^-1 H = h' h,  H' S^-1 nu = h' nu,  K H = V h.
 //
-// [[gnu::flatten]], here and in the other small functions of this room that are all arithmetic: at -O2 the compiler
-// leaves most of Eigen's small products as calls, which cost more than what they compute.
+// [[gnu::flatten]] marks the small arithmetic functions of this folder. At -O2 the compiler leaves most of
+// Eigen's small products as calls, which cost more than the products.
 #pragma once
 
 #include "fusion/linear/gaussian.h"

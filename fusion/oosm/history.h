@@ -1,5 +1,5 @@
-// What came, in the order of the stamps, oldest first: a ring of a fixed capacity. Entry is a value with a member
-// `stamp`.
+// The history of the taken measurements in the order of their stamps, oldest first: a ring of fixed capacity.
+// Entry is a value with a member `stamp`.
 #pragma once
 
 #include <array>
@@ -22,15 +22,15 @@ template <class Entry, int Capacity> class History {
 
   void clear() { first_ = size_ = 0; }
 
-  // The number of entries that are not after `stamp`; late stamps are searched from the newest on.
+  // Returns the number of entries that are not after `stamp`; searches from the newest on.
   int not_after(const Stamp& stamp) const {
     int n = size_;
     while (n > 0 && (*this)[n - 1].stamp > stamp) --n;
     return n;
   }
 
-  // Makes room at place i, 0 < i <= size(), by moving what is younger; the oldest is forgotten if the ring was
-  // full. Returns the place made, i or i - 1, which holds something old.
+  // Makes room at place i, 0 < i <= size(), by moving younger entries; a full ring forgets its oldest. Returns
+  // the place, i or i - 1, which still holds an old entry.
   int open(int i) {
     TTF_CHECK(i > 0 && i <= size_, "place {} of {}", i, size_);
     if (size_ == Capacity) {
@@ -43,7 +43,7 @@ template <class Entry, int Capacity> class History {
     return i;
   }
 
-  // The same, behind the newest.
+  // Makes room behind the newest entry in the same way.
   Entry& append() {
     if (size_ == Capacity)
       first_ = place(1);

@@ -1,15 +1,15 @@
-// The joint normal distribution of the newest state and of some earlier ones that are kept: the accumulated state
+// The joint normal distribution of the newest state and of some kept earlier ones: the accumulated state
 // density (Koch, Govaers: "On Accumulated State Densities with Applications to Out-of-Sequence Measurement
-// Processing", IEEE TAES 47(4), 2011), with slots in any order, so that nothing is moved but the blocks of what
-// comes and goes.
+// Processing", IEEE TAES 47(4), 2011). Slots are in any order, so that only the blocks of added and dropped
+// states move.
 //
-// Kept per slot i: x(i), C(i) = cov(x(i), x(now)), and A(i, j) = cov(x(i), x(j)) for j <= i.
+// Each slot i has x(i), C(i) = cov(x(i), x(now)), and A(i, j) = cov(x(i), x(j)) for j <= i.
 //   keep       the newest state becomes a slot: x(i) = x, C(i) = P, A(i, j) = C(j)'
 //   propagate  x <- F x, P <- F P F' + Q, C(i) <- C(i) F'
-//   correct    of slot a or of the newest, G(.) = cov(., x(a)) H', S = L L', V(.) = G(.) L'^-1:
-//              x(.) += V(.) L^-1 nu,  cov(i, j) -= V(i) V(j)', of the newest itself in Joseph form (correction.h)
-//   insert     a state between two: below
-// Costs O(slots^2 n^2 m) for a correction, O(slots n^3) for the others.
+//   correct    slot a or the newest, G(.) = cov(., x(a)) H', S = L L', V(.) = G(.) L'^-1:
+//              x(.) += V(.) L^-1 nu,  cov(i, j) -= V(i) V(j)', for the newest itself in Joseph form (correction.h)
+//   insert     a state between two others: below
+// A correction costs O(slots^2 n^2 m), the others O(slots n^3).
 #pragma once
 
 #include <array>
@@ -21,18 +21,18 @@
 
 namespace ttf::fusion::oosm {
 
-// x(tau) = a x(before) + b x(after) + e, e ~ N(0, q) and independent of all else.
+// x(tau) = a x(before) + b x(after) + e, with e ~ N(0, q) independent of everything else.
 template <int N> struct Bridge {
   linear::Matrix<N> a = linear::Matrix<N>::Zero();
   linear::Matrix<N> b = linear::Matrix<N>::Zero();
   linear::Matrix<N> q = linear::Matrix<N>::Zero();
 };
 
-// A Markov process between two instants, `first` leading from the earlier one to tau and `second` from there to the
-// later:
+// Returns the bridge of a Markov process between two instants. `first` leads from the earlier one to tau,
+// `second` from tau to the later one:
 //   b = Q1 F2' (F2 Q1 F2' + Q2)^-1,  a = F1 - b F2 F1,  q = Q1 - b F2 Q1
 // (the gain as in Garcia-Fernandez, Yi: "Continuous-discrete multiple target tracking with out-of-sequence
-// measurements", IEEE TSP 69, 2021, eq. 36-37). Without noise the earlier instant alone tells.
+// measurements", IEEE TSP 69, 2021, eq. 36-37). Without noise only the earlier instant counts.
 template <int N>
 [[gnu::flatten]] Bridge<N> bridge(const linear::LinearStep<N>& first, const linear::LinearStep<N>& second) {
   const linear::Matrix<N> fq = second.f * first.q;
@@ -51,7 +51,7 @@ template <int N>
 
 template <int N, int M, int Slots> class Joint {
  public:
-  static constexpr int kNow = -1;  // in place of a slot: the newest state
+  static constexpr int kNow = -1;  // stands for the newest state
 
   const linear::Gaussian<N>& now() const { return now_; }
   int size() const { return size_; }
@@ -95,7 +95,7 @@ template <int N, int M, int Slots> class Joint {
   }
 
   linear::Gaussian<N> kept(int s) const { return {x_[at(s)], between(s, s)}; }
-  // What insert() of the same would keep.
+  // Returns the state that insert() would keep.
   [[gnu::flatten]] linear::Gaussian<N> interpolated(int before, int after, const Bridge<N>& bridge) const {
     const linear::Gaussian<N> then = kept(before), later = after == kNow ? now_ : kept(after);
     const linear::Matrix<N> mixed = bridge.b * between(after, before) * bridge.a.transpose();
@@ -107,7 +107,7 @@ template <int N, int M, int Slots> class Joint {
     return result;
   }
 
-  // A new slot by interpolation between the slot `before` and `after`, a slot or kNow.
+  // Adds a slot by interpolation between the slot `before` and `after`, a slot or kNow.
   [[gnu::flatten]] int insert(int before, int after, const Bridge<N>& bridge) {
     const int s = room();
     const linear::Gaussian<N>& now = now_;
@@ -123,7 +123,7 @@ template <int N, int M, int Slots> class Joint {
     return s;
   }
 
-  // The last slot takes the place of the dropped one.
+  // Drops a slot; the last slot takes its place.
   void drop(int s) {
     TTF_CHECK(s >= 0 && s < size_, "slot {} of {}", s, size_);
     const int last = --size_;
@@ -142,7 +142,7 @@ template <int N, int M, int Slots> class Joint {
   static std::size_t at(int i, int j) { return at(i) * (at(i) + 1) / 2 + at(j); }
   linear::Matrix<N>& block(int i, int j) { return blocks_[at(i, j)]; }
 
-  // cov(x(i), x(j)), i and j slots or i the newest.
+  // Returns cov(x(i), x(j)); i is a slot or kNow, j a slot.
   linear::Matrix<N> between(int i, int j) const {
     linear::Matrix<N> result;
     if (i == kNow)
@@ -159,7 +159,7 @@ template <int N, int M, int Slots> class Joint {
     return size_++;
   }
 
-  // What the slots learn; their V is in gains_.
+  // Corrects the slots; their V is in gains_.
   [[gnu::flatten]] void learn(const linear::Matrix<N, M>& now, const linear::Vector<M>& nu) {
     for (int i = 0; i < size_; ++i) {
       const linear::Matrix<N, M>& v = gains_[at(i)];
@@ -174,7 +174,7 @@ template <int N, int M, int Slots> class Joint {
   std::array<linear::Vector<N>, Slots> x_{};
   std::array<linear::Matrix<N>, Slots> cross_{};
   std::array<linear::Matrix<N>, kBlocks> blocks_{};
-  std::array<linear::Matrix<N, M>, Slots> gains_{};  // of the correction at work
+  std::array<linear::Matrix<N, M>, Slots> gains_{};  // of the current correction
 };
 
 }  // namespace ttf::fusion::oosm

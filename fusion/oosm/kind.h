@@ -1,4 +1,4 @@
-// The methods by name, as a user selects them.
+// The methods by name, for selection by users.
 #pragma once
 
 #include <array>

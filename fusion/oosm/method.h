@@ -1,30 +1,29 @@
-// Measurements out of sequence, on the level of one Gaussian state: what every method does, and how one is told from
-// another. A late measurement is one whose stamp lies before what was taken already.
+// Methods for measurements out of sequence, for one Gaussian state: their common interface and their
+// differences. A late measurement has a stamp before the newest taken one.
 //
-// Order of measurements, everywhere: (time, sensor, sequence). A start lies before all measurements of its instant.
-// Model: x(t + dt) = F(dt) x(t) + w, w ~ N(0, Q(dt)), z = H x + v, v ~ N(0, R); all noises independent.
+// The order of measurements is always (time, sensor, sequence). A start precedes all measurements of its
+// instant. Model: x(t + dt) = F(dt) x(t) + w, w ~ N(0, Q(dt)), z = H x + v, v ~ N(0, R); all noises
+// independent.
 //
 // Laws, which the tests carry in their names:
-//  L1 InOrder     a stamp after all that were taken is kInOrder. While nothing is late and nothing was announced,
-//                 state() is bit for bit what predict() and correct() (fusion/oosm/correction.h) give, one step
-//                 from stamp to stamp.
-//  L2 Newest      state() is the estimate at time(), the time of the newest stamp taken (or of the start): a late
+//  L1 InOrder     A stamp after all taken ones is kInOrder. Without late or announced stamps, state() is bit for bit
+//                 the result of predict() and correct() (fusion/oosm/correction.h), one step from stamp to stamp.
+//  L2 Newest      state() is the estimate at time(), the time of the newest taken stamp (or of the start). A late
 //                 measurement moves neither backwards.
-//  L3 Refused     what is not taken (kTooOld, kDuplicate, kUnannounced) changes no bit of what the method says,
+//  L3 Refused     A refused measurement (kTooOld, kDuplicate, kUnannounced) changes no bit of the method's results,
 //                 then or later.
-//  L4 Gains       a late measurement that is taken never adds uncertainty: P+ <= P, and P+ stays symmetric to the
-//                 bit and positive semi-definite, both up to rounding: no eigenvalue of P - P+ or P+ is below
-//                 -1e-13 |P|, for R down to 1e-8 of the variance of what is measured.
-//  L5 Value       a copy goes its own way: the same measurements give the same bits, and the original knows nothing
-//                 of it.
-//  L6 NoHeap      nothing allocates. Histories are of a fixed capacity; when one is full the oldest entry is
-//                 forgotten.
-//  L7 Start       start() forgets everything but the motion.
-//  L8 Exact       a method gives, up to rounding, the estimate of processing in order whatever it took, within what
-//                 kExactness says.
-//  L9 Sight       at(stamp) is what a measurement of this stamp is an innovation to: there exactly where take() would
-//                 take one, changing nothing; of a later stamp the prediction, of a late one the state of then as the
-//                 method believes it, given all that was taken (rewinding: given all before it).
+//  L4 Gains       A late measurement that is taken never adds uncertainty: P+ <= P. P+ stays symmetric to the bit and
+//                 positive semi-definite. Both hold up to rounding: no eigenvalue of P - P+ or P+ is below -1e-13 |P|,
+//                 for R down to 1e-8 of the variance of the measured quantity.
+//  L5 Value       A copy is independent: the same measurements give it the same bits, and the original does not change.
+//  L6 NoHeap      Methods never allocate. Histories have a fixed capacity; a full one forgets its oldest entry.
+//  L7 Start       start() forgets everything except the motion.
+//  L8 Exact       Within kExactness, after any measurements, the estimate is that of processing in order, up to
+//                 rounding.
+//  L9 Sight       at(stamp) returns the state to which a measurement of this stamp is an innovation. It has a value
+//                 exactly if take() would take the measurement, and changes nothing. For a stamp after the newest it is
+//                 the prediction. For a late one it is the method's estimate of that instant, given all taken
+//                 measurements (for rewinding: given all earlier ones).
 #pragma once
 
 #include <compare>
@@ -57,29 +56,29 @@ class Stamp {
 
 enum class Taken : std::uint8_t {
   kInOrder = 1,
-  kLate = 2,         // taken in behind what was there
-  kTooOld = 3,       // older than what the method remembers: not taken
-  kDuplicate = 4,    // a stamp the method remembers: not taken again
-  kUnannounced = 5,  // late, and of an instant the method was not told of in time: not taken
+  kLate = 2,         // taken behind the newest
+  kTooOld = 3,       // older than the method's memory: refused
+  kDuplicate = 4,    // a stamp in the method's memory: refused
+  kUnannounced = 5,  // late, and not announced in time: refused
 };
 
-// What is exact besides processing in order. Motions that compose (below) provided.
+// The measurements beside those in order that are exact, for motions that compose (below).
 enum class Exactness : std::uint8_t {
   kApproximate = 0,
-  kOneLate = 1,  // one late measurement, after what is measured in order and before the next late one
+  kOneLate = 1,  // one late measurement, after those in order and before the next late one
   kAlways = 2,   // everything that is taken, in any order of arrival
 };
 
-// F(dt) and Q(dt) of a step of dt > 0 seconds. Methods that look into the middle of a step are as exact as the motion
-// composes: F(a + b) = F(b) F(a), Q(a + b) = F(b) Q(a) F(b)' + Q(b), which discretised white noise in continuous
-// time does, and noise that is constant within every step does not. Rewinding needs no such thing.
+// F(dt) and Q(dt) of a step of dt > 0 seconds. Methods that split a step are as exact as the motion composes:
+// F(a + b) = F(b) F(a), Q(a + b) = F(b) Q(a) F(b)' + Q(b). Discretised white noise in continuous time composes;
+// noise that is constant within a step does not. Rewinding needs no such property.
 template <class X, int N>
 concept Motion = std::copyable<X> && requires(const X& motion, double dt) {
   { motion.step(dt) } -> std::same_as<linear::LinearStep<N>>;
 };
 
-// announce() says beforehand that a measurement of this stamp will come, late perhaps; it is false if the method
-// can do nothing with that any more. Methods that need no such word take it and do nothing.
+// announce() announces a measurement of this stamp, which may come late. It returns false if the method cannot
+// use that any more. Methods that need no announcement return true and do nothing.
 template <class X>
 concept Method = std::copyable<X> &&
     requires(X x, const X& told, GlobalTime time, const Stamp& stamp, const linear::Gaussian<X::kStates>& prior,
@@ -93,7 +92,7 @@ concept Method = std::copyable<X> &&
   { told.time() } -> std::same_as<GlobalTime>;
 };
 
-// Over `elapsed`, which may be nothing.
+// Advances the state over `elapsed`, which may be zero.
 template <int N, Motion<N> M>
 [[gnu::flatten]] void advance(linear::Gaussian<N>& state, const M& motion, Duration elapsed) {
   if (elapsed > Duration{}) linear::predict<N>(state, motion.step(elapsed.seconds()));

@@ -1,11 +1,11 @@
-// What Algorithms A, B and C have in common (Bar-Shalom: "Update with Out-of-Sequence Measurements in Tracking: Exact
-// Solution", IEEE TAES 38(3), 2002): they go one measurement back, t(k-1) <= tau <= t(k), over the inverse of F
-// from tau to t(k).
+// The common part of Algorithms A, B and C (Bar-Shalom: "Update with Out-of-Sequence Measurements in Tracking:
+// Exact Solution", IEEE TAES 38(3), 2002). They go one measurement back, t(k-1) <= tau <= t(k), over the
+// inverse of F from tau to t(k).
 //
-// They differ in what they keep of the last update, which is a Memory:
-//   corrected(predicted, whitened)        the update of a measurement in order has been done, from P- = `predicted`
-//   retrodict(now, step)                  x(tau), step being that from tau to t(k)
-//   booked(before, now)                   a late measurement led from `before` to `now`, both of t(k)
+// They differ in their Memory of the last update:
+//   corrected(predicted, whitened)        after the update by a measurement in order, from P- = `predicted`
+//   retrodict(now, step)                  x(tau); step goes from tau to t(k)
+//   booked(before, now)                   after a late measurement changed `before` to `now`, both at t(k)
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace ttf::fusion::oosm {
 
-// Remembers the last two stamps taken in order, and nothing of late ones.
+// Remembers the last two stamps taken in order and forgets late ones.
 template <int N, int M, Motion<N> Model, class Memory, Exactness kExact> class OneLag {
  public:
   static constexpr int kStates = N, kDimension = M;

@@ -1,10 +1,10 @@
-// What is known at the newest instant k of the state at an earlier instant tau, and how a measurement of then is
-// taken in.
+// The estimate of an earlier instant tau at the newest instant k, and the update by a measurement of tau.
 //
-// With  xt, Pt  mean and covariance of x(tau) and  C = cov(x(k), x(tau)), all given what was taken so far:
+// With  xt, Pt  mean and covariance of x(tau) and  C = cov(x(k), x(tau)), all given the measurements taken so
+// far:
 //   nu = z - H xt,  S = H Pt H' + R,  W = C H' S^-1,  x <- x + W nu,  P <- P - W S W'.
-// With S = L L' (Cholesky) and V = C H' L'^-1 that is  x <- x + V L^-1 nu,  P <- P - V V', which is symmetric to
-// the bit.
+// With S = L L' (Cholesky) and V = C H' L'^-1 this is  x <- x + V L^-1 nu,  P <- P - V V', symmetric to the
+// bit.
 #pragma once
 
 #include <Eigen/LU>
@@ -30,8 +30,8 @@ template <int N, int M>
   now.p -= v * v.transpose();
 }
 
-// From x(k) = F x(tau) + v and what is known of (x(k), v): mean of v, its covariance, and cov(x(k), v). F is a
-// transition matrix over a short step and well conditioned.
+// Retrodicts over x(k) = F x(tau) + v, given the mean of v, its covariance and cov(x(k), v). F is a transition
+// matrix over a short step and well conditioned.
 template <int N>
 [[gnu::flatten]] Retrodicted<N> retrodict(const linear::Gaussian<N>& now, const linear::Matrix<N>& f,
                                           const linear::Vector<N>& noise, const linear::Matrix<N>& noise_p,

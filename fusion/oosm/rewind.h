@@ -1,10 +1,11 @@
-// Rewind and reprocess: back to the last estimate before the late measurement, then everything again from there.
+// Rewind and reprocess: returns to the last estimate before the late measurement and processes everything from
+// there again.
 //
-// Exact       whatever is taken, and bit for bit what processing in order gives, whatever the order of arrival: the
-//             very same code sees the very same measurements in the same order. Of the motion it assumes nothing.
-//             Where measurements are associated with what they are of, that can be thought over, too.
-// Stores      stamp, measurement, x, P of every measurement within the capacity, late ones included. One that is
-//             forgotten stays fused; what is older than the oldest remembered is too old.
+// Exact       everything that is taken, in any order of arrival, bit for bit as in order: the same code processes the
+//             same measurements in the same order. It assumes nothing of the motion. Associations can be made
+//             anew, too.
+// Stores      stamp, measurement, x, P of every measurement within the capacity, late ones included. A forgotten
+//             measurement stays fused; a stamp older than the oldest remembered is too old.
 // Costs       l + 1 steps of predict and update at lag l.
 #pragma once
 
@@ -71,8 +72,8 @@ template <int N, int M, Motion<N> Model, int Capacity> class Rewind {
  private:
   struct Entry {
     Stamp stamp;
-    linear::LinearMeasurement<N, M> measurement;  // of a start: none
-    linear::Gaussian<N> estimate;                 // after it
+    linear::LinearMeasurement<N, M> measurement;  // unused for a start
+    linear::Gaussian<N> estimate;                 // after the measurement
   };
 
   Model motion_;

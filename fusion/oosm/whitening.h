@@ -1,9 +1,9 @@
-// The inverse of the Cholesky factor, L^-1 of S = L L': turns what has covariance S into independent parts of
-// variance 1. Written out for the one or two dimensions of most measurements.
+// Returns the inverse of the Cholesky factor, L^-1 of S = L L'. It turns a vector of covariance S into
+// independent components of variance 1. The code for one or two dimensions, the usual measurements, is written
+// out.
 //
-// S is symmetric and positive semi-definite. A direction in which it is nothing but rounding (a pivot below 1e-14 of
-// its diagonal element) is left out, its row of L^-1 being zero: there is nothing to learn in it. So  (L^-1)' L^-1
-// is S^-1 where S is regular.
+// S is symmetric and positive semi-definite. A direction that is only rounding (a pivot below 1e-14 of its
+// diagonal element) carries no information: its row of L^-1 is zero. So  (L^-1)' L^-1  is S^-1 if S is regular.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace ttf::fusion::oosm {
 
 inline constexpr double kNoPivot = 1e-14;
 
-// 1 / sqrt(pivot), or nothing.
+// Returns 1 / sqrt(pivot), or zero for a pivot that is only rounding.
 inline double inverse_root(double pivot, double diagonal) {
   return pivot > kNoPivot * diagonal ? 1.0 / std::sqrt(pivot) : 0.0;
 }
