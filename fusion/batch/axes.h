@@ -1,8 +1,9 @@
-// Constant velocity whose axes have nothing to do with each other: the covariance is block-diagonal, as it stays where
-// it begins so and r_xy = 0 in every measurement. Two filters of two states: half the arithmetic of joint.h.
+// Constant velocity with independent axes. The covariance is block-diagonal and stays so if r_xy = 0 in every
+// measurement. Two filters of two states need half the arithmetic of joint.h.
 //
-// The operations are those of filters::Kalman with motion::ConstantVelocity and sensors::Position, in their order; what
-// is left out there is zero. So every number is that filter's, bit for bit (but for the sign of a zero).
+// The operations are those of filters::Kalman with motion::ConstantVelocity and sensors::Position, in their
+// order, without the terms that are zero. So every number equals that filter's bit for bit, except for the sign
+// of a zero.
 #pragma once
 
 #include "fusion/batch/step.h"
@@ -29,7 +30,7 @@ template <class V> [[gnu::always_inline]] inline void predict(Axes<V>& state, co
   });
 }
 
-// The update in Joseph form, multiplied out (fusion/filters/correct.h). Returns the NIS, of lanes that are seen.
+// Updates in Joseph form, multiplied out (fusion/filters/correct.h). Returns the NIS, valid in seen lanes only.
 template <class V> [[gnu::always_inline]] inline V update(Axes<V>& state, const Position<V>& z) {
   V nis{};
   motion::unrolled<2>([&](auto axis) {

@@ -1,11 +1,11 @@
-// Many constant-velocity filters at once: tracks of a crowd, or replications of one. Four go through each operation
-// (lanes.h), in blocks that lie in memory one behind the other; what each gets is what it gets alone.
+// Many constant-velocity filters at once, for the tracks of a crowd or for replications. Each operation handles
+// four filters (lanes.h), in consecutive blocks of memory. Each filter gives the result that it gives alone.
 //
 //   Batch<Axes> batch(1000);  batch.set(i, prior);  batch.predict(step);  z.set(i, measurement);  batch.update(z);
 //
-// Axes (axes.h) where x and y have nothing to do with each other, Joint (joint.h) else. Laws, tested:
-//   L1 Alone    number i is that of filters::Kalman on motion::ConstantVelocity and sensors::Position, bit for bit
-//   L2 Unseen   what has no measurement keeps its bits
+// Axes (axes.h) is for independent axes, Joint (joint.h) for any covariance. Laws, tested:
+//   L1 Alone    filter i is filters::Kalman with motion::ConstantVelocity and sensors::Position, bit for bit
+//   L2 Unseen   a filter without a measurement keeps its bits
 //   L3 NoHeap   nothing allocates after construction
 #pragma once
 
@@ -20,13 +20,13 @@
 
 namespace ttf::fusion::batch {
 
-// A measurement for each filter of a batch, or none.
+// The measurements of a batch, at most one for each filter.
 class Positions {
  public:
   explicit Positions(std::size_t count) : blocks_((count + kLanes - 1) / kLanes) {
     for (Position<Lanes>& block : blocks_) block.r_xx = block.r_yy = Lanes{} + 1.0;
   }
-  // r is positive definite.
+  // Sets a measurement; r is positive definite.
   void set(std::size_t i, const sensors::Measurement<2>& z) {
     Position<Lanes>& block = blocks_[i / kLanes];
     const std::size_t lane = i % kLanes;
@@ -91,7 +91,7 @@ template <template <class> class Form> class Batch {
     check_size(z);
     for (std::size_t b = 0; b < blocks_.size(); ++b) batch::update(blocks_[b], z.blocks()[b]);
   }
-  // Both in one pass through memory.
+  // Predicts and updates in one pass through memory.
   void step(const Step& by, const Positions& z) {
     check_size(z);
     for (std::size_t b = 0; b < blocks_.size(); ++b) {

@@ -1,7 +1,7 @@
 // Constant velocity with any covariance: state (x, y, vx, vy), the upper triangle of P column by column.
 //
-// The operations are those of filters::Kalman with motion::ConstantVelocity and sensors::Position, in their order, on
-// the elements that these keep: every number is that filter's, bit for bit.
+// The operations are those of filters::Kalman with motion::ConstantVelocity and sensors::Position, in their
+// order, on the kept elements. So every number equals that filter's bit for bit.
 #pragma once
 
 #include "fusion/batch/step.h"
@@ -13,7 +13,7 @@ template <class V> struct Joint {
   V x[4] = {};
   V p[10] = {};  // (0,0) (0,1) (1,1) (0,2) (1,2) (2,2) (0,3) (1,3) (2,3) (3,3)
 
-  // Of row r and column c, r <= c.
+  // Returns the place of row r and column c, r <= c.
   static constexpr int at(int r, int c) { return c * (c + 1) / 2 + r; }
 };
 
@@ -22,7 +22,7 @@ template <class V> [[gnu::always_inline]] inline void predict(Joint<V>& state, c
   const double dt = step.dt;
   state.x[0] += dt * state.x[2];
   state.x[1] += dt * state.x[3];
-  // Rows of F P, right half; then columns.
+  // Computes the right half of F P by rows, then the columns.
   const V p02 = p(0, 2) + dt * p(2, 2), p03 = p(0, 3) + dt * p(2, 3);
   const V p12 = p(1, 2) + dt * p(2, 3), p13 = p(1, 3) + dt * p(3, 3);
   p(0, 0) = (p(0, 0) + dt * p(0, 2)) + dt * p02 + step.q_xx;
@@ -36,7 +36,7 @@ template <class V> [[gnu::always_inline]] inline void predict(Joint<V>& state, c
   p(3, 3) += step.q_vv;
 }
 
-// The update in Joseph form, multiplied out (fusion/filters/correct.h). Returns the NIS, of lanes that are seen.
+// Updates in Joseph form, multiplied out (fusion/filters/correct.h). Returns the NIS, valid in seen lanes only.
 template <class V> [[gnu::always_inline]] inline V update(Joint<V>& state, const Position<V>& z) {
   const auto p = [&state](int r, int c) { return state.p[r <= c ? Joint<V>::at(r, c) : Joint<V>::at(c, r)]; };
   const V nu_x = z.x - state.x[0], nu_y = z.y - state.x[1];
@@ -50,7 +50,7 @@ template <class V> [[gnu::always_inline]] inline V update(Joint<V>& state, const
     g_y[i] = (p(i, 1) - l * p(i, 0)) * inverse_y;
     g_x[i] = p(i, 0) * inverse_x - l * g_y[i];
   });
-  // T = P - K W of rows and columns 0 and 1 and of the upper triangle, E = T H' - K R.
+  // T = P - K W in rows and columns 0 and 1 and in the upper triangle, E = T H' - K R.
   const auto t = [&](int r, int c) { return p(r, c) - (g_x[r] * p(c, 0) + g_y[r] * p(c, 1)); };
   V e_x[4], e_y[4];
   motion::unrolled<4>([&](int i) {

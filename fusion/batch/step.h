@@ -1,4 +1,4 @@
-// A step of constant velocity, and positions that are measured: what both forms take (axes.h, joint.h).
+// A transition at constant velocity, and measured positions, for both forms (axes.h, joint.h).
 #pragma once
 
 #include "fusion/batch/lanes.h"
@@ -6,8 +6,8 @@
 
 namespace ttf::fusion::batch {
 
-// By dt >= 0 seconds: x += dt v, and what white acceleration adds to the covariance of (position, velocity) in either
-// axis.
+// A transition by dt >= 0 seconds: x += dt v, and the covariance of (position, velocity) that white
+// acceleration adds per axis.
 struct Step {
   double dt = 0.0;
   double q_xx = 0.0, q_xv = 0.0, q_vv = 0.0;
@@ -19,8 +19,8 @@ struct Step {
   }
 };
 
-// z = (x, y) [m] with the covariance of its noise, which is positive definite; of lanes that are not `seen` it is not
-// looked at, but must be so all the same.
+// z = (x, y) [m] with the covariance of its noise, which is positive definite even in unseen lanes, where it is
+// unused.
 template <class V> struct Position {
   V x{}, y{};
   V r_xx{}, r_xy{}, r_yy{};

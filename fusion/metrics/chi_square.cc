@@ -21,7 +21,7 @@ double series(double a, double x) {
   return sum * std::exp(-x + a * std::log(x) - std::lgamma(a));
 }
 
-// Lentz's method for the upper function.
+// Computes the upper function by Lentz's method.
 double continued_fraction(double a, double x) {
   double b = x + 1.0 - a, c = 1.0 / kTiny, d = 1.0 / b, h = d;
   for (int n = 1; n < kMostTerms; ++n) {

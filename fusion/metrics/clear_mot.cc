@@ -8,7 +8,7 @@
 namespace ttf::fusion::metrics {
 namespace {
 
-// Places of `names` in the order of the names, into `by_name`, which has room for them.
+// Writes the places of `names`, in the order of the names, into `by_name`, which has room for them.
 void order_by_name(std::span<const Identity> names, std::vector<std::size_t>& by_name) {
   by_name.clear();
   for (std::size_t place = 0; place < names.size(); ++place) by_name.push_back(place);

@@ -1,18 +1,19 @@
-// CLEAR-MOT: which track follows which object over time, and what goes wrong (Bernardin, Stiefelhagen: "Evaluating
-// multiple object tracking performance: the CLEAR MOT metrics", EURASIP J. on Image and Video Processing 2008, section
-// 2.1). At every instant:
-//   C1  keep: an object stays with the track it was last matched to, however long ago, if both are there and within the
-//       gate, even where another track is closer. Where several objects were, the one matched last has it.
-//   C2  the others, objects and tracks, are paired one to one within the gate: as many as can be, then with the least
-//       sum of distances, ties by identity (pairing.h, P2: objects and tracks in the order of their names)
-//   C3  an object without a track is a miss, a track without an object a false positive; an object with another track
-//       than it was last matched to is a switch (a mismatch in the paper), also after misses
-//   C4  the order in which objects and tracks are listed does not matter
-// MOTA = 1 - (misses + false positives + switches) / objects, summed over all instants; MOTP = mean distance of the
-// matches [m].
+// CLEAR-MOT matches tracks with objects over time and counts the errors (Bernardin, Stiefelhagen: "Evaluating
+// multiple object tracking performance: the CLEAR MOT metrics", EURASIP J. on Image and Video Processing 2008,
+// section 2.1). At every instant:
+//   C1  An object keeps the track of its last match, however long ago, if both are present and within the gate, even
+//       if another track is closer. If several objects had that track, the one matched last keeps it.
+//   C2  The other objects and tracks are paired one to one within the gate: first as many as possible, then with the
+//       least sum of distances, ties by identity (pairing.h, P2: objects and tracks in the order of their names).
+//   C3  An object without a track is a miss, a track without an object a false positive. An object with another track
+//       than at its last match is a switch (a mismatch in the paper), also after misses.
+//   C4  The order in which objects and tracks are listed does not matter.
+// MOTA = 1 - (misses + false positives + switches) / objects, summed over all instants; MOTP = mean distance of
+// the matches [m].
 //
-// What the paper leaves open is in C1 ("last matched" and who has a track that several had) and C2 (as many as can be);
-// for both, py-motmetrics decides alike, but for the several: there, the first listed object has the track.
+// The paper leaves parts of C1 open (the last match, and a track that several objects had) and of C2 (as many
+// as possible). Both decisions agree with py-motmetrics, with one exception. There, the first listed of several
+// objects keeps the track.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +34,7 @@ struct ClearMotCounts {
   std::uint64_t misses = 0, false_positives = 0, switches = 0;
   double distance_sum_m = 0.0;  // of the matches
 
-  // Not a number where there was nothing to judge.
+  // MOTA and MOTP are not a number without objects or matches.
   double mota() const {
     const auto errors = static_cast<double>(misses + false_positives + switches);
     return objects == 0 ? kNothing : 1.0 - errors / static_cast<double>(objects);
@@ -48,15 +49,16 @@ class ClearMot {
  public:
   struct Capacity {
     std::size_t objects = 0, tracks = 0;  // at one instant
-    std::size_t objects_ever = 0;         // different ones that are ever matched
+    std::size_t objects_ever = 0;         // different objects that are ever matched
   };
-  // Object and track further apart than `gate_m` (finite, > 0) do not belong together.
+  // Objects and tracks further apart than `gate_m` (finite, > 0) do not match.
   ClearMot(const Capacity& capacity, double gate_m);
 
-  // The matches of one instant, in the order of the objects' names; valid until the next call. Allocates nothing.
+  // Returns the matches of one instant in the order of the objects' names, valid until the next call. Allocates
+  // nothing.
   std::span<const Match> step(std::span<const Named> objects, std::span<const Named> tracks);
-  // The same by any other distance [m]: that of objects[i] and tracks[j] is distances[i * tracks.size() + j], not a
-  // number where they do not belong together.
+  // Does the same for any other distance [m]. distances[i * tracks.size() + j] is that of objects[i] and
+  // tracks[j], not a number if they do not match.
   std::span<const Match> step(std::span<const Identity> objects, std::span<const Identity> tracks,
                               std::span<const double> distances);
 

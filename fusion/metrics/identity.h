@@ -1,5 +1,5 @@
-// Who is who on either side of a comparison: a true object's name, or a track's. Unique at an instant, and for one
-// object or track the same at all instants; else without meaning.
+// The name of a true object or of a track in a comparison. It is unique at an instant and constant over time,
+// and has no other meaning.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ struct Named {
   Point at;
 };
 
-// A true object and the track that follows it at an instant.
+// A true object and its track at an instant.
 struct Match {
   Identity object = 0, track = 0;
   double distance_m = 0.0;
-  bool switched = false;  // another track followed the object when it was last matched
+  bool switched = false;  // the object's last match was with another track
 };
 
 }  // namespace ttf::fusion::metrics

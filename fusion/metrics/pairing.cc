@@ -43,7 +43,8 @@ void Pairing::solve(double bonus) {
   settle_ties();
 }
 
-// Every change makes the list of columns smaller, read from the first row on with kNone as the largest: so this ends.
+// Ends, because every change makes the sequence of columns smaller, in lexicographic order with kNone as the
+// largest.
 void Pairing::settle_ties() {
   for (bool changed = true; changed;) {
     changed = false;

@@ -1,14 +1,14 @@
-// One-to-one pairs of two lists at least cost, where a pair that is not offered, or not worth it, stays apart.
+// Pairs two lists one to one at least cost. A pair that is not offered, or too costly, stays apart.
 //
-// The optimum is that of fusion/association/assignment.h, exact for dense and for square problems; with a pair's gain 1
-// + bonus - cost it is the cut-off problem of GOSPA and OSPA, or the one that takes as many pairs as it can first.
-// Laws:
-//   P1  no set of one-to-one pairs of what was offered has a larger sum of gains (but for rounding, 1e-12 of the sum)
-//   P2  equal sums: rows come in order and prefer small columns. Among pairs of exactly equal cost no row could move to
-//       a smaller free column, no unpaired row could replace a later one, and no two rows could exchange columns so
+// The optimum is that of fusion/association/assignment.h, exact for dense and for square problems. With a
+// pair's gain 1 + bonus - cost it solves the cut-off problem of GOSPA and OSPA, or first takes as many pairs as
+// possible. Laws:
+//   P1  No set of one-to-one offered pairs has a larger sum of gains, up to rounding, 1e-12 of the sum.
+//   P2  For equal sums, rows prefer small columns, in order. Among pairs of exactly equal cost no row could move to a
+//       smaller free column, no unpaired row could replace a later one, and no two rows could exchange columns so
 //       that the earlier one gets the smaller.
-//   P3  the pairs do not depend on the order of offers
-// Storage is taken at construction; nothing is allocated afterwards.
+//   P3  The pairs do not depend on the order of offers.
+// The constructor allocates all storage.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,9 @@ namespace ttf::fusion::metrics {
 
 class Pairing {
  public:
-  // Added to the gain of every pair. The small one decides between equal sums for more pairs.
+  // Bonuses, added to the gain of every pair. The small one prefers more pairs among equal sums.
   static constexpr double kLeastCost = 1e-12;
-  // Large enough that no saving of cost makes up for a pair less.
+  // Large enough to outweigh any saving of cost by one pair less.
   static double most_pairs(std::size_t rows, std::size_t columns) {
     return 1.0 + static_cast<double>(rows < columns ? rows : columns);
   }
@@ -31,7 +31,7 @@ class Pairing {
   Pairing(std::size_t max_rows, std::size_t max_columns);
 
   void begin(std::size_t rows, std::size_t columns);
-  // `cost` in [0, 1], 1 being the cut-off. A pair is offered once.
+  // Offers a pair, once. `cost` is in [0, 1]; 1 is the cut-off.
   void offer(std::size_t row, std::size_t column, double cost);
   void solve(double bonus);
 
@@ -44,7 +44,7 @@ class Pairing {
   bool prefer_smaller_column(std::size_t row);
 
   std::size_t max_rows_, max_columns_, rows_ = 0, columns_ = 0;
-  std::vector<double> cost_;  // infinite where no pair was offered
+  std::vector<double> cost_;  // infinite without an offer
   std::vector<association::Candidate> candidates_;
   std::vector<int> column_of_, row_of_;
   association::Assignment assignment_;

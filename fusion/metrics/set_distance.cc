@@ -13,7 +13,7 @@ SetMetric::SetMetric(std::size_t max_truths, std::size_t max_estimates, const Cu
   TTF_CHECK(cut_off.order >= 1.0 && cut_off.order <= 64.0, "order {}", cut_off.order);
 }
 
-// The orders in use without the rounding of pow().
+// Computes the usual orders without the rounding of pow().
 double SetMetric::power(double base) const {
   if (cut_off_.order == 1.0) return base;
   return cut_off_.order == 2.0 ? base * base : std::pow(base, cut_off_.order);

@@ -1,4 +1,4 @@
-// How far a set of estimates is from the set of true objects, as one number and its parts.
+// The distance of a set of estimates from the set of true objects, as one number and its parts.
 //
 // GOSPA with alpha = 2 (Rahmathullah, Garcia-Fernandez, Svensson: "Generalized optimal sub-pattern assignment metric",
 // FUSION 2017, proposition 1): over all one-to-one pairs g of X (truth) and Y (estimates),
@@ -7,13 +7,14 @@
 //
 // OSPA (Schuhmacher, Vo, Vo: "A consistent metric for performance evaluation of multi-object filters", IEEE TSP 56(8),
 // 2008, section III): with m the smaller and n > 0 the larger number of points,
-//   d = ( 1/n ( min_pi sum_i min(c, d(x_i, y_pi(i)))^p  +  c^p (n - m) ) )^(1/p),
-// between 0 and c; 0 where both are empty. The pairs nearer than c that GOSPA takes are optimal for OSPA too: any
-// further pair costs c^p in one sum, and half of it twice in the other.
+//   d = ( 1/n ( min_pi sum_i min(c, d(x_i, y_pi(i)))^p  +  c^p (n - m) ) )^(1/p).
+// It lies between 0 and c, and is 0 if both sets are empty. GOSPA's pairs nearer than c are optimal for OSPA,
+// too: any further pair costs c^p in one sum, and half of it twice in the other.
 //
-// Both are metrics on finite sets of points: identity, symmetry, triangle inequality. Parts are p-th powers [m^p], so
-// that they add up. Pairs at or beyond the cut-off c, and what is not finite, are apart. Of equal sums the one with
-// more pairs counts, so that the parts are unique; savings below 1e-12 c^p a pair are not seen.
+// Both are metrics on finite sets of points: identity, symmetry, triangle inequality. Parts are p-th powers
+// [m^p], so they add up. Pairs at or beyond the cut-off c, and points that are not finite, stay apart. Among
+// equal sums the one with more pairs counts, so the parts are unique; savings below 1e-12 c^p per pair are
+// ignored.
 #pragma once
 
 #include <cstddef>
@@ -52,7 +53,7 @@ class SetMetric {
 
   // Allocates nothing.
   SetDistance between(std::span<const Point> truths, std::span<const Point> estimates);
-  // Of the last two sets: the estimate that goes with each truth, or Pairing::kNone.
+  // Returns the estimate of each truth in the last two sets, or Pairing::kNone.
   std::span<const int> estimate_of() const { return pairing_.column_of(); }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace ttf::fusion::metrics {
 
-// In integers, so that 4 of 5 is 80 %.
+// Compares integers, so that 4 of 5 is 80 %.
 Coverage ObjectLife::coverage() const {
   if (5 * tracked >= 4 * instants) return Coverage::kMostlyTracked;
   return 5 * tracked < instants ? Coverage::kMostlyLost : Coverage::kPartlyTracked;
@@ -36,7 +36,7 @@ void TrackLives::step(TrueTime at, std::span<const Identity> objects, std::span<
     TTF_CHECK(life.instants == 0 || life.last < at, "object {} listed twice at {} ns", object, at.ns);
     life.last = at;
     ++life.instants;
-    ++life.missed_in_a_row;  // unless a match says otherwise
+    ++life.missed_in_a_row;  // a match resets it
   }
   for (const Match& match : matches) {
     ObjectLife& life = life_of(match.object, at);

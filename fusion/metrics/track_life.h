@@ -1,12 +1,13 @@
-// How an object was followed from its birth on: when it was first, for how much of its life, how often it was lost and
-// found, and by how many tracks.
+// Measures how an object was tracked from its birth on: when first, for how much of its life, how often it was
+// lost, and by how many tracks.
 //
-// An object's life is the instants at which the truth lists it: where it is out of sight for a while, it is not missed.
-//   L1  confirmation: the first instant at which one of the tracks given, confirmed ones, is matched to it
+// An object's life is the set of instants at which the truth lists it. An object out of sight for a while is
+// not missed.
+//   L1  confirmation: the first instant at which one of the given tracks, confirmed ones, is matched to the object
 //   L2  fraction tracked: instants with a match / instants listed; mostly tracked from 80 %, mostly lost below 20 %
 //       (Li, Huang, Nevatia: "Learning to associate", CVPR 2009; the bounds as py-motmetrics documents them)
-//   L3  fragmentation: tracked, then missed, then tracked again, whether by the same track or another; misses before
-//       the first and after the last match are none
+//   L3  fragmentation: tracked, then missed, then tracked again, by the same track or another; misses before the first
+//       and after the last match do not count
 //   L4  switches: as CLEAR-MOT counts them (clear_mot.h, C3)
 #pragma once
 
@@ -25,10 +26,10 @@ enum class Coverage { kMostlyTracked, kPartlyTracked, kMostlyLost };
 
 struct ObjectLife {
   Identity object = 0;
-  TrueTime born{}, last{};  // first and last instant listed
+  TrueTime born{}, last{};  // the first and the last listed instant
   std::optional<TrueTime> confirmed;
   std::uint64_t instants = 0, tracked = 0;
-  std::uint64_t missed_in_a_row = 0;  // instants listed since the last match, or since birth
+  std::uint64_t missed_in_a_row = 0;  // listed instants since the last match, or since birth
   std::uint64_t fragmentations = 0, switches = 0;
 
   std::optional<Duration> confirmed_after() const {
@@ -42,17 +43,17 @@ struct LifeSummary {
   std::size_t objects = 0, confirmed = 0;
   std::size_t mostly_tracked = 0, partly_tracked = 0, mostly_lost = 0;
   std::uint64_t fragmentations = 0, switches = 0;
-  // Not a number where no object was confirmed, or listed.
+  // Both are not a number without a value: no object confirmed, or no object at all.
   double mean_confirmed_after_s = 0.0, mean_fraction_tracked = 0.0;
-  Duration worst_confirmed_after{};  // of those confirmed
+  Duration worst_confirmed_after{};  // of the confirmed objects
 };
 
 class TrackLives {
  public:
   explicit TrackLives(std::size_t max_objects_ever);
 
-  // One instant, later than the one before: the objects that the truth lists, each once, in any order, and the matches
-  // of ClearMot::step. Allocates nothing.
+  // Takes one instant, later than the last: the objects that the truth lists, each once, in any order, and the
+  // matches of ClearMot::step. Allocates nothing.
   void step(TrueTime at, std::span<const Identity> objects, std::span<const Match> matches);
 
   std::span<const ObjectLife> lives() const { return lives_; }  // in the order of the objects' names
