@@ -47,7 +47,7 @@ inline void put(Axes<Lanes>& block, std::size_t lane, const linear::Gaussian<4>&
     a.x[lane] = state.x(i), a.v[lane] = state.x(i + 2);
     a.p_xx[lane] = state.p(i, i), a.p_xv[lane] = state.p(i, i + 2), a.p_vv[lane] = state.p(i + 2, i + 2);
     for (const int other : {1 - i, 3 - i})
-      TTF_CHECK(state.p(i, other) == 0.0 && state.p(i + 2, other) == 0.0, "axes that are correlated");
+      TTF_CHECK(state.p(i, other) == 0.0 && state.p(i + 2, other) == 0.0, "the axes are correlated");
   }
 }
 inline void put(Joint<Lanes>& block, std::size_t lane, const linear::Gaussian<4>& state) {

@@ -18,7 +18,7 @@ void load_systematic(YamlMap& yaml, TrackerConfig& c) {
       {{"ignore", SystematicErrorsAre::kIgnored}, {"consider", SystematicErrorsAre::kConsidered}});
   if (c.systematic == SystematicErrorsAre::kConsidered && !is_straight_and_extended(c))
     yaml.fail("systematic",
-              "must be ignore but where motion is constant_velocity or constant_acceleration and filter "
+              "must be ignore unless motion is constant_velocity or constant_acceleration and filter "
               "is extended");
   if (!yaml.has("sensors")) return;
   for (auto& [name, map] : yaml.named_maps("sensors")) {
@@ -56,14 +56,14 @@ void load_late(YamlMap& yaml, TrackerConfig& c) {
   if (c.late == oosm::Kind::kRewind) return;
   if (!is_straight_and_extended(c))
     yaml.fail("late",
-              "must be rewind, but with motion constant_velocity or constant_acceleration and filter extended: "
-              "of the others' estimates the methods know nothing");
+              "must be rewind unless motion is constant_velocity or constant_acceleration and filter is extended: "
+              "the other methods know only those estimates");
   if (c.systematic == SystematicErrorsAre::kConsidered)
-    yaml.fail("late", "must be rewind where systematic is consider: the other methods carry no errors of sensors");
+    yaml.fail("late", "must be rewind if systematic is consider: the other methods carry no biases of sensors");
   if (c.association != Association::kNearest || c.birth != Birth::kMOfN || c.merge_probability != 0.0)
     yaml.fail("late",
-              "must be rewind, but with association nearest, birth m_of_n and merge_probability 0: the other "
-              "methods do not go back to what was decided since");
+              "must be rewind unless association is nearest, birth is m_of_n and merge_probability is 0: the other "
+              "methods do not reverse later decisions");
 }
 
 }  // namespace

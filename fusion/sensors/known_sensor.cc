@@ -36,7 +36,7 @@ void read_components(YamlMap& yaml, double least, Values& values, std::optional<
     values(component.index) = yaml.number(component.name, {least * component.most, component.most}, component.unit);
     if (axes.value_or(component.axes) != component.axes)
       yaml.fail(component.name,
-                "must not be given with errors in other axes: either x and y, or range, bearing and "
+                "must not be mixed with errors in other axes: either x and y, or range, bearing and "
                 "range_rate");
     axes = component.axes;
   }

@@ -23,7 +23,7 @@ Settling::Settling(std::vector<Step> steps, Duration round) : steps_(std::move(s
     TTF_CHECK(steps_[i - 1].at < steps_[i].at && steps_[i - 1].measured < steps_[i].measured,
               "step {} at {} ns settles {} ns", i, steps_[i].at.ns, steps_[i].measured.ns);
   TTF_CHECK(steps_.back().at < steps_.front().at + round_ && steps_.back().measured < steps_.front().measured + round_,
-            "steps of more than a round of {} ns", round_.ns);
+            "steps span more than a round of {} ns", round_.ns);
 }
 
 Settling Settling::after(Duration worst_delay) { return {{{GlobalTime{}, GlobalTime{} - worst_delay}}, Duration{1}}; }

@@ -285,12 +285,11 @@ std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const Sen
                          bool only_positions) {
   if (kind == StrategyKind::kBuff || late == oosm::Kind::kRewind) return {};
   if (kind == StrategyKind::kTt && late != oosm::Kind::kClone) return "must be rewind or clone with strategy tt";
-  if (!only_positions)
-    return "must be rewind where a sensor measures range and bearing: the other methods take positions";
+  if (!only_positions) return "must be rewind if a sensor measures range and bearing: the other methods take positions";
   const bool scheduled =
       std::all_of(sensors.begin(), sensors.end(), [](const SensorTiming& sensor) { return sensor.scheduled; });
   if (late == oosm::Kind::kClone && !scheduled)
-    return "must not be clone where a sensor measures freely: the schedule must know the instants beforehand";
+    return "must not be clone if a sensor measures freely: the schedule must know the instants beforehand";
   return {};
 }
 

@@ -57,12 +57,12 @@ expect 2 'broken.yaml:5: tracker.late = never: must be one of rewind, augmented,
 late al1
 expect 2 'broken.yaml:5: tracker.late = al1: must be rewind or clone with strategy tt' run "$drive" --out "$work/none"
 late clone
-expect 2 'broken.yaml:5: tracker.late = clone: must not be clone where a sensor measures freely' \
+expect 2 'broken.yaml:5: tracker.late = clone: must not be clone if a sensor measures freely' \
   run "$drive" --strategy adva --out "$work/none"
-expect 2 'broken.yaml:5: tracker.late = clone: must not be clone where a sensor measures freely' \
+expect 2 'broken.yaml:5: tracker.late = clone: must not be clone if a sensor measures freely' \
   launch "$drive" --strategy adva --dry-run --out "$work/none"
 late 'augmented\n  motion: ctrv'
-expect 2 'broken.yaml:5: tracker.late = augmented: must be rewind, but with motion constant_velocity' run "$drive"
+expect 2 'broken.yaml:5: tracker.late = augmented: must be rewind unless motion is constant_velocity' run "$drive"
 [[ ! -e $work/none ]] || fail "what is refused leaves a folder behind"
 
 cluster=$work/schedules/broken.yaml

@@ -125,11 +125,11 @@ for late in augmented c; do
 done
 printf 'tracker: {late: clone}\n' >"$work/late.yaml"
 { echo time,arrival,sensor,x,y; echo 0,0,a,1,2; echo 0.1,0.2,a,1,2; } >"$work/irregular.csv"
-expect 2 'late.yaml:1: tracker.late = clone: must not be clone where a sensor measures freely' \
+expect 2 'late.yaml:1: tracker.late = clone: must not be clone if a sensor measures freely' \
   track "$work/irregular.csv" --config "$work/late.yaml"
 printf 'tracker: {late: al1}\n' >"$work/late.yaml"
 { echo time,arrival,sensor,range,bearing,range_rate; echo 0,0,radar,10,0,1; } >"$work/radar.csv"
-expect 2 'late.yaml:1: tracker.late = al1: must be rewind where a sensor measures range and bearing' \
+expect 2 'late.yaml:1: tracker.late = al1: must be rewind if a sensor measures range and bearing' \
   track "$work/radar.csv" --config "$work/late.yaml"
 expect 2 'empty.csv: holds no heading' track "$work/empty.csv" --skip-damaged
 printf 'time,sensor,x,y\n' >"$work/bare.csv"
@@ -146,7 +146,7 @@ expect 2 'absent.yaml: cannot be read' track "$work/cars.csv" --config "$work/ab
 printf 'tracker: {proces_noise: 4}\n' >"$work/typo.yaml"
 expect 2 'typo.yaml:1: tracker.proces_noise: is not a known key' track "$work/cars.csv" --config "$work/typo.yaml"
 printf 'tracker: {motion: ctrv, systematic: consider}\n' >"$work/bend.yaml"
-expect 2 'bend.yaml:1: tracker.systematic = consider: must be ignore but where motion is constant_velocity' track "$work/cars.csv" --config "$work/bend.yaml"
+expect 2 'bend.yaml:1: tracker.systematic = consider: must be ignore unless motion is constant_velocity' track "$work/cars.csv" --config "$work/bend.yaml"
 printf 'sensors:\n  lidar: {}\n  radar: {bias_sigma: {bearing: 1}}\n' >"$work/wrong.yaml"
 expect 2 'wrong.yaml:3: sensors.radar.bias_sigma.bearing = 1: must be a number 0..0.5 rad' track "$work/cars.csv" --config "$work/wrong.yaml"
 expect 2 '--delay = sonar=5ms: must begin with a sensor \(lidar, radar\)' "${cars[@]}" --delay sonar=5ms

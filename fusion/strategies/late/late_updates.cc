@@ -113,7 +113,8 @@ bool LateUpdates::mend(const sensors::Scan& scan, int lists_since) {
 void LateUpdates::mend(tracks::Track& track, Object& object, const tracks::ObservationId& which,
                        const sensors::Observation& z, const When& when, tracks::Track& then) {
   const oosm::Taken taken = pasts_->take(object.slot, when, z);
-  TTF_CHECK(is_taken(taken), "what was seen at its instant is not taken: {}", static_cast<int>(taken));
+  TTF_CHECK(is_taken(taken), "a late list is not taken although the method has a state at its instant: {}",
+            static_cast<int>(taken));
   track.estimate = pasts_->newest(object.slot, set_.time);
 
   sensors::Observation now = z;

@@ -119,7 +119,7 @@ TEST(BatchDeathTest, AxesThatAreCorrelatedAreNoAxes) {
   linear::Gaussian<4> state;
   state.p.setIdentity();
   state.p(0, 3) = state.p(3, 0) = 0.1;
-  EXPECT_DEATH(batch.set(0, state), "axes that are correlated");
+  EXPECT_DEATH(batch.set(0, state), "the axes are correlated");
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST(TrackerConfig, WhatCannotBeConsideredIsRefused) {
     load(rest + "systematic: consider\n", &sentences);
     ASSERT_EQ(sentences.size(), 1u) << rest;
     EXPECT_EQ(sentences[0],
-              "t.yaml:2: systematic = consider: must be ignore but where motion is constant_velocity or "
+              "t.yaml:2: systematic = consider: must be ignore unless motion is constant_velocity or "
               "constant_acceleration and filter is extended");
   }
   EXPECT_EQ(load("motion: constant_acceleration\nsystematic: consider\n").systematic, SystematicErrorsAre::kConsidered);
@@ -174,9 +174,8 @@ TEST(TrackerConfig, OnlyStraightMotionIsTakenInOtherThanByRewinding) {
     load(other + "\nlate: al1\n", &sentences);
     ASSERT_EQ(sentences.size(), 1u) << other;
     EXPECT_EQ(sentences[0],
-              "t.yaml:2: late = al1: must be rewind, but with motion constant_velocity or "
-              "constant_acceleration and filter extended: of the others' estimates the methods know "
-              "nothing");
+              "t.yaml:2: late = al1: must be rewind unless motion is constant_velocity or "
+              "constant_acceleration and filter is extended: the other methods know only those estimates");
   }
 }
 
@@ -187,8 +186,8 @@ TEST(TrackerConfig, OtherMethodsThanRewindingKnowOneWayToAssociate) {
     load(other + "\nlate: al1\n", &sentences);
     ASSERT_EQ(sentences.size(), 1u) << other;
     EXPECT_EQ(sentences[0],
-              "t.yaml:2: late = al1: must be rewind, but with association nearest, birth m_of_n and "
-              "merge_probability 0: the other methods do not go back to what was decided since");
+              "t.yaml:2: late = al1: must be rewind unless association is nearest, birth is m_of_n and "
+              "merge_probability is 0: the other methods do not reverse later decisions");
   }
 }
 

@@ -59,7 +59,7 @@ TEST(KnownSensor, EveryMistakeIsASentence) {
   EXPECT_THAT(mistakes("bias_sigma: {bearing: -0.1}\n"),
               ElementsAre("s.yaml:1: bias_sigma.bearing = -0.1: must be a number 0..0.5 rad"));
   EXPECT_THAT(mistakes("bias: {x: 1}\nbias_sigma:\n  range: 1\n"),
-              ElementsAre("s.yaml:3: bias_sigma.range = 1: must not be given with errors in other axes: either x and "
+              ElementsAre("s.yaml:3: bias_sigma.range = 1: must not be mixed with errors in other axes: either x and "
                           "y, or range, bearing and range_rate"));
   EXPECT_THAT(mistakes("bias_sigma: {time: 2 s}\n"), testing::SizeIs(1));
   EXPECT_THAT(mistakes("bias: {time: 2 ms}\n"), testing::SizeIs(1));

@@ -28,12 +28,11 @@ TEST(LateRefusal, NamesWhatCannotBe) {
       for (const bool other : {true, false})
         EXPECT_EQ(refusal(StrategyKind::kBuff, any, other), "") << "BUFF goes back, whatever is said";
     EXPECT_EQ(refusal(StrategyKind::kAdva, true, true), "");
-    EXPECT_EQ(refusal(StrategyKind::kAdva, false, true),
-              clone ? "must not be clone where a sensor measures freely: the schedule must know the instants beforehand"
-                    : "");
     EXPECT_EQ(
-        refusal(StrategyKind::kAdva, true, false),
-        rewind ? "" : "must be rewind where a sensor measures range and bearing: the other methods take positions");
+        refusal(StrategyKind::kAdva, false, true),
+        clone ? "must not be clone if a sensor measures freely: the schedule must know the instants beforehand" : "");
+    EXPECT_EQ(refusal(StrategyKind::kAdva, true, false),
+              rewind ? "" : "must be rewind if a sensor measures range and bearing: the other methods take positions");
     EXPECT_EQ(refusal(StrategyKind::kTt, true, true),
               rewind || clone ? "" : "must be rewind or clone with strategy tt");
   }
