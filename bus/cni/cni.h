@@ -1,5 +1,5 @@
-// The communication network interface of one FlexRay controller: the lists that its host writes, cut into the fragments
-// that slots carry, and the lists that arrive.
+// The communication network interface of one FlexRay controller: the lists that its host writes, cut into the
+// fragments that slots carry, and the lists that arrive.
 //
 // The first slot of a list in a cycle latches it, so that a write between two of its slots cannot tear it.
 #pragma once
