@@ -11,7 +11,7 @@
 //       count, length, sync and startup indicators
 //   G2  it must begin within half an action point offset of the slot's action point. While the cluster's clocks differ
 //       by no more than that, every frame of a fault-free node passes, and every frame that passes lies within its slot
-//       for all receivers: none is slightly off, so that only some receivers accept it
+//       for all receivers: no frame is slightly off, so that only some receivers accept it
 //   G3  in the dynamic segment the guardian counts slots as every node does. The frame of the slot's node passes, no
 //       later than its pLatestTx and no longer than its PDU. It must begin within half a minislot action point offset
 //       of the minislot's action point, so that all receivers count the same minislot (and G9)

@@ -39,7 +39,7 @@ enum class PocEventKind : std::uint8_t {
   kWakeupCollision,  // while sending: another node is on the channel
 
   // The schedule.
-  kScheduleNotDerived,  // no second frame in time, or outside pdAcceptedStartupRange
+  kScheduleNotDerived,  // no second frame in time, or the pair is outside pRateCorrectionOut
   kClockCorrected,      // in odd cycles, after the static segment: missing, limit_exceeded
   kCycleStarted,        // cycle; ended: startup frames received in the cycle that ended with this start
 };

@@ -3,7 +3,7 @@
 //
 // A fault of the interface ends set-up with one sentence and the command that helps. Afterwards nothing
 // throws; the network's behaviour is a value. Frames that the kernel had no room for are counted one by one;
-// none is lost silently.
+// no frame is lost silently.
 //
 // A stamp is the kernel's CLOCK_REALTIME when the frame reached the interface. A frame that its sender queued
 // with a transmission time (SO_TXTIME) carries that time instead, which says nothing about its arrival.

@@ -23,7 +23,7 @@ HeardCounts decode(std::span<const std::byte> bytes);
 // The others' counts, as one member knows them.
 class HeardTable {
  public:
-  // `others`: all members but oneself.
+  // `others`: all members except this one.
   explicit HeardTable(const std::vector<NodeId>& others);
 
   void note(NodeId by, HeardCounts heard);  // counts never fall; a sender that `by` does not mention has count 0

@@ -21,7 +21,7 @@ constexpr std::size_t kMostEndpoints = 256;  // on one line
 // Larger instants and durations (a century, eleven days) come from no clock.
 constexpr std::int64_t kLatest = 4'000'000'000'000'000'000, kLongest = 1'000'000'000'000'000;
 
-// LiveSample::kind: a bus::Signal, or one of these.
+// LiveSample::kind: a ports::Signal, or one of these.
 constexpr std::uint8_t kClassicCan = 4, kFastCan = 5;
 
 common::Qos live_qualities(Delivery delivery, NodeId self) {
