@@ -1,5 +1,5 @@
-// The communication network interface of one FlexRay controller: the lists that its host writes, cut into the
-// fragments that slots carry, and the lists that arrive.
+// The communication network interface (CNI) of one FlexRay controller. It cuts the lists that the host writes
+// into fragments for the slots, and collects the lists that arrive.
 //
 // The first slot of a list in a cycle latches it, so that a write between two of its slots cannot tear it.
 #pragma once
@@ -32,7 +32,7 @@ class Cni {
   };
   Fragment fetch(const schedules::model::FrameSlot& slot, std::int64_t cycle);
   // In the dynamic segment a fragment is sent once per list and channel. pending() returns whether the channel
-  // still has to carry the slot's present fragment; carried() notes that it has.
+  // still has to carry the slot's present fragment. carried() notes that it has.
   bool pending(const schedules::model::FrameSlot& slot, schedules::model::Channel channel, std::int64_t cycle);
   void carried(const schedules::model::FrameSlot& slot, schedules::model::Channel channel);
 

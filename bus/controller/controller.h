@@ -17,11 +17,11 @@
 // Interpretations where the sources leave room: a startup frame sent before normal operation is a null frame.
 // A second communication element in a static slot is a syntax error of that slot, even after a valid frame.
 // Activity that began outside every slot is reported under slot 0. Activity across slot boundaries violates
-// the boundary of every slot that it touches (bus/controller/slot_board.h). If activity outlasts the static
-// segment, the violation is reported when the segment ends, instead of "no frame": for the segment's last
-// slot, and for the silent slots before it in which a frame is expected, back to the last activity heard on
-// the channel. A node alone with its own sync frame misses no term of clock correction. Cycle 0 of a leading
-// coldstart node starts one macrotick after the end of its CAS.
+// the boundary of every slot that it touches (bus/controller/slot_board.h). Activity that outlasts the static
+// segment is reported when the segment ends. It then violates the boundaries of the segment's last slot, and
+// of the silent slots before it in which a frame is expected, back to the last activity heard on the channel.
+// The report replaces "no frame" there. A node alone with its own sync frame misses no term of clock
+// correction. Cycle 0 of a leading coldstart node starts one macrotick after the end of its CAS.
 #pragma once
 
 #include <cstdint>
@@ -76,8 +76,8 @@ struct SymbolWindowSeen {
 // Status of clock synchronisation since the schedule began, under E-Ray's names (SPNU563A: registers SFS and
 // CCEV).
 struct SyncStatus {
-  // Valid sync frames on channel A or B in the last even or odd cycle whose static segment is over, including
-  // the node's own; up to 15, regardless of gSyncNodeMax.
+  // Valid sync frames on channel A or B in the last even or odd cycle whose static segment is over. The node's
+  // own count, too. At most 15, regardless of gSyncNodeMax.
   int VSAE = 0, VSAO = 0, VSBE = 0, VSBO = 0;
   // The last double cycle missed the offset or the rate term, or exceeded its limit.
   bool MOCS = false, MRCS = false, OCLR = false, RCLR = false;
@@ -186,9 +186,10 @@ class FlexRayController {
   // count.
   SymbolWindowSeen symbol_window_status(schedules::model::Channel channel) const;
 
-  // Requests a media access test symbol in the next symbol window whose action point is ahead, on those of the
-  // channels that this node is attached to. Returns false without effect if the controller is not in normal
-  // active with all slots (E-Ray SEND_MTS), if a symbol is pending, or if the cycle has no symbol window.
+  // Requests a media access test symbol in the next symbol window whose action point is ahead. It leaves on
+  // those of the channels that this node is attached to. The state must be normal active with all slots (E-Ray
+  // SEND_MTS). Returns false without effect in another state, while a symbol is pending, or without a symbol
+  // window.
   bool send_media_test_symbol(schedules::model::Channels channels = schedules::model::Channels::kAB);
 
   // Exactly gNetworkManagementVectorLength bytes (bus/controller/network_management.h).
@@ -197,12 +198,12 @@ class FlexRayController {
 
   // Sets the external clock correction [uT], by which hosts make a cluster follow the time of another cluster
   // or of a standard. Until set anew, `offset` is added to the offset correction of every odd cycle whose
-  // static segment has not ended yet, and `rate` to the rate correction computed then; only in normal
-  // operation. Positive values lengthen the cycle. pExternOffsetCorrection and pExternRateCorrection limit the
-  // magnitudes; the sums are not checked against pOffsetCorrectionOut and pRateCorrectionOut (SPNU563A
-  // 26.2.4.5). All nodes need the same values in the same double cycle. Interpretation: the next rate
-  // correction goes on from the rate in force, including the external term. So a term given once stays, and a
-  // repeated one adds up, less damping.
+  // static segment has not ended yet. `rate` is added to the rate correction computed then. Both apply in
+  // normal operation only. Positive values lengthen the cycle. pExternOffsetCorrection and
+  // pExternRateCorrection limit the magnitudes; the sums are not checked against pOffsetCorrectionOut and
+  // pRateCorrectionOut (SPNU563A 26.2.4.5). All nodes need the same values in the same double cycle.
+  // Interpretation: the next rate correction goes on from the rate in force, including the external term. So a
+  // term given once stays, and a repeated one adds up, less damping.
   void set_external_correction(int offset, int rate);
   cni::OutgoingList& outgoing(PduId pdu);  // must be a PDU that this node sends
   cni::IncomingList& incoming(PduId pdu);  // any other PDU on FlexRay

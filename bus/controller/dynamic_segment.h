@@ -56,8 +56,8 @@ class MinislotGrid {
   Macroticks action_point(int minislot) const;  // 1..count()
   // Returns the minislot that contains `at`; 0 before the segment, count() + 1 after it.
   int minislot_at(const timebase::CycleClock& clock, Microticks at) const;
-  // Returns, for a sender, the minislot at whose action point the DTS ends of a frame that ends at
-  // `frame_end`: the first with room for a DTS of `shortest_dts`. It may lie beyond count().
+  // Returns the last minislot of a transmission whose frame ends at `frame_end`. Its DTS ends at that
+  // minislot's action point: the first that leaves room for `shortest_dts`. It may lie beyond count().
   int dts_end(const timebase::CycleClock& clock, Microticks frame_end, Microticks shortest_dts) const;
 
  private:

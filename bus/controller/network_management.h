@@ -1,5 +1,5 @@
-// The network management vector: bits by which the nodes of a cluster agree on their needs, for instance
-// whether any node still needs the bus (FlexRay 2.1A, chapter 9.3; SPNU563A 26.2.7 and registers NMV1..3).
+// The network management vector (FlexRay 2.1A, chapter 9.3; SPNU563A 26.2.7 and registers NMV1..3). By its
+// bits the nodes of a cluster agree on their needs, for instance whether any node still needs the bus.
 //
 // A static frame scheduled for it begins with its sender's vector, gNetworkManagementVectorLength bytes, and
 // sets the payload preamble indicator. A controller combines the vectors of all valid frames with that

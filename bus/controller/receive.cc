@@ -70,8 +70,8 @@ bool FlexRayController::State::receive_on_both(const ports::Reception& reception
   return due != due_before || poc.kind != kind_before;
 }
 
-// Returns the scheduled frame if this is a valid one in its slot on both channels and the slot was silent so
-// far; null in all other cases.
+// Returns the scheduled frame if this one is valid in its slot on both channels and the slot was silent so
+// far. Returns null otherwise.
 const FrameSlot* FlexRayController::State::first_of_slot_on_both(const ports::Reception& reception) const {
   const int slot = reception.frame.header.frame_id;
   if (slot < 1 || slot > g.gNumberOfStaticSlots || !is_frame(reception) ||

@@ -1,9 +1,9 @@
 // The schedule initialisation derives a clock from the startup frames of a running cluster (FlexRay 2.1A,
 // chapters 7.2.3 and 8.4: clock synchronisation startup; the state INITIALIZE_SCHEDULE).
 //
-// A startup frame of an even cycle fixes the position of the cluster's cycle. That of the same node in the
-// next odd cycle gives the length of a cycle in this node's microticks. The node listens to both channels; the
-// first complete pair wins.
+// A startup frame of an even cycle fixes the position of the cluster's cycle. The same node's startup frame in
+// the next odd cycle gives the length of a cycle in this node's microticks. The node listens to both channels;
+// the first complete pair wins.
 //
 // Interpretation: on each channel the node waits for the partner of the first startup frame of an even cycle.
 // A pair more than pRateCorrectionOut away from pMicroPerCycle is refused, and listening begins anew. A failed

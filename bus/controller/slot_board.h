@@ -3,7 +3,7 @@
 //
 // Interpretation: activity across slot boundaries violates the boundary of every slot that it touches, also of
 // those that it covers entirely. Its other errors, such as a syntax error, belong to the slot in which it
-// began. The later slots have only the violation: a receiver stops decoding at the first boundary and waits
+// began. The later slots have only the violation. A receiver stops decoding at the first boundary and waits
 // for an idle channel, so no communication element begins there.
 #pragma once
 

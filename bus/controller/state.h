@@ -160,8 +160,8 @@ struct FlexRayController::State {
   void hear(const ports::Reception& reception);                            // without a schedule
   void judge(const ports::Reception& reception, bool conflict);            // within the schedule
   void judge_static(const ports::Reception& reception, int slot, std::uint8_t errors);
-  // A frame is valid in its slot if it decodes without error, lies within the slot, has that slot's header
-  // with the present cycle counter, and is expected there.
+  // A frame is valid in its slot if it decodes without error, lies within the slot and is expected there. Its
+  // header must be that slot's, with the present cycle counter.
   static bool is_frame(const ports::Reception& reception) {
     return reception.signal == ports::Signal::kFrame && reception.frame.error == wire::FrameError::kNone;
   }

@@ -1,5 +1,5 @@
-// The sync collector gathers the cluster's sync and startup frames over a double cycle: the deviations for
-// clock correction, and the startup frames for start-up (FlexRay 2.1A, chapters 7.2.4 and 8.5).
+// The sync collector gathers the cluster's sync and startup frames over a double cycle (FlexRay 2.1A, chapters
+// 7.2.4 and 8.5). It has the deviations for clock correction, and the startup frames for start-up.
 #pragma once
 
 #include <array>

@@ -118,9 +118,9 @@ class Guardian {
   // `counter`: the dynamic slot counter of this cycle and channel.
   GuardianAnswer judge(const timebase::CycleClock& clock, const controller::DynamicSlotCounter& counter,
                        const GuardianSignal& signal) const;
-  // Returns when a forwarded signal ends at the coupler: it began at `start`, its sender ends it at `end`, and
-  // its answer limits it to `until`. Returns `end` if the guardian does not intervene. Applies G7 and, in the
-  // dynamic segment, G9; all instants are the coupler's.
+  // Returns the end at the coupler of a forwarded signal. It began at `start`, its sender ends it at `end`,
+  // and its answer limits it to `until`. Returns `end` if the guardian does not intervene. Applies G7 and, in
+  // the dynamic segment, G9; all instants are the coupler's.
   Microticks end_of(const timebase::CycleClock& clock, Microticks start, Microticks end, Microticks until) const;
   // Counts a reception that lies in the dynamic segment, wholly or partly (bus/controller/dynamic_segment.h).
   void count(const timebase::CycleClock& clock, controller::DynamicSlotCounter& counter, Microticks start,

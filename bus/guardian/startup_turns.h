@@ -18,9 +18,9 @@
 //   S5  a wake-up pattern is forwarded on the node's wake-up channel, once in kWaitCycles for each node, and not during
 //       a lead
 //   S6  all other signals are refused, and all that last too long
-// kWaitCycles is more than the other nodes need: at most two cycles to give up the schedule they followed, two
-// to listen, and four for a new leader to be alone. So one faulty node spoils at most one lead in kWaitCycles
-// on each channel. The fault-free coldstart nodes, two at least, have the remaining time.
+// kWaitCycles is more than the other nodes need. They need at most two cycles to give up the schedule they
+// followed, two to listen, and four for a new leader to be alone. So one faulty node spoils at most one lead
+// in kWaitCycles on each channel. The fault-free coldstart nodes, two at least, have the remaining time.
 #pragma once
 
 #include <cstdint>

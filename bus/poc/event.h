@@ -1,5 +1,6 @@
-// The events of protocol operation control, as plain data: commands of the host, results of the receiver and
-// of wake-up, and the progress of the communication cycle. Each event states its sender and its time.
+// The events of protocol operation control, as plain data. They are commands of the host, results of the
+// receiver and of wake-up, and the progress of the communication cycle. Each event states its sender and its
+// time.
 #pragma once
 
 #include <array>

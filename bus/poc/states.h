@@ -1,5 +1,5 @@
-// The parts of protocol operation control: the table of answers (table.cc), and the steps that do more than
-// change the state, by their part of the state machine.
+// The parts of protocol operation control. table.cc has the answers to all events; the other files have the
+// steps that do more than change the state.
 #pragma once
 
 #include "bus/poc/poc.h"

@@ -1,5 +1,5 @@
 // The exchange carries whole messages between the processes of one node set in virtual time, each from one
-// node to all others. sim/processes/turn.h defines their content; bus/dds/ carries them.
+// node to all others. Their content is defined in sim/processes/turn.h; bus/dds/ carries them.
 //
 //   L1  every message of a member reaches every other member exactly once, unchanged
 //   L2  messages of one member arrive in the order in which they were sent

@@ -17,9 +17,9 @@
 //   L8  descriptor(line) of a watched line is readable from the first arrival until receive() has handed over the last
 //
 // A process sends late by the time that its kernel needs to wake it up. Clock synchronisation must not take
-// that lateness for the sender's clock. So the medium measures the lateness of a sync frame as it sends it,
-// and states it in the frame or, where the frame has no room, in a follow-up (as AUTOSAR's time
-// synchronisation over CAN does, SYNC and FUP).
+// that lateness for the sender's clock. So the medium measures the lateness of a sync frame as it sends it. It
+// states it in the frame or, if the frame has no room, in a follow-up (as AUTOSAR's time synchronisation over
+// CAN does, SYNC and FUP).
 #pragma once
 
 #include <cstddef>

@@ -20,7 +20,7 @@ struct InterfaceState {
 // interface.
 InterfaceState interface_state(const std::string& name);
 
-// A fault, and the commands that mend it, in order and as root; without commands if none is known.
+// A fault, and the known commands that mend it, in order and as root.
 struct Problem {
   std::string what;  // a predicate, "is not there"; empty: no fault
   std::vector<std::string> commands;

@@ -1,6 +1,6 @@
-// Checks whether a schedule holds on real CAN FD hardware, which is slower than FlexRay. flexray_on_can.h maps
-// the frames, one CAN for each channel, with as many stuff bits as possible (schedules/analysis/can_load.h).
-// Only bits count; the delays of controllers and drivers come on top.
+// Checks whether a schedule holds on real CAN FD hardware, which is slower than FlexRay. Each channel has one
+// CAN; the frames are those of flexray_on_can.h, with as many stuff bits as possible
+// (schedules/analysis/can_load.h). Only bits count; the delays of controllers and drivers come on top.
 //
 //   static slots    the sync frame of a key slot with its follow-up, or a frame of gPayloadLengthStatic, must take no
 //                   longer than a static slot: from action point to action point

@@ -94,7 +94,7 @@ std::uint32_t crc15(std::uint32_t header, std::span<const std::byte> data) {
 }
 
 // Alternating bits, which set off no stuff bit, fill fields up to whole bytes. In front of a field the fill
-// ends in a one, as if after a break; behind a field it begins with the opposite of its last bit.
+// ends in a one, as if after a break. Behind a field it begins with the opposite of the field's last bit.
 constexpr std::uint32_t kFill3 = 0b101, kFill5 = 0b10101, kFill7 = 0b1010101;
 
 constexpr std::array<int, 16> kLengths{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};

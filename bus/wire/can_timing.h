@@ -1,5 +1,5 @@
 // The time of one CAN frame with given data on the wire, stuff bits counted one by one (ISO 11898-1:2015).
-// schedules/analysis/can_load.h bounds it for any data.
+// Bounds for any data are in schedules/analysis/can_load.h.
 #pragma once
 
 #include <cstddef>

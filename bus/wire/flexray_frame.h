@@ -84,8 +84,8 @@ bool has_header(const DecodedFrame& frame);
 // significant byte first. Returns no value if the indicator is not set or the payload is too short.
 std::optional<std::uint16_t> message_id(const DecodedFrame& frame);
 
-// Returns the time of a static frame on the wire (schedules::frame_bits): in picoseconds, and in whole
-// nanoseconds, rounded up, because a frame has arrived with its last bit.
+// Returns the time of a static frame on the wire (schedules::model::frame_bits): in picoseconds, and in whole
+// nanoseconds. The latter is rounded up, because a frame has arrived only with its last bit.
 std::int64_t frame_duration_ps(const schedules::model::GlobalParameters& flexray, int payload_words);
 Duration frame_duration(const schedules::model::GlobalParameters& flexray, int payload_words);
 // Returns the payload words of a frame with that many bytes, header and trailer included.

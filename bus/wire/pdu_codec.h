@@ -20,8 +20,8 @@ double to_physical(const schedules::model::Signal& signal, std::uint32_t raw, in
 // bits.
 std::uint32_t highest_code(const schedules::model::Signal& signal);
 
-// Returns the index of the header signal of that name. The loader has found the name in the layout
-// ("sequence", "fragment" and "count" are in every one), so its absence is our bug and fails a check.
+// Returns the index of the header signal of that name. The loader has found the name in the layout, so its
+// absence is our bug and fails a check. Every layout has "sequence", "fragment" and "count".
 std::size_t header_signal(const schedules::model::PduLayout& layout, std::string_view name);
 
 // Reads or writes one signal of the header, or of element `index`, in a payload of exactly fragment_bytes.

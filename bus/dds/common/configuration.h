@@ -1,6 +1,6 @@
-// The built-in set-up of Cyclone DDS: for processes of one machine, over its loopback interface, unseen by
-// other machines. bus/dds/loopback.xml has the same text, and the changes for several machines. CYCLONEDDS_URI
-// replaces it.
+// The built-in set-up of Cyclone DDS serves processes of one machine, over its loopback interface. Other
+// machines do not see it. The same text is in bus/dds/loopback.xml, with the changes for several machines.
+// CYCLONEDDS_URI replaces it.
 #pragma once
 
 #include <chrono>

@@ -3,7 +3,7 @@
 //
 // A round is kFence, a report from every survivor, and kClose at the best report. The survivor that holds the
 // most repeats the samples that others lack. If it goes before all have them, another round begins. The end of
-// that round may be earlier, but never before a sample that a survivor has heard: fenced streams do not go on,
+// that round may be earlier, but never before a sample that a survivor has heard. Fenced streams do not go on,
 // and survivors report all samples they heard.
 #pragma once
 

@@ -8,7 +8,7 @@
 // L5 also holds for killed members. In a supervised session the supervisor announces them gone
 // (bus/dds/exchange/exchange_supervisor.h), and all survivors hear exactly the same messages of them. In a
 // session without supervisor only DDS notices an end. There a member that ends without leaving is an error for
-// all others, after its lease and as long again, in which it may come back.
+// all others. The error comes after its lease and as long again, in which it may come back.
 //
 // An object belongs to one thread at a time.
 #pragma once
@@ -37,8 +37,8 @@ class Exchange final : public ports::Exchange {
 
   // Precondition: wait_ready() has returned.
   void send(std::span<const std::byte> message) override;
-  // Besides the port's errors: throws std::runtime_error if samples were lost, if all others are gone, if the
-  // supervisor has gone, or if this member itself has been announced gone.
+  // Besides the port's errors: throws std::runtime_error if samples were lost or if all others are gone. So it
+  // does if the supervisor has gone or has announced this member gone.
   Heard receive() override;
 
   // Says goodbye to the others. Waits until all have it, but only briefly for members that do not answer.

@@ -1,5 +1,5 @@
-// The exchange supervisor watches over an exchange (bus/dds/exchange/exchange.h): it knows the members that
-// have joined and left, and brings all survivors to hear the same of a member that died. It takes no part in
+// The exchange supervisor watches over an exchange (bus/dds/exchange/exchange.h). It knows the members that
+// have joined and left. It brings all survivors to hear the same of a member that died. It takes no part in
 // the messages, and so costs them nothing.
 //
 // Its announcements are final: an announced member is gone, even if it still lives. The process that started
@@ -32,7 +32,7 @@ class ExchangeSupervisor {
   struct Event {
     What what{};
     NodeId node{};
-    // Of kGone: the number of its samples that the survivors have heard, hello and goodbye included.
+    // For kGone: the number of its samples that the survivors have heard, hello and goodbye included.
     std::uint64_t samples = 0;
   };
 

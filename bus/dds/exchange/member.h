@@ -1,5 +1,5 @@
-// A member of an exchange at work (bus/dds/exchange/exchange.h): the other members, their samples, and its
-// part in agreeing on the end of members that die (bus/dds/exchange/stream.h).
+// A member of an exchange at work (bus/dds/exchange/exchange.h). It has the other members, their samples, and
+// its part in agreeing on the end of dead members (bus/dds/exchange/stream.h).
 #pragma once
 
 #include <chrono>

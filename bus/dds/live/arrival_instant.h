@@ -1,6 +1,6 @@
-// Estimates by this machine's clock when a sample from another machine arrived: its departure by the sender's
-// clock plus the least delay from that machine (bus/dds/live/least_delay.h). The receiving thread wakes up
-// late, and that lateness says nothing about the sender's clock. Pure.
+// Estimates the arrival of a sample from another machine by this machine's clock. It is the departure by the
+// sender's clock plus the least delay from that machine (bus/dds/live/least_delay.h). The receiving thread
+// wakes up late, and that lateness says nothing about the sender's clock. Pure.
 //
 //   L1  never later than the sample was in hand
 //   L2  for one sender never earlier than its previous sample: a falling minimum does not change the order

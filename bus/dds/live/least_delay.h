@@ -1,9 +1,9 @@
-// The least delay of samples from another machine, by that machine's stamp and this machine's clock: the
-// offset of the two clocks and the network's least delay in one. Pure.
+// The least delay of samples from another machine, by that machine's stamp and this machine's clock. It has
+// the offset of the two clocks and the network's least delay in one. Pure.
 //
-// A frame that left at s by the other machine's clock and was in hand at r by this one's has the delay d = r -
-// s. The late wake-up of the reader only adds to d, so the least delay among recent frames has the least of
-// it. s plus that minimum is when a frame arrived, whatever happened to it then.
+// A frame leaves at s by the other machine's clock and is in hand at r by this one's. Its delay is d = r - s.
+// The late wake-up of the reader only adds to d, so the least delay among recent frames has the least of it.
+// The frame arrived at s plus that minimum, whatever happened to it then.
 //
 //   least(r) = min over the frames of the last second of  d_i + drift * (r - r_i),  never more than the frame's own d
 //   drift    = (d_new - d_old) / (r_new - r_old), the frames of least delay among those of the newest and of the oldest

@@ -1,7 +1,7 @@
 // One line of the DDS live medium, as one node has it: the topic, a writer, a reader, and the arrivals.
 //
 // DDS' own threads take and stamp arrivals, which wait in a queue. A sample from the same machine
-// (bus/dds/common/host_identity.h) arrives when its sender hands it to DDS: the clock is the same, and the
+// (bus/dds/common/host_identity.h) arrives when its sender hands it to DDS. The clock is the same, and the
 // reader's late wake-up says nothing about the sender's clock. A sample from another machine arrives at that
 // instant by its sender's clock plus the recent least delay from there (bus/dds/live/arrival_instant.h). If
 // the machines cannot be told apart, it arrives when it is taken.

@@ -7,8 +7,8 @@
 //
 // A sender stamps each sample right before it hands it to DDS. On the same machine that stamp is
 // LiveArrival::at. On another, `at` is the stamp by the receiver's clock plus the least delay from there
-// (bus/dds/live/arrival_instant.h), so that L4 holds between machines as well as their clocks are known. The
-// sample itself states its lateness; there are no follow-ups.
+// (bus/dds/live/arrival_instant.h). So L4 holds between machines as well as their clocks are known. The sample
+// itself states its lateness; there are no follow-ups.
 //
 // This code allocates nothing after construction. DDS itself allocates for every sample, from its own pools.
 // One thread sends and receives at a time; DDS' own threads take the incoming samples.

@@ -3,9 +3,9 @@
 //
 //   CYCLONEDDS_URI=file:///path/to/bus/dds/loopback.xml ttf_ros_listen [DOMAIN]
 //
-// It prints one JSON object per line, until SIGINT or SIGTERM: every publication of a known type, as DDS
-// announces it; every sample; and every publisher that misses its deadline, comes to life or goes. Readers
-// request the promises of the first publisher of their topic.
+// It prints one JSON object per line, until SIGINT or SIGTERM. An object is a publication of a known type, as
+// DDS announces it, a sample, or a publisher that misses its deadline, comes to life or goes. Readers request
+// the promises of the first publisher of their topic.
 #include <dds/dds.h>
 
 #include <array>

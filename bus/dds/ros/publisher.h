@@ -1,10 +1,9 @@
 // A ROS publisher publishes real-time images, tracks, healths and truth on DDS as ROS 2 topics (docs/ros.md).
 //
 // It is one more sink of records. The recording thread copies records into slots allocated at construction. It
-// never allocates, and never waits for the publisher, for DDS or for a listener. A thread of the publisher's
-// own writes to DDS. Records without a free slot are dropped and counted. That thread, and those of DDS,
-// inherit the priority and the processors of the thread that makes the publisher: make it before asking for
-// real time.
+// never allocates, and never waits for the publisher, for DDS or for a listener. Records without a free slot
+// are dropped and counted. A thread of the publisher's own writes to DDS. It and those of DDS inherit priority
+// and processors from the thread that makes the publisher: make it before asking for real time.
 #pragma once
 
 #include <cstdint>
