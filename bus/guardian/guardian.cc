@@ -43,7 +43,7 @@ schedules::model::Cluster guardian_cluster(const schedules::model::Cluster& clus
   const auto model = std::find_if(cluster.nodes.begin(), cluster.nodes.end(), [&](const schedules::model::Node& node) {
     return node.flexray && includes(node.flexray->pChannels, channel);
   });
-  TTF_CHECK(model != cluster.nodes.end(), "nobody is on channel {}", channel == Channel::kA ? "A" : "B");
+  TTF_CHECK(model != cluster.nodes.end(), "no node is on channel {}", channel == Channel::kA ? "A" : "B");
   schedules::model::Node guardian;
   guardian.name = channel == Channel::kA ? "guardian A" : "guardian B";
   guardian.flexray = *model->flexray;

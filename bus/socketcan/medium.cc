@@ -27,7 +27,7 @@ SocketCanMedium::SocketCanMedium(const LiveOptions& options) {
       return;
     }
     if (!named.insert(interface).second)
-      throw InputError(Finding{interface, 0, "", "", "is to carry two lines: each needs an interface of its own"});
+      throw InputError(Finding{interface, 0, "", "", "carries two lines: each line needs an interface of its own"});
     Socket socket({.interface = interface,
                    .flexible_data_rate = flexible,
                    .own_frames = flexray.has_value(),

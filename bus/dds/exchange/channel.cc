@@ -34,7 +34,7 @@ common::Qos qualities() {
 
 common::Said said_in(const ttf_ExchangeSample& sample) {
   if (sample.kind >= common::kKinds || sample.inner >= common::kKinds)
-    throw std::runtime_error(fmt::format("exchange: node {} says what is not known here (kind {}): another version?",
+    throw std::runtime_error(fmt::format("exchange: node {} sent a sample of an unknown kind ({}): another version?",
                                          sample.sender, sample.kind));
   return {.sender = NodeId{sample.sender},
           .kind = common::Kind{sample.kind},
@@ -112,7 +112,7 @@ bool Channel::acknowledged_within(std::chrono::nanoseconds patience) const {
 
 bool Channel::connections_changed() {
   std::uint32_t status = 0;
-  common::checked(dds_take_status(reader_, &status, kConnections), "cannot ask who is there");
+  common::checked(dds_take_status(reader_, &status, kConnections), "cannot list the writers");
   return std::exchange(changed_, false) || status != 0;
 }
 
@@ -121,7 +121,7 @@ bool Channel::lost(NodeId sender) const {
   if (writer == 0) return false;
   std::vector<dds_instance_handle_t> matched(256);
   const auto count =
-      common::checked(dds_get_matched_publications(reader_, matched.data(), matched.size()), "cannot ask who is there");
+      common::checked(dds_get_matched_publications(reader_, matched.data(), matched.size()), "cannot list the writers");
   matched.resize(std::min<std::size_t>(matched.size(), static_cast<std::size_t>(count)));
   return std::find(matched.begin(), matched.end(), writer) == matched.end();
 }

@@ -26,7 +26,7 @@ namespace {
 
 const common::Session& supervised(const common::Session& session) {
   validate(session);
-  TTF_CHECK(session.supervised, "a supervisor of an exchange that has none");
+  TTF_CHECK(session.supervised, "the session has no supervisor");
   return session;
 }
 
@@ -166,7 +166,8 @@ void ExchangeSupervisor::Watch::on_control(const common::Said& said) {
     case common::Kind::kFence:
     case common::Kind::kClose:
     case common::Kind::kMessage:
-      throw std::runtime_error(fmt::format("exchange: node {} speaks as no member may", index_of(node)));
+      throw std::runtime_error(
+          fmt::format("exchange: node {} sent a sample that members may not send", index_of(node)));
   }
 }
 

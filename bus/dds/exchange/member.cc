@@ -104,7 +104,7 @@ ports::Exchange::Heard Exchange::Member::receive() {
 }
 
 std::optional<Exchange::Member::Clock::time_point> Exchange::Member::look_around() {
-  if (nobody_left()) throw std::runtime_error("exchange: " + node(self_) + ": nobody is left to be heard");
+  if (nobody_left()) throw std::runtime_error("exchange: " + node(self_) + ": all other members are gone");
   if (supervisor_left_) throw std::runtime_error("exchange: the supervisor has left");
   note_lost();
   std::optional<Clock::time_point> until;

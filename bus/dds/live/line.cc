@@ -233,7 +233,7 @@ std::string LiveLine::failure() const {
 std::vector<NodeId> LiveLine::unheard() const {
   std::vector<dds_instance_handle_t> matched(kMostEndpoints);
   const auto count = common::checked(dds_get_matched_publications(reader_, matched.data(), matched.size()),
-                                     "cannot ask who is on " + topic_);
+                                     "cannot list the nodes on " + topic_);
   matched.resize(std::min(matched.size(), static_cast<std::size_t>(count)));
   return all_but(owners(reader_, matched, dds_get_matched_publication_data));
 }
@@ -241,7 +241,7 @@ std::vector<NodeId> LiveLine::unheard() const {
 std::vector<NodeId> LiveLine::deaf() const {
   std::vector<dds_instance_handle_t> matched(kMostEndpoints);
   const auto count = common::checked(dds_get_matched_subscriptions(writer_, matched.data(), matched.size()),
-                                     "cannot ask who is on " + topic_);
+                                     "cannot list the nodes on " + topic_);
   matched.resize(std::min(matched.size(), static_cast<std::size_t>(count)));
   return all_but(owners(writer_, matched, dds_get_matched_subscription_data));
 }

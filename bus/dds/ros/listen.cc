@@ -322,7 +322,7 @@ int main(int count, char** arguments) {
   char* end = nullptr;
   const unsigned long domain = count == 2 ? std::strtoul(arguments[1], &end, 10) : 0;
   if (count > 2 || (count == 2 && (end == arguments[1] || *end != '\0' || domain > 231))) {
-    std::fprintf(stderr, "usage: ttf_ros_listen [DOMAIN]   DOMAIN: 0..231, as ROS_DOMAIN_ID; 0 unless told\n");
+    std::fprintf(stderr, "usage: ttf_ros_listen [DOMAIN]   DOMAIN: 0..231, as ROS_DOMAIN_ID; 0 by default\n");
     return 2;
   }
   std::signal(SIGINT, on_signal);
