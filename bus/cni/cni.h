@@ -1,7 +1,7 @@
-// The communication network interface of one FlexRay controller: the lists its host writes, cut into the fragments that
-// slots carry, and the lists that arrive.
+// The communication network interface (CNI) of one FlexRay controller. It cuts the lists that the host writes
+// into fragments for the slots, and collects the lists that arrive.
 //
-// The first slot of a list in a cycle latches it, so that a write between two of its slots tears nothing.
+// The first slot of a list in a cycle latches it, so that a write between two of its slots cannot tear it.
 #pragma once
 
 #include <array>
@@ -21,18 +21,18 @@ class Cni {
  public:
   Cni(const schedules::model::Cluster& cluster, NodeId node);
 
-  OutgoingList& outgoing(PduId pdu);  // must be a PDU this node sends
+  OutgoingList& outgoing(PduId pdu);  // must be a PDU that this node sends
   IncomingList& incoming(PduId pdu);  // any other PDU on FlexRay
 
-  // What a slot carries in a cycle.
+  // The content of a slot in a cycle.
   struct Fragment {
     std::span<const std::byte> payload;  // empty: a null frame
     std::uint32_t sequence = 0;
-    bool last = false;  // completes a list that had not left completely before
+    bool last = false;  // completes the list for the first time
   };
   Fragment fetch(const schedules::model::FrameSlot& slot, std::int64_t cycle);
-  // In the dynamic segment a frame is sent once per list: whether this channel has not carried what the slot has now,
-  // and that it has carried it.
+  // In the dynamic segment a fragment is sent once per list and channel. pending() returns whether the channel
+  // still has to carry the slot's present fragment. carried() notes that it has.
   bool pending(const schedules::model::FrameSlot& slot, schedules::model::Channel channel, std::int64_t cycle);
   void carried(const schedules::model::FrameSlot& slot, schedules::model::Channel channel);
 
@@ -40,8 +40,8 @@ class Cni {
   struct Sent {
     OutgoingList current, latched;
     std::int64_t latched_cycle = -1;
-    std::optional<std::uint32_t> completed;                            // newest sequence that left completely
-    std::array<std::vector<std::optional<std::uint32_t>>, 2> carried;  // by channel and fragment: newest that left
+    std::optional<std::uint32_t> completed;                            // newest sequence sent completely
+    std::array<std::vector<std::optional<std::uint32_t>>, 2> carried;  // by channel and fragment: newest sent
     explicit Sent(const schedules::model::PduLayout& layout);
   };
   Sent& latch(const schedules::model::FrameSlot& slot, std::int64_t cycle);

@@ -44,7 +44,8 @@ IncomingList::IncomingList(const schedules::model::PduLayout& layout)
   }
 }
 
-// How far `raw` lies ahead of list `of` on the circle: 1..half of it is newer, 0 the same, below 0 older.
+// Returns the distance of `raw` from list `of` on the circle: positive is newer (up to half the circle),
+// negative older.
 std::int64_t IncomingList::ahead(std::uint32_t raw, std::uint32_t of) const {
   const std::int64_t circle = std::int64_t{1} << layout_->header[sequence_signal_].bits;
   const std::int64_t difference = (static_cast<std::int64_t>(raw) - of) & (circle - 1);
@@ -60,7 +61,7 @@ bool IncomingList::well_formed(std::span<const std::byte> payload, int fragment,
   return true;
 }
 
-// Counts the stale lists in a row; true at the one that tells a sender that counts anew.
+// Counts consecutive stale lists; returns true at the one that proves a restarted sender.
 bool IncomingList::restarted(std::uint32_t raw) {
   if (stale_lists_ > 0 && raw == stale_raw_) return false;  // another fragment, or the other channel
   stale_lists_ = stale_lists_ > 0 && ahead(raw, stale_raw_) > 0 ? stale_lists_ + 1 : 1;
@@ -68,7 +69,7 @@ bool IncomingList::restarted(std::uint32_t raw) {
   return stale_lists_ == kRestartLists;
 }
 
-// Makes `sequence` the list that is collected; an incomplete one that is displaced is torn.
+// Begins to collect list `sequence`; an incomplete list that it displaces is torn.
 void IncomingList::begin(std::uint32_t sequence, int count) {
   if (collecting_ && collecting_sequence_ == sequence && collecting_count_ == count) return;
   if (collecting_) torn_ = collecting_sequence_;
@@ -96,8 +97,8 @@ ArrivalEffect IncomingList::store(std::span<const std::byte> payload, int fragme
   return ArrivalEffect::kCompleted;
 }
 
-// Whether this is, to the last bit, a fragment that the newest list has already: so most of what arrives is, on the
-// other channel and in every cycle until there is another list.
+// Returns whether the newest list already has this fragment, to the last bit. Most arriving fragments are such
+// repetitions: on the other channel, and in every cycle until the next list.
 bool IncomingList::repeats(std::span<const std::byte> payload, int fragment) const {
   const auto index = static_cast<std::size_t>(fragment);
   const bool there =
@@ -125,7 +126,7 @@ ArrivalEffect IncomingList::arrive(std::span<const std::byte> payload, std::opti
   const std::uint32_t newest = collecting_ ? collecting_sequence_ : complete_sequence_;
   const std::int64_t difference = ahead(raw, newest);
   arrived_sequence_ = static_cast<std::uint32_t>(newest + difference);
-  // The second channel's copy of the latest, also where the next list has begun already.
+  // The second channel's copy of the latest list, even if the next list has begun.
   if (complete_ && arrived_sequence_ == complete_sequence_ && (!collecting_ || difference < 0)) {
     stale_lists_ = 0;
     return ArrivalEffect::kDuplicate;

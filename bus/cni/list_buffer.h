@@ -1,17 +1,17 @@
-// The CNI: state-message buffers for lists (Kopetz's temporal firewall). Reading never waits, writing never blocks, a
-// newer list replaces an older one, and a list that is not complete under one sequence number is never handed out.
+// List buffers of the CNI: state-message buffers (Kopetz's temporal firewall). Reading never waits, writing
+// never blocks, and a newer list replaces an older one.
 //
 //   L1  a list is handed out whole, every fragment of one sequence number and count, or not at all
 //   L2  an older list never replaces a newer one. Sequence numbers compare on the circle of the field's 2^bits values
 //       (as in RFC 1982): b is newer than a where (b - a) mod 2^bits is 1..2^(bits-1). Fragments older than the newest
-//       list begun are stale: refused
-//   L3  a sender that counts anew is believed at its kRestartLists-th list: that many stale lists in a row, each newer
-//       than the one before and no other fragment between them, are no stragglers. The buffer begins again with the
-//       last of them, as at the very first list
-//   L4  what no sender of the layout writes is refused: a count or fragment index the layout does not have, another
-//       fragment than the slot is for, a signal's code above its range
+//       list begun are stale and refused
+//   L3  a sender that restarts its count is accepted at its kRestartLists-th list: so many consecutive stale lists,
+//       each newer than the one before, with no other fragment between them, are no stragglers. The buffer begins
+//       again with the last of them, as with its first list
+//   L4  values that no sender of the layout writes are refused: a count or fragment index outside the layout, another
+//       fragment than the slot's, a signal's code above its range
 //
-// Capacity is taken at construction from the PDU layout; nothing allocates afterwards.
+// The PDU layout sets the capacity at construction; nothing allocates afterwards.
 #pragma once
 
 #include <cstddef>
@@ -25,14 +25,14 @@
 
 namespace ttf::bus::cni {
 
-// A complete list: the payloads of its fragments one after the other, each layout.fragment_bytes long.
+// A complete list: the payloads of its fragments in order, each layout.fragment_bytes long.
 struct ListView {
-  std::uint32_t sequence = 0;  // unwrapped: counts on where the bus' field wraps
+  std::uint32_t sequence = 0;  // unwrapped: counts on where the field on the bus wraps
   int fragments = 0;
   std::span<const std::byte> bytes;
 };
 
-// The sending side: what the controller transmits until the next write.
+// The sending side: the list that the controller transmits until the next write.
 class OutgoingList {
  public:
   explicit OutgoingList(const schedules::model::PduLayout& layout);
@@ -40,7 +40,7 @@ class OutgoingList {
   bool empty() const { return fragments_ == 0; }
   std::uint32_t sequence() const { return sequence_; }
   int fragments() const { return fragments_; }
-  // Payload of a fragment; empty where the current list has no such fragment (a null frame is sent).
+  // Returns the payload of a fragment; empty if the current list has no such fragment (a null frame is sent).
   std::span<const std::byte> fragment(int index) const;
 
  private:
@@ -59,29 +59,30 @@ enum class ArrivalEffect : std::uint8_t {
   kMalformed,   // values that no sender of this layout produces (L4); ignored
 };
 
-// The receiving side: collects fragments in any order, from one or two channels, and offers the newest complete list.
+// The receiving side collects fragments in any order, from one or two channels, and offers the newest complete
+// list.
 class IncomingList {
  public:
   static constexpr int kRestartLists = 3;
 
   explicit IncomingList(const schedules::model::PduLayout& layout);
-  // `fragment`: the one the slot is for, where that is laid down (FlexRay); a CAN frame may carry any.
+  // `fragment`: the slot's fragment, if the schedule fixes it (FlexRay); a CAN frame may carry any.
   ArrivalEffect arrive(std::span<const std::byte> payload, std::optional<int> fragment = std::nullopt);
-  // Whether that fragment arriving once more would be kDuplicate and change nothing.
+  // Returns whether a repetition of that fragment would be kDuplicate and change nothing.
   bool knows(std::span<const std::byte> payload, int fragment) const {
     return stale_lists_ == 0 && repeats(payload, fragment);
   }
-  // The newest complete list, or nothing yet. Stays the same until a newer one is complete.
+  // Returns the newest complete list, no value before the first. It stays until a newer one is complete.
   std::optional<ListView> latest() const;
-  // Marks the latest as read; false if it had been read before.
+  // Marks the latest list as read; returns false if it was read before.
   bool mark_read();
-  // The list that the newest well-formed fragment belongs to, whatever its effect.
+  // Returns the list of the newest well-formed fragment, whatever its effect.
   std::uint32_t arrived() const { return arrived_sequence_; }
-  // The incomplete list that the newest fragment displaced, if it did: also where that fragment is a whole list itself.
+  // Returns the incomplete list that the newest fragment displaced, even if that fragment is a whole list.
   std::optional<std::uint32_t> torn() const { return torn_; }
 
  private:
-  // A signal whose range ends before its bits do.
+  // A signal whose range has fewer codes than its bits.
   struct Bounded {
     std::size_t signal;
     std::uint32_t highest;
@@ -102,7 +103,7 @@ class IncomingList {
   int collecting_count_ = 0, collecting_fragments_ = 0, collecting_present_ = 0, complete_fragments_ = 0;
   std::optional<std::uint32_t> torn_;
   bool collecting_ = false, complete_ = false, read_ = false;
-  std::uint32_t stale_raw_ = 0;  // of the newest of the stale lists in a row
+  std::uint32_t stale_raw_ = 0;  // of the newest consecutive stale list
   int stale_lists_ = 0;
 };
 

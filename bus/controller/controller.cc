@@ -13,7 +13,7 @@ const schedules::model::NodeParameters& parameters(const schedules::model::Clust
   return *cluster.node(node).flexray;
 }
 
-// A static slot's microticks. Parameters that come from nowhere but a test's hand have been through no checker.
+// Returns a static slot's microticks. Checks parameters that a test made by hand, past the checker.
 timebase::Divisor nominal_slot(const schedules::model::GlobalParameters& g, const schedules::model::NodeParameters& p) {
   TTF_CHECK(g.gMacroPerCycle >= 1 && g.gdStaticSlot >= 1 && p.pMicroPerCycle >= g.gMacroPerCycle,
             "static slots of {} macroticks, {} macroticks and {} microticks per cycle", g.gdStaticSlot,
@@ -60,7 +60,7 @@ void FlexRayController::State::act(const poc::PocActions& actions, Microticks at
   if (actions.has(poc::PocAction::kSendWakeupPattern)) send_wakeup_pattern(at);
   if (actions.has(poc::PocAction::kSendCas)) send_cas(at);
   if (actions.has(poc::PocAction::kDeriveSchedule))
-    initialisation.reset();  // hear() gives it the frame that set this off
+    initialisation.reset();  // hear() passes on the frame that caused this
 }
 
 void FlexRayController::State::drop_schedule() {
@@ -70,7 +70,8 @@ void FlexRayController::State::drop_schedule() {
   symbol_request.reset();
 }
 
-// A clock for `cycle`, which starts at `start`: in the future, or in the past for who joins in the middle of it.
+// Starts a clock for `cycle`, which begins at `start`: in the future, or in the past for a node that joins
+// during it.
 void FlexRayController::State::begin_schedule(Microticks start, int rate, std::int64_t cycle) {
   clock.emplace(geometry, start, rate, cycle);
   lay_cycle();
@@ -88,7 +89,7 @@ void FlexRayController::State::begin_schedule(Microticks start, int rate, std::i
 
 // Static slots lie before the clock's correction phase, so only its rate moves them.
 void FlexRayController::State::lay_cycle() {
-  const int round = g.gCycleCountMax + 1;  // 64 but for schedules made by hand: no division is needed
+  const int round = g.gCycleCountMax + 1;  // 64 except in hand-made schedules; a power of two needs no division
   counter = static_cast<int>((round & (round - 1)) == 0 ? clock->cycle() & (round - 1) : clock->cycle() % round);
   if (grid_rate == clock->rate_correction()) return;
   grid_rate = clock->rate_correction();
@@ -115,7 +116,7 @@ Microticks FlexRayController::State::next_event() const {
   return next;
 }
 
-// One thing that is due at `at`; what else is due then comes with the next call.
+// Handles one event that is due at `at`; the next call handles the next one.
 void FlexRayController::State::handle(Microticks at) {
   const auto busy = [this] {
     return port.carrier(schedules::model::Channel::kA) || port.carrier(schedules::model::Channel::kB);
@@ -126,7 +127,7 @@ void FlexRayController::State::handle(Microticks at) {
   }
   if (listen_timer == at) {
     listen_timer = kNever<Microticks>;
-    // What is arriving may have stopped the timer, which then starts anew when the channels are idle again.
+    // Arriving activity may have stopped the timer, which restarts when the channels are idle again.
     const bool stopped = listen_timer_follows_channels(poc.kind) && busy();
     return tell({stopped ? poc::PocEventKind::kChannelActive : poc::PocEventKind::kListenTimeout}, at);
   }
@@ -169,7 +170,7 @@ void FlexRayController::State::start_cycle() {
   skip_to_own_static();
 }
 
-// `ended`: what was received in the cycle before.
+// `ended`: the startup frames received in the cycle before.
 void FlexRayController::State::enter_cycle(const poc::StartupFramesSeen& ended, Microticks at) {
   tell(poc::PocEvent::cycle_started(counter, ended), at);
   if (!clock || clock->cycle_start() != at) return;  // dropped, or begun anew by a CAS
@@ -177,7 +178,8 @@ void FlexRayController::State::enter_cycle(const poc::StartupFramesSeen& ended, 
   events.cycle_started(clock->cycle(), at);
 }
 
-// What has not ended has not been judged: its beginning is not known but to have been behind all that was heard.
+// Activity under way is not judged yet. It began at an unknown instant after all that was heard on the
+// channel.
 void FlexRayController::State::note_what_goes_on() {
   for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
     bool& goes_on = going_on[index_of(channel)];
@@ -210,8 +212,8 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
   }
 }
 
-// All static frames of the cycle have been heard: what is missing is reported, and in odd cycles the corrections are
-// computed.
+// All static frames of the cycle have been heard: reports the missing ones, and computes the corrections in
+// odd cycles.
 void FlexRayController::State::close_static_segment(Microticks at) {
   const std::int64_t cycle = clock->cycle();
   note_what_goes_on();
@@ -246,7 +248,7 @@ void FlexRayController::State::close_static_segment(Microticks at) {
   tell(poc::PocEvent::clock_corrected(offset.missing || rate.missing, offset.limit_reached || rate.limit_reached), at);
 }
 
-// ---- the public face
+// ---- the public interface
 
 FlexRayController::FlexRayController(const schedules::model::Cluster& cluster, NodeId node, ports::FlexRayPort& port,
                                      ControllerEvents& events)
@@ -282,7 +284,7 @@ void FlexRayController::command(poc::PocEventKind command, Microticks now) {
 
 Microticks FlexRayController::next_event() const { return state_->due; }
 
-// Within the schedule only the minislot counters listen: what is taken there moves the node's own dynamic slots.
+// Within the schedule only the minislot counters react: activity there moves the node's own dynamic slots.
 bool FlexRayController::answers_at_once() const {
   const State& s = *state_;
   if (!synchronised()) return true;

@@ -1,26 +1,27 @@
-// A FlexRay communication controller: it starts the cluster or integrates into it, keeps the node's synchronised clock,
-// sends what is in the CNI in its own slots of both segments, judges and stores what it receives, and corrects its
-// clock.
+// A FlexRay communication controller starts the cluster or integrates into it, and keeps and corrects the
+// node's synchronised clock. It sends the CNI's content in its own slots of both segments, and judges and
+// stores frames that it receives.
 //
-// Why it is in its state is protocol operation control's business (bus/poc/poc.h); this class gives that its events,
-// and does what it says. Driven from outside in its own microticks, so that the same controller runs in virtual and in
-// real time:
+// Protocol operation control (bus/poc/poc.h) decides its state: this class hands it events and carries out its
+// actions. The crank or the runner drives it in its own microticks, so that the same controller runs in
+// virtual and in real time:
 //
 //   while (running) { wait until controller.next_event() or a reception; advance() / receive(); }
 //
 //   L1  next_event() is never in the past of the last advance(), and advance(t) does everything due up to t
 //   L2  receive() is called with the medium's order (flexray_port.h L3); a frame is judged at its end
-//   L3  in a static slot it owns it always sends (a null frame where the CNI has no such fragment), in a dynamic slot
-//       what has not left yet, elsewhere never; and never anything that protocol operation control does not allow
+//   L3  in its own static slots it always sends, a null frame if the CNI has no such fragment; in its dynamic slots
+//       only what has not left yet; elsewhere never, and never against protocol operation control
 //   L4  nothing here allocates after construction
 //
-// Readings taken where the sources leave room: a startup frame sent before normal operation is a null frame. A second
-// communication element in a static slot is a syntax error of that slot, also where the first was a valid frame. What
-// began outside every slot is reported under slot 0. What crosses slots' boundaries violates those of every slot it
-// touches (bus/controller/slot_board.h); of what goes on when the static segment ends, that is said then of the
-// segment's last slot, and of the empty slots in front of it behind all that was heard on the channel, instead of "no
-// frame". A node alone with its own sync frame misses no term of clock correction. Cycle 0 of a leading coldstart node
-// starts one macrotick after the end of its CAS.
+// Interpretations where the sources leave room: a startup frame sent before normal operation is a null frame.
+// A second communication element in a static slot is a syntax error of that slot, even after a valid frame.
+// Activity that began outside every slot is reported under slot 0. Activity across slot boundaries violates
+// the boundary of every slot that it touches (bus/controller/slot_board.h). Activity that outlasts the static
+// segment is reported when the segment ends. It then violates the boundaries of the segment's last slot, and
+// of the silent slots before it in which a frame is expected, back to the last activity heard on the channel.
+// The report replaces "no frame" there. A node alone with its own sync frame misses no term of clock
+// correction. Cycle 0 of a leading coldstart node starts one macrotick after the end of its CAS.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +40,7 @@
 
 namespace ttf::bus::controller {
 
-// Per slot and channel, what was seen (FlexRay 2.1A vSS). Values are the bits of records::SlotProblem.
+// The status of a slot on a channel (FlexRay 2.1A vSS). The values are the bits of records::SlotProblem.
 enum SlotStatus : std::uint8_t {
   kValidFrame = 0,
   kSyntaxError = 1,
@@ -49,8 +50,8 @@ enum SlotStatus : std::uint8_t {
   kNoFrame = 16,
 };
 
-// The same as a host reads it back, of one static slot on one channel in one cycle. Nothing set: nothing was heard,
-// which is so in the node's own slots, too. More than one may be set: a valid frame and noise behind it.
+// The same status as a host reads it, of one static slot on one channel in one cycle. No flag set: the channel
+// was silent, as always in the node's own slots. Several may be set, for a valid frame with noise after it.
 struct SlotSeen {
   bool valid_frame = false;
   bool syntax_error = false;
@@ -61,73 +62,74 @@ struct SlotSeen {
   bool operator==(const SlotSeen&) const = default;
 };
 
-// The same of the symbol window (E-Ray SWNIT). A media access test symbol that is one of several is valid, and a syntax
-// error besides.
+// The same status for the symbol window (E-Ray SWNIT). With several symbols, a valid media access test symbol
+// and a syntax error are both set.
 struct SymbolWindowSeen {
   bool valid_mts = false;
   bool syntax_error = false;           // anything else, and a second symbol
-  bool boundary_violation = false;     // something was on the channel where the window begins or ends
+  bool boundary_violation = false;     // activity at the beginning or the end of the window
   bool transmission_conflict = false;  // with this node's own symbol
 
   bool operator==(const SymbolWindowSeen&) const = default;
 };
 
-// What clock synchronisation has had to go by since the schedule began, under E-Ray's names (SPNU563A: registers SFS
-// and CCEV).
+// Status of clock synchronisation since the schedule began, under E-Ray's names (SPNU563A: registers SFS and
+// CCEV).
 struct SyncStatus {
-  // Valid sync frames on channel A or B in the last even or odd cycle whose static segment is over, the node's own
-  // included; counted up to 15, whatever gSyncNodeMax says.
+  // Valid sync frames on channel A or B in the last even or odd cycle whose static segment is over. The node's
+  // own count, too. At most 15, regardless of gSyncNodeMax.
   int VSAE = 0, VSAO = 0, VSBE = 0, VSBO = 0;
-  // Of the last double cycle: the offset or the rate term was missing, or was beyond its limit.
+  // The last double cycle missed the offset or the rate term, or exceeded its limit.
   bool MOCS = false, MRCS = false, OCLR = false, RCLR = false;
-  int vClockCorrectionFailed = 0;  // odd cycles in a row in which a term was missing, up to kMaxClockCorrectionFailed
+  int vClockCorrectionFailed = 0;  // consecutive odd cycles that missed a term, up to kMaxClockCorrectionFailed
 
   bool operator==(const SyncStatus&) const = default;
 };
 
-// What the controller tells its host. Called from advance(), receive() and the commands.
+// The events by which a controller informs its host. Called from advance(), receive() and the commands.
 class ControllerEvents {
  public:
   virtual ~ControllerEvents() = default;
   virtual void cycle_started(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
-  // slot 0: outside every slot.
+  // Slot 0: outside every slot.
   virtual void slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel, SlotStatus status,
                             Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)status, (void)at;
   }
-  // The static segment of a cycle is over, its slot problems have been told, and slot_status() is of it. During
-  // start-up too: what that is worth is the host's to judge by state().
+  // The static segment of a cycle is over: its slot problems have been reported, and slot_status() describes
+  // it. Also called during start-up, when the host must judge it by state().
   virtual void static_segment_ended(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
-  // Whether it has to be told of every frame received, and of every fragment that is known already.
+  // Returns whether the host wants every frame received, and every fragment even if known.
   virtual bool wants_receptions() const { return true; }
-  // A valid frame in the slot it says it is of; not during start-up. `frame` only during the call.
+  // A valid frame in the slot that its header states; not during start-up. `frame` is valid only during the
+  // call.
   virtual void frame_received(std::int64_t cycle, int slot, schedules::model::Channel channel,
                               const wire::DecodedFrame& frame, Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)frame, (void)at;
   }
-  // Whether frame_sent() looks at the bytes of transmissions.
+  // Returns whether frame_sent() reads the bytes of transmissions.
   virtual bool wants_bytes() const { return true; }
   // A frame of an outgoing list left; `last` with the last fragment of that list.
   virtual void frame_sent(const ports::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                           std::uint32_t sequence, int fragment, bool last) {
     (void)transmission, (void)cycle, (void)null_frame, (void)pdu, (void)sequence, (void)fragment, (void)last;
   }
-  // A fragment of list `sequence`; `torn`: the list it displaced before that was complete.
+  // A fragment of list `sequence` arrived; `torn`: the incomplete list that it displaced.
   virtual void list_arrived(PduId pdu, cni::ArrivalEffect effect, std::uint32_t sequence,
                             std::optional<std::uint32_t> torn, Microticks at) {
     (void)pdu, (void)effect, (void)sequence, (void)torn, (void)at;
   }
-  // The corrections as computed from a double cycle: at the end of its odd cycle's static segment, before either is in
-  // force.
+  // The corrections computed from a double cycle, at the end of its odd cycle's static segment. Neither is in
+  // force yet.
   virtual void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
                                Microticks at) {
     (void)cycle, (void)offset, (void)rate, (void)at;
   }
-  // A symbol left, on one channel; within normal operation Signal::kCas is a media access test symbol.
+  // A symbol left on one channel; in normal operation Signal::kCas is a media access test symbol.
   virtual void symbol_sent(ports::Signal signal, schedules::model::Channel channel, Microticks start, Microticks end) {
     (void)signal, (void)channel, (void)start, (void)end;
   }
-  // Protocol operation control went from one state to another.
+  // Protocol operation control changed its state.
   virtual void state_changed(poc::PocKind from, const poc::PocStep& step, Microticks at) {
     (void)from, (void)step, (void)at;
   }
@@ -140,73 +142,76 @@ struct InitialClock {
 
 class FlexRayController {
  public:
-  // In default config; nothing happens until one of the two below.
+  // Starts in default config and stays idle until start_integrated() or start_cold().
   FlexRayController(const schedules::model::Cluster& cluster, NodeId node, ports::FlexRayPort& port,
                     ControllerEvents& events);
   ~FlexRayController();
 
-  // As if start-up were over: normal active from cycle 0 on.
+  // Begins in normal active from cycle 0 on, as if start-up were over.
   void start_integrated(const InitialClock& clock);
-  // Power-on, and what a host commands then: configuration, RUN and, for a coldstart node, ALLOW_COLDSTART. Also of a
-  // controller at work, which begins anew, without allocating: what its host has given it is all that is left (its
-  // lists, its network management vector, its external correction).
+  // Powers the controller on and gives its host's commands: configuration, RUN and, for a coldstart node,
+  // ALLOW_COLDSTART. A running controller begins anew, without allocating, and keeps only its host's data:
+  // lists, network management vector, external correction.
   void start_cold(Microticks now);
-  // A command of the host: kConfig to kFreeze of PocEventKind.
+  // Executes a command of the host: kConfig to kFreeze of PocEventKind.
   void command(poc::PocEventKind command, Microticks now);
 
-  // Far in the future where nothing is due without a reception.
+  // Returns an instant far in the future if only a reception can cause the next event.
   Microticks next_event() const;
-  // Whether a reception may make it send something before next_event(), as that is now.
+  // Returns whether a reception may make the controller send before the present next_event().
   bool answers_at_once() const;
   void advance(Microticks now);
   void receive(const ports::Reception& reception);
-  // The same on both channels at the same instants, as most of what nodes send arrives: receive() of channel A, which
-  // `reception` says, and of channel B. Whether that has changed next_event() or the state's kind.
+  // Receives one frame on both channels at the same instants, as most frames arrive; `reception` says channel
+  // A. The same as receive() for A, then for B. Returns whether next_event() or the state's kind has changed.
   bool receive_on_both(const ports::Reception& reception);
-  // What is on its way to this node on both channels, and nothing else until it is there: whether it changes nothing
-  // but what was seen of its slot and the sync deviations. So do null frames and fragments of lists that are there, and
-  // most frames are either. Then, right after this, hear_known() may take it in before it is there.
+  // Returns whether `reception`, still on its way on both channels, will change only its slot's status and the
+  // sync deviations. Nothing else may reach this node before it. True of null frames and of known fragments, that
+  // is of most frames. Right after true, hear_known() may take the reception in before it arrives.
   bool knows(const ports::Reception& reception);
   void hear_known(const ports::Reception& reception);
 
-  // Nothing before a schedule has been derived or begun, and after it has been dropped.
+  // No value before a schedule has been derived or begun, and after it has been dropped.
   const std::optional<timebase::CycleClock>& clock() const { return clock_; }
-  // The same where the host may rely on it, else null.
+  // Returns the clock if it is synchronised, else null.
   const timebase::CycleClock* synchronised_clock() const { return synchronised() ? &*clock_ : nullptr; }
   const poc::PocState& state() const { return poc_; }
-  // Whether the clock is the cluster's, which the host may rely on.
+  // Returns whether the clock is the cluster's, so that the host may rely on it.
   bool synchronised() const { return in_operation(poc_.kind); }
-  // What was seen in a static slot (1..gNumberOfStaticSlots) of the cycle whose static segment ended last, until the
-  // next one ends. What outlasts the segment has violated boundaries; the rest is added when it is over.
+  // Returns the status of a static slot (1..gNumberOfStaticSlots) in the static segment that ended last.
+  // Activity that outlasts the segment has violated boundaries; its other errors are added when it ends.
   SlotSeen slot_status(int slot, schedules::model::Channel channel) const;
   SyncStatus sync_status() const;
-  // Of the last symbol window that is over; nothing during start-up. Nothing is heard of the own symbol.
+  // Returns the status of the last finished symbol window; empty during start-up. The own symbol does not
+  // count.
   SymbolWindowSeen symbol_window_status(schedules::model::Channel channel) const;
 
-  // A media access test symbol in the next symbol window whose action point is ahead, on those of the channels that
-  // this node is attached to. False, and nothing is sent: not in normal active with all slots (E-Ray SEND_MTS), one is
-  // pending, or the cycle has no symbol window.
+  // Requests a media access test symbol in the next symbol window whose action point is ahead. It leaves on
+  // those of the channels that this node is attached to. The state must be normal active with all slots (E-Ray
+  // SEND_MTS). Returns false without effect in another state, while a symbol is pending, or without a symbol
+  // window.
   bool send_media_test_symbol(schedules::model::Channels channels = schedules::model::Channels::kAB);
 
-  // bus/controller/network_management.h. Exactly gNetworkManagementVectorLength bytes.
+  // Exactly gNetworkManagementVectorLength bytes (bus/controller/network_management.h).
   void set_network_management_vector(std::span<const std::byte> vector);
   std::span<const std::byte> network_management_vector() const;
 
-  // External clock correction [uT], by which hosts make a cluster follow another one's time or that of a standard:
-  // added to the offset correction of every odd cycle whose static segment has not ended yet, and to the rate
-  // correction that is computed then, until set anew; only in normal operation. Positive lengthens the cycle. The
-  // magnitudes end at pExternOffsetCorrection and pExternRateCorrection; the sum is not checked against
-  // pOffsetCorrectionOut and pRateCorrectionOut (SPNU563A 26.2.4.5). All nodes have to be given the same in the same
-  // double cycle. Reading taken: the rate in force, which the next correction goes on from, is the one with the
-  // external term in it, so that a term given once stays and one given again adds up, less damping.
+  // Sets the external clock correction [uT], by which hosts make a cluster follow the time of another cluster
+  // or of a standard. Until set anew, `offset` is added to the offset correction of every odd cycle whose
+  // static segment has not ended yet. `rate` is added to the rate correction computed then. Both apply in
+  // normal operation only. Positive values lengthen the cycle. pExternOffsetCorrection and
+  // pExternRateCorrection limit the magnitudes; the sums are not checked against pOffsetCorrectionOut and
+  // pRateCorrectionOut (SPNU563A 26.2.4.5). All nodes need the same values in the same double cycle.
+  // Interpretation: the next rate correction goes on from the rate in force, including the external term. So a
+  // term given once stays, and a repeated one adds up, less damping.
   void set_external_correction(int offset, int rate);
-  cni::OutgoingList& outgoing(PduId pdu);  // must be a PDU this node sends
+  cni::OutgoingList& outgoing(PduId pdu);  // must be a PDU that this node sends
   cni::IncomingList& incoming(PduId pdu);  // any other PDU on FlexRay
 
  private:
   struct State;
   std::unique_ptr<State> state_;
-  // In it; simulations ask for little else, and often.
+  // Parts of the state that simulations read often.
   const poc::PocState& poc_;
   const std::optional<timebase::CycleClock>& clock_;
 };

@@ -1,22 +1,22 @@
-// Counting in the dynamic segment of one channel (FlexRay 2.1A, chapter 5.1.3: flexible TDMA).
+// Counts dynamic slots on one channel (FlexRay 2.1A, chapter 5.1.3: flexible TDMA).
 //
 // The segment is a row of minislots, counted from 1. The slot counter goes on from the last static slot. A
-// slot in which nobody sends lasts one minislot; a transmission makes its slot last as many whole minislots
-// as it needs: its sender stretches it with the dynamic trailing sequence (DTS) to a minislot action point,
-// and gdDynamicSlotIdlePhase idle minislots follow. So the counters of two channels may diverge within a
-// cycle, but every node on a channel counts alike.
+// slot without a transmission lasts one minislot; a transmission extends its slot by whole minislots. Its
+// sender stretches it with the dynamic trailing sequence (DTS) to a minislot action point, and
+// gdDynamicSlotIdlePhase idle minislots follow. So the counters of two channels may diverge within a cycle,
+// but all nodes on a channel count alike.
 //
-// Reading taken of what is on the channel already when the segment begins, which FlexRay has nothing of its own for:
-// it takes the first slot, as if it had begun in minislot 1. Nobody sends while it lasts, and whoever hears it end
-// counts on from there, as behind any transmission.
+// Interpretation: FlexRay has no rule for activity that lasts into the segment. Here it takes the first slot,
+// as if it had begun in minislot 1. No node sends during it, and a node that hears its end counts on from
+// there, as after any transmission.
 //
 // clang-format off
 //   minislot   1   2   3   4   5   6   7   8     slot 42 is sent in minislots 2..5 (its DTS ends at the action
 //   slot      41  42  42  42  42  42  43  44     point of 5), minislot 6 is idle (gdDynamicSlotIdlePhase 1)
 // clang-format on
 //
-// pLatestTx must be such that the longest frame ends within the segment: schedules/check/checker.h sees to it in
-// cluster files, a designer of frames by hand keeps schedules/analysis/minislots.h.
+// pLatestTx must let the longest frame end within the segment. schedules/check/checker.h checks this for
+// cluster files; schedules/analysis/minislots.h serves frames built by hand.
 #pragma once
 
 #include "core/time.h"
@@ -29,14 +29,15 @@ class DynamicSlotCounter {
  public:
   explicit DynamicSlotCounter(const schedules::model::GlobalParameters& flexray);
 
-  void start();  // of a cycle's segment
-  // The slot counter in minislot `minislot`, no further transmissions before it; 0 where it has passed
-  // cSlotIDMax or where the minislot belongs to a transmission that has been counted.
+  void start();  // at the beginning of a cycle's segment
+  // Returns the slot counter in minislot `minislot` if no further transmission comes before it. Returns 0
+  // beyond cSlotIDMax, or if the minislot belongs to a counted transmission.
   int slot_in(int minislot) const;
-  // The minislot in which `slot` begins, no further transmissions before it; 0 where its turn is over.
+  // Returns the minislot in which `slot` begins if no further transmission comes before it; 0 if it has
+  // passed.
   int minislot_of(int slot) const;
-  // The channel was taken from `first` to the end of the DTS (or of whatever it was) in minislot `last`. What
-  // overlaps with an earlier transmission extends that one's slot.
+  // Counts activity on the channel from minislot `first` to the end of its DTS, or of any other activity, in
+  // minislot `last`. If it overlaps with an earlier transmission, it extends that one's slot.
   void occupied(int first, int last);
 
  private:
@@ -45,7 +46,7 @@ class DynamicSlotCounter {
   int minislot_ = 1;
 };
 
-// Where the segment's minislots are on a node's clock.
+// Maps the segment's minislots to a node's clock.
 class MinislotGrid {
  public:
   explicit MinislotGrid(const schedules::model::GlobalParameters& flexray);
@@ -53,10 +54,10 @@ class MinislotGrid {
   int count() const { return count_; }
   Macroticks start_of(int minislot) const;      // 1..count() + 1
   Macroticks action_point(int minislot) const;  // 1..count()
-  // The minislot that `at` lies in; 0 before the segment, count() + 1 after it.
+  // Returns the minislot that contains `at`; 0 before the segment, count() + 1 after it.
   int minislot_at(const timebase::CycleClock& clock, Microticks at) const;
-  // For a sender: the minislot at whose action point the DTS of a frame ends that would else end at
-  // `frame_end`: the first one that leaves room for a DTS of `shortest_dts`. May lie beyond count().
+  // Returns the last minislot of a transmission whose frame ends at `frame_end`. Its DTS ends at that
+  // minislot's action point: the first that leaves room for `shortest_dts`. It may lie beyond count().
   int dts_end(const timebase::CycleClock& clock, Microticks frame_end, Microticks shortest_dts) const;
 
  private:

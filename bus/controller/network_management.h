@@ -1,15 +1,15 @@
-// The network management vector: bits by which the nodes of a cluster agree on what they need, for instance whether
-// anybody still needs the bus (FlexRay 2.1A, chapter 9.3; SPNU563A 26.2.7 and registers NMV1..3).
+// The network management vector (FlexRay 2.1A, chapter 9.3; SPNU563A 26.2.7 and registers NMV1..3). By its
+// bits the nodes of a cluster agree on their needs, for instance whether any node still needs the bus.
 //
-// A static frame whose schedule says so begins with its sender's vector, gNetworkManagementVectorLength bytes, and sets
-// the payload preamble indicator. A controller combines the vectors of all valid frames with that indicator, of both
-// channels, by bitwise OR; the host reads the result of the cycle before (MFR4200: "as presented
-// in cycle x, of cycle x - 1").
+// A static frame scheduled for it begins with its sender's vector, gNetworkManagementVectorLength bytes, and
+// sets the payload preamble indicator. A controller combines the vectors of all valid frames with that
+// indicator, of both channels, by bitwise OR. The host reads the result of the previous cycle (MFR4200: "as
+// presented in cycle x, of cycle x - 1").
 //
-// Readings taken: What counts is the indicator, not what the receiver's schedule expects of the slot. The own vector
-// counts in the cycles it leaves in, so that all nodes read the same. Only cycles that end in normal operation are
-// shown: in halt the vector stays as it was, and with a new schedule it begins as zeros. A null frame carries none; a
-// status frame always does, a list's frame with its list.
+// Interpretation: the indicator decides, not the receiver's schedule for the slot. The own vector counts in
+// the cycles in which it is sent, so that all nodes read the same. Only cycles that end in normal operation
+// are shown: in halt the vector stays as it was, and a new schedule begins with zeros. A null frame carries no
+// vector; a status frame always does, and a list's frame with its list.
 #pragma once
 
 #include <array>
@@ -24,14 +24,14 @@ class NetworkManagement {
  public:
   explicit NetworkManagement(int length);  // gNetworkManagementVectorLength, 0..12 bytes
 
-  void reset();  // nothing has been heard; the own vector stays
-  // What this node says from its next frame on; zeros before. Exactly as long as the vector.
+  void reset();  // forgets all received vectors; the own one stays
+  // Sets the vector of this node's frames from the next one on; zeros before. Exactly as long as the vector.
   void set_own(std::span<const std::byte> vector);
   std::span<const std::byte> own() const { return std::span(own_).first(length_); }
-  // A vector of the running cycle, at the beginning of `payload`. One that is cut off counts as if zeros followed.
+  // Takes in a vector of the running cycle from the beginning of `payload`. Missing bytes count as zeros.
   void combine(std::span<const std::byte> payload);
   void end_cycle(bool in_normal_operation);
-  // Of the last cycle that ended in normal operation.
+  // The result of the last cycle that ended in normal operation.
   std::span<const std::byte> combined() const { return std::span(shown_).first(length_); }
 
  private:

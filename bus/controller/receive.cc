@@ -1,4 +1,4 @@
-// Frame and symbol processing: what arrives, where it belongs, and whether it may be there (FlexRay 2.1A, chapter 6).
+// Frame and symbol processing: finds the slot of each reception and judges it there (FlexRay 2.1A, chapter 6).
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -53,7 +53,7 @@ inline void FlexRayController::State::judge(const ports::Reception& reception, b
 void FlexRayController::State::receive(const ports::Reception& reception) {
   if (!receiver_on(poc.kind)) return;
   const auto c = index_of(reception.channel);
-  // A controller that sends cannot make out what others send.
+  // A controller that is sending cannot decode other signals.
   const bool conflict = talks_over(reception, c);
   if (clock && !in_startup(poc.kind)) return judge(reception, conflict);
   hear_in_startup(reception, conflict);
@@ -70,8 +70,8 @@ bool FlexRayController::State::receive_on_both(const ports::Reception& reception
   return due != due_before || poc.kind != kind_before;
 }
 
-// The schedule's frame that it is, if it is a valid one in its slot on both channels and nothing was heard of that slot
-// before; null where anything else may be the case.
+// Returns the scheduled frame if this one is valid in its slot on both channels and the slot was silent so
+// far. Returns null otherwise.
 const FrameSlot* FlexRayController::State::first_of_slot_on_both(const ports::Reception& reception) const {
   const int slot = reception.frame.header.frame_id;
   if (slot < 1 || slot > g.gNumberOfStaticSlots || !is_frame(reception) ||
@@ -83,7 +83,7 @@ const FrameSlot* FlexRayController::State::first_of_slot_on_both(const ports::Re
   return slots.expected_on_both(slot, counter);
 }
 
-// Judged once. False, and nothing is changed, where it has to be judged channel by channel.
+// Judges both channels at once. Returns false, without effect, if they must be judged one by one.
 bool FlexRayController::State::judge_on_both(const ports::Reception& reception) {
   if (!in_operation() || talks_over(reception, 0) || talks_over(reception, 1) ||
       (g.gdSymbolWindow > 0 && segment != Segment::kStatic))
@@ -94,7 +94,7 @@ bool FlexRayController::State::judge_on_both(const ports::Reception& reception) 
   const bool under_way = board.under_way();
   board.hear_a(slot);
   accept(reception, Channel::kA, slot, *expected);
-  // What a host is told may make it act.
+  // An informed host may act.
   if (!in_operation() || board.under_way() != under_way) {
     receive(on_b(reception));
     return true;
@@ -105,7 +105,7 @@ bool FlexRayController::State::judge_on_both(const ports::Reception& reception) 
 }
 
 bool FlexRayController::State::knows(const ports::Reception& reception) {
-  // Until then it neither sends nor looks at what was seen, and what it sent itself is over.
+  // Until its end the controller neither sends nor reads slot status, and its own transmissions are over.
   if (due <= reception.end || segment != Segment::kStatic || told_of_receptions || !in_operation() ||
       reception.start < std::max(sending_to[0], sending_to[1]) || reception.frame.header.payload_preamble)
     return false;
@@ -165,7 +165,7 @@ void FlexRayController::State::hear(const ports::Reception& reception) {
     tell(event, reception.end);
     begin_schedule(schedule->cycle_start, schedule->rate, schedule->cycle);
     start_cycle();
-    // In the middle of a cycle: what is over is over. (Nothing is sent in it anyway.)
+    // Skips the past events of a cycle entered in the middle; this node sends nothing in it anyway.
     while (next_event() <= reception.end && segment == Segment::kStatic && next_static < slots.own_static().size()) {
       ++next_static;
       skip_to_own_static();
@@ -178,7 +178,7 @@ int FlexRayController::State::look_up_static_slot(Microticks at) {
   if (into < Microticks{}) return 0;
   if (into >= grid.back().from) return g.gNumberOfStaticSlots + 1;
   const auto from = [this](int slot) { return line(slot).from; };
-  // The one behind it, as a rule; else an estimate on the nominal grid, put right by a slot at most.
+  // Tries the next slot first, then an estimate on the nominal grid, off by one slot at most.
   int slot = slot_at.slot + 1;
   if (slot > g.gNumberOfStaticSlots || into < from(slot) || into >= from(slot + 1)) {
     slot = static_cast<int>(std::min<std::int64_t>(nominal_slot.floor(into.value) + 1, g.gNumberOfStaticSlots));
@@ -190,7 +190,7 @@ int FlexRayController::State::look_up_static_slot(Microticks at) {
   return slot;
 }
 
-// What began in `slot`, 0 being before the cycle, went on to slot `last` of it or beyond the segment.
+// Notes activity that began in `slot` (0: before the cycle) and went on to slot `last` or beyond the segment.
 void FlexRayController::State::cross_slots(const ports::Reception& reception, int slot, int last) {
   board.crossed(reception.channel, slot + 1, std::min(last, board.slots()));
   if (last <= board.slots()) return;
@@ -198,13 +198,13 @@ void FlexRayController::State::cross_slots(const ports::Reception& reception, in
   count_minislots(reception);
 }
 
-// Before or behind the static segment, as `slot` says.
+// Judges a reception before or after the static segment, as `slot` says.
 void FlexRayController::State::judge_elsewhere(const ports::Reception& reception, int slot, std::uint8_t errors,
                                                bool conflict) {
   const int minislot = slot == 0 ? 0 : minislots.minislot_at(*clock, reception.start);
   if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, minislot, errors);
 
-  // Between the segments, in the symbol window, in the NIT, or from the cycle before.
+  // Between the segments, in the symbol window, in the NIT, or from the previous cycle.
   if (slot == 0) {
     going_on[index_of(reception.channel)] = false;
     cross_slots(reception, slot, last_static_slot_of(reception));
@@ -222,7 +222,7 @@ void FlexRayController::State::judge_elsewhere(const ports::Reception& reception
 
 void FlexRayController::State::judge_static(const ports::Reception& reception, int slot, std::uint8_t errors) {
   const auto c = index_of(reception.channel);
-  const FrameSlot* expected = slot_at.expected[c];  // `slot` has just been looked up
+  const FrameSlot* expected = slot_at.expected[c];  // static_slot_at() has just looked it up
   SlotBoard::Seen& status = board.at(slot);
   if (const int last = last_static_slot_of(reception); last != slot) {
     cross_slots(reception, slot, last);
@@ -234,7 +234,7 @@ void FlexRayController::State::judge_static(const ports::Reception& reception, i
     errors |= kContentError;
   status.errors[c] |= errors;
   if (errors != 0) {
-    // Of one that outlasts the segment this comes when that has been closed.
+    // Activity that outlasts the segment is judged after the segment has been closed.
     if (!board.under_way() && !in_startup(poc.kind))
       events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
     return;
@@ -243,7 +243,7 @@ void FlexRayController::State::judge_static(const ports::Reception& reception, i
   accept(reception, reception.channel, slot, *expected);
 }
 
-// A valid frame in its slot, as this node's schedule expects it.
+// Takes in a valid frame in its slot, as this node's schedule expects it.
 void FlexRayController::State::accept(const ports::Reception& reception, Channel channel, int slot,
                                       const FrameSlot& expected) {
   const wire::FrameHeader& header = reception.frame.header;
@@ -253,11 +253,11 @@ void FlexRayController::State::accept(const ports::Reception& reception, Channel
               channel == Channel::kA ? schedules::model::Channels::kA : schedules::model::Channels::kB);
   if (header.payload_preamble) network_management.combine(reception.frame.payload);
   if (expected.pdu != kNoPdu && !store(expected, reception))
-    board.at(slot).errors[index_of(channel)] |= kContentError;  // a frame, but not of this slot's list
+    board.at(slot).errors[index_of(channel)] |= kContentError;  // a valid frame, but not of this slot's list
 }
 
-// The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off
-// (pDecodingCorrection); the bus' mean propagation delay is the schedule's to compensate.
+// The medium reports the arrival of the TSS's first bit, so there is no decoding time to subtract
+// (pDecodingCorrection). The schedule compensates the mean propagation delay of the bus.
 void FlexRayController::State::hear_sync(const ports::Reception& reception, int slot,
                                          schedules::model::Channels channels) {
   const Microticks late = reception.start - clock->cycle_start() - line(slot).action_point;
@@ -270,8 +270,8 @@ void FlexRayController::State::hear_sync(const ports::Reception& reception, int 
              reception.frame.header.startup && (starts_up(Channel::kA) || starts_up(Channel::kB)));
 }
 
-// The minislots that a reception took, from the first one on if it began before that: the slot counter goes on behind
-// them. The last of them; 0 if it ended before the segment.
+// Counts the minislots of a reception, from the first one on if it began before: the slot counter goes on
+// after them. Returns the last one; 0 if it ended before the segment.
 int FlexRayController::State::count_minislots(const ports::Reception& reception) {
   const int compensation = reception.channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
   const int first = minislots.minislot_at(*clock, reception.start);
@@ -302,7 +302,7 @@ void FlexRayController::State::judge_dynamic(const ports::Reception& reception, 
     events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
 }
 
-// False: what the frame carries is no fragment of this slot's list.
+// Returns false if the frame's payload is no fragment of this slot's list.
 bool FlexRayController::State::store(const FrameSlot& slot, const ports::Reception& reception) {
   if (slot.pdu == kNoPdu || reception.frame.header.null_frame || in_startup(poc.kind)) return true;
   cni::IncomingList& list = cni.incoming(slot.pdu);

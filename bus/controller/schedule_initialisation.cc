@@ -12,7 +12,7 @@ void ScheduleInitialisation::reset() { even_ = {}; }
 
 std::optional<InitialSchedule> ScheduleInitialisation::hear(const StartupFrame& frame) {
   std::optional<StartupFrame>& even = even_[index_of(frame.channel)];
-  // Too late to be of the cycle after: the partner did not come.
+  // Later than this, the frame belongs to a later cycle and the partner is missing.
   const std::int64_t longest = node_.pMicroPerCycle + node_.pRateCorrectionOut;
   const bool overdue = even && (frame.start - even->start).value > longest;
   if (frame.cycle % 2 == 0) {
@@ -29,7 +29,7 @@ std::optional<InitialSchedule> ScheduleInitialisation::hear(const StartupFrame& 
   if (std::abs(rate) > node_.pRateCorrectionOut) return std::nullopt;
   reset();
 
-  // The frame left at its slot's action point, and has been on its way for the delay that is compensated for.
+  // The frame left at its slot's action point and arrived after the delay that is compensated.
   const std::int64_t macroticks =
       static_cast<std::int64_t>(frame.frame_id - 1) * flexray_.gdStaticSlot + flexray_.gdActionPointOffset;
   const std::int64_t length = node_.pMicroPerCycle + rate;

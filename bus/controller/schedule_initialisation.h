@@ -1,15 +1,15 @@
-// From the startup frames of a running cluster to a clock of one's own (FlexRay 2.1A, chapter 7.2.3 and 8.4:
-// clock synchronisation startup; the state INITIALIZE_SCHEDULE).
+// The schedule initialisation derives a clock from the startup frames of a running cluster (FlexRay 2.1A,
+// chapters 7.2.3 and 8.4: clock synchronisation startup; the state INITIALIZE_SCHEDULE).
 //
-// A startup frame of an even cycle fixes where the cluster's cycle stands, that of the same node in the odd
-// cycle after it how long a cycle lasts in this node's microticks. Both channels are listened to; the first
-// complete pair wins.
+// A startup frame of an even cycle fixes the position of the cluster's cycle. The same node's startup frame in
+// the next odd cycle gives the length of a cycle in this node's microticks. The node listens to both channels;
+// the first complete pair wins.
 //
-// Readings taken: the first startup frame of an even cycle is the one whose partner is waited for, on each
-// channel by itself; a pair more than pRateCorrectionOut away from pMicroPerCycle is refused, and listening
-// begins anew. Nothing is remembered of an attempt that failed: deriving begins "as soon as a valid startup frame has
-// been received" (SPNU563A 26.2.6.7.4, 26.2.6.7.5), with the same node's again and again if it is the first to be heard
-// (docs/fault_campaign.md says what that may cost).
+// Interpretation: on each channel the node waits for the partner of the first startup frame of an even cycle.
+// A pair more than pRateCorrectionOut away from pMicroPerCycle is refused, and listening begins anew. A failed
+// attempt leaves no trace: deriving begins "as soon as a valid startup frame has been received" (SPNU563A
+// 26.2.6.7.4, 26.2.6.7.5). So the same node may be tried again and again if it is heard first
+// (docs/fault_campaign.md shows the possible cost).
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@
 
 namespace ttf::bus::controller {
 
-// A valid startup frame, as a node hears it that has no schedule yet.
+// A valid startup frame, as received by a node without a schedule.
 struct StartupFrame {
   schedules::model::Channel channel{};
   int frame_id = 0;
@@ -29,11 +29,11 @@ struct StartupFrame {
   Microticks start{};  // first bit of its TSS
 };
 
-// What it takes to set the clock going, in the middle of an odd cycle.
+// The data that start the clock in the middle of an odd cycle.
 struct InitialSchedule {
-  int frame_id = 0;          // of the node that is integrated on
-  int cycle = 0;             // the odd cycle that is under way
-  Microticks cycle_start{};  // when it began
+  int frame_id = 0;          // of the node whose schedule is taken
+  int cycle = 0;             // the running odd cycle
+  Microticks cycle_start{};  // when that cycle began
   int rate = 0;              // rate correction in force [uT per cycle]
 };
 

@@ -1,4 +1,4 @@
-// Media access: what leaves, and when (FlexRay 2.1A, chapter 5).
+// Media access: decides which frames and symbols leave, and when (FlexRay 2.1A, chapter 5).
 #include <algorithm>
 #include <array>
 
@@ -16,7 +16,7 @@ constexpr std::array<std::byte, wire::kMaxPayloadBytes> kZeros{};  // a null fra
 
 }  // namespace
 
-// Leaves next_static at the next slot that has its turn in this cycle.
+// Advances next_static to the next own slot of this cycle.
 void FlexRayController::State::skip_to_own_static() {
   const auto own = slots.own_static();
   while (next_static < own.size() && !in_cycle(*own[next_static], counter)) ++next_static;
@@ -47,7 +47,7 @@ void FlexRayController::State::send_static(Microticks at) {
     if (includes(slot.channels, channel) &&
         send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel))
       left |= 1u << index_of(channel);
-  // What nobody hears tells this node no more of the cluster's time than it tells the others.
+  // An unsent sync frame says no more about the cluster's time to this node than to the others.
   if (left != 0 && sync_frame) sync.own(slot.slot, static_cast<schedules::model::Channels>(left));
 }
 
@@ -93,7 +93,7 @@ bool FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel
   return true;
 }
 
-// A static frame of which nobody looks at the bytes.
+// Sends a static frame on both channels without its bytes.
 void FlexRayController::State::send_on_both(const FrameSlot& slot, Microticks at, Microticks end,
                                             const cni::Cni::Fragment& content, bool null_frame) {
   ports::Transmission transmission{
@@ -108,8 +108,8 @@ void FlexRayController::State::send_on_both(const FrameSlot& slot, Microticks at
   }
 }
 
-// Finds this node's next dynamic slot on the channel, as the slot counter stands. A reception changes the counter, and
-// the plan with it.
+// Finds this node's next dynamic slot on the channel by the present slot counter. A reception changes the
+// counter, and so the plan.
 void FlexRayController::State::plan_dynamic(Channel channel, Microticks now) {
   Dynamic& d = dynamic[index_of(channel)];
   const auto own = slots.own_dynamic(channel);
@@ -118,17 +118,17 @@ void FlexRayController::State::plan_dynamic(Channel channel, Microticks now) {
     const FrameSlot& slot = *own[d.next];
     d.minislot = d.counter.minislot_of(slot.slot);
     if (d.minislot == 0 || !in_cycle(slot, counter)) continue;
-    // Later slots are later still: nothing more goes out in this cycle.
+    // Later slots are later still: this cycle has no further transmission.
     if (d.minislot > std::min(p.pLatestTx, minislots.count())) return;
     d.due = clock->start_of(minislots.action_point(d.minislot));
     if (d.due >= now) return;
-    d.due = kNever<Microticks>;  // missed: the clocks disagree by more than a minislot
+    d.due = kNever<Microticks>;  // missed: the clocks differ by more than a minislot
   }
 }
 
 void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
   Dynamic& d = dynamic[index_of(channel)];
-  // A slot before this one is being used: its end will say where the counter goes on.
+  // An earlier slot is in use; the counter goes on from its end.
   if (port.carrier(channel)) {
     d.due = kNever<Microticks>;
     return;

@@ -1,6 +1,5 @@
-// Inside the controller: its data, and what it does with them. controller.cc drives protocol operation control and the
-// cycle, controller_send.cc sends, controller_receive.cc receives and judges, controller_window.cc is the symbol
-// window.
+// The controller's data and its work on them. controller.cc drives protocol operation control and the cycle,
+// send.cc sends, receive.cc receives and judges, symbol_window.cc has the symbol window.
 #pragma once
 
 #include <array>
@@ -19,7 +18,7 @@ namespace ttf::bus::controller {
 struct FlexRayController::State {
   State(const schedules::model::Cluster& cluster, NodeId node, ports::FlexRayPort& port, ControllerEvents& events);
 
-  // --- what never changes
+  // --- constants
   const schedules::model::Cluster& cluster;
   const schedules::model::GlobalParameters& g;
   const schedules::model::NodeParameters& p;
@@ -30,64 +29,64 @@ struct FlexRayController::State {
   const SlotTable slots;
   const MinislotGrid minislots;
   const timebase::CycleGeometry geometry;
-  const bool told_of_receptions;         // its host
+  const bool told_of_receptions;         // the host wants every reception
   const timebase::Divisor nominal_slot;  // a static slot's microticks, give or take one
   const Microticks static_frame;         // a static frame's length
 
-  // --- where it stands
+  // --- the present state
   poc::PocState poc;
   cni::Cni cni;
   NetworkManagement network_management;
   std::optional<timebase::CycleClock> clock;
   int next_rate = 0;
-  int extern_offset = 0, extern_rate = 0;  // [uT], the host's
+  int extern_offset = 0, extern_rate = 0;  // [uT], set by the host
   SyncCollector sync;
   ScheduleInitialisation initialisation;
   Microticks listen_timer = kNever<Microticks>, noise_timer = kNever<Microticks>, wakeup_sent = kNever<Microticks>;
   Microticks partner_overdue = kNever<Microticks>;  // while a schedule is being derived
-  // By channel: this node's last transmission.
+  // This node's last transmission, by channel.
   std::array<Microticks, 2> sending_from{kNever<Microticks>, kNever<Microticks>}, sending_to{};
 
   SlotBoard board;
-  std::array<bool, 2> going_on{};  // by channel: what went on when the last static segment ended still does
-  SyncStatus sync_status;          // without its counter, which is protocol operation control's
+  std::array<bool, 2> going_on{};  // by channel: activity at the end of the last static segment still goes on
+  SyncStatus sync_status;          // without its counter, which protocol operation control has
 
-  // The static slot of this cycle that was looked up last: the other channel's frame of it comes next, then that of the
-  // slot behind it. Slot 0 is behind nothing.
+  // The static slot of this cycle that was looked up last. The other channel's frame of it comes next, then
+  // that of the slot after it. Slot 0 comes before the first.
   struct SlotAt {
     int slot = 0;
-    Microticks from{}, to{};                                       // [from, to): none
+    Microticks from{}, to{};                                       // [from, to); empty: no slot
     int counter = 0;                                               // of the cycle
-    std::array<const schedules::model::FrameSlot*, 2> expected{};  // by channel, as SlotTable has it
+    std::array<const schedules::model::FrameSlot*, 2> expected{};  // by channel, from SlotTable
   };
   SlotAt slot_at;
-  // The static slots by the clock: at which microtick of the cycle they begin, and have their action points.
+  // The static slots on the clock: beginning and action point within the cycle.
   struct GridLine {
     Microticks from{}, action_point{};
   };
-  std::vector<GridLine> grid;    // by slot - 1; behind the last one, where that ends
-  std::optional<int> grid_rate;  // the clock's, that it is of
+  std::vector<GridLine> grid;    // by slot - 1; after the last slot, its end
+  std::optional<int> grid_rate;  // the clock's rate for which the grid was made
   int counter = 0;               // of the clock's cycle: 0..gCycleCountMax
 
-  // How far the cycle is.
-  // kBefore: the first cycle is to start; kDynamic: with the symbol window.
+  // The part of the cycle that is under way. kBefore: the first cycle has not started. kDynamic includes the
+  // symbol window.
   enum class Segment : std::uint8_t { kBefore, kStatic, kDynamic, kRest };
   Segment segment = Segment::kStatic;
-  Microticks due = kNever<Microticks>;  // next_event(), which what arrives in a static slot changes nothing about
+  Microticks due = kNever<Microticks>;  // next_event(); a reception in a static slot leaves it unchanged
   std::size_t next_static = 0;          // in slots.own_static()
   struct Dynamic {
     DynamicSlotCounter counter;
     std::size_t next = 0;                 // in slots.own_dynamic()
-    Microticks due = kNever<Microticks>;  // action point of that slot, as the counter stands
-    int minislot = 0;                     // it begins in
+    Microticks due = kNever<Microticks>;  // action point of that slot, by the present counter
+    int minislot = 0;                     // in which that slot begins
   };
   std::array<Dynamic, 2> dynamic;  // by channel
 
-  // The symbol window, planned when the static segment ends; never where there is none.
+  // The symbol window, planned when the static segment ends; never if there is none.
   Microticks window_from = kNever<Microticks>, window_to = kNever<Microticks>, symbol_point = kNever<Microticks>;
-  std::optional<schedules::model::Channels> symbol_request;  // a media access test symbol is to be sent there
-  std::array<SymbolWindowSeen, 2> window_seen, window_last;  // by channel: under way, and the last that is over
-  std::array<bool, 2> window_element{};                      // something has begun in it
+  std::optional<schedules::model::Channels> symbol_request;  // a media access test symbol to be sent in the window
+  std::array<SymbolWindowSeen, 2> window_seen, window_last;  // by channel: the running and the last finished one
+  std::array<bool, 2> window_element{};                      // a communication element has begun in the window
 
   std::array<std::byte, wire::kMaxPayloadBytes> payload{};
   std::array<std::byte, wire::kMaxFrameBytes> frame{};
@@ -96,7 +95,7 @@ struct FlexRayController::State {
   void tell(const poc::PocEvent& event, Microticks at);
   void act(const poc::PocActions& actions, Microticks at);
   void begin_schedule(Microticks start, int rate, std::int64_t cycle);
-  void lay_cycle();  // `counter` and `grid`, by the clock
+  void lay_cycle();  // computes `counter` and `grid` from the clock
   void drop_schedule();
 
   // --- the cycle (controller.cc)
@@ -112,10 +111,10 @@ struct FlexRayController::State {
   Macroticks static_end() const { return slot_start(g.gNumberOfStaticSlots + 1); }
   const GridLine& line(int slot) const {
     return grid[static_cast<std::size_t>(slot - 1)];
-  }                                  // up to one behind the last
+  }                                  // valid up to one slot after the last
   Microticks bits(int count) const;  // gdBit, rounded up to whole microticks
 
-  // --- the symbol window (controller_window.cc)
+  // --- the symbol window (symbol_window.cc)
   bool request_media_test_symbol(schedules::model::Channels channels);
   Macroticks window_start() const;
   void plan_symbol_window();
@@ -123,7 +122,7 @@ struct FlexRayController::State {
   void judge_symbol_window(const ports::Reception& reception, bool conflict);
   void close_symbol_window();
 
-  // --- sending (controller_send.cc)
+  // --- sending (send.cc)
   void skip_to_own_static();
   void send_static(Microticks at);
   void plan_dynamic(schedules::model::Channel channel, Microticks now);
@@ -131,10 +130,10 @@ struct FlexRayController::State {
   std::size_t preamble_bytes(const schedules::model::FrameSlot& slot) const {
     return static_cast<std::size_t>(schedules::model::preamble_bytes(g, slot));
   }
-  // What a slot says, in `payload`.
+  // Returns the frame of a slot, built in `payload`.
   wire::DecodedFrame frame_of(const schedules::model::FrameSlot& slot, const cni::Cni::Fragment& content,
                               bool null_frame);
-  // False: it was too late for it.
+  // Returns false if it was too late to send.
   bool send_frame(const schedules::model::FrameSlot& slot, schedules::model::Channel channel, Microticks at,
                   Microticks end, const cni::Cni::Fragment& content, bool null_frame, bool last);
   void send_on_both(const schedules::model::FrameSlot& slot, Microticks at, Microticks end,
@@ -144,7 +143,7 @@ struct FlexRayController::State {
   void send_cas(Microticks at);
   void send_wakeup_pattern(Microticks at);
 
-  // --- receiving (controller_receive.cc)
+  // --- receiving (receive.cc)
   void receive(const ports::Reception& reception);
   bool receive_on_both(const ports::Reception& reception);
   bool judge_on_both(const ports::Reception& reception);
@@ -161,8 +160,8 @@ struct FlexRayController::State {
   void hear(const ports::Reception& reception);                            // without a schedule
   void judge(const ports::Reception& reception, bool conflict);            // within the schedule
   void judge_static(const ports::Reception& reception, int slot, std::uint8_t errors);
-  // A frame is valid in its slot where it is one without error, lies within the slot, has that slot's header in a cycle
-  // of this counter, and is expected there.
+  // A frame is valid in its slot if it decodes without error, lies within the slot and is expected there. Its
+  // header must be that slot's, with the present cycle counter.
   static bool is_frame(const ports::Reception& reception) {
     return reception.signal == ports::Signal::kFrame && reception.frame.error == wire::FrameError::kNone;
   }
@@ -177,11 +176,11 @@ struct FlexRayController::State {
   void judge_dynamic(const ports::Reception& reception, int minislot, std::uint8_t errors);
   int count_minislots(const ports::Reception& reception);
   bool store(const schedules::model::FrameSlot& slot, const ports::Reception& reception);
-  // 0 before, gNumberOfStaticSlots + 1 after the segment; else it is in slot_at then.
+  // Returns 0 before the segment and gNumberOfStaticSlots + 1 after it; any other slot is in slot_at then.
   int static_slot_at(Microticks at) {
     return at >= slot_at.from && at < slot_at.to ? slot_at.slot : look_up_static_slot(at);
   }
-  // What ends in the microtick it began in lies in one slot.
+  // A signal that ends in the microtick it began in lies in one slot.
   int last_static_slot_of(const ports::Reception& reception) {
     const Microticks last = reception.end - Microticks{1};
     return static_slot_at(last > reception.start ? last : reception.start);

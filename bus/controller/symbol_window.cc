@@ -1,5 +1,5 @@
-// The symbol window: sending media access test symbols, and judging what is heard there (FlexRay 2.1A, chapters 5.1.4
-// and 6).
+// The symbol window: sends media access test symbols, and judges all activity there (FlexRay 2.1A, chapters
+// 5.1.4 and 6).
 #include "bus/controller/state.h"
 
 namespace ttf::bus::controller {
@@ -13,7 +13,7 @@ bool FlexRayController::State::request_media_test_symbol(Channels channels) {
   return true;
 }
 
-// Behind the dynamic segment; its action point lies where that of a static slot does.
+// After the dynamic segment; its action point has the same offset as that of a static slot.
 Macroticks FlexRayController::State::window_start() const {
   return minislots.count() > 0 ? minislots.start_of(minislots.count() + 1) : static_end();
 }
@@ -31,24 +31,24 @@ void FlexRayController::State::send_media_test_symbol(Microticks at) {
   if (!symbol_request) return;
   const Channels channels = *symbol_request;
   symbol_request.reset();
-  // What was allowed when the host asked for it need not be any more.
+  // The permission at the host's request may have gone since.
   if (mac_mode(poc) != poc::MacMode::kAll) return;
   for (const Channel channel : schedules::model::kBothChannels)
     if (includes(channels, channel) && includes(p.pChannels, channel))
       send_symbol(ports::Signal::kCas, channel, at, at + cas_length());
 }
 
-// A symbol that lies in the window is a media access test symbol: it has a collision avoidance symbol's bits.
+// A symbol in the window is a media access test symbol, which has the bits of a collision avoidance symbol.
 void FlexRayController::State::judge_symbol_window(const ports::Reception& reception, bool conflict) {
   if (reception.end <= window_from || reception.start >= window_to) return;
   const auto c = index_of(reception.channel);
-  // One that outlasts the window is judged when that has been closed without it.
+  // A symbol that outlasts the window is judged after the window has been closed.
   SymbolWindowSeen& status = (segment == Segment::kRest ? window_last : window_seen)[c];
   const bool begins = reception.start >= window_from, ends = reception.end <= window_to;
   if (!begins || !ends) status.boundary_violation = true;
   if (conflict) status.transmission_conflict = true;
   if (!begins) return;
-  if (reception.signal != ports::Signal::kCas || conflict || window_element[c])  // nothing, or a second one
+  if (reception.signal != ports::Signal::kCas || conflict || window_element[c])  // another signal, or a second symbol
     status.syntax_error = true;
   else if (ends)
     status.valid_mts = true;

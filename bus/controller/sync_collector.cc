@@ -12,7 +12,7 @@ void SyncCollector::reset() {
 void SyncCollector::start_cycle(int counter) {
   even_ = counter % 2 == 0;
   if (even_) reset();
-  // An odd cycle that was entered from nowhere has no even partner: then reset() has emptied that.
+  // An odd cycle that a node enters in the middle has no even partner: reset() has emptied the even list.
   (even_ ? measurements_.even_count : measurements_.odd_count) = 0;
   startup_[even_ ? 0 : 1] = {};
   valid_ = {};
@@ -25,7 +25,7 @@ void SyncCollector::measure(int frame_id, schedules::model::Channels channels, c
   }
   auto& list = even_ ? measurements_.even : measurements_.odd;
   int& count = even_ ? measurements_.even_count : measurements_.odd_count;
-  // From the end: the other channel's frame of it comes next, unless they came at once.
+  // Searches from the end: the other channel's frame of the same slot comes next, unless both came at once.
   int index = count - 1;
   while (index >= 0 && list[static_cast<std::size_t>(index)].frame_id != frame_id) --index;
   if (index < 0) {

@@ -1,5 +1,5 @@
-// What a controller hears of the cluster's sync and startup frames over a double cycle: the deviations that clock
-// correction works on, and the startup frames that start-up counts (FlexRay 2.1A, chapters 7.2.4 and 8.5).
+// The sync collector gathers the cluster's sync and startup frames over a double cycle (FlexRay 2.1A, chapters
+// 7.2.4 and 8.5). It has the deviations for clock correction, and the startup frames for start-up.
 #pragma once
 
 #include <array>
@@ -12,23 +12,23 @@ namespace ttf::bus::controller {
 
 class SyncCollector {
  public:
-  // sync_node_max: gSyncNodeMax; further sync frames of a cycle are not used.
+  // sync_node_max: gSyncNodeMax; further sync frames of a cycle are ignored.
   explicit SyncCollector(int sync_node_max) : sync_node_max_(sync_node_max) {}
 
-  void reset();  // nothing of the past counts
+  void reset();  // forgets all frames
   void start_cycle(int counter);
-  // This node's own sync frame leaves on these channels: it is exactly where it is expected.
+  // Notes that this node's own sync frame leaves on these channels; its deviation is zero.
   void own(int frame_id, schedules::model::Channels channels);
-  // A valid sync frame of another node, on one channel or both; `deviation` [uT], by channel: observed minus expected
-  // start. `startup`: it is a startup frame, near enough on one of them to count as one during start-up
-  // (pdAcceptedStartupRange).
+  // Notes a valid sync frame of another node, on one channel or both; `deviation` [uT], by channel: observed
+  // minus expected start. `startup`: a startup frame within pdAcceptedStartupRange on at least one channel.
   void heard(int frame_id, schedules::model::Channels channels, const std::array<int, 2>& deviation, bool startup);
 
   const timebase::SyncMeasurements& measurements() const { return measurements_; }
   std::span<const timebase::SyncDeviation> odd() const;
-  // Sync frames of the cycle so far on one channel, own included, those that are not used too; counts up to 15.
+  // Sync frames of the cycle so far on one channel, up to 15; includes the own one and those beyond
+  // gSyncNodeMax.
   int valid(schedules::model::Channel channel) const { return valid_[index_of(channel)]; }
-  // Startup frames of other nodes, in the cycle that is ending and as pairs of its double cycle.
+  // Counts other nodes' startup frames in the ending cycle, and their pairs in its double cycle.
   poc::StartupFramesSeen startup_frames(int reference) const;
 
  private:

@@ -43,7 +43,7 @@ schedules::model::Cluster guardian_cluster(const schedules::model::Cluster& clus
   const auto model = std::find_if(cluster.nodes.begin(), cluster.nodes.end(), [&](const schedules::model::Node& node) {
     return node.flexray && includes(node.flexray->pChannels, channel);
   });
-  TTF_CHECK(model != cluster.nodes.end(), "nobody is on channel {}", channel == Channel::kA ? "A" : "B");
+  TTF_CHECK(model != cluster.nodes.end(), "no node is on channel {}", channel == Channel::kA ? "A" : "B");
   schedules::model::Node guardian;
   guardian.name = channel == Channel::kA ? "guardian A" : "guardian B";
   guardian.flexray = *model->flexray;
@@ -52,7 +52,7 @@ schedules::model::Cluster guardian_cluster(const schedules::model::Cluster& clus
   p.pChannels = channel == Channel::kA ? schedules::model::Channels::kA : schedules::model::Channels::kB;
   p.pKeySlotId = 0;
   p.pKeySlotUsedForStartup = p.pKeySlotUsedForSync = p.pKeySlotOnlyEnabled = false;
-  // What is compensated between two nodes is two branches, here it is one.
+  // Two nodes are two branches apart; the guardian is one branch from each.
   p.pDelayCompensationA /= 2;
   p.pDelayCompensationB /= 2;
   p.pAllowHaltDueToClock = true;
@@ -96,7 +96,7 @@ GuardianAnswer Guardian::judge(const timebase::CycleClock& clock, const controll
   return in_dynamic_segment(clock, counter, at, signal);
 }
 
-// The slot is the one with the nearest action point; how near, is what the window is for.
+// Finds the slot that contains `at`, and requires its action point to be near.
 GuardianAnswer Guardian::in_static_slot(const timebase::CycleClock& clock, Microticks at,
                                         const GuardianSignal& signal) const {
   int low = 1, high = g_.gNumberOfStaticSlots;
@@ -128,14 +128,13 @@ GuardianAnswer Guardian::in_dynamic_segment(const timebase::CycleClock& clock,
   if (frame == nullptr || frame->sender != signal.branch) return GuardianAnswer::no(GuardianReason::kNotItsSlot);
   if (minislot > cluster_.node(signal.branch).flexray->pLatestTx)
     return GuardianAnswer::no(GuardianReason::kOutsideWindow);
-  // Near a minislot's boundary some receivers would count another minislot than others, and every slot behind it
-  // differently.
+  // Near a minislot's boundary receivers would count different minislots, and so different slots afterwards.
   if (std::abs((at - clock.start_of(minislots_.action_point(minislot))).value) > minislot_tolerance_.value)
     return GuardianAnswer::no(GuardianReason::kOutsideWindow);
   if (!header_fits(*frame, cycle_count(clock), signal.frame->header))
     return GuardianAnswer::no(GuardianReason::kWrongHeader);
-  // The trailing sequence goes on to the next minislot action point that leaves room for a bit of it; on the sender's
-  // clock that may be one later than on this.
+  // The trailing sequence ends at the next minislot action point that leaves room for one bit of it. On the
+  // sender's clock that may be one later than here.
   const Microticks frame_end = at + lengths_.frame(signal.frame->header.payload_words);
   const int last = std::min(minislots_.dts_end(clock, frame_end, Microticks{}) + 1, minislots_.count());
   return {GuardianReason::kForwarded, clock.start_of(minislots_.action_point(last)) + compensation_};
@@ -157,7 +156,7 @@ bool Guardian::header_fits(const FrameSlot& frame, int counter, const wire::Fram
   if (header.frame_id != frame.slot || header.cycle != counter) return false;
   if (frame.slot > g_.gNumberOfStaticSlots) {
     if (header.sync || header.startup || frame.pdu == kNoPdu) return false;
-    // A message id may stand before the fragment.
+    // A message id may precede the fragment.
     return header.payload_words <= (cluster_.pdu(frame.pdu).fragment_bytes + 1) / 2 + 1;
   }
   const schedules::model::NodeParameters& p = *cluster_.node(frame.sender).flexray;

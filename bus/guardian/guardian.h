@@ -1,37 +1,37 @@
-// The central guardian: what the star coupler of one channel lets through. A pure judgement of a signal that begins at
-// the coupler on the branch of a node, on the guardian's own clock; its memory is bus/guardian/startup_turns.h's, its
-// place sim/medium/star_coupler.h.
+// The central guardian decides which signals the star coupler of one channel forwards. It judges a signal that
+// begins at the coupler on a node's branch, by the guardian's own clock. Its memory is in
+// bus/guardian/startup_turns.h, its place in sim/medium/star_coupler.h.
 //
-// A coupler receives everything and sends it on afresh. So it may look at what it forwards: a frame's header is known
-// before the first bit leaves (what that delay means: sim/medium/coupler.h). Frame CRCs come too late for it: a wrong
-// one is wrong for all.
+// A coupler receives every signal and sends it on afresh, so it can inspect what it forwards. It knows a
+// frame's header before the first bit leaves (sim/medium/coupler.h says what that delay means). It cannot wait
+// for the frame CRC; a wrong one is wrong for all receivers.
 //
-// On a schedule (its controller's clock runs, integrated like any node's; bus/controller/controller.h):
-//   G1  in a static slot only the frame passes that the cluster's schedule has there in this cycle on this channel: its
-//       node, id, cycle count, length, sync and startup indicators
-//   G2  and only if it begins within half an action point offset of the slot's action point. While the cluster's clocks
-//       are within that of one another, no fault-free node's frame is refused, and one that passes lies within its slot
-//       for every receiver: there is nothing slightly off that some accept and some do not
-//   G3  in the dynamic segment the guardian counts slots as every node does, and lets through the frame of that slot's
-//       node, not later than its pLatestTx and not longer than its PDU, and only if it begins within half a minislot
-//       action point offset of the minislot's action point: no receiver counts another minislot then (and G9)
-//   G4  in the symbol window a media access test symbol, of any node
-//   G5  else nothing; and nothing that it cannot make out
-// Without a schedule (the rules of turns are bus/guardian/startup_turns.h's S1 to S6):
-//   G6  of coldstart nodes the collision avoidance symbol and startup frames, of any node a wake-up pattern on its
-//       channel
+// With a schedule (its controller's clock runs, integrated like any node's; bus/controller/controller.h):
+//   G1  in a static slot only the cluster's scheduled frame of this cycle and channel passes: its node, id, cycle
+//       count, length, sync and startup indicators
+//   G2  it must begin within half an action point offset of the slot's action point. While the cluster's clocks differ
+//       by no more than that, every frame of a fault-free node passes, and every frame that passes lies within its slot
+//       for all receivers: no frame is slightly off, so that only some receivers accept it
+//   G3  in the dynamic segment the guardian counts slots as every node does. The frame of the slot's node passes, no
+//       later than its pLatestTx and no longer than its PDU. It must begin within half a minislot action point offset
+//       of the minislot's action point, so that all receivers count the same minislot (and G9)
+//   G4  in the symbol window a media access test symbol of any node passes
+//   G5  all other signals are refused, and all that the guardian cannot decode
+// Without a schedule (bus/guardian/startup_turns.h has the rules of start-up turns, S1 to S6):
+//   G6  the collision avoidance symbol and startup frames of coldstart nodes pass, and a wake-up pattern of any node on
+//       its channel
 // Always:
-//   G7  one signal at a time: the first to come; and none for longer than one of its kind may last
-//   G8  while the guardian is integrating, in cycles 0 to 3 only the node that it integrates on: another's frame would
-//       make a leading coldstart node give way
-// How it ends what it lets through in the dynamic segment:
-//   G9  at a minislot action point of its own clock, whatever its sender does: there receivers look for the end of a
-//       trailing sequence, and between two of them some would count another minislot than others, and every slot behind
-//       it differently. What ends within half a minislot action point offset of one, as every fault-free node's frame
-//       does, is left alone, to the instant. What ends elsewhere, because its sender fell silent or its clock is off,
-//       the coupler holds active to the next one, as a trailing sequence would be; what lasts too long (G7) it cuts at
-//       the last one that a frame of that length may need. A frame whose trailing sequence alone was lengthened is what
-//       it was, one that broke off or was cut is undecodable
+//   G7  one signal at a time passes, the first to come; none for longer than one of its kind may last
+//   G8  while the guardian integrates, only the node that it integrates on passes in cycles 0 to 3: another node's
+//       frame would make a leading coldstart node give way
+// The end of forwarded signals in the dynamic segment:
+//   G9  a signal ends at a minislot action point of the guardian's clock, whatever its sender does. There receivers
+//       look for the end of a trailing sequence; between two of them some would count another minislot than others,
+//       and so every later slot. An end within half a minislot action point offset of one stays as it is, as that of
+//       every fault-free node's frame. After any other end, because the sender fell silent or its clock is off, the
+//       coupler keeps the channel active to the next one, like a trailing sequence. It cuts a signal that lasts too
+//       long (G7) at the last one that a frame of that length may need. A frame with only a longer trailing sequence
+//       stays valid; a frame that broke off or was cut is undecodable
 #pragma once
 
 #include <array>
@@ -73,7 +73,7 @@ inline constexpr std::array kAllGuardianReasons = {
     GuardianReason::kLeadFailed,     GuardianReason::kNoWakeup};
 std::string_view to_text(GuardianReason reason);
 
-// What begins at the coupler; instants in microticks of the guardian.
+// A signal that begins at the coupler; instants in microticks of the guardian.
 struct GuardianSignal {
   NodeId branch{};
   ports::Signal signal{};
@@ -83,7 +83,7 @@ struct GuardianSignal {
 
 struct GuardianAnswer {
   GuardianReason reason{};
-  Microticks until{};  // forwarded: what lasts longer is cut there; in the dynamic segment an action point (G9)
+  Microticks until{};  // if forwarded: longer signals are cut there; in the dynamic segment an action point (G9)
   static constexpr GuardianAnswer no(GuardianReason reason) { return {reason, {}}; }
   bool forwards() const { return reason == GuardianReason::kForwarded; }
 };
@@ -91,7 +91,7 @@ struct GuardianAnswer {
 // Two clocks at cClockDeviationMax, one fast, one slow.
 inline constexpr std::int64_t kDriftOfAPair_ppm = 3000;
 
-// How long a signal of each kind may last in the guardian's microticks, a node's clock being off by what it may.
+// The longest duration of each kind of signal in the guardian's microticks, with both clocks at their limits.
 class SignalLengths {
  public:
   SignalLengths(const schedules::model::GlobalParameters& flexray, std::int64_t microtick_ps);
@@ -108,21 +108,21 @@ class SignalLengths {
   std::int64_t microtick_ps_;
 };
 
-// The part of the judgement that goes by the schedule: G1 to G5, and G9. Without memory.
+// The judgement by the schedule: G1 to G5, and G9. It has no memory.
 class Guardian {
  public:
   // `clock`: the parameters of the guardian's own controller (guardian_cluster() below).
   Guardian(const schedules::model::Cluster& cluster, schedules::model::Channel channel,
            const schedules::model::NodeParameters& clock);
 
-  // `counter`: how far the dynamic slots of this cycle are on this channel.
+  // `counter`: the dynamic slot counter of this cycle and channel.
   GuardianAnswer judge(const timebase::CycleClock& clock, const controller::DynamicSlotCounter& counter,
                        const GuardianSignal& signal) const;
-  // When a signal ends at the coupler that has been forwarded since `start`, was to last until `until` at the most (of
-  // its answer) and is ended by its sender at `end`: `end` where nothing is done about it. G7, and in the dynamic
-  // segment G9; all three instants are the coupler's.
+  // Returns the end at the coupler of a forwarded signal. It began at `start`, its sender ends it at `end`,
+  // and its answer limits it to `until`. Returns `end` if the guardian does not intervene. Applies G7 and, in
+  // the dynamic segment, G9; all instants are the coupler's.
   Microticks end_of(const timebase::CycleClock& clock, Microticks start, Microticks end, Microticks until) const;
-  // Counts what was received in the dynamic segment, in whole or in part (bus/controller/dynamic_segment.h).
+  // Counts a reception that lies in the dynamic segment, wholly or partly (bus/controller/dynamic_segment.h).
   void count(const timebase::CycleClock& clock, controller::DynamicSlotCounter& counter, Microticks start,
              Microticks end) const;
 
@@ -142,8 +142,9 @@ class Guardian {
   Microticks compensation_, tolerance_, minislot_tolerance_;
 };
 
-// The cluster as the guardian's controller sees it: with one node more, the last, which is the guardian on that
-// channel. It sends nothing; its parameters are those of the first node on the channel, its branch has no length.
+// Returns the cluster as the guardian's controller sees it. It has one more node, the last: the guardian on
+// that channel. This node sends nothing; it has the parameters of the channel's first node and a branch of no
+// length.
 schedules::model::Cluster guardian_cluster(const schedules::model::Cluster& cluster, schedules::model::Channel channel);
 
 }  // namespace ttf::bus::guardian

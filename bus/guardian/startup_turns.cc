@@ -18,7 +18,7 @@ void StartupTurns::reset() {
   std::fill(may_wake_.begin(), may_wake_.end(), Microticks{});
 }
 
-// A lead whose time is over without a schedule has failed then, whether anybody asked or not.
+// A lead whose time ends without a schedule has failed at that end, whenever it is asked about.
 Microticks StartupTurns::waits_until(NodeId node, Microticks at) const {
   if (node == leader_ && at >= lead_end_) return lead_end_ + cycles(kWaitCycles);
   return may_lead_[index_of(node)];
@@ -85,7 +85,7 @@ void StartupTurns::count_frame(const wire::FrameHeader& header) {
 
 void StartupTurns::schedule_dropped(Microticks at) {
   if (leader_ == kNoNode) return;
-  // With the end of cycle 4.
+  // The drop comes with the end of cycle 4.
   const bool as_it_should = frames_ == kFramesOfALead;
   may_lead_[index_of(leader_)] = at + (as_it_should ? cycle_ - slack_ : cycles(kWaitCycles));
   leader_ = kNoNode;

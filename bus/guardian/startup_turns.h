@@ -1,26 +1,26 @@
-// The central guardian without a schedule: whose turn it is to start the cluster. One value per channel, no clock, no
-// I/O.
+// The start-up turns of the central guardian decide, without a schedule, which node may start the cluster. One
+// value per channel, no clock, no I/O.
 //
-// Start-up is the guardian's weak hour: there is no schedule to hold the nodes to. What a fault-free coldstart node
-// does, all the same, can be told: a collision avoidance symbol, then one startup frame in every cycle. A faulty one
-// that does the like is followed by the others, who start the cluster with it or, once they have heard each other,
-// without it. So nobody is kept from leading, but a lead that came to nothing is not soon repeated:
-//   S1  one node leads at a time: who first sends its collision avoidance symbol, or its startup frame. Nobody else is
-//       forwarded until the guardian has a schedule from it, or the lead has failed
+// Without a schedule the guardian has little to judge nodes by. But the pattern of a fault-free coldstart node
+// is known: a collision avoidance symbol, then one startup frame in every cycle. The other nodes follow a
+// faulty node that does likewise, and start the cluster with it or, once they have heard each other, without
+// it. So any node may lead, but a failed lead is not soon repeated:
+//   S1  one node leads at a time: the first to send its collision avoidance symbol or its startup frame. No other node
+//       is forwarded until the guardian has a schedule from the leader, or the lead has failed
 //   S2  the leader sends one startup frame in a cycle, with the header of its key slot, and no second symbol
-//   S3  a lead fails if no frame comes for a cycle, if there is no schedule after kLeadCycles of it, or if the
-//       guardian's controller drops the schedule it took before it is synchronised. Who led waits for kWaitCycles until
-//       it may lead again, and follows others meanwhile (bus/guardian/guardian.h G1, G8)
-//   S4  but who led as it should, with its symbol and the startup frames of cycles 0 to 4, and was alone, waits for the
-//       silent cycle that follows and no longer: who listened would have joined it in cycle 4, and who did not listen
-//       yet shall hear the next symbol. Sooner it could keep those who gave up the last attempt from ever hearing a
+//   S3  a lead fails if a cycle passes without a frame, if it gives no schedule within kLeadCycles, or if the
+//       guardian's controller drops its schedule before it is synchronised. The failed leader may lead again after
+//       kWaitCycles, and follows others meanwhile (bus/guardian/guardian.h G1, G8)
+//   S4  a leader that led correctly but stayed alone, with its symbol and the startup frames of cycles 0 to 4, waits
+//       only for the silent cycle that follows. Listening nodes would have joined it in cycle 4, and the others shall
+//       hear the next symbol. An earlier symbol could keep nodes that gave up the last attempt from ever hearing a
 //       cycle 0
 //   S5  a wake-up pattern is forwarded on the node's wake-up channel, once in kWaitCycles for each node, and not during
 //       a lead
-//   S6  nothing else, and nothing longer than it may be
-// kWaitCycles is more than the others need: at most two cycles to give up what they followed, two to listen, and four
-// for a new leader to be alone. So one faulty node spoils at most one lead in kWaitCycles on each channel, and the
-// fault-free coldstart nodes, two at least, have the rest.
+//   S6  all other signals are refused, and all that last too long
+// kWaitCycles is more than the other nodes need. They need at most two cycles to give up the schedule they
+// followed, two to listen, and four for a new leader to be alone. So one faulty node spoils at most one lead
+// in kWaitCycles on each channel. The fault-free coldstart nodes, two at least, have the remaining time.
 #pragma once
 
 #include <cstdint>
@@ -37,18 +37,20 @@ class StartupTurns {
   StartupTurns(const schedules::model::Cluster& cluster, schedules::model::Channel channel,
                const schedules::model::NodeParameters& clock);
 
-  // Of a signal at a time when the guardian has no schedule. Nothing changes.
+  // Judges a signal while the guardian has no schedule. Changes no state.
   GuardianAnswer judge(const GuardianSignal& signal) const;
-  // It is forwarded, with or without a schedule. True: a new lead begins with it, which only happens without.
+  // Notes that the signal is forwarded, with or without a schedule. Returns whether a new lead begins with it,
+  // which happens only without one.
   bool forwarded(const GuardianSignal& signal, bool has_schedule);
 
-  // What became of the lead, from the guardian's controller: a schedule dropped again at `at`, or the cluster started.
+  // The end of the lead, from the guardian's controller: its schedule dropped again at `at`, or the cluster
+  // started.
   void schedule_dropped(Microticks at);
   void synchronised();
-  // Everything is open again, as after power-on.
+  // Allows every node to lead and to wake, as after power-on.
   void reset();
 
-  // Who leads or has led until the guardian was synchronised; else kNoNode.
+  // Returns the leader until the guardian is synchronised; kNoNode without one.
   NodeId leader() const { return leader_; }
 
  private:
@@ -63,12 +65,13 @@ class StartupTurns {
   const schedules::model::Cluster& cluster_;
   schedules::model::Channel channel_;
   SignalLengths lengths_;
-  Microticks cycle_, slack_;  // what a clock may be off in a cycle, twice, and an action point offset
+  Microticks cycle_, slack_;  // twice the clocks' drift in a cycle, and an action point offset
   NodeId leader_ = kNoNode;
   Microticks lead_begin_{}, lead_end_{}, next_frame_{};
-  // Of a lead that began with a symbol, of cycles 0, 1, ... ; kOutOfOrder for any other.
+  // Startup frames, in order, of a lead that began with a symbol: of cycles 0, 1, ...; kOutOfOrder for any
+  // other lead.
   int frames_ = 0;
-  std::vector<Microticks> may_lead_, may_wake_;  // by NodeId: from then on
+  std::vector<Microticks> may_lead_, may_wake_;  // by NodeId: the earliest instant
 };
 
 }  // namespace ttf::bus::guardian

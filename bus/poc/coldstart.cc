@@ -17,7 +17,7 @@ PocStep gap(const Now& now) {
 
 PocStep attempt_coldstart(const Now& now, PocReason why) {
   PocStep step = enter(now, PocKind::kColdstartCollisionResolution, why, PocAction::kSendCas);
-  --step.next.vRemainingColdstartAttempts;  // listening needs more than one, so at least one stays
+  --step.next.vRemainingColdstartAttempts;  // listening needs more than one, so at least one remains
   step.next.coldstart_noise = why == PocReason::kColdstartAfterNoise;
   return step;
 }

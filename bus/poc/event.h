@@ -1,5 +1,6 @@
-// What protocol operation control is told: commands of the host, what the receiver and the wake-up make out, and how
-// the communication cycle goes on. Plain data; who tells what when is stated with each event.
+// The events of protocol operation control, as plain data. They are commands of the host, results of the
+// receiver and of wake-up, and the progress of the communication cycle. Each event states its sender and its
+// time.
 #pragma once
 
 #include <array>
@@ -9,39 +10,39 @@
 namespace ttf::bus::poc {
 
 enum class PocEventKind : std::uint8_t {
-  // The host (E-Ray CHI commands) and the supply.
+  // The host (E-Ray CHI commands) and the power supply.
   kPowerOn,
-  kConfig,          // towards configuration; out of halt
+  kConfig,          // towards configuration; also leaves halt
   kConfigComplete,  // READY given in config
-  kReady,           // READY given anywhere else
+  kReady,           // READY given in any other state
   kRun,
   kAllowColdstart,
   kWakeup,
   kAllSlots,    // leave key slot only mode
   kHalt,        // at the end of the cycle
   kFreeze,      // at once
-  kFatalError,  // the controller's own: what it found makes going on impossible
+  kFatalError,  // the controller's own: it found an error and cannot go on
 
-  // The receiver, any attached channel unless said otherwise. A controller does not hear itself.
-  kChannelActive,  // activity on a channel while all had been idle
-  kChannelsIdle,   // all attached channels are idle now (channel idle recognised)
+  // The receiver, on any attached channel unless stated otherwise. A controller does not hear itself.
+  kChannelActive,  // activity on a channel while all were idle
+  kChannelsIdle,   // all attached channels are idle (channel idle recognised)
   kCasReceived,
   kWakeupPatternReceived,  // on the channel this node wakes
-  kHeaderReceived,         // a frame header with a right CRC; comes before the kStartupFrame of the same frame
-  kStartupFrame,           // a valid startup frame (so a sync frame too): frame_id, cycle
+  kHeaderReceived,         // a frame header with a correct CRC; comes before the kStartupFrame of the same frame
+  kStartupFrame,           // a valid startup frame, which is also a sync frame: frame_id, cycle
 
-  // Timers that the actions of a step start and stop (poc.h).
+  // Timers, started and stopped by the actions of a step (poc.h).
   kListenTimeout,
   kNoiseTimeout,
 
   // Wake-up.
   kWakeupSent,       // the whole pattern has left
-  kWakeupCollision,  // while sending: somebody else is on the channel
+  kWakeupCollision,  // while sending: another node is on the channel
 
   // The schedule.
-  kScheduleNotDerived,  // no second frame in time, or outside pdAcceptedStartupRange
+  kScheduleNotDerived,  // no second frame in time, or the pair is outside pRateCorrectionOut
   kClockCorrected,      // in odd cycles, after the static segment: missing, limit_exceeded
-  kCycleStarted,        // cycle, ended: what was received in the cycle that ended with this start
+  kCycleStarted,        // cycle; ended: startup frames received in the cycle that ended with this start
 };
 inline constexpr std::array kAllPocEventKinds = {
     PocEventKind::kPowerOn,
@@ -70,18 +71,19 @@ inline constexpr std::array kAllPocEventKinds = {
     PocEventKind::kCycleStarted,
 };
 
-// Startup frames of other nodes in the cycle that has ended; a node counts once, whichever channels it was heard on.
+// Startup frames of other nodes in the cycle that has ended. A node counts once, on whichever channels it was
+// heard.
 struct StartupFramesSeen {
   int frames = 0;                // in the cycle that has ended
-  int pairs = 0;                 // in both cycles of the double cycle; meant only when an odd cycle has ended
-  bool reference_frame = false;  // whether the node this one follows (PocState::reference) is among the frames
+  int pairs = 0;                 // in both cycles of the double cycle; valid only after an odd cycle
+  bool reference_frame = false;  // the node that this one follows (PocState::reference) is among the frames
   bool reference_pair = false;   // ... among the pairs
 };
 
 struct PocEvent {
   PocEventKind kind{};
   int frame_id = 0;             // kStartupFrame
-  int cycle = 0;                // kStartupFrame: counter in its header; kCycleStarted: that of the cycle that starts
+  int cycle = 0;                // kStartupFrame: counter in its header; kCycleStarted: counter of the new cycle
   StartupFramesSeen ended{};    // kCycleStarted
   bool missing = false;         // kClockCorrected: the offset or the rate term (E-Ray MOCS, MRCS)
   bool limit_exceeded = false;  // kClockCorrected: either term (E-Ray OCLR, RCLR)

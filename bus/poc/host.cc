@@ -1,4 +1,4 @@
-// The states in which the controller is deaf and does what its host says.
+// Steps in the states with the receiver off, where the host decides.
 #include "bus/poc/states.h"
 
 namespace ttf::bus::poc {
@@ -16,12 +16,12 @@ PocStep run(const Now& now) {
   return listen_with(now.parameters, step);
 }
 
-// Everything but how the node came here is forgotten with the way out: E-Ray resets FSI, HRQ, PSL and the slot mode.
+// Leaving halt clears everything, as E-Ray resets FSI, HRQ, PSL and the slot mode.
 PocStep leave_halt(const Now& now) {
   return {poc_power_on(now.parameters), {}, PocReason::kLeftHalt, PocReason::kNone};
 }
 
-// A node halted otherwise is marked as frozen after all; where it came from then was halt (E-Ray CCSV.PSL).
+// FREEZE marks a halted node as frozen; it then comes from halt (E-Ray CCSV.PSL).
 PocStep freeze_halted(const Now& now, PocReason why) {
   if (now.state.frozen) return ignore(now, PocReason::kAlreadyFrozen);
   return freeze(now, why);

@@ -1,5 +1,5 @@
-// The paths of those who take their schedule from somebody else: the following coldstart node (SPNU563A 26.2.6.7.4) and
-// any other node (26.2.6.7.5).
+// The paths of nodes that take their schedule from another node: the following coldstart node (SPNU563A
+// 26.2.6.7.4) and any other node (26.2.6.7.5).
 #include "bus/poc/states.h"
 
 namespace ttf::bus::poc {
@@ -23,7 +23,7 @@ bool enough_pairs(const StartupFramesSeen& seen) { return seen.reference_pair ||
 
 }  // namespace
 
-// Listening with leave to coldstart is coldstart listen's.
+// With coldstart allowed, coldstart listen replaces integration listen.
 PocStep allow_coldstart_listening(const Now& now) {
   const PocStep step = allow_coldstart(now);
   const PocStep listening = listen_with(now.parameters, step);
@@ -39,7 +39,8 @@ PocStep second_frame(const Now& now) {
                PocReason::kScheduleDerived);
 }
 
-// The rest of the cycle in which the schedule was derived is not judged: checks begin with the next even cycle.
+// Checks begin with the next even cycle; the rest of the cycle in which the schedule was derived is not
+// judged.
 PocStep note_clock_of_whole_cycles(const Now& now) {
   return now.state.cycles == 0 ? ignore(now, PocReason::kNotYetWholeCycle) : note_clock(now);
 }
@@ -58,7 +59,7 @@ PocStep coldstart_check_cycle(const Now& now) {
   return step;
 }
 
-// Its own frame does not count: the leading node's at least is there. Cycles 4, 5, 6 are 1, 2, 3 here.
+// The own frame does not count: at least the leading node's must be there. Cycles 4, 5, 6 are 1, 2, 3 here.
 PocStep join_cycle(const Now& now) {
   const StartupFramesSeen& ended = now.event.ended;
   if (now.state.cycles == 2) {  // a double cycle has ended
@@ -72,7 +73,7 @@ PocStep join_cycle(const Now& now) {
   return enter(now, PocKind::kNormalActive, PocReason::kJoined);
 }
 
-// In the first double cycle there may be the leading node alone; it just does not count as a good one then.
+// The first double cycle may have the leading node alone; then it is not counted as good.
 PocStep integration_cycle(const Now& now) {
   const StartupFramesSeen& ended = now.event.ended;
   if (now.state.cycles == 0) return begin_check(now);

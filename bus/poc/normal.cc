@@ -6,7 +6,7 @@
 namespace ttf::bus::poc {
 namespace {
 
-// What both states do at the start of a cycle, before each judges the clock.
+// The step of both states at the start of a cycle, before each judges the clock.
 PocStep next_cycle(const Now& now, PocReason why) {
   PocStep step = stay(now, why);
   step.next.clock = ClockVerdict::kNone;
@@ -42,7 +42,7 @@ PocStep request_all_slots(const Now& now) {
   return step;
 }
 
-// vClockCorrectionFailed counts odd cycles without a term, and begins anew when none is missing.
+// vClockCorrectionFailed counts consecutive odd cycles without a term.
 PocStep count_clock(const Now& now) {
   PocStep step = note_clock(now);
   step.next.vClockCorrectionFailed =

@@ -31,7 +31,7 @@ PocState poc_power_on(const PocParameters& parameters) {
 
 PocStep poc_step(const PocParameters& parameters, const PocState& state, const PocEvent& event) {
   PocStep step = poc::answer(state.kind, event.kind)({parameters, state, event});
-  // What is left behind with a state is put away here, once for all transitions.
+  // Stops timers and drops the schedule here, once for all transitions that leave them behind.
   if (runs_timers(state.kind) && !runs_timers(step.next.kind)) step.actions |= PocAction::kStopTimers;
   if (has_schedule(state.kind) && !has_schedule(step.next.kind)) step.actions |= PocAction::kDropSchedule;
   return step;

@@ -1,4 +1,5 @@
-// Why a step of protocol operation control did what it did: a reason for every (state, event) pair, one sentence each.
+// The reasons of steps of protocol operation control: one for every (state, event) pair, with one sentence
+// each.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +38,7 @@ enum class PocReason : std::uint8_t {
   kCollisionWithHeader,
   kCollisionUnexplained,
 
-  // Which way start-up goes (PocStep::consequence).
+  // The direction of start-up (PocStep::consequence).
   kMayColdstart,
   kNotAColdstartNode,
   kColdstartInhibited,
@@ -94,7 +95,7 @@ enum class PocReason : std::uint8_t {
   kCycleGoesOn,
   kStaysPassive,
 
-  // Nothing happens, and why.
+  // Reasons of steps without effect.
   kCommandNotAccepted,
   kAlreadyFrozen,
   kReceiverOff,
@@ -114,10 +115,10 @@ enum class PocReason : std::uint8_t {
   kNotYetWholeCycle,
 };
 
-// One sentence without the final stop, for the log; empty for kNone.
+// Returns one sentence without the final stop, for the log; empty for kNone.
 std::string_view to_text(PocReason reason);
 
-// Whether the reason says that nothing happened: same state, same data, no action.
+// Returns whether the reason means no effect: same state, same data, no action.
 constexpr bool is_ignored(PocReason reason) { return reason >= PocReason::kCommandNotAccepted; }
 
 }  // namespace ttf::bus::poc

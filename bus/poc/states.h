@@ -1,5 +1,5 @@
-// Inside protocol operation control: the table of answers (poc_table.cc), and the steps that are more than a change of
-// state, by the part of the state machine they belong to.
+// The parts of protocol operation control. table.cc has the answers to all events; the other files have the
+// steps that do more than change the state.
 #pragma once
 
 #include "bus/poc/poc.h"
@@ -13,16 +13,16 @@ struct Now {
 };
 using Answer = PocStep (*)(const ttf::bus::poc::Now&);
 
-// The one answer to an event in a state.
+// Returns the one answer to an event in a state.
 Answer answer(PocKind state, PocEventKind event);
 
-// --- poc_states.cc: what several states share
+// --- states.cc: steps that several states share
 
-// Same state, same data: nothing happens.
+// Same state, same data: no effect.
 PocStep ignore(const Now& now, PocReason why);
-// Same state, data to be changed by the caller.
+// Same state; the caller changes the data.
 PocStep stay(const Now& now, PocReason why, PocActions actions = {});
-// Another state; what counts within a state of start-up begins anew.
+// Another state; counts within a start-up state begin anew.
 PocStep enter(const Now& now, PocKind kind, PocReason why, PocActions actions = {});
 
 PocStep power_on(const Now& now);
@@ -31,35 +31,36 @@ PocStep halt(const Now& now, PocReason why);
 PocStep freeze(const Now& now, PocReason why);
 PocStep allow_coldstart(const Now& now);
 
-// Startup prepare: to coldstart listen if this node may coldstart, else to integration listen; the consequence says
-// which.
+// Startup prepare: enters coldstart listen if this node may coldstart, else integration listen; the
+// consequence says which.
 PocStep listen(const Now& now, PocReason why);
-// The same for a step that has come to integration listen already: RUN refills the attempts before it chooses.
+// The same for a step already in integration listen: RUN refills the attempts before it chooses.
 PocStep listen_with(const PocParameters& parameters, PocStep step);
-// Initialise schedule, with the even startup frame that was heard.
+// Initialise schedule, with the even startup frame just received.
 PocStep derive_schedule(const Now& now);
 
 // Keeps the verdict of clock correction for the next cycle start.
 PocStep note_clock(const Now& now);
-// Why start-up is aborted on the verdict, kNone if it is in order. No verdict at all counts as a missing term.
+// Returns why the verdict aborts start-up, kNone if it is in order. A missing verdict counts as a missing
+// term.
 PocReason clock_objection(const PocState& state);
 
-// --- poc_host.cc: the states in which the controller is deaf
+// --- host.cc: states with the receiver off
 PocStep configure_again(const Now& now);
 PocStep run(const Now& now);
 PocStep leave_halt(const Now& now);
 PocStep freeze_halted(const Now& now, PocReason why);
 
-// --- poc_wakeup.cc
+// --- wakeup.cc
 PocStep wake(const Now& now);
 PocStep end_wakeup(const Now& now, WakeupStatus status, PocReason why);
 
-// --- poc_coldstart.cc: the path of the leading coldstart node
+// --- coldstart.cc: the path of the leading coldstart node
 PocStep attempt_coldstart(const Now& now, PocReason why);
 PocStep resolution_cycle(const Now& now);
 PocStep consistency_cycle(const Now& now);
 
-// --- poc_integration.cc: the paths of the following coldstart node and of any other node
+// --- integration.cc: the paths of the following coldstart node and of any other node
 PocStep allow_coldstart_listening(const Now& now);
 PocStep second_frame(const Now& now);
 PocStep note_clock_of_whole_cycles(const Now& now);
@@ -67,7 +68,7 @@ PocStep coldstart_check_cycle(const Now& now);
 PocStep join_cycle(const Now& now);
 PocStep integration_cycle(const Now& now);
 
-// --- poc_normal.cc
+// --- normal.cc
 PocStep request_halt(const Now& now);
 PocStep request_ready(const Now& now);
 PocStep request_all_slots(const Now& now);

@@ -1,5 +1,5 @@
-// What protocol operation control answers: every pair of state and event, listed once. The compiler proves that there
-// is none without an answer and none with two.
+// The answers of protocol operation control: every pair of state and event, listed once. The compiler proves
+// that each pair has exactly one answer.
 #include <array>
 #include <cstdint>
 #include <initializer_list>
@@ -52,11 +52,11 @@ constexpr States kListening{K::kColdstartListen, K::kIntegrationListen};
 constexpr States kStarting = kListening | kLeading | kFollowing;
 constexpr States kNormal{K::kNormalActive, K::kNormalPassive};
 constexpr States kAtWork = kWaking | kStarting | kNormal;
-// Whose checks are made at the end of cycles, of all startup frames there were.
+// States that check all startup frames at the end of each cycle.
 constexpr States kChecking{K::kColdstartConsistencyCheck, K::kIntegrationColdstartCheck, K::kColdstartJoin,
                            K::kIntegrationConsistencyCheck};
 
-// ---- answers that are said in full by their arguments
+// ---- answers given by their arguments alone
 
 template <PocReason why> PocStep ignores(const Now& now) { return ignore(now, why); }
 
@@ -84,14 +84,14 @@ struct Rule {
 };
 
 constexpr Rule kRules[] = {
-    // The supply, errors, and commands that are the same in many states.
+    // Power supply, errors, and commands with the same answer in many states.
     {kDeaf | kAtWork, E::kPowerOn, power_on},
     {kNotHalted | kAtWork, E::kFreeze, does<freeze, R::kFreezeCommand>},
     {kNotHalted | kAtWork, E::kFatalError, does<freeze, R::kFatalError>},
     {kWaking | kStarting, E::kReady, does<ready, R::kReadyCommand>},
     {K::kReady | kWaking | kFollowing | kNormal, E::kAllowColdstart, allow_coldstart},
 
-    // Deaf, until the host says otherwise.
+    // Receiver off, until the host commands otherwise.
     {K::kDefaultConfig, E::kConfig, enters<K::kConfig, R::kConfigCommand>},
     {K::kConfig, E::kConfigComplete, does<ready, R::kConfigured>},
     {K::kReady, E::kConfig, configure_again},
@@ -115,8 +115,8 @@ constexpr Rule kRules[] = {
     {K::kWakeupDetect, E::kHeaderReceived, ends_wakeup<WakeupStatus::kCollisionHeader, R::kCollisionWithHeader>},
     {K::kWakeupDetect, E::kListenTimeout, ends_wakeup<WakeupStatus::kCollisionUnknown, R::kCollisionUnexplained>},
 
-    // The leading coldstart node. A CAS or a header is no noise: somebody starts the cluster or runs it. Who leads and
-    // hears one gives way, so that one node remains that leads.
+    // The leading coldstart node. A CAS or a header is no noise: another node starts or runs the cluster. A
+    // leading node that hears one gives way, so that one leader remains.
     {K::kColdstartListen, E::kStartupFrame, derive_schedule},
     {K::kColdstartListen, E::kListenTimeout, does<attempt_coldstart, R::kColdstartAfterSilence>},
     {K::kColdstartListen, E::kNoiseTimeout, does<attempt_coldstart, R::kColdstartAfterNoise>},
@@ -130,10 +130,10 @@ constexpr Rule kRules[] = {
     {K::kColdstartConsistencyCheck, E::kCycleStarted, consistency_cycle},
     {K::kColdstartGap, E::kCasReceived, does<listen, R::kGapCas>},
     {K::kColdstartGap, E::kHeaderReceived, does<listen, R::kGapHeader>},
-    // The attempt was taken off when the gap was entered.
+    // Entering the gap has taken the attempt off.
     {K::kColdstartGap, E::kCycleStarted, enters<K::kColdstartCollisionResolution, R::kGapOver, A::kSendCas>},
 
-    // Those who take their schedule from somebody else.
+    // Nodes that take their schedule from another node.
     {K::kIntegrationListen, E::kAllowColdstart, allow_coldstart_listening},
     {K::kIntegrationListen, E::kStartupFrame, derive_schedule},
     {K::kInitialiseSchedule, E::kStartupFrame, second_frame},
@@ -153,7 +153,8 @@ constexpr Rule kRules[] = {
     {K::kNormalActive, E::kCycleStarted, active_cycle},
     {K::kNormalPassive, E::kCycleStarted, passive_cycle},
 
-    // Commands that are not for the state. Where a coldstart node listens or leads, coldstart is allowed already.
+    // Commands that the state does not accept. A coldstart node that listens or leads has coldstart allowed
+    // already.
     {K::kConfig | kAtWork, E::kConfig, ignores<R::kCommandNotAccepted>},
     {States{K::kDefaultConfig, K::kReady, K::kHalt} | kAtWork, E::kConfigComplete, ignores<R::kCommandNotAccepted>},
     {kDeaf, E::kReady, ignores<R::kCommandNotAccepted>},
@@ -162,7 +163,7 @@ constexpr Rule kRules[] = {
      ignores<R::kCommandNotAccepted>},
     {kDeaf | kWaking | kStarting, {E::kAllSlots, E::kHalt}, ignores<R::kCommandNotAccepted>},
 
-    // What is heard without meaning anything. While it sends, a node makes out nothing but a collision.
+    // Receptions without meaning. While it sends, a node detects nothing but a collision.
     {kDeaf | K::kWakeupSend,
      {E::kChannelActive, E::kChannelsIdle, E::kCasReceived, E::kWakeupPatternReceived, E::kHeaderReceived,
       E::kStartupFrame},
@@ -182,10 +183,10 @@ constexpr Rule kRules[] = {
      E::kStartupFrame,
      ignores<R::kHeaderCameFirst>},
 
-    // What the controller tells only where it has been set going.
+    // Events of a timer, a wake-up or a schedule that the state does not run.
     {States{K::kWakeupSend, K::kIntegrationListen} | kDeaf | kLeading | kFollowing | kNormal, E::kListenTimeout,
      ignores<R::kNoTimerRunning>},
-    // The listen timer alone bounds the search for what collided with the pattern.
+    // Only the listen timer bounds the search for the cause of a collision with the pattern.
     {States{K::kWakeupSend, K::kWakeupDetect, K::kIntegrationListen} | kDeaf | kLeading | kFollowing | kNormal,
      E::kNoiseTimeout, ignores<R::kNoTimerRunning>},
     {States{K::kWakeupListen, K::kWakeupDetect} | kDeaf | kStarting | kNormal,
@@ -199,15 +200,15 @@ constexpr Rule kRules[] = {
     {{K::kColdstartCollisionResolution, K::kColdstartGap}, E::kClockCorrected, ignores<R::kOwnClockOnly>},
 };
 
-// ---- from the list to a table
+// ---- from the rules to the table
 
 constexpr std::size_t kStateCount = kAllPocKinds.size(), kEventCount = kAllPocEventKinds.size();
 static_assert(kStateCount <= 32 && kEventCount <= 32, "sets have 32 bits");
 
 struct Table {
   std::array<std::array<Answer, kEventCount>, kStateCount> answers{};
-  int pairs = 0;       // listed
-  bool twice = false;  // one of them more than once
+  int pairs = 0;       // counted from the rules
+  bool twice = false;  // a pair is listed more than once
 };
 
 constexpr Table made_of(const auto& rules) {
@@ -229,7 +230,7 @@ static_assert(!kTable.twice, "a pair of state and event has two answers");
 static_assert(kTable.twice || kTable.pairs == int{kStateCount * kEventCount},
               "a pair of state and event has no answer");
 
-// Where a state stands in the table, by its code.
+// The row of a state in the table, by its code.
 constexpr std::size_t kCodes = 64;
 constexpr auto kRows = [] {
   std::array<std::uint8_t, kCodes> rows{};

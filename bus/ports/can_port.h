@@ -1,4 +1,4 @@
-// The CAN port: frames to a private CAN and from it.
+// The CAN port sends a node's frames to a private CAN.
 //   L1  every frame reaches every other controller on the bus exactly once, bytes unchanged
 //   L2  a controller does not hear itself
 //   L3  whenever the bus falls idle, the pending frame with the lowest identifier wins (ties: lower node)

@@ -1,12 +1,11 @@
-// What separate processes of one node set say to each other in virtual time: whole messages, each from one node to all
-// others. What is in a message is not this port's business (sim/processes/turn.h); who carries it is a leaf's
-// (bus/dds/).
+// The exchange carries whole messages between the processes of one node set in virtual time, each from one
+// node to all others. Their content is defined in sim/processes/turn.h; bus/dds/ carries them.
 //
 //   L1  every message of a member reaches every other member exactly once, unchanged
 //   L2  messages of one member arrive in the order in which they were sent
 //   L3  a member does not hear itself
-//   L4  receive() sleeps until there is something; nothing spins
-//   L5  who has been reported gone is heard no more, and all that it said before has been heard
+//   L4  receive() sleeps until there is a message; it never spins
+//   L5  all messages of a member are heard before it is reported gone, and none afterwards
 #pragma once
 
 #include <cstddef>
@@ -18,7 +17,7 @@ namespace ttf::bus::ports {
 
 class Exchange {
  public:
-  // What receive() brings. Without bytes: the member is gone, for good.
+  // One message of a member; without bytes: the member is gone for good.
   struct Heard {
     NodeId from{};
     bool gone = false;
@@ -26,9 +25,10 @@ class Exchange {
   };
 
   virtual ~Exchange() = default;
-  // Blocks only while others have no room. Throws std::runtime_error where the medium is lost.
+  // Sends a message to all others; blocks only while they have no room. Throws std::runtime_error if the
+  // medium is lost.
   virtual void send(std::span<const std::byte> message) = 0;
-  // The next message of anybody, or that somebody is gone. Throws std::runtime_error where the medium is lost.
+  // Returns the next message, or that a member is gone. Throws std::runtime_error if the medium is lost.
   virtual Heard receive() = 0;
 };
 

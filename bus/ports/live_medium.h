@@ -1,26 +1,25 @@
-// The medium of a node in real time: the lines that its process is on, and what the node's runner (nodes/runner/) and
-// whoever carries the frames owe each other. One small port, several media (SocketCAN, DDS, memory); all pass the laws
-// below (tests/laws/live_medium_laws.h).
+// The live medium is a node's medium in real time: the contract between the node's runner (nodes/runner/) and
+// the carrier of its lines. Every medium behind it (SocketCAN, DDS, memory) passes the laws below
+// (tests/laws/live_medium_laws.h).
 //
-// The wall is lower than flexray_port.h's: here are bytes and instants of the host's clock. Whether a frame came in its
-// time, what slot that is and what the node's own clock shows is the runner's.
-//   L1  what is sent on a line reaches every other node on that line exactly once, its bytes unchanged, or is counted
-//       as lost (counts().lost) by who should have heard it, where the medium can know
+// The boundary is lower than that of flexray_port.h: the medium has bytes and instants of the machine's clock. The
+// runner decides slots, arrival windows and the node's own time.
+//   L1  a signal or CAN frame on a line reaches every other node on that line exactly once, bytes unchanged; otherwise
+//       the node that missed it counts it as lost (counts().lost) where the medium can know
 //   L2  a node does not hear itself
 //   L3  what one node sends on one line arrives in the order in which it was sent
-//   L4  LiveArrival::at lies between the begin of send() and LiveArrival::received, which is no later than the return
-//       of receive(): all on the receiver's host; so does LiveArrival::left, where it is told
+//   L4  LiveArrival::at, and LiveArrival::left if given, lie between the beginning of send() and LiveArrival::received,
+//       which is no later than the return of receive(): all by the receiver's machine
 //   L5  the medium keeps no reference to bytes after send() returns; an arrival's bytes are valid until the next
 //       receive()
 //   L6  send() and receive() never block; after construction nothing allocates on the way, and nothing throws
-//   L7  what is none of our signals or frames is counted (counts().foreign, malformed) and never handed over
-//   L8  once something is there, descriptor(line) of a line that is watched is readable until receive() has handed it
-//       over
+//   L7  data that are not our signals or frames are counted (counts().foreign, malformed) and never handed over
+//   L8  descriptor(line) of a watched line is readable from the first arrival until receive() has handed over the last
 //
-// Instants of departure. A process sends later than it should, by what its kernel takes to wake it up; and clock
-// synchronisation must not take that for the sender's clock. So a sync frame says how late it left: the medium measures
-// `late` as it sends, and tells it along with the frame, or, where the frame has no room for it, in a follow-up
-// (as AUTOSAR's time synchronisation over CAN does, SYNC and FUP).
+// A process sends late by the time that its kernel needs to wake it up. Clock synchronisation must not take
+// that lateness for the sender's clock. So the medium measures the lateness of a sync frame as it sends it. It
+// states it in the frame or, if the frame has no room, in a follow-up (as AUTOSAR's time synchronisation over
+// CAN does, SYNC and FUP).
 #pragma once
 
 #include <cstddef>
@@ -35,7 +34,7 @@
 
 namespace ttf::bus::ports {
 
-// What this host's clock shows that nobody sets: CLOCK_MONOTONIC, the same for all processes of a host.
+// The time of this machine's CLOCK_MONOTONIC, which cannot be set and is the same for all its processes.
 using HostTime = Instant<struct HostScale>;
 
 // 0 and 1: FlexRay channels A and B; 2 + b: Cluster::can_buses[b].
@@ -46,42 +45,43 @@ constexpr Line line_of_can(std::size_t can_bus) { return 2 + can_bus; }
 enum class LiveStatus : std::uint8_t {
   kDone,
   kNoRoom,  // the medium's queue is full: not sent
-  kFailed,  // the line is of no use any more; failure() says why
+  kFailed,  // the line has failed for good; failure() says why
 };
 
 // A frame or symbol for one channel.
 struct LiveSignal {
   schedules::model::Channel channel{};
   Signal signal = Signal::kFrame;    // kUndecodable: noise
-  int slot = 0;                      // of a frame, 1..2047
-  Duration duration{};               // of anything else, as long as it is on the wire
+  int slot = 0;                      // of a frame: 1..2047
+  Duration duration{};               // of anything else: its time on the wire
   std::span<const std::byte> bytes;  // of a frame: header, payload, trailer; 8..262
-  bool tells_late = false;           // a sync frame: receivers are told how late it left
+  bool tells_late = false;           // a sync frame: receivers learn how late it left
 };
 
 struct LiveArrival {
   enum class Kind : std::uint8_t {
     kFlexRay,   // `signal`
-    kFollowUp,  // of the sync frame of signal.slot in cycle_counter on signal.channel, which came before: `late`
+    kFollowUp,  // `late` of the sync frame that came before: of signal.slot in cycle_counter on signal.channel
     kCan,       // `can` on can_bus
   };
   Kind kind = Kind::kFlexRay;
-  HostTime at{};                 // when it had arrived
-  HostTime received{};           // when the medium had it in its hands here: the kernel's lateness is in it
-  std::optional<HostTime> left;  // when its sender gave it to the medium: where that is told, by this host's clock
+  HostTime at{};                 // when the frame had arrived
+  HostTime received{};           // when the medium got it on this machine: the kernel's lateness included
+  std::optional<HostTime> left;  // when its sender gave it to the medium, if stated; by this machine's clock
   LiveSignal signal;
   std::uint8_t cycle_counter = 0;  // of a follow-up
-  std::optional<Duration> late;    // how much later than `due` it left: of a follow-up, or of a sync frame that says it
+  std::optional<Duration> late;    // lateness of the departure against `due`: of a follow-up, or of a sync frame that
+                                   // states it
   std::size_t can_bus = 0;
   CanFrame can;
 };
 
-// Since the beginning.
+// Counted since construction.
 struct LiveCounts {
   std::uint64_t sent = 0, received = 0;  // signals and CAN frames
   std::uint64_t not_sent = 0;            // no room
-  std::uint64_t lost = 0;                // never heard, and the medium knows of it
-  std::uint64_t foreign = 0;             // not ours
+  std::uint64_t lost = 0;                // known to the medium, but never heard
+  std::uint64_t foreign = 0;             // of other senders than ours
   std::uint64_t malformed = 0;           // in our form, but wrong
 };
 
@@ -89,24 +89,24 @@ class LiveMedium {
  public:
   virtual ~LiveMedium() = default;
 
-  // `due`: when it should have left, for `late`.
+  // Sends at once; `due` is the instant at which the signal should have left, from which `late` follows.
   virtual LiveStatus send(const LiveSignal& signal, HostTime due) = 0;
   virtual LiveStatus send_can(std::size_t can_bus, const CanFrame& frame) = 0;
 
-  // What has arrived, line by line in the order of L3; nothing if nothing is there.
+  // Returns the next arrival, line by line in the order of L3; no value if there is none.
   virtual std::optional<LiveArrival> receive() = 0;
 
-  // For poll(): readable when something is there on this line (L8). Of a line that is not watched it may stay silent.
-  // -1: this node is not on that line.
+  // Returns a descriptor for poll(), readable when an arrival waits on this line (L8). It may stay silent if
+  // the line is not watched. -1: this node is not on that line.
   virtual int descriptor(Line line) const = 0;
   virtual void watch(Line line, bool on) = 0;
 
   virtual LiveCounts counts() const = 0;
-  // One sentence where a line is of no use any more ("vcan0 is down: ..."); empty while all is well.
+  // Returns one sentence about a failed line ("vcan0 is down: ..."); empty without a failure.
   virtual const std::string& failure() const = 0;
 };
 
-// CLOCK_MONOTONIC, now.
+// Returns the present time of CLOCK_MONOTONIC.
 HostTime host_now();
 
 }  // namespace ttf::bus::ports

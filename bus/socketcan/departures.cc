@@ -12,7 +12,7 @@ void Departures::expect(const canfd_frame& last, int slot, std::uint8_t cycle_co
 }
 
 std::optional<FollowUp> Departures::left(const canfd_frame& can, ports::HostTime at) {
-  // The oldest first. Flags are none of the data's: the driver may have changed them.
+  // The oldest first. The driver may have changed the flags, so they are not compared.
   for (std::size_t i = 0; i < kRoom && expected_ > 0; ++i) {
     Departure& departure = ring_[(next_ + i) % kRoom];
     if (!departure.expected || departure.last.can_id != can.can_id || departure.last.len != can.len ||

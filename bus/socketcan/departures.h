@@ -1,5 +1,5 @@
-// Sync frames that were sent and whose confirmation is still to come: what their sender says of them then. Pure; the
-// few that an interface may have queued fit, and one that was forgotten for newer ones is told of by no follow-up.
+// Sync frames that await their confirmation, with the data of their follow-ups. Pure. There is room for the
+// few that an interface may have queued; a newer frame that overwrites an older one takes its follow-up away.
 #pragma once
 
 #include <linux/can.h>
@@ -17,11 +17,11 @@ class Departures {
  public:
   static constexpr std::size_t kRoom = 16;
 
-  // `last`: the last CAN frame that it was sent in; `due`: when it should have left.
+  // `last`: the frame's last CAN frame; `due`: the instant at which it should have left.
   void expect(const canfd_frame& last, int slot, std::uint8_t cycle_counter, ports::HostTime due);
   bool none() const { return expected_ == 0; }
-  // This CAN frame of ours had left at `at`: what is to be told of it, once. Nothing if it is none of the expected
-  // ones, or too late to be told (can_be_told()).
+  // Notes that this own CAN frame had left at `at`. Returns the frame's follow-up, once; no value if the frame
+  // is not expected or left too late for a follow-up (can_be_told()).
   std::optional<FollowUp> left(const canfd_frame& can, ports::HostTime at);
 
  private:

@@ -10,7 +10,7 @@
 namespace ttf::bus::socketcan {
 namespace {
 
-// What has identifier 0: what it says, then the CRC; a follow-up's is followed by one zero.
+// Frames with identifier 0: content, then the CRC; one zero follows that of a follow-up.
 constexpr std::size_t kSymbolSays = 5, kFollowUpSays = 8;
 constexpr std::size_t kSymbolBytes = kSymbolSays + wire::kTrailerBytes;
 constexpr std::size_t kFollowUpBytes = 12;
@@ -20,7 +20,7 @@ constexpr unsigned kFragmentMark = 0x80, kFragmentUnused = 0x40;
 
 std::span<const std::byte> data_of(const canfd_frame& can) { return std::as_bytes(std::span(can.data)).first(can.len); }
 
-// Zeros wherever nothing is written.
+// Zeros where nothing is written.
 canfd_frame empty_frame(int identifier, std::size_t bytes) {
   canfd_frame can{};
   can.can_id = static_cast<canid_t>(identifier);
@@ -41,7 +41,7 @@ bool all_zero(std::span<const std::byte> bytes) {
   return std::all_of(bytes.begin(), bytes.end(), [](std::byte byte) { return byte == std::byte{0}; });
 }
 
-// How many bytes of frame its own header, were it sent in that slot, says are there; nothing if it says so wrongly.
+// Returns the frame's length by its own header; no value if the header is wrong for that slot.
 std::optional<std::size_t> stated_length(int slot, std::span<const std::byte> frame) {
   const std::optional<wire::FrameHeader> header = wire::header_of(frame);
   const bool reserved = header && (frame[0] & std::byte{kFragmentMark}) != std::byte{0};
@@ -55,12 +55,12 @@ bool goes_whole(int slot, std::span<const std::byte> frame) {
   return frame.size() <= CANFD_MAX_DLEN && stated_length(slot, frame) == frame.size();
 }
 
-// A CAN FD frame in the form of a fragment, its own three bytes proved.
+// A CAN FD frame in the form of a fragment, its own three bytes checked.
 struct Fragment {
   std::size_t index = 0;
   std::size_t length = 0;  // of the whole frame
   unsigned cycle = 0;
-  std::span<const std::byte> bytes;  // of the frame
+  std::span<const std::byte> bytes;  // of the whole frame
 };
 
 std::optional<Fragment> fragment_of(int slot, std::span<const std::byte> data) {
@@ -80,7 +80,7 @@ std::optional<Fragment> fragment_of(int slot, std::span<const std::byte> data) {
   if (!all_zero(data.subspan(kFragmentHeaderBytes + here))) return std::nullopt;
   if (part.index != 0) return part;
   if (cycle_of(part.bytes) != part.cycle) return std::nullopt;
-  // What can go whole does not go in fragments.
+  // A frame that fits whole is never sent in fragments.
   if (part.length <= CANFD_MAX_DLEN && stated_length(slot, part.bytes) == part.length) return std::nullopt;
   return part;
 }
@@ -89,7 +89,7 @@ void put_big_endian(canfd_frame& can, std::size_t at, std::uint32_t value, std::
   for (std::size_t i = 0; i < bytes; ++i) can.data[at + i] = static_cast<std::uint8_t>(value >> (8 * (bytes - 1 - i)));
 }
 
-// Behind the bytes that it is over.
+// Writes the CRC of the first `says` bytes after them.
 void put_crc(canfd_frame& can, schedules::model::Channel channel, std::size_t says) {
   put_big_endian(can, says, wire::frame_crc(channel, data_of(can).first(says)), wire::kTrailerBytes);
 }
@@ -177,7 +177,7 @@ Arrival Reassembly::arrive(const canfd_frame& can) {
     } else {
       const bool said_later = slot == kSymbolIdentifier && data[0] == std::byte{kFollowUpKind};
       arrival = said_later ? follow_up(data) : slot == kSymbolIdentifier ? symbol(data) : whole(slot, data);
-      // Something else of ours where a fragment was due.
+      // Another complete signal of ours where a fragment was due.
       arrival.abandoned = arrival.outcome == Outcome::kComplete && !said_later && next_ != 0;
       if (arrival.abandoned) next_ = 0;
     }
@@ -235,7 +235,7 @@ Arrival Reassembly::fragment(int slot, std::span<const std::byte> data) {
   const auto place = bytes_.begin() + static_cast<std::ptrdiff_t>(part.index * kFragmentBytes);
   const bool of_begun = next_ != 0 && slot == slot_ && part.length == length_ && part.cycle == cycle_of(bytes_);
   if (of_begun && part.index < next_ && std::equal(part.bytes.begin(), part.bytes.end(), place)) {
-    arrival.outcome = Outcome::kDisplaced;  // here already: harmless
+    arrival.outcome = Outcome::kDisplaced;  // already here: harmless
     return arrival;
   }
   if (part.index == 0 || !of_begun || part.index != next_) {

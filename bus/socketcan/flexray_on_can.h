@@ -1,26 +1,26 @@
-// FlexRay on CAN FD: what of a FlexRay channel travels in which bytes on a CAN interface. Pure functions and one state;
-// docs/socketcan.md describes the same for those who look at the bus with candump.
+// FlexRay on CAN FD: maps the signals of a FlexRay channel to bytes on a CAN interface. Pure functions and one
+// state. docs/socketcan.md describes the same for people who look at the bus with candump.
 //
-//   identifier        11 bits: the slot in which the frame is sent, 1..2047; 0 for symbols and follow-ups, as no slot
-//                     has that number
-//   whole frame       header, payload, frame CRC, as FlexRay has them: 8..64 bytes
-//   fragments         of what does not fit, or is no frame by its own header: three bytes before up to 61 of the frame
+//   identifier        11 bits: the slot in which the frame is sent, 1..2047; 0 for symbols and follow-ups, because no
+//                     slot has that number
+//   whole frame       header, payload, frame CRC, as in FlexRay: 8..64 bytes
+//   fragments         of a frame that does not fit, or is invalid by its own header: three bytes before up to 61 of it
 //                       byte 0   1 0 lll iii   number of the last fragment, of this one, both from 0
 //                       byte 1   n 0 cccccc    top bit of the frame's length, cycle count
 //                       byte 2   nnnnnnnn      the frame's length in bytes, lower bits
 //   symbol            kind (1 CAS or MTS, 2 wake-up, 3 noise), duration in ns (4 bytes, most significant first), CRC-24
 //                     of these five with the channel's initial value
-//   follow-up         4, slot (2 bytes), cycle count (1), how late the sync frame sent there and then was in ns (4,
-//                     two's complement), CRC-24 of these eight as above; no FlexRay signal, and nothing to the
+//   follow-up         4, slot (2 bytes), cycle count (1), lateness of the sync frame sent there and then in ns (4,
+//                     two's complement), CRC-24 of these eight as above; no FlexRay signal, and without effect on the
 //                     fragments around it
 //
-// CAN FD has no frame of, say, 26 bytes: zeros follow up to the next length there is. How long a whole frame is, its
-// header says, whose CRC must hold; bit 7 of byte 0, reserved in FlexRay and sent as 0, tells the two forms apart.
-// What is sent has one form only, and a receiver takes no other. Fragments follow one another on the bus: another
-// frame between them ends them.
+// CAN FD has no frame of, say, 26 bytes: zeros fill it up to the next length. The header of a whole frame
+// states its length, and the header CRC must match. Bit 7 of byte 0, reserved in FlexRay and sent as 0,
+// distinguishes the two forms. A frame can be sent in one form only, and a receiver accepts no other.
+// Fragments follow one another on the bus; any other frame between them ends them.
 //
-// Nothing here allocates, throws, or looks at a clock. The frame CRC is not judged here: a frame that is broken
-// arrives as one, as on FlexRay (wire::decode_frame).
+// Nothing here allocates, throws, or reads a clock. The frame CRC is not judged here: a broken frame arrives
+// as one, as on FlexRay (wire::decode_frame).
 #pragma once
 
 #include <linux/can.h>
@@ -44,7 +44,7 @@ inline constexpr std::size_t kFragmentHeaderBytes = 3;
 inline constexpr std::size_t kFragmentBytes = CANFD_MAX_DLEN - kFragmentHeaderBytes;
 inline constexpr std::size_t kMaxFragments = (wire::kMaxFrameBytes + kFragmentBytes - 1) / kFragmentBytes;
 
-// The shortest CAN FD data of at least `bytes` bytes (0..64): 0..8, 12, 16, 20, 24, 32, 48, 64.
+// Returns the shortest CAN FD length for `bytes` bytes (0..64): 0..8, 12, 16, 20, 24, 32, 48, 64.
 std::size_t can_fd_length(std::size_t bytes);
 
 struct CanFrames {
@@ -53,48 +53,50 @@ struct CanFrames {
 
   std::span<const canfd_frame> all() const { return std::span(frames).first(count); }
 };
-// A frame of 8..262 bytes, correct or not, sent in slot 1..2047. The flag CANFD_BRS is set: data at the faster rate.
+// Maps a frame of 8..262 bytes, correct or not, sent in slot 1..2047. The flag CANFD_BRS is set: data at the
+// faster rate.
 CanFrames frame_to_can(int slot, std::span<const std::byte> frame);
-// Any signal but a frame; at most 4.29 s long.
+// Maps any signal except a frame; at most 4.29 s long.
 canfd_frame symbol_to_can(schedules::model::Channel channel, ports::Signal symbol, Duration duration);
 
-// What a sender says of a sync frame that it has sent before: how much later than it should have it left.
+// A sender's report about a sync frame that it sent before: its lateness.
 struct FollowUp {
   int slot = 0;                    // 1..2047
   std::uint8_t cycle_counter = 0;  // 0..63
   Duration late;                   // negative: earlier; within can_be_told()
 };
-// Whether it has room in a follow-up: up to 2.14 s either way.
+// Returns whether a follow-up has room for that lateness: up to 2.14 s either way.
 bool can_be_told(Duration late);
 canfd_frame follow_up_to_can(schedules::model::Channel channel, const FollowUp& follow_up);
 
 enum class Outcome : std::uint8_t {
-  kComplete,   // a FlexRay frame, a symbol or a follow-up is there
+  kComplete,   // a FlexRay frame, a symbol or a follow-up is complete
   kFragment,   // part of a frame that is not complete yet
-  kForeign,    // not this mapping's: classic CAN, 29-bit identifiers, remote and error frames
+  kForeign,    // outside this mapping: classic CAN, 29-bit identifiers, remote and error frames
   kMalformed,  // a CAN FD frame with an 11-bit identifier that no sender of ours sends
-  kDisplaced,  // a fragment that does not continue what came before it, or repeats it
+  kDisplaced,  // a fragment that does not continue the last one, or repeats one
 };
 inline constexpr std::size_t kOutcomes = 5;
 
 struct Arrival {
   Outcome outcome{};
-  bool abandoned = false;               // a frame whose first fragments were here will not be complete any more
+  bool abandoned = false;               // a frame with its first fragments here will stay incomplete
   int slot = 0;                         // of a complete frame or a fragment, displaced or not
-  ports::Signal signal{};               // of what is complete and no follow-up
+  ports::Signal signal{};               // of a complete frame or symbol
   Duration duration{};                  // of a symbol
-  std::span<const std::byte> frame{};   // of a complete frame: valid as long as what arrived is, until the next arrival
-  std::optional<FollowUp> follow_up{};  // if it is one
+  std::span<const std::byte> frame{};   // of a complete frame: valid as long as the received CAN frame, until the
+                                        // next arrival
+  std::optional<FollowUp> follow_up{};  // of a follow-up
 };
 
-// One channel's receiver: one per interface.
+// One channel's receiver, one per interface.
 class Reassembly {
  public:
   explicit Reassembly(schedules::model::Channel channel) : channel_(channel) {}
 
   // `can.flags` must have CANFD_FDF if and only if it arrived as a CAN FD frame.
   Arrival arrive(const canfd_frame& can);
-  // How often; abandoned frames apart.
+  // Returns how often this outcome occurred; abandoned frames count separately.
   std::uint64_t count(Outcome outcome) const { return counts_[static_cast<std::size_t>(outcome)]; }
   std::uint64_t abandoned() const { return abandoned_; }
 
@@ -105,7 +107,7 @@ class Reassembly {
   Arrival fragment(int slot, std::span<const std::byte> data);
 
   schedules::model::Channel channel_;
-  // What is begun: fragments 0..next_ - 1 of a frame of length_ bytes in slot_; nothing is while next_ is 0.
+  // The frame begun: fragments 0..next_ - 1 of length_ bytes in slot_; no frame is begun while next_ is 0.
   std::size_t next_ = 0;
   int slot_ = 0;
   std::size_t length_ = 0;

@@ -66,7 +66,7 @@ InterfaceState interface_state(const std::string& name) {
 }
 
 Problem kernel_problem(const InterfaceState& state) {
-  const char* const host = "in a container it is the host's kernel that counts";
+  const char* const host = "in a container the host's kernel counts";
   switch (state.refused) {
     case 0: return {};
     case EAFNOSUPPORT:
@@ -77,10 +77,10 @@ Problem kernel_problem(const InterfaceState& state) {
 }
 
 Problem link_problem(const std::string& name, const InterfaceState& state, bool flexible_data_rate) {
-  const char* const others = "ip -details link show type can lists those there are";
+  const char* const others = "ip -details link show type can lists the CAN interfaces";
   if (!state.there) {
     if (name.empty() || name.size() >= IFNAMSIZ)
-      return {fmt::format("is no name of an interface: these have 1..{} bytes", IFNAMSIZ - 1), {}};
+      return {fmt::format("is no interface name: a name has 1..{} bytes", IFNAMSIZ - 1), {}};
     if (!is_virtual(name)) return {fmt::format("is not there; {}", others), {}};
     return {"is not there",
             {fmt::format("ip link add dev {} type {}", name, name[1] == 'x' ? "vxcan" : "vcan"),

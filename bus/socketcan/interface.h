@@ -1,6 +1,5 @@
-// What must hold of a kernel and a CAN interface before anything is sent on it, and the commands that make it so where
-// it does not. The one place that knows both: for sockets, which say it in a sentence, and for whoever looks at the bus
-// before a launch.
+// The requirements on a kernel and a CAN interface before anything is sent, and the commands that meet them.
+// Sockets state them in one sentence; the preflight check of a launch shows them one by one.
 #pragma once
 
 #include <string>
@@ -8,36 +7,37 @@
 
 namespace ttf::bus::socketcan {
 
-// What the kernel says; of the interface also where it has no CAN sockets.
+// The kernel's answers; the interface's state is known even without CAN sockets.
 struct InterfaceState {
-  int refused = 0;     // why it gives no raw CAN socket, an errno; 0: it gives them
-  bool there = false;  // an interface of that name; what follows means something only if this holds
-  bool can = false;    // it is a CAN
+  int refused = 0;     // errno of the refused raw CAN socket; 0: granted
+  bool there = false;  // the interface exists; all below is valid only then
+  bool can = false;    // it is a CAN interface
   bool up = false;
   int mtu = 0;  // bytes: 16 classic CAN, 72 CAN FD
 };
 
-// Asks the kernel; changes nothing. Throws std::runtime_error where it knows an interface but tells nothing about it.
+// Asks the kernel and changes nothing. Throws std::runtime_error if the kernel does not describe a known
+// interface.
 InterfaceState interface_state(const std::string& name);
 
-// What is in the way, and the commands that help, one after the other and as root; none where none is known.
+// A fault, and the known commands that mend it, in order and as root.
 struct Problem {
-  std::string what;  // a predicate, "is not there"; empty: all is well
+  std::string what;  // a predicate, "is not there"; empty: no fault
   std::vector<std::string> commands;
 
   explicit operator bool() const { return !what.empty(); }
-  std::string text() const;  // the commands behind it, as one would type them
+  std::string text() const;  // with the commands as one would type them
 };
-// Of the kernel: "has no CAN sockets".
+// Returns a fault of the kernel: "has no CAN sockets".
 Problem kernel_problem(const InterfaceState& state);
-// Of the interface alone. With `flexible_data_rate` it must carry CAN FD.
+// Returns a fault of the interface alone. With `flexible_data_rate` it must carry CAN FD.
 Problem link_problem(const std::string& name, const InterfaceState& state, bool flexible_data_rate);
 
-// The commands that make a virtual CAN of that name, where there is no interface yet.
+// Returns the commands that make a virtual CAN of that name if the interface does not exist.
 std::vector<std::string> virtual_interface(const std::string& name, bool flexible_data_rate);
 
-// What keeps that interface from being used, the kernel first, as text(): one sentence without the interface's name,
-// empty where there is nothing.
+// Returns the first fault of the kernel or else the interface, as text(): one sentence without the interface's
+// name, empty without a fault.
 std::string interface_problem(const std::string& name, const InterfaceState& state, bool flexible_data_rate);
 
 }  // namespace ttf::bus::socketcan

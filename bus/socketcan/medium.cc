@@ -12,7 +12,7 @@ namespace ttf::bus::socketcan {
 namespace {
 
 constexpr std::size_t kChannels = 2, kLongestFailure = 512;
-// So that a flood on one line neither hides the others nor keeps the caller.
+// Limits that keep a flood on one line from hiding the others or holding up the caller.
 constexpr int kTurn = 64, kMostAtOnce = 4096;
 
 bool is_can_fd(const canfd_frame& can) { return (can.flags & CANFD_FDF) != 0; }
@@ -27,7 +27,7 @@ SocketCanMedium::SocketCanMedium(const LiveOptions& options) {
       return;
     }
     if (!named.insert(interface).second)
-      throw InputError(Finding{interface, 0, "", "", "is to carry two lines: each needs an interface of its own"});
+      throw InputError(Finding{interface, 0, "", "", "carries two lines: each line needs an interface of its own"});
     Socket socket({.interface = interface,
                    .flexible_data_rate = flexible,
                    .own_frames = flexray.has_value(),
@@ -96,8 +96,8 @@ ports::LiveStatus SocketCanMedium::send_can(std::size_t can_bus, const ports::Ca
   return send_all(on(ports::line_of_can(can_bus)), {&can, 1});
 }
 
-// What of this node's own frames is first in line; nobody waits for what has not left yet. A kernel that left the echo
-// for later gets on with it at the first look.
+// Takes in this node's own frames at the head of the queue, without waiting for frames that have not left yet.
+// A kernel that has put off the echo continues at the first read, so there are two.
 void SocketCanMedium::confirm(OnLine& line) {
   for (int look = 0; look < 2; ++look) {
     Status status = Status::kDone;
@@ -138,7 +138,7 @@ std::optional<ports::LiveArrival> SocketCanMedium::receive() {
   return {};
 }
 
-// What has just been received on this line, if it is to be handed over.
+// Returns the frame just received on this line if it is to be handed over.
 std::optional<ports::LiveArrival> SocketCanMedium::take(ports::Line number) {
   OnLine& line = *lines_[number];
   if (received_.own) {

@@ -1,20 +1,20 @@
-// The real-time medium on SocketCAN: one interface per FlexRay channel (docs/socketcan.md says what is on it), one per
-// private CAN. It keeps the laws of bus/ports/live_medium.h; what is particular here:
+// The SocketCAN live medium: one interface per FlexRay channel (docs/socketcan.md describes its frames), one
+// per private CAN. It keeps the laws of bus/ports/live_medium.h. Particular here:
 //
-//   lost       CAN frames that the receive buffer had no room for, each fragment by itself, echoes of this node's own
-//              frames among them; and frames whose first fragments came and whose others did not
-//   malformed  CAN frames in our form but wrong; fragments that continue nothing; on a private CAN, CAN FD frames of a
-//              length that none has
-//   foreign    on a channel all that is no CAN FD frame with an 11-bit identifier; on a private CAN error frames,
-//              remote frames and 29-bit identifiers. What else is there is handed over, for the CAN controller to judge
-//   not_sent   also a follow-up without room; and a frame in fragments of which some were sent before there was no room
+//   lost       CAN frames that the receive buffer had no room for, each fragment by itself, also echoes of this node's
+//              own frames; and frames of which only the first fragments came
+//   malformed  CAN frames in our form but wrong; fragments that continue no frame; on a private CAN, CAN FD frames of
+//              an impossible length
+//   foreign    on a channel everything except CAN FD frames with an 11-bit identifier; on a private CAN error frames,
+//              remote frames and 29-bit identifiers. Other frames there are left to the CAN controller's judgement
+//   not_sent   also a follow-up without room; and a frame of which only some fragments had room
 //
-// A sync frame's lateness is told in a follow-up, once the interface has confirmed the frame: its sender hears its own
-// frames come back, stamped by the kernel, and keeps them to itself. On vcan that is at once, so that send() finds the
-// echo and sends the follow-up, unless what others sent is still to be received first; then, and on real hardware,
-// where the confirmation comes when the frame has left, receive() does.
+// A follow-up states a sync frame's lateness once the interface has confirmed the frame. The sender hears its
+// own frames come back, stamped by the kernel, and keeps them to itself. On vcan the echo is immediate: send()
+// finds it and sends the follow-up, unless frames of others are to be received first. In that case receive()
+// sends it, as on real hardware, where the confirmation comes when the frame has left.
 //
-// Fragments of one frame must follow one another on the bus (flexray_on_can.h): that is the schedule's business.
+// The schedule must let the fragments of one frame follow one another on the bus (flexray_on_can.h).
 #pragma once
 
 #include <array>
@@ -35,14 +35,14 @@ struct LiveOptions {
     std::string interface;  // empty: this node is not on it
     bool flexible_data_rate = false;
   };
-  std::array<std::string, 2> channels;  // interfaces of A and B; empty: this node is not on it
+  std::array<std::string, 2> channels;  // interfaces of A and B; empty: this node is not on that channel
   std::vector<Can> cans;                // by Cluster::can_buses
   int receive_buffer_frames = 16'384;   // of each interface
 };
 
 class SocketCanMedium final : public ports::LiveMedium {
  public:
-  // Throws InputError where kernel or interfaces are not as they must be, or two lines are to share one.
+  // Throws InputError if the kernel or an interface is unsuitable, or if two lines share an interface.
   explicit SocketCanMedium(const LiveOptions& options);
 
   ports::LiveStatus send(const ports::LiveSignal& signal, ports::HostTime due) override;
@@ -53,7 +53,7 @@ class SocketCanMedium final : public ports::LiveMedium {
   ports::LiveCounts counts() const override;
   const std::string& failure() const override { return failure_; }
 
-  // A sentence, with the command that helps, for each interface whose receive buffer is smaller than it should be.
+  // Returns a sentence, with the command that helps, for each interface with too small a receive buffer.
   std::vector<std::string> shortages() const;
 
  private:
@@ -77,10 +77,10 @@ class SocketCanMedium final : public ports::LiveMedium {
   bool take_signal(FlexRay& flexray, ports::LiveArrival& arrival) const;
   bool take_can(OnLine& line, ports::LiveArrival& arrival) const;
 
-  std::vector<std::optional<OnLine>> lines_;  // by Line; what this node is not on is empty
-  ports::Line turn_ = 0;                      // which is received from, and for how many frames already
+  std::vector<std::optional<OnLine>> lines_;  // by Line; empty if this node is not on the line
+  ports::Line turn_ = 0;                      // the line being received from; in_turn_: its frames so far
   int in_turn_ = 0;
-  Received received_;  // what the last arrival's bytes are of
+  Received received_;  // has the last arrival's bytes
   Received own_;
   std::uint64_t sent_ = 0, not_sent_ = 0, received_count_ = 0;
   std::string failure_;

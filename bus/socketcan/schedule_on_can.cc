@@ -15,8 +15,8 @@
 namespace ttf::bus::socketcan {
 namespace {
 
-// A valid frame of that slot and length: what it says does not matter, as stuff bits are those of the worst
-// contents.
+// Returns a valid frame of that slot and length. Its content does not matter: stuff bits are counted for the
+// worst case.
 CanFrames mapped(int slot, int words) {
   wire::FrameHeader header;
   header.frame_id = static_cast<std::uint16_t>(slot);

@@ -22,7 +22,7 @@
 namespace ttf::bus::socketcan {
 namespace {
 
-// What a queued CAN FD frame takes of the receive buffer, its bookkeeping included: 212,992 bytes hold 278.
+// Bytes of the receive buffer per queued CAN FD frame, with bookkeeping: 212,992 bytes hold 278 frames.
 constexpr int kBytesPerFrame = 768;
 
 std::string words_of(int error) { return std::system_category().message(error); }
@@ -54,7 +54,7 @@ Socket::Socket(const SocketOptions& options) : interface_(options.interface) {
   }
 }
 
-// Options first: what arrives from bind() on is treated as they say.
+// Options come first: they apply to frames from bind() on.
 void Socket::set_up(const SocketOptions& options) {
   const auto refuse = [&](const char* what) {
     throw InputError(Finding{interface_, 0, "", "", fmt::format("{}: {}", what, words_of(errno))});
@@ -80,7 +80,7 @@ void Socket::set_up(const SocketOptions& options) {
   if (bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) refuse("not bound");
 }
 
-// The kernel doubles what is asked for. SO_RCVBUFFORCE goes beyond net.core.rmem_max and needs CAP_NET_ADMIN.
+// The kernel doubles the size asked for. SO_RCVBUFFORCE exceeds net.core.rmem_max and needs CAP_NET_ADMIN.
 void Socket::size_receive_buffer(int frames) {
   const int wanted = frames * kBytesPerFrame, asked = wanted / 2;
   if (set_option(descriptor_, SOL_SOCKET, SO_RCVBUFFORCE, asked)) return;
@@ -140,7 +140,7 @@ Status Socket::receive(Received& received) {
     message.msg_controllen = control.size();
     size = recvmsg(descriptor_, &message, 0);
     if (size >= 0 || errno == EINTR) continue;
-    // An error of the interface is told once, and before what is still there to be read.
+    // The kernel reports an error of the interface once, before the frames that still wait.
     if (errno == EAGAIN) return state_ == Status::kDone ? Status::kNothing : state_;
     if (failed(errno) == Status::kFailed) return state_;
   } while (size < 0);
@@ -163,7 +163,7 @@ Status Socket::receive(Received& received) {
 }
 
 Status Socket::receive_own(Received& received) {
-  msghdr message{};  // no room for anything: only its flags are looked at
+  msghdr message{};  // without room: only its flags are read
   ssize_t size = -1;
   do {
     size = recvmsg(descriptor_, &message, MSG_PEEK);

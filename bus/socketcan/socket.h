@@ -1,11 +1,12 @@
-// A raw CAN socket on one interface, ready for CAN FD: what every process on SocketCAN speaks through.
+// A raw CAN socket on one interface, ready for CAN FD. Every process on SocketCAN sends and receives through
+// one.
 //
-// What is wrong with the interface ends set-up with one sentence and the command that helps. Afterwards nothing
-// throws: what the network does is a value. A frame that the kernel had no room for is counted, one by one; none is
-// lost silently.
+// A fault of the interface ends set-up with one sentence and the command that helps. Afterwards nothing
+// throws; the network's behaviour is a value. Frames that the kernel had no room for are counted one by one;
+// no frame is lost silently.
 //
-// Stamps are the kernel's when the frame reached the interface, CLOCK_REALTIME. A frame that its sender had queued
-// with a transmission time (SO_TXTIME) carries that time instead: such stamps say nothing about its arrival.
+// A stamp is the kernel's CLOCK_REALTIME when the frame reached the interface. A frame that its sender queued
+// with a transmission time (SO_TXTIME) carries that time instead, which says nothing about its arrival.
 #pragma once
 
 #include <linux/can.h>
@@ -20,56 +21,59 @@ namespace ttf::bus::socketcan {
 
 struct SocketOptions {
   std::string interface;
-  bool flexible_data_rate = true;  // the interface must carry CAN FD; what it carries arrives in either case
-  bool own_frames = false;         // those of this socket arrive here too, once they have left
-  bool error_frames = false;       // what the driver says about the bus arrives as frames with CAN_ERR_FLAG
-  // What the receive buffer should hold. The kernel's usual one has room for 278 CAN FD frames.
+  bool flexible_data_rate = true;  // the interface must carry CAN FD; CAN FD frames arrive in either case
+  bool own_frames = false;         // this socket's own frames also arrive here, once they have left
+  bool error_frames = false;       // the driver's reports about the bus arrive as frames with CAN_ERR_FLAG
+  // Frames that the receive buffer should hold. The kernel's default buffer has room for 278 CAN FD frames.
   int receive_buffer_frames = 16'384;
-  std::vector<can_filter> filters;  // of which one must match, at most 512; none: everything arrives
+  std::vector<can_filter> filters;  // one must match, at most 512; without filters everything arrives
 };
 
 enum class Status : std::uint8_t {
   kDone,
-  kNothing,  // received: nothing is there
-  kNoRoom,   // sent: the interface's queue is full, the frame is not sent
-  kDown,     // the interface was taken down: frames of others may have gone by unseen, for good
-  kGone,     // the interface is no more
-  kFailed,   // anything else; failure() has the kernel's words
+  kNothing,  // received: no frame is waiting
+  kNoRoom,   // sent: the interface's queue is full, and the frame is not sent
+  kDown,     // the interface was taken down: frames of others may have been missed for good
+  kGone,     // the interface was removed
+  kFailed,   // any other error; failure() has the kernel's words
 };
 
 struct Received {
   canfd_frame can{};              // CANFD_FDF is set in its flags if and only if it is a CAN FD frame
-  std::int64_t stamp_ns = 0;      // CLOCK_REALTIME; 0 where the kernel gave none
+  std::int64_t stamp_ns = 0;      // CLOCK_REALTIME; 0 if the kernel gave none
   bool own = false;               // sent by this very socket; stamped when it had left
-  std::uint32_t lost_before = 0;  // frames that were lost just before this one, for want of room in the receive buffer
+  std::uint32_t lost_before = 0;  // frames lost just before this one, because the receive buffer was full
 };
 
 class Socket {
  public:
-  // Throws InputError where kernel or interface are not as they must be.
+  // Throws InputError if the kernel or the interface is unsuitable.
   explicit Socket(const SocketOptions& options);
   ~Socket();
   Socket(Socket&& other) noexcept;
   Socket& operator=(Socket&&) = delete;
 
-  // Never blocks. CANFD_FDF in the flags says that it goes as a CAN FD frame; a classic one has at most 8 bytes.
+  // Never blocks. CANFD_FDF in the flags sends a CAN FD frame; a classic one has at most 8 bytes.
   Status send(const canfd_frame& can);
-  // Never blocks. What arrived before the interface went down is handed out first.
+  // Never blocks. Frames that arrived before the interface went down come first.
   Status receive(Received& received);
-  // The next thing that is there if it is a frame of this socket's own; else kNothing, and it stays there.
+  // Receives the next frame if it is this socket's own; otherwise returns kNothing and leaves it there.
   Status receive_own(Received& received);
-  // Sleeps until receive() has something to say, for that long, or until a signal. The kernel may make
-  // it up to a thousandth longer; for an instant, or for more than one socket: poll(descriptor()), with a timerfd.
+  // Sleeps until receive() has a result, for at most `longest`, or until a process signal. The kernel may make
+  // it up to a thousandth longer. For an instant, or for several sockets: poll(descriptor()), with a timerfd.
   void wait(Duration longest) const;
   int descriptor() const { return descriptor_; }
 
-  // Frames lost for want of room in the receive buffer since the beginning, those after the last received one included.
+  // Returns the frames lost since the beginning because the receive buffer was full, also after the last
+  // received one.
   std::uint32_t lost() const;
-  // One sentence with the command that helps where the kernel gave a smaller receive buffer than asked for; else empty.
+  // Returns one sentence with the command that helps if the kernel granted a smaller receive buffer; otherwise
+  // empty.
   const std::string& shortage() const { return shortage_; }
-  // One sentence about the last status but kDone, kNothing and kNoRoom, with the command that helps where one is known.
+  // Returns one sentence about the last status except kDone, kNothing and kNoRoom, with the command that helps
+  // if known.
   std::string failure() const;
-  // Appends it; allocates nothing but what `text` needs.
+  // Appends that sentence; allocates only memory of `text`.
   void tell_failure(std::string& text) const;
 
  private:
@@ -81,8 +85,8 @@ class Socket {
   int descriptor_ = -1;
   int index_ = 0;
   std::string shortage_, when_down_, when_gone_;
-  std::uint32_t lost_seen_ = 0;   // as told by the frames received
-  Status state_ = Status::kDone;  // once it is another it stays
+  std::uint32_t lost_seen_ = 0;   // from the frames received so far
+  Status state_ = Status::kDone;  // keeps the first failure
   int error_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// The kernel's stamps on the host's clock. They are CLOCK_REALTIME, which somebody may set at any time; so both clocks
-// are read together whenever a stamp is looked at, never once for all.
+// Converts the kernel's stamps to the machine's clock. They are CLOCK_REALTIME, which may be set at any time,
+// so both clocks are read together for every stamp.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace ttf::bus::socketcan {
 
-// Both clocks at one instant, to half of what reading them takes (some 20 ns each); a reading that was interrupted is
-// made again, twice at most.
+// Both clocks at one instant, accurate to half the reading time (some 20 ns each). An interrupted reading is
+// repeated, at most twice.
 struct ClockPair {
   ports::HostTime host;
   std::int64_t realtime_ns = 0;
-  ports::HostTime now;  // when the reading was over
+  ports::HostTime now;  // when the reading ended
 };
 ClockPair clock_pair();
 
-// When what bears this stamp (ns of CLOCK_REALTIME; 0: none) was stamped. Not later than pair.now: a stranger's frame
-// may bear whatever transmission time it was queued with, and the clock may have been set.
+// Returns the instant of a stamp (ns of CLOCK_REALTIME; 0: none), but no later than pair.now. A foreign frame
+// may bear any transmission time that it was queued with, and the clock may have been set.
 ports::HostTime on_host(std::int64_t stamp_ns, const ClockPair& pair);
 
 }  // namespace ttf::bus::socketcan

@@ -9,14 +9,14 @@
 namespace ttf::bus::wire {
 namespace {
 
-// What the bits so far leave behind: how many equal ones stand last, 1 to 4, and which. A fifth one does not stay last,
-// as it sets off a stuff bit, which is the opposite.
+// State after some bits: the last bit, and the length of its run, 1 to 4. A fifth equal bit sets off a stuff
+// bit, the opposite one, which begins a new run.
 struct StuffState {
   int run;
   bool last;
 };
 constexpr std::uint8_t packed(StuffState state) { return static_cast<std::uint8_t>(2 * (state.run - 1) + state.last); }
-constexpr std::uint8_t kAfterBreak = packed({1, true});  // one lone one: no run goes on into a frame's first zero
+constexpr std::uint8_t kAfterBreak = packed({1, true});  // a lone one: no run goes on into a frame's first zero
 
 struct StuffedByte {
   std::uint8_t next, stuff_bits;
@@ -34,7 +34,7 @@ constexpr StuffedByte stuffed(StuffState state, unsigned byte) {
   return {packed(state), stuff_bits};
 }
 
-// By packed state and byte.
+// Indexed by packed state and byte.
 using StuffTable = std::array<std::array<StuffedByte, 256>, 8>;
 constexpr StuffTable make_stuff_table() {
   StuffTable table{};
@@ -45,9 +45,9 @@ constexpr StuffTable make_stuff_table() {
 }
 constexpr StuffTable kStuffTable = make_stuff_table();
 
-// Counts the stuff bits of a bit sequence: after five equal bits (stuff bits counted) the opposite one is inserted.
-// In an FD frame stuffing ends with the data: where its last bits are five equal ones, the fixed stuff bit that follows
-// anyhow is the only one (ISO 11898-1:2015, 10.5).
+// Counts the stuff bits of a bit sequence. After five equal bits, stuff bits included, the opposite bit is
+// inserted. In an FD frame stuffing ends with the data. If its last bits are five equal ones, only the fixed
+// stuff bit follows (ISO 11898-1:2015, 10.5).
 class Stuffing {
  public:
   void byte(std::uint32_t value) {
@@ -63,7 +63,7 @@ class Stuffing {
     for (const std::byte value : data) byte(static_cast<std::uint32_t>(value));
   }
   std::int64_t count() const { return stuff_bits_; }
-  // The last bit of the sequence set off a stuff bit.
+  // Returns whether the last bit of the sequence set off a stuff bit.
   bool pending() const { return (state_ & 1u) != last_bit_; }
 
  private:
@@ -93,8 +93,8 @@ std::uint32_t crc15(std::uint32_t header, std::span<const std::byte> data) {
   return crc;
 }
 
-// Fields that do not fill bytes are filled up by alternating bits, which set off nothing: in front of a field by some
-// that end in a one, as if it came after a break, and behind one by the opposite of its last bit.
+// Alternating bits, which set off no stuff bit, fill fields up to whole bytes. In front of a field the fill
+// ends in a one, as if after a break. Behind a field it begins with the opposite of the field's last bit.
 constexpr std::uint32_t kFill3 = 0b101, kFill5 = 0b10101, kFill7 = 0b1010101;
 
 constexpr std::array<int, 16> kLengths{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
@@ -112,7 +112,7 @@ Duration can_frame_duration(const schedules::model::CanBus& bus, std::uint32_t i
   if (bus.flexible_data_rate) {
     Stuffing nominal;
     nominal.bytes(kFill7 << 17 | (identifier & 0x7FFu) << 5 | 0b00101, 3);  // SOF 0, id, RRS IDE FDF res BRS
-    // FDF, res and BRS alternate: BRS stands alone whatever came before.
+    // FDF, res and BRS alternate: BRS stands alone after any bits.
     Stuffing fast;
     fast.byte(kFill3 << 5 | code);  // ESI 0 (error active), DLC
     fast.bytes(data);

@@ -1,5 +1,5 @@
-// How long a CAN frame with given data takes on the wire, stuff bits counted one by one (ISO 11898-1:2015). What any
-// data may take is the schedule's affair: schedules/analysis/can_load.h.
+// The time of one CAN frame with given data on the wire, stuff bits counted one by one (ISO 11898-1:2015).
+// Bounds for any data are in schedules/analysis/can_load.h.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,9 @@
 
 namespace ttf::bus::wire {
 
-// From start of frame to the end of the intermission (bus idle again), rounded up to whole nanoseconds. Base frames:
-// the identifier's low 11 bits count. The data must be as long as a frame can be.
+// Returns the time from the start of frame to the end of the intermission (bus idle again), rounded up to
+// whole nanoseconds. Frames are base frames: only the identifier's low 11 bits count. The data must have a
+// length that a frame can have.
 Duration can_frame_duration(const schedules::model::CanBus& bus, std::uint32_t identifier,
                             std::span<const std::byte> data);
 

@@ -6,11 +6,11 @@ namespace ttf::bus::wire {
 namespace {
 
 constexpr std::uint32_t kHeaderPolynomial = 0x385, kHeaderInit = 0x01A;
-// The frame CRC is kept in the upper 24 bits of 32, so that bytes are shifted out at the top.
+// The frame CRC lies in the upper 24 bits of 32, so that bytes are shifted out at the top.
 constexpr std::uint32_t kFramePolynomial = 0x5D6DCBu << 8;
 constexpr std::uint32_t kFrameInitA = 0xFEDCBAu << 8, kFrameInitB = 0xABCDEFu << 8;
 
-// CRC-11 of four bits at once: the 20 bits it covers are five of them.
+// CRC-11 by four bits at once: it covers 20 bits, five such groups.
 constexpr std::array<std::uint32_t, 16> make_header_table() {
   std::array<std::uint32_t, 16> table{};
   for (std::uint32_t nibble = 0; nibble < 16; ++nibble) {
@@ -22,7 +22,7 @@ constexpr std::array<std::uint32_t, 16> make_header_table() {
 }
 constexpr std::array<std::uint32_t, 16> kHeaderTable = make_header_table();
 
-// Table k: the remainder of a byte that is followed by k zero bytes.
+// Table k has the remainders of a byte followed by k zero bytes.
 using FrameTables = std::array<std::array<std::uint32_t, 256>, 8>;
 constexpr FrameTables make_frame_tables() {
   FrameTables tables{};

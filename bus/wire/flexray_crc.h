@@ -5,8 +5,8 @@
 //   frame   24 bits, 0x5D6DCB, initial 0xFEDCBA on channel A and 0xABCDEF on B, over header and payload
 // clang-format on
 //
-// Neither is reflected nor inverted at the end. The initial values differ so that a frame that strays to the
-// other channel fails there.
+// Neither is reflected or inverted at the end. The initial values differ so that a frame on the wrong channel
+// fails the check.
 #pragma once
 
 #include <cstddef>

@@ -8,7 +8,7 @@
 namespace ttf::bus::wire {
 namespace {
 
-// Where the fields of the header's 40 bits begin, from the last bit on (flexray_frame.h draws them).
+// Positions of the fields in the header's 40 bits, counted from the last bit (flexray_frame.h draws them).
 constexpr int kPreambleBit = 38, kNullBit = 37, kSyncBit = 36, kStartupBit = 35, kFrameIdBit = 24,
               kPayloadWordsBit = 17, kHeaderCrcBit = 6;
 

@@ -10,7 +10,7 @@
 namespace ttf::bus::wire {
 namespace {
 
-// Eight bytes of a payload that hold all bits of a signal, as one number, most significant byte first.
+// Eight bytes of a payload that hold all bits of a signal form one number, most significant byte first.
 constexpr std::size_t kWindow = 8;
 std::size_t window_start(std::size_t payload_bytes, int first) {
   return std::min(static_cast<std::size_t>(first) / 8, payload_bytes - kWindow);
@@ -18,12 +18,12 @@ std::size_t window_start(std::size_t payload_bytes, int first) {
 std::uint64_t big_endian(std::uint64_t value) {
   return std::endian::native == std::endian::big ? value : __builtin_bswap64(value);
 }
-// How far from the number's lower end the bits first .. first + count - 1 lie.
+// Returns the distance of bits first .. first + count - 1 from the number's lower end.
 int window_shift(std::size_t start, int first, int count) {
   return static_cast<int>(8 * (start + kWindow)) - first - count;
 }
 
-// Bits first .. first + count - 1 of the payload, most significant bit first.
+// Reads bits first .. first + count - 1 of the payload, most significant bit first.
 std::uint32_t read_bits(std::span<const std::byte> payload, int first, int count) {
   std::uint64_t value = 0;
   if (payload.size() >= kWindow) {
@@ -85,11 +85,12 @@ std::uint32_t to_raw(const schedules::model::Signal& signal, double physical, in
   TTF_CHECK(!std::isnan(physical), "{} is not a number", signal.name);
   const double bounded = physical < signal.low ? signal.low : physical > signal.high ? signal.high : physical;
   if (bounded != physical && saturated != nullptr) ++*saturated;
-  // Rounded half up, by hand: llround() is a call. The steps are not negative and far below 2^52, so the rest is exact.
+  // Rounded half up by hand: llround() is a call. Steps are non-negative and far below 2^52, so the rest is
+  // exact.
   const double steps = (bounded - signal.low) / signal.resolution;
   const auto whole = static_cast<std::int64_t>(steps);
   const std::int64_t raw = whole + (steps - static_cast<double>(whole) >= 0.5 ? 1 : 0);
-  // `high` may lie up to half a resolution above the last code: that rounds to it, never round to zero.
+  // `high` may lie up to half a resolution above the last code; the result must not wrap to zero.
   return static_cast<std::uint32_t>(std::min(raw, (std::int64_t{1} << signal.bits) - 1));
 }
 

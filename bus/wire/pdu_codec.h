@@ -10,20 +10,21 @@
 
 namespace ttf::bus::wire {
 
-// Raw <-> physical. Physical values outside [low, high] saturate; `saturated` (if given) is counted up. NaN is a bug of
-// ours and fails a check.
+// Converts physical to raw. Physical values outside [low, high] saturate and add one to `saturated`, if given.
+// NaN is our bug and fails a check.
 std::uint32_t to_raw(const schedules::model::Signal& signal, double physical, int* saturated = nullptr);
-// No sender writes a code above highest_code(); one that arrives all the same decodes to `high`, and `out_of_range` (if
-// given) is counted up.
+// Converts raw to physical. A code above highest_code(), which no sender writes, becomes `high` and adds one
+// to `out_of_range`, if given.
 double to_physical(const schedules::model::Signal& signal, std::uint32_t raw, int* out_of_range = nullptr);
-// The code of `high`, the largest in use: below the largest of the signal's bits where the range ends before them.
+// Returns the code of `high`, the largest in use. It may be smaller than the largest code of the signal's
+// bits.
 std::uint32_t highest_code(const schedules::model::Signal& signal);
 
-// Index of the header signal of that name, for names that the loader has found in the layout ("sequence", "fragment"
-// and "count" in every one): a layout without it is a bug of ours and fails a check.
+// Returns the index of the header signal of that name. The loader has found the name in the layout, so its
+// absence is our bug and fails a check. Every layout has "sequence", "fragment" and "count".
 std::size_t header_signal(const schedules::model::PduLayout& layout, std::string_view name);
 
-// One signal of the header or of element `index` in a fragment's payload. The payload must be fragment_bytes long.
+// Reads or writes one signal of the header, or of element `index`, in a payload of exactly fragment_bytes.
 std::uint32_t read_header_raw(const schedules::model::PduLayout& layout, std::span<const std::byte> payload,
                               std::size_t signal);
 void write_header_raw(const schedules::model::PduLayout& layout, std::span<std::byte> payload, std::size_t signal,

@@ -1,5 +1,5 @@
-// What a strobe on a CAN carries (schedules/model/sensor_lines.h): the measurement's number, most significant byte
-// first.
+// The data of a strobe on a CAN (schedules/model/sensor_lines.h): the measurement's number, most significant
+// byte first.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ constexpr std::array<std::byte, schedules::model::kStrobeBytes> strobe_data(std:
   return {static_cast<std::byte>(sequence >> 24), static_cast<std::byte>(sequence >> 16 & 0xFF),
           static_cast<std::byte>(sequence >> 8 & 0xFF), static_cast<std::byte>(sequence & 0xFF)};
 }
-// Nothing where the data are none of a strobe.
+// Returns no value if the data are not those of a strobe.
 constexpr std::optional<std::uint32_t> strobe_sequence(std::span<const std::byte> data) {
   if (data.size() != schedules::model::kStrobeBytes) return std::nullopt;
   std::uint32_t sequence = 0;

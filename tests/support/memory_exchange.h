@@ -76,7 +76,7 @@ class MemoryExchange {
       Member& member = members.at(node);
       member.something.wait(lock, [&] { return member.gone || !member.waiting.empty() || alone(node); });
       if (member.gone) throw std::runtime_error(name(node) + " has been announced gone");
-      if (member.waiting.empty()) throw std::runtime_error(name(node) + ": nobody is left to be heard");
+      if (member.waiting.empty()) throw std::runtime_error(name(node) + ": all other members are gone");
       Item item = std::move(member.waiting.front());
       member.waiting.pop_front();
       return item;

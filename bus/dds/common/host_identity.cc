@@ -25,7 +25,7 @@ std::uint64_t host_identity() {
   if (!std::getline(boot, text) || text.empty()) return 0;
   for (const char* space : {"/proc/self/ns/net", "/proc/self/ns/time"}) {
     struct stat status {};
-    // A kernel without such namespaces has one clock or network for all.
+    // A kernel without such namespaces has one clock and one network for all.
     text += '/' + (stat(space, &status) == 0 ? std::to_string(status.st_ino) : std::string("one"));
   }
   return identity_of(text);

@@ -1,14 +1,13 @@
-// Whether two processes read the same clock: they do where one kernel runs both and neither is in a namespace of its
-// own.
+// Identifies processes that read the same clock: those of one kernel and of the same namespaces.
 #pragma once
 
 #include <cstdint>
 
 namespace ttf::bus::dds::common {
 
-// The same number for all processes that share this boot of the kernel, its time namespace and its network namespace
-// (which stands for a host where several are played on one machine). 0, where that cannot be made out: then nobody is
-// known to be on the same host.
+// Returns the same number for all processes of this boot of the kernel in the same time and network
+// namespaces. (A network namespace stands for a machine where one machine plays several.) 0 if unknown: then
+// no process counts as on the same machine.
 std::uint64_t host_identity();
 
 }  // namespace ttf::bus::dds::common

@@ -13,7 +13,7 @@
 namespace ttf::bus::dds::common {
 namespace {
 
-// Cyclone DDS holds one domain of a number per process, configured once; it is closed with its last participant.
+// Cyclone DDS has one domain of a number per process, configured once; its last participant closes it.
 struct OpenDomains {
   struct Domain {
     Handle handle = 0;

@@ -1,4 +1,4 @@
-// A process's place in a DDS domain. Nothing here shows DDS' own headers: its entities are numbers to everybody else.
+// A process's place in a DDS domain. DDS' own headers stay out of it: its entities are numbers here.
 #pragma once
 
 #include <chrono>
@@ -15,11 +15,11 @@ std::int32_t checked(std::int32_t result, std::string_view what);
 
 class Participant {
  public:
-  // Joins the domain, 0..kMaxDomain, with the configuration of CYCLONEDDS_URI or, where that is not set, that of
-  // bus/dds/common/configuration.h. Participants of one process and domain share the configuration of the first.
-  // Throws std::runtime_error where that is not possible.
+  // Joins the domain, 0..kMaxDomain, with the configuration of CYCLONEDDS_URI or, if that is not set, of
+  // bus/dds/common/configuration.h. Participants of one process and domain share the configuration of the
+  // first. Throws std::runtime_error if it cannot.
   Participant(std::uint32_t domain, std::chrono::milliseconds lease);
-  ~Participant();  // takes everything with it that was made in it
+  ~Participant();  // also ends everything that was made in it
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
 
@@ -27,7 +27,7 @@ class Participant {
 
  private:
   std::uint32_t domain_;
-  bool configured_;  // the domain is ours to close
+  bool configured_;  // this process made the domain and closes it
   Handle handle_ = 0;
 };
 

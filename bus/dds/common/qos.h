@@ -1,5 +1,5 @@
-// Qualities of service, held and released; and the partition that keeps sessions apart. Only sources of this room
-// include it.
+// Qualities of service, released with their holder, and the partition that separates sessions. Only sources of
+// this room include it.
 #pragma once
 
 #include <dds/dds.h>

@@ -36,8 +36,8 @@ std::string sentence(const Session& session, std::chrono::milliseconds waited, c
                      const std::vector<NodeId>& deaf) {
   std::string text = fmt::format("session {} on DDS domain {}: not ready after {:.1f} s", session.name, session.domain,
                                  static_cast<double>(waited.count()) / 1000);
-  if (!absent.empty()) text += "; nothing heard of " + named(absent);
-  if (!deaf.empty()) text += "; not everybody is heard by " + named(deaf);
+  if (!absent.empty()) text += "; not heard: " + named(absent);
+  if (!deaf.empty()) text += "; not hearing all others: " + named(deaf);
   return text;
 }
 

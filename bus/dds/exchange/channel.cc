@@ -16,7 +16,7 @@ namespace ttf::bus::dds::exchange {
 namespace {
 
 constexpr std::size_t kBatch = 64;      // samples taken at a time
-constexpr std::int32_t kHistory = 256;  // kept for who comes back
+constexpr std::int32_t kHistory = 256;  // kept for returning readers
 constexpr std::uint32_t kConnections = DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_LIVELINESS_CHANGED_STATUS;
 
 common::Qos qualities() {
@@ -34,7 +34,7 @@ common::Qos qualities() {
 
 common::Said said_in(const ttf_ExchangeSample& sample) {
   if (sample.kind >= common::kKinds || sample.inner >= common::kKinds)
-    throw std::runtime_error(fmt::format("exchange: node {} says what is not known here (kind {}): another version?",
+    throw std::runtime_error(fmt::format("exchange: node {} sent a sample of an unknown kind ({}): another version?",
                                          sample.sender, sample.kind));
   return {.sender = NodeId{sample.sender},
           .kind = common::Kind{sample.kind},
@@ -68,7 +68,7 @@ Channel::Channel(const common::Participant& participant, const std::string& topi
       common::checked(dds_create_writer(publisher, topic_, qos.get(), nullptr), "cannot make a writer of " + topic);
 }
 
-Channel::~Channel() = default;  // the participant takes all of it along
+Channel::~Channel() = default;  // the participant ends it all
 
 void Channel::say(common::Said said) {
   ttf_ExchangeSample sample{};
@@ -82,7 +82,7 @@ void Channel::say(common::Said said) {
   sample.first = said.first;
   sample.end = said.end;
   sample.bytes._length = sample.bytes._maximum = static_cast<std::uint32_t>(said.bytes.size());
-  // Only read; C has no way to say so here.
+  // The buffer is only read; C cannot declare that here.
   sample.bytes._buffer = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(said.bytes.data()));
   common::checked(dds_write(writer_, &sample), "cannot write");
   ++next_number_;
@@ -96,7 +96,7 @@ bool Channel::take(const std::function<void(const ttf::bus::dds::common::Said&)>
   const auto give_back = [this, count](void** loan) { dds_return_loan(reader_, loan, count); };
   const std::unique_ptr<void*, decltype(give_back)> loan(samples.data(), give_back);
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    if (!infos[i].valid_data) continue;  // that a writer has come or gone
+    if (!infos[i].valid_data) continue;  // a writer has come or gone
     const common::Said said = said_in(*static_cast<const ttf_ExchangeSample*>(samples[i]));
     auto& writer = writers_[index_of(said.sender)];
     if (writer != infos[i].publication_handle) changed_ = true;
@@ -112,7 +112,7 @@ bool Channel::acknowledged_within(std::chrono::nanoseconds patience) const {
 
 bool Channel::connections_changed() {
   std::uint32_t status = 0;
-  common::checked(dds_take_status(reader_, &status, kConnections), "cannot ask who is there");
+  common::checked(dds_take_status(reader_, &status, kConnections), "cannot list the writers");
   return std::exchange(changed_, false) || status != 0;
 }
 
@@ -121,7 +121,7 @@ bool Channel::lost(NodeId sender) const {
   if (writer == 0) return false;
   std::vector<dds_instance_handle_t> matched(256);
   const auto count =
-      common::checked(dds_get_matched_publications(reader_, matched.data(), matched.size()), "cannot ask who is there");
+      common::checked(dds_get_matched_publications(reader_, matched.data(), matched.size()), "cannot list the writers");
   matched.resize(std::min<std::size_t>(matched.size(), static_cast<std::size_t>(count)));
   return std::find(matched.begin(), matched.end(), writer) == matched.end();
 }

@@ -9,7 +9,7 @@ Departure::Order Departure::begin() {
   reports_.clear();
   closed_.clear();
   holder_ = kNoNode;
-  closing_ = survivors_.empty();  // then there is nothing to agree upon
+  closing_ = survivors_.empty();  // without survivors there is nothing to agree on
   return {common::Kind::kFence, round_};
 }
 

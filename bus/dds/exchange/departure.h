@@ -1,10 +1,10 @@
-// How the survivors of a member come to have heard the same of it: the supervisor's part of bus/dds/exchange/stream.h.
-// Pure: reports in, orders to everybody out.
+// The supervisor's part of bus/dds/exchange/stream.h: brings all survivors of a member to have heard the same
+// of it. Pure: reports in, orders to all members out.
 //
-// A round is kFence, a report from every survivor, kClose at the best report. Whoever holds the most says again
-// what others lack. Should that one go before all have got it, another round begins; its end may be earlier, but
-// never before what a survivor has heard, because fenced streams do not go on and survivors report all that they
-// heard.
+// A round is kFence, a report from every survivor, and kClose at the best report. The survivor that holds the
+// most repeats the samples that others lack. If it goes before all have them, another round begins. The end of
+// that round may be earlier, but never before a sample that a survivor has heard. Fenced streams do not go on,
+// and survivors report all samples they heard.
 #pragma once
 
 #include <cstdint>
@@ -22,23 +22,22 @@ class Departure {
   struct Order {
     common::Kind kind{};  // kFence or kClose
     std::uint32_t round = 0;
-    NodeId holder = kNoNode;  // of kClose: who says again samples [first, end); kNoNode: nobody lacks any
+    NodeId holder = kNoNode;  // of kClose: repeats samples [first, end); kNoNode: no survivor lacks any
     std::uint64_t first = 0;
     std::uint64_t end = 0;
   };
 
   explicit Departure(std::set<NodeId> survivors) : survivors_(std::move(survivors)) {}
 
-  // Each returns what is to be said to everybody now, if anything. What belongs to a round that is over changes
-  // nothing.
+  // Each returns the order to send to all members now, if any. Events of an earlier round have no effect.
   Order begin();
   std::optional<Order> report(NodeId survivor, std::uint32_t round, std::uint64_t end);
   void closed(NodeId survivor, std::uint32_t round);
-  std::optional<Order> without(NodeId survivor);  // it has gone, too, or left
+  std::optional<Order> without(NodeId survivor);  // the survivor has gone, too, or left
 
-  // Every survivor has heard all of it.
+  // Returns whether every survivor has heard all of its samples.
   bool done() const { return closing_ && closed_.size() == survivors_.size(); }
-  // The number of samples that survivors have heard of it. Precondition: done().
+  // Returns the number of its samples that survivors have heard. Precondition: done().
   std::uint64_t end() const { return end_; }
 
  private:

@@ -26,7 +26,7 @@ namespace {
 
 const common::Session& supervised(const common::Session& session) {
   validate(session);
-  TTF_CHECK(session.supervised, "a supervisor of an exchange that has none");
+  TTF_CHECK(session.supervised, "the session has no supervisor");
   return session;
 }
 
@@ -45,7 +45,7 @@ class ExchangeSupervisor::Watch {
   std::optional<Event> next_event(std::chrono::milliseconds patience);
 
  private:
-  // All below but the last three are the thread's.
+  // All below except the last three belong to the thread.
   void run();
   void work();
   bool everybody_has_come() const;
@@ -63,20 +63,20 @@ class ExchangeSupervisor::Watch {
   Waiter waiter_;
   const std::set<NodeId> members_;
 
-  // The thread's.
+  // The thread's data.
   Numbering numbers_;
   std::set<NodeId> hello_, left_, dead_, lost_;
-  std::map<NodeId, Departure> departures_;  // of the dead that not all survivors know to be gone
+  std::map<NodeId, Departure> departures_;  // dead members that some survivors do not know to be gone
 
   std::mutex mutex_;
   std::condition_variable happened_;
   std::deque<Event> events_;  // guarded by mutex_, as all below
   std::deque<NodeId> announcements_;
-  std::set<NodeId> joined_, ready_, gone_;  // as wait_ready() needs them
+  std::set<NodeId> joined_, ready_, gone_;  // for wait_ready()
   bool stop_ = false;
   std::exception_ptr failure_;
 
-  std::thread thread_;  // last, so that all it uses is there
+  std::thread thread_;  // last, because it uses all of the above
 };
 
 ExchangeSupervisor::Watch::~Watch() {
@@ -87,7 +87,7 @@ ExchangeSupervisor::Watch::~Watch() {
   try {
     waiter_.call();
   } catch (const std::exception&) {
-    // Then DDS is lost, which the thread has noticed, too.
+    // DDS is lost, which the thread has noticed, too.
   }
   thread_.join();
 }
@@ -127,7 +127,7 @@ void ExchangeSupervisor::Watch::work() {
   control_.acknowledged_within(std::chrono::milliseconds(dead_.empty() ? 2000 : 500));
 }
 
-// Or has gone meanwhile.
+// A member that has gone meanwhile counts, too.
 bool ExchangeSupervisor::Watch::everybody_has_come() const {
   return std::all_of(members_.begin(), members_.end(),
                      [this](NodeId member) { return hello_.contains(member) || dead_.contains(member); });
@@ -166,7 +166,8 @@ void ExchangeSupervisor::Watch::on_control(const common::Said& said) {
     case common::Kind::kFence:
     case common::Kind::kClose:
     case common::Kind::kMessage:
-      throw std::runtime_error(fmt::format("exchange: node {} speaks as no member may", index_of(node)));
+      throw std::runtime_error(
+          fmt::format("exchange: node {} sent a sample that members may not send", index_of(node)));
   }
 }
 
@@ -243,7 +244,7 @@ void ExchangeSupervisor::Watch::wait_ready(std::chrono::milliseconds patience) {
     else if (!ready_.contains(member))
       deaf.push_back(member);
   }
-  if (!absent.empty()) deaf.clear();  // no wonder
+  if (!absent.empty()) deaf.clear();  // deafness follows from absence
   throw common::NotReady(session_, patience, std::move(absent), std::move(deaf));
 }
 

@@ -1,11 +1,12 @@
-// Who watches over an exchange (bus/dds/exchange/exchange.h): knows who has joined and left, and sees to it that all
-// survivors hear the same of a member that died. It takes no part in the messages themselves, and so costs them
-// nothing.
+// The exchange supervisor watches over an exchange (bus/dds/exchange/exchange.h). It knows the members that
+// have joined and left. It brings all survivors to hear the same of a member that died. It takes no part in
+// the messages, and so costs them nothing.
 //
-// Its word counts: who has been announced gone is gone for good, even if it should still live. Whoever started the
-// processes announces each that has ended, in whatever way; where a member had left before, nothing changes.
+// Its announcements are final: an announced member is gone, even if it still lives. The process that started
+// the members announces each that has ended, in whatever way. An announcement has no effect if the member had
+// left before.
 //
-// Works in a thread of its own. All functions may be called from any thread.
+// It works in a thread of its own. All functions may be called from any thread.
 #pragma once
 
 #include <chrono>
@@ -21,8 +22,8 @@ namespace ttf::bus::dds::exchange {
 class ExchangeSupervisor {
  public:
   enum class What : std::uint8_t {
-    kJoined,  // it says hello
-    kReady,   // it hears everybody
+    kJoined,  // it said hello
+    kReady,   // it hears all others
     kLeft,    // it said goodbye
     kLost,    // DDS has heard nothing of it for its lease; it may be dead, stopped or cut off
     kBack,    // DDS hears it again
@@ -31,20 +32,20 @@ class ExchangeSupervisor {
   struct Event {
     What what{};
     NodeId node{};
-    // Of kGone: how many of its samples the survivors have heard, its hello and goodbye among them.
+    // For kGone: the number of its samples that the survivors have heard, hello and goodbye included.
     std::uint64_t samples = 0;
   };
 
   // Precondition: session.supervised. Throws as dds::Exchange does.
   explicit ExchangeSupervisor(const common::Session& session);
-  // Members that are still there hear that the supervisor has left, and stop.
+  // Remaining members hear that the supervisor has left, and stop.
   ~ExchangeSupervisor();
 
-  // Returns once every member that is not gone hears every other; throws as Exchange::wait_ready() does.
+  // Returns once all members that are not gone hear each other; throws as Exchange::wait_ready() does.
   void wait_ready(std::chrono::milliseconds patience);
-  // Returns at once; kGone follows. What is known already changes nothing.
+  // Returns at once; kGone follows. A known end has no effect.
   void announce_gone(NodeId node);
-  // The next thing that happened; nothing after `patience`. Throws std::runtime_error where DDS is lost.
+  // Returns the next event; no value after `patience`. Throws std::runtime_error if DDS is lost.
   std::optional<Event> next_event(std::chrono::milliseconds patience);
 
  private:

@@ -23,13 +23,13 @@ std::vector<std::byte> encode(const HeardCounts& heard) {
 
 HeardCounts decode(std::span<const std::byte> bytes) {
   if (bytes.size() % (1 + kCountOctets) != 0)
-    throw std::runtime_error("exchange: a report of what was heard is cut off");
+    throw std::runtime_error("exchange: a report of heard samples is cut off");
   HeardCounts heard;
   for (; !bytes.empty(); bytes = bytes.subspan(1 + kCountOctets)) {
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < kCountOctets; ++i) count |= static_cast<std::uint64_t>(bytes[1 + i]) << (8 * i);
     if (!heard.try_emplace(static_cast<NodeId>(bytes[0]), count).second)
-      throw std::runtime_error("exchange: a report of what was heard names a node twice");
+      throw std::runtime_error("exchange: a report of heard samples names a node twice");
   }
   return heard;
 }

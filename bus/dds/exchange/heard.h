@@ -1,6 +1,6 @@
-// Who has heard how much of whom: what everybody has heard need not be kept to be said again.
+// Counts of samples heard, by member. Samples that all members have heard need not be kept for repetition.
 //
-// On the wire (Kind::kHeard) nine octets per node: its number, and how many of its samples were heard, least octet
+// On the wire (Kind::kHeard) nine octets per node: its number, and the count of its samples heard, least octet
 // first.
 #pragma once
 
@@ -17,18 +17,18 @@ namespace ttf::bus::dds::exchange {
 using HeardCounts = std::map<NodeId, std::uint64_t>;  // samples heard, by their sender
 
 std::vector<std::byte> encode(const HeardCounts& heard);
-// Throws std::runtime_error on what encode() does not make.
+// Throws std::runtime_error on bytes that encode() does not make.
 HeardCounts decode(std::span<const std::byte> bytes);
 
-// As one member knows it of the others.
+// The others' counts, as one member knows them.
 class HeardTable {
  public:
-  // `others`: all members but oneself.
+  // `others`: all members except this one.
   explicit HeardTable(const std::vector<NodeId>& others);
 
-  void note(NodeId by, HeardCounts heard);  // it never grows less; what `by` does not mention it has not heard
-  void without(NodeId gone);                // it will not need to be told anything again
-  // How many samples of `sender` every other that is still there has heard.
+  void note(NodeId by, HeardCounts heard);  // counts never fall; a sender that `by` does not mention has count 0
+  void without(NodeId gone);                // drops a member that needs no repetition any more
+  // Returns the number of samples of `sender` that all other remaining members have heard.
   std::uint64_t by_all(NodeId sender) const;
 
  private:

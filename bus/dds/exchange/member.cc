@@ -11,11 +11,11 @@
 namespace ttf::bus::dds::exchange {
 namespace {
 
-// How much of what is heard of one member is kept at most, where not everybody tells that it has heard it. No two
-// survivors are further apart than what a writer may have unacknowledged (kMaxUnacknowledgedBytes), and that many
-// small samples weigh about twice as much.
+// The most that is kept of one member's samples if others do not confirm them. Two survivors are never further
+// apart than a writer's unacknowledged bytes (kMaxUnacknowledgedBytes), and that many small samples take about
+// twice as much.
 constexpr std::size_t kRetainBytes = 32 << 20;
-// For the acknowledgements of others while one is dead, from whom none will come.
+// The wait for acknowledgements while a member is dead, which will send none.
 constexpr std::chrono::milliseconds kPatienceAfterDeath{500};
 
 std::string node(NodeId id) {
@@ -41,7 +41,7 @@ Exchange::Member::Member(const common::Session& session, NodeId self)
   say(control_, common::Kind::kHello);
 }
 
-// Of those from whom it is to come; who has gone meanwhile is not waited for.
+// Returns whether all others, except those gone meanwhile, are in `said`.
 bool Exchange::Member::everybody(const std::set<NodeId>& said) const {
   return std::all_of(others_.begin(), others_.end(),
                      [&](const auto& entry) { return said.contains(entry.first) || gone_.contains(entry.first); });
@@ -78,7 +78,7 @@ void Exchange::Member::give_up(std::chrono::milliseconds waited) const {
     else if (!ready_.contains(id))
       deaf.push_back(id);
   }
-  if (!absent.empty()) deaf.clear();  // no wonder
+  if (!absent.empty()) deaf.clear();  // deafness follows from absence
   throw common::NotReady(session_, waited, std::move(absent), std::move(deaf));
 }
 
@@ -104,7 +104,7 @@ ports::Exchange::Heard Exchange::Member::receive() {
 }
 
 std::optional<Exchange::Member::Clock::time_point> Exchange::Member::look_around() {
-  if (nobody_left()) throw std::runtime_error("exchange: " + node(self_) + ": nobody is left to be heard");
+  if (nobody_left()) throw std::runtime_error("exchange: " + node(self_) + ": all other members are gone");
   if (supervisor_left_) throw std::runtime_error("exchange: the supervisor has left");
   note_lost();
   std::optional<Clock::time_point> until;
@@ -126,7 +126,7 @@ void Exchange::Member::note_lost() {
     else
       lost_.erase(id);
   };
-  if (session_.supervised) return note(common::kSupervisor);  // it knows best who else is gone
+  if (session_.supervised) return note(common::kSupervisor);  // it alone knows which others are gone
   for (const auto& entry : others_) note(entry.first);
 }
 

@@ -1,5 +1,5 @@
-// A member of an exchange at work (bus/dds/exchange/exchange.h): who is there, what is heard of each, and its part in
-// agreeing on the end of those that die (bus/dds/exchange/stream.h).
+// A member of an exchange at work (bus/dds/exchange/exchange.h). It has the other members, their samples, and
+// its part in agreeing on the end of dead members (bus/dds/exchange/stream.h).
 #pragma once
 
 #include <chrono>
@@ -43,13 +43,13 @@ class Exchange::Member {
     std::uint32_t round = 0;  // of the last kClose; 0: none
     bool confirmed = false;   // that round's kClosed has been said
   };
-  // What receive() is going to return; no bytes: gone.
+  // A result of receive() to come; no bytes: gone.
   struct Coming {
     NodeId from{};
     common::Bytes bytes;
   };
 
-  // Takes what has come; whether there was anything.
+  // Takes the samples that have come; returns whether there were any.
   bool take();
   void drain_data();
   void on_data(const common::Said& said);
@@ -57,7 +57,7 @@ class Exchange::Member {
   void on_fence(const common::Said& said);
   void on_close(const common::Said& said);
   void on_again(const common::Said& said);
-  void deliver(NodeId from);  // what is in entries_
+  void deliver(NodeId from);  // delivers entries_
   void confirm(NodeId of, Other& other);
   void tell_heard();
   Other& other(NodeId node);
@@ -66,9 +66,9 @@ class Exchange::Member {
   bool everybody(const std::set<NodeId>& said) const;
   [[noreturn]] void give_up(std::chrono::milliseconds waited) const;
   bool nobody_left() const { return gone_.size() == others_.size(); }
-  // Throws where waiting on would be in vain; else until when it need not be looked at again.
+  // Throws if waiting is in vain; otherwise returns the time of the next check, if one is needed.
   std::optional<Clock::time_point> look_around();
-  // Whom DDS has lost, and found again.
+  // Notes members that DDS has lost, and found again.
   void note_lost();
   void wait(std::optional<Clock::time_point> until);
 
@@ -82,9 +82,9 @@ class Exchange::Member {
   Numbering control_numbers_;
   std::map<NodeId, Other> others_;
   HeardTable heard_table_;
-  std::size_t heard_bytes_ = 0;                          // since that was last told to the others
-  std::set<NodeId> data_hello_, control_hello_, ready_;  // who has said it
-  std::set<NodeId> gone_;                                // known here; receive() may have it still to come
+  std::size_t heard_bytes_ = 0;                          // since the last kHeard
+  std::set<NodeId> data_hello_, control_hello_, ready_;  // members that have said it
+  std::set<NodeId> gone_;                                // known here; receive() may still have to report it
   std::map<NodeId, Clock::time_point> lost_;             // until when it may come back
   bool all_ready_ = false;
   bool cut_off_ = false;
@@ -93,7 +93,7 @@ class Exchange::Member {
   Clock::time_point last_death_{};
   std::vector<common::Entry> entries_;  // scratch
   std::deque<Coming> coming_;
-  common::Bytes current_;  // what receive() returned last
+  common::Bytes current_;  // the last result of receive()
 };
 
 }  // namespace ttf::bus::dds::exchange

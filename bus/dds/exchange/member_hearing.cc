@@ -1,4 +1,4 @@
-// What a member makes of what it hears.
+// A member's reactions to the samples that it hears.
 #include <fmt/format.h>
 
 #include <stdexcept>
@@ -9,9 +9,9 @@
 namespace ttf::bus::dds::exchange {
 namespace {
 
-// How much is heard before the others are told how far, so that they can forget it.
+// The bytes heard between two kHeard, which let the others forget them.
 constexpr std::size_t kTellEvery = 256 << 10;
-// What keeping a sample takes beside its bytes, about.
+// The approximate memory of a kept sample beside its bytes.
 constexpr std::size_t kSampleBytes = 96;
 
 common::Bytes copy(std::span<const std::byte> bytes) {
@@ -26,7 +26,7 @@ bool Exchange::Member::take() {
   return data || control;
 }
 
-// Where the end of a member is agreed upon, all that DDS has brought of it counts as heard.
+// Before the end of a member is agreed on, all its samples that DDS has brought count as heard.
 void Exchange::Member::drain_data() {
   while (data_.take([this](const common::Said& said) { on_data(said); })) {
   }
@@ -91,7 +91,7 @@ void Exchange::Member::on_control(const common::Said& said) {
       for (auto& [id, state] : others_) state.stream.settle(heard_table_.by_all(id));
       return;
     case common::Kind::kReport:
-    case common::Kind::kClosed: return;  // the supervisor's business
+    case common::Kind::kClosed: return;  // for the supervisor
     case common::Kind::kMessage: throw std::runtime_error("exchange: a message among control samples");
   }
 }

@@ -1,5 +1,5 @@
-// The running numbers of a topic on which everybody is heard in order: what is new, what is heard again, what is
-// lost.
+// A numbering tracks the running numbers of a topic on which all senders are heard in order: it finds new,
+// repeated and lost samples.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,8 +14,8 @@ namespace ttf::bus::dds::exchange {
 
 class Numbering {
  public:
-  // Whether this is the sender's next sample; false: it has been heard before.
-  // Throws std::runtime_error where samples in between are lost.
+  // Returns whether this is the sender's next sample; false if it has been heard before. Throws
+  // std::runtime_error if samples in between are lost.
   bool is_new(NodeId sender, std::uint64_t number) {
     std::uint64_t& next = next_[index_of(sender)];
     if (number > next)

@@ -11,7 +11,7 @@
 namespace ttf::bus::dds::exchange {
 namespace {
 
-// What keeping an entry takes beside its bytes, about.
+// The approximate memory of a kept entry beside its bytes.
 constexpr std::size_t kEntryBytes = 96;
 
 std::size_t cost(const common::Entry& entry) { return kEntryBytes + (entry.bytes ? entry.bytes->size() : 0); }
@@ -76,7 +76,7 @@ void Stream::hear_waiting(std::vector<common::Entry>& heard) {
   if (closed() || next_ < end_) return;
   phase_ = Phase::kClosed;
   waiting_.clear();
-  heard.push_back({next_, common::Kind::kBye, nullptr});  // in its stead
+  heard.push_back({next_, common::Kind::kBye, nullptr});  // in place of the goodbye
 }
 
 void Stream::keep(const common::Entry& entry) {

@@ -1,10 +1,10 @@
-// What one member hears of another: its samples in order, each once, up to the one with which it ends. Pure; who
-// carries the samples is bus/dds/exchange/exchange.h's business.
+// A member's view of another: that one's samples in order, each once, up to the last. Pure;
+// bus/dds/exchange/exchange.h carries the samples.
 //
-// A member that dies may have been heard further by one survivor than by another. So its end is agreed upon: the
-// supervisor has everybody fence the stream and report how far it got; it then closes the stream where the best
-// informed survivor is, and that one says again what others lack. What was not heard by any survivor is not heard
-// at all.
+// One survivor may have heard more of a dead member than another. So the survivors agree on its end: the
+// supervisor has all of them fence the stream and report how far they got. It then closes the stream at the
+// best report, and the best informed survivor repeats the samples that others lack. A sample that no survivor
+// heard is lost to all.
 //
 //   open --fence()--> fenced --close()--> closing --(all there)--> closed
 //   open --kBye--> closed        fenced and closing may be fenced again, by a later round
@@ -24,26 +24,27 @@ namespace ttf::bus::dds::exchange {
 
 class Stream {
  public:
-  // `retain_bytes`: how much of what was heard is kept to be said again; 0: nothing.
+  // `retain_bytes`: how much is kept for repetition; 0: nothing.
   Stream(NodeId sender, std::size_t retain_bytes) : sender_(sender), retain_bytes_(retain_bytes) {}
 
-  // A sample from the sender itself, or said again. What can now be heard, in order, is appended to `heard`; the
-  // last is of kind kBye. Throws std::runtime_error where the sender skipped a number: samples are lost.
+  // Takes a sample from the sender itself, or a repeated one. Appends to `heard` the samples that can now be
+  // heard, in order; the last is of kind kBye. Throws std::runtime_error if the sender skipped a number:
+  // samples are lost.
   void accept(common::Entry entry, std::vector<common::Entry>& heard);
-  // Everybody has heard the samples before number `settled`; they need not be kept.
+  // Forgets the samples before number `settled`, which all members have heard.
   void settle(std::uint64_t settled);
-  // Nothing further is heard until close(). Returns the number of samples heard so far.
+  // Stops hearing until close(). Returns the number of samples heard so far.
   std::uint64_t fence();
-  // The stream ends before number `end`; never before what has been heard.
+  // Ends the stream before number `end`, which is never before a heard sample.
   void close(std::uint64_t end, std::vector<common::Entry>& heard);
 
-  std::uint64_t heard() const { return next_; }  // how many samples
+  std::uint64_t heard() const { return next_; }  // the number of samples
   bool closed() const { return phase_ == Phase::kClosed; }
-  // Waits for something to be said again.
+  // Returns whether the stream waits for repeated samples.
   bool wanting() const { return phase_ == Phase::kClosing; }
-  // What is still missing, in words. Precondition: wanting().
+  // Returns the missing samples in words. Precondition: wanting().
   std::string missing() const;
-  // What was heard from number `first` on. Throws std::runtime_error where it is no longer kept.
+  // Returns the samples heard from number `first` on. Throws std::runtime_error if they are no longer kept.
   std::vector<common::Entry> again(std::uint64_t first) const;
 
  private:
@@ -52,15 +53,15 @@ class Stream {
   void hear(common::Entry entry, std::vector<common::Entry>& heard);
   void hear_waiting(std::vector<common::Entry>& heard);
   void keep(const common::Entry& entry);
-  void forget();  // the oldest that is kept
+  void forget();  // drops the oldest kept sample
 
   NodeId sender_;
   std::size_t retain_bytes_;
   Phase phase_ = Phase::kOpen;
-  std::uint64_t next_ = 0;                          // the number that is heard next
+  std::uint64_t next_ = 0;                          // the next number to hear
   std::uint64_t end_ = 0;                           // of kClosing
-  std::map<std::uint64_t, common::Entry> waiting_;  // behind the fence, or behind what is missing
-  std::deque<common::Entry> kept_;                  // heard last, without a gap, up to next_
+  std::map<std::uint64_t, common::Entry> waiting_;  // after the fence, or after a gap
+  std::deque<common::Entry> kept_;                  // the last heard, without a gap, up to next_
   std::size_t kept_bytes_ = 0;
 };
 

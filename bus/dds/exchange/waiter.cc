@@ -18,7 +18,7 @@ Waiter::Waiter(const common::Participant& participant, const Channel& first, con
   }
 }
 
-Waiter::~Waiter() = default;  // the participant takes all of it along
+Waiter::~Waiter() = default;  // the participant ends it all
 
 void Waiter::wait(std::optional<std::chrono::nanoseconds> patience) {
   const dds_duration_t timeout = patience ? std::max<dds_duration_t>(patience->count(), 0) : DDS_INFINITY;

@@ -1,4 +1,4 @@
-// Sleeps until one of some channels has something, or somebody calls.
+// A waiter sleeps until a DDS channel has samples, or until another thread calls.
 #pragma once
 
 #include <chrono>
@@ -16,10 +16,10 @@ class Waiter {
   Waiter(const Waiter&) = delete;
   Waiter& operator=(const Waiter&) = delete;
 
-  // Returns when a channel has something to take, or its connections have changed, or call() was called since, or
-  // after `patience`, if given. Whatever woke it must be seen to, else it does not sleep next time.
+  // Returns when a channel has samples to take, when its connections have changed, when call() was called
+  // since, or after `patience`, if given. The cause must be dealt with, or the next wait() returns at once.
   void wait(std::optional<std::chrono::nanoseconds> patience);
-  // From any thread.
+  // Ends or prevents the next sleep; from any thread.
   void call();
 
  private:

@@ -1,9 +1,9 @@
-// When what comes on a line from other hosts has arrived by this host's clock: when it left by its sender's, and the
-// least delay from that host (bus/dds/live/least_delay.h), as the thread that receives it wakes up late, and by how
-// much says nothing about the sender's clock. Pure.
+// Estimates the arrival of a sample from another machine by this machine's clock. It is the departure by the
+// sender's clock plus the least delay from that machine (bus/dds/live/least_delay.h). The receiving thread
+// wakes up late, and that lateness says nothing about the sender's clock. Pure.
 //
-//   L1  never later than it was in hand
-//   L2  of one sender never earlier than what came from it before: a minimum that falls does not change the order
+//   L1  never later than the sample was in hand
+//   L2  for one sender never earlier than its previous sample: a falling minimum does not change the order
 #pragma once
 
 #include <array>
@@ -19,11 +19,12 @@ namespace ttf::bus::dds::live {
 
 class ArrivalInstant {
  public:
-  // `most_hosts`: as many as there are senders; of more (after reboots) who has been silent for longest is forgotten.
+  // `most_hosts`: the number of senders; beyond it (after reboots) the machine silent for longest is
+  // forgotten.
   explicit ArrivalInstant(std::size_t most_hosts) { hosts_.reserve(most_hosts), most_hosts_ = most_hosts; }
 
-  // Of what was `sent` by the clock of `host` (host_identity(), not 0) and in hand at `received`, which does not
-  // decrease.
+  // Returns the arrival of a sample `sent` by the clock of `host` (host_identity(), not 0) and in hand at
+  // `received`, which does not decrease.
   ports::HostTime of(NodeId sender, std::uint64_t host, std::int64_t sent, ports::HostTime received);
 
  private:

@@ -18,7 +18,7 @@ template <std::size_t kBins> void LeastDelay::Minima<kBins>::add(const Frame& fr
 
 template <std::size_t kBins>
 const typename LeastDelay::Minima<kBins>::Bin* LeastDelay::Minima<kBins>::bin(std::size_t back) const {
-  if (last_ < static_cast<std::int64_t>(back)) return nullptr;  // nothing yet, too
+  if (last_ < static_cast<std::int64_t>(back)) return nullptr;  // also before the first frame
   const std::int64_t number = last_ - static_cast<std::int64_t>(back);
   const Bin& found = bins_[static_cast<std::size_t>(number) % kBins];
   return found.number == number ? &found : nullptr;
@@ -46,7 +46,7 @@ Duration LeastDelay::least(ports::HostTime received, Duration delay) {
   return least;
 }
 
-// Delays of clocks that were set differ by anything: they are compared before they are multiplied.
+// After a clock was set delays may differ by any amount, so they are compared before they are multiplied.
 std::int64_t LeastDelay::drift() const {
   const Frame* const newer = long_.among(0, kThird);
   const Frame* const middle = long_.among(kThird, 2 * kThird);

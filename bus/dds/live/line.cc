@@ -18,10 +18,10 @@ namespace {
 constexpr std::size_t kBoxes = 16;           // samples taken at a time
 constexpr std::size_t kMostEndpoints = 256;  // on one line
 
-// Instants and lengths of time beyond these (a century, eleven days) are no clock's.
+// Larger instants and durations (a century, eleven days) come from no clock.
 constexpr std::int64_t kLatest = 4'000'000'000'000'000'000, kLongest = 1'000'000'000'000'000;
 
-// LiveSample::kind: a bus::Signal, or one of these.
+// LiveSample::kind: a ports::Signal, or one of these.
 constexpr std::uint8_t kClassicCan = 4, kFastCan = 5;
 
 common::Qos live_qualities(Delivery delivery, NodeId self) {
@@ -31,7 +31,7 @@ common::Qos live_qualities(Delivery delivery, NodeId self) {
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, LiveLine::kHistory);
   dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  dds_qset_userdata(qos.get(), &self, sizeof self);  // so that who is missing has a name
+  dds_qset_userdata(qos.get(), &self, sizeof self);  // names the node that is missing
   return qos;
 }
 
@@ -40,7 +40,7 @@ bool is_can_length(std::size_t size, bool fast) {
   return size <= 8 || (fast && std::find(kFast.begin(), kFast.end(), size) != kFast.end());
 }
 
-// Whether it can be what it says it is, on this line.
+// Returns whether the sample's fields are consistent for this line.
 bool well_formed(const ttf_LiveSample& sample, ports::Line line) {
   const std::size_t size = sample.bytes._length;
   const bool is_frame = line < ports::line_of_can(0) && sample.kind == static_cast<int>(ports::Signal::kFrame);
@@ -54,13 +54,13 @@ bool well_formed(const ttf_LiveSample& sample, ports::Line line) {
   return sample.kind <= static_cast<int>(ports::Signal::kUndecodable) && size == 0 && sample.duration > 0;
 }
 
-// Whether clocks may show what it says of instants.
+// Returns whether a clock may show the sample's instants.
 bool of_a_clock(const ttf_LiveSample& sample) {
   return sample.sent >= 0 && sample.sent <= kLatest && sample.late >= -kLongest && sample.late <= kLongest &&
          sample.duration >= 0 && sample.duration <= kLongest;
 }
 
-// What a reader or writer says whose it is.
+// Returns the nodes named by matched readers or writers.
 std::vector<NodeId> owners(common::Handle entity, const std::vector<dds_instance_handle_t>& matched,
                            dds_builtintopic_endpoint_t* (*data)(dds_entity_t, dds_instance_handle_t)) {
   std::vector<NodeId> nodes;
@@ -79,9 +79,9 @@ std::vector<NodeId> owners(common::Handle entity, const std::vector<dds_instance
 
 }  // namespace
 
-// Preallocated; sequences whose memory is ours DDS fills up to their maximum, and no further.
+// Preallocated. DDS fills sequences in our memory up to their maximum, and no further.
 struct LiveLine::Boxes {
-  // One byte more than there may be, so that what is too long is seen.
+  // One byte beyond the longest, so that longer samples show.
   std::array<std::array<std::uint8_t, wire::kMaxFrameBytes + 1>, kBoxes> bytes{};
   std::array<ttf_LiveSample, kBoxes> in{};
   std::array<void*, kBoxes> pointers{};
@@ -123,20 +123,20 @@ LiveLine::LiveLine(const common::Participant& participant, const std::string& se
                             "cannot make a reader of " + topic_);
 }
 
-// Once the reader is gone nobody calls any more; the participant takes the rest along.
+// After the reader is deleted no calls come; the participant ends the rest.
 LiveLine::~LiveLine() { dds_delete(reader_); }
 
 void LiveLine::on_data(common::Handle reader, void* self) { static_cast<LiveLine*>(self)->take(reader); }
 
-// DDS calls this for one reader from one thread at a time, so the boxes and the queue's end are its own; the first time
-// maybe before the constructor knows the reader.
+// DDS calls this for one reader from one thread at a time, so the boxes and the filling end of the queue are
+// its own. The first call may come before the constructor knows the reader.
 void LiveLine::take(common::Handle reader) {
   for (bool more = true; more;) {
     const auto count = dds_take(reader, boxes_->pointers.data(), boxes_->infos.data(), kBoxes, kBoxes);
     if (count < 0) return take_error_.store(count);
     const ports::HostTime now = ports::host_now();
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-      if (boxes_->infos[i].valid_data) accept(i, now);  // else that a writer has come or gone
+      if (boxes_->infos[i].valid_data) accept(i, now);  // otherwise a writer has come or gone
     more = static_cast<std::size_t>(count) == kBoxes;
   }
 }
@@ -163,7 +163,7 @@ void LiveLine::accept(std::size_t box, ports::HostTime now) {
   ports::LiveArrival& arrival = item->arrival = {};
   arrival.received = now;
   if (host_ == 0 || sample.host == 0) {
-    arrival.at = now;  // by whose clock it was sent cannot be made out
+    arrival.at = now;  // the sender's clock is unknown
   } else if (sample.host == host_) {
     arrival.at = std::min(ports::HostTime{sample.sent}, now);
     arrival.left = arrival.at;
@@ -208,7 +208,7 @@ ports::LiveStatus LiveLine::write(std::span<const std::byte> bytes, ports::HostT
   ttf_LiveSample& sample = boxes_->out;
   sample.number = next_number_;
   sample.bytes._length = sample.bytes._maximum = static_cast<std::uint32_t>(bytes.size());
-  // Only read; C has no way to say so here.
+  // The buffer is only read; C cannot declare that here.
   sample.bytes._buffer = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(bytes.data()));
   TTF_CHECK(well_formed(sample, line_), "line {}: kind {}, slot {}, identifier {}, {} bytes, {} ns", line_, sample.kind,
             sample.slot, sample.identifier, bytes.size(), sample.duration);
@@ -233,7 +233,7 @@ std::string LiveLine::failure() const {
 std::vector<NodeId> LiveLine::unheard() const {
   std::vector<dds_instance_handle_t> matched(kMostEndpoints);
   const auto count = common::checked(dds_get_matched_publications(reader_, matched.data(), matched.size()),
-                                     "cannot ask who is on " + topic_);
+                                     "cannot list the nodes on " + topic_);
   matched.resize(std::min(matched.size(), static_cast<std::size_t>(count)));
   return all_but(owners(reader_, matched, dds_get_matched_publication_data));
 }
@@ -241,7 +241,7 @@ std::vector<NodeId> LiveLine::unheard() const {
 std::vector<NodeId> LiveLine::deaf() const {
   std::vector<dds_instance_handle_t> matched(kMostEndpoints);
   const auto count = common::checked(dds_get_matched_subscriptions(writer_, matched.data(), matched.size()),
-                                     "cannot ask who is on " + topic_);
+                                     "cannot list the nodes on " + topic_);
   matched.resize(std::min(matched.size(), static_cast<std::size_t>(count)));
   return all_but(owners(writer_, matched, dds_get_matched_subscription_data));
 }

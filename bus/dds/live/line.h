@@ -1,10 +1,10 @@
-// One line of a medium in real time over DDS, as one node has it: the topic, a writer, a reader, and what has arrived.
+// One line of the DDS live medium, as one node has it: the topic, a writer, a reader, and the arrivals.
 //
-// Arrivals are taken and stamped by DDS' own threads as they come in, and wait in a queue. Where the sender runs on the
-// same host (bus/dds/common/host_identity.h), a sample has arrived when it was handed to DDS there: the clock is the
-// same, and how long the kernel takes to wake up who reads it says nothing about the sender's clock. From another host
-// it has arrived when it was handed to DDS there, by that host's clock, and the least delay of late that is known from
-// there (bus/dds/live/arrival_instant.h). Where a host cannot be told from another, it arrives when it is taken.
+// DDS' own threads take and stamp arrivals, which wait in a queue. A sample from the same machine
+// (bus/dds/common/host_identity.h) arrives when its sender hands it to DDS. The clock is the same, and the
+// reader's late wake-up says nothing about the sender's clock. A sample from another machine arrives at that
+// instant by its sender's clock plus the recent least delay from there (bus/dds/live/arrival_instant.h). If
+// the machines cannot be told apart, it arrives when it is taken.
 #pragma once
 
 #include <array>
@@ -27,22 +27,22 @@
 namespace ttf::bus::dds::live {
 
 enum class Delivery {
-  kBestEffort,  // what is lost is lost, and counted
-  kReliable,    // sent again where it is missing, from the last kHistory that its writer keeps, which waits for nobody
+  kBestEffort,  // lost samples are counted, not repeated
+  kReliable,    // missing samples are repeated from the writer's last kHistory; the writer never waits
 };
 
-// A line and who is on it.
+// A line and its nodes.
 struct LiveLinePlan {
   ports::Line line = 0;
   std::string topic;          // live_topic()
-  std::vector<NodeId> nodes;  // all of them, whoever reads this
+  std::vector<NodeId> nodes;  // all nodes on the line, this one included
 };
 
 class LiveLine {
  public:
   static constexpr std::int32_t kHistory = 256;
 
-  // Throws std::runtime_error where DDS cannot do it.
+  // Throws std::runtime_error if DDS cannot.
   LiveLine(const common::Participant& participant, const std::string& session, NodeId self, const LiveLinePlan& plan,
            Delivery delivery);
   ~LiveLine();
@@ -56,14 +56,14 @@ class LiveLine {
   LiveQueue& queue() { return queue_; }
   const LiveQueue& queue() const { return queue_; }
 
-  // `sent`, `not_sent` and `received` are whoever's who sends and receives.
+  // The sender and receiver count `sent`, `not_sent` and `received`.
   std::uint64_t lost() const { return lost_.load(); }
   std::uint64_t foreign() const { return foreign_.load(); }
   std::uint64_t malformed() const { return malformed_.load(); }
-  // Why it is of no use any more; empty while all is well. May allocate.
+  // Returns one sentence about the line's failure; empty without one. May allocate.
   std::string failure() const;
 
-  // Nodes on this line that are not heard, or do not hear this one, yet.
+  // Nodes on this line that this node does not hear yet, or that do not hear it.
   std::vector<NodeId> unheard() const;
   std::vector<NodeId> deaf() const;
 
@@ -84,7 +84,7 @@ class LiveLine {
   std::array<bool, 256> is_on_{};  // by node
   const std::unique_ptr<Boxes> boxes_;
   LiveQueue queue_;
-  LiveNumbering numbering_;  // of DDS' threads, and so is the next
+  LiveNumbering numbering_;  // used by DDS' threads only, as the next
   ArrivalInstant from_afar_;
   std::atomic<std::uint64_t> lost_{0}, foreign_{0}, malformed_{0};
   std::int32_t write_error_ = 0;  // DDS' return codes
@@ -93,8 +93,8 @@ class LiveLine {
   common::Handle writer_ = 0, reader_ = 0;
 };
 
-// "ttf/flexray/A", "ttf/flexray/B", "ttf/can/NAME": DDS allows letters, digits, '_' and '/', so anything else in a
-// name, and what would be mistaken for it, is '_' and two hexadecimal digits.
+// Returns "ttf/flexray/A", "ttf/flexray/B", "ttf/can/NAME". DDS allows letters, digits, '_' and '/'. In a name
+// every other character, and an ambiguous '_', becomes '_' and two hexadecimal digits.
 std::string live_topic(schedules::model::Channel channel);
 std::string live_can_topic(const std::string& name);
 

@@ -1,18 +1,17 @@
-// The medium in real time over DDS: one topic per line, one sample per signal or CAN frame
-// (bus/dds/live/live_sample.idl), in the session's partition. Nobody but the readers of a line is sent what is said on
-// it.
+// The DDS live medium: one topic per line, one sample per signal or CAN frame (bus/dds/live/live_sample.idl),
+// in the session's partition. Only the readers of a line get its samples.
 //
-// Nobody waits for anybody: who is stopped or dead does not hold up a sender, whatever the delivery (docs/dds.md has
-// what either costs). Each sender numbers what it says on a line, so that what is missing is counted once something
-// later is heard; a process that was started anew counts anew.
+// No node waits for another: a stopped or dead one does not hold up a sender, with either delivery
+// (docs/dds.md has their costs). Each sender numbers its samples on a line, so that missing ones are counted
+// once a later one is heard. A restarted process begins its count anew.
 //
-// What was sent is stamped by its sender as it is handed to DDS, right before it is written: that is LiveArrival::at
-// where both run on one host, and where they do not, that by this host's clock and the least delay from there
-// (bus/dds/live/arrival_instant.h), so that L4 holds between hosts as well as their clocks are known. How late that was
-// is said in the sample itself; there are no follow-ups.
+// A sender stamps each sample right before it hands it to DDS. On the same machine that stamp is
+// LiveArrival::at. On another, `at` is the stamp by the receiver's clock plus the least delay from there
+// (bus/dds/live/arrival_instant.h). So L4 holds between machines as well as their clocks are known. The sample
+// itself states its lateness; there are no follow-ups.
 //
-// This code allocates nothing after construction. DDS itself does for every sample: malloc from its own pools.
-// One thread sends and receives at a time; DDS' own threads take what comes in.
+// This code allocates nothing after construction. DDS itself allocates for every sample, from its own pools.
+// One thread sends and receives at a time; DDS' own threads take the incoming samples.
 #pragma once
 
 #include <chrono>
@@ -30,13 +29,13 @@ namespace ttf::bus::dds::live {
 
 class DdsMedium final : public ports::LiveMedium {
  public:
-  // Of the session: its domain, name and lease. `lines`: those that `self` is on, in any order.
-  // Throws InputError where the session is not valid, std::runtime_error where DDS cannot do it.
+  // Uses the session's domain, name and lease. `lines`: those that `self` is on, in any order. Throws
+  // InputError on an invalid session, std::runtime_error if DDS cannot.
   DdsMedium(const common::Session& session, NodeId self, const std::vector<LiveLinePlan>& lines,
             Delivery delivery = Delivery::kBestEffort);
   ~DdsMedium() override;
 
-  // Returns once this node hears everybody on its lines and they hear it. Throws NotReady when that takes longer.
+  // Returns once this node and all others on its lines hear each other. Throws NotReady after `patience`.
   void wait_ready(std::chrono::milliseconds patience) const;
 
   ports::LiveStatus send(const ports::LiveSignal& signal, ports::HostTime due) override;
@@ -53,8 +52,8 @@ class DdsMedium final : public ports::LiveMedium {
 
   common::Session session_;
   common::Participant participant_;
-  std::vector<std::unique_ptr<LiveLine>> lines_;  // by line; nullptr: not on it
-  LiveItem last_;                                 // what receive() handed over
+  std::vector<std::unique_ptr<LiveLine>> lines_;  // by line; nullptr: this node is not on it
+  LiveItem last_;                                 // the last result of receive()
   std::uint64_t sent_ = 0, received_ = 0, not_sent_ = 0;
   mutable std::string failure_;
 };

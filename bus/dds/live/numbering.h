@@ -1,4 +1,4 @@
-// What the running numbers of a line's senders tell: what has been heard before, and what never will be. Pure.
+// A numbering tracks the running numbers of a line's senders: it finds repeated and lost samples. Pure.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@ namespace ttf::bus::dds::live {
 
 class LiveNumbering {
  public:
-  // The number of samples that are missing before this one; nothing where it has been heard before, or a later one has.
-  // A sender that has started anew counts anew, and so does one that is heard for the first time: what it said before
-  // is none of ours.
+  // Returns the number of samples missing before this one; no value if this or a later one has been heard
+  // before. A restarted sender counts anew, and so does one heard for the first time: its earlier samples do
+  // not count.
   std::optional<std::uint64_t> missing_before(NodeId sender, std::uint64_t incarnation, std::uint64_t number) {
     Next& next = next_[index_of(sender)];
     const bool known = next.heard && next.incarnation == incarnation;

@@ -35,7 +35,7 @@ void LiveQueue::push() {
 bool LiveQueue::pop(LiveItem& item) {
   if (empty()) {
     if (!watched_.load()) return false;
-    // Something may come between the look and the silence; then it calls again, or is seen here.
+    // An item may come between the two looks: then it calls again, or is seen here.
     eventfd_t ignored = 0;
     eventfd_read(event_, &ignored);
     if (empty()) return false;

@@ -1,5 +1,5 @@
-// What has arrived on one line and has not been handed over yet: filled by DDS' threads, one at a time, emptied by one
-// other, and neither waits for the other. All its memory is there from the beginning.
+// The arrivals of one line that wait to be handed over. DDS' threads fill it, one at a time; one other thread
+// empties it, and neither waits for the other. All its memory is allocated at construction.
 #pragma once
 
 #include <array>
@@ -23,18 +23,19 @@ class LiveQueue {
   // A second's worth of FlexRay frames of 5 ms cycles, and more.
   static constexpr std::size_t kRoom = 4096;
 
-  LiveQueue();  // throws std::system_error where there are no more descriptors
+  LiveQueue();  // throws std::system_error if there are no more descriptors
   ~LiveQueue();
   LiveQueue(const LiveQueue&) = delete;
   LiveQueue& operator=(const LiveQueue&) = delete;
 
-  // Of who fills it. Where the next item goes; nullptr: there is no room. push() makes it be there.
+  // For the filling thread: returns the place of the next item, nullptr without room. push() adds the item.
   LiveItem* room();
   void push();
 
-  // Of who empties it. What has been there longest, copied to `item`; false: nothing is there.
+  // For the emptying thread: copies the oldest item to `item`; false if the queue is empty.
   bool pop(LiveItem& item);
-  // Readable from when something is there until pop() has found that nothing is, as long as it is watched.
+  // Returns a descriptor that is readable, while watched, from the first item until pop() has found the queue
+  // empty.
   int descriptor() const { return event_; }
   void watch(bool on);
 
@@ -44,8 +45,8 @@ class LiveQueue {
 
   const std::unique_ptr<std::array<LiveItem, kRoom>> items_;
   const int event_;
-  // Both count on for ever. Sequentially consistent, as is `watched_`: either who fills sees that somebody watches, or
-  // who begins to watch sees that something is there.
+  // Both counts only grow. They and `watched_` are sequentially consistent: either the filling thread sees the
+  // watch, or the thread that begins to watch sees the item.
   std::atomic<std::size_t> filled_{0}, emptied_{0};
   std::atomic<bool> watched_{false};
 };

@@ -1,4 +1,5 @@
-// Calls a thread, and lets it sleep until it is called. Calling never waits; calls of one that is awake are kept.
+// A bell wakes a thread that sleeps until the next call. Calling never waits; calls during the thread's work
+// are kept.
 #pragma once
 
 #include <semaphore.h>
@@ -13,9 +14,9 @@ class Bell {
   ~Bell() { sem_destroy(&semaphore_); }
   Bell(const Bell&) = delete;
   Bell& operator=(const Bell&) = delete;
-  void ring() { sem_post(&semaphore_); }  // fails beyond INT_MAX calls only: then nobody sleeps anyway
+  void ring() { sem_post(&semaphore_); }  // fails only beyond INT_MAX calls, when no thread sleeps
   void wait() {
-    while (sem_wait(&semaphore_) != 0) continue;  // a signal came
+    while (sem_wait(&semaphore_) != 0) continue;  // interrupted by a process signal
   }
 
  private:

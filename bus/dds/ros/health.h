@@ -1,4 +1,4 @@
-// How a process or a node of the launch is, for ROS' diagnostics.
+// The health of a process or a node of the launch, for ROS' diagnostics.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace ttf::bus::dds::ros {
 
-// As diagnostic_msgs/msg/DiagnosticStatus numbers them.
+// The numbers of diagnostic_msgs/msg/DiagnosticStatus.
 enum class HealthLevel : std::uint8_t { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
 
 struct HealthValue {
@@ -20,7 +20,7 @@ struct HealthValue {
 struct Health {
   TrueTime at{};
   HealthLevel level = HealthLevel::kOk;
-  std::string_view name;     // of what it is the health: "fusion: schedule"
+  std::string_view name;     // the subject: "fusion: schedule"
   std::string_view message;  // in words: "normal active"
   std::span<const HealthValue> values;
 };

@@ -1,11 +1,11 @@
-// An example: listens to what a RosPublisher publishes, as any program can that knows DDS and the types. It uses
-// Cyclone DDS' C API and what idlc makes of the two files *.idl beside this, and nothing else of this project.
+// An example: listens to a RosPublisher, as any program can that knows DDS and the types. It uses Cyclone DDS'
+// C API and idlc's output for the two files *.idl in this folder, and nothing else of this project.
 //
 //   CYCLONEDDS_URI=file:///path/to/bus/dds/loopback.xml ttf_ros_listen [DOMAIN]
 //
-// One JSON object per line, until SIGINT or SIGTERM: every publication with a type that is known here, as DDS itself
-// announces it; every sample; and when a publisher does not keep its deadline, comes to life or is gone. Readers ask
-// for what the first publisher of their topic promises.
+// It prints one JSON object per line, until SIGINT or SIGTERM. An object is a publication of a known type, as
+// DDS announces it, a sample, or a publisher that misses its deadline, comes to life or goes. Readers request
+// the promises of the first publisher of their topic.
 #include <dds/dds.h>
 
 #include <array>
@@ -37,7 +37,7 @@ std::int32_t checked(std::int32_t result, const char* what) {
   return result;
 }
 
-// A text of JSON: what others publish may have anything in it.
+// Returns a JSON text; other programs may publish any characters.
 std::string quoted(const char* text) {
   std::string out = "\"";
   for (const char* c = text; *c != '\0'; ++c) {
@@ -53,7 +53,7 @@ std::string quoted(const char* text) {
   return out + "\"";
 }
 
-// JSON has no infinities, and none that is no number.
+// JSON has neither infinities nor NaN.
 void print_value(double value) {
   if (std::isfinite(value))
     std::printf("%.17g", value);
@@ -217,7 +217,7 @@ class Listener {
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
-  // Waits a little, and prints what has come and what has happened.
+  // Waits a little, then prints new samples and events.
   void listen() {
     checked(dds_waitset_wait(set_, nullptr, 0, DDS_MSECS(100)), "cannot wait");
     take_publications();
@@ -322,7 +322,7 @@ int main(int count, char** arguments) {
   char* end = nullptr;
   const unsigned long domain = count == 2 ? std::strtoul(arguments[1], &end, 10) : 0;
   if (count > 2 || (count == 2 && (end == arguments[1] || *end != '\0' || domain > 231))) {
-    std::fprintf(stderr, "usage: ttf_ros_listen [DOMAIN]   DOMAIN: 0..231, as ROS_DOMAIN_ID; 0 unless told\n");
+    std::fprintf(stderr, "usage: ttf_ros_listen [DOMAIN]   DOMAIN: 0..231, as ROS_DOMAIN_ID; 0 by default\n");
     return 2;
   }
   std::signal(SIGINT, on_signal);

@@ -112,7 +112,7 @@ const vision_msgs_msg_dds__Detection3DArray_& Messages::boxes(const WaitingImage
     hypotheses_.push_back(hypothesis_of(object));
     *fmt::format_to_n(ids_.emplace_back().data(), 7, "{}", index_of(object.track)).out = '\0';
   }
-  for (std::size_t i = 0; i < waiting.objects.size(); ++i) {  // now that what they refer to stays where it is
+  for (std::size_t i = 0; i < waiting.objects.size(); ++i) {  // the vectors they refer to no longer move
     vision_msgs_msg_dds__Detection3D_& detection = detections_.emplace_back();
     detection.header = header(waiting.valid_at);
     detection.results = {._maximum = 1, ._length = 1, ._buffer = &hypotheses_[i], ._release = false};

@@ -1,4 +1,4 @@
-// Records as ROS 2 messages: what goes where, in which frame, on which clock. For the sources that know DDS.
+// Converts records to ROS 2 messages: their fields, frames and clock. Only for sources that include DDS.
 #pragma once
 
 #include <array>
@@ -13,25 +13,27 @@
 
 namespace ttf::bus::dds::ros {
 
-// ROS time, nanoseconds since 1970; what int32 seconds do not reach is their end.
+// Returns ROS time from nanoseconds since 1970, limited to the range of int32 seconds.
 builtin_interfaces_msg_dds__Time_ ros_time(std::int64_t realtime_ns);
-// What CLOCK_REALTIME shows at an instant of a drive that is stretched so much: rounded down; what an int64 does not
-// hold is its end.
+// Returns CLOCK_REALTIME at an instant of a drive with that time scale: rounded down, and limited to the range
+// of int64.
 std::int64_t realtime_at(std::int64_t origin_ns, TrueTime drive, std::int64_t scale_ppm);
 
-std::string object_name(ObjectId object);  // its frame, and part of its topic: "object_3"
+std::string object_name(ObjectId object);  // the object's frame, and part of its topic: "object_3"
 
-// Each function makes the message of what waits; it is valid until the next call of any, and as long as what waits is.
-// Only read by who writes it: C has no way to say so. Nothing is allocated once lists have been as long as they get.
+// Each function makes a message of one waiting item. It is valid until the next call of any function, and as
+// long as the item. The writer only reads it; C cannot declare that. Memory stops growing once the lists have
+// had their longest.
 class Messages {
  public:
   explicit Messages(const RosOptions& options);
 
   const ttfusion_msgs_msg_dds__RealTimeImage_& image(const WaitingImage& waiting);
-  // The same image as boxes: position, heading and their deviations; one hypothesis each, "confirmed" or "tentative".
+  // The same image as boxes: position, heading and their deviations; one hypothesis each, "confirmed" or
+  // "tentative".
   const vision_msgs_msg_dds__Detection3DArray_& boxes(const WaitingImage& waiting);
   const ttfusion_msgs_msg_dds__TrackArray_& tracks(const WaitingStep& waiting);
-  // Twist in the object's own frame: speed along x, yaw rate about z. Nothing is uncertain.
+  // The twist is in the object's own frame: speed along x, yaw rate about z. All covariances are zero.
   const nav_msgs_msg_dds__Odometry_& truth(const WaitingTruth& waiting);
   const diagnostic_msgs_msg_dds__DiagnosticArray_& health(const WaitingHealth& waiting);
 

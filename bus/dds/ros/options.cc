@@ -18,7 +18,7 @@ constexpr std::size_t kMost = 1024;
 constexpr std::size_t kMaxNameLength = 64;
 constexpr std::int64_t kSmallestScale_ppm = 100'000, kLargestScale_ppm = 1'000'000'000;  // as --time-scale
 
-// As ROS 2 has the tokens of a name (design.ros2.org/articles/topic_and_service_names.html).
+// Returns whether the name is a token of ROS 2 names (design.ros2.org/articles/topic_and_service_names.html).
 bool is_token(const std::string& name) {
   const auto valid = [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '_'); };
   return !name.empty() && name.size() <= kMaxNameLength && std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&

@@ -1,4 +1,4 @@
-// What a RosPublisher publishes, under which names, and what it promises about it.
+// The options of a RosPublisher: its samples, their names, and its promises to listeners.
 #pragma once
 
 #include <chrono>
@@ -14,35 +14,35 @@ struct RosOptions {
   std::uint32_t domain = 0;                 // DDS' domain, ROS_DOMAIN_ID: 0..231
   std::string node_name = "ttfusion";       // topics are /<node_name>/...; up to 64 letters, digits and single '_'
   std::int64_t origin_realtime_ns = 0;      // CLOCK_REALTIME at true time 0 of the drive: stamps are on ROS' clock
-  std::int64_t time_scale_ppm = 1'000'000;  // real time lasts so much longer than the drive's, 100'000..1'000'000'000
-  std::string frame_id = "sensor_car";      // of everything: x forward, y left (ISO 8855, as REP 103)
+  std::int64_t time_scale_ppm = 1'000'000;  // real time per time of the drive, 100'000..1'000'000'000
+  std::string frame_id = "sensor_car";      // of all messages: x forward, y left (ISO 8855, as REP 103)
 
-  // Who listens is promised a new sample within `deadline_slack` times these, in wall time. Zero: nothing is promised.
+  // A new sample is promised within `deadline_slack` times the period, in real time. Zero: no promise.
   Duration image_period{};  // of images, and of the boxes made of them
   Duration step_period{};   // of tracks: one sample for each step of the fusion
   Duration truth_period{};  // of each object
   Duration health_period{};
   double deadline_slack = 1.5;                       // at least 1
-  std::chrono::milliseconds liveliness_lease{1000};  // a publisher not heard for so long is dead; 100 ms to 1 h
+  std::chrono::milliseconds liveliness_lease{1000};  // a publisher silent for so long counts as dead; 100 ms to 1 h
 
-  std::uint16_t truth_objects = 0;  // of so many, the first, the truth is published
-  std::size_t most_objects = 64;    // in an image, 1..1024; more are cut off and counted
+  std::uint16_t truth_objects = 0;  // publishes the truth of this many objects, the first
+  std::size_t most_objects = 64;    // in an image, 1..1024; further ones are cut off and counted
   std::size_t most_tracks = 64;     // in a step, likewise
   std::size_t queue = 16;           // images, steps, instants of truth and healths that wait; 1..1024 each
 };
 
-// Of the publisher's place in the domain. A process that was stopped is found again after some leases at the latest:
-// what announces it goes that often.
+// Returns the lease of the publisher's participant. Its announcements go that often, so a process that was
+// stopped is found again after a few leases.
 inline std::chrono::milliseconds lease_of(const RosOptions& options) { return 3 * options.liveliness_lease; }
 
 // Throws InputError with one finding for each value out of range.
 void validate(const RosOptions& options);
 
-// The domain that ROS' nodes of this environment are in, by ROS' own variable ROS_DOMAIN_ID; 0 where that is not set or
-// empty. Throws InputError where it is no whole number 0..231.
+// Returns the domain of ROS_DOMAIN_ID, as ROS' own nodes use it; 0 if it is unset or empty. Throws InputError
+// unless it is a whole number 0..231.
 std::uint32_t domain_of_environment();
 
-// Joins the options' domain as a RosPublisher does, and leaves it. Throws std::runtime_error where DDS does not let us.
+// Joins the options' domain as a RosPublisher does, and leaves it. Throws std::runtime_error if DDS refuses.
 void try_domain(const RosOptions& options);
 
 }  // namespace ttf::bus::dds::ros

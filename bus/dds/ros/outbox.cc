@@ -7,7 +7,7 @@ namespace {
 
 void count(std::atomic<std::uint64_t>& counter) { counter.fetch_add(1, std::memory_order_relaxed); }
 
-// Where the next text goes, nullptr once one had no room. DDS' strings end with a zero: so does what has one inside.
+// Appends texts until one has no room. DDS' strings end with a zero, so a text ends at its first zero.
 class Texts {
  public:
   explicit Texts(std::array<char, kHealthText>& into) : next_(into.data()), end_(into.data() + into.size()) {}

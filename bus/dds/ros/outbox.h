@@ -1,7 +1,9 @@
-// What waits to be published: copies of the records, made by the thread that records, in slots made beforehand.
+// The outbox holds copies of records that wait to be published. The recording thread copies them into slots
+// that were allocated at construction.
 //
-// Laws: nothing here waits, locks or allocates; what finds no room is dropped and counted, and what is dropped is never
-// part of anything else. One thread records, one thread (that or another) tells healths, one thread takes.
+// Laws: nothing here waits, locks or allocates. A record without room is dropped and counted, and its parts
+// never join another record. One thread records, one thread (the same or another) adds healths, one thread
+// takes.
 #pragma once
 
 #include <array>
@@ -22,7 +24,7 @@ namespace ttf::bus::dds::ros {
 struct WaitingImage {
   explicit WaitingImage(std::size_t most_objects) { objects.reserve(most_objects); }
   TrueTime valid_at{}, written{};
-  std::optional<TrueTime> newest_measurement;  // none before the first
+  std::optional<TrueTime> newest_measurement;  // empty before the first
   std::uint32_t sequence = 0;
   std::vector<recording::records::ImageObject> objects;
 };
@@ -47,7 +49,7 @@ struct WaitingTruth {
 };
 
 inline constexpr std::size_t kHealthText = 4096;
-// All texts one after the other: name, message, then keys and values by turns, each ended by a zero.
+// All texts in a row: name, message, then keys and values in turn, each ended by a zero.
 struct WaitingHealth {
   TrueTime at{};
   HealthLevel level = HealthLevel::kOk;
@@ -59,17 +61,17 @@ class Outbox {
  public:
   explicit Outbox(const RosOptions& options);
 
-  // Each says whether there is something new to take.
+  // Each returns whether the publishing thread has a new item to take.
   bool put(const recording::records::ImageWritten& image);
-  bool put(const recording::records::TrackState& track);  // waits for the FusionStep it belongs to
+  bool put(const recording::records::TrackState& track);  // waits for its FusionStep
   bool put(const recording::records::FusionStep& step);
-  bool put(const recording::records::TruthState& truth);  // several nodes may tell of one instant: it is taken once
+  bool put(const recording::records::TruthState& truth);  // several nodes may record one instant: it is taken once
   bool put(const Health& health);
 
-  // What had no room, and what was too long.
+  // Items dropped for want of room, and items that were too long.
   struct Dropped {
     std::uint64_t images = 0, steps = 0, truths = 0, healths = 0;
-    std::uint64_t cut = 0;  // images and steps that had more objects or tracks than there is room for
+    std::uint64_t cut = 0;  // images and steps with more objects or tracks than there is room for
   };
   Dropped dropped() const;  // from any thread
 
@@ -82,8 +84,8 @@ class Outbox {
   void begin(std::uint32_t step);
 
   std::size_t most_objects_, most_tracks_;
-  std::optional<std::uint32_t> step_;  // whose tracks come
-  WaitingStep* waiting_ = nullptr;     // where they go: nullptr, there is no room
+  std::optional<std::uint32_t> step_;  // the step whose tracks come
+  WaitingStep* waiting_ = nullptr;     // the slot for its tracks; nullptr: no room
   bool step_cut_ = false;
   std::vector<std::optional<TrueTime>> last_truth_;  // by object
   std::atomic<std::uint64_t> dropped_images_{0}, dropped_steps_{0}, dropped_truths_{0}, dropped_healths_{0}, cut_{0};

@@ -58,7 +58,7 @@ class RosPublisher::Impl {
     }
   }
 
-  // Whether there was anything.
+  // Returns whether any item waited.
   template <class Slot> bool write_all(Ring<Slot>& ring) {
     if (ring.first() == nullptr) return false;
     for (const Slot* slot; (slot = ring.first()) != nullptr; ring.pop()) writers_.write(*slot);
@@ -70,12 +70,12 @@ class RosPublisher::Impl {
   };
 
   Outbox outbox_;
-  Writers writers_;  // the thread's own
+  Writers writers_;  // used by the thread only
   Bell bell_;
   std::atomic<bool> ending_{false};
-  mutable std::mutex mutex_;  // between the thread and who asks for counts
+  mutable std::mutex mutex_;  // between the thread and callers of counts()
   Written written_;           // guarded by mutex_
-  std::thread thread_;        // last: it uses all of the above
+  std::thread thread_;        // last, because it uses all of the above
 };
 
 RosPublisher::RosPublisher(const RosOptions& options) : impl_(std::make_unique<Impl>(options)) {}

@@ -7,12 +7,12 @@
 namespace ttf::bus::dds::ros {
 namespace {
 
-constexpr std::int32_t kDepth = 10;  // as many as ROS' readers keep where nobody says otherwise
+constexpr std::int32_t kDepth = 10;  // the default depth of ROS' readers
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
-// A reliable, volatile writer suits every reader that ROS 2 makes, but one that wants what was before it. It keeps the
-// last samples only, so that a reader that stands still holds nobody up.
+// A reliable, volatile writer suits every reader of ROS 2, except those that want earlier samples. It keeps
+// only the last samples, so that a stopped reader holds up no writer.
 Qos qualities(Duration period, bool kept_for_late_listeners, const RosOptions& options) {
   Qos qos(dds_create_qos(), dds_delete_qos);
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
@@ -28,7 +28,7 @@ Qos qualities(Duration period, bool kept_for_late_listeners, const RosOptions& o
   if (period > Duration{})
     dds_qset_deadline(qos.get(), std::llround(static_cast<double>(period.ns) * options.deadline_slack));
   dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, std::chrono::nanoseconds(options.liveliness_lease).count());
-  dds_data_representation_id_t plain = DDS_DATA_REPRESENTATION_XCDR1;  // all that ROS 2 speaks
+  dds_data_representation_id_t plain = DDS_DATA_REPRESENTATION_XCDR1;  // the only one of ROS 2
   dds_qset_data_representation(qos.get(), 1, &plain);
   return qos;
 }
@@ -74,7 +74,7 @@ Writers::Writers(const RosOptions& options)
              options.image_period, false, options),
       tracks_(participant_, &ttfusion_msgs_msg_dds__TrackArray__desc, topic_of(options, "tracks"), options.step_period,
               false, options),
-      // Where all of ROS looks for diagnostics, whoever publishes them.
+      // All of ROS looks for diagnostics here, from any publisher.
       healths_(participant_, &diagnostic_msgs_msg_dds__DiagnosticArray__desc, "rt/diagnostics", options.health_period,
                true, options) {
   truths_.reserve(options.truth_objects);

@@ -1,4 +1,5 @@
-// The topics and who writes them to DDS: names, types and qualities as ROS 2 expects them (docs/ros.md has the table).
+// The topics and their writers to DDS: names, types and qualities as ROS 2 expects them (docs/ros.md has the
+// table).
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ class Writer {
  public:
   struct Counts {
     std::uint64_t written = 0;
-    std::uint64_t refused = 0;           // DDS took it not: its memory is full, or whatever it said
-    std::uint64_t deadlines_missed = 0;  // promised, and not kept
+    std::uint64_t refused = 0;           // by DDS, because its memory is full or for another reason
+    std::uint64_t deadlines_missed = 0;  // promised and not kept
   };
   Writer(const common::Participant& participant, const void* type, const std::string& topic, Duration period,
          bool kept_for_late_listeners, const RosOptions& options);
@@ -33,7 +34,7 @@ class Writer {
 
 class Writers {
  public:
-  // Throws std::runtime_error where DDS does not let us.
+  // Throws std::runtime_error if DDS refuses.
   explicit Writers(const RosOptions& options);
 
   void write(const WaitingImage& image);

@@ -346,7 +346,7 @@ TEST_F(LiveOnVcan, TwoLinesHaveTwoInterfaces) {
     const SocketCanMedium medium(options);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "vcan93: is to carry two lines: each needs an interface of its own");
+    EXPECT_STREQ(error.what(), "vcan93: carries two lines: each line needs an interface of its own");
   }
 }
 

@@ -68,7 +68,7 @@ TEST(DdsSession, WhoIsMissingIsNamedAfterThePatience) {
   } catch (const NotReady& error) {
     EXPECT_THAT(error.absent(), ElementsAre(NodeId{1}));
     EXPECT_THAT(error.deaf(), IsEmpty());
-    EXPECT_EQ(error.what(), called(session) + "not ready after 0.3 s; nothing heard of node 1");
+    EXPECT_EQ(error.what(), called(session) + "not ready after 0.3 s; not heard: node 1");
   }
   try {
     supervisor.wait_ready(10ms);
@@ -88,7 +88,7 @@ TEST(DdsSession, WhoDoesNotHearTheOthersYetIsNamed) {
   } catch (const NotReady& error) {
     EXPECT_THAT(error.absent(), IsEmpty());
     EXPECT_THAT(error.deaf(), ElementsAre(NodeId{1}));
-    EXPECT_THAT(error.what(), testing::HasSubstr("not everybody is heard by node 1"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("not hearing all others: node 1"));
   }
 }
 
@@ -100,7 +100,7 @@ TEST(DdsSession, AMissingSupervisorIsNamed) {
     ADD_FAILURE() << "is ready";
   } catch (const NotReady& error) {
     EXPECT_THAT(error.absent(), ElementsAre(kNoNode));
-    EXPECT_THAT(error.what(), testing::HasSubstr("nothing heard of the supervisor"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("not heard: the supervisor"));
   }
 }
 
@@ -160,7 +160,7 @@ TEST_F(DdsPair, WhoIsAnnouncedGoneAndLivesIsToldSo) {
   EXPECT_TRUE(zero_->receive().gone);
   EXPECT_EQ(error_of([this] { one_->receive(); }), "exchange: node 1 has been announced gone");
   one_->send({});  // to nobody
-  EXPECT_EQ(error_of([this] { zero_->receive(); }), "exchange: node 0: nobody is left to be heard");
+  EXPECT_EQ(error_of([this] { zero_->receive(); }), "exchange: node 0: all other members are gone");
 }
 
 TEST_F(DdsPair, StopsWhenTheSupervisorLeaves) {
