@@ -59,8 +59,7 @@ enum class ArrivalEffect : std::uint8_t {
   kMalformed,   // values that no sender of this layout produces (L4); ignored
 };
 
-// The receiving side collects fragments in any order, from one or two channels, and offers the newest complete
-// list.
+// The receiving side collects fragments in any order, from one or two channels, and offers the newest complete list.
 class IncomingList {
  public:
   static constexpr int kRestartLists = 3;

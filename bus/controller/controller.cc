@@ -70,8 +70,7 @@ void FlexRayController::State::drop_schedule() {
   symbol_request.reset();
 }
 
-// Starts a clock for `cycle`, which begins at `start`: in the future, or in the past for a node that joins
-// during it.
+// Starts a clock for `cycle`, which begins at `start`: in the future, or in the past for a node that joins during it.
 void FlexRayController::State::begin_schedule(Microticks start, int rate, std::int64_t cycle) {
   clock.emplace(geometry, start, rate, cycle);
   lay_cycle();
@@ -178,8 +177,7 @@ void FlexRayController::State::enter_cycle(const poc::StartupFramesSeen& ended, 
   events.cycle_started(clock->cycle(), at);
 }
 
-// Activity under way is not judged yet. It began at an unknown instant after all that was heard on the
-// channel.
+// Activity under way is not judged yet. It began at an unknown instant after all that was heard on the channel.
 void FlexRayController::State::note_what_goes_on() {
   for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
     bool& goes_on = going_on[index_of(channel)];

@@ -73,8 +73,7 @@ struct SymbolWindowSeen {
   bool operator==(const SymbolWindowSeen&) const = default;
 };
 
-// Status of clock synchronisation since the schedule began, under E-Ray's names (SPNU563A: registers SFS and
-// CCEV).
+// Status of clock synchronisation since the schedule began, under E-Ray's names (SPNU563A: registers SFS and CCEV).
 struct SyncStatus {
   // Valid sync frames on channel A or B in the last even or odd cycle whose static segment is over. The node's
   // own count, too. At most 15, regardless of gSyncNodeMax.
@@ -101,8 +100,7 @@ class ControllerEvents {
   virtual void static_segment_ended(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
   // Returns whether the host wants every frame received, and every fragment even if known.
   virtual bool wants_receptions() const { return true; }
-  // A valid frame in the slot that its header states; not during start-up. `frame` is valid only during the
-  // call.
+  // A valid frame in the slot that its header states; not during start-up. `frame` is valid only during the call.
   virtual void frame_received(std::int64_t cycle, int slot, schedules::model::Channel channel,
                               const wire::DecodedFrame& frame, Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)frame, (void)at;
@@ -182,14 +180,12 @@ class FlexRayController {
   // Activity that outlasts the segment has violated boundaries; its other errors are added when it ends.
   SlotSeen slot_status(int slot, schedules::model::Channel channel) const;
   SyncStatus sync_status() const;
-  // Returns the status of the last finished symbol window; empty during start-up. The own symbol does not
-  // count.
+  // Returns the status of the last finished symbol window; empty during start-up. The own symbol does not count.
   SymbolWindowSeen symbol_window_status(schedules::model::Channel channel) const;
 
-  // Requests a media access test symbol in the next symbol window whose action point is ahead. It leaves on
-  // those of the channels that this node is attached to. The state must be normal active with all slots (E-Ray
-  // SEND_MTS). Returns false without effect in another state, while a symbol is pending, or without a symbol
-  // window.
+  // Requests a media access test symbol in the next symbol window whose action point is ahead. It leaves on those
+  // of the channels that this node is attached to. The state must be normal active with all slots (E-Ray SEND_MTS).
+  // Returns false without effect in another state, while a symbol is pending, or without a symbol window.
   bool send_media_test_symbol(schedules::model::Channels channels = schedules::model::Channels::kAB);
 
   // Exactly gNetworkManagementVectorLength bytes (bus/controller/network_management.h).

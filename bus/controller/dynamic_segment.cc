@@ -38,8 +38,7 @@ void DynamicSlotCounter::occupied(int first, int last) {
 MinislotGrid::MinislotGrid(const schedules::model::GlobalParameters& flexray)
     : count_(flexray.gNumberOfMinislots), length_(flexray.gdMinislot),
       action_point_(flexray.gdMinislotActionPointOffset) {
-  // adActionPointDifference: the segment's first action point lies no earlier in it than that of a static
-  // slot.
+  // adActionPointDifference: the segment's first action point lies no earlier than that of a static slot would.
   const int difference = std::max(0, flexray.gdActionPointOffset - flexray.gdMinislotActionPointOffset);
   first_macrotick_ = flexray.gNumberOfStaticSlots * flexray.gdStaticSlot + difference;
 }

@@ -33,8 +33,7 @@ class DynamicSlotCounter {
   // Returns the slot counter in minislot `minislot` if no further transmission comes before it. Returns 0
   // beyond cSlotIDMax, or if the minislot belongs to a counted transmission.
   int slot_in(int minislot) const;
-  // Returns the minislot in which `slot` begins if no further transmission comes before it; 0 if it has
-  // passed.
+  // Returns the minislot in which `slot` begins if no further transmission comes before it; 0 if it has passed.
   int minislot_of(int slot) const;
   // Counts activity on the channel from minislot `first` to the end of its DTS, or of any other activity, in
   // minislot `last`. If it overlaps with an earlier transmission, it extends that one's slot.

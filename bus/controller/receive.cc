@@ -94,7 +94,7 @@ bool FlexRayController::State::judge_on_both(const ports::Reception& reception) 
   const bool under_way = board.under_way();
   board.hear_a(slot);
   accept(reception, Channel::kA, slot, *expected);
-  // An informed host may act.
+  // The host may act on that event.
   if (!in_operation() || board.under_way() != under_way) {
     receive(on_b(reception));
     return true;
@@ -105,7 +105,7 @@ bool FlexRayController::State::judge_on_both(const ports::Reception& reception) 
 }
 
 bool FlexRayController::State::knows(const ports::Reception& reception) {
-  // Until its end the controller neither sends nor reads slot status, and its own transmissions are over.
+  // Until the reception ends the controller neither sends nor reads slot status, and its own transmissions are over.
   if (due <= reception.end || segment != Segment::kStatic || told_of_receptions || !in_operation() ||
       reception.start < std::max(sending_to[0], sending_to[1]) || reception.frame.header.payload_preamble)
     return false;

@@ -56,8 +56,7 @@ class SlotBoard {
     under_way_ = false;
   }
 
-  // The segment under way, or the last one after its end: activity that outlasts a segment is still noted in
-  // it.
+  // The segment under way, or the last one after its end: activity that outlasts a segment is still noted in it.
   Seen& at(int slot) {
     only_pairs_ = false;
     return noted_[slot - 1];

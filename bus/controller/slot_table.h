@@ -24,8 +24,7 @@ class SlotTable {
   }
   // Returns whether another node ever sends in the slot.
   bool others_send_in(int slot) const { return !others_in(slot).empty(); }
-  // Returns the frame of another node in that slot, by channel; null without one. `counter`: cycle counter,
-  // 0..63.
+  // Returns the frame of another node in that slot, by channel; null without one. `counter`: cycle counter, 0..63.
   std::array<const schedules::model::FrameSlot*, 2> expected(int slot, int counter) const {
     if (slot < 1 || static_cast<std::size_t>(slot) > steady_.size()) return {};
     const Steady& steady = steady_[static_cast<std::size_t>(slot - 1)];

@@ -25,8 +25,7 @@ class SyncCollector {
 
   const timebase::SyncMeasurements& measurements() const { return measurements_; }
   std::span<const timebase::SyncDeviation> odd() const;
-  // Sync frames of the cycle so far on one channel, up to 15; includes the own one and those beyond
-  // gSyncNodeMax.
+  // Sync frames of the cycle so far on one channel, up to 15; includes the own one and those beyond gSyncNodeMax.
   int valid(schedules::model::Channel channel) const { return valid_[index_of(channel)]; }
   // Counts other nodes' startup frames in the ending cycle, and their pairs in its double cycle.
   poc::StartupFramesSeen startup_frames(int reference) const;

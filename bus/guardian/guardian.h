@@ -142,9 +142,8 @@ class Guardian {
   Microticks compensation_, tolerance_, minislot_tolerance_;
 };
 
-// Returns the cluster as the guardian's controller sees it. It has one more node, the last: the guardian on
-// that channel. This node sends nothing; it has the parameters of the channel's first node and a branch of no
-// length.
+// Returns the cluster as the guardian's controller sees it. It has one more node, the last: the guardian on that
+// channel. This node sends nothing; it has the parameters of the channel's first node and a branch of no length.
 schedules::model::Cluster guardian_cluster(const schedules::model::Cluster& cluster, schedules::model::Channel channel);
 
 }  // namespace ttf::bus::guardian

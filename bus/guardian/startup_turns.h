@@ -43,8 +43,7 @@ class StartupTurns {
   // which happens only without one.
   bool forwarded(const GuardianSignal& signal, bool has_schedule);
 
-  // The end of the lead, from the guardian's controller: its schedule dropped again at `at`, or the cluster
-  // started.
+  // The end of the lead, from the guardian's controller: its schedule dropped again at `at`, or the cluster started.
   void schedule_dropped(Microticks at);
   void synchronised();
   // Allows every node to lead and to wake, as after power-on.
@@ -68,8 +67,7 @@ class StartupTurns {
   Microticks cycle_, slack_;  // twice the clocks' drift in a cycle, and an action point offset
   NodeId leader_ = kNoNode;
   Microticks lead_begin_{}, lead_end_{}, next_frame_{};
-  // Startup frames, in order, of a lead that began with a symbol: of cycles 0, 1, ...; kOutOfOrder for any
-  // other lead.
+  // Startup frames, in order, of a lead that began with a symbol: of cycles 0, 1, ...; kOutOfOrder for any other lead.
   int frames_ = 0;
   std::vector<Microticks> may_lead_, may_wake_;  // by NodeId: the earliest instant
 };

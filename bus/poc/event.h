@@ -1,6 +1,5 @@
-// The events of protocol operation control, as plain data. They are commands of the host, results of the
-// receiver and of wake-up, and the progress of the communication cycle. Each event states its sender and its
-// time.
+// The events of protocol operation control, as plain data. They are commands of the host, results of the receiver
+// and of wake-up, and the progress of the communication cycle. Each event states its sender and its time.
 #pragma once
 
 #include <array>
@@ -71,8 +70,7 @@ inline constexpr std::array kAllPocEventKinds = {
     PocEventKind::kCycleStarted,
 };
 
-// Startup frames of other nodes in the cycle that has ended. A node counts once, on whichever channels it was
-// heard.
+// Startup frames of other nodes in the cycle that has ended. A node counts once, on whichever channels it was heard.
 struct StartupFramesSeen {
   int frames = 0;                // in the cycle that has ended
   int pairs = 0;                 // in both cycles of the double cycle; valid only after an odd cycle

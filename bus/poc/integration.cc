@@ -39,8 +39,7 @@ PocStep second_frame(const Now& now) {
                PocReason::kScheduleDerived);
 }
 
-// Checks begin with the next even cycle; the rest of the cycle in which the schedule was derived is not
-// judged.
+// Checks begin with the next even cycle; the rest of the cycle in which the schedule was derived is not judged.
 PocStep note_clock_of_whole_cycles(const Now& now) {
   return now.state.cycles == 0 ? ignore(now, PocReason::kNotYetWholeCycle) : note_clock(now);
 }

@@ -2,10 +2,9 @@
 // function (parameters, state, event) -> next state, actions, reason. It has no clock, no I/O and no
 // allocation; time comes as events.
 //
-// Source: FlexRay protocol specification 2.1, chapters 2 (states, commands), 7 (wake-up, start-up) and 8
-// (errors of clock correction), as implemented by Bosch's E-Ray (TI SPNU563A 26.2.6; register CCSV). Variables
-// keep the specification's names; states carry E-Ray's codes (CCSV.POCS). Cycle 0 below follows the leading
-// node's CAS.
+// Source: FlexRay protocol specification 2.1, chapters 2 (states, commands), 7 (wake-up, start-up) and 8 (errors
+// of clock correction), as implemented by Bosch's E-Ray (TI SPNU563A 26.2.6; register CCSV). Variables keep the
+// specification's names; states carry E-Ray's codes (CCSV.POCS). Cycle 0 below follows the leading node's CAS.
 //
 //   leading coldstart node     coldstart listen -CAS-> collision resolution 0..3 -> consistency check 4, 5
 //                              -> active in 6

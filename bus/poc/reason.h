@@ -1,5 +1,4 @@
-// The reasons of steps of protocol operation control: one for every (state, event) pair, with one sentence
-// each.
+// The reasons of steps of protocol operation control: one for every (state, event) pair, with one sentence each.
 #pragma once
 
 #include <cstdint>

@@ -41,8 +41,7 @@ PocStep derive_schedule(const Now& now);
 
 // Keeps the verdict of clock correction for the next cycle start.
 PocStep note_clock(const Now& now);
-// Returns why the verdict aborts start-up, kNone if it is in order. A missing verdict counts as a missing
-// term.
+// Returns why the verdict aborts start-up, kNone if it is in order. A missing verdict counts as a missing term.
 PocReason clock_objection(const PocState& state);
 
 // --- host.cc: states with the receiver off

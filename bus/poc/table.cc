@@ -153,8 +153,7 @@ constexpr Rule kRules[] = {
     {K::kNormalActive, E::kCycleStarted, active_cycle},
     {K::kNormalPassive, E::kCycleStarted, passive_cycle},
 
-    // Commands that the state does not accept. A coldstart node that listens or leads has coldstart allowed
-    // already.
+    // Commands that the state does not accept. A coldstart node that listens or leads has coldstart allowed already.
     {K::kConfig | kAtWork, E::kConfig, ignores<R::kCommandNotAccepted>},
     {States{K::kDefaultConfig, K::kReady, K::kHalt} | kAtWork, E::kConfigComplete, ignores<R::kCommandNotAccepted>},
     {kDeaf, E::kReady, ignores<R::kCommandNotAccepted>},

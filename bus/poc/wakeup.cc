@@ -1,6 +1,5 @@
-// Wake-up of one channel (SPNU563A 26.2.6.6, table 26-7): checks that no node communicates, sends the
-// wake-up pattern, and detects a collision. It always ends in ready, with its status; the host decides what
-// follows.
+// Wake-up of one channel (SPNU563A 26.2.6.6, table 26-7): checks that no node communicates, sends the wake-up
+// pattern, and detects a collision. It always ends in ready, with its status; the host decides what follows.
 #include "bus/poc/states.h"
 
 namespace ttf::bus::poc {

@@ -16,8 +16,7 @@ struct InterfaceState {
   int mtu = 0;  // bytes: 16 classic CAN, 72 CAN FD
 };
 
-// Asks the kernel and changes nothing. Throws std::runtime_error if the kernel does not describe a known
-// interface.
+// Asks the kernel and changes nothing. Throws std::runtime_error if the kernel does not describe a known interface.
 InterfaceState interface_state(const std::string& name);
 
 // A fault, and the known commands that mend it, in order and as root.

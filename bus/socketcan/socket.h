@@ -1,5 +1,4 @@
-// A raw CAN socket on one interface, ready for CAN FD. Every process on SocketCAN sends and receives through
-// one.
+// A raw CAN socket on one interface, ready for CAN FD. Every process on SocketCAN sends and receives through one.
 //
 // A fault of the interface ends set-up with one sentence and the command that helps. Afterwards nothing
 // throws; the network's behaviour is a value. Frames that the kernel had no room for are counted one by one;
@@ -64,11 +63,9 @@ class Socket {
   void wait(Duration longest) const;
   int descriptor() const { return descriptor_; }
 
-  // Returns the frames lost since the beginning because the receive buffer was full, also after the last
-  // received one.
+  // Returns the frames lost since the beginning because the receive buffer was full, also after the last received one.
   std::uint32_t lost() const;
-  // Returns one sentence with the command that helps if the kernel granted a smaller receive buffer; otherwise
-  // empty.
+  // Returns one sentence with the command that helps if the kernel granted a smaller receive buffer; otherwise empty.
   const std::string& shortage() const { return shortage_; }
   // Returns one sentence about the last status except kDone, kNothing and kNoRoom, with the command that helps
   // if known.

@@ -85,8 +85,7 @@ std::uint32_t to_raw(const schedules::model::Signal& signal, double physical, in
   TTF_CHECK(!std::isnan(physical), "{} is not a number", signal.name);
   const double bounded = physical < signal.low ? signal.low : physical > signal.high ? signal.high : physical;
   if (bounded != physical && saturated != nullptr) ++*saturated;
-  // Rounded half up by hand: llround() is a call. Steps are non-negative and far below 2^52, so the rest is
-  // exact.
+  // Rounded half up by hand: llround() is a call. Steps are non-negative and far below 2^52, so the rest is exact.
   const double steps = (bounded - signal.low) / signal.resolution;
   const auto whole = static_cast<std::int64_t>(steps);
   const std::int64_t raw = whole + (steps - static_cast<double>(whole) >= 0.5 ? 1 : 0);

@@ -16,8 +16,7 @@ std::uint32_t to_raw(const schedules::model::Signal& signal, double physical, in
 // Converts raw to physical. A code above highest_code(), which no sender writes, becomes `high` and adds one
 // to `out_of_range`, if given.
 double to_physical(const schedules::model::Signal& signal, std::uint32_t raw, int* out_of_range = nullptr);
-// Returns the code of `high`, the largest in use. It may be smaller than the largest code of the signal's
-// bits.
+// Returns the code of `high`, the largest in use. It may be smaller than the largest code of the signal's bits.
 std::uint32_t highest_code(const schedules::model::Signal& signal);
 
 // Returns the index of the header signal of that name. The loader has found the name in the layout, so its

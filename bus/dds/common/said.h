@@ -1,9 +1,8 @@
 // One sample of an exchange, as the rest of the room sees it: its sender, its number and its subject.
 //
 // There are two topics. On `data` members send their messages and their goodbyes. On `control` members and the
-// exchange supervisor agree on joins and ends. Each sender numbers its samples on each topic from 0 without a
-// gap, so that a missing sample shows. When DDS lost and found a writer again, a repeated sample shows by its
-// number.
+// exchange supervisor agree on joins and ends. Each sender numbers its samples on each topic from 0 without a gap,
+// so that a missing sample shows. When DDS lost and found a writer again, a repeated sample shows by its number.
 #pragma once
 
 #include <cstddef>

@@ -35,8 +35,7 @@ class Channel {
   // Waits for at most `patience` until all readers have all samples sent so far; returns whether they have.
   bool acknowledged_within(std::chrono::nanoseconds patience) const;
 
-  // Returns whether the writers heard, or those that DDS counts as alive, may have changed since the last
-  // call.
+  // Returns whether the writers heard, or those that DDS counts as alive, may have changed since the last call.
   bool connections_changed();
   // Returns whether this sender was heard and DDS has lost it since: its lease ran out, or it ended.
   bool lost(NodeId sender) const;

@@ -2,9 +2,8 @@
 // have joined and left. It brings all survivors to hear the same of a member that died. It takes no part in
 // the messages, and so costs them nothing.
 //
-// Its announcements are final: an announced member is gone, even if it still lives. The process that started
-// the members announces each that has ended, in whatever way. An announcement has no effect if the member had
-// left before.
+// Its announcements are final: an announced member is gone, even if it still lives. The process that started the
+// members announces each that has ended, in whatever way. An announcement has no effect if the member had left before.
 //
 // It works in a thread of its own. All functions may be called from any thread.
 #pragma once

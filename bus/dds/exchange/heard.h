@@ -1,7 +1,6 @@
 // Counts of samples heard, by member. Samples that all members have heard need not be kept for repetition.
 //
-// On the wire (Kind::kHeard) nine octets per node: its number, and the count of its samples heard, least octet
-// first.
+// On the wire (Kind::kHeard) nine octets per node: its number, and the count of its samples heard, least octet first.
 #pragma once
 
 #include <cstddef>

@@ -19,8 +19,7 @@ namespace ttf::bus::dds::live {
 
 class ArrivalInstant {
  public:
-  // `most_hosts`: the number of senders; beyond it (after reboots) the machine silent for longest is
-  // forgotten.
+  // `most_hosts`: the number of senders; beyond it (after reboots) the machine silent for longest is forgotten.
   explicit ArrivalInstant(std::size_t most_hosts) { hosts_.reserve(most_hosts), most_hosts_ = most_hosts; }
 
   // Returns the arrival of a sample `sent` by the clock of `host` (host_identity(), not 0) and in hand at

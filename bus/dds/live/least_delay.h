@@ -18,9 +18,8 @@
 //     second. Either way the drift is 0 for fifteen seconds; an S too small to notice, some 100 us, is partly taken
 //     for drift, with an error below S;
 //   * the first frames: the delay of the least delayed so far. The first arrives when it is in hand.
-// Method: V. Paxson, "On Calibrating Measurements of Packet Transit Times", 1998 (minima of intervals); S.
-// Moon, P. Skelly, D. Towsley, "Estimation and Removal of Clock Skew from Network Delay Measurements", 1999
-// (from below).
+// Method: V. Paxson, "On Calibrating Measurements of Packet Transit Times", 1998 (minima of intervals); S. Moon, P.
+// Skelly, D. Towsley, "Estimation and Removal of Clock Skew from Network Delay Measurements", 1999 (from below).
 #pragma once
 
 #include <array>
@@ -54,8 +53,7 @@ class LeastDelay {
    public:
     explicit Minima(Duration width) : width_(width) {}
     void add(const Frame& frame);
-    // Returns the least of the intervals `from` up to before `to`, counted back from the last; null without
-    // frames.
+    // Returns the least of the intervals `from` up to before `to`, counted back from the last; null without frames.
     const Frame* among(std::size_t from, std::size_t to) const;
 
    private:

@@ -34,8 +34,7 @@ class LiveQueue {
 
   // For the emptying thread: copies the oldest item to `item`; false if the queue is empty.
   bool pop(LiveItem& item);
-  // Returns a descriptor that is readable, while watched, from the first item until pop() has found the queue
-  // empty.
+  // Returns a descriptor that is readable, while watched, from the first item until pop() has found the queue empty.
   int descriptor() const { return event_; }
   void watch(bool on);
 

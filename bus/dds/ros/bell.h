@@ -1,5 +1,4 @@
-// A bell wakes a thread that sleeps until the next call. Calling never waits; calls during the thread's work
-// are kept.
+// A bell wakes a thread that sleeps until the next call. Calling never waits; calls during the thread's work are kept.
 #pragma once
 
 #include <semaphore.h>

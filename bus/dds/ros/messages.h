@@ -29,8 +29,7 @@ class Messages {
   explicit Messages(const RosOptions& options);
 
   const ttfusion_msgs_msg_dds__RealTimeImage_& image(const WaitingImage& waiting);
-  // The same image as boxes: position, heading and their deviations; one hypothesis each, "confirmed" or
-  // "tentative".
+  // The same image as boxes: position, heading and their deviations; one hypothesis each, "confirmed" or "tentative".
   const vision_msgs_msg_dds__Detection3DArray_& boxes(const WaitingImage& waiting);
   const ttfusion_msgs_msg_dds__TrackArray_& tracks(const WaitingStep& waiting);
   // The twist is in the object's own frame: speed along x, yaw rate about z. All covariances are zero.

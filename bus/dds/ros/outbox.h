@@ -1,9 +1,8 @@
 // The outbox holds copies of records that wait to be published. The recording thread copies them into slots
 // that were allocated at construction.
 //
-// Laws: nothing here waits, locks or allocates. A record without room is dropped and counted, and its parts
-// never join another record. One thread records, one thread (the same or another) adds healths, one thread
-// takes.
+// Laws: nothing here waits, locks or allocates. A record without room is dropped and counted, and its parts never
+// join another record. One thread records, one thread (the same or another) adds healths, one thread takes.
 #pragma once
 
 #include <array>
