@@ -28,7 +28,7 @@ struct RecordedList {
   std::uint32_t copy = 0;  // how often it was heard before
   std::vector<fusion::sensors::Observation> observations;
 
-  fusion::sensors::Scan scan() const { return {id, measured, observations}; }
+  fusion::sensors::ObservationList view() const { return {id, measured, observations}; }
 };
 
 struct RecordedLists {

@@ -47,7 +47,7 @@ class Replay {
     account.observations += list.observations.size();
     account.longest_delay = std::max(account.longest_delay, list.arrival - list.measured);
     waiting_.push_back({list.id, list.measured, list.arrival});
-    strategy_->accept(list.scan());
+    strategy_->accept(list.view());
     fuse(list.arrival);
   }
 
@@ -55,43 +55,43 @@ class Replay {
     now_ = now;
     strategy_->fuse(now);
     bool taken_in = false;
-    for (const fusion::strategies::FusedScan& scan : strategy_->last_fused()) {
-      if (scan.disposition == fusion::strategies::Disposition::kHeld)
-        hold(scan);
+    for (const fusion::strategies::FusedList& list : strategy_->last_fused()) {
+      if (list.disposition == fusion::strategies::Disposition::kHeld)
+        hold(list);
       else
-        taken_in = settle(scan) || taken_in;
+        taken_in = settle(list) || taken_in;
     }
     if (taken_in) show();
   }
 
-  void hold(const fusion::strategies::FusedScan& scan) {
-    Waiting& waiting = *find(scan);
+  void hold(const fusion::strategies::FusedList& list) {
+    Waiting& waiting = *find(list);
     if (waiting.held) return;
     waiting.held = true;
-    ++account_.sensors[index_of(scan.id.sensor)].held;
+    ++account_.sensors[index_of(list.id.sensor)].held;
   }
 
   // Whether it is in the tracks now.
-  bool settle(const fusion::strategies::FusedScan& scan) {
-    SensorAccount& account = account_.sensors[index_of(scan.id.sensor)];
-    auto waiting = find(scan);
+  bool settle(const fusion::strategies::FusedList& list) {
+    SensorAccount& account = account_.sensors[index_of(list.id.sensor)];
+    auto waiting = find(list);
     // Of a list that is heard again while it waits, the later one is the duplicate.
-    if (scan.disposition == fusion::strategies::Disposition::kDuplicate) waiting = std::prev(waiting_.end());
+    if (list.disposition == fusion::strategies::Disposition::kDuplicate) waiting = std::prev(waiting_.end());
     account.longest_hold = std::max(account.longest_hold, now_ - waiting->arrival);
     waiting_.erase(waiting);
-    switch (scan.disposition) {
+    switch (list.disposition) {
       case fusion::strategies::Disposition::kFused: ++account.in_order; return true;
       case fusion::strategies::Disposition::kFusedLate: ++account.late; return true;
       case fusion::strategies::Disposition::kDroppedTooOld: ++account.too_old; return false;
       case fusion::strategies::Disposition::kDuplicate: ++account.duplicates; return false;
       case fusion::strategies::Disposition::kHeld: break;
     }
-    TTF_CHECK(false, "disposition {}", static_cast<int>(scan.disposition));
+    TTF_CHECK(false, "disposition {}", static_cast<int>(list.disposition));
   }
 
-  std::vector<Waiting>::iterator find(const fusion::strategies::FusedScan& scan) {
+  std::vector<Waiting>::iterator find(const fusion::strategies::FusedList& list) {
     const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& one) {
-      return one.id == scan.id && one.measured == scan.measured;
+      return one.id == list.id && one.measured == list.measured;
     });
     TTF_CHECK(found != waiting_.end(), "the fate of a list that does not wait");
     return found;

@@ -4,7 +4,7 @@
 
 namespace ttf::bus::ports {
 
-HostTime host_now() {
+MachineTime host_now() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   return {static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec};

@@ -35,7 +35,7 @@
 namespace ttf::bus::ports {
 
 // The time of this machine's CLOCK_MONOTONIC, which cannot be set and is the same for all its processes.
-using HostTime = Instant<struct HostScale>;
+using MachineTime = Instant<struct MachineScale>;
 
 // 0 and 1: FlexRay channels A and B; 2 + b: Cluster::can_buses[b].
 using Line = std::size_t;
@@ -65,9 +65,9 @@ struct LiveArrival {
     kCan,       // `can` on can_bus
   };
   Kind kind = Kind::kFlexRay;
-  HostTime at{};                 // when the frame had arrived
-  HostTime received{};           // when the medium got it on this machine: the kernel's lateness included
-  std::optional<HostTime> left;  // when its sender gave it to the medium, if stated; by this machine's clock
+  MachineTime at{};                 // when the frame had arrived
+  MachineTime received{};           // when the medium got it on this machine: the kernel's lateness included
+  std::optional<MachineTime> left;  // when its sender gave it to the medium, if stated; by this machine's clock
   LiveSignal signal;
   std::uint8_t cycle_counter = 0;  // of a follow-up
   std::optional<Duration> late;    // lateness of the departure against `due`: of a follow-up, or of a sync frame that
@@ -90,7 +90,7 @@ class LiveMedium {
   virtual ~LiveMedium() = default;
 
   // Sends at once; `due` is the instant at which the signal should have left, from which `late` follows.
-  virtual LiveStatus send(const LiveSignal& signal, HostTime due) = 0;
+  virtual LiveStatus send(const LiveSignal& signal, MachineTime due) = 0;
   virtual LiveStatus send_can(std::size_t can_bus, const CanFrame& frame) = 0;
 
   // Returns the next arrival, line by line in the order of L3; no value if there is none.
@@ -107,6 +107,6 @@ class LiveMedium {
 };
 
 // Returns the present time of CLOCK_MONOTONIC.
-HostTime host_now();
+MachineTime host_now();
 
 }  // namespace ttf::bus::ports

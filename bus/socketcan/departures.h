@@ -18,11 +18,11 @@ class Departures {
   static constexpr std::size_t kRoom = 16;
 
   // `last`: the frame's last CAN frame; `due`: the instant at which it should have left.
-  void expect(const canfd_frame& last, int slot, std::uint8_t cycle_counter, ports::HostTime due);
+  void expect(const canfd_frame& last, int slot, std::uint8_t cycle_counter, ports::MachineTime due);
   bool none() const { return expected_ == 0; }
   // Notes that this own CAN frame had left at `at`. Returns the frame's follow-up, once; no value if the frame
   // is not expected or left too late for a follow-up (can_be_told()).
-  std::optional<FollowUp> left(const canfd_frame& can, ports::HostTime at);
+  std::optional<FollowUp> left(const canfd_frame& can, ports::MachineTime at);
 
  private:
   struct Departure {
@@ -30,7 +30,7 @@ class Departures {
     canfd_frame last{};
     int slot = 0;
     std::uint8_t cycle_counter = 0;
-    ports::HostTime due;
+    ports::MachineTime due;
   };
   std::array<Departure, kRoom> ring_{};
   std::size_t next_ = 0, expected_ = 0;

@@ -67,7 +67,7 @@ ports::LiveStatus SocketCanMedium::send_all(OnLine& line, std::span<const canfd_
   return ports::LiveStatus::kDone;
 }
 
-ports::LiveStatus SocketCanMedium::send(const ports::LiveSignal& signal, ports::HostTime due) {
+ports::LiveStatus SocketCanMedium::send(const ports::LiveSignal& signal, ports::MachineTime due) {
   OnLine& line = on(ports::line_of(signal.channel));
   if (signal.signal != ports::Signal::kFrame) {
     const canfd_frame can = symbol_to_can(signal.channel, signal.signal, signal.duration);

@@ -45,7 +45,7 @@ class SocketCanMedium final : public ports::LiveMedium {
   // Throws InputError if the kernel or an interface is unsuitable, or if two lines share an interface.
   explicit SocketCanMedium(const LiveOptions& options);
 
-  ports::LiveStatus send(const ports::LiveSignal& signal, ports::HostTime due) override;
+  ports::LiveStatus send(const ports::LiveSignal& signal, ports::MachineTime due) override;
   ports::LiveStatus send_can(std::size_t can_bus, const ports::CanFrame& frame) override;
   std::optional<ports::LiveArrival> receive() override;
   int descriptor(ports::Line line) const override;

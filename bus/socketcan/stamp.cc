@@ -22,9 +22,9 @@ ClockPair clock_pair() {
   ClockPair best;
   Duration shortest{};
   for (int reading = 0; reading < kReadings; ++reading) {
-    const ports::HostTime before = ports::host_now();
+    const ports::MachineTime before = ports::host_now();
     const std::int64_t realtime = realtime_ns();
-    const ports::HostTime after = ports::host_now();
+    const ports::MachineTime after = ports::host_now();
     if (reading == 0 || after - before < shortest) {
       shortest = after - before;
       best.host = before + Duration::nanoseconds(shortest.ns / 2);
@@ -36,7 +36,7 @@ ClockPair clock_pair() {
   return best;
 }
 
-ports::HostTime on_host(std::int64_t stamp_ns, const ClockPair& pair) {
+ports::MachineTime on_host(std::int64_t stamp_ns, const ClockPair& pair) {
   if (stamp_ns <= 0) return pair.now;
   return std::min(pair.host + Duration::nanoseconds(stamp_ns - pair.realtime_ns), pair.now);
 }

@@ -38,8 +38,8 @@ void write_truth(const node_set::NodeSet& set, const recording::merge::MergedLog
 supervision::Hooks LiveLaunch::hooks() {
   supervision::Hooks hooks;
   hooks.on_all_ready = [this] {
-    const bus::ports::HostTime soonest = bus::ports::host_now() + kUntilStart;
-    origin_ = bus::ports::HostTime{(soonest.ns + kRound_ns - 1) / kRound_ns * kRound_ns};
+    const bus::ports::MachineTime soonest = bus::ports::host_now() + kUntilStart;
+    origin_ = bus::ports::MachineTime{(soonest.ns + kRound_ns - 1) / kRound_ns * kRound_ns};
     return nlohmann::json{{"origin_ns", origin_->ns}, {"rejoin", false}};
   };
   hooks.on_late_ready = [this](std::size_t) {

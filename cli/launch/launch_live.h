@@ -31,7 +31,7 @@ class LiveLaunch {
  private:
   const node_set::NodeSet& set_;
   std::map<std::string, std::set<std::size_t>> not_granted_;  // by sentence, whom
-  std::optional<bus::ports::HostTime> origin_;
+  std::optional<bus::ports::MachineTime> origin_;
   drives::DriveOutcome outcome_;
 };
 

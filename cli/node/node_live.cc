@@ -60,14 +60,14 @@ nlohmann::ordered_json health_json(const Health& health) {
   return json;
 }
 
-bus::ports::HostTime from_utc(std::int64_t utc_ns) {
+bus::ports::MachineTime from_utc(std::int64_t utc_ns) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return bus::ports::host_now() + Duration{utc_ns - std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()};
 }
 
 // When the drive's time 0 is, and whether the others are under way already.
 struct Start {
-  bus::ports::HostTime origin;
+  bus::ports::MachineTime origin;
   bool rejoins = false;
 };
 
@@ -81,7 +81,7 @@ void check_told_start(const node_set::NodeSet& set) {
 }
 
 Start told_start(const node_set::NodeSet& set) {
-  const bus::ports::HostTime origin = from_utc(*set.start_at_ns);
+  const bus::ports::MachineTime origin = from_utc(*set.start_at_ns);
   if (!set.rejoin && origin < bus::ports::host_now())
     throw InputError({"command line", 0, "--start-at", scaled_text(*set.start_at_ns, 1'000'000'000),
                       "must be ahead: who comes into a drive that is under way is given --rejoin, too"});
@@ -178,7 +178,7 @@ int run_node_live(const NodeOptions& options) {
   }
   recording::records::Tee tee(std::move(sinks));
   // To a supervisor, and to whoever listens on ROS 2's topics.
-  nodes::runner::HealthTeller teller([&](const Health& health, bus::ports::HostTime at) {
+  nodes::runner::HealthTeller teller([&](const Health& health, bus::ports::MachineTime at) {
     if (supervisor) supervisor->health(health_json(health));
     if (topics) topics->health(health, config.clock.drive_time(at));
   });
@@ -189,8 +189,8 @@ int run_node_live(const NodeOptions& options) {
   else
     print_warnings(not_granted);
 
-  nodes::runner::KernelClock host_clock(config.clock);
-  nodes::runner::Runner node(config, std::move(steps), *medium, host_clock, tee);
+  nodes::runner::KernelClock machine_clock(config.clock);
+  nodes::runner::Runner node(config, std::move(steps), *medium, machine_clock, tee);
   node.on_health([&teller](const Health& health) { teller.hand_over(health); });
   const nodes::runner::RunnerEnd end = node.run();
   teller.close();

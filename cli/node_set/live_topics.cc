@@ -23,7 +23,7 @@ Duration period_of(const NodeSet& set, const schedules::model::Sensor& sensor, c
   return clock.in_real(sensor.scheduled ? set.cluster.cycle() * sensor.at.repetition : sensor.longest_period());
 }
 
-std::int64_t utc_ns(bus::ports::HostTime at) {
+std::int64_t utc_ns(bus::ports::MachineTime at) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() + (at - bus::ports::host_now()).ns;
 }

@@ -45,7 +45,7 @@ void load_association(YamlMap& yaml, TrackerConfig& c) {
     yaml.fail("delete_existence", "must be below initial_existence: a track would end as it begins");
   if (c.delete_existence >= c.confirm_existence) yaml.fail("delete_existence", "must be below confirm_existence");
   c.merge_probability = yaml.number_or("merge_probability", c.merge_probability, {0.0, 0.999999});
-  c.merge_scans = static_cast<int>(yaml.integer_or("merge_scans", c.merge_scans, {1, 255}, "scans"));
+  c.merge_scans = static_cast<int>(yaml.integer_or("merge_scans", c.merge_scans, {1, 255}, "lists"));
 }
 
 // Runs last: the allowed methods depend on the other keys.
@@ -87,10 +87,10 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   c.initial_turn_rate_sigma =
       yaml.number_or("initial_turn_rate_sigma", c.initial_turn_rate_sigma, {0.001, 10.0}, "rad/s");
   c.gate_probability = yaml.number_or("gate_probability", c.gate_probability, {0.5, 0.999999});
-  c.confirm_window = static_cast<int>(yaml.integer_or("confirm_window", c.confirm_window, {1, 32}, "scans"));
-  c.confirm_hits = static_cast<int>(yaml.integer_or("confirm_hits", c.confirm_hits, {1, c.confirm_window}, "scans"));
-  c.coast_misses = static_cast<int>(yaml.integer_or("coast_misses", c.coast_misses, {1, 1000}, "scans"));
-  c.delete_misses = static_cast<int>(yaml.integer_or("delete_misses", c.delete_misses, {1, 1000}, "scans"));
+  c.confirm_window = static_cast<int>(yaml.integer_or("confirm_window", c.confirm_window, {1, 32}, "lists"));
+  c.confirm_hits = static_cast<int>(yaml.integer_or("confirm_hits", c.confirm_hits, {1, c.confirm_window}, "lists"));
+  c.coast_misses = static_cast<int>(yaml.integer_or("coast_misses", c.coast_misses, {1, 1000}, "lists"));
+  c.delete_misses = static_cast<int>(yaml.integer_or("delete_misses", c.delete_misses, {1, 1000}, "lists"));
   c.delete_position_sigma = yaml.number_or("delete_position_sigma", c.delete_position_sigma, {0.1, 100.0}, "m");
   constexpr Range<Duration> kSilence{Duration::milliseconds(1), Duration::milliseconds(100'000)};
   c.coast_after = yaml.duration_or("coast_after", c.coast_after, kSilence);
@@ -105,7 +105,7 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   c.max_observations = static_cast<std::size_t>(
       yaml.integer_or("max_observations", static_cast<std::int64_t>(c.max_observations), {1, 4096}));
   c.history_scans = static_cast<std::size_t>(
-      yaml.integer_or("history_scans", static_cast<std::int64_t>(c.history_scans), {2, 4096}, "scans"));
+      yaml.integer_or("history_scans", static_cast<std::int64_t>(c.history_scans), {2, 4096}, "lists"));
   // The storage is reserved beforehand: lists times the tracks that each may have, confirmed and tentative.
   constexpr std::size_t kMostRemembered = 1'000'000;
   const std::size_t tracks = static_cast<std::size_t>(c.max_objects) + 3 * c.max_observations;

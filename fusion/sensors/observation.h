@@ -51,7 +51,7 @@ struct Observation {
 };
 
 // One list of a sensor: all its observations were measured at `measured`.
-struct Scan {
+struct ObservationList {
   MeasurementId id;
   GlobalTime measured{};
   std::span<const Observation> observations;

@@ -47,12 +47,12 @@ class HistoryStrategy : public Strategy {
       TTF_CHECK(!s.scheduled || s.period.ns > 0, "sensor {}: period of {} ns", index_of(s.sensor), s.period.ns);
   }
 
-  void accept(const sensors::Scan& scan) final {
+  void accept(const sensors::ObservationList& list) final {
     const bool waiting = std::any_of(waiting_.begin(), waiting_.end(), [&](std::size_t w) {
-      return pending_[w].id == scan.id && pending_[w].measured == scan.measured;
+      return pending_[w].id == list.id && pending_[w].measured == list.measured;
     });
-    if (waiting || history_->contains(scan.id, scan.measured)) {
-      note_between({scan.id, scan.measured, Disposition::kDuplicate});
+    if (waiting || history_->contains(list.id, list.measured)) {
+      note_between({list.id, list.measured, Disposition::kDuplicate});
       return;
     }
     if (free_.empty()) {
@@ -64,10 +64,10 @@ class HistoryStrategy : public Strategy {
     }
     const std::size_t slot = free_.back();
     free_.pop_back();
-    pending_[slot].assign(scan);
+    pending_[slot].assign(list);
     seen_[slot] = 0;
     const auto place = std::find_if(waiting_.begin(), waiting_.end(), [&](std::size_t w) {
-      return tracks::before(scan.id, scan.measured, pending_[w].id, pending_[w].measured);
+      return tracks::before(list.id, list.measured, pending_[w].id, pending_[w].measured);
     });
     waiting_.insert(place, slot);
   }
@@ -83,16 +83,16 @@ class HistoryStrategy : public Strategy {
     bool blocked = false;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const std::size_t slot = waiting_[i];
-      const tracks::StoredScan& scan = pending_[slot];
+      const tracks::StoredList& list = pending_[slot];
       // Goes in chronological order: a waiting list holds back all younger ones. A stamp from the future is
       // wrong; its fusion would make all later lists late.
-      blocked = blocked || fuses_from(scan) > now;
+      blocked = blocked || fuses_from(list) > now;
       if (blocked) {
-        report_.push_back({scan.id, scan.measured, Disposition::kHeld});
+        report_.push_back({list.id, list.measured, Disposition::kHeld});
         waiting_[kept++] = slot;
         continue;
       }
-      report_.push_back(take(scan));
+      report_.push_back(take(list));
       free_.push_back(slot);
     }
     waiting_.resize(kept);
@@ -103,7 +103,7 @@ class HistoryStrategy : public Strategy {
     if (waiting_.empty()) return std::nullopt;
     return fuses_from(pending_[waiting_.front()]);
   }
-  std::span<const FusedScan> last_fused() const final { return report_; }
+  std::span<const FusedList> last_fused() const final { return report_; }
   std::uint64_t unlisted() const final { return unlisted_; }
   std::span<const tracks::TrackView> tracks() const final { return views_; }
   std::span<const MeasurementId> newest() const final { return newest_; }
@@ -122,7 +122,7 @@ class HistoryStrategy : public Strategy {
  protected:
   // Returns the instant from which a list may be fused if no other list arrives; an instant in the past means
   // now.
-  virtual GlobalTime may_fuse_from(const tracks::StoredScan& scan) const = 0;
+  virtual GlobalTime may_fuse_from(const tracks::StoredList& list) const = 0;
 
   const config::TrackerConfig& config() const { return config_; }
   // Returns the longest delay of sensor s's lists, as measured at fusion instants.
@@ -137,42 +137,42 @@ class HistoryStrategy : public Strategy {
 
  private:
   // Bounds the report: any number of lists may arrive between two fusion instants.
-  void note_between(const FusedScan& what) {
+  void note_between(const FusedList& what) {
     if (between_.size() < kMaxListedArrivals)
       between_.push_back(what);
     else
       ++unlisted_;
   }
 
-  GlobalTime fuses_from(const tracks::StoredScan& scan) const { return std::max(scan.measured, may_fuse_from(scan)); }
+  GlobalTime fuses_from(const tracks::StoredList& list) const { return std::max(list.measured, may_fuse_from(list)); }
 
-  void receive(const tracks::StoredScan& scan) {
+  void receive(const tracks::StoredList& list) {
     for (std::size_t s = 0; s < sensors_.size(); ++s) {
-      if (sensors_[s].sensor != scan.id.sensor) continue;
-      newest_received_[s] = any_received_[s] ? std::max(newest_received_[s], scan.measured) : scan.measured;
+      if (sensors_[s].sensor != list.id.sensor) continue;
+      newest_received_[s] = any_received_[s] ? std::max(newest_received_[s], list.measured) : list.measured;
       any_received_[s] = 1;
-      longest_delay_[s] = std::max(longest_delay_[s].value_or(Duration{}), now_ - scan.measured);
+      longest_delay_[s] = std::max(longest_delay_[s].value_or(Duration{}), now_ - list.measured);
     }
   }
 
-  FusedScan take(const tracks::StoredScan& scan) {
+  FusedList take(const tracks::StoredList& list) {
     Disposition disposition = Disposition::kFused;
-    switch (history_->insert(scan.view())) {
+    switch (history_->insert(list.view())) {
       case tracks::TrackHistory::Insertion::kInOrder: break;
       case tracks::TrackHistory::Insertion::kLate: disposition = Disposition::kFusedLate; break;
       case tracks::TrackHistory::Insertion::kTooOld: disposition = Disposition::kDroppedTooOld; break;
     }
-    const FusedScan result{scan.id, scan.measured, disposition};
+    const FusedList result{list.id, list.measured, disposition};
     if (disposition == Disposition::kDroppedTooOld) return result;
     const auto known = std::find_if(newest_.begin(), newest_.end(),
-                                    [&](const MeasurementId& id) { return id.sensor == scan.id.sensor; });
+                                    [&](const MeasurementId& id) { return id.sensor == list.id.sensor; });
     if (known == newest_.end()) {
-      newest_.push_back(scan.id);
-      newest_stamps_.push_back(scan.measured);
+      newest_.push_back(list.id);
+      newest_stamps_.push_back(list.measured);
     } else if (GlobalTime& stamp = newest_stamps_[static_cast<std::size_t>(known - newest_.begin())];
-               scan.measured > stamp) {
-      *known = scan.id;
-      stamp = scan.measured;
+               list.measured > stamp) {
+      *known = list.id;
+      stamp = list.measured;
     }
     return result;
   }
@@ -194,10 +194,10 @@ class HistoryStrategy : public Strategy {
   std::vector<SensorTiming> sensors_;
   std::unique_ptr<tracks::TrackHistory> history_;
   const estimators::Estimator* estimator_;   // the history's
-  std::vector<tracks::StoredScan> pending_;  // storage
+  std::vector<tracks::StoredList> pending_;  // storage
   std::vector<std::size_t> free_, waiting_;  // waiting: chronological
   std::vector<char> seen_;                   // by slot: a fusion instant has seen the list
-  std::vector<FusedScan> report_, between_;  // between_: since the last fusion instant
+  std::vector<FusedList> report_, between_;  // between_: since the last fusion instant
   std::uint64_t unlisted_ = 0;
   std::vector<tracks::TrackView> views_;
   int tentative_ = 0;
@@ -213,12 +213,12 @@ class Buff final : public HistoryStrategy {
   using HistoryStrategy::HistoryStrategy;
 
  private:
-  GlobalTime may_fuse_from(const tracks::StoredScan& scan) const override {
-    if (config().buff_waits == config::BuffWaiting::kFixedLag) return scan.measured + config().fixed_lag;
+  GlobalTime may_fuse_from(const tracks::StoredList& list) const override {
+    if (config().buff_waits == config::BuffWaiting::kFixedLag) return list.measured + config().fixed_lag;
     GlobalTime from = kLongAgo;
     for (std::size_t s = 0; s < sensor_count(); ++s)
-      if (sensor(s).sensor != scan.id.sensor && !arrived_since(s, scan.measured))
-        from = std::max(from, settled_from(s, scan.measured));
+      if (sensor(s).sensor != list.id.sensor && !arrived_since(s, list.measured))
+        from = std::max(from, settled_from(s, list.measured));
     return from;
   }
 
@@ -234,19 +234,19 @@ class Adva final : public HistoryStrategy {
   using HistoryStrategy::HistoryStrategy;
 
  private:
-  GlobalTime may_fuse_from(const tracks::StoredScan&) const override { return kLongAgo; }
+  GlobalTime may_fuse_from(const tracks::StoredList&) const override { return kLongAgo; }
 };
 
 class TimeTriggered final : public HistoryStrategy {
   using HistoryStrategy::HistoryStrategy;
 
  private:
-  GlobalTime may_fuse_from(const tracks::StoredScan& scan) const override {
-    const GlobalTime mine = scheduled_instant(scan);
+  GlobalTime may_fuse_from(const tracks::StoredList& list) const override {
+    const GlobalTime mine = scheduled_instant(list);
     GlobalTime from = kLongAgo;
     for (std::size_t s = 0; s < sensor_count(); ++s) {
       const SensorTiming& other = sensor(s);
-      if (other.sensor == scan.id.sensor || !other.scheduled || mine < other.first) continue;
+      if (other.sensor == list.id.sensor || !other.scheduled || mine < other.first) continue;
       // The other sensor's newest instant that is not after this measurement's.
       const ScheduledInstants instants = instants_of(other);
       const GlobalTime instant = instants.newest_at(mine);
@@ -260,11 +260,11 @@ class TimeTriggered final : public HistoryStrategy {
 
   // Returns the list's instant on the schedule, or its own stamp if none matches. Two sensors that measure at
   // the same instant so wait for each other, whichever stamp is smaller.
-  GlobalTime scheduled_instant(const tracks::StoredScan& scan) const {
+  GlobalTime scheduled_instant(const tracks::StoredList& list) const {
     for (std::size_t s = 0; s < sensor_count(); ++s)
-      if (sensor(s).sensor == scan.id.sensor && sensor(s).scheduled)
-        if (const std::optional<GlobalTime> instant = instants_of(sensor(s)).of(scan.measured)) return *instant;
-    return scan.measured;
+      if (sensor(s).sensor == list.id.sensor && sensor(s).scheduled)
+        if (const std::optional<GlobalTime> instant = instants_of(sensor(s)).of(list.measured)) return *instant;
+    return list.measured;
   }
 };
 

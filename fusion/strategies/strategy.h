@@ -86,7 +86,7 @@ struct SensorTiming {
 };
 
 enum class Disposition : std::uint8_t { kFused = 1, kFusedLate = 2, kHeld = 3, kDroppedTooOld = 4, kDuplicate = 5 };
-struct FusedScan {
+struct FusedList {
   MeasurementId id;
   GlobalTime measured{};
   Disposition disposition = Disposition::kFused;
@@ -103,14 +103,14 @@ class Strategy {
  public:
   virtual ~Strategy() = default;
   // Takes a list from the controller, as a copy; fuses nothing yet.
-  virtual void accept(const sensors::Scan& scan) = 0;
+  virtual void accept(const sensors::ObservationList& list) = 0;
   // Fuses all lists that may be fused at the fusion instant `now`.
   virtual void fuse(GlobalTime now) = 0;
   // Returns the first instant after the last fusion instant from which a held list may be fused though no other
   // list arrives. Without a held list there is no value.
   virtual std::optional<GlobalTime> next_release() const = 0;
   // Returns the dispositions since the fusion instant before the last one, held lists included.
-  virtual std::span<const FusedScan> last_fused() const = 0;
+  virtual std::span<const FusedList> last_fused() const = 0;
   // Returns the number of dispositions since construction that last_fused() had no room for
   // (kMaxListedArrivals).
   virtual std::uint64_t unlisted() const = 0;

@@ -20,32 +20,32 @@ const TrackSet& Timeline::current() const { return order_.empty() ? base_ : entr
 bool Timeline::contains(const MeasurementId& id, GlobalTime measured) const {
   return std::any_of(
              order_.begin(), order_.end(),
-             [&](std::size_t e) { return entries_[e].scan.id == id && entries_[e].scan.measured == measured; }) ||
-         (base_is_scan_ && base_id_ == id && base_time_ == measured);
+             [&](std::size_t e) { return entries_[e].list.id == id && entries_[e].list.measured == measured; }) ||
+         (base_is_list_ && base_id_ == id && base_time_ == measured);
 }
 
-Timeline::Insertion Timeline::insert(const sensors::Scan& scan) {
-  if (base_is_scan_ && before(scan.id, scan.measured, base_id_, base_time_)) return Insertion::kTooOld;
+Timeline::Insertion Timeline::insert(const sensors::ObservationList& list) {
+  if (base_is_list_ && before(list.id, list.measured, base_id_, base_time_)) return Insertion::kTooOld;
   // Searches from the end: late lists are rarely very late.
   std::size_t position = order_.size();
   while (position > 0) {
-    const StoredScan& previous = entries_[order_[position - 1]].scan;
-    if (!before(scan.id, scan.measured, previous.id, previous.measured)) break;
+    const StoredList& previous = entries_[order_[position - 1]].list;
+    if (!before(list.id, list.measured, previous.id, previous.measured)) break;
     --position;
   }
   const bool late = position < order_.size();
   const std::size_t slot = free_.back();
   free_.pop_back();
-  entries_[slot].scan.assign(scan);
+  entries_[slot].list.assign(list);
   order_.insert(order_.begin() + static_cast<std::ptrdiff_t>(position), slot);
   for (std::size_t i = position; i < order_.size(); ++i) process(i);
-  identities_.name(entries_[order_.back()].after, entries_[order_.front()].scan.measured);
+  identities_.name(entries_[order_.back()].after, entries_[order_.front()].list.measured);
   if (free_.empty()) {
     const Entry& oldest = entries_[order_.front()];
     base_.assign(oldest.after);
-    base_id_ = oldest.scan.id;
-    base_time_ = oldest.scan.measured;
-    base_is_scan_ = true;
+    base_id_ = oldest.list.id;
+    base_time_ = oldest.list.measured;
+    base_is_list_ = true;
     free_.push_back(order_.front());
     order_.erase(order_.begin());
   }
@@ -55,7 +55,7 @@ Timeline::Insertion Timeline::insert(const sensors::Scan& scan) {
 void Timeline::process(std::size_t position) {
   Entry& entry = entries_[order_[position]];
   entry.after.assign(position == 0 ? base_ : entries_[order_[position - 1]].after);
-  tracker_.step(entry.after, entry.scan.view());
+  tracker_.step(entry.after, entry.list.view());
 }
 
 }  // namespace ttf::fusion::tracks

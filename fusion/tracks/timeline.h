@@ -19,34 +19,34 @@
 namespace ttf::fusion::tracks {
 
 // A list with its own copy of the observations.
-struct StoredScan {
+struct StoredList {
   MeasurementId id;
   GlobalTime measured{};
   std::vector<sensors::Observation> observations;
 
-  explicit StoredScan(std::size_t most_observations) { observations.reserve(most_observations); }
-  void assign(const sensors::Scan& scan) {
-    id = scan.id;
-    measured = scan.measured;
-    observations.assign(scan.observations.begin(), scan.observations.end());
+  explicit StoredList(std::size_t most_observations) { observations.reserve(most_observations); }
+  void assign(const sensors::ObservationList& list) {
+    id = list.id;
+    measured = list.measured;
+    observations.assign(list.observations.begin(), list.observations.end());
   }
-  sensors::Scan view() const { return {id, measured, observations}; }
+  sensors::ObservationList view() const { return {id, measured, observations}; }
 };
 
 class Timeline final : public TrackHistory {
  public:
   Timeline(const config::TrackerConfig& config, std::size_t max_observations);
 
-  Insertion insert(const sensors::Scan& scan) override;
+  Insertion insert(const sensors::ObservationList& list) override;
   const TrackSet& current() const override;
   const estimators::Estimator& estimator() const override { return tracker_.estimator(); }
   bool contains(const MeasurementId& id, GlobalTime measured) const override;
 
  private:
   struct Entry {
-    StoredScan scan;
+    StoredList list;
     TrackSet after;
-    Entry(std::size_t most_observations, std::size_t most_tracks) : scan(most_observations), after(most_tracks) {}
+    Entry(std::size_t most_observations, std::size_t most_tracks) : list(most_observations), after(most_tracks) {}
   };
   void process(std::size_t position);
 
@@ -58,7 +58,7 @@ class Timeline final : public TrackHistory {
   TrackSet base_;
   MeasurementId base_id_{};
   GlobalTime base_time_{};
-  bool base_is_scan_ = false;  // the base holds a dropped list
+  bool base_is_list_ = false;  // the base holds a dropped list
 };
 
 }  // namespace ttf::fusion::tracks

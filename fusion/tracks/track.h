@@ -37,11 +37,11 @@ struct Track {
   Extent extent;
   Unfiltered unfiltered;
   std::uint32_t hits = 0;  // bit i: the list i lists ago had an observation of the track
-  int scans = 0;           // since birth, the first included
+  int lists = 0;           // since birth, the first included
   int misses = 0;          // lists in a row without an observation
   bool confirmed = false;
-  std::uint8_t twin_scans = 0;  // lists in a row that suggested a twin (fusion/tracks/twins.h)
-  ObservationId twin;           // the twin's birth, if twin_scans > 0
+  std::uint8_t twin_lists = 0;  // lists in a row that suggested a twin (fusion/tracks/twins.h)
+  ObservationId twin;           // the twin's birth, if twin_lists > 0
   double existence = 1.0;       // probability that the object exists (fusion/tracks/existence.h); 1 for births m_of_n
 };
 

@@ -24,7 +24,7 @@ class TrackHistory {
   virtual ~TrackHistory() = default;
 
   enum class Insertion : std::uint8_t { kInOrder, kLate, kTooOld };
-  virtual Insertion insert(const sensors::Scan& scan) = 0;
+  virtual Insertion insert(const sensors::ObservationList& list) = 0;
   // Returns the newest tracks; confirmed ones have their ids.
   virtual const TrackSet& current() const = 0;
   virtual const estimators::Estimator& estimator() const = 0;  // of the tracks' estimates

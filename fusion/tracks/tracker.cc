@@ -56,27 +56,27 @@ Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observatio
     gate_[dimension] = metrics::chi_square_quantile(config.gate_probability, dimension);
 }
 
-void Tracker::step(TrackSet& set, const sensors::Scan& scan) {
-  TTF_CHECK(scan.observations.size() <= max_observations_, "{} observations", scan.observations.size());
+void Tracker::step(TrackSet& set, const sensors::ObservationList& list) {
+  TTF_CHECK(list.observations.size() <= max_observations_, "{} observations", list.observations.size());
   if (!set.started) {
     set.started = true;
-    set.time = scan.measured;
+    set.time = list.measured;
   }
-  predict_all(set, scan.measured);
+  predict_all(set, list.measured);
   std::erase_if(set.tracks,
                 [&](const Track& track) { return given_up(track, set.time, set.time, config_, *estimator_); });
-  associate(set, scan);
+  associate(set, list);
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     Track& track = set.tracks[t];
     const int observation = observation_of_[t];
-    ++track.scans;
+    ++track.lists;
     track.hits = (track.hits << 1) | (observation >= 0 ? 1u : 0u);
     track.misses = observation >= 0 ? 0 : track.misses + 1;
     const sensors::Observation* z =
-        observation >= 0 ? &scan.observations[static_cast<std::size_t>(observation)] : nullptr;
-    if (z) track.newest = {scan.id, static_cast<std::uint16_t>(observation), scan.measured};
+        observation >= 0 ? &list.observations[static_cast<std::size_t>(observation)] : nullptr;
+    if (z) track.newest = {list.id, static_cast<std::uint16_t>(observation), list.measured};
     if (config_.association == config::Association::kJpda) {
-      take_in_all(track, t, scan);
+      take_in_all(track, t, list);
       if (z) correct_beside(track, *z);
       continue;
     }
@@ -86,14 +86,14 @@ void Tracker::step(TrackSet& set, const sensors::Scan& scan) {
       correct_beside(track, *z);
     }
   }
-  give_birth(set, scan);
+  give_birth(set, list);
   prune(set);
   if (config_.merge_probability > 0.0) twins_.unite(set.tracks, *estimator_);
 }
 
-std::span<const int> Tracker::assigned(const TrackSet& set, const sensors::Scan& scan) {
-  TTF_CHECK(scan.observations.size() <= max_observations_, "{} observations", scan.observations.size());
-  associate(set, scan);
+std::span<const int> Tracker::assigned(const TrackSet& set, const sensors::ObservationList& list) {
+  TTF_CHECK(list.observations.size() <= max_observations_, "{} observations", list.observations.size());
+  associate(set, list);
   return std::span(observation_of_).first(set.tracks.size());
 }
 
@@ -121,13 +121,13 @@ void Tracker::sort_by_x(const TrackSet& set, SensorId seen_by) {
 }
 
 // Goes through the tracks along x; the order of candidates does not change the assignment.
-void Tracker::associate(const TrackSet& set, const sensors::Scan& scan) {
+void Tracker::associate(const TrackSet& set, const sensors::ObservationList& list) {
   candidates_.clear();
   pairs_.clear();
   std::fill(near_track_.begin(), near_track_.end(), 0);
-  sort_by_x(set, scan.observations.empty() ? kNoSensor : scan.observations.front().sensor);
-  for (std::size_t o = 0; o < scan.observations.size(); ++o) {
-    const sensors::Observation& z = scan.observations[o];
+  sort_by_x(set, list.observations.empty() ? kNoSensor : list.observations.front().sensor);
+  for (std::size_t o = 0; o < list.observations.size(); ++o) {
+    const sensors::Observation& z = list.observations[o];
     const double gate = gate_[dimension_of(z.kind)];
     const bool position = z.kind == sensors::ObservationKind::kPosition;
     auto at = by_x_.begin();
@@ -158,9 +158,9 @@ void Tracker::associate(const TrackSet& set, const sensors::Scan& scan) {
       candidates_.push_back({static_cast<int>(o), static_cast<int>(t), gain});
     }
   }
-  assignment_.solve(candidates_, scan.observations.size(), set.tracks.size());
+  assignment_.solve(candidates_, list.observations.size(), set.tracks.size());
   if (config_.association == config::Association::kJpda)
-    joint_.solve(pairs_, scan.observations.size(), set.tracks.size());
+    joint_.solve(pairs_, list.observations.size(), set.tracks.size());
   std::fill(observation_of_.begin(), observation_of_.end(), -1);
   const auto columns = assignment_.column_of();
   for (std::size_t o = 0; o < columns.size(); ++o)
@@ -185,7 +185,7 @@ void Tracker::judge_existence(Track& track, const sensors::Observation* z) const
 }
 
 // Updates by all observations in the track's gate, with their probabilities given that its object exists.
-void Tracker::take_in_all(Track& track, std::size_t column, const sensors::Scan& scan) {
+void Tracker::take_in_all(Track& track, std::size_t column, const sensors::ObservationList& list) {
   const double unseen = joint_.none_of_column(column) * exists_unseen(track.existence, config_);
   double exists = unseen;
   for (const association::JointAssociation::Shared& shared : joint_.of_column(column)) exists += shared.probability;
@@ -193,7 +193,7 @@ void Tracker::take_in_all(Track& track, std::size_t column, const sensors::Scan&
   explanations_.clear();
   explanations_.push_back({nullptr, unseen / exists});
   for (const association::JointAssociation::Shared& shared : joint_.of_column(column))
-    explanations_.push_back({&scan.observations[static_cast<std::size_t>(shared.row)], shared.probability / exists});
+    explanations_.push_back({&list.observations[static_cast<std::size_t>(shared.row)], shared.probability / exists});
   if (explanations_.size() > 1) estimator_->update(track.estimate, explanations_);
   if (config_.birth == config::Birth::kExistence) track.existence = std::min(1.0, exists);
 }
@@ -232,19 +232,19 @@ void Tracker::correct_extent(Track& track, const sensors::Observation& z) const 
 
 // An unassigned observation becomes a tentative track, unless it lies in the gate of a confirmed one: there it
 // is a second echo of a known object.
-void Tracker::give_birth(TrackSet& set, const sensors::Scan& scan) {
+void Tracker::give_birth(TrackSet& set, const sensors::ObservationList& list) {
   const auto columns = assignment_.column_of();
-  for (std::size_t o = 0; o < scan.observations.size(); ++o) {
+  for (std::size_t o = 0; o < list.observations.size(); ++o) {
     if (columns[o] >= 0 || near_track_[o] || set.tracks.size() == max_tracks_) continue;
-    const sensors::Observation& z = scan.observations[o];
+    const sensors::Observation& z = list.observations[o];
     Track track;
-    track.birth = track.newest = {scan.id, static_cast<std::uint16_t>(o), scan.measured};
+    track.birth = track.newest = {list.id, static_cast<std::uint16_t>(o), list.measured};
     track.estimate = estimator_->initial(z);
     if (z.has_heading) track.heading = {z.heading, z.sigma_heading * z.sigma_heading, true};
     correct_extent(track, z);
     carry(track.unfiltered, z);
     track.hits = 1;
-    track.scans = 1;
+    track.lists = 1;
     if (config_.birth == config::Birth::kExistence) track.existence = config_.initial_existence;
     set.tracks.push_back(track);
   }
@@ -268,7 +268,7 @@ void Tracker::prune(TrackSet& set) const {
     if (track.confirmed) return track.misses >= config_.delete_misses;
     // A tentative track ends when M hits are out of reach within its window.
     const int hits = std::popcount(track.hits & window);
-    const int left = config_.confirm_window - std::min(track.scans, config_.confirm_window);
+    const int left = config_.confirm_window - std::min(track.lists, config_.confirm_window);
     return hits + left < config_.confirm_hits;
   });
 }

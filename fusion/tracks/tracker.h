@@ -47,11 +47,11 @@ class Tracker {
  public:
   Tracker(const config::TrackerConfig& config, std::size_t max_observations);
 
-  // Takes the list in; scan.measured must not be before set.time.
-  void step(TrackSet& set, const sensors::Scan& scan);
+  // Takes the list in; list.measured must not be before set.time.
+  void step(TrackSet& set, const sensors::ObservationList& list);
   // The following parts of a step serve methods for late lists (fusion/strategies/late/). assigned() gates and
   // assigns, and changes no track. It returns the observation of each track, or -1, valid until the next call.
-  std::span<const int> assigned(const TrackSet& set, const sensors::Scan& scan);
+  std::span<const int> assigned(const TrackSet& set, const sensors::ObservationList& list);
   // Corrects heading and extent of an object at its estimate.
   void correct_outline(Track& track, const sensors::Observation& observation) const;
   // Confirms and ends tracks by their counts.
@@ -67,17 +67,17 @@ class Tracker {
  private:
   void predict_all(TrackSet& set, GlobalTime to) const;
   void sort_by_x(const TrackSet& set, SensorId seen_by);
-  void associate(const TrackSet& set, const sensors::Scan& scan);
+  void associate(const TrackSet& set, const sensors::ObservationList& list);
   void offer(const Track& track, const sensors::Observation& observation, int row, int column);
   void judge_existence(Track& track, const sensors::Observation* observation) const;
-  void take_in_all(Track& track, std::size_t column, const sensors::Scan& scan);
+  void take_in_all(Track& track, std::size_t column, const sensors::ObservationList& list);
   // Corrects everything except the motion.
   void correct_beside(Track& track, const sensors::Observation& observation) const {
     correct_outline(track, observation);
     carry(track.unfiltered, observation);
   }
   void correct_extent(Track& track, const sensors::Observation& observation) const;
-  void give_birth(TrackSet& set, const sensors::Scan& scan);
+  void give_birth(TrackSet& set, const sensors::ObservationList& list);
 
   config::TrackerConfig config_;
   std::shared_ptr<const estimators::Estimator> estimator_;  // stateless: copies of the tracker share it

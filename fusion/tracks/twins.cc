@@ -61,7 +61,7 @@ void join(Track& elder, const Track& younger, const estimators::Estimator& estim
 
 }  // namespace
 
-Twins::Twins(const config::TrackerConfig& config, std::size_t max_tracks) : scans_(config.merge_scans) {
+Twins::Twins(const config::TrackerConfig& config, std::size_t max_tracks) : lists_(config.merge_scans) {
   if (config.merge_probability <= 0.0) return;
   for (int degrees = 4; degrees <= 6; ++degrees)
     quantile_[degrees] = metrics::chi_square_quantile(config.merge_probability, degrees);
@@ -105,20 +105,20 @@ void Twins::unite(std::vector<Track>& tracks, const estimators::Estimator& estim
   for (std::size_t t = tracks.size(); t-- > 0;) {
     Track& younger = tracks[t];
     if (nearest_[t].elder < 0) {
-      younger.twin_scans = 0;
+      younger.twin_lists = 0;
       continue;
     }
     Track& elder = tracks[static_cast<std::size_t>(nearest_[t].elder)];
-    if (younger.twin_scans == 0 || !(younger.twin == elder.birth)) {
+    if (younger.twin_lists == 0 || !(younger.twin == elder.birth)) {
       younger.twin = elder.birth;
-      younger.twin_scans = 0;
+      younger.twin_lists = 0;
     }
     const bool elder_seen = elder.hits & 1u, younger_seen = younger.hits & 1u;
     if (elder_seen && younger_seen)
-      younger.twin_scans = 0;
+      younger.twin_lists = 0;
     else if (elder_seen || younger_seen)
-      ++younger.twin_scans;
-    if (younger.twin_scans < scans_) continue;
+      ++younger.twin_lists;
+    if (younger.twin_lists < lists_) continue;
     join(elder, younger, estimator);
     tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(t));
   }

@@ -48,7 +48,7 @@ class Twins {
   };
   void find_nearest(const std::vector<Track>& tracks, const estimators::Estimator& estimator);
 
-  int scans_;
+  int lists_;
   double quantile_[7] = {};  // by degrees of freedom
   std::vector<Seen> by_x_;
   std::vector<Nearest> nearest_;

@@ -175,9 +175,9 @@ void FusionStep::record(const host::StepContext& context, const host::Input& inp
 
 void FusionStep::record_result(const host::StepContext& context) const {
   const ttf::fusion::strategies::Strategy& strategy = *host_->strategy;
-  for (const ttf::fusion::strategies::FusedScan& scan : strategy.last_fused())
-    context.sink->on(recording::records::ListFused{context.stamp, host_->step, scan.id, scan.measured,
-                                                   static_cast<recording::records::Disposition>(scan.disposition)});
+  for (const ttf::fusion::strategies::FusedList& list : strategy.last_fused())
+    context.sink->on(recording::records::ListFused{context.stamp, host_->step, list.id, list.measured,
+                                                   static_cast<recording::records::Disposition>(list.disposition)});
   for (const ttf::fusion::tracks::TrackView& track : strategy.tracks()) {
     if (!track.confirmed) continue;
     recording::records::TrackState state{context.stamp,

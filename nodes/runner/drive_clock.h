@@ -15,20 +15,20 @@ namespace ttf::nodes::runner {
 class DriveClock {
  public:
   // `origin`: when true time 0 is. `scale_ppm`: a million times F, positive.
-  DriveClock(bus::ports::HostTime origin, std::int64_t scale_ppm);
+  DriveClock(bus::ports::MachineTime origin, std::int64_t scale_ppm);
 
-  TrueTime drive_time(bus::ports::HostTime at) const;  // rounded down
-  bus::ports::HostTime host_time(TrueTime at) const;   // the first at which drive_time is at or after it
-  Duration in_drive(Duration real) const;              // rounded down
-  Duration in_real(Duration drive) const;              // rounded up
-  bus::ports::HostTime origin() const { return origin_; }
+  TrueTime drive_time(bus::ports::MachineTime at) const;    // rounded down
+  bus::ports::MachineTime machine_time(TrueTime at) const;  // the first at which drive_time is at or after it
+  Duration in_drive(Duration real) const;                   // rounded down
+  Duration in_real(Duration drive) const;                   // rounded up
+  bus::ports::MachineTime origin() const { return origin_; }
   // The first instant after `now` that is a whole number of periods, and `phase`, from the origin: what is done
   // periodically is then where it is in the drive, whenever a process was started. `period` positive.
-  bus::ports::HostTime next_turn(Duration period, Duration phase, bus::ports::HostTime now) const;
+  bus::ports::MachineTime next_turn(Duration period, Duration phase, bus::ports::MachineTime now) const;
   std::int64_t scale_ppm() const { return scale_ppm_; }
 
  private:
-  bus::ports::HostTime origin_;
+  bus::ports::MachineTime origin_;
   std::int64_t scale_ppm_;
 };
 

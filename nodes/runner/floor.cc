@@ -4,7 +4,7 @@
 
 namespace ttf::nodes::runner {
 
-Floor::Floor(Duration period, bus::ports::HostTime first) : thread_([this, period, first] { run(period, first); }) {}
+Floor::Floor(Duration period, bus::ports::MachineTime first) : thread_([this, period, first] { run(period, first); }) {}
 
 Floor::~Floor() {
   stopped_ = true;
@@ -16,13 +16,13 @@ recording::records::BinnedDurations Floor::lateness() const {
   return lateness_;
 }
 
-void Floor::run(Duration period, bus::ports::HostTime first) {
+void Floor::run(Duration period, bus::ports::MachineTime first) {
   constexpr std::int64_t kSecond = 1'000'000'000;
-  for (bus::ports::HostTime next = first; !stopped_; next += period) {
+  for (bus::ports::MachineTime next = first; !stopped_; next += period) {
     const timespec until{.tv_sec = next.ns / kSecond, .tv_nsec = next.ns % kSecond};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
     }
-    const bus::ports::HostTime now = bus::ports::host_now();
+    const bus::ports::MachineTime now = bus::ports::host_now();
     {
       const std::lock_guard lock(mutex_);
       lateness_.add(now - next);

@@ -15,7 +15,7 @@ namespace ttf::nodes::runner {
 class Floor {
  public:
   // Woken up at `first`, and every period from then on.
-  Floor(Duration period, bus::ports::HostTime first);
+  Floor(Duration period, bus::ports::MachineTime first);
   ~Floor();
   Floor(const Floor&) = delete;
   Floor& operator=(const Floor&) = delete;
@@ -24,7 +24,7 @@ class Floor {
   recording::records::BinnedDurations lateness() const;
 
  private:
-  void run(Duration period, bus::ports::HostTime first);
+  void run(Duration period, bus::ports::MachineTime first);
 
   mutable std::mutex mutex_;
   recording::records::BinnedDurations lateness_;

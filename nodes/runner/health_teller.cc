@@ -7,7 +7,7 @@
 
 namespace ttf::nodes::runner {
 
-HealthTeller::HealthTeller(std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::HostTime)> tell)
+HealthTeller::HealthTeller(std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::MachineTime)> tell)
     : tell_(std::move(tell)) {
   TTF_CHECK(sem_init(&called_, 0, 0) == 0);
   thread_ = std::thread([this] { run(); });

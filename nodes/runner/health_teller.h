@@ -21,7 +21,7 @@ class HealthTeller {
  public:
   // `tell` is called on the other thread, with the instant of the handing over. It must not throw. That thread begins
   // with the priority and on the processors of who makes this: make it before asking for real time.
-  explicit HealthTeller(std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::HostTime)> tell);
+  explicit HealthTeller(std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::MachineTime)> tell);
   ~HealthTeller();  // close()
   HealthTeller(const HealthTeller&) = delete;
   HealthTeller& operator=(const HealthTeller&) = delete;
@@ -35,9 +35,9 @@ class HealthTeller {
  private:
   void run();
 
-  const std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::HostTime)> tell_;
-  Health health_;              // of who hands over while nothing waits, of the other thread while it does
-  bus::ports::HostTime at_{};  // likewise
+  const std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::MachineTime)> tell_;
+  Health health_;                 // of who hands over while nothing waits, of the other thread while it does
+  bus::ports::MachineTime at_{};  // likewise
   std::atomic<bool> waits_{false};
   std::atomic<bool> closing_{false};
   std::uint64_t left_out_ = 0;

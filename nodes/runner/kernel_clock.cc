@@ -42,7 +42,7 @@ void KernelClock::watch(int descriptor) {
 
 void KernelClock::clear() { watched_.resize(1); }
 
-void KernelClock::wait_until(bus::ports::HostTime until) {
+void KernelClock::wait_until(bus::ports::MachineTime until) {
   // 0 would switch the timer off.
   const std::int64_t at = std::max<std::int64_t>(until.ns, 1);
   const itimerspec when{.it_interval = {}, .it_value = {.tv_sec = at / kSecond, .tv_nsec = at % kSecond}};

@@ -8,11 +8,11 @@
 
 #include "nodes/runner/drive_clock.h"
 #include "nodes/runner/floor.h"
-#include "nodes/runner/host_clock.h"
+#include "nodes/runner/machine_clock.h"
 
 namespace ttf::nodes::runner {
 
-class KernelClock final : public HostClock {
+class KernelClock final : public MachineClock {
  public:
   // The plain thread beside it has its turns by `drive`; it is scheduled as the thread that makes this, so ask for
   // privileges before. Throws std::runtime_error where the system gives no timer.
@@ -21,10 +21,10 @@ class KernelClock final : public HostClock {
   KernelClock(const KernelClock&) = delete;
   KernelClock& operator=(const KernelClock&) = delete;
 
-  bus::ports::HostTime now() const override { return bus::ports::host_now(); }
+  bus::ports::MachineTime now() const override { return bus::ports::host_now(); }
   void watch(int descriptor) override;
   void clear() override;
-  void wait_until(bus::ports::HostTime until) override;
+  void wait_until(bus::ports::MachineTime until) override;
   void sleep(Duration lasts) override;
   bool readable(int descriptor) const override;
   recording::records::BinnedDurations floor() const override { return floor_.lateness(); }

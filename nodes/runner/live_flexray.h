@@ -13,7 +13,7 @@
 #include "bus/ports/live_medium.h"
 #include "nodes/runner/arrival_window.h"
 #include "nodes/runner/drive_clock.h"
-#include "nodes/runner/host_clock.h"
+#include "nodes/runner/machine_clock.h"
 #include "nodes/runner/timing_account.h"
 #include "timebase/oscillator.h"
 
@@ -22,7 +22,7 @@ namespace ttf::nodes::runner {
 class LiveFlexRay final : public bus::ports::FlexRayPort {
  public:
   // `latest`: behind the action point, in real time.
-  LiveFlexRay(const DriveClock& clock, const HostClock& host_clock, const timebase::Oscillator& oscillator,
+  LiveFlexRay(const DriveClock& clock, const MachineClock& machine_clock, const timebase::Oscillator& oscillator,
               Duration latest, bus::ports::LiveMedium& medium, const ArrivalWindow& arrival_window,
               TimingAccount& account);
 
@@ -37,10 +37,10 @@ class LiveFlexRay final : public bus::ports::FlexRayPort {
   void bind(const bus::controller::FlexRayController& controller) { controller_ = &controller; }
 
  private:
-  bus::ports::HostTime due(Microticks start) const { return clock_.host_time(oscillator_.time_of(start)); }
+  bus::ports::MachineTime due(Microticks start) const { return clock_.machine_time(oscillator_.time_of(start)); }
 
   const DriveClock& clock_;
-  const HostClock& host_clock_;
+  const MachineClock& machine_clock_;
   const timebase::Oscillator& oscillator_;
   const Duration latest_;
   bus::ports::LiveMedium& medium_;

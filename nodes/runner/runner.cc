@@ -40,17 +40,17 @@ class Runner::Watch final : public recording::records::Sink {
 };
 
 Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Step>> steps,
-               bus::ports::LiveMedium& medium, HostClock& host_clock, recording::records::Sink& sink)
+               bus::ports::LiveMedium& medium, MachineClock& machine_clock, recording::records::Sink& sink)
     : config_(config), cluster_(*config.cluster),
       oscillator_(
           host::drawn_oscillator(cluster_.node(config.node), index_of(config.node), config.seed, config.replication)),
-      medium_(medium), host_clock_(host_clock), watch_(std::make_unique<Watch>()),
+      medium_(medium), machine_clock_(machine_clock), watch_(std::make_unique<Watch>()),
       account_([this](Microticks at) { return executive_->stamp(at); }, sink),
       arrival_window_(cluster_, config.node,
                       {ticks(config.clock.in_drive(cluster_.arrival_window->early)),
                        ticks(config.clock.in_drive(cluster_.arrival_window->late))},
                       *this),
-      flexray_(config_.clock, host_clock, oscillator_, cluster_.arrival_window->late, medium, arrival_window_,
+      flexray_(config_.clock, machine_clock, oscillator_, cluster_.arrival_window->late, medium, arrival_window_,
                account_) {
   const schedules::model::Node& node = cluster_.node(config.node);
   watch_->out = std::make_unique<recording::records::Tee>(std::vector<recording::records::Sink*>{&sink, watch_.get()});
@@ -67,7 +67,7 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Ste
   const bool integrated = !config.power_on.has_value();
   const TrueTime begin = integrated ? config.first_cycle : std::max(*config.power_on, now());
   last_ = ticks(begin);
-  if (!integrated) powered_on_ = config.clock.host_time(begin);
+  if (!integrated) powered_on_ = config.clock.machine_time(begin);
   const host::ExecutiveConfig executive{
       &cluster_,
       config.node,
@@ -87,7 +87,7 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Ste
   if (node.flexray) flexray_.bind(*executive_->controller());
   if (!integrated && !executive_->asleep())
     watch_->out->on(recording::records::PowerChanged{executive_->stamp(last_), true});
-  health_due_ = next_health(host_clock_.now());
+  health_due_ = next_health(machine_clock_.now());
 }
 
 Runner::~Runner() = default;
@@ -128,7 +128,7 @@ void Runner::missed_window(std::int64_t cycle, int slot, schedules::model::Chann
 }
 
 void Runner::lost(std::int64_t cycle, int slot, schedules::model::Channel channel, std::uint32_t count) {
-  account_.frames_lost(last_, host_clock_.now() - host_time(last_), cycle, slot, channel, count);
+  account_.frames_lost(last_, machine_clock_.now() - machine_time(last_), cycle, slot, channel, count);
 }
 
 void Runner::take_in() {
@@ -181,7 +181,7 @@ void Runner::do_due(Microticks now) {
   const Microticks until = std::min(now, ticks(config_.end));
   std::uint64_t done = 0;
   for (Microticks next = next_due(); next <= until; next = next_due()) {
-    if (++done % kDoneBetweenLooks == 0 && host_clock_.readable(config_.stop_descriptor)) return;
+    if (++done % kDoneBetweenLooks == 0 && machine_clock_.readable(config_.stop_descriptor)) return;
     last_ = std::max(last_, next);
     flexray_.set_now(last_);
     if (const auto due = arrival_window_.take(last_, schedule())) {
@@ -191,7 +191,7 @@ void Runner::do_due(Microticks now) {
                can != cans_.end()) {
       leave(static_cast<std::size_t>(can - cans_.begin()));
     } else if (const Microticks due_tick = executive_->next_event(); due_tick <= last_) {
-      const Duration late = host_clock_.now() - host_time(due_tick);
+      const Duration late = machine_clock_.now() - machine_time(due_tick);
       account_.wake_ups.add(late);
       if (late > cluster_.arrival_window->late) account_.late_wakeup(last_, late);
       executive_->advance(last_);
@@ -222,31 +222,31 @@ void Runner::watch_lines() {
   const bool listens = executive_->promise().after_flexray != host::Promise::kNever;
   if (listens == listens_) return;
   listens_ = listens;
-  host_clock_.clear();
-  host_clock_.watch(config_.stop_descriptor);
+  machine_clock_.clear();
+  machine_clock_.watch(config_.stop_descriptor);
   for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
     medium_.watch(bus::ports::line_of(channel), listens);
-    if (listens) host_clock_.watch(medium_.descriptor(bus::ports::line_of(channel)));
+    if (listens) machine_clock_.watch(medium_.descriptor(bus::ports::line_of(channel)));
   }
   for (std::size_t b = 0; b < cans_.size(); ++b) {
     if (!cans_[b]) continue;
     medium_.watch(bus::ports::line_of_can(b), true);
-    host_clock_.watch(medium_.descriptor(bus::ports::line_of_can(b)));
+    machine_clock_.watch(medium_.descriptor(bus::ports::line_of_can(b)));
   }
 }
 
 // The nodes take turns.
-bus::ports::HostTime Runner::next_health(bus::ports::HostTime now) const {
+bus::ports::MachineTime Runner::next_health(bus::ports::MachineTime now) const {
   const auto turn = static_cast<std::int64_t>(index_of(config_.node) + 1);
   const Duration phase{kHealthEvery.ns * turn / static_cast<std::int64_t>(cluster_.nodes.size() + 1)};
   return config_.clock.next_turn(kHealthEvery, phase, now);
 }
 
 void Runner::tell_health() {
-  const bus::ports::HostTime now = host_clock_.now();
+  const bus::ports::MachineTime now = machine_clock_.now();
   if (now < health_due_) return;
   const Microticks next = next_due();
-  const bool room = next == kNever<Microticks> || host_time(next) > now + kRoomForHealth;
+  const bool room = next == kNever<Microticks> || machine_time(next) > now + kRoomForHealth;
   if (!room && now < health_due_ + kHealthEvery) return;
   health_due_ = next_health(now);
   record_account();
@@ -260,7 +260,7 @@ std::uint64_t Runner::dropped() const {
   return dropped;
 }
 
-void Runner::record_account() { account_.record(last_, host_clock_.floor(), medium_.counts(), dropped()); }
+void Runner::record_account() { account_.record(last_, machine_clock_.floor(), medium_.counts(), dropped()); }
 
 Health Runner::health() const {
   Health health;
@@ -279,17 +279,17 @@ RunnerEnd Runner::run() {
   listens_ = true;  // so that watch_lines() does it
   if (executive_->promise().after_flexray != host::Promise::kNever) listens_ = false;
   watch_lines();
-  const bus::ports::HostTime end = config_.clock.host_time(config_.end);
+  const bus::ports::MachineTime end = config_.clock.machine_time(config_.end);
   RunnerEnd how = RunnerEnd::kDone;
   bool was_behind = false;
   while (true) {
-    bus::ports::HostTime now = host_clock_.now();
+    bus::ports::MachineTime now = machine_clock_.now();
     // Who was stopped was so with the medium's threads: what they have to take in is to be there before it is missed.
     const bool behind =
-        next_due() != kNever<Microticks> && now - host_time(next_due()) > config_.clock.in_real(cluster_.cycle());
+        next_due() != kNever<Microticks> && now - machine_time(next_due()) > config_.clock.in_real(cluster_.cycle());
     if (behind && !was_behind) {
-      host_clock_.sleep(kUntilTakenIn);
-      now = host_clock_.now();
+      machine_clock_.sleep(kUntilTakenIn);
+      now = machine_clock_.now();
     }
     was_behind = behind;
     take_in();
@@ -298,7 +298,7 @@ RunnerEnd Runner::run() {
       how = RunnerEnd::kFailed;
       break;
     }
-    if (host_clock_.readable(config_.stop_descriptor)) {
+    if (machine_clock_.readable(config_.stop_descriptor)) {
       how = RunnerEnd::kStopped;
       break;
     }
@@ -306,8 +306,8 @@ RunnerEnd Runner::run() {
     tell_health();
     watch_lines();
     const Microticks next = next_due();
-    const bus::ports::HostTime due = next == kNever<Microticks> ? end : std::min(end, host_time(next));
-    host_clock_.wait_until(std::min(due, health_due_));
+    const bus::ports::MachineTime due = next == kNever<Microticks> ? end : std::min(end, machine_time(next));
+    machine_clock_.wait_until(std::min(due, health_due_));
   }
   record_account();
   return how;

@@ -30,8 +30,8 @@
 #include "nodes/host/executive.h"
 #include "nodes/runner/arrival_window.h"
 #include "nodes/runner/drive_clock.h"
-#include "nodes/runner/host_clock.h"
 #include "nodes/runner/live_flexray.h"
+#include "nodes/runner/machine_clock.h"
 #include "nodes/runner/paced_can.h"
 #include "nodes/runner/timing_account.h"
 #include "recording/records/records.h"
@@ -77,7 +77,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
  public:
   // All must outlive it.
   Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Step>> steps, bus::ports::LiveMedium& medium,
-         HostClock& host_clock, recording::records::Sink& sink);
+         MachineClock& machine_clock, recording::records::Sink& sink);
   ~Runner() override;
 
   // About once a second of real time, where nothing is due at once.
@@ -91,7 +91,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
  private:
   class Watch;
 
-  TrueTime now() const override { return config_.clock.drive_time(host_clock_.now()); }
+  TrueTime now() const override { return config_.clock.drive_time(machine_clock_.now()); }
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
   void arrived(Microticks behind) override;
@@ -102,7 +102,9 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   Microticks ticks(TrueTime at) const { return oscillator_.ticks_at(at); }
   Microticks ticks(Duration drive) const;
   Duration in_real(Microticks ticks) const;
-  bus::ports::HostTime host_time(Microticks at) const { return config_.clock.host_time(oscillator_.time_of(at)); }
+  bus::ports::MachineTime machine_time(Microticks at) const {
+    return config_.clock.machine_time(oscillator_.time_of(at));
+  }
 
   void take_in();
   void do_due(Microticks now);
@@ -113,7 +115,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   void leave(std::size_t can_bus);
   Microticks next_due() const;
   void watch_lines();
-  bus::ports::HostTime next_health(bus::ports::HostTime now) const;
+  bus::ports::MachineTime next_health(bus::ports::MachineTime now) const;
   void tell_health();
   std::uint64_t dropped() const;
   void record_account();
@@ -122,7 +124,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   const schedules::model::Cluster& cluster_;
   const timebase::Oscillator oscillator_;
   bus::ports::LiveMedium& medium_;
-  HostClock& host_clock_;
+  MachineClock& machine_clock_;
   std::unique_ptr<Watch> watch_;  // the sink, with what is seen on the way to it
   TimingAccount account_;
   ArrivalWindow arrival_window_;
@@ -130,11 +132,11 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   std::vector<std::unique_ptr<PacedCan>> cans_;         // by CAN, null where the node is not on it
   std::vector<std::optional<std::size_t>> sensor_can_;  // by sensor, the CAN of its lines
   std::unique_ptr<host::Executive> executive_;
-  bus::ports::HostTime powered_on_{std::numeric_limits<std::int64_t>::min()};
+  bus::ports::MachineTime powered_on_{std::numeric_limits<std::int64_t>::min()};
   Microticks last_{};                                                 // what was done last
   bool listens_ = false;                                              // FlexRay lines are watched
   Microticks tries_again_{std::numeric_limits<std::int64_t>::max()};  // at a coldstart, if it still may only listen
-  bus::ports::HostTime health_due_{};
+  bus::ports::MachineTime health_due_{};
   std::function<void(const Health&)> on_health_;
 };
 

@@ -11,11 +11,11 @@
 namespace ttf::fusion {
 
 inline constexpr std::uint32_t kCycles = 400;
-inline constexpr std::uint32_t kWarm = 40;  // cycles: 80 scans, more than the history holds
+inline constexpr std::uint32_t kWarm = 40;  // cycles: 80 lists, more than the history holds
 
 // Laser and camera see all objects every 40 ms, the camera 20 ms later.
 struct Crowd {
-  std::vector<OwnedScan> laser, camera;
+  std::vector<OwnedList> laser, camera;
   const std::vector<strategies::SensorTiming> sensors{
       {SensorId{0}, strategies::Settling::after(Duration::milliseconds(60)), true, at_ms(0),
        Duration::milliseconds(40)},
@@ -28,8 +28,8 @@ struct Crowd {
     seen_by_camera.seed = 2;
     seen_by_camera.sigma = 0.4;
     for (std::uint32_t k = 0; k < cycles; ++k) {
-      laser.push_back(scan(0, k, at_ms(40 * k), seen_by_laser.see(at_ms(40 * k), k)));
-      camera.push_back(scan(1, k, at_ms(40 * k + 20), seen_by_camera.see(at_ms(40 * k + 20), k)));
+      laser.push_back(list_of(0, k, at_ms(40 * k), seen_by_laser.see(at_ms(40 * k), k)));
+      camera.push_back(list_of(1, k, at_ms(40 * k + 20), seen_by_camera.see(at_ms(40 * k + 20), k)));
     }
   }
   std::unique_ptr<strategies::Strategy> start(strategies::StrategyKind kind, std::uint32_t cycles,

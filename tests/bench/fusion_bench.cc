@@ -79,9 +79,9 @@ void CycleConsidering(benchmark::State& state) {
   config.sensors[0].errors.sigma << 0.1, 0.005, 0.1, 0.005;
   config.sensors[1].errors.sigma << 0.2, 0.01, 0.1, 0.005;
   Crowd crowd = scene();
-  for (std::vector<OwnedScan>* scans : {&crowd.laser, &crowd.camera})
-    for (OwnedScan& scan : *scans)
-      for (sensors::Observation& z : scan.observations) z.sensor = scan.id.sensor;
+  for (std::vector<OwnedList>* lists : {&crowd.laser, &crowd.camera})
+    for (OwnedList& list : *lists)
+      for (sensors::Observation& z : list.observations) z.sensor = list.id.sensor;
   cycle(state, crowd, strategies::StrategyKind::kTt, config);
 }
 BENCHMARK(CycleConsidering)->Arg(0)->Arg(1)->ArgName("motion")->Unit(benchmark::kMicrosecond);
@@ -101,8 +101,8 @@ void CycleOfThousand(benchmark::State& state) {
 BENCHMARK(CycleOfThousand)->Unit(benchmark::kMicrosecond);
 
 // One laser list of 25 observations that comes `scans` scans late.
-void late_scan(benchmark::State& state, const config::TrackerConfig& config) {
-  const auto scans = static_cast<std::uint32_t>(state.range(0));
+void late_list(benchmark::State& state, const config::TrackerConfig& config) {
+  const auto lists = static_cast<std::uint32_t>(state.range(0));
   std::unique_ptr<strategies::Strategy> strategy;
   std::uint32_t k = kCycles;
   std::int64_t allocations = 0;
@@ -114,7 +114,7 @@ void late_scan(benchmark::State& state, const config::TrackerConfig& config) {
     }
     // Laser and camera in turn: everything younger than the laser's list goes in before it.
     const std::uint32_t late = k;
-    for (std::uint32_t i = 0; i < scans; ++i) {
+    for (std::uint32_t i = 0; i < lists; ++i) {
       if (i % 2 == 0)
         strategy->accept(scene().camera[late + i / 2].view());
       else
@@ -130,25 +130,25 @@ void late_scan(benchmark::State& state, const config::TrackerConfig& config) {
     allocations += support::allocations() - before_all;
     if (strategy->last_fused()[0].disposition != strategies::Disposition::kFusedLate)
       state.SkipWithError("was not late");
-    k = late + scans / 2 + 2;
-    if (k + scans >= kCycles) k = kCycles;
+    k = late + lists / 2 + 2;
+    if (k + lists >= kCycles) k = kCycles;
     state.ResumeTiming();
   }
   report_allocations(state, allocations);
 }
-void LateScan(benchmark::State& state) { late_scan(state, {}); }
-BENCHMARK(LateScan)->Arg(1)->Arg(2)->Arg(8)->ArgName("scans_late")->Unit(benchmark::kMicrosecond);
+void LateList(benchmark::State& state) { late_list(state, {}); }
+BENCHMARK(LateList)->Arg(1)->Arg(2)->Arg(8)->ArgName("lists_late")->Unit(benchmark::kMicrosecond);
 
 // The same, by the methods that reach so far.
-void LateScanBy(benchmark::State& state) {
+void LateListBy(benchmark::State& state) {
   config::TrackerConfig config;
   config.late = oosm::kKinds[static_cast<std::size_t>(state.range(1))].kind;
   state.SetLabel(std::string(oosm::name_of(config.late)));
-  late_scan(state, config);
+  late_list(state, config);
 }
-BENCHMARK(LateScanBy)
+BENCHMARK(LateListBy)
     ->ArgsProduct({{1, 2, 8}, benchmark::CreateDenseRange(1, 5, 1)})
-    ->ArgNames({"scans_late", "late"})
+    ->ArgNames({"lists_late", "late"})
     ->Unit(benchmark::kMicrosecond);
 
 void Image(benchmark::State& state) {

@@ -60,16 +60,16 @@ void batch_axes() {
 
 using Plane = fusion::oosm::ConstantVelocity<2>;
 
-// Some scans late, among fifteen that are 40 ms apart.
+// Some lists late, among fifteen that are 40 ms apart.
 template <class X, int lag> void late_by() {
   using namespace fusion::oosm;
-  constexpr int kScans = 15;
+  constexpr int kLists = 15;
   fusion::linear::LinearMeasurement<4, 2> seen;
   seen.h(0, 0) = seen.h(1, 2) = 1.0;
-  const fusion::oosm::Stamp late = fusion::oosm::stamp_at(fusion::oosm::after_ms(40 * (kScans - lag) + 20), 1);
+  const fusion::oosm::Stamp late = fusion::oosm::stamp_at(fusion::oosm::after_ms(40 * (kLists - lag) + 20), 1);
   X method(Plane{});
   method.start(GlobalTime{}, {fusion::linear::Vector<4>::Zero(), fusion::linear::Matrix<4>::Identity()});
-  for (int i = 1; i <= kScans; ++i) {
+  for (int i = 1; i <= kLists; ++i) {
     method.announce(late);
     seen.z = {static_cast<double>(i), static_cast<double>(-i)};
     method.take(fusion::oosm::stamp_at(fusion::oosm::after_ms(40 * i)), seen);
@@ -95,7 +95,7 @@ void cycle_of(const fusion::Crowd& crowd, const fusion::config::TrackerConfig& c
 void fusion_cycle() { cycle_of(fusion::scene(), {}); }
 void fusion_cycle_of_thousand() { cycle_of(fusion::thousand(), fusion::for_thousand()); }
 
-void fusion_late_scan() {
+void fusion_late_list() {
   const auto strategy = fusion::scene().start(fusion::strategies::StrategyKind::kAdva, fusion::kWarm);
   const auto& late = fusion::scene().laser[fusion::kWarm];
   const GlobalTime now = late.measured + Duration::milliseconds(1000);
@@ -208,7 +208,7 @@ const Path kPaths[] = {
     {"late_c_1", late_by<AlgorithmC, 1>},
     {"fusion_cycle", fusion_cycle},
     {"fusion_cycle_of_thousand", fusion_cycle_of_thousand},
-    {"fusion_late_scan", fusion_late_scan},
+    {"fusion_late_list", fusion_late_list},
     {"frame_encode", frame_encode},
     {"frame_decode", frame_decode},
     {"bus_cycle", bus_cycle},

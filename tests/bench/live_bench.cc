@@ -115,14 +115,14 @@ class Member {
     for (const bus::ports::Line line : {0, 1}) medium_.watch(line, true);
   }
   // From `begin` on; hears for a while longer.
-  void work(bus::ports::HostTime begin) {
+  void work(bus::ports::MachineTime begin) {
     const std::int64_t cpu_before = cpu_us();
     const bool sends = index_of(job_.self) < kSenders;
-    bus::ports::HostTime next =
+    bus::ports::MachineTime next =
         begin + Duration::nanoseconds(kPeriod * static_cast<std::int64_t>(index_of(job_.self)) / 5);
-    const bus::ports::HostTime end = begin + Duration::nanoseconds(job_.seconds * kSecond);
-    const bus::ports::HostTime silence = end + Duration::milliseconds(500);
-    for (bus::ports::HostTime now = bus::ports::host_now(); now < silence; now = bus::ports::host_now()) {
+    const bus::ports::MachineTime end = begin + Duration::nanoseconds(job_.seconds * kSecond);
+    const bus::ports::MachineTime silence = end + Duration::milliseconds(500);
+    for (bus::ports::MachineTime now = bus::ports::host_now(); now < silence; now = bus::ports::host_now()) {
       while (const auto heard = medium_.receive()) ways_.push_back((bus::ports::host_now() - heard->at).ns);
       const bool more = sends && next < end;
       if (more && now >= next) {
@@ -144,7 +144,7 @@ class Member {
     return {{0, bus::dds::live::live_topic(schedules::model::Channel::kA), job.session.members},
             {1, bus::dds::live::live_topic(schedules::model::Channel::kB), job.session.members}};
   }
-  void send(bus::ports::HostTime due) {
+  void send(bus::ports::MachineTime due) {
     channel_ =
         channel_ == schedules::model::Channel::kA ? schedules::model::Channel::kB : schedules::model::Channel::kA;
     bus::wire::FrameHeader header;
@@ -155,7 +155,7 @@ class Member {
     signal.channel = channel_;
     signal.slot = header.frame_id;
     signal.bytes = std::span(frame).first(size);
-    const bus::ports::HostTime before = bus::ports::host_now();
+    const bus::ports::MachineTime before = bus::ports::host_now();
     TTF_CHECK(medium_.send(signal, due) == bus::ports::LiveStatus::kDone);
     sends_.push_back((bus::ports::host_now() - before).ns);
   }
@@ -176,7 +176,7 @@ int be_member(char** words) {
   Member member(job_of(words));
   fmt::print("ready\n");
   std::fflush(stdout);
-  bus::ports::HostTime begin;
+  bus::ports::MachineTime begin;
   if (std::scanf("%" SCNd64, &begin.ns) != 1) return 1;
   member.work(begin);
   return 0;
@@ -210,7 +210,7 @@ void DdsLivePaced(benchmark::State& state) {
   for (std::size_t i = 0; i < members; ++i) children.emplace_back(words_of(session, i, members, reliable, seconds));
   for (test::ChildProcess& child : children) child.await_ready();
   if (with_stopped) children.back().signal(SIGSTOP);
-  const bus::ports::HostTime begin = bus::ports::host_now() + Duration::milliseconds(200);
+  const bus::ports::MachineTime begin = bus::ports::host_now() + Duration::milliseconds(200);
   for (const test::ChildProcess& child : children) child.tell(std::to_string(begin.ns));
   Totals all;
   std::vector<std::int64_t> ways, sends;

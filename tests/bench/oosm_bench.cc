@@ -21,7 +21,7 @@ namespace {
 using Plane = ConstantVelocity<2>;
 using Measurement = linear::LinearMeasurement<4, 2>;
 
-constexpr int kScans = 15, kBatch = 32, kCapacity = 16;
+constexpr int kLists = 15, kBatch = 32, kCapacity = 16;
 
 Measurement position(double x, double y) {
   Measurement measurement;
@@ -31,10 +31,10 @@ Measurement position(double x, double y) {
   return measurement;
 }
 
-// A method that took kScans scans, 40 ms apart, and knows that one from between will come `lag` late (0: in order).
+// A method that took kLists lists, 40 ms apart, and knows that one from between will come `lag` late (0: in order).
 template <class X> X prepared(X method, const Stamp& awaited) {
   method.start(GlobalTime{}, {linear::Vector<4>::Zero(), linear::Matrix<4>::Identity()});
-  for (int i = 1; i <= kScans; ++i) {
+  for (int i = 1; i <= kLists; ++i) {
     method.announce(awaited);
     method.take(stamp_at(after_ms(40 * i)), position(i, -i));
   }
@@ -43,8 +43,8 @@ template <class X> X prepared(X method, const Stamp& awaited) {
 
 template <class X> void Take(benchmark::State& state) {
   const auto lag = state.range(0);
-  const Stamp stamp = stamp_at(after_ms(40 * (kScans - lag) + 20), 1);
-  const Measurement measurement = position(kScans, -kScans);
+  const Stamp stamp = stamp_at(after_ms(40 * (kLists - lag) + 20), 1);
+  const Measurement measurement = position(kLists, -kLists);
   const X ready = prepared(X(Plane{}), stamp);
   std::vector<X> copies(kBatch, ready);
   std::int64_t allocations = 0;

@@ -18,7 +18,7 @@ namespace {
 constexpr double kGate_m = 1.5;  // an image object further from a true object is not of it
 
 // By then an object that is visible from the start is confirmed in every image that is used: a window of the slowest
-// sensor's scans, after its first period, and the greatest age at use.
+// sensor's lists, after its first period, and the greatest age at use.
 TrueTime confirmation_time(const Drive& drive) {
   Duration period{}, age{};
   for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(drive.cluster)) {

@@ -44,7 +44,7 @@ Crossing::Drive Crossing::draw_drive(std::uint64_t seed) const {
          sum -= std::log(1.0 - stream.uniform()))
       list.push_back(position(stream.uniform(0.0, kWidth), stream.uniform(-0.5 * kHeight, 0.5 * kHeight), kSigma));
     drive.truth.push_back(now);
-    drive.lists.push_back(scan(0, static_cast<std::uint32_t>(k), at_ms(100 * k), std::move(list)));
+    drive.lists.push_back(list_of(0, static_cast<std::uint32_t>(k), at_ms(100 * k), std::move(list)));
   }
   return drive;
 }

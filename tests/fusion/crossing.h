@@ -25,7 +25,7 @@ struct Crossing {
   // Positions, and everything else, of both objects at each list.
   struct Drive {
     std::vector<std::vector<estimators::State>> truth;  // by list, by object
-    std::vector<OwnedScan> lists;
+    std::vector<OwnedList> lists;
   };
   Drive draw_drive(std::uint64_t seed) const;
   config::TrackerConfig config() const;  // that knows all this

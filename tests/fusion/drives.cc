@@ -26,10 +26,10 @@ std::vector<Arrival> drawn_drive(std::uint64_t seed, std::uint32_t laser_scans) 
       camera{.sigma = 0.4, .miss_probability = 0.1, .seed = seed + 1000};
   std::vector<Arrival> arrivals;
   for (std::uint32_t k = 0; k < laser_scans; ++k)
-    arrivals.push_back({80 * k + stream.integer(30, 60), scan(0, k, at_ms(80 * k), laser.see(at_ms(80 * k), k))});
+    arrivals.push_back({80 * k + stream.integer(30, 60), list_of(0, k, at_ms(80 * k), laser.see(at_ms(80 * k), k))});
   for (std::uint32_t k = 0; k < 2 * laser_scans; ++k)
     arrivals.push_back(
-        {20 + 40 * k + stream.integer(5, 35), scan(1, k, at_ms(20 + 40 * k), camera.see(at_ms(20 + 40 * k), k))});
+        {20 + 40 * k + stream.integer(5, 35), list_of(1, k, at_ms(20 + 40 * k), camera.see(at_ms(20 + 40 * k), k))});
   return arrivals;
 }
 
@@ -46,9 +46,9 @@ std::vector<Fused> run(strategies::Strategy& strategy, std::vector<Arrival> arri
   std::vector<Fused> out;
   std::size_t next = 0;
   for (std::int64_t now = 0; now <= until; now += 10) {
-    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) strategy.accept(arrivals[next].scan.view());
+    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) strategy.accept(arrivals[next].list.view());
     strategy.fuse(at_ms(now));
-    for (const strategies::FusedScan& f : strategy.last_fused())
+    for (const strategies::FusedList& f : strategy.last_fused())
       if (f.disposition != strategies::Disposition::kHeld) out.push_back({now, f.id, f.disposition});
   }
   return out;
@@ -57,7 +57,7 @@ std::vector<Fused> run(strategies::Strategy& strategy, std::vector<Arrival> arri
 std::size_t held(const strategies::Strategy& strategy) {
   return static_cast<std::size_t>(
       std::count_if(strategy.last_fused().begin(), strategy.last_fused().end(),
-                    [](const strategies::FusedScan& f) { return f.disposition == strategies::Disposition::kHeld; }));
+                    [](const strategies::FusedList& f) { return f.disposition == strategies::Disposition::kHeld; }));
 }
 
 }  // namespace ttf::fusion

@@ -33,7 +33,7 @@ std::vector<strategies::SensorTiming> laser_and_camera();
 
 struct Arrival {
   std::int64_t ms = 0;
-  OwnedScan scan;
+  OwnedList list;
 };
 // In the order of their arrival; what arrives together stays as it is.
 void sort_by_arrival(std::vector<Arrival>& arrivals);
@@ -52,10 +52,10 @@ std::ostream& operator<<(std::ostream& out, const Fused& f);
 Fused fused(std::int64_t ms, std::uint8_t sensor, std::uint32_t sequence,
             strategies::Disposition d = strategies::Disposition::kFused);
 
-// Fusion every 10 ms from 0 to `until`; what was reported, held scans left out.
+// Fusion every 10 ms from 0 to `until`; what was reported, held lists left out.
 std::vector<Fused> run(strategies::Strategy& strategy, std::vector<Arrival> arrivals, std::int64_t until);
 
-// Scans that the last fusion instant left waiting.
+// Lists that the last fusion instant left waiting.
 std::size_t held(const strategies::Strategy& strategy);
 
 }  // namespace ttf::fusion

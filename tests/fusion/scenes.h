@@ -21,15 +21,15 @@ sensors::Observation position(double x, double y, double sigma);
 sensors::Observation radar(double range, double bearing, double rate, double sigma_range, double sigma_bearing,
                            double sigma_rate);
 
-// A scan that owns its observations.
-struct OwnedScan {
+// A list that owns its observations.
+struct OwnedList {
   MeasurementId id;
   GlobalTime measured{};
   std::vector<sensors::Observation> observations;
-  sensors::Scan view() const { return {id, measured, observations}; }
+  sensors::ObservationList view() const { return {id, measured, observations}; }
 };
-inline OwnedScan scan(std::uint8_t sensor, std::uint32_t sequence, GlobalTime measured,
-                      std::vector<sensors::Observation> observations = {}) {
+inline OwnedList list_of(std::uint8_t sensor, std::uint32_t sequence, GlobalTime measured,
+                         std::vector<sensors::Observation> observations = {}) {
   return {{static_cast<SensorId>(sensor), sequence}, measured, std::move(observations)};
 }
 

@@ -169,12 +169,12 @@ inline std::string arrives_when_it_says(LiveBench& bench) {
   static constexpr auto kNap = std::chrono::milliseconds(400);
   for (std::size_t i = 0; i < 100; ++i) {
     const bool late = i % 50 == 49;
-    const bus::ports::HostTime begin = bus::ports::host_now();
+    const bus::ports::MachineTime begin = bus::ports::host_now();
     const Utterance utterance(i % 2, {0, bench.members()}, i, Traffic::kFrames);
     if (utterance.send(bench.member(0)) != bus::ports::LiveStatus::kDone) return "has no room";
     if (late) std::this_thread::sleep_for(kNap);
     const auto heard = await(bench, 1);
-    const bus::ports::HostTime end = bus::ports::host_now();
+    const bus::ports::MachineTime end = bus::ports::host_now();
     if (!heard || !utterance.is(*heard)) return "hears something else";
     if (heard->at < begin || heard->at > end)
       return fmt::format("arrives {} ns after it was sent, {} ns before it is received", (heard->at - begin).ns,
@@ -326,11 +326,11 @@ inline std::string what_is_watched_is_readable(LiveBench& bench) {
 inline std::string says_how_late_it_left(LiveBench& bench) {
   for (std::size_t i = 0; i < 20; ++i) {
     const Utterance utterance(i % 2, {0, bench.members()}, 1 + 8 * i, Traffic::kAll);
-    const bus::ports::HostTime due =
+    const bus::ports::MachineTime due =
         bus::ports::host_now() - Duration::microseconds(static_cast<std::int64_t>(700 * i));
-    const bus::ports::HostTime begin = bus::ports::host_now();
+    const bus::ports::MachineTime begin = bus::ports::host_now();
     if (bench.member(0).send(utterance.signal(), due) != bus::ports::LiveStatus::kDone) return "has no room";
-    const bus::ports::HostTime end = bus::ports::host_now();
+    const bus::ports::MachineTime end = bus::ports::host_now();
     for (std::size_t member = 1; member < bench.members(); ++member) {
       std::optional<Duration> late;
       const auto heard = await(bench, member);

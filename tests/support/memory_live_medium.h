@@ -36,7 +36,7 @@ struct MemoryLiveBusOptions {
   std::vector<bool> can_buses;  // whether each carries CAN FD: nobody looks at it, but for the laws
   Told told = Told::kWithTheFrame;
   std::size_t room = 1024;  // signals and follow-ups on each line of each member
-  std::function<bus::ports::HostTime()> now = bus::ports::host_now;
+  std::function<bus::ports::MachineTime()> now = bus::ports::host_now;
 };
 
 class MemoryLiveBus {
@@ -116,9 +116,9 @@ class MemoryLiveBus {
    public:
     Endpoint(std::shared_ptr<Hub> hub, std::shared_ptr<Member> self) : hub_(std::move(hub)), self_(std::move(self)) {}
 
-    bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::HostTime due) override {
+    bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::MachineTime due) override {
       const std::scoped_lock lock(hub_->mutex);
-      const bus::ports::HostTime now = hub_->options.now();
+      const bus::ports::MachineTime now = hub_->options.now();
       bus::ports::LiveArrival arrival;
       arrival.at = arrival.received = now;
       arrival.left = now;

@@ -4,12 +4,13 @@
 
 namespace ttf::bus::dds::live {
 
-ports::HostTime ArrivalInstant::of(NodeId sender, std::uint64_t host, std::int64_t sent, ports::HostTime received) {
+ports::MachineTime ArrivalInstant::of(NodeId sender, std::uint64_t host, std::int64_t sent,
+                                      ports::MachineTime received) {
   Host& from = find(host);
   from.heard = received;
   const Duration delay{received.ns - sent};
-  const ports::HostTime at = received - (delay - from.delay.least(received, delay));
-  ports::HostTime& last = last_[index_of(sender)];
+  const ports::MachineTime at = received - (delay - from.delay.least(received, delay));
+  ports::MachineTime& last = last_[index_of(sender)];
   last = std::min(std::max(at, last), received);
   return last;
 }

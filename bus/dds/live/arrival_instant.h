@@ -24,19 +24,19 @@ class ArrivalInstant {
 
   // Returns the arrival of a sample `sent` by the clock of `host` (host_identity(), not 0) and in hand at
   // `received`, which does not decrease.
-  ports::HostTime of(NodeId sender, std::uint64_t host, std::int64_t sent, ports::HostTime received);
+  ports::MachineTime of(NodeId sender, std::uint64_t host, std::int64_t sent, ports::MachineTime received);
 
  private:
   struct Host {
     std::uint64_t identity = 0;
-    ports::HostTime heard{};
+    ports::MachineTime heard{};
     LeastDelay delay;
   };
   Host& find(std::uint64_t identity);
 
   std::size_t most_hosts_ = 0;
-  std::vector<Host> hosts_;                  // those heard so far
-  std::array<ports::HostTime, 256> last_{};  // by sender
+  std::vector<Host> hosts_;                     // those heard so far
+  std::array<ports::MachineTime, 256> last_{};  // by sender
 };
 
 }  // namespace ttf::bus::dds::live

@@ -33,7 +33,7 @@ const LeastDelay::Frame* LeastDelay::Minima<kBins>::among(std::size_t from, std:
   return least;
 }
 
-Duration LeastDelay::least(ports::HostTime received, Duration delay) {
+Duration LeastDelay::least(ports::MachineTime received, Duration delay) {
   short_.add({received, delay});
   long_.add({received, delay});
   const std::int64_t slope = drift();

@@ -41,11 +41,11 @@ class LeastDelay {
 
   // Returns the least delay with a frame that was in hand at `received` and, by its sender's stamp, took
   // `delay`. `received` does not decrease. Delays may have either sign, and differ by less than 2^63 ns.
-  Duration least(ports::HostTime received, Duration delay);
+  Duration least(ports::MachineTime received, Duration delay);
 
  private:
   struct Frame {
-    ports::HostTime received{};
+    ports::MachineTime received{};
     Duration delay{};
   };
   // The least delayed frame in each of the last kBins intervals.

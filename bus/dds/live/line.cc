@@ -134,14 +134,14 @@ void LiveLine::take(common::Handle reader) {
   for (bool more = true; more;) {
     const auto count = dds_take(reader, boxes_->pointers.data(), boxes_->infos.data(), kBoxes, kBoxes);
     if (count < 0) return take_error_.store(count);
-    const ports::HostTime now = ports::host_now();
+    const ports::MachineTime now = ports::host_now();
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
       if (boxes_->infos[i].valid_data) accept(i, now);  // otherwise a writer has come or gone
     more = static_cast<std::size_t>(count) == kBoxes;
   }
 }
 
-void LiveLine::accept(std::size_t box, ports::HostTime now) {
+void LiveLine::accept(std::size_t box, ports::MachineTime now) {
   const ttf_LiveSample& sample = boxes_->in[box];
   const NodeId sender{sample.sender};
   if (!is_on_[sample.sender] || sender == self_) {
@@ -165,7 +165,7 @@ void LiveLine::accept(std::size_t box, ports::HostTime now) {
   if (host_ == 0 || sample.host == 0) {
     arrival.at = now;  // the sender's clock is unknown
   } else if (sample.host == host_) {
-    arrival.at = std::min(ports::HostTime{sample.sent}, now);
+    arrival.at = std::min(ports::MachineTime{sample.sent}, now);
     arrival.left = arrival.at;
   } else {
     arrival.at = from_afar_.of(sender, sample.host, sample.sent, now);
@@ -188,7 +188,7 @@ void LiveLine::accept(std::size_t box, ports::HostTime now) {
   queue_.push();
 }
 
-ports::LiveStatus LiveLine::send(const ports::LiveSignal& signal, ports::HostTime due) {
+ports::LiveStatus LiveLine::send(const ports::LiveSignal& signal, ports::MachineTime due) {
   ttf_LiveSample& sample = boxes_->out;
   sample.kind = static_cast<std::uint8_t>(signal.signal);
   sample.slot = static_cast<std::uint16_t>(signal.slot);
@@ -204,7 +204,7 @@ ports::LiveStatus LiveLine::send(const ports::CanFrame& frame) {
   return write(frame.data, {});
 }
 
-ports::LiveStatus LiveLine::write(std::span<const std::byte> bytes, ports::HostTime due) {
+ports::LiveStatus LiveLine::write(std::span<const std::byte> bytes, ports::MachineTime due) {
   ttf_LiveSample& sample = boxes_->out;
   sample.number = next_number_;
   sample.bytes._length = sample.bytes._maximum = static_cast<std::uint32_t>(bytes.size());

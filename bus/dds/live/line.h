@@ -51,7 +51,7 @@ class LiveLine {
 
   ports::Line line() const { return line_; }
 
-  ports::LiveStatus send(const ports::LiveSignal& signal, ports::HostTime due);
+  ports::LiveStatus send(const ports::LiveSignal& signal, ports::MachineTime due);
   ports::LiveStatus send(const ports::CanFrame& frame);
   LiveQueue& queue() { return queue_; }
   const LiveQueue& queue() const { return queue_; }
@@ -72,8 +72,8 @@ class LiveLine {
 
   static void on_data(common::Handle reader, void* self);
   void take(common::Handle reader);
-  void accept(std::size_t box, ports::HostTime now);
-  ports::LiveStatus write(std::span<const std::byte> bytes, ports::HostTime due);
+  void accept(std::size_t box, ports::MachineTime now);
+  ports::LiveStatus write(std::span<const std::byte> bytes, ports::MachineTime due);
   std::vector<NodeId> all_but(const std::vector<NodeId>& found) const;
 
   const ports::Line line_;

@@ -46,7 +46,7 @@ void DdsMedium::wait_ready(std::chrono::milliseconds patience) const {
   }
 }
 
-ports::LiveStatus DdsMedium::send(const ports::LiveSignal& signal, ports::HostTime due) {
+ports::LiveStatus DdsMedium::send(const ports::LiveSignal& signal, ports::MachineTime due) {
   LiveLine* const line = find(ports::line_of(signal.channel));
   TTF_CHECK(line != nullptr, "not on channel {}", static_cast<int>(signal.channel));
   return counted(line->send(signal, due));

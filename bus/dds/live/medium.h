@@ -38,7 +38,7 @@ class DdsMedium final : public ports::LiveMedium {
   // Returns once this node and all others on its lines hear each other. Throws NotReady after `patience`.
   void wait_ready(std::chrono::milliseconds patience) const;
 
-  ports::LiveStatus send(const ports::LiveSignal& signal, ports::HostTime due) override;
+  ports::LiveStatus send(const ports::LiveSignal& signal, ports::MachineTime due) override;
   ports::LiveStatus send_can(std::size_t can_bus, const ports::CanFrame& frame) override;
   std::optional<ports::LiveArrival> receive() override;
   int descriptor(ports::Line line) const override;

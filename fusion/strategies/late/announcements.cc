@@ -11,24 +11,24 @@ Announcements::Announcements(std::span<const SensorTiming> sensors) {
   due_.reserve(sensors_.size() * static_cast<std::size_t>(kClones));
 }
 
-std::optional<GlobalTime> Announcements::instant_of(const sensors::Scan& scan) const {
+std::optional<GlobalTime> Announcements::instant_of(const sensors::ObservationList& list) const {
   for (const Sensor& own : sensors_)
-    if (own.sensor == scan.id.sensor) return own.instants.of(scan.measured);
+    if (own.sensor == list.id.sensor) return own.instants.of(list.measured);
   return std::nullopt;
 }
 
-When Announcements::when(const sensors::Scan& scan) const {
-  if (const std::optional<GlobalTime> instant = instant_of(scan))
+When Announcements::when(const sensors::ObservationList& list) const {
+  if (const std::optional<GlobalTime> instant = instant_of(list))
     for (const Sensor& own : sensors_)
-      if (own.sensor == scan.id.sensor && own.next && *instant < *own.next)
-        return {.stamp = stamp_of(own.sensor, *instant), .after = scan.measured - *instant};
-  return {.stamp = {scan.measured, scan.id}, .after = {}};
+      if (own.sensor == list.id.sensor && own.next && *instant < *own.next)
+        return {.stamp = stamp_of(own.sensor, *instant), .after = list.measured - *instant};
+  return {.stamp = {list.measured, list.id}, .after = {}};
 }
 
-std::span<const oosm::Stamp> Announcements::pass(const sensors::Scan& scan) {
+std::span<const oosm::Stamp> Announcements::pass(const sensors::ObservationList& list) {
   due_.clear();
-  const std::optional<GlobalTime> mine = instant_of(scan);
-  const GlobalTime until = mine.value_or(scan.measured);
+  const std::optional<GlobalTime> mine = instant_of(list);
+  const GlobalTime until = mine.value_or(list.measured);
   for (Sensor& other : sensors_) {
     const ScheduledInstants& instants = other.instants;
     if (until >= instants.first) {
@@ -36,7 +36,7 @@ std::span<const oosm::Stamp> Announcements::pass(const sensors::Scan& scan) {
       GlobalTime due =
           other.next ? std::max(*other.next, newest - instants.period * (kClones - 1)) : newest + instants.period;
       for (; due <= newest; due += instants.period)
-        if (other.sensor != scan.id.sensor || due != mine) due_.push_back(stamp_of(other.sensor, due));
+        if (other.sensor != list.id.sensor || due != mine) due_.push_back(stamp_of(other.sensor, due));
       other.next = due;
     } else {
       other.next = instants.first;

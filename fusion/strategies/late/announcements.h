@@ -24,10 +24,10 @@ class Announcements {
   explicit Announcements(std::span<const SensorTiming> sensors);
 
   // Returns when a list was measured: near an announced instant, or at its own stamp.
-  When when(const sensors::Scan& scan) const;
+  When when(const sensors::ObservationList& list) const;
   // Returns the stamps to announce before taking this list, which is newer than all before; valid until the
   // next call. Each sensor has at most its newest kClones; instants before the first list are left out.
-  std::span<const oosm::Stamp> pass(const sensors::Scan& scan);
+  std::span<const oosm::Stamp> pass(const sensors::ObservationList& list);
 
  private:
   struct Sensor {
@@ -37,7 +37,7 @@ class Announcements {
   };
   static oosm::Stamp stamp_of(SensorId sensor, GlobalTime instant) { return {instant, {sensor, 0}}; }
   // Returns the scheduled instant of this list, or no value if none matches its stamp.
-  std::optional<GlobalTime> instant_of(const sensors::Scan& scan) const;
+  std::optional<GlobalTime> instant_of(const sensors::ObservationList& list) const;
 
   std::vector<Sensor> sensors_;
   std::vector<oosm::Stamp> due_;

@@ -16,7 +16,7 @@ void count(tracks::Track& track, int since, bool hit) {
     const std::uint32_t later = (1u << since) - 1u;
     track.hits = (track.hits & later) | ((track.hits & ~later) << 1) | ((hit ? 1u : 0u) << since);
   }
-  ++track.scans;
+  ++track.lists;
   if (since <= track.misses) track.misses = hit ? since : track.misses + 1;
 }
 
@@ -37,23 +37,23 @@ LateUpdates::LateUpdates(const config::TrackerConfig& config, std::size_t max_ob
 }
 
 bool LateUpdates::contains(const MeasurementId& id, GlobalTime measured) const {
-  const auto same = [&](const Taken& list) { return list.id == id && list.measured == measured; };
+  const auto same = [&](const Taken& taken) { return taken.id == id && taken.measured == measured; };
   return std::any_of(lists_.begin(), lists_.end(), same) || (forgotten_ && same(*forgotten_));
 }
 
-tracks::TrackHistory::Insertion LateUpdates::insert(const sensors::Scan& scan) {
-  const auto is_before = [&](const Taken& list) {
-    return tracks::before(scan.id, scan.measured, list.id, list.measured);
+tracks::TrackHistory::Insertion LateUpdates::insert(const sensors::ObservationList& list) {
+  const auto is_before = [&](const Taken& taken) {
+    return tracks::before(list.id, list.measured, taken.id, taken.measured);
   };
   if (forgotten_ && is_before(*forgotten_)) return Insertion::kTooOld;
   auto place = lists_.end();
   while (place != lists_.begin() && is_before(*std::prev(place))) --place;
   const bool late = place != lists_.end();
   if (!late)
-    step(scan);
-  else if (!mend(scan, static_cast<int>(lists_.end() - place)))
+    step(list);
+  else if (!mend(list, static_cast<int>(lists_.end() - place)))
     return Insertion::kTooOld;
-  lists_.insert(place, {scan.id, scan.measured});
+  lists_.insert(place, {list.id, list.measured});
   identities_.name(set_, lists_.front().measured);
   if (lists_.size() > tracker_.config().history_scans) {
     forgotten_ = lists_.front();
@@ -62,34 +62,34 @@ tracks::TrackHistory::Insertion LateUpdates::insert(const sensors::Scan& scan) {
   return late ? Insertion::kLate : Insertion::kInOrder;
 }
 
-void LateUpdates::step(const sensors::Scan& scan) {
-  const When when = announcements_.when(scan);
-  for (const oosm::Stamp& due : announcements_.pass(scan))
+void LateUpdates::step(const sensors::ObservationList& list) {
+  const When when = announcements_.when(list);
+  for (const oosm::Stamp& due : announcements_.pass(list))
     for (const Object& object : objects_) pasts_->announce(object.slot, due);
-  tracker_.step(set_, scan);
+  tracker_.step(set_, list);
   align();
   for (std::size_t t = 0; t < set_.tracks.size(); ++t) {
     const tracks::Track& track = set_.tracks[t];
     Object& object = objects_[t];
-    if (track.newest.measurement != scan.id || track.newest.measured != scan.measured) continue;
-    const sensors::Observation& z = scan.observations[track.newest.index];
-    if (z.third.has_z) object.z_at = scan.measured;
-    if (z.third.has_height) object.height_at = scan.measured;
+    if (track.newest.measurement != list.id || track.newest.measured != list.measured) continue;
+    const sensors::Observation& z = list.observations[track.newest.index];
+    if (z.third.has_z) object.z_at = list.measured;
+    if (z.third.has_height) object.height_at = list.measured;
     // The stamp does not fit the method: it starts anew from the tracker's estimate.
     if (track.birth != track.newest && !is_taken(pasts_->take(object.slot, when, z)))
       pasts_->start(object.slot, set_.time, track.estimate);
   }
 }
 
-bool LateUpdates::mend(const sensors::Scan& scan, int lists_since) {
-  const When when = announcements_.when(scan);
-  then_.time = scan.measured;
+bool LateUpdates::mend(const sensors::ObservationList& list, int lists_since) {
+  const When when = announcements_.when(list);
+  then_.time = list.measured;
   then_.started = true;
   then_.tracks.clear();
   places_.clear();
   for (std::size_t t = 0; t < set_.tracks.size(); ++t) {
     const tracks::ObservationId& birth = set_.tracks[t].birth;
-    if (!tracks::before(birth.measurement, birth.measured, scan.id, scan.measured)) continue;
+    if (!tracks::before(birth.measurement, birth.measured, list.id, list.measured)) continue;
     const std::optional<estimators::Estimate> then = pasts_->at(objects_[t].slot, when);
     if (!then) continue;
     then_.tracks.push_back(set_.tracks[t]);
@@ -97,13 +97,13 @@ bool LateUpdates::mend(const sensors::Scan& scan, int lists_since) {
     places_.push_back(t);
   }
   if (places_.empty()) return false;
-  const std::span<const int> assigned = tracker_.assigned(then_, scan);
+  const std::span<const int> assigned = tracker_.assigned(then_, list);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     tracks::Track& track = set_.tracks[places_[i]];
     count(track, lists_since, assigned[i] >= 0);
     if (assigned[i] < 0) continue;
-    const tracks::ObservationId which{scan.id, static_cast<std::uint16_t>(assigned[i]), scan.measured};
-    mend(track, objects_[places_[i]], which, scan.observations[which.index], when, then_.tracks[i]);
+    const tracks::ObservationId which{list.id, static_cast<std::uint16_t>(assigned[i]), list.measured};
+    mend(track, objects_[places_[i]], which, list.observations[which.index], when, then_.tracks[i]);
   }
   tracker_.prune(set_);
   align();

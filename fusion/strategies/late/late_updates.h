@@ -15,7 +15,7 @@
 // short. A list without any such track is too old, and so is a list before the last config.history_scans.
 //
 // Beside the state:
-//   counters  The list counts at its place among the others, as a hit or a miss. So hits, misses and scans are those in
+//   counters  The list counts at its place among the others, as a hit or a miss. So hits, misses and lists are those in
 //             order, without lists in which the track took no part. Tracks are confirmed, and end, by these counts.
 //   newest    It moves if the late observation is the track's newest.
 //   outline   Heading and extent are random walks. A late value counts as a present one, with the variance of the walk
@@ -47,7 +47,7 @@ class LateUpdates final : public tracks::TrackHistory {
   // of any.
   LateUpdates(const config::TrackerConfig& config, std::size_t max_observations, std::span<const SensorTiming> sensors);
 
-  Insertion insert(const sensors::Scan& scan) override;
+  Insertion insert(const sensors::ObservationList& list) override;
   const tracks::TrackSet& current() const override { return set_; }
   const estimators::Estimator& estimator() const override { return tracker_.estimator(); }
   bool contains(const MeasurementId& id, GlobalTime measured) const override;
@@ -63,8 +63,8 @@ class LateUpdates final : public tracks::TrackHistory {
     std::size_t slot = 0;            // of its past
     GlobalTime z_at{}, height_at{};  // when the carried values of the third axis were measured
   };
-  void step(const sensors::Scan& scan);
-  bool mend(const sensors::Scan& scan, int lists_since);
+  void step(const sensors::ObservationList& list);
+  bool mend(const sensors::ObservationList& list, int lists_since);
   void mend(tracks::Track& track, Object& object, const tracks::ObservationId& which, const sensors::Observation& z,
             const When& when, tracks::Track& then);
   void align();

@@ -86,7 +86,7 @@ class DefectiveMedium final : public bus::ports::LiveMedium {
   DefectiveMedium(std::unique_ptr<bus::ports::LiveMedium> sound, Defect defect, std::shared_ptr<Bytes> common)
       : sound_(std::move(sound)), defect_(defect), common_(std::move(common)) {}
 
-  bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::HostTime due) override {
+  bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::MachineTime due) override {
     if (defect_ == Defect::kEchoes) echo_ = true;
     if (defect_ == Defect::kReusesBytes) std::ranges::copy(signal.bytes, common_->begin());
     bus::ports::LiveSignal sent = signal;

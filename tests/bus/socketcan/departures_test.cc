@@ -11,7 +11,7 @@
 namespace ttf::bus::socketcan {
 namespace {
 
-using ports::HostTime;
+using ports::MachineTime;
 using schedules::model::Channel;
 
 canfd_frame last_of(int slot, int cycle, int words) {
@@ -22,51 +22,51 @@ canfd_frame last_of(int slot, int cycle, int words) {
 TEST(Departures, AreToldOfOnceWithHowLateTheyWere) {
   Departures departures;
   EXPECT_TRUE(departures.none());
-  departures.expect(last_of(3, 17, 8), 3, 17, HostTime{1'000'000});
+  departures.expect(last_of(3, 17, 8), 3, 17, MachineTime{1'000'000});
   EXPECT_FALSE(departures.none());
-  const auto told = departures.left(last_of(3, 17, 8), HostTime{1'045'163});
+  const auto told = departures.left(last_of(3, 17, 8), MachineTime{1'045'163});
   ASSERT_TRUE(told);
   EXPECT_EQ(told->slot, 3);
   EXPECT_EQ(told->cycle_counter, 17);
   EXPECT_EQ(told->late.ns, 45'163);
   EXPECT_TRUE(departures.none());
-  EXPECT_FALSE(departures.left(last_of(3, 17, 8), HostTime{1'045'163}));
+  EXPECT_FALSE(departures.left(last_of(3, 17, 8), MachineTime{1'045'163}));
 }
 
 TEST(Departures, OfOtherFramesAreNot) {
   Departures departures;
-  departures.expect(last_of(3, 17, 8), 3, 17, HostTime{0});
-  EXPECT_FALSE(departures.left(last_of(4, 17, 8), HostTime{0}));
-  EXPECT_FALSE(departures.left(last_of(3, 18, 8), HostTime{0}));
+  departures.expect(last_of(3, 17, 8), 3, 17, MachineTime{0});
+  EXPECT_FALSE(departures.left(last_of(4, 17, 8), MachineTime{0}));
+  EXPECT_FALSE(departures.left(last_of(3, 18, 8), MachineTime{0}));
   canfd_frame shorter = last_of(3, 17, 8);
   shorter.len = 20;
-  EXPECT_FALSE(departures.left(shorter, HostTime{0}));
+  EXPECT_FALSE(departures.left(shorter, MachineTime{0}));
   EXPECT_FALSE(departures.none());
   // Of a frame in fragments the last one says it.
   const CanFrames can = frame_to_can(5, drawn_frame(Channel::kA, 5, 1, 60));
   ASSERT_EQ(can.count, 3u);
-  departures.expect(can.all().back(), 5, 1, HostTime{0});
-  EXPECT_FALSE(departures.left(can.frames[0], HostTime{0}));
-  EXPECT_FALSE(departures.left(can.frames[1], HostTime{0}));
-  EXPECT_TRUE(departures.left(can.frames[2], HostTime{0}));
+  departures.expect(can.all().back(), 5, 1, MachineTime{0});
+  EXPECT_FALSE(departures.left(can.frames[0], MachineTime{0}));
+  EXPECT_FALSE(departures.left(can.frames[1], MachineTime{0}));
+  EXPECT_TRUE(departures.left(can.frames[2], MachineTime{0}));
 }
 
 // A driver may have set flags that the sender had not.
 TEST(Departures, AreKnownByTheirDataNotTheirFlags) {
   Departures departures;
-  departures.expect(last_of(3, 17, 8), 3, 17, HostTime{100});
+  departures.expect(last_of(3, 17, 8), 3, 17, MachineTime{100});
   canfd_frame echo = last_of(3, 17, 8);
   echo.flags ^= CANFD_BRS | CANFD_ESI;
-  EXPECT_EQ(departures.left(echo, HostTime{40}).value_or(FollowUp{}).late.ns, -60);
+  EXPECT_EQ(departures.left(echo, MachineTime{40}).value_or(FollowUp{}).late.ns, -60);
 }
 
 TEST(Departures, InAnyOrderAndOnlyTheNewestKept) {
   Departures departures;
   const int all = static_cast<int>(Departures::kRoom) + 3;
-  for (int i = 0; i < all; ++i) departures.expect(last_of(7, i, 8), 7, static_cast<std::uint8_t>(i), HostTime{i});
-  for (int i = 0; i < 3; ++i) EXPECT_FALSE(departures.left(last_of(7, i, 8), HostTime{100})) << i;
+  for (int i = 0; i < all; ++i) departures.expect(last_of(7, i, 8), 7, static_cast<std::uint8_t>(i), MachineTime{i});
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(departures.left(last_of(7, i, 8), MachineTime{100})) << i;
   for (int i = all - 1; i >= 3; --i) {
-    const auto told = departures.left(last_of(7, i, 8), HostTime{100});
+    const auto told = departures.left(last_of(7, i, 8), MachineTime{100});
     ASSERT_TRUE(told) << i;
     EXPECT_EQ(told->cycle_counter, i);
     EXPECT_EQ(told->late.ns, 100 - i);
@@ -76,33 +76,33 @@ TEST(Departures, InAnyOrderAndOnlyTheNewestKept) {
 
 TEST(Departures, TooLateToBeToldAreNot) {
   Departures departures;
-  departures.expect(last_of(3, 17, 8), 3, 17, HostTime{0});
-  EXPECT_FALSE(departures.left(last_of(3, 17, 8), HostTime{0x8000'0000LL}));
+  departures.expect(last_of(3, 17, 8), 3, 17, MachineTime{0});
+  EXPECT_FALSE(departures.left(last_of(3, 17, 8), MachineTime{0x8000'0000LL}));
   EXPECT_TRUE(departures.none());  // nor ever after
 }
 
 constexpr ClockPair kPair{.host = {5'000}, .realtime_ns = 1'700'000'000'000'000'000, .now = {5'200}};
 
 TEST(Stamps, AreTheHostsInstantOfTheSameDistance) {
-  EXPECT_EQ(on_host(kPair.realtime_ns - 1'234, kPair), HostTime{3'766});
-  EXPECT_EQ(on_host(kPair.realtime_ns, kPair), HostTime{5'000});
+  EXPECT_EQ(on_host(kPair.realtime_ns - 1'234, kPair), MachineTime{3'766});
+  EXPECT_EQ(on_host(kPair.realtime_ns, kPair), MachineTime{5'000});
 }
 
 TEST(Stamps, AreNeverLaterThanNow) {
-  EXPECT_EQ(on_host(kPair.realtime_ns + 200, kPair), HostTime{5'200});
-  EXPECT_EQ(on_host(kPair.realtime_ns + 201, kPair), HostTime{5'200});
-  EXPECT_EQ(on_host(std::numeric_limits<std::int64_t>::max(), kPair), HostTime{5'200});
+  EXPECT_EQ(on_host(kPair.realtime_ns + 200, kPair), MachineTime{5'200});
+  EXPECT_EQ(on_host(kPair.realtime_ns + 201, kPair), MachineTime{5'200});
+  EXPECT_EQ(on_host(std::numeric_limits<std::int64_t>::max(), kPair), MachineTime{5'200});
 }
 
 TEST(Stamps, WhereThereIsNoneItIsNow) {
-  EXPECT_EQ(on_host(0, kPair), HostTime{5'200});
-  EXPECT_EQ(on_host(std::numeric_limits<std::int64_t>::min(), kPair), HostTime{5'200});
+  EXPECT_EQ(on_host(0, kPair), MachineTime{5'200});
+  EXPECT_EQ(on_host(std::numeric_limits<std::int64_t>::min(), kPair), MachineTime{5'200});
 }
 
 TEST(Stamps, ClocksAreReadTogether) {
-  const HostTime before = ports::host_now();
+  const MachineTime before = ports::host_now();
   const ClockPair pair = clock_pair();
-  const HostTime after = ports::host_now();
+  const MachineTime after = ports::host_now();
   EXPECT_TRUE(before <= pair.host && pair.host <= pair.now && pair.now <= after);
   // Two pairs agree on what a stamp means, unless somebody sets the clock or keeps both readings waiting.
   const ClockPair later = clock_pair();

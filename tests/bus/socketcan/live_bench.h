@@ -19,7 +19,7 @@ class InItsSlot final : public ports::LiveMedium {
  public:
   InItsSlot(const LiveOptions& options, std::mutex& slot) : medium_(options), slot_(slot) {}
 
-  ports::LiveStatus send(const ports::LiveSignal& signal, ports::HostTime due) override {
+  ports::LiveStatus send(const ports::LiveSignal& signal, ports::MachineTime due) override {
     const std::scoped_lock lock(slot_);
     return medium_.send(signal, due);
   }

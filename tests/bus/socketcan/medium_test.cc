@@ -27,9 +27,9 @@
 namespace ttf::bus::socketcan {
 namespace {
 
-using ports::HostTime;
 using ports::LiveArrival;
 using ports::LiveStatus;
+using ports::MachineTime;
 using schedules::model::Channel;
 
 // On channel A, on B, and on a classic CAN.
@@ -79,14 +79,14 @@ TEST_F(LiveOnVcan, AFollowUpSaysHowLateTheFrameLeft) {
   SocketCanMedium sender(options()), receiver(options());
   for (const std::int64_t late_ns : {0, 1'000'000, 123'456'789, -5'000'000, 2'000'000'000}) {
     const Bytes frame = drawn_frame(Channel::kA, 9, 33, 20);
-    const HostTime due = ports::host_now() - Duration::nanoseconds(late_ns), begin = ports::host_now();
+    const MachineTime due = ports::host_now() - Duration::nanoseconds(late_ns), begin = ports::host_now();
     ASSERT_EQ(sender.send(signal(frame, 9, true), due), LiveStatus::kDone);
-    const HostTime end = ports::host_now();
+    const MachineTime end = ports::host_now();
     const auto arrival = next(receiver);
     ASSERT_TRUE(arrival);
     ASSERT_EQ(arrival->kind, LiveArrival::Kind::kFlexRay);
     EXPECT_FALSE(arrival->late);
-    const HostTime at = arrival->at;
+    const MachineTime at = arrival->at;
     EXPECT_FALSE(sender.receive());  // at the latest it hears now that its frame has left
     const auto told = next(receiver);
     ASSERT_TRUE(told && told->late);
@@ -123,9 +123,9 @@ TEST_F(LiveOnVcan, AFollowUpWaitsForWhatIsStillToBeReceived) {
   SocketCanMedium sender(options()), receiver(options());
   const Bytes others = drawn_frame(Channel::kA, 2, 33, 20), own = drawn_frame(Channel::kA, 9, 33, 20);
   ASSERT_EQ(receiver.send(signal(others, 2), {}), LiveStatus::kDone);
-  const HostTime due = ports::host_now();
+  const MachineTime due = ports::host_now();
   ASSERT_EQ(sender.send(signal(own, 9, true), due), LiveStatus::kDone);
-  const HostTime left = ports::host_now();
+  const MachineTime left = ports::host_now();
   ASSERT_TRUE(next(receiver));
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_FALSE(receiver.receive());
@@ -145,7 +145,7 @@ TEST_F(LiveOnVcan, OnlyWhatIsToTellItIsFollowedUp) {
   ASSERT_EQ(sender.send(signal(frame, 9, false), {}), LiveStatus::kDone);
   ASSERT_EQ(sender.send({.channel = Channel::kA, .signal = ports::Signal::kCas, .duration = {5'700}, .bytes = {}}, {}),
             LiveStatus::kDone);
-  const HostTime long_ago = ports::host_now() - Duration::milliseconds(3'000);  // too late to be told
+  const MachineTime long_ago = ports::host_now() - Duration::milliseconds(3'000);  // too late to be told
   ASSERT_EQ(sender.send(signal(frame, 9, true), long_ago), LiveStatus::kDone);
   for (int i = 0; i < 3; ++i) {
     const auto arrival = next(receiver);
@@ -178,10 +178,10 @@ TEST_F(LiveOnVcan, NothingArrivesInTheFuture) {
   head->cmsg_len = CMSG_LEN(sizeof(std::uint64_t));
   const std::uint64_t year_2255 = 9'000'000'000'000'000'000;
   std::memcpy(CMSG_DATA(head), &year_2255, sizeof year_2255);
-  const HostTime begin = ports::host_now();
+  const MachineTime begin = ports::host_now();
   ASSERT_EQ(sendmsg(socket.descriptor(), &message, 0), static_cast<ssize_t>(CANFD_MTU));
   const auto arrival = next(receiver);
-  const HostTime end = ports::host_now();
+  const MachineTime end = ports::host_now();
   ASSERT_TRUE(arrival);
   EXPECT_GE(arrival->at, begin);
   EXPECT_LE(arrival->at, end);

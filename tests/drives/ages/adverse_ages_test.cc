@@ -66,13 +66,13 @@ struct Followed final : recording::records::Sink {
     }
     if ((sent.pdu == raw || sent.pdu == objects) && sent.sequence == list) missing += under_worst(sent);
   }
-  void on(const recording::records::ListFused& scan) override {
-    if (scan.id.sensor != cluster.pdu(objects).sensor) return;
-    const Duration age = scan.stamp.global - scan.measured;
+  void on(const recording::records::ListFused& list) override {
+    if (list.id.sensor != cluster.pdu(objects).sensor) return;
+    const Duration age = list.stamp.global - list.measured;
     extremes = {std::min(extremes.first, age), std::max(extremes.second, age)};
-    if (scan.id.sequence != list) return;
+    if (list.id.sequence != list) return;
     fused = age;
-    measured = scan.measured;
+    measured = list.measured;
   }
   void on(const recording::records::ImageWritten& written_image) override {
     if (measured && !image) image = written_image.sequence;

@@ -148,7 +148,7 @@ TEST(Axes, Scenario) {
   EXPECT_GT(varied.mean("nees", 1, "adva"), 1.5 * varied.mean("nees", 0, "adva"));
 }
 
-// A scan of 25 objects takes some milliseconds more on its CAN than that of one.
+// A list of 25 objects takes some milliseconds more on its CAN than that of one.
 TEST(Axes, Objects) {
   Varied varied("objects");
   for (const char* paradigm : {"adva", "tt", "free"}) {

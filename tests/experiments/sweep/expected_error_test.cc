@@ -142,8 +142,8 @@ class Sampled {
       for (; use != uses.end() && use->known < now; ++use) squares.push_back(square_at(*use, image));
       for (; next < drawn_.lists.size() && drawn_.lists[next].arrival == now; ++next) accept(next);
       strategy_->fuse(now);
-      for (const fusion::strategies::FusedScan& scan : strategy_->last_fused())
-        if (scan.disposition != fusion::strategies::Disposition::kHeld) fused[scan.id.sequence] = now;
+      for (const fusion::strategies::FusedList& list : strategy_->last_fused())
+        if (list.disposition != fusion::strategies::Disposition::kHeld) fused[list.id.sequence] = now;
     }
     for (; use != uses.end(); ++use) squares.push_back(square_at(*use, image));
   }

@@ -63,7 +63,7 @@ struct BiasedDrive {
   std::vector<OwnedScan> scans;  // of one object, laser and radar in turn, 40 ms apart; `first` is the first
   std::vector<State> truth;      // at the stamps
 };
-BiasedDrive drawn_biased(std::uint64_t seed, int run, int scans,
+BiasedDrive drawn_biased(std::uint64_t seed, int run, int lists,
                          config::MotionModel motion = config::MotionModel::kConstantVelocity, int first = kLaser) {
   const std::vector<sensors::KnownSensor> sensors = laser_and_radar_biases();
   RandomStream stream({.seed = seed, .replication = static_cast<std::uint32_t>(run)});
@@ -74,32 +74,32 @@ BiasedDrive drawn_biased(std::uint64_t seed, int run, int scans,
   State x = State::Zero();
   x.head<4>() << 45.0, 15.0, 4.0 * stream.normal(), 4.0 * stream.normal();
   if (motion == config::MotionModel::kConstantAcceleration) x.tail<2>() << 2.0 * stream.normal(), 2.0 * stream.normal();
-  for (int k = 0; k < scans; ++k) {
+  for (int k = 0; k < lists; ++k) {
     if (k > 0) x = draw(transition(motion, 0.04) * x, driving_noise(motion, kNoise, 0.04), stream);
     const int sensor = (k + first) % 2;
     const sensors::KnownSensor& known = sensors[static_cast<std::size_t>(sensor)];
     sensors::Observation o = seen(x, sensor, known, bias[sensor], stream);
     place(o, static_cast<SensorId>(sensor), known);
-    drive.scans.push_back(
-        scan(static_cast<std::uint8_t>(sensor), static_cast<std::uint32_t>(k / 2), at_ms(40 * k), {o}));
+    drive.lists.push_back(
+        list_of(static_cast<std::uint8_t>(sensor), static_cast<std::uint32_t>(k / 2), at_ms(40 * k), {o}));
     drive.truth.push_back(x);
   }
   return drive;
 }
 
-// Independent drives through a whole tracker, each judged once, after its last scan.
+// Independent drives through a whole tracker, each judged once, after its last list.
 struct Judged {
   metrics::Consistency nees;
   double position_squared = 0.0, velocity_squared = 0.0;  // means
 };
-Judged judged(const config::TrackerConfig& config, std::uint64_t seed, int runs, int scans, int first) {
+Judged judged(const config::TrackerConfig& config, std::uint64_t seed, int runs, int lists, int first) {
   Judged out;
   tracks::Tracker tracker(config, 2);
   const int n = config.motion == config::MotionModel::kConstantVelocity ? 4 : 6;
   for (int run = 0; run < runs; ++run) {
-    const BiasedDrive drive = drawn_biased(seed, run, scans, config.motion, first);
+    const BiasedDrive drive = drawn_biased(seed, run, lists, config.motion, first);
     tracks::TrackSet set(tracker.max_tracks());
-    for (const OwnedScan& one : drive.scans) tracker.step(set, one.view());
+    for (const OwnedList& one : drive.lists) tracker.step(set, one.view());
     const Cartesian end = tracker.estimator().cartesian(set.tracks.front().estimate);
     const State error = drive.truth.back() - end.x;
     const Eigen::VectorXd part = error.head(n);
@@ -113,15 +113,15 @@ Judged judged(const config::TrackerConfig& config, std::uint64_t seed, int runs,
 constexpr config::SystematicErrorsAre kIgnored = config::SystematicErrorsAre::kIgnored,
                                       kConsidered = config::SystematicErrorsAre::kConsidered;
 
-void expect_only_the_considering_one_consistent(config::MotionModel motion, int scans, int first = kLaser) {
+void expect_only_the_considering_one_consistent(config::MotionModel motion, int lists, int first = kLaser) {
   constexpr int kRuns = 400;
   const std::vector<sensors::KnownSensor> sensors = laser_and_radar_biases();
   for (const std::uint64_t seed : {1u, 2u}) {
-    const Judged considered = judged(config_with(kConsidered, sensors, motion), seed, kRuns, scans, first);
+    const Judged considered = judged(config_with(kConsidered, sensors, motion), seed, kRuns, lists, first);
     EXPECT_TRUE(considered.nees.consistent()) << considered.nees.mean() << " of " << considered.nees.expected();
-    const Judged ignored = judged(config_with(kIgnored, sensors, motion), seed, kRuns, scans, first);
+    const Judged ignored = judged(config_with(kIgnored, sensors, motion), seed, kRuns, lists, first);
     EXPECT_GT(ignored.nees.mean(), 2.0 * ignored.nees.band().high);
-    if (scans >= 10) {
+    if (lists >= 10) {
       EXPECT_LT(considered.position_squared, 0.9 * ignored.position_squared) << "weighs better, too";
       EXPECT_LT(considered.velocity_squared, ignored.velocity_squared);
     }
@@ -129,14 +129,14 @@ void expect_only_the_considering_one_consistent(config::MotionModel motion, int 
 }
 
 TEST(Considering, IsConsistentFromBirthOnWhereIgnoringIsNot) {
-  for (const int scans : {1, 2, 3, 10, 60})
-    expect_only_the_considering_one_consistent(config::MotionModel::kConstantVelocity, scans);
-  for (const int scans : {10, 60})
-    expect_only_the_considering_one_consistent(config::MotionModel::kConstantVelocity, scans, kRadar);
+  for (const int lists : {1, 2, 3, 10, 60})
+    expect_only_the_considering_one_consistent(config::MotionModel::kConstantVelocity, lists);
+  for (const int lists : {10, 60})
+    expect_only_the_considering_one_consistent(config::MotionModel::kConstantVelocity, lists, kRadar);
 }
 TEST(Considering, IsConsistentWithAccelerations) {
-  for (const int scans : {1, 2, 60})
-    expect_only_the_considering_one_consistent(config::MotionModel::kConstantAcceleration, scans);
+  for (const int lists : {1, 2, 60})
+    expect_only_the_considering_one_consistent(config::MotionModel::kConstantAcceleration, lists);
 }
 
 // A sensor's first sight of an object nobody knows anything of is an update of a state that may be anywhere.
@@ -186,7 +186,7 @@ TEST(Considering, NothingToConsiderIsIgnoring) {
     tracks::Tracker ignoring(config_with(kIgnored, sensors, motion), 2);
     tracks::Tracker considering(config_with(kConsidered, sensors, motion), 2);
     tracks::TrackSet a(ignoring.max_tracks()), b(considering.max_tracks());
-    for (const OwnedScan& one : drawn_biased(3, 0, 100, motion).scans) {
+    for (const OwnedList& one : drawn_biased(3, 0, 100, motion).lists) {
       ignoring.step(a, one.view());
       considering.step(b, one.view());
       ASSERT_EQ(a.tracks.size(), b.tracks.size());
@@ -211,8 +211,8 @@ TEST(Considering, GatesAreAsWideAsTheBiases) {
   for (const config::SystematicErrorsAre answer : {kIgnored, kConsidered}) {
     tracks::Tracker tracker(config_with(answer, sensors), 2);
     tracks::TrackSet set(tracker.max_tracks());
-    for (std::uint32_t k = 0; k < 5; ++k) tracker.step(set, scan(0, k, at_ms(40 * k), {first}).view());
-    tracker.step(set, scan(1, 0, at_ms(180), {turned}).view());
+    for (std::uint32_t k = 0; k < 5; ++k) tracker.step(set, list_of(0, k, at_ms(40 * k), {first}).view());
+    tracker.step(set, list_of(1, 0, at_ms(180), {turned}).view());
     EXPECT_EQ(set.tracks.size(), answer == kIgnored ? 2u : 1u);
     EXPECT_EQ(set.tracks[0].misses, answer == kIgnored ? 1 : 0);
   }
@@ -223,10 +223,10 @@ TEST(Considering, TheExpectedPositionIsThatOfTheGate) {
   const config::TrackerConfig config = config_with(kConsidered);
   const auto estimator = make_estimator(config);
   const BiasedDrive drive = drawn_biased(4, 0, 9);
-  Estimate estimate = estimator->initial(drive.scans[0].observations[0]);
-  for (std::size_t k = 1; k < drive.scans.size(); ++k) {
+  Estimate estimate = estimator->initial(drive.lists[0].observations[0]);
+  for (std::size_t k = 1; k < drive.lists.size(); ++k) {
     estimator->predict(estimate, 0.04);
-    const sensors::Observation& z = drive.scans[k].observations[0];
+    const sensors::Observation& z = drive.lists[k].observations[0];
     if (z.kind == sensors::ObservationKind::kPosition) {
       const linear::Gaussian<2> expected = estimator->seen_position(estimate, z.sensor);
       const linear::Matrix<2> s = expected.p + z.r.topLeftCorner<2, 2>();
@@ -252,17 +252,17 @@ config::TrackerConfig config_of_crowd() {
 std::vector<Arrival> crowd_arrivals(std::uint64_t seed) {
   std::vector<Arrival> arrivals = drawn_drive(seed, 40);
   for (Arrival& arrival : arrivals)
-    for (sensors::Observation& z : arrival.scan.observations) z.sensor = arrival.scan.id.sensor;
+    for (sensors::Observation& z : arrival.list.observations) z.sensor = arrival.list.id.sensor;
   return arrivals;
 }
 TEST(Considering, LateListsGiveTheBitsOfArrivalInOrder) {
   const config::TrackerConfig config = config_of_crowd();
   std::vector<Arrival> arrivals = crowd_arrivals(7);
   std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
-    return tracks::before(a.scan.id, a.scan.measured, b.scan.id, b.scan.measured);
+    return tracks::before(a.list.id, a.list.measured, b.list.id, b.list.measured);
   });
   tracks::Timeline in_order(config, 64);
-  for (const Arrival& arrival : arrivals) in_order.insert(arrival.scan.view());
+  for (const Arrival& arrival : arrivals) in_order.insert(arrival.list.view());
   ASSERT_GE(in_order.current().tracks.size(), 25u);
   EXPECT_GT(std::get<WithBiases<4>>(in_order.current().tracks[0].estimate).cross.norm(), 1e-3);
   RandomStream stream({.seed = 8});
@@ -275,7 +275,7 @@ TEST(Considering, LateListsGiveTheBitsOfArrivalInOrder) {
     tracks::Timeline timeline(config, 64);
     int late = 0;
     for (const Arrival& arrival : shuffled)
-      late += timeline.insert(arrival.scan.view()) == tracks::Timeline::Insertion::kLate;
+      late += timeline.insert(arrival.list.view()) == tracks::Timeline::Insertion::kLate;
     EXPECT_GT(late, 20);
     EXPECT_TRUE(same_bits(timeline.current(), in_order.current())) << "draw " << draw;
   }
@@ -288,7 +288,7 @@ TEST(Considering, AllocatesNothingAfterConstruction) {
   image.reserve(64);
   const std::int64_t before = support::allocations();
   for (const Arrival& arrival : arrivals) {
-    strategy->accept(arrival.scan.view());
+    strategy->accept(arrival.list.view());
     strategy->fuse(at_ms(arrival.ms));
     strategy->image(at_ms(arrival.ms + 40), image);
   }
@@ -328,8 +328,8 @@ TEST(Mounting, BackwardsTheSameTracks) {
       turned.heading = 0.3 - std::numbers::pi;
       place(z, id, ahead[s]);
       place(turned, id, behind[s]);
-      one.step(a, scan(static_cast<std::uint8_t>(sensor), k, at_ms(40 * k), {z}).view());
-      other.step(b, scan(static_cast<std::uint8_t>(sensor), k, at_ms(40 * k), {turned}).view());
+      one.step(a, list_of(static_cast<std::uint8_t>(sensor), k, at_ms(40 * k), {z}).view());
+      other.step(b, list_of(static_cast<std::uint8_t>(sensor), k, at_ms(40 * k), {turned}).view());
       ASSERT_EQ(a.tracks.size(), b.tracks.size());
       const Cartesian p = one.estimator().cartesian(a.tracks[0].estimate);
       const Cartesian q = other.estimator().cartesian(b.tracks[0].estimate);

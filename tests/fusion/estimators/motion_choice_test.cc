@@ -54,8 +54,8 @@ Judged judge(const config::TrackerConfig& config, const M& truth, const linear::
     linear::Vector<M::kStates> x = start;
     for (int k = 0; k < kSteps; ++k) {
       x = motion::drawn<M::kStates>(truth.move(x, kDt), truth.noise(x, kDt), stream);
-      tracker.step(set, scan(0, static_cast<std::uint32_t>(k), at_ms(50 * k),
-                             {position(x(0) + kSigma * stream.normal(), x(1) + kSigma * stream.normal(), kSigma)})
+      tracker.step(set, list_of(0, static_cast<std::uint32_t>(k), at_ms(50 * k),
+                                {position(x(0) + kSigma * stream.normal(), x(1) + kSigma * stream.normal(), kSigma)})
                             .view());
       judged.lost += set.tracks.size() != 1;
       if (k < kSteps / 2 || set.tracks.empty()) continue;
@@ -144,8 +144,8 @@ Legs on_two_legs(config::MotionModel motion, config::FilterKind filter) {
     for (int k = 0; k < 200; ++k) {
       x(4) = k < 100 ? 0.0 : 0.5;
       x = way.move(x, kDt);
-      tracker.step(set, scan(0, static_cast<std::uint32_t>(k), at_ms(50 * k),
-                             {position(x(0) + kSigma * stream.normal(), x(1) + kSigma * stream.normal(), kSigma)})
+      tracker.step(set, list_of(0, static_cast<std::uint32_t>(k), at_ms(50 * k),
+                                {position(x(0) + kSigma * stream.normal(), x(1) + kSigma * stream.normal(), kSigma)})
                             .view());
       if (k % 100 < 50 || set.tracks.empty()) continue;
       const Cartesian seen = tracker.estimator().cartesian(set.tracks[0].estimate);
@@ -173,9 +173,9 @@ class EveryChoice : public testing::TestWithParam<Choice> {
 INSTANTIATE_TEST_SUITE_P(All, EveryChoice, every_choice(), name_of_choice);
 
 // Two cars, one of which turns, seen by a laser and a radar; three scans share an instant.
-std::vector<OwnedScan> scans_of_two_cars(std::uint32_t count) {
+std::vector<OwnedList> lists_of_two_cars(std::uint32_t count) {
   RandomStream stream({.seed = 33});
-  std::vector<OwnedScan> scans;
+  std::vector<OwnedList> lists;
   const motion::Ctrv way(1e-9, 1e-9);
   linear::Vector<5> cars[2];
   cars[0] << 30.0, 5.0, 0.2, 12.0, 0.6;
@@ -193,55 +193,55 @@ std::vector<OwnedScan> scans_of_two_cars(std::uint32_t count) {
       else
         seen.push_back(position(at(0) + 0.1 * stream.normal(), at(1) + 0.1 * stream.normal(), 0.1));
     }
-    const GlobalTime last = scans.empty() ? at_ms(-50) : scans.back().measured;
-    scans.push_back(scan(0, k, tie ? last : last + Duration::milliseconds(50), std::move(seen)));
+    const GlobalTime last = lists.empty() ? at_ms(-50) : lists.back().measured;
+    lists.push_back(list_of(0, k, tie ? last : last + Duration::milliseconds(50), std::move(seen)));
   }
-  return scans;
+  return lists;
 }
 
-void expect_the_same_in_every_order(const config::TrackerConfig& config, const std::vector<OwnedScan>& scans,
+void expect_the_same_in_every_order(const config::TrackerConfig& config, const std::vector<OwnedList>& lists,
                                     const std::vector<std::size_t>& order, const tracks::TrackSet& in_order) {
   tracks::Timeline timeline(config, 4);
-  for (const std::size_t s : order) timeline.insert(scans[s].view());
+  for (const std::size_t s : order) timeline.insert(lists[s].view());
   ASSERT_TRUE(same_bits(timeline.current(), in_order));
 }
 
 TEST_P(EveryChoice, AnyOrderOfArrivalGivesTheSameBits) {
-  const std::vector<OwnedScan> scans = scans_of_two_cars(60);
+  const std::vector<OwnedList> lists = lists_of_two_cars(60);
   tracks::Timeline in_order(config, 4);
-  for (const OwnedScan& s : scans) in_order.insert(s.view());
+  for (const OwnedList& s : lists) in_order.insert(s.view());
   ASSERT_EQ(in_order.current().tracks.size(), 2u);
   if (config.motion == config::MotionModel::kInteracting) {
     EXPECT_TRUE(std::holds_alternative<StraightOrTurning>(in_order.current().tracks[0].estimate));
   }
-  std::vector<std::size_t> order(scans.size());
+  std::vector<std::size_t> order(lists.size());
   std::iota(order.begin(), order.end(), 0u);
   RandomStream stream({.seed = 34});
   for (int draw = 0; draw < 20; ++draw) {
     for (std::size_t i = order.size(); i > 1; --i)
       std::swap(order[i - 1], order[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
-    expect_the_same_in_every_order(config, scans, order, in_order.current());
+    expect_the_same_in_every_order(config, lists, order, in_order.current());
   }
 }
 
-// All 5,040 orders of the seven scans around the birth of the polar state.
-TEST(MotionChoice, EveryOrderOfSevenScansUnderCtrvUnscented) {
+// All 5,040 orders of the seven lists around the birth of the polar state.
+TEST(MotionChoice, EveryOrderOfSevenListsUnderCtrvUnscented) {
   const config::TrackerConfig config = config_of(config::MotionModel::kCtrv, 3.0, config::FilterKind::kUnscented);
-  const std::vector<OwnedScan> all = scans_of_two_cars(14);
-  std::vector<OwnedScan> scans;
-  for (std::size_t i = 0; i < all.size(); i += 2) scans.push_back(all[i]);
+  const std::vector<OwnedList> all = lists_of_two_cars(14);
+  std::vector<OwnedList> lists;
+  for (std::size_t i = 0; i < all.size(); i += 2) lists.push_back(all[i]);
   tracks::Timeline in_order(config, 4);
   std::size_t young = 0, polar = 0;
-  for (const OwnedScan& s : scans) {
+  for (const OwnedList& s : lists) {
     in_order.insert(s.view());
     for (const tracks::Track& track : in_order.current().tracks) ++(track.estimate.index() == 0 ? young : polar);
   }
   ASSERT_GT(young, 2u);
   ASSERT_GT(polar, 2u);
-  std::vector<std::size_t> order(scans.size());
+  std::vector<std::size_t> order(lists.size());
   std::iota(order.begin(), order.end(), 0u);
   do {
-    expect_the_same_in_every_order(config, scans, order, in_order.current());
+    expect_the_same_in_every_order(config, lists, order, in_order.current());
     if (HasFatalFailure()) return;
   } while (std::next_permutation(order.begin(), order.end()));
 }
@@ -254,7 +254,7 @@ TEST_P(EveryChoice, AllocatesNothingAfterConstruction) {
   image.reserve(64);
   const std::int64_t before = support::allocations();
   for (const Arrival& arrival : arrivals) {
-    strategy->accept(arrival.scan.view());
+    strategy->accept(arrival.list.view());
     strategy->fuse(at_ms(arrival.ms));
     strategy->image(at_ms(arrival.ms + 40), image);
   }

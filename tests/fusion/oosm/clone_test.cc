@@ -13,7 +13,7 @@ class Announced : public testing::Test {
   static linear::LinearMeasurement<2, 1> position(double z) {
     return {linear::Vector<1>(z), linear::Matrix<1, 2>(1.0, 0.0), linear::Matrix<1>(1.0)};
   }
-  static Stamp scan(int i) { return stamp_at(after_ms(100 * i)); }
+  static Stamp list_of(int i) { return stamp_at(after_ms(100 * i)); }
   static Stamp between(int i) { return stamp_at(after_ms(100 * i + 50), 1); }
 
   Announced() { method_.start(GlobalTime{}, {linear::Vector<2>::Zero(), linear::Matrix<2>::Identity()}); }
@@ -22,27 +22,27 @@ class Announced : public testing::Test {
 };
 
 TEST_F(Announced, LateWithoutAWordIsNotTaken) {
-  method_.take(scan(1), position(1));
-  method_.take(scan(2), position(2));
+  method_.take(list_of(1), position(1));
+  method_.take(list_of(2), position(2));
   const linear::Gaussian<2> before = method_.state();
   EXPECT_FALSE(method_.announce(between(1)));  // too late
   EXPECT_EQ(method_.take(between(1), position(1)), Taken::kUnannounced);
   EXPECT_TRUE(same_bits<2>(method_.state(), before));
-  EXPECT_EQ(method_.take(scan(3), position(3)), Taken::kInOrder);
+  EXPECT_EQ(method_.take(list_of(3), position(3)), Taken::kInOrder);
 }
 
 TEST_F(Announced, ATimeThatIsKeptNeedsNoClone) {
-  EXPECT_TRUE(method_.announce(scan(1)));
-  EXPECT_EQ(method_.take(scan(1), position(1)), Taken::kInOrder);
-  EXPECT_EQ(method_.take(scan(1), position(1)), Taken::kDuplicate);
-  EXPECT_EQ(method_.take(scan(2), position(1)), Taken::kInOrder);
-  EXPECT_EQ(method_.take(scan(1), position(1)), Taken::kUnannounced);
+  EXPECT_TRUE(method_.announce(list_of(1)));
+  EXPECT_EQ(method_.take(list_of(1), position(1)), Taken::kInOrder);
+  EXPECT_EQ(method_.take(list_of(1), position(1)), Taken::kDuplicate);
+  EXPECT_EQ(method_.take(list_of(2), position(1)), Taken::kInOrder);
+  EXPECT_EQ(method_.take(list_of(1), position(1)), Taken::kUnannounced);
 }
 
 TEST_F(Announced, ACloneServesOnce) {
   EXPECT_TRUE(method_.announce(between(0)));
   EXPECT_TRUE(method_.announce(between(0)));  // once more is once
-  method_.take(scan(1), position(1));
+  method_.take(list_of(1), position(1));
   EXPECT_EQ(method_.take(between(0), position(1)), Taken::kLate);
   EXPECT_EQ(method_.take(between(0), position(1)), Taken::kUnannounced);
 }
@@ -51,9 +51,9 @@ TEST_F(Announced, TheOldestGoesWhenAllAreInUse) {
   EXPECT_TRUE(method_.announce(between(1)));
   EXPECT_TRUE(method_.announce(between(0)));
   EXPECT_FALSE(method_.announce(between(2)));  // two are as many as there is room for
-  method_.take(scan(2), position(1));
+  method_.take(list_of(2), position(1));
   EXPECT_TRUE(method_.announce(between(2)));
-  method_.take(scan(3), position(1));
+  method_.take(list_of(3), position(1));
   EXPECT_EQ(method_.take(between(0), position(1)), Taken::kTooOld);
   EXPECT_EQ(method_.take(between(2), position(1)), Taken::kLate);
   EXPECT_EQ(method_.take(between(1), position(1)), Taken::kLate);

@@ -17,7 +17,7 @@
 namespace ttf::fusion::oosm {
 namespace {
 
-constexpr int kRuns = 1000, kScans = 12;
+constexpr int kRuns = 1000, kLists = 12;
 constexpr std::uint64_t kSeeds[] = {1, 2};
 
 template <int M> struct Setting {
@@ -28,7 +28,7 @@ template <int M> struct Setting {
 };
 const Setting<1> kPosition{Line{}, 1, linear::Matrix<1, 2>(1.0, 0.0), linear::Vector<1>(0.5)};
 
-// One run's measurements in the order of arrival; `truth` is the state at the last scan.
+// One run's measurements in the order of arrival; `truth` is the state at the last list.
 template <int M>
 Timeline<2, M> run_of(std::uint64_t seed, const Setting<M>& setting, std::uint32_t replication,
                       linear::Vector<2>& truth) {
@@ -38,14 +38,14 @@ Timeline<2, M> run_of(std::uint64_t seed, const Setting<M>& setting, std::uint32
   const linear::Matrix<2> root = half.q.llt().matrixL();
   Timeline<2, M> arrivals;
   Event<2, M> late;
-  for (int i = 1; i <= 2 * kScans; ++i) {
+  for (int i = 1; i <= 2 * kLists; ++i) {
     truth = (half.f * truth + root * drawn<2, 1>(stream)).eval();
     linear::LinearMeasurement<2, M> seen;
     seen.h = setting.h;
     seen.r = setting.r.asDiagonal();
     seen.z = setting.h * truth + setting.r.cwiseSqrt().asDiagonal() * drawn<M, 1>(stream);
     if (i % 2 == 0) arrivals.push_back({stamp_at(after_ms(500 * i)), seen});
-    if (i == 2 * (kScans - setting.lag) + 1) late = {stamp_at(after_ms(500 * i), 1), seen};
+    if (i == 2 * (kLists - setting.lag) + 1) late = {stamp_at(after_ms(500 * i), 1), seen};
   }
   arrivals.push_back(late);
   return arrivals;

@@ -80,7 +80,7 @@ void judge_one(const Case& c, const M& truth, linear::Vector<M::kStates> x, doub
     const std::int64_t at = kEvery * k;
     // The first few are in time, so that all methods have a track to begin with.
     const std::int64_t delay = k < 4 ? 0 : stream.integer(0, kLatest - 10);
-    arrivals.push_back({at + delay, scan(static_cast<std::uint8_t>(k % 2), k / 2, at_ms(at), {seen()})});
+    arrivals.push_back({at + delay, list_of(static_cast<std::uint8_t>(k % 2), k / 2, at_ms(at), {seen()})});
   }
   sort_by_arrival(arrivals);
   const auto strategy = make_strategy(c.strategy, config_for(c, noise_times), sensors(c));

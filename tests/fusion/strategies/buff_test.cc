@@ -25,11 +25,11 @@ TEST(Buff, WaitsUntilTheOrderIsCertain) {
   const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
   const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
   const std::vector<Arrival> arrivals{
-      {55, scan(0, 0, at_ms(0))}, {30, scan(1, 0, at_ms(10))}, {65, scan(1, 1, at_ms(50))}};
+      {55, list_of(0, 0, at_ms(0))}, {30, list_of(1, 0, at_ms(10))}, {65, list_of(1, 1, at_ms(50))}};
   EXPECT_EQ(run(*strategy, arrivals, 150), (std::vector{fused(60, 0, 0), fused(70, 1, 0), fused(110, 1, 1)}));
 }
 
-// A scan of the same instant from the other sensor settles the order: the smaller sensor first.
+// A list of the same instant from the other sensor settles the order: the smaller sensor first.
 //
 //   t [ms]    0     10    20    30    40    50    60
 //   sensor 0        x0 ------------------>45
@@ -38,7 +38,7 @@ TEST(Buff, WaitsUntilTheOrderIsCertain) {
 TEST(Buff, OfOneInstantTheSmallerSensorIsFirst) {
   const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
   const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
-  EXPECT_EQ(run(*strategy, {{45, scan(0, 0, at_ms(10))}, {25, scan(1, 0, at_ms(10))}}, 150),
+  EXPECT_EQ(run(*strategy, {{45, list_of(0, 0, at_ms(10))}, {25, list_of(1, 0, at_ms(10))}}, 150),
             (std::vector{fused(50, 0, 0), fused(50, 1, 0)}));
 }
 
@@ -51,7 +51,7 @@ TEST(Buff, SaysWhenItLetsGoIfNothingArrives) {
   for (const auto& [config, ms] : releases) {
     const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
     EXPECT_FALSE(strategy->next_release());
-    strategy->accept(scan(1, 0, at_ms(10)).view());
+    strategy->accept(list_of(1, 0, at_ms(10)).view());
     strategy->fuse(at_ms(30));
     ASSERT_EQ(held(*strategy), 1u);
     EXPECT_EQ(strategy->next_release(), at_ms(ms));
@@ -69,10 +69,10 @@ TEST(Buff, WaitingIsNoDelay) {
   config::TrackerConfig config;
   config.buff_waits = config::BuffWaiting::kMeasured;
   const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
-  strategy->accept(scan(1, 0, at_ms(0)).view());
+  strategy->accept(list_of(1, 0, at_ms(0)).view());
   for (int ms = 1; ms <= 600; ++ms) strategy->fuse(at_ms(ms));
   EXPECT_EQ(held(*strategy), 1u);
-  strategy->accept(scan(0, 0, at_ms(600)).view());  // on its way for 1 ms, as sensor 1's was
+  strategy->accept(list_of(0, 0, at_ms(600)).view());  // on its way for 1 ms, as sensor 1's was
   strategy->fuse(at_ms(601));
   EXPECT_EQ(held(*strategy), 0u);
 }
@@ -80,7 +80,7 @@ TEST(Buff, WaitingIsNoDelay) {
 TEST(Buff, SaysWhatItHolds) {
   const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
   const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
-  strategy->accept(scan(1, 0, at_ms(10)).view());
+  strategy->accept(list_of(1, 0, at_ms(10)).view());
   strategy->fuse(at_ms(30));
   ASSERT_EQ(strategy->last_fused().size(), 1u);
   EXPECT_EQ(strategy->last_fused()[0].disposition, Disposition::kHeld);
@@ -91,7 +91,7 @@ TEST(Buff, SaysWhatItHolds) {
 // Of a silent sensor, to the nanosecond.
 TEST(Buff, LetsGoWhenNothingOlderCanArriveAnyMore) {
   const auto strategy = make_strategy(StrategyKind::kBuff, {}, std::vector{free_running(0, 60), free_running(1, 30)});
-  strategy->accept(scan(1, 0, at_ms(20)).view());
+  strategy->accept(list_of(1, 0, at_ms(20)).view());
   strategy->fuse(at_ms(80) - Duration{1});
   EXPECT_EQ(held(*strategy), 1u);
   strategy->fuse(at_ms(80));
@@ -107,7 +107,7 @@ TEST(Buff, LetsGoWhenNothingOlderCanArriveAnyMore) {
 TEST(Buff, RepairsABrokenPromise) {
   const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
   const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
-  EXPECT_EQ(run(*strategy, {{85, scan(0, 0, at_ms(0))}, {30, scan(1, 0, at_ms(10))}}, 150),
+  EXPECT_EQ(run(*strategy, {{85, list_of(0, 0, at_ms(0))}, {30, list_of(1, 0, at_ms(10))}}, 150),
             (std::vector{fused(70, 1, 0), fused(90, 0, 0, Disposition::kFusedLate)}));
 }
 
@@ -123,7 +123,7 @@ TEST(Buff, WithAFixedLagWaitsNoLongerAndRepairsWhatComesLater) {
   config.buff_waits = config::BuffWaiting::kFixedLag;
   config.fixed_lag = Duration::milliseconds(25);
   const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
-  EXPECT_EQ(run(*strategy, {{55, scan(0, 0, at_ms(0))}, {30, scan(1, 0, at_ms(10))}}, 150),
+  EXPECT_EQ(run(*strategy, {{55, list_of(0, 0, at_ms(0))}, {30, list_of(1, 0, at_ms(10))}}, 150),
             (std::vector{fused(40, 1, 0), fused(60, 0, 0, Disposition::kFusedLate)}));
 }
 
@@ -140,11 +140,11 @@ TEST(Buff, WithMeasuredDelaysWaitsForTheLongestSoFar) {
   config.buff_waits = config::BuffWaiting::kMeasured;
   const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
   EXPECT_EQ(run(*strategy,
-                {{15, scan(0, 0, at_ms(0))},
-                 {15, scan(1, 0, at_ms(10))},
-                 {85, scan(0, 1, at_ms(40))},
-                 {55, scan(1, 1, at_ms(50))},
-                 {115, scan(1, 2, at_ms(110))}},
+                {{15, list_of(0, 0, at_ms(0))},
+                 {15, list_of(1, 0, at_ms(10))},
+                 {85, list_of(0, 1, at_ms(40))},
+                 {55, list_of(1, 1, at_ms(50))},
+                 {115, list_of(1, 2, at_ms(110))}},
                 250),
             (std::vector{fused(20, 0, 0), fused(30, 1, 0), fused(70, 1, 1), fused(90, 0, 1, Disposition::kFusedLate),
                          fused(160, 1, 2)}));
@@ -165,8 +165,8 @@ TEST(Buff, IsInOrderAndNeverWaitsLongerThanTheWorstDelay) {
       for (std::uint32_t k = 0; k < 20; ++k) {
         const std::int64_t t = 7 * s + period[s] * k;
         before_this = std::max(before_this, t + stream.integer(5, worst[s]));
-        arrivals.push_back({before_this, scan(s, k, at_ms(t))});
-        measured_arrived[arrivals.back().scan.id] = {t, before_this};
+        arrivals.push_back({before_this, list_of(s, k, at_ms(t))});
+        measured_arrived[arrivals.back().list.id] = {t, before_this};
       }
     }
     const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);

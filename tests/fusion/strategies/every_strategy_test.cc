@@ -36,12 +36,12 @@ TEST_P(EveryStrategy, EndsWithTheBitsOfInOrderProcessing) {
   else
     EXPECT_EQ(late, 0) << "all promises were kept";
 
-  std::vector<OwnedScan> in_order;
-  for (const Arrival& a : arrivals) in_order.push_back(a.scan);
+  std::vector<OwnedList> in_order;
+  for (const Arrival& a : arrivals) in_order.push_back(a.list);
   std::sort(in_order.begin(), in_order.end(),
-            [](const OwnedScan& a, const OwnedScan& b) { return tracks::before(a.id, a.measured, b.id, b.measured); });
+            [](const OwnedList& a, const OwnedList& b) { return tracks::before(a.id, a.measured, b.id, b.measured); });
   tracks::Timeline timeline(config::TrackerConfig{}, config::TrackerConfig{}.max_observations);
-  for (const OwnedScan& s : in_order) timeline.insert(s.view());
+  for (const OwnedList& s : in_order) timeline.insert(s.view());
   std::vector<tracks::TrackView> expected, image;
   for (const tracks::Track& track : timeline.current().tracks)
     if (track.confirmed) expected.push_back(shown(track, timeline.current().time, at_ms(3300)));
@@ -63,8 +63,8 @@ TEST_P(EveryStrategy, AnImageLeavesNoTrace) {
   std::vector<tracks::TrackView> image, again, others;
   for (std::int64_t now = 0; now <= 900; now += 10) {
     for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) {
-      looked_at->accept(arrivals[next].scan.view());
-      undisturbed->accept(arrivals[next].scan.view());
+      looked_at->accept(arrivals[next].list.view());
+      undisturbed->accept(arrivals[next].list.view());
     }
     looked_at->fuse(at_ms(now));
     undisturbed->fuse(at_ms(now));
@@ -85,7 +85,7 @@ TEST_P(EveryStrategy, AnImageLeavesNoTrace) {
 TEST_P(EveryStrategy, AnImageIsAPrediction) {
   const auto strategy = make_strategy(GetParam(), {}, std::vector{free_running(0, 60), free_running(1, 30)});
   for (std::uint32_t k = 0; k < 8; ++k) {
-    strategy->accept(scan(1, k, at_ms(40 * k), {position(20.0 + 0.4 * k, 0.0, 0.2)}).view());
+    strategy->accept(list_of(1, k, at_ms(40 * k), {position(20.0 + 0.4 * k, 0.0, 0.2)}).view());
     strategy->fuse(at_ms(40 * k + 200));
   }
   std::vector<tracks::TrackView> near, far;
@@ -104,7 +104,7 @@ TEST_P(EveryStrategy, ADuplicateIsReportedAndChangesNothing) {
   std::vector<Arrival> arrivals = drawn_drive(3, 6), repeated = arrivals;
   for (const Arrival& a : arrivals) {
     repeated.push_back(a);                     // at once, while it may still wait
-    repeated.push_back({a.ms + 100, a.scan});  // when it is long fused
+    repeated.push_back({a.ms + 100, a.list});  // when it is long fused
   }
   const std::size_t count = run(*once, arrivals, 1000).size();
   const std::vector<Fused> result = run(*twice, repeated, 1000);
@@ -121,8 +121,8 @@ TEST_P(EveryStrategy, ADuplicateIsReportedAndChangesNothing) {
 
 TEST_P(EveryStrategy, AStampFromTheFutureWaitsForItsTime) {
   const auto strategy = make_strategy(GetParam(), {}, laser_and_camera());
-  strategy->accept(scan(0, 0, at_ms(0), {position(10.0, 0.0, 0.1)}).view());
-  strategy->accept(scan(0, 1, at_ms(30'000), {position(10.0, 0.0, 0.1)}).view());
+  strategy->accept(list_of(0, 0, at_ms(0), {position(10.0, 0.0, 0.1)}).view());
+  strategy->accept(list_of(0, 1, at_ms(30'000), {position(10.0, 0.0, 0.1)}).view());
   strategy->fuse(at_ms(100));
   EXPECT_EQ(held(*strategy), 1u);
   EXPECT_EQ(strategy->newest_measured(), at_ms(0));
@@ -134,7 +134,7 @@ TEST_P(EveryStrategy, MoreThanCanWaitIsFusedOldestFirst) {
   const std::vector<SensorTiming> sensors{free_running(0, 20), scheduled(1, 20'000, 0, 40)};
   const auto strategy = make_strategy(GetParam(), {}, sensors);
   const auto many = static_cast<std::uint32_t>(kMaxPending + 8);
-  for (std::uint32_t k = 0; k < many; ++k) strategy->accept(scan(0, k, at_ms(k)).view());
+  for (std::uint32_t k = 0; k < many; ++k) strategy->accept(list_of(0, k, at_ms(k)).view());
   strategy->fuse(at_ms(100));
   EXPECT_EQ(strategy->last_fused().size(), many) << "each is accounted for";
   EXPECT_EQ(held(*strategy), GetParam() == StrategyKind::kAdva ? 0u : kMaxPending);
@@ -146,7 +146,7 @@ TEST_P(EveryStrategy, MoreThanCanWaitIsFusedOldestFirst) {
 
 TEST_P(EveryStrategy, WhatTheAccountHasNoRoomForIsCounted) {
   const auto strategy = make_strategy(GetParam(), {}, laser_and_camera());
-  const OwnedScan same = scan(0, 0, at_ms(0));
+  const OwnedList same = list_of(0, 0, at_ms(0));
   strategy->accept(same.view());
   for (std::size_t k = 0; k < kMaxListedArrivals; ++k) strategy->accept(same.view());
   strategy->fuse(at_ms(100));
@@ -160,7 +160,7 @@ TEST_P(EveryStrategy, WhatTheAccountHasNoRoomForIsCounted) {
 
 TEST_P(EveryStrategy, AllocatesNothingAfterConstruction) {
   std::vector<Arrival> arrivals = drawn_drive(4, 60);
-  for (std::size_t i = 0; i < 20; ++i) arrivals.push_back({arrivals[i].ms + 50, arrivals[i].scan});  // duplicates too
+  for (std::size_t i = 0; i < 20; ++i) arrivals.push_back({arrivals[i].ms + 50, arrivals[i].list});  // duplicates too
   sort_by_arrival(arrivals);
   std::vector<tracks::TrackView> image;
   image.reserve(25);
@@ -168,7 +168,7 @@ TEST_P(EveryStrategy, AllocatesNothingAfterConstruction) {
   std::size_t next = 0;
   const std::int64_t before_all = support::allocations();
   for (std::int64_t now = 0; now <= 5000; now += 10) {
-    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) strategy->accept(arrivals[next].scan.view());
+    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) strategy->accept(arrivals[next].list.view());
     strategy->fuse(at_ms(now));
     if (now % 40 == 0) strategy->image(at_ms(now + 40), image);
   }

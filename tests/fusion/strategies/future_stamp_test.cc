@@ -19,11 +19,11 @@ TEST_P(FutureStamp, EndsNobodysWaiting) {
       {SensorId{0}, Settling::after(Duration::milliseconds(60)), scheduled, at_ms(10), Duration::milliseconds(80)},
       {SensorId{1}, Settling::after(Duration::milliseconds(30)), scheduled, at_ms(20), Duration::milliseconds(40)}};
   const auto strategy = make_strategy(GetParam(), {}, sensors);
-  strategy->accept(scan(0, 0, at_ms(30'000)).view());
-  strategy->accept(scan(1, 0, at_ms(20)).view());
+  strategy->accept(list_of(0, 0, at_ms(30'000)).view());
+  strategy->accept(list_of(1, 0, at_ms(20)).view());
   strategy->fuse(at_ms(50));
   EXPECT_TRUE(strategy->newest().empty()) << "fused without waiting for sensor 0";
-  strategy->accept(scan(0, 1, at_ms(10)).view());
+  strategy->accept(list_of(0, 1, at_ms(10)).view());
   strategy->fuse(at_ms(80));
   ASSERT_EQ(strategy->last_fused().size(), 3u);
   EXPECT_EQ(strategy->last_fused()[0].id.sensor, SensorId{0});

@@ -18,7 +18,7 @@ namespace ttf::fusion::strategies {
 namespace {
 
 struct Row {
-  OwnedScan scan;
+  OwnedList list;
   Eigen::Vector4d truth;
 };
 
@@ -38,8 +38,8 @@ std::vector<Row> read_rows(const std::string& path) {
     in >> us >> row.truth(0) >> row.truth(1) >> row.truth(2) >> row.truth(3);
     if (first_us < 0) first_us = us;
     const std::uint8_t sensor = kind == 'R' ? 1 : 0;
-    row.scan = scan(sensor, sequence[sensor]++, GlobalTime{(us - first_us) * 1000},
-                    {kind == 'R' ? radar(a, b, c, 0.3, 0.03, 0.3) : position(a, b, 0.15)});
+    row.list = list_of(sensor, sequence[sensor]++, GlobalTime{(us - first_us) * 1000},
+                       {kind == 'R' ? radar(a, b, c, 0.3, 0.03, 0.3) : position(a, b, 0.15)});
     rows.push_back(row);
   }
   return rows;
@@ -99,10 +99,10 @@ TEST_P(Recorded, FollowsTheVehicle) {
   Eigen::Vector4d squares = Eigen::Vector4d::Zero();
   std::vector<tracks::TrackView> image;
   for (const Row& row : rows) {
-    strategy->accept(row.scan.view());
-    strategy->fuse(row.scan.measured);
-    strategy->image(row.scan.measured, image);
-    ASSERT_EQ(image.size(), 1u) << "one vehicle, one track, at " << row.scan.measured.ns << " ns";
+    strategy->accept(row.list.view());
+    strategy->fuse(row.list.measured);
+    strategy->image(row.list.measured, image);
+    ASSERT_EQ(image.size(), 1u) << "one vehicle, one track, at " << row.list.measured.ns << " ns";
     squares += (image[0].state.head<4>() - row.truth).cwiseAbs2();
   }
   const Eigen::Vector4d rmse = (squares / static_cast<double>(rows.size())).cwiseSqrt();
@@ -116,13 +116,13 @@ TEST_P(Recorded, LateRadarEndsWithTheSameBits) {
   const auto in_order = make_strategy(StrategyKind::kAdva, config_for(GetParam()), sensors);
   const auto strategy = make_strategy(StrategyKind::kAdva, config_for(GetParam()), sensors);
   for (const Row& row : rows) {
-    in_order->accept(row.scan.view());
-    in_order->fuse(row.scan.measured);
+    in_order->accept(row.list.view());
+    in_order->fuse(row.list.measured);
   }
-  std::vector<std::pair<GlobalTime, const OwnedScan*>> arrivals;
+  std::vector<std::pair<GlobalTime, const OwnedList*>> arrivals;
   for (const Row& row : rows)
     arrivals.push_back(
-        {row.scan.measured + Duration::milliseconds(row.scan.id.sensor == SensorId{1} ? 70 : 10), &row.scan});
+        {row.list.measured + Duration::milliseconds(row.list.id.sensor == SensorId{1} ? 70 : 10), &row.list});
   std::sort(arrivals.begin(), arrivals.end());
   int late = 0;
   for (const auto& [when, arrived] : arrivals) {

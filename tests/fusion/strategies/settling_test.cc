@@ -64,10 +64,10 @@ std::vector<SensorTiming> read_every_10_ms(bool on_schedule) {
           {SensorId{1}, slots, on_schedule, at_ms(2), Duration::milliseconds(40)}};
 }
 
-// The instant at which sensor 1's scan is fused where sensor 0 is silent; fusion at 6, 16, 26 ms ...
+// The instant at which sensor 1's list is fused where sensor 0 is silent; fusion at 6, 16, 26 ms ...
 std::int64_t goes_on_at(StrategyKind kind, GlobalTime measured) {
   const auto strategy = make_strategy(kind, {}, read_every_10_ms(kind == StrategyKind::kTt));
-  strategy->accept(scan(1, 0, measured).view());
+  strategy->accept(list_of(1, 0, measured).view());
   for (std::int64_t now = 6; now < 1000; now += 10) {
     strategy->fuse(at_ms(now));
     if (strategy->last_fused()[0].disposition == Disposition::kFused) return now;

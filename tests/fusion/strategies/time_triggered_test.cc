@@ -19,7 +19,7 @@ namespace {
 //   laser's next instant is younger.
 TEST(TimeTriggered, WaitsOnlyForWhatIsOnTheSchedule) {
   const std::vector<Arrival> arrivals{
-      {50, scan(0, 0, at_ms(0))}, {45, scan(1, 0, at_ms(20))}, {85, scan(1, 1, at_ms(60))}};
+      {50, list_of(0, 0, at_ms(0))}, {45, list_of(1, 0, at_ms(20))}, {85, list_of(1, 1, at_ms(60))}};
   const auto tt = make_strategy(StrategyKind::kTt, {}, laser_and_camera());
   EXPECT_EQ(run(*tt, arrivals, 200), (std::vector{fused(50, 0, 0), fused(50, 1, 0), fused(90, 1, 1)}));
   const auto buff = make_strategy(StrategyKind::kBuff, {}, laser_and_camera());
@@ -30,9 +30,9 @@ TEST(TimeTriggered, WaitsOnlyForWhatIsOnTheSchedule) {
 //   laser     x0 (lost)                           due
 //   camera                x0 ------------>45
 //   fused                                         1/0
-TEST(TimeTriggered, DoesNotWaitForAMissingScanBeyondItsDueInstant) {
+TEST(TimeTriggered, DoesNotWaitForAMissingListBeyondItsDueInstant) {
   const auto strategy = make_strategy(StrategyKind::kTt, {}, laser_and_camera());
-  EXPECT_EQ(run(*strategy, {{45, scan(1, 0, at_ms(20))}}, 200), (std::vector{fused(60, 1, 0)}));
+  EXPECT_EQ(run(*strategy, {{45, list_of(1, 0, at_ms(20))}}, 200), (std::vector{fused(60, 1, 0)}));
 }
 
 // The laser is due at 60:
@@ -43,8 +43,8 @@ TEST(TimeTriggered, DoesNotWaitForAMissingScanBeyondItsDueInstant) {
 //   fused                                         1/0         0/0 late
 TEST(TimeTriggered, RepairsABrokenPromise) {
   const Lanes lanes{.objects = 3};
-  const OwnedScan laser = scan(0, 0, at_ms(0), lanes.see(at_ms(0), 0)),
-                  camera = scan(1, 0, at_ms(20), lanes.see(at_ms(20), 1));
+  const OwnedList laser = list_of(0, 0, at_ms(0), lanes.see(at_ms(0), 0)),
+                  camera = list_of(1, 0, at_ms(20), lanes.see(at_ms(20), 1));
   const auto strategy = make_strategy(StrategyKind::kTt, {}, laser_and_camera()),
              in_order = make_strategy(StrategyKind::kTt, {}, laser_and_camera());
   EXPECT_EQ(run(*strategy, {{75, laser}, {45, camera}}, 100),
@@ -52,12 +52,12 @@ TEST(TimeTriggered, RepairsABrokenPromise) {
   run(*in_order, {{45, laser}, {45, camera}}, 100);
   EXPECT_EQ(strategy->tentative_count(), 3);
   EXPECT_EQ(strategy->newest_measured(), at_ms(20));
-  // Confirm both with the same further scans: the images must be the same to the last bit.
+  // Confirm both with the same further lists: the images must be the same to the last bit.
   std::vector<tracks::TrackView> image[2];
   int i = 0;
   for (Strategy* s : {strategy.get(), in_order.get()}) {
     for (std::uint32_t k = 1; k <= 3; ++k)
-      s->accept(scan(1, k, at_ms(20 + 40 * k), lanes.see(at_ms(20 + 40 * k), k)).view());
+      s->accept(list_of(1, k, at_ms(20 + 40 * k), lanes.see(at_ms(20 + 40 * k), k)).view());
     s->fuse(at_ms(500));
     s->image(at_ms(500), image[i++]);
   }
@@ -73,22 +73,22 @@ TEST(TimeTriggered, SensorsOfOneInstantWaitForEachOtherWhateverTheStamps) {
   const GlobalTime laser_stamp{39'995'000}, camera_stamp{39'997'000};
   const auto strategy = make_strategy(StrategyKind::kTt, {}, together);
   EXPECT_EQ(run(*strategy,
-                {{25, scan(0, 0, at_ms(0))},
-                 {25, scan(1, 0, at_ms(0))},
-                 {60, scan(1, 1, camera_stamp)},
-                 {90, scan(0, 1, laser_stamp)}},
+                {{25, list_of(0, 0, at_ms(0))},
+                 {25, list_of(1, 0, at_ms(0))},
+                 {60, list_of(1, 1, camera_stamp)},
+                 {90, list_of(0, 1, laser_stamp)}},
                 200),
             (std::vector{fused(30, 0, 0), fused(30, 1, 0), fused(90, 0, 1), fused(90, 1, 1)}));
   // The laser's is lost: not beyond 40 + 60.
   const auto without = make_strategy(StrategyKind::kTt, {}, together);
-  EXPECT_EQ(run(*without, {{60, scan(1, 1, camera_stamp)}}, 200), (std::vector{fused(100, 1, 1)}));
+  EXPECT_EQ(run(*without, {{60, list_of(1, 1, camera_stamp)}}, 200), (std::vector{fused(100, 1, 1)}));
 }
 
 // An instant of the schedule is recognised though the stamp is a little early or late.
 TEST(TimeTriggered, RecognisesInstantsByStampsThatAreALittleOff) {
   for (const std::int64_t off_ns : {-300'000, 0, 300'000}) {
     const auto strategy = make_strategy(StrategyKind::kTt, {}, laser_and_camera());
-    EXPECT_EQ(run(*strategy, {{30, scan(0, 0, at_ms(0) + Duration{off_ns})}, {45, scan(1, 0, at_ms(20))}}, 200),
+    EXPECT_EQ(run(*strategy, {{30, list_of(0, 0, at_ms(0) + Duration{off_ns})}, {45, list_of(1, 0, at_ms(20))}}, 200),
               (std::vector{fused(30, 0, 0), fused(50, 1, 0)}));
   }
 }
@@ -97,7 +97,7 @@ TEST(TimeTriggered, RecognisesInstantsByStampsThatAreALittleOff) {
 TEST(TimeTriggered, TheScheduleHasABeginning) {
   const auto strategy =
       make_strategy(StrategyKind::kTt, {}, std::vector{scheduled(0, 60, 100, 80), scheduled(1, 35, 20, 40)});
-  EXPECT_EQ(run(*strategy, {{45, scan(1, 0, at_ms(20))}}, 200), (std::vector{fused(50, 1, 0)}));
+  EXPECT_EQ(run(*strategy, {{45, list_of(1, 0, at_ms(20))}}, 200), (std::vector{fused(50, 1, 0)}));
 }
 
 }  // namespace

@@ -47,9 +47,9 @@ INSTANTIATE_TEST_SUITE_P(All, EveryOption,
 
 // Two crossing objects in clutter, of which sensor 1 sees what sensor 0 does a little further on: gates are shared,
 // births are many, and twins come up.
-std::vector<OwnedScan> crossing_lists(std::uint64_t seed) {
+std::vector<OwnedList> crossing_lists(std::uint64_t seed) {
   RandomStream stream({.seed = seed, .purpose = Purpose::kTest, .entity = 9});
-  std::vector<OwnedScan> scans;
+  std::vector<OwnedList> lists;
   for (std::uint32_t k = 0; k < 60; ++k) {
     const double t = 0.05 * k, off = k % 2 ? 0.8 : 0.0;
     std::vector<sensors::Observation> list{
@@ -57,27 +57,27 @@ std::vector<OwnedScan> crossing_lists(std::uint64_t seed) {
         position(20 + 6 * t + off + 0.3 * stream.normal(), 3 - 2 * t + 0.3 * stream.normal(), 0.3)};
     while (stream.uniform() < 0.7) list.push_back(position(stream.uniform(10, 50), stream.uniform(-8, 8), 0.3));
     if (stream.uniform() < 0.15) list.erase(list.begin());
-    scans.push_back(scan(static_cast<std::uint8_t>(k % 2), k / 2, at_ms(50 * k), std::move(list)));
+    lists.push_back(list_of(static_cast<std::uint8_t>(k % 2), k / 2, at_ms(50 * k), std::move(list)));
   }
-  return scans;
+  return lists;
 }
 
 TEST_P(EveryOption, EveryOrderOfArrivalGivesTheSameBits) {
   for (const config::MotionModel motion :
        {config::MotionModel::kConstantVelocity, config::MotionModel::kCtrv, config::MotionModel::kInteracting}) {
-    const std::vector<OwnedScan> scans = crossing_lists(3);
+    const std::vector<OwnedList> lists = crossing_lists(3);
     Timeline in_order(config(motion), 32);
-    for (const OwnedScan& s : scans) in_order.insert(s.view());
+    for (const OwnedList& s : lists) in_order.insert(s.view());
     ASSERT_FALSE(in_order.current().tracks.empty());
     RandomStream stream({.seed = 4});
     for (int shuffle = 0; shuffle < 5; ++shuffle) {
       std::vector<std::pair<double, std::size_t>> arrival;
-      for (std::size_t k = 0; k < scans.size(); ++k)
+      for (std::size_t k = 0; k < lists.size(); ++k)
         arrival.push_back({static_cast<double>(k) + stream.uniform(0.0, 12.0), k});
       std::sort(arrival.begin(), arrival.end());
       Timeline timeline(config(motion), 32);
       int late = 0;
-      for (const auto& [when, k] : arrival) late += timeline.insert(scans[k].view()) == Timeline::Insertion::kLate;
+      for (const auto& [when, k] : arrival) late += timeline.insert(lists[k].view()) == Timeline::Insertion::kLate;
       EXPECT_GT(late, 20);
       ASSERT_TRUE(same_bits(timeline.current(), in_order.current())) << "shuffle " << shuffle;
     }
@@ -86,12 +86,12 @@ TEST_P(EveryOption, EveryOrderOfArrivalGivesTheSameBits) {
 
 TEST_P(EveryOption, EveryStrategyEndsWithTheBitsOfInOrderProcessing) {
   std::vector<Arrival> arrivals = drawn_drive(7, 20);
-  std::vector<OwnedScan> in_order;
-  for (const Arrival& a : arrivals) in_order.push_back(a.scan);
+  std::vector<OwnedList> in_order;
+  for (const Arrival& a : arrivals) in_order.push_back(a.list);
   std::sort(in_order.begin(), in_order.end(),
-            [](const OwnedScan& a, const OwnedScan& b) { return before(a.id, a.measured, b.id, b.measured); });
+            [](const OwnedList& a, const OwnedList& b) { return before(a.id, a.measured, b.id, b.measured); });
   Timeline timeline(config(), 64);
-  for (const OwnedScan& s : in_order) timeline.insert(s.view());
+  for (const OwnedList& s : in_order) timeline.insert(s.view());
   std::vector<TrackView> expected, image;
   for (const Track& track : timeline.current().tracks)
     if (track.confirmed) expected.push_back(shown(track, timeline.current().time, at_ms(1700)));
@@ -108,12 +108,12 @@ TEST_P(EveryOption, EveryStrategyEndsWithTheBitsOfInOrderProcessing) {
 
 TEST_P(EveryOption, AllocatesNothingAfterConstruction) {
   for (const config::MotionModel motion : {config::MotionModel::kConstantVelocity, config::MotionModel::kInteracting}) {
-    const std::vector<OwnedScan> scans = crossing_lists(5);
+    const std::vector<OwnedList> lists = crossing_lists(5);
     Timeline timeline(config(motion), 32);
     const std::int64_t before_all = support::allocations();
-    for (std::size_t k = 0; k + 1 < scans.size(); k += 2) {
-      timeline.insert(scans[k + 1].view());
-      timeline.insert(scans[k].view());
+    for (std::size_t k = 0; k + 1 < lists.size(); k += 2) {
+      timeline.insert(lists[k + 1].view());
+      timeline.insert(lists[k].view());
     }
     EXPECT_EQ(support::allocations() - before_all, 0);
   }
@@ -134,8 +134,8 @@ TEST(Association, JpdaOfACertainObservationIsTheNearests) {
     RandomStream stream({.seed = 8});
     for (std::uint32_t k = 0; k < 60; ++k) {
       const double t = 0.05 * k;
-      const OwnedScan list =
-          scan(0, k, at_ms(50 * k), {position(20.0 + 8.0 * t + 0.2 * stream.normal(), 0.2 * stream.normal(), 0.2)});
+      const OwnedList list =
+          list_of(0, k, at_ms(50 * k), {position(20.0 + 8.0 * t + 0.2 * stream.normal(), 0.2 * stream.normal(), 0.2)});
       first.step(a, list.view());
       second.step(b, list.view());
       ASSERT_EQ(a.tracks.size(), b.tracks.size()) << k;
@@ -159,11 +159,12 @@ TEST(Association, JpdaDoesNotDecideWhatNobodyKnows) {
   Tracker tracker(config, 4);
   TrackSet set(tracker.max_tracks());
   for (std::uint32_t k = 0; k < 10; ++k)
-    tracker.step(set, scan(0, k, at_ms(50 * k), {position(20.0, 0.0, 0.3)}).view());
+    tracker.step(set, list_of(0, k, at_ms(50 * k), {position(20.0, 0.0, 0.3)}).view());
   ASSERT_EQ(set.tracks.size(), 1u);
   const double before = seen_as(set.tracks[0].estimate).p(1, 1);
   const estimators::State x = state_of(set.tracks[0]);
-  tracker.step(set, scan(0, 10, at_ms(500), {position(x(0), x(1) + 0.6, 0.3), position(x(0), x(1) - 0.6, 0.3)}).view());
+  tracker.step(set,
+               list_of(0, 10, at_ms(500), {position(x(0), x(1) + 0.6, 0.3), position(x(0), x(1) - 0.6, 0.3)}).view());
   const estimators::Cartesian after = seen_as(set.tracks[0].estimate);
   EXPECT_NEAR(after.x(1), x(1), 0.02);
   EXPECT_GT(after.p(1, 1), before) << "the spread of the innovations";
@@ -179,7 +180,7 @@ TEST(Association, ACrowdIsApproximatedAndSaysSo) {
   for (std::uint32_t k = 0; k < 3; ++k) {
     std::vector<sensors::Observation> list;
     for (int i = 0; i < 25; ++i) list.push_back(position(20.0 + stream.normal(), stream.normal(), 0.2));
-    tracker.step(set, scan(0, k, at_ms(50 * k), list).view());
+    tracker.step(set, list_of(0, k, at_ms(50 * k), list).view());
   }
   EXPECT_GT(tracker.approximated_clusters(), 0u);
   for (const Track& track : set.tracks) EXPECT_TRUE(state_of(track).allFinite());

@@ -26,7 +26,7 @@ struct Drive {
   Drive(strategies::StrategyKind kind, const config::TrackerConfig& tracker)
       : config(tracker), strategy(make_strategy(kind, tracker, laser_and_camera())) {
     for (std::uint32_t k = 0; 40 * k <= kLast; ++k) {
-      strategy->accept(scan(1, k, at_ms(40 * k), {car(40 * k)}).view());
+      strategy->accept(list_of(1, k, at_ms(40 * k), {car(40 * k)}).view());
       strategy->fuse(at_ms(40 * k + 100));
     }
     EXPECT_EQ(held(*strategy), 0u);
@@ -122,7 +122,7 @@ TEST_P(Coasting, WhatHasEndedDoesNotComeBack) {
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::int64_t ms = again + 40 * k;
     EXPECT_FALSE(drive.at(at_ms(ms))) << k;
-    drive.strategy->accept(scan(1, 100 + k, at_ms(ms), {Drive::car(ms)}).view());
+    drive.strategy->accept(list_of(1, 100 + k, at_ms(ms), {Drive::car(ms)}).view());
     drive.strategy->fuse(at_ms(ms + 100));
   }
   const auto born = drive.at(at_ms(again + 80));
@@ -137,7 +137,7 @@ TEST_P(Coasting, WhatHasNotEndedGoesOn) {
   const TrackId old = drive.at(at_ms(kLast))->id;
   const double coasting = drive.at(at_ms(kLast + 960))->covariance.trace();
   const std::int64_t again = kLast + 960;
-  drive.strategy->accept(scan(1, 100, at_ms(again), {Drive::car(again)}).view());
+  drive.strategy->accept(list_of(1, 100, at_ms(again), {Drive::car(again)}).view());
   drive.strategy->fuse(at_ms(again + 100));
   const auto view = drive.at(at_ms(again));
   ASSERT_TRUE(view);
@@ -146,15 +146,15 @@ TEST_P(Coasting, WhatHasNotEndedGoesOn) {
   EXPECT_LT(view->covariance.trace(), coasting);
 }
 
-// The sensor that sees the car dies; the other goes on and does not see it: coasting with its third scan, ended with
+// The sensor that sees the car dies; the other goes on and does not see it: coasting with its third list, ended with
 // its eighth.
-TEST_P(Coasting, ScansThatDoNotSeeItEndATrackSooner) {
+TEST_P(Coasting, ListsThatDoNotSeeItEndATrackSooner) {
   const config::TrackerConfig config;
   Drive drive(GetParam(), config);
   double trace = drive.at(at_ms(kLast))->covariance.trace();
   for (std::uint32_t k = 1; k <= 8; ++k) {
     const std::int64_t ms = kLast + 30 * k;
-    drive.strategy->accept(scan(0, k, at_ms(ms), {position(60.0, -9.0, 0.2)}).view());
+    drive.strategy->accept(list_of(0, k, at_ms(ms), {position(60.0, -9.0, 0.2)}).view());
     drive.strategy->fuse(at_ms(ms + 100));
     drive.strategy->image(at_ms(ms), drive.shown);
     const auto car =
@@ -172,13 +172,13 @@ TEST(CoastingTracker, ATentativeTrackDoesNotSurviveSilence) {
   const config::TrackerConfig config;
   Tracker tracker(config, 4);
   TrackSet set(tracker.max_tracks());
-  tracker.step(set, scan(0, 0, at_ms(0), {position(20.0, 0.0, 0.2)}).view());
+  tracker.step(set, list_of(0, 0, at_ms(0), {position(20.0, 0.0, 0.2)}).view());
   ASSERT_EQ(set.tracks.size(), 1u);
   const ObservationId birth = set.tracks[0].birth;
-  tracker.step(set, scan(0, 1, at_ms(1'001), {position(20.0, 0.0, 0.2)}).view());
+  tracker.step(set, list_of(0, 1, at_ms(1'001), {position(20.0, 0.0, 0.2)}).view());
   ASSERT_EQ(set.tracks.size(), 1u);
   EXPECT_FALSE(set.tracks[0].birth == birth);
-  EXPECT_EQ(set.tracks[0].scans, 1);
+  EXPECT_EQ(set.tracks[0].lists, 1);
 }
 
 }  // namespace

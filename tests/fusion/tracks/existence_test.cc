@@ -51,7 +51,7 @@ TEST_P(EveryAssociation, ExistenceFollowsTheClosedForm) {
     std::vector<sensors::Observation> list;
     const bool hit = pattern[k] == 'h';
     if (hit) list.push_back(position(20.0 + sigma * stream.normal(), 3.0 + sigma * stream.normal(), sigma));
-    tracker.step(set, scan(0, static_cast<std::uint32_t>(k), at_ms(50 * static_cast<std::int64_t>(k)), list).view());
+    tracker.step(set, list_of(0, static_cast<std::uint32_t>(k), at_ms(50 * static_cast<std::int64_t>(k)), list).view());
     if (k == 0) {
       existence = 0.3;
       by_hand.x << list[0].z(0), list[0].z(1), 0.0, 0.0;
@@ -131,7 +131,7 @@ TEST_P(EveryAssociation, ATrackIsBornAndEndsByItsExistence) {
   for (std::uint32_t k = 0; k < 40; ++k) {
     std::vector<sensors::Observation> list;
     if (k < 10) list.push_back(position(20.0, 3.0, 0.2));
-    tracker.step(set, scan(0, k, at_ms(50 * k), list).view());
+    tracker.step(set, list_of(0, k, at_ms(50 * k), list).view());
     if (set.tracks.empty()) {
       ended = true;
       continue;
@@ -161,7 +161,7 @@ TEST_P(EveryAssociation, ClutterIsSeldomBelieved) {
     if (stream.uniform() < 0.8) list.push_back(position(30.0 + 0.2 * stream.normal(), 0.2 * stream.normal(), 0.2));
     // 60 m by 20 m: 12 to a list.
     for (int i = 0; i < 12; ++i) list.push_back(position(stream.uniform(0.0, 60.0), stream.uniform(-10.0, 10.0), 0.2));
-    tracker.step(set, scan(0, k, at_ms(50 * k), list).view());
+    tracker.step(set, list_of(0, k, at_ms(50 * k), list).view());
     if (k < 20) continue;
     ++lists;
     for (const Track& track : set.tracks) {

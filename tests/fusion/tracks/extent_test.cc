@@ -80,7 +80,7 @@ TEST(Extent, AMixtureTellsOneWhereTheOtherIsKnown) {
   EXPECT_NEAR(extent.size(1), 1.8, 3.0 * std::sqrt(extent.covariance(1, 1)));
 }
 
-// An aspect that is off by the same in every one of 200 scans: the error stays within what is stated.
+// An aspect that is off by the same in every one of 200 lists: the error stays within what is stated.
 TEST(Extent, ErrorsThatRepeatAreNotAveragedAway) {
   RandomStream stream({.seed = 4});
   for (const double angle : {0.0, 0.7, std::numbers::pi / 2, 2.6}) {

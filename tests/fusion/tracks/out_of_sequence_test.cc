@@ -114,7 +114,7 @@ TEST(OutOfSequence, InOrderProcessingIsAlgorithmA) {
 
 // One object through the tracker's history:
 //
-//      scan 0        scan 1 (late)     scan 2
+//      list 0        list 1 (late)     list 2
 //   ----x---------------x-----------------x------> measured        arrival: 0, 2, 1
 //      0 ms           tau             1000 ms
 //
@@ -128,9 +128,9 @@ TEST(OutOfSequence, RewindingEqualsAlgorithmA) {
     const sensors::Observation first = position(10.0, 4.0, 0.3), between = position(10.4, 4.3, 0.2),
                                last = position(11.5, 3.6, 0.4);
     Timeline timeline(config, 4);
-    ASSERT_EQ(timeline.insert(scan(0, 0, at_ms(0), {first}).view()), Timeline::Insertion::kInOrder);
-    ASSERT_EQ(timeline.insert(scan(0, 1, at_ms(1000), {last}).view()), Timeline::Insertion::kInOrder);
-    ASSERT_EQ(timeline.insert(scan(1, 0, at_ms(tau), {between}).view()), Timeline::Insertion::kLate);
+    ASSERT_EQ(timeline.insert(list_of(0, 0, at_ms(0), {first}).view()), Timeline::Insertion::kInOrder);
+    ASSERT_EQ(timeline.insert(list_of(0, 1, at_ms(1000), {last}).view()), Timeline::Insertion::kInOrder);
+    ASSERT_EQ(timeline.insert(list_of(1, 0, at_ms(tau), {between}).view()), Timeline::Insertion::kLate);
     ASSERT_EQ(timeline.current().tracks.size(), 1u);
     const estimators::Cartesian rewound = seen_as(timeline.current().tracks[0].estimate);
 

@@ -28,10 +28,10 @@ TEST(Thousand, ObjectsAreTrackedEachByOneTrackWithoutAllocation) {
                                               {SensorId{1}, strategies::Settling::after(Duration::milliseconds(35)),
                                                true, at_ms(20), Duration::milliseconds(40)}};
   const auto strategy = make_strategy(strategies::StrategyKind::kAdva, config, sensors);
-  std::vector<OwnedScan> early, late;
+  std::vector<OwnedList> early, late;
   for (std::uint32_t k = 0; k < kCycles; ++k) {
-    late.push_back(scan(0, k, at_ms(40 * k), laser.see(at_ms(40 * k), k)));
-    early.push_back(scan(1, k, at_ms(40 * k + 20), camera.see(at_ms(40 * k + 20), k)));
+    late.push_back(list_of(0, k, at_ms(40 * k), laser.see(at_ms(40 * k), k)));
+    early.push_back(list_of(1, k, at_ms(40 * k + 20), camera.see(at_ms(40 * k + 20), k)));
   }
   std::vector<TrackView> image;
   image.reserve(kObjects);

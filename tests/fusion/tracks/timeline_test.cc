@@ -1,4 +1,4 @@
-// However scans arrive, the tracks are bit for bit those of arrival in order.
+// However lists arrive, the tracks are bit for bit those of arrival in order.
 #include "fusion/tracks/timeline.h"
 
 #include <gtest/gtest.h>
@@ -12,23 +12,23 @@
 namespace ttf::fusion::tracks {
 namespace {
 
-// In chronological order, with three scans of one instant: by sensor, then by sequence.
+// In chronological order, with three lists of one instant: by sensor, then by sequence.
 //
 //   sensor 0   a0         a1,a2                a3
 //   sensor 1              b0        b1
 //             0 ms       40 ms     80 ms     120 ms
-std::vector<OwnedScan> six_scans() {
+std::vector<OwnedList> six_lists() {
   const Lanes first{.objects = 6, .seed = 1}, second{.objects = 6, .miss_probability = 0.2, .seed = 2};
-  return {scan(0, 0, at_ms(0), first.see(at_ms(0), 0)),    scan(0, 1, at_ms(40), first.see(at_ms(40), 1)),
-          scan(0, 2, at_ms(40), first.see(at_ms(40), 2)),  scan(1, 0, at_ms(40), second.see(at_ms(40), 0)),
-          scan(1, 1, at_ms(80), second.see(at_ms(80), 1)), scan(0, 3, at_ms(120), first.see(at_ms(120), 3))};
+  return {list_of(0, 0, at_ms(0), first.see(at_ms(0), 0)),    list_of(0, 1, at_ms(40), first.see(at_ms(40), 1)),
+          list_of(0, 2, at_ms(40), first.see(at_ms(40), 2)),  list_of(1, 0, at_ms(40), second.see(at_ms(40), 0)),
+          list_of(1, 1, at_ms(80), second.see(at_ms(80), 1)), list_of(0, 3, at_ms(120), first.see(at_ms(120), 3))};
 }
 
-TEST(Timeline, EveryOrderOfSixScansGivesTheSameBits) {
-  const std::vector<OwnedScan> scans = six_scans();
+TEST(Timeline, EveryOrderOfSixListsGivesTheSameBits) {
+  const std::vector<OwnedList> lists = six_lists();
   config::TrackerConfig config;
   Timeline in_order(config, 16);
-  for (const OwnedScan& s : scans) ASSERT_EQ(in_order.insert(s.view()), Timeline::Insertion::kInOrder);
+  for (const OwnedList& s : lists) ASSERT_EQ(in_order.insert(s.view()), Timeline::Insertion::kInOrder);
   ASSERT_GE(in_order.current().tracks.size(), 6u);
 
   std::array<std::size_t, 6> order{0, 1, 2, 3, 4, 5};
@@ -39,7 +39,7 @@ TEST(Timeline, EveryOrderOfSixScansGivesTheSameBits) {
     for (std::size_t i = 0; i < order.size(); ++i) {
       const bool late = i > 0 && order[i] < latest;
       latest = std::max(latest, order[i]);
-      ASSERT_EQ(timeline.insert(scans[order[i]].view()),
+      ASSERT_EQ(timeline.insert(lists[order[i]].view()),
                 late ? Timeline::Insertion::kLate : Timeline::Insertion::kInOrder);
     }
     ASSERT_TRUE(same_bits(timeline.current(), in_order.current())) << "permutation " << permutations;
@@ -48,38 +48,38 @@ TEST(Timeline, EveryOrderOfSixScansGivesTheSameBits) {
   EXPECT_EQ(permutations, 720);
 
   // The comparison can fail: without one of them the tracks are others.
-  for (std::size_t left_out = 0; left_out < scans.size(); ++left_out) {
+  for (std::size_t left_out = 0; left_out < lists.size(); ++left_out) {
     Timeline timeline(config, 16);
-    for (std::size_t i = 0; i < scans.size(); ++i)
-      if (i != left_out) timeline.insert(scans[i].view());
-    EXPECT_FALSE(same_bits(timeline.current(), in_order.current())) << "scan " << left_out;
+    for (std::size_t i = 0; i < lists.size(); ++i)
+      if (i != left_out) timeline.insert(lists[i].view());
+    EXPECT_FALSE(same_bits(timeline.current(), in_order.current())) << "list " << left_out;
   }
 }
 
-// An object that is seen 18.5 m further after 2 s is taken for another one; a late scan from between shows
+// An object that is seen 18.5 m further after 2 s is taken for another one; a late list from between shows
 // how fast it is, and the association is opened again.
 //
 //   x [m]                             o 18.5
 //                    o 7.5 (late)
 //        o 0
 //       0 s         1 s              2 s
-TEST(Timeline, ALateScanReopensAssociations) {
+TEST(Timeline, ALateListReopensAssociations) {
   config::TrackerConfig config;
   config.initial_velocity_sigma = 2.0;
   config.process_noise = 4.0;
   config.delete_position_sigma = 50.0;
   config.delete_after = Duration::milliseconds(2'000);
   Timeline timeline(config, 4);
-  timeline.insert(scan(0, 0, at_ms(0), {position(0.0, 0.0, 0.1)}).view());
-  timeline.insert(scan(0, 1, at_ms(2000), {position(18.5, 0.0, 0.1)}).view());
+  timeline.insert(list_of(0, 0, at_ms(0), {position(0.0, 0.0, 0.1)}).view());
+  timeline.insert(list_of(0, 1, at_ms(2000), {position(18.5, 0.0, 0.1)}).view());
   EXPECT_EQ(timeline.current().tracks.size(), 2u);
-  timeline.insert(scan(1, 0, at_ms(1000), {position(7.5, 0.0, 0.1)}).view());
+  timeline.insert(list_of(1, 0, at_ms(1000), {position(7.5, 0.0, 0.1)}).view());
   ASSERT_EQ(timeline.current().tracks.size(), 1u);
   EXPECT_EQ(timeline.current().tracks[0].hits, 0b111u);
   EXPECT_NEAR(state_of(timeline.current().tracks[0])(0), 18.5, 0.2);
 }
 
-// Four scans of history, ten in order at 0, 40 .. 360 ms:
+// Four lists of history, ten in order at 0, 40 .. 360 ms:
 //
 //   0 . . . 160  [200]  240 280 320 360        [ ] the newest that cannot be gone back behind
 //               ^     ^
@@ -89,7 +89,7 @@ TEST(Timeline, HistoryHasAnEnd) {
   config.history_scans = 4;
   const Lanes lanes{.objects = 3};
   const auto lanes_scan = [&](std::uint8_t sensor, std::uint32_t sequence, std::int64_t ms) {
-    return scan(sensor, sequence, at_ms(ms), lanes.see(at_ms(ms), sequence));
+    return list_of(sensor, sequence, at_ms(ms), lanes.see(at_ms(ms), sequence));
   };
   Timeline timeline(config, 8), in_order(config, 8);
   for (std::uint32_t k = 0; k < 10; ++k) {
@@ -108,48 +108,48 @@ TEST(Timeline, HistoryHasAnEnd) {
 }
 
 TEST(Timeline, LongDrivesInDisorder) {
-  // 200 scans of two sensors, each up to 12 places late, objects that appear and get lost.
+  // 200 lists of two sensors, each up to 12 places late, objects that appear and get lost.
   config::TrackerConfig config;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     RandomStream stream({.seed = seed});
     const Lanes lanes{.objects = 10, .miss_probability = 0.4, .seed = seed};
-    std::vector<OwnedScan> scans;
+    std::vector<OwnedList> lists;
     for (std::uint32_t k = 0; k < 200; ++k)
-      scans.push_back(scan(static_cast<std::uint8_t>(k % 2), k, at_ms(21 * k), lanes.see(at_ms(21 * k), k)));
+      lists.push_back(list_of(static_cast<std::uint8_t>(k % 2), k, at_ms(21 * k), lanes.see(at_ms(21 * k), k)));
     std::vector<std::pair<double, std::size_t>> arrival;
-    for (std::size_t k = 0; k < scans.size(); ++k)
+    for (std::size_t k = 0; k < lists.size(); ++k)
       arrival.push_back({static_cast<double>(k) + stream.uniform(0.0, 12.0), k});
     std::sort(arrival.begin(), arrival.end());
     Timeline in_order(config, 16), timeline(config, 16);
     int late = 0;
-    for (const OwnedScan& s : scans) in_order.insert(s.view());
-    for (const auto& [when, k] : arrival) late += timeline.insert(scans[k].view()) == Timeline::Insertion::kLate;
+    for (const OwnedList& s : lists) in_order.insert(s.view());
+    for (const auto& [when, k] : arrival) late += timeline.insert(lists[k].view()) == Timeline::Insertion::kLate;
     EXPECT_GT(late, 50);
     EXPECT_TRUE(same_bits(timeline.current(), in_order.current())) << "seed " << seed;
   }
 }
 
-// Late scans open associations again where it matters most: two objects that cross, and clutter.
+// Late lists open associations again where it matters most: two objects that cross, and clutter.
 TEST(Timeline, CrossingObjectsInClutterShuffled) {
   RandomStream stream({.seed = 2});
-  std::vector<OwnedScan> scans;
+  std::vector<OwnedList> lists;
   for (std::uint32_t k = 0; k < 40; ++k) {
     const double t = 0.05 * k;
     std::vector<sensors::Observation> list{
         position(20 + 6 * t + 0.3 * stream.normal(), -3 + 3 * t + 0.3 * stream.normal(), 0.3),
         position(32 - 6 * t + 0.3 * stream.normal(), 3 - 3 * t + 0.3 * stream.normal(), 0.3)};
     if (stream.uniform() < 0.4) list.push_back(position(stream.uniform(10, 40), stream.uniform(-8, 8), 0.2));
-    scans.push_back(scan(static_cast<std::uint8_t>(k % 3), k / 3, at_ms(50 * k), std::move(list)));
+    lists.push_back(list_of(static_cast<std::uint8_t>(k % 3), k / 3, at_ms(50 * k), std::move(list)));
   }
   Timeline in_order({}, 16);
-  for (const OwnedScan& s : scans) in_order.insert(s.view());
+  for (const OwnedList& s : lists) in_order.insert(s.view());
   for (int shuffle = 0; shuffle < 100; ++shuffle) {
-    std::vector<std::size_t> order(scans.size());
+    std::vector<std::size_t> order(lists.size());
     std::iota(order.begin(), order.end(), 0);
     for (std::size_t i = order.size(); i-- > 1;)
       std::swap(order[i], order[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i)))]);
     Timeline timeline({}, 16);
-    for (const std::size_t s : order) timeline.insert(scans[s].view());
+    for (const std::size_t s : order) timeline.insert(lists[s].view());
     ASSERT_TRUE(same_bits(timeline.current(), in_order.current())) << "shuffle " << shuffle;
   }
 }

@@ -29,12 +29,12 @@ struct Bench {
 
   explicit Bench(config::TrackerConfig c = {}) : config(c), tracker(c, 64), set(tracker.max_tracks()) {}
   void step(std::int64_t ms, std::vector<sensors::Observation> observations) {
-    tracker.step(set, scan(0, sequence++, at_ms(ms), std::move(observations)).view());
+    tracker.step(set, list_of(0, sequence++, at_ms(ms), std::move(observations)).view());
   }
 };
 
-// Every pattern of hits and misses of ten scans, against the rule in words: a track is born by a hit without
-// a track; it is confirmed as soon as 3 of its last 5 scans are hits; tentative, it ends as soon as 3 of 5
+// Every pattern of hits and misses of ten lists, against the rule in words: a track is born by a hit without
+// a track; it is confirmed as soon as 3 of its last 5 lists are hits; tentative, it ends as soon as 3 of 5
 // cannot be reached any more; confirmed, it ends with the 4th miss in a row.
 TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
   config::TrackerConfig config;
@@ -66,9 +66,9 @@ TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
                                        : hits + still_to_come < 3;
         if (ends) history.reset();
       }
-      ASSERT_EQ(bench.set.tracks.size(), history ? 1u : 0u) << "pattern " << pattern << " scan " << k;
+      ASSERT_EQ(bench.set.tracks.size(), history ? 1u : 0u) << "pattern " << pattern << " list " << k;
       if (history) {
-        ASSERT_EQ(bench.set.tracks[0].confirmed, is_confirmed) << "pattern " << pattern << " scan " << k;
+        ASSERT_EQ(bench.set.tracks[0].confirmed, is_confirmed) << "pattern " << pattern << " list " << k;
         ASSERT_EQ(bench.set.tracks[0].birth.measurement.sequence, born);
       }
     }
@@ -108,7 +108,7 @@ TEST(Tracker, Follows25ObjectsEachWithItsOwnTrack) {
     const GlobalTime t = at_ms(40 * k);
     bench.step(40 * k, lanes.see(t, static_cast<std::uint32_t>(k)));
     if (k < 15) continue;
-    ASSERT_EQ(confirmed(bench.set), 25) << "scan " << k;
+    ASSERT_EQ(confirmed(bench.set), 25) << "list " << k;
     for (int object = 0; object < 25; ++object) {
       const estimators::State truth = lanes.truth(object, t);
       const auto nearest =

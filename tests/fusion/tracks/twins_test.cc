@@ -31,8 +31,8 @@ int confirmed(const TrackSet& set) {
 //
 //   camera's view  ------____
 //   laser's view   ==========------  one
-std::vector<OwnedScan> two_views() {
-  std::vector<OwnedScan> scans;
+std::vector<OwnedList> two_views() {
+  std::vector<OwnedList> lists;
   RandomStream stream({.seed = 4});
   for (std::uint32_t k = 0; k < 200; ++k) {
     const double t = 0.02 * k, truth = 20.0 + 5.0 * t, off = std::max(0.0, 3.0 - 1.5 * t);
@@ -40,9 +40,9 @@ std::vector<OwnedScan> two_views() {
       return std::vector{position(x + sigma * stream.normal(), sigma * stream.normal(), sigma)};
     };
     const bool laser = k % 2 == 0;
-    scans.push_back(scan(laser ? 0 : 1, k / 2, at_ms(20 * k), laser ? see(truth, 0.1) : see(truth + off, 0.2)));
+    lists.push_back(list_of(laser ? 0 : 1, k / 2, at_ms(20 * k), laser ? see(truth, 0.1) : see(truth + off, 0.2)));
   }
-  return scans;
+  return lists;
 }
 
 TEST(Twins, LasersAndCamerasViewsOfOneObjectBecomeOne) {
@@ -56,7 +56,7 @@ TEST(Twins, LasersAndCamerasViewsOfOneObjectBecomeOne) {
       TrackId first = kNoTrack;
       int most = 0;
       bool were_united = false;
-      for (const OwnedScan& s : two_views()) {
+      for (const OwnedList& s : two_views()) {
         const int before = confirmed(united.current());
         const bool both_live =
             std::all_of(united.current().tracks.begin(), united.current().tracks.end(),
@@ -92,7 +92,7 @@ TEST(Twins, CarsSideBySideStayTwo) {
       std::vector<sensors::Observation> list;
       for (const double y : {-1.0, 1.0})
         list.push_back(position(x + sigma * stream.normal(), y + sigma * stream.normal(), sigma));
-      tracker.step(set, scan(0, k, at_ms(40 * k), list).view());
+      tracker.step(set, list_of(0, k, at_ms(40 * k), list).view());
       if (k >= 5) {
         ASSERT_GE(confirmed(set), 2) << k;
       }
@@ -107,7 +107,7 @@ Track track_at(double x, double y, double sigma, std::uint32_t birth) {
   linear::Matrix<4> p = linear::Matrix<4>::Identity() * sigma * sigma;
   track.estimate = linear::Gaussian<4>{linear::Vector<4>(x, y, 3.0, 0.0), p};
   track.confirmed = true;
-  track.scans = 10;
+  track.lists = 10;
   return track;
 }
 
@@ -128,7 +128,7 @@ TEST(Twins, TheElderStaysAndTheMoreCertainEstimateIsKept) {
   const estimators::Estimate certain = tracks[2].estimate;
   twins.unite(tracks, *estimator);
   ASSERT_EQ(tracks.size(), 3u) << "one list is not enough";
-  EXPECT_EQ(tracks[2].twin_scans, 1);
+  EXPECT_EQ(tracks[2].twin_lists, 1);
   twins.unite(tracks, *estimator);
   ASSERT_EQ(tracks.size(), 2u);
   EXPECT_EQ(tracks[0].birth.measurement.sequence, 1u);
@@ -155,11 +155,11 @@ TEST(Twins, AListThatShowsBothBeginsTheCountAnew) {
   };
   list(true, false);
   list(false, true);
-  EXPECT_EQ(tracks[1].twin_scans, 2);
+  EXPECT_EQ(tracks[1].twin_lists, 2);
   list(false, false);
-  EXPECT_EQ(tracks[1].twin_scans, 2) << "who saw neither says nothing";
+  EXPECT_EQ(tracks[1].twin_lists, 2) << "who saw neither says nothing";
   list(true, true);
-  EXPECT_EQ(tracks[1].twin_scans, 0) << "two objects";
+  EXPECT_EQ(tracks[1].twin_lists, 0) << "two objects";
   list(true, false);
   list(true, false);
   ASSERT_EQ(tracks.size(), 2u);

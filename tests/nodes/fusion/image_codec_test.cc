@@ -120,7 +120,7 @@ TEST(ImageCodec, BindsAllSignalsOrNone) {
 }
 
 // What a view says of a track's state.
-TEST(ImageStatus, CoastsAfterScansWithoutAnObservation) {
+TEST(ImageStatus, CoastsAfterListsWithoutAnObservation) {
   const ttf::fusion::config::TrackerConfig config;
   const auto estimator = ttf::fusion::estimators::make_estimator(config);
   ttf::fusion::tracks::Track track;

@@ -21,10 +21,10 @@ Health health_of(std::uint64_t number) {
 }
 
 TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
-  std::promise<std::pair<Health, bus::ports::HostTime>> told;
+  std::promise<std::pair<Health, bus::ports::MachineTime>> told;
   std::promise<std::thread::id> who;
-  const bus::ports::HostTime before = bus::ports::host_now();
-  HealthTeller teller([&](const Health& health, bus::ports::HostTime at) {
+  const bus::ports::MachineTime before = bus::ports::host_now();
+  HealthTeller teller([&](const Health& health, bus::ports::MachineTime at) {
     told.set_value({health, at});
     who.set_value(std::this_thread::get_id());
   });
@@ -44,7 +44,7 @@ TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
 TEST(HealthTeller, WhoHandsOverNeverWaits) {
   std::promise<void> begun, go_on;
   std::vector<std::uint64_t> told;
-  HealthTeller teller([&](const Health& health, bus::ports::HostTime) {
+  HealthTeller teller([&](const Health& health, bus::ports::MachineTime) {
     told.push_back(health.dropped);
     if (told.size() > 1) return;
     begun.set_value();
@@ -64,7 +64,7 @@ TEST(HealthTeller, WhoHandsOverNeverWaits) {
 TEST(HealthTeller, WhatWasHandedOverIsToldBeforeItIsClosed) {
   for (std::uint64_t i = 0; i < 200; ++i) {
     std::uint64_t told = 0;
-    HealthTeller teller([&](const Health& health, bus::ports::HostTime) { told = health.timing.late_wakeups; });
+    HealthTeller teller([&](const Health& health, bus::ports::MachineTime) { told = health.timing.late_wakeups; });
     ASSERT_TRUE(teller.hand_over(health_of(i + 1)));
     teller.close();
     ASSERT_EQ(told, i + 1);
@@ -74,7 +74,7 @@ TEST(HealthTeller, WhatWasHandedOverIsToldBeforeItIsClosed) {
 // Whenever it is handed over, each is whole: never half of one and half of the next.
 TEST(HealthTeller, WhatIsToldIsWholeAndInOrder) {
   std::uint64_t last = 0, told = 0;
-  HealthTeller teller([&](const Health& health, bus::ports::HostTime) {
+  HealthTeller teller([&](const Health& health, bus::ports::MachineTime) {
     EXPECT_EQ(health.dropped, 2 * health.timing.late_wakeups);
     EXPECT_GT(health.timing.late_wakeups, last);
     last = health.timing.late_wakeups;

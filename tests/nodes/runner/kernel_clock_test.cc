@@ -6,20 +6,20 @@
 
 #include <cstdint>
 
-#include "tests/nodes/runner/host_clock_laws.h"
+#include "tests/nodes/runner/machine_clock_laws.h"
 
 namespace ttf::nodes::runner {
 namespace {
 
 struct KernelBench {
-  HostClock& clock() { return own; }
+  MachineClock& clock() { return own; }
   KernelClock own{DriveClock(bus::ports::host_now(), 1'000'000)};
 };
-INSTANTIATE_TYPED_TEST_SUITE_P(Kernel, HostClockLaws, KernelBench);
+INSTANTIATE_TYPED_TEST_SUITE_P(Kernel, MachineClockLaws, KernelBench);
 
 TEST(Floor, CountsEveryWakeUpOnce) {
   constexpr Duration kPeriod = Duration::milliseconds(1);
-  const bus::ports::HostTime first = bus::ports::host_now() + kPeriod;
+  const bus::ports::MachineTime first = bus::ports::host_now() + kPeriod;
   recording::records::BinnedDurations lateness;
   {
     Floor floor(kPeriod, first);

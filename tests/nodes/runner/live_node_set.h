@@ -30,7 +30,7 @@ namespace ttf::nodes::runner {
 
 constexpr Duration ms(std::int64_t n) { return Duration::milliseconds(n); }
 constexpr Duration us(std::int64_t n) { return Duration::microseconds(n); }
-inline constexpr bus::ports::HostTime kOrigin{1'000'000'000'000};  // of the drives by a clock that is turned
+inline constexpr bus::ports::MachineTime kOrigin{1'000'000'000'000};  // of the drives by a clock that is turned
 
 // What a node has recorded, as far as the tests ask for it.
 struct Recorded final : recording::records::Sink {
@@ -115,10 +115,10 @@ struct Recorded final : recording::records::Sink {
 // Hears nothing at first.
 class Deaf final : public bus::ports::LiveMedium {
  public:
-  Deaf(std::unique_ptr<bus::ports::LiveMedium> medium, bus::ports::HostTime until,
-       std::function<bus::ports::HostTime()> now)
+  Deaf(std::unique_ptr<bus::ports::LiveMedium> medium, bus::ports::MachineTime until,
+       std::function<bus::ports::MachineTime()> now)
       : medium_(std::move(medium)), until_(until), now_(std::move(now)) {}
-  bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::HostTime due) override {
+  bus::ports::LiveStatus send(const bus::ports::LiveSignal& signal, bus::ports::MachineTime due) override {
     return medium_->send(signal, due);
   }
   bus::ports::LiveStatus send_can(std::size_t can_bus, const bus::ports::CanFrame& frame) override {
@@ -136,8 +136,8 @@ class Deaf final : public bus::ports::LiveMedium {
 
  private:
   std::unique_ptr<bus::ports::LiveMedium> medium_;
-  bus::ports::HostTime until_;
-  std::function<bus::ports::HostTime()> now_;
+  bus::ports::MachineTime until_;
+  std::function<bus::ports::MachineTime()> now_;
 };
 
 // What holds however late a node was: nothing is told without being counted, or counted without being told.
@@ -179,8 +179,8 @@ class LiveNodeSet : public testing::Test {
     Duration deaf_for{};  // all nodes, in the drive's time
   };
   // A medium for each node.
-  std::vector<std::unique_ptr<bus::ports::LiveMedium>> media(const Drive& how, const DriveClock& clock,
-                                                             const std::function<bus::ports::HostTime()>& now) const {
+  std::vector<std::unique_ptr<bus::ports::LiveMedium>> media(
+      const Drive& how, const DriveClock& clock, const std::function<bus::ports::MachineTime()>& now) const {
     test::MemoryLiveBusOptions options;
     for (const schedules::model::CanBus& can : cluster_.can_buses) options.can_buses.push_back(can.flexible_data_rate);
     options.told = how.told;
@@ -189,7 +189,8 @@ class LiveNodeSet : public testing::Test {
     test::MemoryLiveBus bus(options);
     std::vector<std::unique_ptr<bus::ports::LiveMedium>> media;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
-      media.push_back(std::make_unique<Deaf>(bus.join(), clock.host_time(sim::crank::kFirstCycle + how.deaf_for), now));
+      media.push_back(
+          std::make_unique<Deaf>(bus.join(), clock.machine_time(sim::crank::kFirstCycle + how.deaf_for), now));
     return media;
   }
   // Behind the drive: what one has sent, each other has received, has lost and counted, or finds now.

@@ -25,7 +25,7 @@ namespace ttf::nodes::runner {
 // Computes for so long before it does what it does.
 class Slow final : public host::Step {
  public:
-  Slow(std::shared_ptr<host::Step> step, HostClock& host, Duration computes)
+  Slow(std::shared_ptr<host::Step> step, MachineClock& host, Duration computes)
       : step_(std::move(step)), host_(host), computes_(computes) {}
   void run(host::StepContext& context) override {
     host_.sleep(computes_);
@@ -34,7 +34,7 @@ class Slow final : public host::Step {
 
  private:
   std::shared_ptr<host::Step> step_;
-  HostClock& host_;
+  MachineClock& host_;
   Duration computes_;
 };
 
@@ -73,8 +73,8 @@ class RunnerTest : public LiveNodeSet {
     }
 
     // So long behind the begin of cycle 0.
-    bus::ports::HostTime at(Duration drive) const { return clock_.host_time(sim::crank::kFirstCycle + drive); }
-    bus::ports::HostTime action_point(std::int64_t cycle, int slot) const {
+    bus::ports::MachineTime at(Duration drive) const { return clock_.machine_time(sim::crank::kFirstCycle + drive); }
+    bus::ports::MachineTime action_point(std::int64_t cycle, int slot) const {
       return at(ms(5 * cycle) + us((slot - 1) * 84 + 7));
     }
     void others_send(int slot, std::int64_t cycle, bool startup = false) {
@@ -117,7 +117,7 @@ class RunnerTest : public LiveNodeSet {
     struct CanArrival {
       std::size_t can_bus = 0;
       std::uint32_t identifier = 0;
-      bus::ports::HostTime at{};
+      bus::ports::MachineTime at{};
       Duration duration{};  // of the frame on a real bus, in the drive's time
     };
     std::vector<CanArrival> heard_on_can() {
@@ -155,7 +155,7 @@ class RunnerTest : public LiveNodeSet {
     Duration computes{};  // its first task, on the node's own thread
     int stop_descriptor = -1;
     Recorded out;
-    std::vector<bus::ports::HostTime> told_health;
+    std::vector<bus::ports::MachineTime> told_health;
     // At the end:
     Health health;
     host::ExecutiveCounts counts;

@@ -47,7 +47,7 @@ class TurnedNodeSet : public LiveNodeSet {
     expect_nothing_vanished(media);
   }
   // By the clock that is not stretched, behind the begin of cycle 0.
-  static bus::ports::HostTime at(Duration drive) { return kOrigin + (sim::crank::kFirstCycle + drive - TrueTime{}); }
+  static bus::ports::MachineTime at(Duration drive) { return kOrigin + (sim::crank::kFirstCycle + drive - TrueTime{}); }
   WakesOf only(const char* node, Wakes wakes) const {
     return [id = id_of(node), wakes](NodeId other) { return other == id ? wakes : late_by({}); };
   }

@@ -64,12 +64,12 @@ TEST_F(RunnerTest, WhatIsANanosecondTooLateIsNotSentAndToldSo) {
 // Stopped in cycle 1, going on in cycle 3: it does what it missed, in order, but for what is too late to be sent.
 TEST_F(RunnerTest, WhoWasStoppedCatchesUp) {
   Alone gateway(*this, "gateway", {.lasts = ms(20)});
-  const bus::ports::HostTime from = gateway.at(ms(7)), until = gateway.at(ms(16));
+  const bus::ports::MachineTime from = gateway.at(ms(7)), until = gateway.at(ms(16));
   gateway.wakes = stopped(from, until);
   gateway.run();
   std::set<SlotOfCycle> too_late;
   for (const auto& [cycle, slot, channel] : gateway_slots(4)) {
-    const bus::ports::HostTime due = gateway.action_point(cycle, slot);
+    const bus::ports::MachineTime due = gateway.action_point(cycle, slot);
     // It waits a millisecond for the medium before it goes on.
     if (due >= from && due + cluster_.arrival_window->late < until + ms(1)) too_late.emplace(cycle, slot, channel);
   }
@@ -83,8 +83,8 @@ TEST_F(RunnerTest, WhoWasStoppedCatchesUp) {
 TEST_F(RunnerTest, WhoIsMoreThanACycleBehindWaitsForTheMedium) {
   for (const Duration more : {Duration{0}, Duration{1}}) {
     Alone gateway(*this, "gateway", {.lasts = ms(20)});
-    std::optional<bus::ports::HostTime> stops;
-    gateway.wakes = [&](bus::ports::HostTime due) {
+    std::optional<bus::ports::MachineTime> stops;
+    gateway.wakes = [&](bus::ports::MachineTime due) {
       if (due < gateway.action_point(1, 3) - us(1)) return due;
       if (!stops) stops = due;
       return std::max(due, *stops + ms(5) + more);
@@ -128,7 +128,7 @@ TEST_F(RunnerTest, IsStoppedWhileItCatchesUp) {
 
 class BrokenMedium final : public bus::ports::LiveMedium {
  public:
-  bus::ports::LiveStatus send(const bus::ports::LiveSignal&, bus::ports::HostTime) override {
+  bus::ports::LiveStatus send(const bus::ports::LiveSignal&, bus::ports::MachineTime) override {
     return bus::ports::LiveStatus::kFailed;
   }
   bus::ports::LiveStatus send_can(std::size_t, const bus::ports::CanFrame&) override {

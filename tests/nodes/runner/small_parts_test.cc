@@ -14,19 +14,19 @@ namespace ttf::nodes::runner {
 namespace {
 
 TEST(DriveClock, StretchesTheDrive) {
-  const DriveClock clock(bus::ports::HostTime{1'000}, 2'500'000);
-  EXPECT_EQ(clock.drive_time(bus::ports::HostTime{1'000}).ns, 0);
-  EXPECT_EQ(clock.drive_time(bus::ports::HostTime{1'000 + 250}).ns, 100);
-  EXPECT_EQ(clock.host_time(TrueTime{100}).ns, 1'250);
-  EXPECT_EQ(clock.drive_time(bus::ports::HostTime{0}).ns, -400);
+  const DriveClock clock(bus::ports::MachineTime{1'000}, 2'500'000);
+  EXPECT_EQ(clock.drive_time(bus::ports::MachineTime{1'000}).ns, 0);
+  EXPECT_EQ(clock.drive_time(bus::ports::MachineTime{1'000 + 250}).ns, 100);
+  EXPECT_EQ(clock.machine_time(TrueTime{100}).ns, 1'250);
+  EXPECT_EQ(clock.drive_time(bus::ports::MachineTime{0}).ns, -400);
 }
 
-TEST(DriveClock, AnInstantOfTheDriveIsReachedAtItsHostTimeAndNotBefore) {
+TEST(DriveClock, AnInstantOfTheDriveIsReachedAtItsMachineTimeAndNotBefore) {
   for (const std::int64_t scale : {100'000, 999'999, 1'000'000, 1'000'003, 7'000'000, 1'000'000'000}) {
-    const DriveClock clock(bus::ports::HostTime{123'456'789}, scale);
+    const DriveClock clock(bus::ports::MachineTime{123'456'789}, scale);
     for (const std::int64_t ns : {std::int64_t{-7}, std::int64_t{0}, std::int64_t{1}, std::int64_t{999'999'937},
                                   std::int64_t{86'400'000'000'007}}) {
-      const bus::ports::HostTime at = clock.host_time(TrueTime{ns});
+      const bus::ports::MachineTime at = clock.machine_time(TrueTime{ns});
       EXPECT_GE(clock.drive_time(at).ns, ns) << scale;
       EXPECT_LT(clock.drive_time(at - Duration{1}).ns, ns) << scale;
     }
@@ -35,9 +35,9 @@ TEST(DriveClock, AnInstantOfTheDriveIsReachedAtItsHostTimeAndNotBefore) {
 
 // A turn every 10 ns, 3 behind the origin at 1000: at ..., 993, 1003, 1013, ...; the drive's scale has no part in it.
 TEST(DriveClock, TurnsAreWhereTheyAreFromTheOrigin) {
-  const DriveClock clock(bus::ports::HostTime{1'000}, 2'500'000);
+  const DriveClock clock(bus::ports::MachineTime{1'000}, 2'500'000);
   const auto next = [&](std::int64_t now) {
-    return clock.next_turn(Duration{10}, Duration{3}, bus::ports::HostTime{now}).ns;
+    return clock.next_turn(Duration{10}, Duration{3}, bus::ports::MachineTime{now}).ns;
   };
   EXPECT_EQ(next(1'000), 1'003);
   EXPECT_EQ(next(1'002), 1'003);

@@ -27,23 +27,23 @@
 
 #include "core/check.h"
 #include "core/random.h"
-#include "nodes/runner/host_clock.h"
+#include "nodes/runner/machine_clock.h"
 
 namespace ttf::nodes::runner {
 
 // When a process wakes up that should at an instant: then or later.
-using Wakes = std::function<bus::ports::HostTime(bus::ports::HostTime)>;
+using Wakes = std::function<bus::ports::MachineTime(bus::ports::MachineTime)>;
 
 inline Wakes late_by(Duration by) {
-  return [by](bus::ports::HostTime due) { return due + by; };
+  return [by](bus::ports::MachineTime due) { return due + by; };
 }
 // It stands still in between.
-inline Wakes stopped(bus::ports::HostTime from, bus::ports::HostTime until) {
-  return [=](bus::ports::HostTime due) { return due >= from ? std::max(due, until) : due; };
+inline Wakes stopped(bus::ports::MachineTime from, bus::ports::MachineTime until) {
+  return [=](bus::ports::MachineTime due) { return due >= from ? std::max(due, until) : due; };
 }
 // Up to `most` late, by a stream of its own.
 inline Wakes drawn_late(Duration most, std::uint16_t process) {
-  return [most, stream = RandomStream({1, 0, Purpose::kTest, process, 0})](bus::ports::HostTime due) mutable {
+  return [most, stream = RandomStream({1, 0, Purpose::kTest, process, 0})](bus::ports::MachineTime due) mutable {
     return due + Duration{stream.integer(0, most.ns)};
   };
 }
@@ -54,41 +54,41 @@ class TurnedHost {
   // What a wait takes at least, even for an instant that is over.
   static constexpr Duration kShortest = Duration::microseconds(10);
 
-  explicit TurnedHost(bus::ports::HostTime begin = {1'000'000'000}) : now_(begin) {}
+  explicit TurnedHost(bus::ports::MachineTime begin = {1'000'000'000}) : now_(begin) {}
 
-  bus::ports::HostTime now() const { return now_; }
+  bus::ports::MachineTime now() const { return now_; }
   // While no process runs.
-  void turn_to(bus::ports::HostTime later) { now_ = std::max(now_, later); }
+  void turn_to(bus::ports::MachineTime later) { now_ = std::max(now_, later); }
   inline Process& process(Wakes wakes = late_by({}));
   // Something that happens then, before any process wakes up at that instant. It must not wait.
-  void at(bus::ports::HostTime when, std::function<void()> happens) { events_.emplace(when, std::move(happens)); }
+  void at(bus::ports::MachineTime when, std::function<void()> happens) { events_.emplace(when, std::move(happens)); }
   // Runs the processes, in the order in which they were made, until all have ended.
   inline void run(const std::vector<std::function<void()>>& bodies);
 
  private:
-  inline void wait(Process& self, bus::ports::HostTime until, bool watches);
+  inline void wait(Process& self, bus::ports::MachineTime until, bool watches);
   inline void hand_over();
   inline Process* first_to_wake();
   inline void look_for_arrivals();
 
   std::mutex mutex_;  // of who hands over; all the rest belongs to the process that runs
   std::condition_variable ended_;
-  bus::ports::HostTime now_;
+  bus::ports::MachineTime now_;
   Process* runs_ = nullptr;
-  std::multimap<bus::ports::HostTime, std::function<void()>> events_;
+  std::multimap<bus::ports::MachineTime, std::function<void()>> events_;
   std::vector<std::unique_ptr<Process>> processes_;
 };
 
-class TurnedHost::Process final : public HostClock {
+class TurnedHost::Process final : public MachineClock {
  public:
   Process(TurnedHost& host, Wakes wakes) : host_(host), wakes_(std::move(wakes)) {}
 
-  bus::ports::HostTime now() const override { return host_.now(); }
+  bus::ports::MachineTime now() const override { return host_.now(); }
   void watch(int descriptor) override {
     if (descriptor >= 0) watched_.push_back({descriptor, POLLIN, 0});
   }
   void clear() override { watched_.clear(); }
-  void wait_until(bus::ports::HostTime until) override { host_.wait(*this, until, true); }
+  void wait_until(bus::ports::MachineTime until) override { host_.wait(*this, until, true); }
   void sleep(Duration lasts) override {
     sleeps.push_back(lasts);
     host_.wait(*this, host_.now() + lasts, false);
@@ -108,8 +108,8 @@ class TurnedHost::Process final : public HostClock {
   Wakes wakes_;
   std::vector<pollfd> watched_;
   std::condition_variable turn_;
-  std::optional<bus::ports::HostTime> wakes_up_;  // while it waits
-  bool watches_ = false;                          // likewise, and nothing has come yet
+  std::optional<bus::ports::MachineTime> wakes_up_;  // while it waits
+  bool watches_ = false;                             // likewise, and nothing has come yet
 };
 
 TurnedHost::Process& TurnedHost::process(Wakes wakes) {
@@ -137,7 +137,7 @@ void TurnedHost::run(const std::vector<std::function<void()>>& bodies) {
   for (std::thread& thread : threads) thread.join();
 }
 
-void TurnedHost::wait(Process& self, bus::ports::HostTime until, bool watches) {
+void TurnedHost::wait(Process& self, bus::ports::MachineTime until, bool watches) {
   std::unique_lock lock(mutex_);
   self.wakes_up_ = self.wakes_(until > now_ ? until : now_ + kShortest);
   self.watches_ = watches;

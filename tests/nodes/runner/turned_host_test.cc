@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include "tests/nodes/runner/host_clock_laws.h"
+#include "tests/nodes/runner/machine_clock_laws.h"
 
 namespace ttf::nodes::runner {
 namespace {
 
 struct TurnedBench {
-  HostClock& clock() { return own; }
+  MachineClock& clock() { return own; }
   TurnedHost host;
   TurnedHost::Process& own = host.process();
 };
-INSTANTIATE_TYPED_TEST_SUITE_P(Turned, HostClockLaws, TurnedBench);
+INSTANTIATE_TYPED_TEST_SUITE_P(Turned, MachineClockLaws, TurnedBench);
 
 using Done = std::vector<std::pair<char, std::int64_t>>;  // who, when
 

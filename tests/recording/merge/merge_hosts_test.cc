@@ -50,7 +50,7 @@ TEST(CommonTime, MovesEveryKindOfRecord) {
 }
 
 // A host's clock by the simulator's time: ahead, and faster, for the first 100 s.
-CommonTime host_clock(Duration ahead, std::int64_t ppm) {
+CommonTime machine_clock(Duration ahead, std::int64_t ppm) {
   const TrueTime end = ms(100'000);
   return CommonTime({{TrueTime{}, TrueTime{} + ahead}, {end, end + ahead + Duration{ppm * 100'000}}});
 }
@@ -114,9 +114,9 @@ struct Hosts {
 
 TEST(MergeHosts, ClocksOfDifferentHostsAreBroughtTogether) {
   const Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
-  const std::vector<Host> three{{"ash", host_clock(Duration{}, 0)},
-                                {"elm", host_clock(Duration::milliseconds(7), 80)},
-                                {"oak", host_clock(Duration::milliseconds(-40), -50)}};
+  const std::vector<Host> three{{"ash", machine_clock(Duration{}, 0)},
+                                {"elm", machine_clock(Duration::milliseconds(7), 80)},
+                                {"oak", machine_clock(Duration::milliseconds(-40), -50)}};
   const Hosts hosts(drive, three, [](NodeId node) { return index_of(node) % 3; });
   const auto as_logged = [&](records::Sink& sink) {
     for (const std::string& path : hosts.paths) log::read_log(path, sink);
@@ -141,8 +141,8 @@ TEST(MergeHosts, ClocksOfDifferentHostsAreBroughtTogether) {
 TEST(MergeHosts, ANodeThatRestartsStaysOnItsHostsTime) {
   const Drive drive("scenarios/faulty_bus.yaml", StrategyKind::kTt);
   const NodeId camera = drive.cluster.find_node("camera_pre").value();
-  const std::vector<Host> two{{"near", host_clock(Duration{}, 0)},
-                              {"far", host_clock(Duration::milliseconds(120), 100)}};
+  const std::vector<Host> two{{"near", machine_clock(Duration{}, 0)},
+                              {"far", machine_clock(Duration::milliseconds(120), 100)}};
   const Hosts hosts(drive, two, [&](NodeId node) { return node == camera ? std::size_t{1} : std::size_t{0}; });
   const MergedLogs merged(hosts.paths);
   EXPECT_LT(hosts.most_apart([&](records::Sink& sink) { merged.read(sink); }), Duration::microseconds(20));
@@ -150,7 +150,7 @@ TEST(MergeHosts, ANodeThatRestartsStaysOnItsHostsTime) {
 
 TEST(MergeHosts, OnOneHostOrWithoutSynchronisationTimesStayAsTheyAre) {
   const Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
-  const std::vector<Host> one{{"ash", host_clock(Duration::milliseconds(3), 10)}};
+  const std::vector<Host> one{{"ash", machine_clock(Duration::milliseconds(3), 10)}};
   const Hosts alone(drive, one, [](NodeId) { return std::size_t{0}; });
   const MergedLogs merged(alone.paths);
   EXPECT_EQ(merged.manifest().clock, log::kWallClock);
@@ -158,14 +158,15 @@ TEST(MergeHosts, OnOneHostOrWithoutSynchronisationTimesStayAsTheyAre) {
   Runs runs;
   merged.read(runs);
   const auto& [run, at] = *alone.truth.starts.begin();
-  EXPECT_EQ(runs.starts.at(run), host_clock(Duration::milliseconds(3), 10)(at));
+  EXPECT_EQ(runs.starts.at(run), machine_clock(Duration::milliseconds(3), 10)(at));
 
   const NodeId off_flexray = [&] {
     std::size_t n = 0;
     while (drive.cluster.nodes[n].flexray) ++n;
     return static_cast<NodeId>(n);
   }();
-  const std::vector<Host> two{{"ash", host_clock(Duration{}, 0)}, {"elm", host_clock(Duration::milliseconds(9), 0)}};
+  const std::vector<Host> two{{"ash", machine_clock(Duration{}, 0)},
+                              {"elm", machine_clock(Duration::milliseconds(9), 0)}};
   const Hosts apart(drive, two, [&](NodeId node) { return node == off_flexray ? std::size_t{1} : std::size_t{0}; });
   const MergedLogs both(apart.paths);
   EXPECT_EQ(both.warnings(),

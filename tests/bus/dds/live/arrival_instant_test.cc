@@ -59,7 +59,7 @@ Errors errors(ArrivalInstant& instants, Afar& afar, std::int64_t from, std::int6
   std::vector<std::int64_t> all;
   for (std::int64_t left = from; left < to; left += every) {
     const Afar::Frame frame = afar.at(left);
-    const ports::HostTime at = instants.of(kFarSender, kFarHost, frame.sent, ports::HostTime{frame.received});
+    const ports::MachineTime at = instants.of(kFarSender, kFarHost, frame.sent, ports::MachineTime{frame.received});
     EXPECT_LE(at.ns, frame.received);
     all.push_back(at.ns - (left + kLeast));
   }
@@ -121,12 +121,12 @@ TEST_P(DdsArrivalInstant, AHostThatWasStartedAnewBeginsAnew) {
   ArrivalInstant instants(1);
   Afar before(GetParam(), 0, 200);
   errors(instants, before, 0, 5 * kSecond, 5 * kMs);
-  ports::HostTime last{};
+  ports::MachineTime last{};
   for (std::int64_t i = 0; i < 1000; ++i) {
     const std::int64_t left = 6 * kSecond + i * 5 * kMs;
     const Afar::Frame frame = before.at(left);
-    const ports::HostTime at =
-        instants.of(kFarSender, kFarHost + 1, left - 6 * kSecond, ports::HostTime{frame.received});
+    const ports::MachineTime at =
+        instants.of(kFarSender, kFarHost + 1, left - 6 * kSecond, ports::MachineTime{frame.received});
     if (i == 0) {
       EXPECT_EQ(at.ns, frame.received);
     }
@@ -153,7 +153,7 @@ TEST(DdsLeastDelay, IsTheLeastOfASecond) {
   for (std::int64_t received = 0; received < 9 * kSecond;
        received += static_cast<std::int64_t>(random() % (40 * kMs))) {
     frames.emplace_back(received, static_cast<std::int64_t>(random() % (2 * kMs)) - kMs);
-    const std::int64_t said = least.least(ports::HostTime{received}, Duration{frames.back().second}).ns;
+    const std::int64_t said = least.least(ports::MachineTime{received}, Duration{frames.back().second}).ns;
     ASSERT_GE(said, of_the_last(LeastDelay::kWindow.ns)) << received;
     ASSERT_LE(said, of_the_last(LeastDelay::kWindow.ns - LeastDelay::kWindow.ns / 32)) << received;
   }
@@ -169,8 +169,9 @@ TEST(DdsArrivalInstantBegin, TheLeastDelayedSoFarIsTheMeasure) {
   std::int64_t left = 0;
   for (const std::int64_t delayed : {900 * kUs, 300 * kUs, 500 * kUs, 60 * kUs, 700 * kUs}) {
     least = std::min(least, delayed);
-    EXPECT_EQ(instants.of(kFarSender, kFarHost, left + kApart + kSecond, ports::HostTime{left + delayed + kSecond}).ns,
-              left + least + kSecond);
+    EXPECT_EQ(
+        instants.of(kFarSender, kFarHost, left + kApart + kSecond, ports::MachineTime{left + delayed + kSecond}).ns,
+        left + least + kSecond);
     left += 10 * kMs;
   }
 }
@@ -178,12 +179,12 @@ TEST(DdsArrivalInstantBegin, TheLeastDelayedSoFarIsTheMeasure) {
 // L2: a burst that was taken at once after a stop, and the first that is not delayed right behind it.
 TEST(DdsArrivalInstantOrder, OfOneSenderNothingComesBeforeWhatCameBefore) {
   ArrivalInstant instants(1);
-  const ports::HostTime first = instants.of(NodeId{1}, kFarHost, 1'000 * kUs, ports::HostTime{kSecond});
+  const ports::MachineTime first = instants.of(NodeId{1}, kFarHost, 1'000 * kUs, ports::MachineTime{kSecond});
   EXPECT_EQ(first.ns, kSecond);
-  const ports::HostTime next = instants.of(NodeId{1}, kFarHost, 1'010 * kUs, ports::HostTime{kSecond});
+  const ports::MachineTime next = instants.of(NodeId{1}, kFarHost, 1'010 * kUs, ports::MachineTime{kSecond});
   EXPECT_EQ(next, first);
   // Another's, that left in between, is where the better minimum puts it.
-  const ports::HostTime other = instants.of(NodeId{2}, kFarHost, 1'005 * kUs, ports::HostTime{kSecond + kUs});
+  const ports::MachineTime other = instants.of(NodeId{2}, kFarHost, 1'005 * kUs, ports::MachineTime{kSecond + kUs});
   EXPECT_LT(other, next);
   EXPECT_EQ(other.ns, kSecond - 5 * kUs);
 }
@@ -194,7 +195,7 @@ TEST(DdsArrivalInstantHosts, HaveTheirOwnMinima) {
   const auto delayed = [&](std::uint64_t host, std::int64_t by) {
     static std::int64_t left = kSecond;
     left += kMs;
-    return instants.of(NodeId{static_cast<std::uint8_t>(host)}, host, left, ports::HostTime{left + by}).ns - left;
+    return instants.of(NodeId{static_cast<std::uint8_t>(host)}, host, left, ports::MachineTime{left + by}).ns - left;
   };
   EXPECT_EQ(delayed(1, 100), 100);
   EXPECT_EQ(delayed(2, 300), 300);
@@ -210,7 +211,7 @@ TEST(DdsArrivalInstantHosts, HaveTheirOwnMinima) {
 TEST(DdsArrivalInstantProperty, HoldsForAnyStamps) {
   std::mt19937_64 random(5);
   ArrivalInstant one(3), again(3);
-  std::array<ports::HostTime, 8> last{};
+  std::array<ports::MachineTime, 8> last{};
   std::int64_t received = 0;
   for (int i = 0; i < 200'000; ++i) {
     received += static_cast<std::int64_t>(random() % (1ull << (random() % 36)));
@@ -218,10 +219,10 @@ TEST(DdsArrivalInstantProperty, HoldsForAnyStamps) {
     const std::uint64_t host = 1 + random() % 5;
     const auto sent = random() % 4 == 0 ? static_cast<std::int64_t>(random() % 4'000'000'000'000'000'000)
                                         : received + static_cast<std::int64_t>(random() % 1'000'000);
-    const ports::HostTime at = one.of(sender, host, sent, ports::HostTime{received});
+    const ports::MachineTime at = one.of(sender, host, sent, ports::MachineTime{received});
     ASSERT_LE(at.ns, received) << i;
     ASSERT_GE(at, last[index_of(sender)]) << i;
-    ASSERT_EQ(at, again.of(sender, host, sent, ports::HostTime{received})) << i;
+    ASSERT_EQ(at, again.of(sender, host, sent, ports::MachineTime{received})) << i;
     last[index_of(sender)] = at;
   }
 }

@@ -153,10 +153,10 @@ TEST(DdsLiveTransit, IsKnownOfWhatComesFromThisHost) {
   for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
   Stranger on_a(session, heard_by_one[0]);
   const std::uint64_t here = bus::dds::common::host_identity();
-  const bus::ports::HostTime now = bus::ports::host_now(), ahead = now + Duration::milliseconds(1'000'000);
+  const bus::ports::MachineTime now = bus::ports::host_now(), ahead = now + Duration::milliseconds(1'000'000);
   struct Said {
     std::uint64_t host;
-    bus::ports::HostTime sent;
+    bus::ports::MachineTime sent;
   };
   const std::vector<Said> all{{here, now - Duration::milliseconds(5)}, {here + 1, now}, {0, now}, {here, ahead}};
   for (const Said& said : all) {

@@ -15,12 +15,12 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-OwnedScan list(std::uint8_t sensor, std::uint32_t sequence, std::int64_t us) {
-  return scan(sensor, sequence, GlobalTime{us * 1000});
+OwnedList list(std::uint8_t sensor, std::uint32_t sequence, std::int64_t us) {
+  return list_of(sensor, sequence, GlobalTime{us * 1000});
 }
 oosm::Stamp instant(std::uint8_t sensor, std::int64_t ms) { return {at_ms(ms), {SensorId{sensor}, 0}}; }
-std::vector<oosm::Stamp> passed(Announcements& announcements, const OwnedScan& scan) {
-  const auto due = announcements.pass(scan.view());
+std::vector<oosm::Stamp> passed(Announcements& announcements, const OwnedList& list) {
+  const auto due = announcements.pass(list.view());
   return {due.begin(), due.end()};
 }
 
@@ -36,7 +36,7 @@ TEST(Announcements, AreOfTheListsThatTimePasses) {
 
 TEST(Announcements, KnowTheListAgainByItsInstant) {
   Announcements announcements(in_turn());
-  const auto when = [&](const OwnedScan& scan) { return announcements.when(scan.view()); };
+  const auto when = [&](const OwnedList& list) { return announcements.when(list.view()); };
   EXPECT_EQ(when(list(1, 5, 20'004)).stamp, oosm::Stamp(GlobalTime{20'004'000}, {SensorId{1}, 5})) << "not announced";
   announcements.pass(list(0, 0, 0).view());
   announcements.pass(list(0, 1, 40'000).view());

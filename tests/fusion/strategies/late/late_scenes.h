@@ -29,11 +29,11 @@ inline config::TrackerConfig taking_late(oosm::Kind kind,
 }
 
 // Of a few objects far from each other, in order; the first `all` show all of them, the others miss one in five.
-inline std::vector<OwnedScan> few_objects(std::uint64_t seed, std::uint32_t lists, std::uint32_t all = 8) {
-  std::vector<OwnedScan> result;
+inline std::vector<OwnedList> few_objects(std::uint64_t seed, std::uint32_t lists, std::uint32_t all = 8) {
+  std::vector<OwnedList> result;
   for (std::uint32_t k = 0; k < lists; ++k) {
     const Lanes lanes{.objects = 4, .across = 2, .miss_probability = k < all ? 0.0 : 0.2, .seed = seed};
-    result.push_back(scan(static_cast<std::uint8_t>(k % 2), k / 2, at_ms(20 * k), lanes.see(at_ms(20 * k), k)));
+    result.push_back(list_of(static_cast<std::uint8_t>(k % 2), k / 2, at_ms(20 * k), lanes.see(at_ms(20 * k), k)));
   }
   return result;
 }

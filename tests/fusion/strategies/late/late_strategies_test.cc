@@ -94,10 +94,10 @@ TEST_P(LateUnderAdva, AllocatesNothing) {
   std::size_t next = 0, late = 0;
   const std::int64_t before_all = support::allocations();
   for (std::int64_t now = 0; now <= 3500; now += 10) {
-    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) strategy->accept(arrivals[next].scan.view());
+    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) strategy->accept(arrivals[next].list.view());
     strategy->fuse(at_ms(now));
     strategy->image(at_ms(now + 40), image);
-    for (const FusedScan& f : strategy->last_fused()) late += f.disposition == Disposition::kFusedLate ? 1 : 0;
+    for (const FusedList& f : strategy->last_fused()) late += f.disposition == Disposition::kFusedLate ? 1 : 0;
   }
   EXPECT_EQ(support::allocations(), before_all);
   EXPECT_EQ(next, arrivals.size());

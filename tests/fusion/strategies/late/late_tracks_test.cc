@@ -14,9 +14,9 @@ using Insertion = tracks::TrackHistory::Insertion;
 
 class LateList : public testing::Test {
  protected:
-  static OwnedScan at(std::uint8_t sensor, std::uint32_t sequence, std::int64_t ms,
+  static OwnedList at(std::uint8_t sensor, std::uint32_t sequence, std::int64_t ms,
                       std::vector<sensors::Observation> seen) {
-    return scan(sensor, sequence, at_ms(ms), std::move(seen));
+    return list_of(sensor, sequence, at_ms(ms), std::move(seen));
   }
   // Drives at 20 m/s.
   static sensors::Observation car(std::int64_t ms, double sigma = 0.1) {
@@ -35,7 +35,7 @@ TEST_F(LateList, BelongsToWhereTheTrackWas) {
   drive(late, 12);
   EXPECT_EQ(late.insert(at(1, 0, 240, {car(240)}).view()), Insertion::kLate);
   ASSERT_EQ(late.current().tracks.size(), 1u);
-  EXPECT_EQ(late.current().tracks[0].scans, 13);
+  EXPECT_EQ(late.current().tracks[0].lists, 13);
   EXPECT_EQ(late.current().tracks[0].hits, 0x1fffu);
 }
 
@@ -47,7 +47,7 @@ TEST_F(LateList, GivesBirthToNothing) {
   EXPECT_EQ(late.current().tracks[0].hits, 0x7fu);
 }
 
-// The scene of Timeline.ALateScanReopensAssociations: here the two stay two.
+// The scene of Timeline.ALateListReopensAssociations: here the two stay two.
 //
 //   x [m]                             o 18.5
 //                    o 7.5 (late)
@@ -69,7 +69,7 @@ TEST_F(LateList, ReopensNoAssociation) {
   EXPECT_EQ(late.current().tracks[0].newest.measured, at_ms(1000));
   EXPECT_EQ(late.current().tracks[0].misses, 1);
   EXPECT_EQ(late.current().tracks[1].hits, 0b1u) << "it was born later";
-  EXPECT_EQ(late.current().tracks[1].scans, 1);
+  EXPECT_EQ(late.current().tracks[1].lists, 1);
 }
 
 //   o     o     .    (o)    .          o seen, . missed, ( ) late
@@ -83,7 +83,7 @@ TEST_F(LateList, CountsAtItsPlace) {
     ASSERT_EQ(late.current().tracks.size(), 1u);
     EXPECT_EQ(late.current().tracks[0].misses, 2);
     EXPECT_FALSE(late.current().tracks[0].confirmed);
-    const OwnedScan list = seen ? at(1, 0, 100, {car(100)}) : at(1, 0, 100, {});
+    const OwnedList list = seen ? at(1, 0, 100, {car(100)}) : at(1, 0, 100, {});
     ASSERT_EQ(late.insert(list.view()), Insertion::kLate);
     if (!seen) {
       EXPECT_TRUE(late.current().tracks.empty()) << "three hits in five lists are out of reach";
@@ -92,7 +92,7 @@ TEST_F(LateList, CountsAtItsPlace) {
     const tracks::Track& track = late.current().tracks[0];
     EXPECT_EQ(track.hits, 0b11010u);
     EXPECT_EQ(track.misses, 1);
-    EXPECT_EQ(track.scans, 5);
+    EXPECT_EQ(track.lists, 5);
     EXPECT_EQ(track.newest, (tracks::ObservationId{{SensorId{1}, 0}, 0, at_ms(100)}));
     EXPECT_TRUE(track.confirmed) << "three of five";
     EXPECT_NE(track.id, kNoTrack);
@@ -113,7 +113,7 @@ TEST_F(LateList, CanEndATrack) {
   // Its place is another's: a new track begins where the first did.
   for (std::uint32_t k = 7; k < 12; ++k) late.insert(at(0, k, 40 * k, {car(40 * k)}).view());
   ASSERT_EQ(late.current().tracks.size(), 1u);
-  EXPECT_EQ(late.current().tracks[0].scans, 5);
+  EXPECT_EQ(late.current().tracks[0].lists, 5);
   EXPECT_EQ(late.insert(at(1, 1, 370, {car(370)}).view()), Insertion::kLate);
   EXPECT_EQ(late.insert(at(1, 2, 270, {car(270)}).view()), Insertion::kTooOld) << "the first's past is forgotten";
 }
@@ -136,11 +136,11 @@ TEST_F(LateList, TurnsAndSizesAsOneOfNow) {
     LateUpdates late(config, 4, {});
     tracks::Timeline rewinding(config, 4);
     for (std::uint32_t k = 0; k < 6; ++k) {
-      const OwnedScan list = at(0, k, 40 * k, {measured(car(40 * k), 0.03 * k, 4.0 + 0.1 * k)});
+      const OwnedList list = at(0, k, 40 * k, {measured(car(40 * k), 0.03 * k, 4.0 + 0.1 * k)});
       late.insert(list.view());
       rewinding.insert(list.view());
     }
-    const OwnedScan list = at(1, 0, 60, {measured(car(60), 0.1, 4.9)});
+    const OwnedList list = at(1, 0, 60, {measured(car(60), 0.1, 4.9)});
     late.insert(list.view());
     rewinding.insert(list.view());
     (walks ? walking : standing) = late.current().tracks[0];
@@ -218,7 +218,7 @@ TEST_F(LateList, OfACloneMustFitTheSchedule) {
   const config::TrackerConfig config = taking_late(Kind::kClone);
   LateUpdates late(config, 4, in_turn());
   tracks::Timeline rewinding(config, 4);
-  const auto both = [&](const OwnedScan& list) {
+  const auto both = [&](const OwnedList& list) {
     rewinding.insert(list.view());
     return late.insert(list.view());
   };
@@ -226,7 +226,7 @@ TEST_F(LateList, OfACloneMustFitTheSchedule) {
   for (std::uint32_t k = 0; k < 40; ++k) {
     both(at(0, k, 40 * k, {car(40 * k)}));
     if (k < 3) continue;
-    OwnedScan list = at(1, k, 40 * (k - 1) - 20, {car(40 * (k - 1) - 20)});
+    OwnedList list = at(1, k, 40 * (k - 1) - 20, {car(40 * (k - 1) - 20)});
     list.measured += Duration::microseconds(static_cast<std::int64_t>(k % 7) * 20 - 60);
     came_late += both(list) == Insertion::kLate ? 1u : 0u;
     ASSERT_EQ(late.current().tracks.size(), 1u);

@@ -33,7 +33,7 @@ TEST_P(EveryMethod, GivesTheBitsOfTheTrackerInOrder) {
     const config::TrackerConfig config = taking_late(GetParam(), motion);
     LateUpdates late(config, kRoom, in_turn());
     tracks::Timeline rewinding(config, kRoom);
-    for (const OwnedScan& list : few_objects(3, 80, 0)) {
+    for (const OwnedList& list : few_objects(3, 80, 0)) {
       ASSERT_EQ(late.insert(list.view()), Insertion::kInOrder);
       rewinding.insert(list.view());
       ASSERT_TRUE(same_bits(late.current(), rewinding.current()));
@@ -50,7 +50,7 @@ struct Compared {
   double worst = 0.0;  // relative difference of estimates
   bool counted_alike = true;
 };
-Compared compare(const config::TrackerConfig& config, const std::vector<OwnedScan>& lists,
+Compared compare(const config::TrackerConfig& config, const std::vector<OwnedList>& lists,
                  const std::vector<std::size_t>& order) {
   Compared result;
   LateUpdates late(config, kRoom, in_turn());
@@ -69,7 +69,7 @@ Compared compare(const config::TrackerConfig& config, const std::vector<OwnedSca
       result.worst = std::max(result.worst, relative_difference(one[t].estimate, other[t].estimate));
       result.counted_alike = result.counted_alike && one[t].birth == other[t].birth &&
                              one[t].newest == other[t].newest && one[t].hits == other[t].hits &&
-                             one[t].misses == other[t].misses && one[t].scans == other[t].scans &&
+                             one[t].misses == other[t].misses && one[t].lists == other[t].lists &&
                              one[t].confirmed == other[t].confirmed && one[t].id == other[t].id;
     }
   }
@@ -143,20 +143,20 @@ metrics::Consistency drives(Kind kind, int runs) {
     truth(0) = 100.0;
     truth(2) = config.initial_velocity_sigma * stream.normal();
     truth(3) = config.initial_velocity_sigma * stream.normal();
-    std::vector<OwnedScan> lists;
+    std::vector<OwnedList> lists;
     for (std::uint32_t k = 0; k < 30; ++k) {
       if (k > 0)
         truth = draw(transition(config.motion, 0.02) * truth, driving_noise(config.motion, config.process_noise, 0.02),
                      stream);
-      lists.push_back(scan(static_cast<std::uint8_t>(k % 2), k / 2, at_ms(20 * k),
-                           {position(truth(0) + 0.3 * stream.normal(), truth(1) + 0.3 * stream.normal(), 0.3)}));
+      lists.push_back(list_of(static_cast<std::uint8_t>(k % 2), k / 2, at_ms(20 * k),
+                              {position(truth(0) + 0.3 * stream.normal(), truth(1) + 0.3 * stream.normal(), 0.3)}));
     }
     const bool any_order = kind == Kind::kAugmented || kind == Kind::kClone;
     LateUpdates late(config, 4, in_turn());
     for (const std::size_t i : any_order ? drawn_order(stream, 30, 4, 6) : one_late)
       EXPECT_NE(late.insert(lists[i].view()), Insertion::kTooOld);
     EXPECT_EQ(late.current().tracks.size(), 1u);
-    EXPECT_EQ(late.current().tracks[0].scans, 30);
+    EXPECT_EQ(late.current().tracks[0].lists, 30);
     const estimators::Cartesian end = seen_as(late.current().tracks[0].estimate);
     nees.add(metrics::nees<4>({end.x.head<4>(), end.p.topLeftCorner<4, 4>()}, truth.head<4>()), 4);
   }
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(LateUpdates, ApproximateMethod,
 TEST_P(ApproximateMethod, IsAFewPercentOff) {
   const auto [kind, lag] = GetParam();
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const std::vector<OwnedScan> lists = few_objects(seed, 64);
+    const std::vector<OwnedList> lists = few_objects(seed, 64);
     const config::TrackerConfig config = taking_late(kind);
     LateUpdates late(config, kRoom, in_turn());
     tracks::Timeline rewinding(config, kRoom);

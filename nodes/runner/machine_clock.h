@@ -12,16 +12,16 @@
 
 namespace ttf::nodes::runner {
 
-class HostClock {
+class MachineClock {
  public:
-  virtual ~HostClock() = default;
+  virtual ~MachineClock() = default;
 
-  virtual bus::ports::HostTime now() const = 0;
+  virtual bus::ports::MachineTime now() const = 0;
 
   // Negative descriptors are passed over. Until clear() every wait watches the others.
   virtual void watch(int descriptor) = 0;
   virtual void clear() = 0;
-  virtual void wait_until(bus::ports::HostTime until) = 0;
+  virtual void wait_until(bus::ports::MachineTime until) = 0;
   virtual void sleep(Duration lasts) = 0;
   // Without waiting; a negative one never is.
   virtual bool readable(int descriptor) const = 0;

@@ -14,8 +14,8 @@
 namespace ttf::fusion::tracks {
 namespace {
 
-class LostScans : public testing::TestWithParam<strategies::StrategyKind> {};
-INSTANTIATE_TEST_SUITE_P(All, LostScans, testing::ValuesIn(strategies::kAllStrategies), name_of_strategy);
+class LostLists : public testing::TestWithParam<strategies::StrategyKind> {};
+INSTANTIATE_TEST_SUITE_P(All, LostLists, testing::ValuesIn(strategies::kAllStrategies), name_of_strategy);
 
 // A span of the drive in which a sensor is dead; its last list may be on its way still.
 struct Silence {
@@ -29,8 +29,8 @@ std::vector<Arrival> survivors(std::uint64_t seed, std::int64_t one_in, const st
   std::vector<Arrival> left;
   for (Arrival& arrival : drawn_drive(seed, 50)) {
     const bool silent = std::any_of(silences.begin(), silences.end(), [&](const Silence& s) {
-      return s.sensor == arrival.scan.id.sensor && arrival.scan.measured >= at_ms(s.from_ms) &&
-             arrival.scan.measured < at_ms(s.to_ms);
+      return s.sensor == arrival.list.id.sensor && arrival.list.measured >= at_ms(s.from_ms) &&
+             arrival.list.measured < at_ms(s.to_ms);
     });
     if (stream.integer(1, one_in) != 1 && !silent) left.push_back(std::move(arrival));
   }
@@ -40,10 +40,10 @@ std::vector<Arrival> survivors(std::uint64_t seed, std::int64_t one_in, const st
 // What an oracle that never heard of lost lists shows at `at`. Names are each strategy's own.
 std::vector<TrackView> in_order(std::vector<Arrival> arrivals, GlobalTime at) {
   std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
-    return before(a.scan.id, a.scan.measured, b.scan.id, b.scan.measured);
+    return before(a.list.id, a.list.measured, b.list.id, b.list.measured);
   });
   Timeline timeline(config::TrackerConfig{}, config::TrackerConfig{}.max_observations);
-  for (const Arrival& arrival : arrivals) timeline.insert(arrival.scan.view());
+  for (const Arrival& arrival : arrivals) timeline.insert(arrival.list.view());
   const TrackSet& set = timeline.current();
   std::vector<TrackView> views;
   for (const Track& track : set.tracks)
@@ -57,7 +57,7 @@ void expect_as_if_never_sent(strategies::StrategyKind kind, const std::vector<Ar
   const auto strategy = make_strategy(kind, {}, laser_and_camera());
   const std::vector<Fused> result = run(*strategy, arrivals, kEnd);
   std::map<MeasurementId, std::pair<std::int64_t, std::int64_t>> times;  // measured, arrived
-  for (const Arrival& a : arrivals) times[a.scan.id] = {(a.scan.measured - GlobalTime{}).ns / 1'000'000, a.ms};
+  for (const Arrival& a : arrivals) times[a.list.id] = {(a.list.measured - GlobalTime{}).ns / 1'000'000, a.ms};
   EXPECT_EQ(result.size(), arrivals.size()) << "each once";
   for (const Fused& f : result) {
     ASSERT_TRUE(times.contains(f.id)) << "invented";
@@ -80,29 +80,29 @@ void expect_as_if_never_sent(strategies::StrategyKind kind, const std::vector<Ar
 
 constexpr SensorId kLaser{0}, kCamera{1};
 
-TEST_P(LostScans, OneInFive) {
+TEST_P(LostLists, OneInFive) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) expect_as_if_never_sent(GetParam(), survivors(seed, 5, {}), 25);
 }
 
-TEST_P(LostScans, OneSensorDeadForGood) {
+TEST_P(LostLists, OneSensorDeadForGood) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     expect_as_if_never_sent(GetParam(), survivors(seed, 50, {{kLaser, 1'000, 10'000}}), 25);
     expect_as_if_never_sent(GetParam(), survivors(seed, 50, {{kCamera, 1'000, 10'000}}), 25);
   }
 }
 
-TEST_P(LostScans, ASensorDeadForAWhileAndThenTheOther) {
+TEST_P(LostLists, ASensorDeadForAWhileAndThenTheOther) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
     expect_as_if_never_sent(GetParam(), survivors(seed, 20, {{kLaser, 500, 1'700}, {kCamera, 2'000, 2'600}}), 25);
 }
 
 // Both silent, longer than any track lives on: what is there afterwards was born afterwards.
-TEST_P(LostScans, BothDeadForAWhile) {
+TEST_P(LostLists, BothDeadForAWhile) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
     expect_as_if_never_sent(GetParam(), survivors(seed, 20, {{kLaser, 1'000, 2'400}, {kCamera, 1'000, 2'400}}), 25);
 }
 
-TEST_P(LostScans, BothDeadForGood) {
+TEST_P(LostLists, BothDeadForGood) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
     expect_as_if_never_sent(GetParam(), survivors(seed, 20, {{kLaser, 2'000, 10'000}, {kCamera, 2'000, 10'000}}), 0);
 }
@@ -111,7 +111,7 @@ TEST_P(LostScans, BothDeadForGood) {
 //
 //   number     0    1    2  ...  9                 0    1    2  ...  9
 //   measured   0    80   160     720   (silent)    1000 1080 1160    1720
-TEST_P(LostScans, ASensorThatRestartsCountsAnewAndIsNotTakenForItself) {
+TEST_P(LostLists, ASensorThatRestartsCountsAnewAndIsNotTakenForItself) {
   const auto strategy = make_strategy(GetParam(), {}, std::vector{free_running(0, 60)});
   // The second life begins with another object first in the list: its number and place are those the first one was born
   // by.
@@ -120,8 +120,8 @@ TEST_P(LostScans, ASensorThatRestartsCountsAnewAndIsNotTakenForItself) {
   std::vector<Arrival> arrivals;
   for (std::uint32_t k = 0; k < 10; ++k) {
     const std::int64_t first = 80 * k, second = 1'000 + 80 * k;
-    arrivals.push_back({first + 30, scan(0, k, at_ms(first), {a(first)})});
-    arrivals.push_back({second + 30, scan(0, k, at_ms(second), {b(second), a(second)})});
+    arrivals.push_back({first + 30, list_of(0, k, at_ms(first), {a(first)})});
+    arrivals.push_back({second + 30, list_of(0, k, at_ms(second), {b(second), a(second)})});
   }
   const std::vector<Fused> result = run(*strategy, arrivals, 1'800);
   EXPECT_EQ(result.size(), 20u);
@@ -138,9 +138,9 @@ TEST_P(LostScans, ASensorThatRestartsCountsAnewAndIsNotTakenForItself) {
 }
 
 // The newest of a sensor is what it measured last, whatever it calls it.
-TEST_P(LostScans, TheNewestOfARestartedSensorIsToldByItsInstant) {
+TEST_P(LostLists, TheNewestOfARestartedSensorIsToldByItsInstant) {
   const auto strategy = make_strategy(GetParam(), {}, std::vector{free_running(0, 60)});
-  run(*strategy, {{30, scan(0, 500, at_ms(0))}, {330, scan(0, 2, at_ms(300))}}, 400);
+  run(*strategy, {{30, list_of(0, 500, at_ms(0))}, {330, list_of(0, 2, at_ms(300))}}, 400);
   ASSERT_EQ(strategy->newest().size(), 1u);
   EXPECT_EQ(strategy->newest()[0].sequence, 2u);
 }
