@@ -1,5 +1,5 @@
-// Always-on checks for our own bugs: they print the values and stop the process. Bad input is never checked this
-// way (core/errors.h), nor is what a network does (an enum value, counted).
+// Always-on checks for our own bugs: a failed one prints its values and stops the process. Bad input throws
+// instead (core/errors.h); the faults of a network are enum values and counted.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Numbers and names in words for people.
+// Counts and lists of names as text for people.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace ttf {
 
-// "1 worker", "2 workers": of nouns whose plural has an s more.
+// Returns "1 worker", "2 workers"; for nouns with a plural in s.
 inline std::string counted(std::uint64_t count, std::string_view one) {
   return std::to_string(count) + " " + std::string(one) + (count == 1 ? "" : "s");
 }
 
-// "a, b, c", or with another word before the last one: "a, b or c".
+// Returns "a, b, c", or with another word before the last name: "a, b or c".
 inline std::string joined(const std::vector<std::string>& names, std::string_view before_last = ", ") {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {

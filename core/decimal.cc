@@ -46,7 +46,7 @@ std::string scaled_text(std::int64_t value, std::int64_t scale) {
 
 std::optional<Duration> parse_duration(std::string_view text) {
   constexpr std::pair<std::string_view, std::int64_t> kUnits[] = {
-      {"ns", 1}, {"us", 1'000}, {"ms", 1'000'000}, {"s", 1'000'000'000}};  // "s" last: the others end in it
+      {"ns", 1}, {"us", 1'000}, {"ms", 1'000'000}, {"s", 1'000'000'000}};  // "s" last: the others end in s
   for (const auto& [unit, ns] : kUnits) {
     if (!text.ends_with(unit)) continue;
     text.remove_suffix(unit.size());

@@ -1,5 +1,5 @@
-// Exact decimals: a number in a file's unit times a power of ten is a whole number of ours (12.5 ns is 12500
-// ps), and back.
+// Exact decimals: convert a number in a file's unit to a whole number in a smaller unit, and back (12.5 ns is
+// 12500 ps).
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,16 @@
 
 namespace ttf {
 
-// Decimal text ("-12.50") times `scale`, 1..10^13, exactly; nothing where it is no plain decimal, has more than 13
-// decimals, is not whole, or does not fit.
+// Returns decimal text ("-12.50") times `scale` (1..10^13), exactly. Returns nullopt when the text is no plain
+// decimal, has more than 13 decimals, or the product is not whole or does not fit.
 std::optional<std::int64_t> parse_scaled(std::string_view text, std::int64_t scale);
 
-// "40 ms", "40ms": a plain decimal with ns, us, ms or s, a space between them or none, that is whole nanoseconds.
+// Parses "40 ms" or "40ms": a plain decimal and ns, us, ms or s, with at most one space between. Returns nullopt
+// unless it is a whole number of nanoseconds.
 std::optional<Duration> parse_duration(std::string_view text);
 
-// value / scale as a decimal without trailing zeros; scale is a power of ten up to 10^13. parse_scaled gives the
-// value again, whichever it is.
+// Returns value / scale as a decimal without trailing zeros; scale is a power of ten up to 10^13. parse_scaled
+// returns every such value unchanged.
 std::string scaled_text(std::int64_t value, std::int64_t scale);
 
 }  // namespace ttf

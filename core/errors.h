@@ -1,7 +1,7 @@
-// Bad input: what is wrong, where, and what would be right.
+// Errors in input: the mistake, its place and the correct form.
 //
-// Everything that reads input collects Findings, so that all mistakes of a file are reported at once, and throws
-// one InputError at the end of set-up. The program prints each finding as one sentence and exits with code 2.
+// All readers of input collect Findings, so that all mistakes of a file are reported at once. At the end of
+// set-up they throw one InputError. The program prints each finding as one sentence and exits with code 2.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace ttf {
 
-// One mistake. `line` is 1-based, 0 where the input has no lines; `value` may be empty; `expected` is the allowed
-// range or what is missing, in words.
+// A finding is one mistake. `line` is 1-based, 0 for input without lines; `value` may be empty; `expected` names
+// the allowed range or the missing part.
 struct Finding {
   std::string file;
   int line = 0;
@@ -21,8 +21,8 @@ struct Finding {
   std::string value;
   std::string expected;
 
-  // "clusters/a.yaml:12: flexray.gdNIT = 900: must be 2..805 macroticks". Always one line: control characters of the
-  // input are written as \xNN, and what is very long is cut.
+  // Returns for example "clusters/a.yaml:12: flexray.gdNIT = 900: must be 2..805 macroticks". The sentence is
+  // always one line: control characters of the input become \xNN, and long texts are cut.
   std::string sentence() const;
 };
 
@@ -36,7 +36,7 @@ class InputError : public std::runtime_error {
   std::vector<Finding> findings_;
 };
 
-// Collects findings in the order they were met.
+// Collects findings in the order of their discovery.
 class Findings {
  public:
   void add(Finding finding) { list_.push_back(std::move(finding)); }

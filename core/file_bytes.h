@@ -1,4 +1,4 @@
-// A file's bytes: the one way in for everything that is read from disk.
+// The bytes of a file: all reading from disk goes through here.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,8 @@
 
 namespace ttf {
 
-// All of them, or the first `most`. Throws InputError, naming the path and what the system says, if it cannot be read.
+// Returns the whole file, or its first `most` bytes. Throws InputError with the path and the system's message
+// when the file cannot be read.
 std::string read_file(const std::string& path, std::size_t most = static_cast<std::size_t>(-1));
 
 }  // namespace ttf

@@ -1,4 +1,4 @@
-// A name for a content.
+// Names for contents.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace ttf {
 
-// FNV-1a, 64 bits, in hexadecimal digits: names the exact input that something was made from.
+// Returns the FNV-1a hash (64 bits) in hexadecimal digits. It identifies the exact input of a result.
 inline std::string hex_hash(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;

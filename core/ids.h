@@ -1,5 +1,5 @@
-// Small strongly typed identifiers. Their values index the lists of the cluster and scenario they come from, in
-// file order, so they are the same in every process and every run of the same files.
+// Small strongly typed identifiers. Each indexes a list of its cluster or scenario, in file order, so it is the
+// same in every process and every drive of the same files.
 #pragma once
 
 #include <compare>
@@ -19,8 +19,8 @@ inline constexpr PduId kNoPdu{0xff};
 inline constexpr SensorId kNoSensor{0xff};
 inline constexpr TrackId kNoTrack{0xffff};
 
-// One act of measuring: the sequence-th measurement of a sensor, counted from 0.
-// Every list that descends from it (raw data, observations) carries the same sequence number.
+// Identifies one measurement: the sequence-th of its sensor, counted from 0. Every list derived from it (raw
+// data, observations) carries the same sequence number.
 struct MeasurementId {
   SensorId sensor{};
   std::uint32_t sequence = 0;

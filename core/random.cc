@@ -53,7 +53,7 @@ std::int64_t RandomStream::integer(std::int64_t low, std::int64_t high) {
   TTF_CHECK(low <= high, "low {} high {}", low, high);
   const std::uint64_t span = static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low) + 1;
   if (span == 0) return static_cast<std::int64_t>(bits());
-  // Rejection keeps every value equally likely: 2^64 mod span low draws are thrown away.
+  // Rejection keeps every value equally likely: the lowest 2^64 mod span draws are discarded.
   const std::uint64_t reject_below = (0 - span) % span;
   std::uint64_t draw = bits();
   while (draw < reject_below) draw = bits();

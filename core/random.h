@@ -1,10 +1,10 @@
-// Counter-based random streams: a draw is a pure function of who draws, what for, and the how-manieth time.
+// Counter-based random streams: a draw is a pure function of its entity, its purpose and its position.
 //
 // Generator: Philox4x32-10 (Salmon, Moraes, Dror, Shaw: "Parallel random numbers: as easy as 1, 2, 3", SC 2011).
-// The 64-bit key is the run's seed; the 128-bit counter is laid out as
+// The 64-bit key is the drive's seed; the 128-bit counter is
 //   word 0  block within the stream        word 2  entity (16 bits) and purpose (16 bits)
 //   word 1  index (which measurement, ...) word 3  replication
-// so no two streams overlap, and what one entity draws never depends on what another drew: paradigms that are
+// Streams therefore never overlap, and the draws of one entity do not depend on those of another: paradigms
 // compared on the same seed see the same noise.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace ttf {
 
-// What a stream is for. Values are part of every golden run: append only.
+// The purpose of a stream. The values are part of every golden drive: append only.
 enum class Purpose : std::uint16_t {
   kTrajectory = 1,
   kSensorNoise = 2,
@@ -39,20 +39,20 @@ struct StreamKey {
   std::uint32_t replication = 0;
   Purpose purpose = Purpose::kTest;
   std::uint16_t entity = 0;  // node, sensor or object
-  std::uint32_t index = 0;   // measurement, activation, ... ; 0 for a stream that is read through
+  std::uint32_t index = 0;   // measurement, activation, ... ; 0 for a stream read sequentially
 };
 
 std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
 
-// Reads one stream from its beginning. A value type: copying forks the position, not the state of the world.
+// Reads one stream from its beginning. It is a value: a copy continues from the same position independently.
 class RandomStream {
  public:
-  // What draws take from the stream, in 32-bit words; it is made in blocks of four. normal() draws a pair and gives the
-  // second one at the next call, for nothing. integer() takes kWordsOfUniform, and rarely more.
+  // The 32-bit words that draws take from the stream, which is made in blocks of four. normal() draws a pair and
+  // returns its second value at the next call without drawing. integer() takes kWordsOfUniform, and rarely more.
   static constexpr std::uint32_t kWordsOfABlock = 4, kWordsOfUniform = 2, kWordsOfANormalPair = 4;
 
-  // From block `first` on: a stream whose parts have a known length is cut into blocks, and a part read without the
-  // others.
+  // Starts at block `first`. A stream with parts of known length can be cut into blocks, and each part read
+  // alone.
   explicit RandomStream(StreamKey key, std::uint32_t first = 0) : key_(key), block_(first) {}
 
   std::uint64_t bits();

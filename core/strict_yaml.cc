@@ -17,7 +17,7 @@ namespace ttf {
 struct YamlMap::Content {
   std::string file;
   YAML::Node node;  // a map, or null for a missing one
-  int line = 0;     // of a missing one: where it should stand, the mapping around it
+  int line = 0;     // of the mapping around a missing one
   std::set<std::string, std::less<>> asked;
 };
 
@@ -32,13 +32,13 @@ template <class T> std::optional<T> parse_number(std::string_view text) {
   return value;
 }
 
-// In a file number and unit stand apart.
+// In a file a space separates number and unit.
 std::optional<Duration> spaced_duration(const std::string& text) {
   return text.find(' ') == std::string::npos ? std::nullopt : parse_duration(text);
 }
 
-// YAML allows tabs and line ends, but no other control character; the parser would take some of them for the end of the
-// file and pass over the rest. Throws InputError at the first one.
+// YAML allows tabs and line ends, but no other control character. The parser takes some of them for the end of
+// the file and skips the rest. Throws InputError at the first one.
 void check_characters(const std::string& text, const std::string& name) {
   int line = 1;
   for (const char c : text) {
@@ -49,7 +49,7 @@ void check_characters(const std::string& text, const std::string& name) {
   }
 }
 
-// Notes where a document begins and builds nothing.
+// Notes the line where a document begins, and builds no nodes.
 struct DocumentStart final : YAML::EventHandler {
   int line = 0;  // of the last one; 0 before the first
   void OnDocumentStart(const YAML::Mark& mark) override { line = mark.line + 1; }
@@ -63,8 +63,8 @@ struct DocumentStart final : YAML::EventHandler {
   void OnMapEnd() override {}
 };
 
-// YAML::Load takes the first document and passes over the rest. (YAML::LoadAll, which would see the rest, does not end
-// where the parser finds a document of nothing: after a tag without a value, say.)
+// YAML::Load reads the first document and ignores the rest. YAML::LoadAll would see the rest, but loops forever
+// on some empty documents, such as a tag without a value.
 void check_one_document(const std::string& text, const std::string& name) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);

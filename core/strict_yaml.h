@@ -1,15 +1,15 @@
-// A strict reader of YAML mappings: unknown, missing, duplicate, mistyped and out-of-range keys are findings with
-// file, line, key, value and allowed range, never a warning with a default.
+// A strict reader of YAML mappings: unknown, missing, duplicate, mistyped and out-of-range keys are findings
+// with file, line, key, value and allowed range, never a warning with a default.
 //
 //   StrictYaml file = StrictYaml::load("clusters/paper.yaml");     // throws InputError on unreadable or broken YAML
 //   Findings findings;
 //   YamlMap root = file.root(findings);
 //   const auto slots = root.integer("gNumberOfStaticSlots", {2, 1023});
-//   root.finish();                                                 // whatever was not asked for is unknown
+//   root.finish();                                                 // reports keys that were not read as unknown
 //   findings.throw_if_any();                                       // all mistakes at once
 //
-// A getter that finds nothing usable adds its finding and returns a value inside the range, so that reading goes on
-// and later mistakes are found too. Getters with a fallback do not require the key.
+// A getter without a usable value adds its finding and returns a value inside the range. Reading continues, so
+// that later mistakes are found too. Getters with a fallback do not require the key.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ class YamlMap {
                           std::string_view unit = "");
   double number(std::string_view key, Range<double> allowed, std::string_view unit = "");
   double number_or(std::string_view key, double fallback, Range<double> allowed, std::string_view unit = "");
-  // A decimal number times `scale`, which must come out whole: "12.5" with scale 1000 is 12500 (ns to ps).
+  // A decimal number times `scale`, which must be whole: "12.5" with scale 1000 is 12500 (ns to ps).
   std::int64_t scaled(std::string_view key, std::int64_t scale, Range<std::int64_t> allowed,
                       std::string_view unit = "");
   bool boolean(std::string_view key);
@@ -63,23 +63,23 @@ class YamlMap {
     return has(key) ? choice(key, choices) : fallback;
   }
 
-  YamlMap map(std::string_view key);  // a missing map is a finding, then reads as empty
+  YamlMap map(std::string_view key);  // a missing map is a finding and reads as empty
   std::optional<YamlMap> map_if(std::string_view key);
   std::vector<YamlMap> maps(std::string_view key);     // a sequence of mappings
   std::vector<YamlMap> maps_if(std::string_view key);  // the same, empty when the key is absent
-  // A sequence with at least one entry; what is wrong with one is a finding about key[i], and it is left out.
+  // A sequence with at least one entry. A wrong entry is a finding about key[i] and is left out.
   std::vector<std::string> texts(std::string_view key);
   std::vector<std::int64_t> integers(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   std::vector<std::pair<std::string, YamlMap>> named_maps(std::string_view key);       // name: {...}, in file order
   std::vector<std::pair<std::string, std::string>> named_texts(std::string_view key);  // name: text, in file order
 
-  // Adds a finding about `key` (or about this mapping, when empty), with its line and value.
+  // Adds a finding about `key` (about this mapping when `key` is empty), with its line and value.
   void fail(std::string_view key, std::string expected);
   int line(std::string_view key = "") const;
   const std::string& file() const;
   const std::string& path() const { return path_; }
 
-  // Reports every key nobody asked for.
+  // Reports every key that was never read, and duplicate keys.
   void finish();
 
  private:
@@ -100,8 +100,8 @@ class YamlMap {
   Findings* findings_;
 };
 
-// One document of printable text: a second document, or a control character, is a finding, for the parser would pass
-// over what follows.
+// One YAML document of printable text. A second document or a control character is a finding: the parser would
+// silently skip the rest of the text.
 class StrictYaml {
  public:
   static StrictYaml load(const std::string& path);

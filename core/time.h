@@ -1,13 +1,13 @@
 // The three times of a distributed time-triggered system, as three types that do not mix.
 //
-// TrueTime    what an ideal observer outside the cluster reads; exists in the simulator only (and in its logs).
-// LocalTime   what one node's free-running oscillator shows: its microticks times the nominal microtick.
-// GlobalTime  the time the cluster agrees on by clock synchronisation, as one node sees it.
+// TrueTime    the time that an ideal observer outside the cluster reads; exists only in the simulator and its logs.
+// LocalTime   the time of one node's free-running oscillator: its microticks times the nominal microtick.
+// GlobalTime  the time that the cluster agrees on by clock synchronisation, as one node sees it.
 //
-// All are signed 64-bit nanosecond counts from the start of the run (about +-292 years). There is no conversion
-// between them here: converting needs a clock (timebase/) and is spelled out. Differences of one time are a
-// Duration. Floating point exists only as a filter's dt, `Duration::seconds()`, and in what people read, `in_us()`,
-// `in_ms()` and `in_units_of()`.
+// All are signed 64-bit nanosecond counts from the start of the drive (about +-292 years). There is no
+// conversion between them here: a conversion needs a clock (timebase/) and is spelled out. The difference of two
+// instants of one time is a Duration. Floating point appears only in a filter's dt, `Duration::seconds()`, and
+// in texts for people: `in_us()`, `in_ms()` and `in_units_of()`.
 #pragma once
 
 #include <compare>
@@ -36,9 +36,9 @@ template <class Tag> struct Count {
   }
 };
 
-// Ticks of one node's oscillator (about 25 ns); as an instant, counted since the node's power-on.
+// Ticks of one node's oscillator (about 25 ns). As an instant they count from the node's power-on.
 using Microticks = Count<struct MicrotickTag>;
-// The cluster's granule of agreed time (about 1 us); a whole number of them makes a communication cycle.
+// The granule of global time (about 1 us); a whole number of macroticks makes a communication cycle.
 using Macroticks = Count<struct MacrotickTag>;
 
 // A difference of two instants, in nanoseconds.
@@ -66,7 +66,7 @@ struct Duration {
   }
 };
 
-// An instant on the scale named by Tag, in nanoseconds since the start of the run.
+// An instant on the scale named by Tag, in nanoseconds since the start of the drive.
 template <class Tag> struct Instant {
   std::int64_t ns = 0;
 
@@ -84,11 +84,10 @@ using TrueTime = Instant<struct TrueScale>;
 using LocalTime = Instant<struct LocalScale>;
 using GlobalTime = Instant<struct GlobalScale>;
 
-// Later than every instant and longer than every delay of its type, to be compared and not to be reckoned with.
+// Later than every instant and longer than every delay. Compare with it, but never do arithmetic with it.
 template <class Time> inline constexpr Time kNever{std::numeric_limits<std::int64_t>::max()};
 
-// Microseconds, milliseconds, and how often one lasts within another (cycles, mostly), for people: never to compute
-// with.
+// Microseconds, milliseconds and multiples of a unit (mostly cycles), for people only: never compute with them.
 constexpr double in_us(Duration d) { return static_cast<double>(d.ns) * 1e-3; }
 constexpr double in_ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 template <class Tag> constexpr double in_ms(Instant<Tag> t) { return static_cast<double>(t.ns) * 1e-6; }

@@ -10,7 +10,7 @@
 namespace ttf {
 namespace {
 
-// Undefined where the path leads nowhere.
+// Undefined for a path without a node.
 YAML::Node at(const YAML::Node& root, std::string_view path) {
   YAML::Node node = root;
   while (!path.empty() && node.IsDefined()) {
@@ -55,7 +55,7 @@ std::string with_value(const std::string& text, const std::string& name, std::st
   if (!plain) throw InputError({name, line, std::string(path), "", "must be a plain scalar to be varied"});
   std::string edited = text;
   edited.replace(begin, found.Scalar().size(), value);
-  // A value that is no plain scalar would be something else there, or make something else of what follows.
+  // A value that is no plain scalar could change type, or change the meaning of the text behind it.
   std::optional<std::string> now;
   try {
     const YAML::Node again = at(YAML::Load(edited), path);

@@ -1,5 +1,5 @@
-// A YAML text with one scalar of it replaced, and everything else, lines and comments included, as it was: what reads
-// it then finds the same mistakes in the same lines.
+// Replaces one scalar of a YAML text and keeps everything else, lines and comments included. A reader of the
+// result finds the same mistakes in the same lines.
 #pragma once
 
 #include <string>
@@ -7,8 +7,9 @@
 
 namespace ttf {
 
-// `path` leads through mappings and sequences: "world.objects[0].speed". What stands there must be a plain scalar, and
-// so must the value be: nothing is added that was not written down before. Throws InputError, whose file is `name`.
+// Returns `text` with the scalar at `path` replaced by `value`. `path` leads through mappings and sequences:
+// "world.objects[0].speed". Both the old and the new value must be plain scalars; a missing key is not added.
+// Throws InputError, which names the file `name`.
 std::string with_value(const std::string& text, const std::string& name, std::string_view path, std::string_view value);
 
 }  // namespace ttf

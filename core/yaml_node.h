@@ -1,4 +1,4 @@
-// Of a parsed YAML text, for those who read or edit one.
+// Access to a parsed YAML text, for its readers and editors.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -7,7 +7,7 @@
 
 namespace ttf {
 
-// Undefined where there is none.
+// Returns an undefined node for an absent key.
 inline YAML::Node child(const YAML::Node& node, std::string_view key) {
   if (node.IsDefined() && node.IsMap())
     for (const auto& entry : node)
