@@ -7,7 +7,7 @@
 namespace ttf::timebase {
 namespace {
 
-// The smaller of the channels that saw the frame (FlexRay 2.1A, 8.6.2).
+// Returns the smaller deviation of the channels that saw the frame (FlexRay 2.1A, 8.6.2).
 std::optional<int> smaller(const SyncDeviation& deviation) {
   if (deviation.a && deviation.b) return std::min(*deviation.a, *deviation.b);
   return deviation.a ? deviation.a : deviation.b;
@@ -20,7 +20,7 @@ Correction limited(int value, int limit) {
   return correction;
 }
 
-// Few values: the sorting library's preparations would take longer.
+// Insertion sort: for so few values std::sort takes longer.
 void sort(std::span<int> values) {
   for (std::size_t i = 1; i < values.size(); ++i) {
     const int value = values[i];
@@ -30,8 +30,8 @@ void sort(std::span<int> values) {
   }
 }
 
-// What the odd cycle brought of the frame that was number `index` in the even one: one frame id, one entry, and mostly
-// in the same place.
+// Returns the odd cycle's entry of the even cycle's frame number `index`. Each frame id has one entry, mostly at
+// the same index.
 const SyncDeviation* odd_of(const SyncMeasurements& measured, int index) {
   const int frame_id = measured.even[static_cast<std::size_t>(index)].frame_id;
   const auto begin = measured.odd.begin(), end = begin + measured.odd_count;

@@ -10,7 +10,7 @@ namespace ttf::timebase {
 namespace {
 
 constexpr std::int64_t kPicosecondsPerNanosecond = 1000;
-constexpr std::int64_t kMost = std::int64_t{1} << 62;  // [ps] may be added to one another
+constexpr std::int64_t kMost = std::int64_t{1} << 62;  // [ps]; two such values can be added
 
 const CycleGeometry& checked(const CycleGeometry& geometry) {
   TTF_CHECK(geometry.macro_per_cycle > 0 && geometry.micro_per_cycle > 2 * geometry.macro_per_cycle,
@@ -45,7 +45,7 @@ void CycleClock::set_rate(int rate) {
   late_.from = before_;
 }
 
-// For years to come 64 bits are enough.
+// 64 bits suffice for years of global time.
 void CycleClock::lay_stretches() {
   if (cycle_ < 0 || cycle_ >= most_cycles_) {
     early_.reach = late_.reach = 0;
@@ -59,7 +59,7 @@ void CycleClock::lay_stretches() {
   lay_late();
 }
 
-// A correction that leaves nothing of its phase is an error of who asks about that.
+// A correction that uses up its whole phase fails only when a time in that phase is asked for.
 void CycleClock::lay_late() {
   const std::int64_t phase = length_ + offset_ - before_;
   late_.reach = 0;
@@ -90,8 +90,8 @@ Microticks CycleClock::late_start_of(Macroticks m) const {
 GlobalTime CycleClock::exact_global_time(Microticks t) const {
   const std::int64_t into = (t - start_).value;
   TTF_CHECK(into >= 0 || cycle_ == first_, "{} microticks before the cycle", -into);
-  // Elapsed picoseconds of the cycle: linear up to the correction phase, linear at another slope in it and, should
-  // somebody ask, beyond the cycle's end.
+  // Elapsed picoseconds of the cycle: linear up to the correction phase, then with another slope, also beyond
+  // the cycle's end.
   const Int128 at_correction = cycle_ps_ - late_ps_;
   Int128 elapsed_ps = 0;
   if (into <= before_) {
@@ -100,13 +100,13 @@ GlobalTime CycleClock::exact_global_time(Microticks t) const {
   } else {
     elapsed_ps = at_correction + floor_div(static_cast<Int128>(into - before_) * late_ps_, correction_phase());
   }
-  // Rounded down, also for instants just before the first cycle.
+  // Rounds down, also for instants just before the first cycle.
   return {static_cast<std::int64_t>(
       floor_div(static_cast<Int128>(cycle_ps_) * cycle_ + elapsed_ps, kPicosecondsPerNanosecond))};
 }
 
 Microticks CycleClock::when(GlobalTime time) const {
-  // global_time is non-decreasing within the cycle: the first microtick at or after `time` by bisection.
+  // Bisection finds the first microtick at or after `time`: global_time is non-decreasing within the cycle.
   std::int64_t low = start_.value, high = cycle_end().value;
   while (low < high) {
     const std::int64_t middle = low + (high - low) / 2;

@@ -1,4 +1,4 @@
-// Division by a number that stays the same, without dividing: exact, and several times as fast.
+// Divides by a constant without a division: exact, and several times as fast.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,19 @@ namespace ttf::timebase {
 
 class Divisor {
  public:
-  // 1 or more.
+  // The divisor is 1 or more.
   explicit constexpr Divisor(std::int64_t divisor)
       : divisor_(checked(divisor)), reciprocal_(~std::uint64_t{0} / divisor_) {}
 
-  // floor(x / divisor) for x >= 0.
-  // With r = 2^64 / d - e, 0 < e <= 1, the product x r / 2^64 is more than x / d - 1: its whole part is the quotient or
-  // one less, which the remainder tells.
+  // Returns floor(x / divisor) for x >= 0. With r = 2^64 / d - e, 0 < e <= 1, the product x r / 2^64 is more
+  // than x / d - 1. Its whole part is the quotient or one less; the remainder decides.
   constexpr std::int64_t floor(std::int64_t x) const {
     const auto u = static_cast<std::uint64_t>(x);
     auto quotient = static_cast<std::uint64_t>((static_cast<UInt128>(u) * reciprocal_) >> 64);
     if (u - quotient * divisor_ >= divisor_) ++quotient;
     return static_cast<std::int64_t>(quotient);
   }
-  // The least whole number at or above x / divisor, for x >= 0; x + divisor must not overflow.
+  // Returns the least whole number at or above x / divisor, for x >= 0; x + divisor must not overflow.
   constexpr std::int64_t ceil(std::int64_t x) const { return floor(x + static_cast<std::int64_t>(divisor_) - 1); }
 
  private:

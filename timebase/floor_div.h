@@ -7,8 +7,8 @@
 
 namespace ttf::timebase {
 
-// The largest whole number at or below a / b, for b > 0. Where `a` fits 64 bits, which it nearly always does, no wide
-// division is made.
+// Returns the largest whole number at or below a / b, for b > 0. `a` nearly always fits 64 bits: then no wide
+// division is needed.
 constexpr Int128 floor_div(Int128 a, std::int64_t b) {
   const auto narrow = static_cast<std::int64_t>(a);
   if (narrow == a) return narrow / b - (narrow % b < 0 ? 1 : 0);

@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t kAttosecondsPerPicosecond = 1'000'000;
 constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min();
 
-// A clock that is fast by d has the period nominal / (1 + d): rounded once, to the nearest attosecond.
+// Returns the period of a clock that is fast by d: nominal / (1 + d), rounded once to the nearest attosecond.
 std::int64_t period_as(std::int64_t nominal_period_ps, std::int64_t drift_ppb) {
   TTF_CHECK(drift_ppb >= -Oscillator::kMaxDrift_ppb && drift_ppb <= Oscillator::kMaxDrift_ppb, "drift {} ppb",
             drift_ppb);
@@ -27,7 +27,7 @@ std::int64_t rest_of(Int128 attoseconds, std::int64_t whole_ns) {
   return static_cast<std::int64_t>(attoseconds - static_cast<Int128>(whole_ns) * kAttosecondsPerNanosecond);
 }
 
-// a / b in units of 2^-64, rounded down and up, for 0 <= a < b.
+// a / b in units of 2^-64 for 0 <= a < b, rounded down and up.
 std::uint64_t fraction(std::int64_t a, std::int64_t b) {
   return static_cast<std::uint64_t>((static_cast<UInt128>(a) << 64) / static_cast<UInt128>(b));
 }
@@ -52,9 +52,9 @@ void Oscillator::change_drift(TrueTime now, std::int64_t drift_ppb) {
   const Microticks counted = line_.ticks_at(now);
   const Int128 at = static_cast<Int128>(now.ns) * kAttosecondsPerNanosecond;
   const Int128 next = line_.attoseconds(counted + Microticks{1});
-  // In (0, old period] before, so in (0, new period] after: neither a tick more nor one less has been counted by now.
+  // It was in (0, old period] and is in (0, new period]: no tick is gained or lost by now.
   const Int128 rest = ((next - at) * period + line_.period_as() - 1) / line_.period_as();
-  // A second change at the same instant leaves the past as the first one found it.
+  // A second change at the same instant keeps the past of the first one.
   if (now > changed_) before_ = line_;
   changed_ = now;
   changed_tick_ = counted;

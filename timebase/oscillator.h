@@ -1,17 +1,17 @@
 // A node's oscillator: a free-running counter of microticks that is exactly periodic in true time.
 //
-// Tick k happens at   phase + k * period,   both whole attoseconds (10^-18 s), so that nothing ever accumulates: a
-// 12.5 ns microtick that is 137.25 ppm fast is an integer period, and tick 10^12 is as exact as tick 1.
-// True time is whole nanoseconds; a tick's TrueTime is the first nanosecond at or after it:
+// Tick k happens at   phase + k * period,   both whole attoseconds (10^-18 s), so no error accumulates. A 12.5
+// ns microtick that is 137.25 ppm fast has an integer period, and tick 10^12 is as exact as tick 1. True time is
+// in whole nanoseconds; the TrueTime of a tick is the first nanosecond at or after it:
 //   L1  ticks_at(time_of(k)) == k            for periods above 1 ns
 //   L2  time_of is strictly increasing, ticks_at is non-decreasing
 //   L3  time_of(k) - (phase + k * period) is in [0, 1) ns for every k
-//   L4  after change_drift(t, ...) nothing of the past is different: ticks_at of instants up to t and time_of of ticks
-//       up to ticks_at(t) are what they were. The tick that was under way comes as much earlier or later as the rest of
-//       its period demands, rounded up to an attosecond; L1 to L3 hold on, with another phase and period from there on
+//   L4  change_drift(t, ...) does not change the past: ticks_at up to t and time_of up to tick ticks_at(t) stay the same.
+//       The rest of the current tick is scaled to the new period, rounded up to an attosecond; L1 to L3 continue to
+//       hold, with another phase and period from there on
 //
-// Of the past one change is remembered: what lies before the last but one is as if the clock had always run as between
-// the two.
+// Only the last change is remembered: earlier times are computed as if the clock had always run at the rate
+// before it.
 #pragma once
 
 #include <cstdint>
@@ -25,28 +25,28 @@ inline constexpr std::int64_t kAttosecondsPerNanosecond = 1'000'000'000;
 
 class Oscillator {
  public:
-  // What a faulty crystal may do; the specification's +-1'500 ppm is the schedule's business.
+  // The bound for a faulty crystal. The schedule checks the specification's +-1'500 ppm.
   static constexpr std::int64_t kMaxDrift_ppb = 100'000'000;
 
-  // nominal_period_ps: the microtick (12'500, 25'000, ...). drift_ppb: relative deviation of the frequency, positive is
-  // fast, within +-kMaxDrift_ppb. phase_ps: true time of tick 0, in [0, nominal period).
+  // nominal_period_ps: the microtick (12'500, 25'000, ...). drift_ppb: relative deviation of the frequency,
+  // positive for a fast clock, within +-kMaxDrift_ppb. phase_ps: true time of tick 0, in [0, nominal period).
   Oscillator(std::int64_t nominal_period_ps, std::int64_t drift_ppb, std::int64_t phase_ps);
 
-  // From `now` on the clock drifts by `drift_ppb`. `now` is never before an earlier change.
+  // Sets the drift to `drift_ppb` from `now` on. `now` is never before an earlier change.
   void change_drift(TrueTime now, std::int64_t drift_ppb);
 
-  // Ticks that have happened up to and including t.
+  // Returns the number of ticks up to and including t.
   Microticks ticks_at(TrueTime t) const { return (t <= changed_ ? before_ : line_).ticks_at(t); }
-  // First nanosecond at or after tick k.
+  // Returns the first nanosecond at or after tick k.
   TrueTime time_of(Microticks k) const { return (k <= changed_tick_ ? before_ : line_).time_of(k); }
   LocalTime local_time(Microticks k) const;  // k nominal periods, rounded down to whole nanoseconds
   std::int64_t nominal_period_ps() const { return nominal_period_ps_; }
 
  private:
-  // phase + k * period, in attoseconds of true time. Both conversions multiply fixed-point numbers with 64 bits behind
-  // the point, rounded so that the product is less than 1 / 2^64 per factor and addend short of the exact result: that
-  // leaves its whole part as it is, but for products that near below a whole number, which exact remainders decide. A
-  // division of 128 bits per conversion is what a simulation would spend its time on.
+  // phase + k * period, in attoseconds of true time. Both conversions multiply fixed-point numbers with 64
+  // fractional bits. The product falls short of the exact result by less than 1 / 2^64 per factor and addend.
+  // Its whole part is therefore right, except for products just below a whole number; for these an exact
+  // remainder decides. A 128-bit division per conversion would take most of a simulation's time.
   class Line {
    public:
     Line() = default;
@@ -57,7 +57,7 @@ class Oscillator {
       const UInt128 ticks = static_cast<UInt128>(since) * frequency_;
       const auto part = static_cast<std::uint64_t>(ticks);
       const auto k = static_cast<std::int64_t>((ticks >> 64) - (part < phase_ticks_ ? 1 : 0));
-      // The exact result is in [k + rest, k + rest + since + 1), the rests in 2^-64.
+      // The exact result is in [k + rest, k + rest + since + 1), with rests in units of 2^-64.
       const std::uint64_t rest = part - phase_ticks_;
       if (rest <= ~since) return {k};
       return {lateness({k + 1}, t) >= 0 ? k + 1 : k};
@@ -67,20 +67,20 @@ class Oscillator {
       const UInt128 rest = static_cast<UInt128>(ticks) * period_rest_ + phase_rest_;
       const std::uint64_t ns = static_cast<std::uint64_t>(phase_ns_) + ticks * static_cast<std::uint64_t>(period_ns_) +
                                static_cast<std::uint64_t>(rest >> 64);
-      // The exact rest is in [rest, rest + ticks + 1) / 2^64, and to be rounded up. The sign is asked last: a compiler
-      // that knew it before would make the multiplication one of wider numbers.
+      // The exact rest is in [rest, rest + ticks + 1) / 2^64 and is rounded up. The sign is tested last: if the
+      // compiler knew it earlier, it would use a wider multiplication.
       if (static_cast<std::uint64_t>(rest) - 1 < ~ticks && k.value >= 0) return {static_cast<std::int64_t>(ns + 1)};
       return k.value < 0 ? time_before(k) : time_from({static_cast<std::int64_t>(ns)}, k);
     }
-    // phase + k * period
+    // Returns phase + k * period.
     Int128 attoseconds(Microticks k) const { return phase_as_ + static_cast<Int128>(k.value) * period_as_; }
     std::int64_t period_as() const { return period_as_; }
 
    private:
-    Microticks ticks_before(TrueTime t) const;           // the phase, rounded down to a nanosecond
-    TrueTime time_before(Microticks k) const;            // tick 0
-    TrueTime time_from(TrueTime t, Microticks k) const;  // where it is t or little later
-    // t - (phase + k * period) where that is little: 64 bits hold it, whatever is lost above them.
+    Microticks ticks_before(TrueTime t) const;           // before the phase, rounded down to a nanosecond
+    TrueTime time_before(Microticks k) const;            // before tick 0
+    TrueTime time_from(TrueTime t, Microticks k) const;  // for a result at t or little later
+    // Returns t - (phase + k * period) when it is small: it then fits 64 bits even if the terms overflow.
     std::int64_t lateness(Microticks k, TrueTime t) const {
       return static_cast<std::int64_t>(static_cast<std::uint64_t>(t.ns) * kAttosecondsPerNanosecond -
                                        static_cast<std::uint64_t>(phase_as_) -
@@ -96,7 +96,7 @@ class Oscillator {
   };
 
   std::int64_t nominal_period_ps_;
-  Line line_, before_;  // `before_` counts up to and including `changed_`
+  Line line_, before_;  // `before_` is valid up to and including `changed_`
   TrueTime changed_;
   Microticks changed_tick_;  // before_.ticks_at(changed_)
 };
