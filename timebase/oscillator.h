@@ -1,17 +1,16 @@
 // A node's oscillator: a free-running counter of microticks that is exactly periodic in true time.
 //
-// Tick k happens at   phase + k * period,   both whole attoseconds (10^-18 s), so no error accumulates. A 12.5
-// ns microtick that is 137.25 ppm fast has an integer period, and tick 10^12 is as exact as tick 1. True time is
-// in whole nanoseconds; the TrueTime of a tick is the first nanosecond at or after it:
+// Tick k happens at   phase + k * period,   both whole attoseconds (10^-18 s), so no error accumulates: a 12.5 ns
+// microtick that is 137.25 ppm fast has an integer period, and tick 10^12 is as exact as tick 1.
+// True time is in whole nanoseconds; the TrueTime of a tick is the first nanosecond at or after it:
 //   L1  ticks_at(time_of(k)) == k            for periods above 1 ns
 //   L2  time_of is strictly increasing, ticks_at is non-decreasing
 //   L3  time_of(k) - (phase + k * period) is in [0, 1) ns for every k
-//   L4  change_drift(t, ...) does not change the past: ticks_at up to t and time_of up to tick ticks_at(t) stay the same.
-//       The rest of the current tick is scaled to the new period, rounded up to an attosecond; L1 to L3 continue to
-//       hold, with another phase and period from there on
+//   L4  change_drift(t, ...) does not change the past: ticks_at up to t and time_of up to tick ticks_at(t) stay as they
+//       were. The rest of the current period is scaled to the new period, rounded up to an attosecond. L1 to L3 hold
+//       on, with another phase and period
 //
-// Only the last change is remembered: earlier times are computed as if the clock had always run at the rate
-// before it.
+// Only the last change is remembered: for times before it the clock counts as having always run at the rate before it.
 #pragma once
 
 #include <cstdint>

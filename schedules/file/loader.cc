@@ -49,7 +49,7 @@ class Loader {
     limit("pdus", pdus.size(), model::kMostNamed);
     limit("can", cans.size(), model::kMostCans);
     remember(root_, "nodes");
-    // Names first: everything may refer to everything.
+    // Names first: any entry may refer to any other.
     for (auto& [name, map] : nodes) cluster_.nodes.emplace_back().name = name;
     for (auto& [name, map] : sensors) cluster_.sensors.emplace_back().name = name;
     for (auto& [name, map] : pdus) cluster_.pdus.emplace_back().name = name;
@@ -113,11 +113,11 @@ class Loader {
         map.line(key);
   }
 
-  // A node's own value, or else the one shared by all nodes.
+  // Returns a node's own value, or the one shared by all nodes.
   model::NodeParameters load_node_parameters(YamlMap& own, YamlMap& shared) {
     model::NodeParameters local;
     const auto from = [&](std::string_view key) -> YamlMap& {
-      const bool in_shared = shared.has(key);  // asked in any case: it is a known key there
+      const bool in_shared = shared.has(key);  // asked in any case, so that the key is known there
       YamlMap& map = own.has(key) || !in_shared ? own : shared;
       cluster_.parameter_lines[fmt::format("{}.{}", own.path(), key)] = map.line(key);
       return map;
@@ -183,7 +183,7 @@ class Loader {
       map.fail("max_elements", fmt::format("must be at most {}: {} fragments of {} elements",
                                            model::kMostFragments * layout.elements_per_fragment, model::kMostFragments,
                                            layout.elements_per_fragment));
-    // Two sequence numbers must differ by less than half the range to be told apart.
+    // Sequence numbers are distinguishable only when they differ by less than half the range.
     needs("sequence", 4);
     needs("fragment", layout.max_fragments() - 1);
     needs("count", layout.max_elements);
@@ -280,7 +280,7 @@ class Loader {
       const auto bus = std::find_if(cluster_.can_buses.begin(), cluster_.can_buses.end(),
                                     [&](const model::CanBus& candidate) { return candidate.name == medium; });
       const auto can = static_cast<std::size_t>(bus - cluster_.can_buses.begin());
-      // A CAN behind the last that may be is a finding already.
+      // A CAN beyond the limit is already a finding.
       if (bus != cluster_.can_buses.end() && can < model::kMostCans) binding.medium = model::MediumId::can(can);
       if (!found || (medium != "flexray" && bus == cluster_.can_buses.end())) {
         lines.fail(port, "must be PDU on flexray or PDU on CAN, with the names of a PDU and a CAN of this file");
@@ -385,7 +385,7 @@ class Loader {
 model::Cluster load(const StrictYaml& file) {
   Findings met;
   model::Cluster cluster = Loader(file, met).load();
-  // What nodes share is read once per node; a mistake in it is one mistake.
+  // Shared parameters are read once per node; a mistake in them is reported once.
   Findings findings;
   std::set<std::pair<int, std::string>> known;
   for (const Finding& finding : met.list())

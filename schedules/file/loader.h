@@ -1,14 +1,15 @@
-// Reads a cluster file. Every parameter of the FlexRay specification is required, under its own name and within its
-// range of annex B (2.1 Rev. A); unknown, missing, duplicate and out-of-range keys are findings, all reported at once.
+// Reads a cluster file. Every parameter of the FlexRay specification is required, under its own name and within
+// its range of annex B (2.1 Rev. A); unknown, missing, duplicate and out-of-range keys are findings, all
+// reported at once.
 //
 //   name: paper_synchronised
 //   synchronisation: true
-//   topology: bus|star                          how nodes are wired; bus if absent
+//   topology: bus|star                          the wiring of the nodes; bus if absent
 //   guardian: true                              the star has a guardian; false if absent
-//   real_time: {early: 100 us, late: 400 us}    arrival window; absent: virtual time only (real_time.h)
+//   real_time: {early: 100 us, late: 400 us}    arrival window; absent: virtual time only (real_time_rules.h)
 //   flexray: {gColdStartAttempts: 8, ...}       global parameters; times in us, gdMaxMicrotick in ns
 //             pChannels (A, B or AB) and pWakeupChannel may be absent: AB, and A where the node is attached to it
-//   node_parameters: {pSamplesPerMicrotick: 2, ...}   what holds in every node that does not say otherwise
+//   node_parameters: {pSamplesPerMicrotick: 2, ...}   defaults for all nodes
 //   pdus:   {NAME: {sensor, fragment_bytes, max_elements, elements_per_fragment, header: [...], element: [...]}}
 //             of signals {name, unit, bits, low, high, resolution}, all but name and bits optional
 //   sensors: {NAME: {kind: laser|camera|radar, device, host, measurement: free, period, phase}}   phase is optional
@@ -22,15 +23,17 @@
 //   can:    {NAME: {flexible_data_rate, nominal_bit_rate, data_bit_rate, other_load, messages:
 //            [{pdu, identifier, sender, shortest_period}]}}   data_bit_rate with flexible_data_rate only
 //
-// A task is {step, activation, best_case, worst_case, draw: uniform|worst, deadline, reads: {...}, writes: {...}}; its
-// activation one of {kind: time, base_cycle, repetition, offset}, {kind: message, port}, {kind: sensor, sensor} and
-// {kind: completion, after}. Ports are bound as `port: PDU on flexray` or `port: PDU on NAME_OF_A_CAN`. Times carry
-// their unit (`2.5 ms`), offsets are macroticks. A frame entry with `fragments: n` stands for n consecutive slots with
-// the fragments first_fragment (0 if absent) and on; with `fragment_step: 2` they have every other one, and an entry of
-// the other channel has those between. Without `pdu` it is a status frame. Slots above gNumberOfStaticSlots are
-// dynamic. With `network_management: true` each begins with the network management vector.
+// A task is {step, activation, best_case, worst_case, draw: uniform|worst, deadline, reads: {...}, writes:
+// {...}}. Its activation is one of {kind: time, base_cycle, repetition, offset}, {kind: message, port}, {kind:
+// sensor, sensor} and {kind: completion, after}. Ports are bound as `port: PDU on flexray` or `port: PDU on
+// NAME_OF_A_CAN`. Times carry their unit (`2.5 ms`), offsets are macroticks. A frame entry with `fragments: n`
+// stands for n consecutive slots, with the fragments from first_fragment (0 if absent) on. With `fragment_step:
+// 2` they carry every other fragment, and an entry of the other channel carries those between. Without `pdu` it
+// is a status frame. Slots above gNumberOfStaticSlots are dynamic. With `network_management: true` each frame
+// begins with the network management vector.
 //
-// At most 200 nodes, sensors and PDUs, 127 CANs, 16 tasks per node and 256 fragments per list: what records can number.
+// At most 200 nodes, sensors and PDUs, 127 CANs, 16 tasks per node and 256 fragments per list: records can
+// number no more.
 #pragma once
 
 #include <string>
@@ -39,7 +42,7 @@
 
 namespace ttf::schedules::file {
 
-// Both throw InputError. The result is complete, but not yet proved consistent: that is for schedules/check.
+// Both throw InputError. The result is complete but not yet checked: schedules/check proves it consistent.
 model::Cluster load_cluster(const std::string& path);
 model::Cluster parse_cluster(std::string text, std::string name);
 

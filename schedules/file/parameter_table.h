@@ -1,5 +1,6 @@
-// The FlexRay parameters of a cluster file: name, range, unit, member, in one table each. Ranges: FlexRay Protocol
-// Specification 2.1 Rev. A, annex B; where Bosch's E-Ray controller is narrower, its register's (GTUC10).
+// The FlexRay parameters of a cluster file: name, range, unit and member in one table per type. Ranges: FlexRay
+// Protocol Specification 2.1 Rev. A, annex B; for narrower registers of Bosch's E-Ray controller, theirs
+// (GTUC10).
 #pragma once
 
 #include <cstdint>
@@ -16,10 +17,10 @@ template <class Struct> struct IntegerParameter {
   int high;
   std::string_view unit;
   int Struct::*member;
-  std::optional<int> otherwise = std::nullopt;  // where a file does not give it; else it has to
+  std::optional<int> otherwise = std::nullopt;  // default; without one the key is required
 };
 
-// Given as a decimal number of `unit`, kept as a whole number of picoseconds (or bit/s).
+// Written as a decimal number of `unit`, stored as a whole number of picoseconds (or bit/s).
 template <class Struct> struct ScaledParameter {
   std::string_view name;
   std::int64_t scale;

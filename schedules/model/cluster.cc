@@ -72,7 +72,7 @@ Occurrence next_occurrence(const GlobalParameters& flexray, const CycleInstant& 
   const std::int64_t repetition = at.repetition;
   std::int64_t cycle = at.base_cycle;
   if (from.ns > 0) {
-    // A round that surely ends at or before `from`; from there, at most two steps.
+    // Starts at a round that certainly ends at or before `from`; at most two steps follow.
     const Int128 round_ps = static_cast<Int128>(repetition) * flexray.cycle_ps();
     const auto rounds = static_cast<std::int64_t>(static_cast<Int128>(from.ns) * 1000 / round_ps);
     cycle += std::max<std::int64_t>(rounds - 1, 0) * repetition;

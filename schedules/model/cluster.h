@@ -1,9 +1,8 @@
-// The cluster: everything about what happens and when, as data. One YAML file describes one cluster
-// (schedules/file/loader.h reads it, schedules/check/checker.h proves it consistent); after that it is frozen and
-// shared by every node.
+// The cluster: the whole schedule as data. One YAML file describes one cluster. schedules/file/loader.h reads
+// it, schedules/check/checker.h proves it consistent; then it is frozen and shared by all nodes.
 //
-// Instants on the bus' own grid are macroticks within a cycle plus cycle multiplexing (base cycle, repetition): an
-// event happens in every cycle c with c mod repetition == base_cycle.
+// Instants on the bus' own grid are macroticks within a cycle plus cycle multiplexing (base cycle, repetition):
+// an event happens in every cycle c with c mod repetition == base_cycle.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +30,9 @@ struct CycleInstant {
   Macroticks offset{0};
 };
 
-// Fragment `fragment` of a PDU in one slot, or a status frame without PDU (pdu == kNoPdu). Static slots are
-// 1..gNumberOfStaticSlots, those above are dynamic. A dynamic frame always carries a PDU: it is sent when there is a
-// list to send, once per list, as long as its fragment (schedules/analysis/minislots.h).
+// One fragment of a PDU in one slot, or a status frame without PDU (pdu == kNoPdu). Static slots are
+// 1..gNumberOfStaticSlots, higher ones are dynamic. A dynamic frame always carries a PDU. It is sent once per
+// list, as long as its fragment, and not at all without a list (schedules/analysis/minislots.h).
 struct FrameSlot {
   int slot = 0;  // frame id
   Channels channels = Channels::kAB;
@@ -43,22 +42,22 @@ struct FrameSlot {
   PduId pdu = kNoPdu;
   int fragment = 0;
   int line = 0;
-  // Static frames only: the payload begins with the network management vector, gNetworkManagementVectorLength bytes,
-  // and says so (payload preamble indicator); the fragment follows it.
+  // Static frames only: the network management vector (gNetworkManagementVectorLength bytes) precedes the
+  // fragment, and the payload preamble indicator is set.
   bool network_management = false;
-  // Dynamic frames only: the payload begins with this message id, two bytes, and says so (payload preamble indicator);
-  // the fragment follows it. Receivers take the frame for this one only if it has this id.
+  // Dynamic frames only: this message id (two bytes) precedes the fragment, and the payload preamble indicator
+  // is set. Receivers accept the frame only with this id.
   std::optional<std::uint16_t> message_id = std::nullopt;
 };
 
 inline constexpr int kMessageIdBytes = 2;
 
-// Whether the instant, or the frame, has its turn in a cycle: its counter, or its number since some cycle 0. Not
-// negative.
+// Returns whether the instant or frame takes place in a cycle. `cycle` is the cycle counter or a running number,
+// not negative.
 template <class Multiplexed>
 requires requires(const Multiplexed& one) { one.base_cycle, one.repetition; }
 constexpr bool in_cycle(const Multiplexed& one, std::int64_t cycle) {
-  const std::int64_t repetition = one.repetition;  // nearly always a power of two, which needs no division
+  const std::int64_t repetition = one.repetition;  // mostly a power of two, which needs no division
   const std::int64_t turn = (repetition & (repetition - 1)) == 0 ? cycle & (repetition - 1) : cycle % repetition;
   return turn == one.base_cycle;
 }
@@ -66,26 +65,26 @@ constexpr bool in_cycle(const Multiplexed& one, std::int64_t cycle) {
 constexpr bool is_dynamic(const GlobalParameters& flexray, const FrameSlot& frame) {
   return frame.slot > flexray.gNumberOfStaticSlots;
 }
-// In front of the fragment: network management vector or message id.
+// Returns the bytes before the fragment: network management vector or message id.
 constexpr int preamble_bytes(const GlobalParameters& flexray, const FrameSlot& frame) {
   return frame.message_id ? kMessageIdBytes : frame.network_management ? flexray.gNetworkManagementVectorLength : 0;
 }
-// Whether both have their turn in some of the same cycles; whether some channel is in both sets.
+// Returns whether the frames share some cycle, or the sets some channel.
 bool share_a_cycle(const FrameSlot& a, const FrameSlot& b);
 constexpr bool share_a_channel(Channels a, Channels b) {
   return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0;
 }
 
-// Whether `frame` is the next fragment of the same list in the next slot, or the next but one where `step` is 2,
-// otherwise like `before`.
+// Returns whether `frame` carries the next fragment of the same list in the next slot and is otherwise like
+// `before`. With `step` 2 it carries the next fragment but one.
 bool continues(const FrameSlot& before, const FrameSlot& frame, int step = 1);
 
-// A PDU on a CAN: all fragments have the same identifier; the fragment number is in the data.
+// A PDU on a CAN. All fragments have the same identifier; the fragment number is in the data.
 struct CanMessage {
   PduId pdu{};
   std::uint32_t identifier = 0;  // 11 bits
   NodeId sender{};
-  Duration shortest_period{};  // in true time, between two lists' queueing; proved by schedules/check/checker.h
+  Duration shortest_period{};  // in true time, between the queueing of two lists; proved by schedules/check/checker.h
   int line = 0;
 };
 
@@ -94,12 +93,12 @@ struct CanBus {
   bool flexible_data_rate = false;    // CAN FD with bit-rate switching
   std::int64_t nominal_bit_rate = 0;  // bit/s
   std::int64_t data_bit_rate = 0;     // bit/s, equal to nominal for classic CAN
-  double other_load = 0.0;            // share of the bus that other traffic takes (sim/medium/can_medium.h)
+  double other_load = 0.0;            // share of the bus that other traffic occupies (sim/medium/can_medium.h)
   std::vector<CanMessage> messages;
   int line = 0;
 };
 
-// Where a port of a task leads: a PDU on a medium.
+// Binds a port of a task to a PDU on a medium.
 struct PortBinding {
   std::string port;  // the code's name for it
   PduId pdu{};
@@ -123,13 +122,13 @@ struct Activation {
 };
 
 enum class ExecutionDraw : std::uint8_t {
-  kUniform,  // between best and worst case, drawn per run: the unsynchronised paradigm
+  kUniform,  // between best and worst case, drawn per execution: the unsynchronised paradigm
   kWorst,    // always the worst case: the synchronised paradigm
 };
 
 struct Task {
   std::string name;
-  std::string step;  // which code runs
+  std::string step;  // the name of its code
   Activation activation;
   Duration best_case{};  // execution time
   Duration worst_case{};
@@ -140,12 +139,12 @@ struct Task {
   int line = 0;
 };
 
-// Whether a list at this port, which the task reads, sets it off.
+// Returns whether a list at this port, which the task reads, activates the task.
 bool activates(const Task& task, const PortBinding& read);
 
 struct Node {
   std::string name;
-  std::optional<NodeParameters> flexray;  // nothing: not on FlexRay (a sensor device)
+  std::optional<NodeParameters> flexray;  // absent for a node off FlexRay (a sensor device)
   std::int64_t microtick_ps = 25'000;     // nominal, also for nodes off FlexRay
   std::optional<std::int64_t> drift_ppb;  // fixed; else drawn within +-max_drift_ppb
   std::int64_t max_drift_ppb = 1'500'000;
@@ -155,38 +154,39 @@ struct Node {
 
 enum class SensorKind : std::uint8_t { kLaser, kCamera, kRadar };
 
-// When a sensor measures. Free: period on the device's own clock, first instant at `phase` (drawn if absent).
-// Scheduled: at an instant of the host's global time, over a trigger line. Following: over the same line, whenever a
-// task of the host has ended (its preprocessing), so as often as that can follow; first like a free one. What is lost
-// on the way would end that: a device which is not triggered measures by itself after `longest`. In all of them the
-// host latches its global time at the device's strobe, which is the measurement's time stamp.
+// A sensor measures in one of three ways. Free: with a period on the device's own clock, first at `phase` (drawn
+// if absent). Scheduled: at an instant of the host's global time, by a trigger line. Following: by the same
+// line, at each end of a task of the host (its preprocessing), so as often as that task allows; the first
+// measurement is like a free one. A lost message would stop a following sensor: without a trigger the device
+// measures by itself after `longest`. Always the host latches its global time at the device's strobe, as the
+// measurement's time stamp.
 struct Sensor {
   std::string name;
   SensorKind kind = SensorKind::kLaser;
   NodeId device{};  // the node that emulates it
   NodeId host{};    // the preprocessing node that triggers it and takes its strobe
   bool scheduled = false;
-  Duration period{};  // free-running; following: the shortest from one measurement to the next that the device can
+  Duration period{};  // free: the period; following: the device's shortest time between two measurements
   std::optional<Duration> phase;
   CycleInstant at{};   // scheduled
   std::string after;   // following: the task of the host (schedules/analysis/sensor_loop.h); else empty
-  Duration longest{};  // following: from one measurement to the next, on the device's own clock
+  Duration longest{};  // following: longest time between two measurements, on the device's own clock
   int line = 0;
 
   bool follows() const { return !after.empty(); }
   Duration longest_period() const { return follows() ? longest : period; }
 };
 
-// How the nodes are wired, on either channel alike.
+// The wiring of the nodes, the same on both channels.
 enum class Topology : std::uint8_t {
   kBus,   // one line with all nodes on it
-  kStar,  // every node on a branch of its own, an active star in the middle
+  kStar,  // every node on its own branch, with an active star in the middle
 };
 
-// What real-time media keep instead of FlexRay's own windows, which an ordinary kernel misses by its wake-ups alone:
-// how long before and after the action point of its slot, on the receiver's clock, a frame may come. In real time: a
-// stretched schedule (--time-scale) has no wider windows. The schedule has room for it where the last static slot in
-// use has that long until the static segment ends.
+// The arrival window of real-time media: how long before and after the action point of its slot a frame may
+// arrive, on the receiver's clock. It replaces FlexRay's own windows, which an ordinary kernel misses by its
+// wake-ups alone. It is in real time: a stretched schedule (--time-scale) does not widen it. The schedule has
+// room for it if the static segment continues for that long behind the last static slot in use.
 struct ArrivalWindow {
   Duration early{};
   Duration late{};
@@ -197,16 +197,16 @@ struct Cluster {
   std::string file;  // for messages
   std::string text;  // the YAML as read, attached to logs
   GlobalParameters flexray;
-  bool synchronisation = true;  // clock correction on (off only to show what it is for)
+  bool synchronisation = true;  // clock correction; switched off only for demonstration
   Topology topology = Topology::kBus;
-  bool guardian = false;  // the stars let through only what their schedule allows; needs kStar
+  bool guardian = false;  // the stars pass only the frames of their schedule; needs kStar
   std::vector<PduLayout> pdus;
   std::vector<Node> nodes;
   std::vector<FrameSlot> frames;  // ordered by slot, then base cycle
   std::vector<CanBus> can_buses;
   std::vector<Sensor> sensors;
-  std::optional<ArrivalWindow> arrival_window;  // `real_time`; none: this schedule is for virtual time only
-  // By "nodes", "guardian", "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId".
+  std::optional<ArrivalWindow> arrival_window;  // `real_time`; absent: the schedule is for virtual time only
+  // Keyed by "nodes", "guardian", "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId".
   std::map<std::string, int, std::less<>> parameter_lines;
 
   const Node& node(NodeId id) const { return nodes[index_of(id)]; }
@@ -217,17 +217,17 @@ struct Cluster {
   std::optional<PduId> find_pdu(std::string_view name) const;
   std::optional<SensorId> find_sensor(std::string_view name) const;
   Duration cycle() const { return {flexray.cycle_ps() / 1000}; }
-  // After which all that the schedule does repeats, to the nanosecond.
+  // The time after which the whole schedule repeats, to the nanosecond.
   Duration round() const { return {kCycles * flexray.cycle_ps() / 1000}; }
 };
 
-// Whether a task of the node reads or writes there.
+// Returns whether a task of the node reads or writes on this CAN.
 bool is_on_can(const Node& node, std::size_t can_bus);
 
-// Global time of an instant in the n-th cycle since the start (n counts on beyond gCycleCountMax).
+// Returns the global time of an instant in the n-th cycle since the start (n counts on beyond gCycleCountMax).
 GlobalTime time_of(const GlobalParameters& flexray, std::int64_t cycle, Macroticks offset);
 
-// First occurrence of a periodic instant at or after `from`, and the cycle it falls in.
+// The first occurrence of a periodic instant at or after `from`, and its cycle.
 struct Occurrence {
   std::int64_t cycle = 0;
   GlobalTime time{};

@@ -1,7 +1,7 @@
 // FlexRay parameters under their specification names: FlexRay Protocol Specification 2.1 Rev. A, annex B.
-// Ranges and constraints are checked by schedules/check/checker.h; here is only what they are.
+// schedules/check/checker.h checks their ranges and constraints.
 //
-// Units: [MT] macroticks, [uT] microticks of the node, [bit] gdBit. Times that are not whole nanoseconds are kept in
+// Units: [MT] macroticks, [uT] microticks of the node, [bit] gdBit. Times with fractions of a nanosecond are in
 // picoseconds (a 12.5 ns microtick is 12'500 ps).
 #pragma once
 
@@ -18,7 +18,7 @@ constexpr bool includes(Channels set, Channel one) {
   return (static_cast<unsigned>(set) >> static_cast<unsigned>(one)) & 1u;
 }
 
-// The channel a node sends its wake-up pattern on where nothing is said: A if it is attached to it.
+// Returns the default channel of a node's wake-up pattern: A if the node is attached to it.
 constexpr Channel default_wakeup(Channels attached) {
   return includes(attached, Channel::kA) ? Channel::kA : Channel::kB;
 }
@@ -61,29 +61,30 @@ struct GlobalParameters {
   std::int64_t gdCycle_ps = 5'000'000'000;
   std::int64_t baudrate = 10'000'000;  // bit/s
 
-  // gMacroPerCycle * gdMacrotick, which the checker proves to be gdCycle.
+  // Equals gdCycle, as the checker proves.
   std::int64_t cycle_ps() const { return gMacroPerCycle * gdMacrotick_ps; }
 };
 
 inline constexpr int kSamplesPerBit = 8;  // cSamplesPerBit
 
-// cdCAS: low bits of a collision avoidance symbol behind its TSS (annex A) [bit].
+// cdCAS: low bits of a collision avoidance symbol after its TSS (annex A) [bit].
 inline constexpr int kCasBits = 30;
 
-// Bits on the bus from the first TSS bit to the last FES bit of a static frame: TSS, FSS, ten bits (byte start sequence
-// and data) for each of 8 header and trailer bytes and of the payload, FES. The idle delimiter behind it is not in it.
+// Returns the bits on the bus from the first TSS bit to the last FES bit of a static frame: TSS, FSS, FES, and
+// ten bits (byte start sequence and data) for each of 8 header and trailer bytes and each payload byte. The idle
+// delimiter after it is not included.
 constexpr int frame_bits(const GlobalParameters& flexray, int payload_words) {
   return flexray.gdTSSTransmitter + 1 + 80 + 20 * payload_words + 2;
 }
 
-// Node parameters: of one controller.
+// The parameters of one controller.
 struct NodeParameters {
-  Channels pChannels = Channels::kAB;    // the controller is attached to
-  Channel pWakeupChannel = Channel::kA;  // it sends its wake-up pattern on
+  Channels pChannels = Channels::kAB;    // that the controller is attached to
+  Channel pWakeupChannel = Channel::kA;  // for its wake-up pattern
   std::int64_t pdMicrotick_ps = 25'000;
   int pSamplesPerMicrotick = 2;
   int pMicroPerCycle = 200'000;  // [uT] nominal, before rate correction
-  int pKeySlotId = 0;            // 1..; every controller has a key slot (0, none, is of 3.0.1)
+  int pKeySlotId = 0;            // 1..; every controller has a key slot (0, for no key slot, is of 3.0.1)
   bool pKeySlotUsedForStartup = false;
   bool pKeySlotUsedForSync = false;
   bool pKeySlotOnlyEnabled = false;  // single-slot mode, before a host's ALL_SLOTS command
@@ -103,8 +104,8 @@ struct NodeParameters {
   int pAllowPassiveToActive = 0;     // even/odd cycle pairs, 0: never
   bool pAllowHaltDueToClock = false;
   int pWakeupPattern = 2;
-  int pExternOffsetCorrection = 0;  // [uT] that a host's external correction may shift a double cycle by
-  int pExternRateCorrection = 0;    // [uT] ... may change the rate by
+  int pExternOffsetCorrection = 0;  // [uT] largest shift of a double cycle by a host's external correction
+  int pExternRateCorrection = 0;    // [uT] largest change of the rate by it
 };
 
 }  // namespace ttf::schedules::model

@@ -1,4 +1,4 @@
-// Where a list travels: over FlexRay, or over one of the cluster's CANs.
+// The medium of a list: FlexRay or one of the cluster's CANs.
 #pragma once
 
 #include <compare>
@@ -14,7 +14,7 @@ class MediumId {
  public:
   constexpr MediumId() = default;  // FlexRay
 
-  // The CAN at this place in Cluster::can_buses.
+  // Returns the CAN with this index in Cluster::can_buses.
   static constexpr MediumId can(std::size_t index) {
     TTF_CHECK(index < kMostCans, "CAN {}", index);
     MediumId medium;
@@ -31,10 +31,10 @@ class MediumId {
     return static_cast<std::size_t>(number_);
   }
 
-  // As records have it (recording::records::ListHop::can_bus): a CAN's index, -1 for FlexRay.
+  // The number in records (recording::records::ListHop::can_bus): a CAN's index, -1 for FlexRay.
   constexpr std::int8_t number() const { return number_; }
 
-  // FlexRay comes before every CAN, and these in the cluster's order.
+  // FlexRay precedes the CANs, which follow the cluster's order.
   constexpr auto operator<=>(const MediumId&) const = default;
 
  private:

@@ -1,12 +1,12 @@
-// What a message means: lists of objects as fixed-point signals, cut into fragments that fit one frame each.
+// The layout of messages: lists of objects as fixed-point signals, cut into fragments of one frame each.
 //
-// A PDU is one list (of hit points, observations, image objects, ...). On a bus it travels as 1..fragments()
+// A PDU is one list (of hit points, observations, image objects, ...). On a bus it consists of 1..fragments()
 // fragments, each with the same header signals and up to `elements_per_fragment` elements:
 //
 //   | header signals | element 0 | element 1 | ... | padding 0 |      = fragment_bytes
 //
-// All fragments of a list carry the same sequence number; a list is used only when every fragment of one sequence
-// number is there (never a torn one). Signals are packed in their order, most significant bit first, without gaps.
+// All fragments of a list carry the same sequence number. A list is used only when all fragments of one sequence
+// number are present (never a torn one). Signals are packed in order, most significant bit first, without gaps.
 #pragma once
 
 #include <cstdint>
@@ -32,24 +32,24 @@ struct Signal {
 
 struct PduLayout {
   std::string name;
-  SensorId sensor = kNoSensor;  // whose measurement the list descends from, if any
+  SensorId sensor = kNoSensor;  // source of the list's measurement, if any
   int fragment_bytes = 0;
   int max_elements = 0;
   int elements_per_fragment = 0;
-  std::vector<Signal> header;  // must contain "sequence" and "fragment" and "count" (elements in the whole list)
+  std::vector<Signal> header;  // must contain "sequence", "fragment" and "count" (elements in the whole list)
   std::vector<Signal> element;
   int header_bits = 0;   // derived, rounded up to whole bytes
   int element_bits = 0;  // derived
-  int line = 0;          // where it stands in the cluster file
+  int line = 0;          // in the cluster file
 
-  // Fragments of a list of n elements (at least one: an empty list is a message too).
+  // Returns the fragments of a list of n elements (at least one: an empty list is a message too).
   int fragments_of(int n) const {
     return n <= elements_per_fragment ? 1 : (n + elements_per_fragment - 1) / elements_per_fragment;
   }
   int max_fragments() const { return fragments_of(max_elements); }
 };
 
-// Index of a signal in a header or element, or nothing.
+// Returns the index of a signal in a header or element, or nullopt.
 std::optional<std::size_t> find_signal(const std::vector<Signal>& signals, std::string_view name);
 
 }  // namespace ttf::schedules::model

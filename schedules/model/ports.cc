@@ -14,7 +14,7 @@ struct Direction {
   std::string_view key;  // "reads" or "writes"
   const std::vector<PortBinding>& bound;
   const std::vector<std::string_view>& needed;
-  bool any;  // sensors' names are ports too
+  bool any;  // the names of sensors are ports too
 };
 
 void bind_direction(const Cluster& cluster, const std::string& path, const Task& task, const Direction& direction,

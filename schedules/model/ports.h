@@ -1,5 +1,5 @@
-// Binding of a schedule's names to the code's, checked both ways before anything runs: a step the code does not have, a
-// port the code needs and the schedule does not bind, and a port the schedule binds and the code does not have.
+// Binds a schedule's names to the code's, checked before anything runs. The errors are an unknown step, a needed
+// port without binding, and a binding of an unknown port.
 #pragma once
 
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace ttf::schedules::model {
 
-// What the code of one step reads and writes.
+// The ports that the code of one step reads and writes.
 struct StepPorts {
   std::string_view step;
   std::vector<std::string_view> reads;
   std::vector<std::string_view> writes;
-  bool any_reads = false;  // besides `reads`, one port per sensor may be read, called like the sensor whose PDU it
-                           // leads to; at least one
+  bool any_reads = false;  // besides `reads`, the step reads at least one sensor's list, by a
+                           // port with that sensor's name
 };
 
 // Throws InputError with every mismatch.

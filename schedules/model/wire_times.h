@@ -1,6 +1,6 @@
-// Times on the wire at their longest against macroticks at their shortest, and the precision that clocks are assumed to
-// keep: what the constraints of FlexRay 2.1A, annex B, are made of. Integers: picoseconds, and for the former scaled so
-// that cClockDeviationMax is whole.
+// The terms of the constraints of FlexRay 2.1A, annex B: longest times on the wire, shortest macroticks and the
+// assumed precision of clocks. All are integers in picoseconds; times to be compared are scaled so that
+// cClockDeviationMax is whole.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ inline constexpr std::int64_t kIdleDelimiterBits = 11;
 // a, b > 0.
 constexpr std::int64_t ceil_div(Int128 a, Int128 b) { return static_cast<std::int64_t>((a + b - 1) / b); }
 
-// In picoseconds times kWhole.
+// Returns picoseconds times kWhole.
 constexpr Int128 longest_bits(const GlobalParameters& flexray, std::int64_t bits) {
   return static_cast<Int128>(bits) * flexray.gdBit_ps * (kWhole + kDeviation);
 }
@@ -33,13 +33,13 @@ constexpr std::int64_t assumed_precision_ps(const GlobalParameters& flexray) {
   return (34 + 20 * static_cast<std::int64_t>(flexray.gClusterDriftDamping)) * flexray.gdMaxMicrotick_ps +
          2 * flexray.gdMaxPropagationDelay_ps;
 }
-// The same rounded up to whole nanoseconds: readings of two clocks that are further apart than this are so whichever
-// way they were rounded.
+// Rounds up to whole nanoseconds: two clock readings that differ by more do so however they were rounded.
 constexpr Duration assumed_precision(const GlobalParameters& flexray) {
   return {ceil_div(assumed_precision_ps(flexray), 1000)};
 }
 
-// adActionPointDifference: the dynamic segment's first action point lies no earlier in it than a static slot's does.
+// adActionPointDifference: makes the first action point of the dynamic segment no earlier in it than that of a
+// static slot.
 constexpr int action_point_difference(const GlobalParameters& flexray) {
   return flexray.gNumberOfMinislots == 0
              ? 0
