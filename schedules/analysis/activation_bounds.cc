@@ -32,7 +32,7 @@ class BoundFinder {
   }
 
  private:
-  // A time between events elsewhere in the node's own, at its shortest.
+  // Returns the shortest time on the node's own clock for a time on other clocks.
   std::int64_t own(std::int64_t ns) const {
     return std::max<std::int64_t>(1, ns - clocks_.drift_ns(ns) - model::kGranularity_ns);
   }
@@ -40,7 +40,7 @@ class BoundFinder {
   void measurements(SensorId id) {
     const model::Sensor& sensor = cluster_.sensor(id);
     if (sensor.scheduled) return found_.all.push_back({own(sensor.period.ns), clocks_.apart_ns});
-    // A device that is not triggered counts its period on the very oscillator.
+    // An untriggered device counts its period on its own oscillator.
     std::int64_t period = std::max<std::int64_t>(1, sensor.period.ns - model::kGranularity_ns);
     if (const auto loop = loop_of(cluster_, id)) period = std::max(period, shortest_round(cluster_, *loop).ns);
     found_.all.push_back({period, 0});
@@ -71,7 +71,7 @@ class BoundFinder {
           {own(written->ns), sent + clocks_.drift_ns(sent) + 2 * clocks_.apart_ns + model::kGranularity_ns});
   }
 
-  // Between two lists where they are written, on the writer's clock.
+  // Returns the shortest time between two lists at their writer, on its clock.
   std::optional<Duration> shortest_written(PduId pdu) const {
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
       const std::vector<model::Task>& tasks = cluster_.nodes[n].tasks;

@@ -15,12 +15,12 @@
 namespace ttf::schedules::analysis {
 namespace {
 
-// Until when a list must have been written to be taken for a cycle, certainly or possibly.
+// Returns the instant up to which a written list is taken for a cycle, certainly or possibly.
 model::CycleInstant latch(const SlotGroup& group, bool latest) {
   return {group.base_cycle, group.repetition, latest ? group.taken_from : group.taken_by};
 }
 
-// Of a frame's bits, from its action point at one node to its end at another; at the least.
+// Returns the shortest time from a frame's action point at one node to its end at another.
 std::int64_t shortest_frame(const model::GlobalParameters& g, int words) {
   return (frame_bits(g, words) * g.gdBit_ps + g.gdMinPropagationDelay_ps) / 1000;
 }
@@ -31,7 +31,7 @@ std::int64_t transmitted(const model::Cluster& cluster, const std::vector<SlotGr
   std::int64_t end = INT64_MAX;
   for (const SlotGroup& group : groups) {
     const model::Occurrence sent = next_occurrence(g, latch(group, latest), GlobalTime{from});
-    // A full list to the end of its last slot; or a list of one fragment to the end of its frame.
+    // A full list counts to the end of its last slot, a list of one fragment to the end of its frame.
     const std::int64_t done =
         latest ? time_of(g, sent.cycle, group.complete_by).ns
                : time_of(g, sent.cycle, slot_start(g, group.first_fragment) + Macroticks{g.gdActionPointOffset}).ns +
@@ -138,14 +138,14 @@ class Builder {
     return nullptr;
   }
 
-  // From the list's arrival to the task's start.
+  // Adds the time from the list's arrival to the task's start.
   void activation(Path& path, NodeId id, const model::Task& task, const model::PortBinding& list) {
     const model::Node& node = cluster_.node(id);
     const std::string who = fmt::format("{}.{}", node.name, task.name);
     if (task.activation.kind == model::ActivationKind::kTime) {
       instant(path, who, task.activation.at);
     } else if (task.activation.kind == model::ActivationKind::kCompletion) {
-      // It reads at its own start, whatever set off its chain: up to a period of the first task and all responses.
+      // It reads at its own start. The wait is at most a period of its chain's first task and all responses.
       Duration worst{};
       const model::Task* before = task_called(node, task.activation.after);
       for (; before->activation.kind == model::ActivationKind::kCompletion;
@@ -159,10 +159,10 @@ class Builder {
     queue(path, id, task, activates(list, task) ? lists_before(node, list) : Before{});
   }
 
-  // Other tasks that lists on the same CAN activate. One list's last frame ends before the other's next begins, so when
-  // `in` is there, such a task had at least the processor for `lead`: as long as the last frame of `in` takes, or,
-  // behind lists that have to wait for every frame of `in`, all of it. Of a shorter list the lead is shorter, but it
-  // was there as much earlier, so that the longest is the worst.
+  // Other tasks activated by lists on the same CAN. One list's last frame ends before the other's next begins.
+  // When `in` arrives, such a task has therefore had the processor for at least `lead`: the duration of the last
+  // frame of `in`, or of all its frames for lists that must wait for every one. A shorter list has a shorter
+  // lead but arrived earlier by the same amount, so the longest list is the worst.
   struct Before {
     std::vector<const model::Task*> tasks;
     Duration lead{};
@@ -186,15 +186,15 @@ class Builder {
     return before;
   }
 
-  // Does this list's arrival set the task off, rather than another list's?
+  // Returns whether this list, not another one, activates the task.
   bool activates(const model::PortBinding& list, const model::Task& task) const {
     return std::any_of(task.reads.begin(), task.reads.end(), [&](const model::PortBinding& in) {
       return model::activates(task, in) && in.pdu == list.pdu && in.medium == list.medium;
     });
   }
 
-  // What is not activated by time is activated by lists of some sensor, each of which comes (A1): at the latest when
-  // the next period is over too.
+  // A task not activated by time is activated by some sensor's lists. They all come (A1), at the latest after
+  // the next period as well.
   Duration longest_period(const model::Task& task) const {
     Duration longest{};
     if (task.activation.kind == model::ActivationKind::kTime) return cluster_.cycle() * task.activation.at.repetition;
@@ -210,7 +210,7 @@ class Builder {
     path.stages.push_back(std::move(stage));
   }
 
-  // First come, first served: what the bound on its response leaves besides its own execution.
+  // First come, first served: adds the task's response bound less its own execution.
   void queue(Path& path, NodeId id, const model::Task& task, const Before& before) {
     const Duration others = response(id, task, before) - task.worst_case;
     if (others > Duration{})
@@ -220,7 +220,7 @@ class Builder {
   Duration response(NodeId id, const model::Task& task) const { return response(id, task, Before{}); }
   Duration response(NodeId id, const model::Task& task, const Before& before) const {
     const model::Node& node = cluster_.node(id);
-    // The lead is true time; the processor's may be slower.
+    // The lead is in true time; the processor's clock may be slower.
     std::vector<Duration> ahead(node.tasks.size());
     for (const model::Task* other : before.tasks)
       ahead[index_in(node, *other)] = {std::max<std::int64_t>(0, before.lead.ns - clocks_.drift_ns(before.lead.ns))};
@@ -233,7 +233,7 @@ class Builder {
     return static_cast<std::size_t>(&task - node.tasks.data());
   }
 
-  // From the fusing task's start to the start of the image's reader.
+  // Adds the path from the fusing task's start to the start of the image's reader.
   void publish(Path& path, NodeId id, const model::Task& fusing) {
     const model::Node& node = cluster_.node(id);
     const model::Task* publisher = nullptr;
@@ -250,8 +250,8 @@ class Builder {
                            publisher->activation.after == fusing.name;
       if (!follows && publisher->activation.kind != model::ActivationKind::kTime) return;
       execution(path, id, fusing);
-      // The image's instant may come while this list is being fused: its task then runs right behind, and fusing adds
-      // nothing to the least age.
+      // The instant of the image may come while this list is fused. Its task then follows directly, and the
+      // fusing adds nothing to the least age.
       if (!follows && fusing.activation.kind == model::ActivationKind::kMessage) path.stages.back().best = {};
       if (!follows) instant(path, fmt::format("{}.{}", node.name, publisher->name), publisher->activation.at);
       queue(path, id, *publisher, {});
@@ -282,7 +282,7 @@ std::vector<std::int64_t> walk(const model::Cluster& cluster, const Path& path, 
   for (std::size_t i = first; i < last; ++i) {
     const Stage& stage = path.stages[i];
     const std::int64_t margin = i == first && first_is_exact ? 0 : latest ? apart : -apart;
-    // Where clocks differ, what nominally comes just too late may be in time, and the other way round.
+    // The difference between clocks may bring a nominally late event in time, and the reverse.
     switch (stage.kind) {
       case Stage::Kind::kSpan: t += latest ? stage.worst.ns : stage.best.ns; break;
       case Stage::Kind::kActivation:

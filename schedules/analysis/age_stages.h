@@ -18,10 +18,10 @@ struct Stage {
   Duration best{}, worst{};      // kSpan, drift included
   model::CycleInstant at{};      // kActivation
   std::vector<SlotGroup> slots;  // kSlots
-  Duration shortest{};           // kSlots in the dynamic segment: from a write to the arrival, drift included
+  Duration shortest{};           // kSlots in the dynamic segment: from write to arrival, drift included
 
-  // At its earliest a list in the dynamic segment goes out as soon as it is written, at any phase: the stage is on the
-  // cycle's grid for the latest instants only.
+  // In the dynamic segment an early list is sent as soon as it is written, at any phase. The stage is then on
+  // the cycle's grid for the latest instants only.
   bool on_grid(bool latest) const {
     return kind == Kind::kActivation || (kind == Kind::kSlots && (latest || !slots.front().dynamic));
   }
@@ -31,22 +31,23 @@ struct Path {
   std::vector<Stage> stages;
   std::size_t available = 0;          // stages until the list is in the fusion node's CNI
   std::size_t fused = 0;              // until the fusing task starts
-  std::size_t used = 0;               // until the image's reader starts; 0: there is none
-  bool on_arrival = false;            // the fusing task is activated by this very list
-  model::CycleInstant use{0, 0, {}};  // of that reader; repetition 0 where time does not activate it
+  std::size_t used = 0;               // until the image's reader starts; 0: no reader
+  bool on_arrival = false;            // the fusing task is activated by this list
+  model::CycleInstant use{0, 0, {}};  // of that reader; repetition 0 if time does not activate it
 };
 
-// Nothing of a path for a sensor whose lists reach no fusing task: stages is empty. The cluster must have passed
-// check().
+// Returns the path of a sensor's lists; without stages if they reach no fusing task. The cluster must have
+// passed check().
 Path path_of(const model::Cluster& cluster, SensorId sensor);
 
-// Instants after stages first..last-1 of the path, entered at `start` (nanoseconds of global time): the latest
-// possible, or the earliest. The clocks' distance is taken into account except at the first stage if it is on the grid.
+// Returns the latest or earliest instants after stages first..last-1 of the path, entered at `start`
+// (nanoseconds of global time). They include the difference between clocks, except at an exact first stage on
+// the grid.
 std::vector<std::int64_t> walk(const model::Cluster& cluster, const Path& path, std::size_t first, std::size_t last,
                                std::int64_t start, bool latest, bool first_is_exact);
 
-// Instants within 64 cycles from `from_cycle` at which entering a stage on the grid just works (earliest) or, one
-// nanosecond later, may fail (latest).
+// Returns the instants within 64 cycles from `from_cycle` at which a list just enters a stage on the grid
+// (earliest) or, one nanosecond later, may miss it (latest).
 std::vector<std::int64_t> entries(const model::Cluster& cluster, const Stage& stage, std::int64_t from_cycle,
                                   bool latest);
 

@@ -16,7 +16,7 @@ namespace {
 struct Extreme {
   std::vector<std::int64_t> shares;
   std::int64_t sum = 0;
-  std::int64_t on_grid = 0;  // of the sum, from the first stage on the grid on
+  std::int64_t on_grid = 0;  // the part of the sum from the first stage on the grid on
 };
 
 class Ages {
@@ -37,7 +37,7 @@ class Ages {
     return ages;
   }
 
-  // BUFF lets the oldest of the measurements that wait for a sensor go at `at`, `age` after it was made.
+  // BUFF releases the oldest held measurement of a sensor at `at`, `age` after the measurement.
   struct Release {
     GlobalTime at{};
     Duration age{};
@@ -46,15 +46,15 @@ class Ages {
     const auto round = settled_round(cluster_, sensor);
     if (!round) return;
     const std::vector<Settled>& settled = round->instants;
-    // The youngest that an instant settles is followed by the oldest that the next one does.
+    // The oldest measurement that the next instant settles directly follows the youngest that this one settles.
     for (std::size_t i = 0; i < settled.size(); ++i) {
       const GlobalTime next = i + 1 < settled.size() ? settled[i + 1].at : settled.front().at + round->round;
       all.push_back({next, next - settled[i].measured});
     }
   }
 
-  // On arrival: what no sensor's slowest list can precede any more goes with the next list of the sensor whose lists
-  // are the least apart when they come.
+  // For tasks activated by lists: a list that no sensor's slowest list can precede is released by the next list
+  // of the sensor with the shortest time between arrivals.
   Duration held_for_arrivals(const std::vector<AgePath>& paths) const {
     Duration slowest{};
     std::optional<Duration> apart;
@@ -73,7 +73,7 @@ class Ages {
     std::int64_t fused = 0, used = 0;
     const std::size_t last = std::max(path.used, path.fused);
     if (path.on_arrival) return buffer(ages, path, held_for_arrivals);
-    // Not activated by time: there are no fusion instants to hold a list for.
+    // Not activated by time: no fusion instants exist to hold a list for.
     if (gate >= path.stages.size() || path.stages[gate].kind != Stage::Kind::kActivation) return;
     for (const Release& release : releases) {
       const auto instants = walk(cluster_, path, gate, last, release.at.ns, true, true);
@@ -97,7 +97,7 @@ class Ages {
     ages.buffered_newest_worst = ages.buffered_use_worst + until_next_newest(path, ages.sensor);
   }
 
-  // At worst, whatever the phase.
+  // Returns the worst case over all phases.
   Duration fusion_to_use(const Path& path) const {
     std::int64_t spans = 0, rest = 0;
     std::size_t gate = path.fused;
@@ -108,15 +108,15 @@ class Ages {
     return {spans + rest};
   }
 
-  // Two measurements of a sensor, in global time.
+  // Returns the longest time between two measurements of a sensor, in global time.
   Duration longest_between(SensorId id) const {
     const model::Sensor& sensor = cluster_.sensor(id);
     const Duration period = sensor.longest_period();
     return period + Duration{sensor.scheduled ? 0 : clocks_.drift_ns(period.ns)};
   }
 
-  // The next measurement is first used at the latest one period and the bound of a first use after this one; the use
-  // before that, a use period earlier, is the last that still shows this measurement as the newest.
+  // The next measurement is first used at most one period and the bound of a first use after this one. The use
+  // before that, one use period earlier, is the last with this measurement as the newest.
   Duration until_next_newest(const Path& path, SensorId id) const {
     const std::int64_t between_uses =
         path.use.repetition > 0 ? cluster_.cycle().ns * path.use.repetition - clocks_.apart_ns : 0;
@@ -133,7 +133,7 @@ class Ages {
       found = {shares, sum, sum};
       for (const std::int64_t share : before) found.on_grid -= share;
     };
-    // Up to the first stage on the grid, a free-running sensor's stages are spans.
+    // Before the first stage on the grid, all stages of a free-running sensor are spans.
     std::size_t gate = 0;
     if (!sensor.scheduled)
       for (; gate < last && !path.stages[gate].on_grid(latest); ++gate) {
@@ -167,7 +167,7 @@ class Ages {
               std::vector<Contribution>* contributions) const {
     const model::Sensor& sensor = cluster_.sensor(id);
     const Extreme low = extreme(path, sensor, last, false), high = extreme(path, sensor, last, true);
-    // Spans before the grid have their drift against any clock in them already.
+    // Spans before the grid already include their drift against any clock.
     const std::int64_t clocks_low = std::min(low.sum, clocks_.apart_ns + clocks_.drift_ns(low.on_grid));
     const std::int64_t clocks_high = clocks_.apart_ns + clocks_.drift_ns(high.on_grid);
     best = {low.sum - clocks_low};

@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kStuffedClassic = 34;        // SOF to the end of the CRC, without data
 constexpr int kUnstuffed = 13;             // CRC delimiter to the end of the intermission
-constexpr std::int64_t kIntermission = 3;  // of these bits
+constexpr std::int64_t kIntermission = 3;  // of the unstuffed bits
 constexpr int kArbitrationFd = 17;         // SOF, identifier, RRS, IDE, FDF, res, BRS
-constexpr int kStuffedFd = 14;             // of them up to IDE: FDF, res and BRS alternate, so no run goes on
+constexpr int kStuffedFd = 14;             // of these, SOF to IDE: FDF, res and BRS alternate, so a run ends there
 constexpr int kControlFd = 5;              // ESI, DLC
 
 }  // namespace
@@ -46,7 +46,7 @@ Duration can_duration(const model::CanBus& bus, CanBits bits) {
 Duration can_worst_case(const model::CanBus& bus, int bytes) {
   CanBits bits = can_unstuffed_bits(bus, bytes);
   const int payload = 8 * *can_data_length(bus.flexible_data_rate, bytes);
-  // After the first bit, every fourth can need a stuff bit.
+  // After the first bit, every fourth bit can need a stuff bit.
   if (bus.flexible_data_rate) {
     bits.nominal += (kStuffedFd - 1) / 4;
     bits.data += (1 + kControlFd + payload - 1) / 4;  // BRS begins a run
@@ -83,10 +83,10 @@ std::optional<Duration> can_worst_response(const model::Cluster& cluster, const 
   for (const model::CanMessage& other : bus.messages)
     if (other.identifier > message.identifier)
       blocking = std::max(blocking, can_worst_case(bus, cluster.pdu(other.pdu).fragment_bytes));
-  // Traffic that is not described may be of any priority: as if it had the highest.
+  // Undescribed traffic may have any priority: it counts as having the highest.
   if (bus.other_load > 0.0) blocking += can_worst_case(bus, bus.flexible_data_rate ? 64 : 8);
   fixed += blocking;
-  // Davis et al., equation 3, iterated to its fixed point from below; it ends because the load is below one.
+  // Davis et al., equation 3, iterated from below to its fixed point; it ends because the load is below one.
   Duration response = fixed;
   while (true) {
     Duration next = fixed;

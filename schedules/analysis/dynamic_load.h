@@ -1,5 +1,4 @@
-// How full the dynamic segment can get: what a cluster's dynamic frames take of it when all of them are sent in one
-// cycle.
+// The load of the dynamic segment when all dynamic frames of a cycle are sent.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +13,11 @@ namespace ttf::schedules::analysis {
 // The fullest cycle of one channel.
 struct DynamicLoad {
   model::Channel channel{};
-  std::int64_t minislots =
-      0;               // to the end of the last frame, idle phase and unused slots before it included; 0: no frames
-  double share = 0.0;  // of gNumberOfMinislots; above one: not all of them fit
+  std::int64_t minislots = 0;  // to the end of the last frame, with idle phase and unused slots before it; 0: no frames
+  double share = 0.0;          // of gNumberOfMinislots; above one: not all frames fit
 };
 
-// A row of slots that carry one list's fragments, and when they may be sent.
+// A row of slots with one list's fragments, and the turns of these slots.
 struct DynamicList {
   PduId pdu{};
   NodeId sender{};
@@ -29,15 +27,15 @@ struct DynamicList {
   int base_cycle = 0, repetition = 1;
   std::int64_t minislots_each = 0;  // idle phase included
   std::int64_t earliest_turn = 0,
-               latest_turn = 0;  // minislots: of the first slot at the earliest, of the last at the latest
-  bool always_in_time = true;    // in its cycle, whatever the others send; else it may have to wait for later ones
+               latest_turn = 0;  // minislots: earliest turn of the first slot, latest of the last
+  bool always_in_time = true;    // its turn always comes in its cycle; otherwise it may wait for later cycles
 };
 
-// Both channels; in slot order. The cluster must have passed check().
+// Return both channels, and the lists in slot order. The cluster must have passed check().
 std::vector<DynamicLoad> dynamic_load(const model::Cluster& cluster);
 std::vector<DynamicList> dynamic_lists(const model::Cluster& cluster);
 
-// Both as a table for people; empty where nothing is sent in the dynamic segment.
+// Returns both as a table for people; empty if the dynamic segment is unused.
 std::string dynamic_text(const model::Cluster& cluster);
 
 }  // namespace ttf::schedules::analysis

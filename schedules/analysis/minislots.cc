@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kShortestDts = 1;  // gdBit
 
-// What the slots before `frame` on `channel` take at worst. Cluster::frames are ordered by slot.
+// Returns the most minislots of the slots before `frame` on `channel`. Cluster::frames are ordered by slot.
 std::int64_t before(const model::Cluster& cluster, const model::FrameSlot& frame, model::Channel channel) {
   const model::GlobalParameters& g = cluster.flexray;
   std::int64_t minislots = frame.slot - g.gNumberOfStaticSlots - 1;  // one each

@@ -1,5 +1,5 @@
-// How many objects a cluster can be about: an object that is followed is in every list on FlexRay, those of the sensors
-// and the image, each of which is cut into fragments of so many objects, a slot for each.
+// The largest number of objects that a cluster can follow. Each followed object is in every list on FlexRay,
+// those of the sensors and the image. A list is cut into fragments of some objects each, one slot per fragment.
 #pragma once
 
 #include <vector>
@@ -8,27 +8,27 @@
 
 namespace ttf::schedules::analysis {
 
-// A list on FlexRay: what it has room for.
+// The capacity of a list on FlexRay.
 struct ListRoom {
   PduId pdu{};
-  int slots = 0;      // with a fragment of its own
-  int objects = 0;    // as the list is said to have at most, and as many as its slots carry
-  int countable = 0;  // that its header can count and number the fragments of
+  int slots = 0;      // one per fragment
+  int objects = 0;    // the smaller of the list's maximum and the capacity of its slots
+  int countable = 0;  // limit by the bits of its header for counts and fragment numbers
 };
 
 struct ObjectCeiling {
   std::vector<ListRoom> lists;  // in the order of their slots
-  int carried = 0;              // the fewest objects of any list: as the cluster is
-  // The most, if all static slots but those of status frames were shared out among the same lists, each still with
-  // slots of its own: the largest n with sum of ceil(n / objects in a fragment) <= slots, and not more than headers can
-  // count. Dynamic lists counted in as if they were static. What CANs, tasks and ages then say is the checker's
-  // business. Not fewer than are carried: lists that take turns in the same slots, or are dealt out to both channels,
-  // do better than that.
+  int carried = 0;              // the fewest objects of any list, in the cluster as it is
+  // The most objects if these lists shared all static slots but those of status frames, each with slots of its
+  // own. It is the largest n with sum of ceil(n / objects in a fragment) <= slots, and at most as many as the
+  // headers can count. Dynamic lists count as static. The checker judges the effect on CANs, tasks and ages. The
+  // value is at least `carried`: lists that take turns in the same slots, or are split between both channels,
+  // carry more than this formula.
   int with_all_static_slots = 0;
-  int free_for_lists = 0;  // static slots without status frames
+  int free_for_lists = 0;  // static slots without those of status frames
 };
 
-// Of a cluster with lists of any number of objects on FlexRay; all zero without.
+// Returns the ceiling of a cluster; all zero if no list of objects is on FlexRay.
 ObjectCeiling object_ceiling(const model::Cluster& cluster);
 
 }  // namespace ttf::schedules::analysis

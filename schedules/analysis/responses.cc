@@ -13,7 +13,7 @@ namespace {
 
 bool by_time(const model::Task& task) { return task.activation.kind == model::ActivationKind::kTime; }
 
-// By task: the one whose end activates it.
+// Returns by task the one whose end activates it.
 std::vector<std::optional<std::size_t>> predecessors(const std::vector<model::Task>& tasks) {
   std::vector<std::optional<std::size_t>> before(tasks.size());
   for (std::size_t t = 0; t < tasks.size(); ++t)
@@ -23,7 +23,7 @@ std::vector<std::optional<std::size_t>> predecessors(const std::vector<model::Ta
   return before;
 }
 
-// What the node's corrections may take from a distance of global time.
+// Returns the most by which the node's corrections can shorten a distance of global time.
 std::optional<processor::ClockCorrections> corrections_of(const model::Cluster& cluster, const model::Node& node) {
   if (!node.flexray) return std::nullopt;
   const model::NodeParameters& p = *node.flexray;
@@ -60,13 +60,13 @@ class ChainAnalysis {
     Responses all(node_.tasks.size());
     for (std::size_t t = 0; t < node_.tasks.size(); ++t)
       if (!before_[t]) all[t] = of_first(t, *busy, {});
-    // Chains that end before they begin again meet none of their own earlier jobs.
+    // Chains that end before they begin again do not meet their own earlier jobs.
     add_followers(all, Jobs::kApart);
     if (!chains_end_in_time(all)) add_followers(all, Jobs::kMixed);
     return all;
   }
 
-  // Of a task that messages activate, others ahead of it.
+  // Returns the response of a task that messages activate, with leads of others.
   std::optional<Duration> response_behind(std::size_t task, std::span<const Duration> ahead) const {
     TTF_CHECK(!before_[task], "task {} follows another", task);
     const auto busy = busy_time(set_, longest_busy_time(cluster_, node_).ns);
@@ -80,7 +80,7 @@ class ChainAnalysis {
  private:
   using Responses = std::vector<TaskResponse>;
 
-  // Whether the jobs of a chain's next activation may wait among those of the last.
+  // Whether the jobs of a chain's next activation may wait among those of the last one.
   enum class Jobs : bool { kApart, kMixed };
 
   processor::Chain::Activation activation_of(NodeId id, const model::Task& first, WritersOfLists writers) const {
@@ -97,7 +97,7 @@ class ChainAnalysis {
       instants.push_back({time_of(cluster_.flexray, cycle, at.offset).ns, *chain_[task]});
   }
 
-  // The chain's first task; one of a ring where its tasks go round and round.
+  // Returns the chain's first task; any task of a ring.
   std::size_t first_of(std::size_t task) const {
     for (std::size_t steps = 0; before_[task] && steps < before_.size(); ++steps) task = *before_[task];
     return task;
@@ -115,7 +115,7 @@ class ChainAnalysis {
     const model::Task& first = node_.tasks[task];
     const processor::Chain& chain = chain_of(task);
     TaskResponse response;
-    // What follows the task itself is not before it.
+    // The tasks that follow do not run before this one.
     response.worst = {worst_chain_response(set_, *chain_[task], busy, ahead) - chain.work + first.worst_case.ns};
     if (by_time(first)) {
       response.gap = Duration{set_.timed.shortest(cluster_.cycle().ns * first.activation.at.repetition)};
@@ -129,7 +129,7 @@ class ChainAnalysis {
     return response;
   }
 
-  // Between two ends: one late, the next at once.
+  // Returns the shortest time between two ends: one late, the next at once.
   static std::optional<Duration> shortest_written(const model::Task& task, const TaskResponse& response) {
     if (!response.gap) return std::nullopt;
     return std::max(Duration{}, *response.gap - (response.worst - shortest_execution(task)));
@@ -140,7 +140,7 @@ class ChainAnalysis {
     for (std::size_t t = 0; t < all.size(); ++t) add_follower(t, jobs, all, done);
   }
 
-  // Behind those that it follows.
+  // Adds its predecessors first.
   void add_follower(std::size_t task, Jobs jobs, Responses& all, std::vector<bool>& done) const {
     if (done[task] || !before_[task]) return;
     add_follower(*before_[task], jobs, all, done);
@@ -148,7 +148,7 @@ class ChainAnalysis {
     done[task] = true;
   }
 
-  // It waits for whatever was activated while the task before it waited and ran.
+  // It waits for all tasks activated while its predecessor waited and ran.
   TaskResponse of_follower(std::size_t task, Jobs jobs, const Responses& all) const {
     const std::size_t previous = *before_[task];
     const std::int64_t since = until_end(previous, all);
@@ -162,8 +162,8 @@ class ChainAnalysis {
     return response;
   }
 
-  // May `other` be activated between the activation of the task before `task` and its end, which is `since` after that
-  // of their chain?
+  // Returns whether `other` may be activated between the activation and the end of the predecessor of `task`.
+  // That end is `since` after the activation of their chain.
   bool may_be_before(std::size_t task, std::size_t other, Jobs jobs, std::int64_t since) const {
     if (chain_[other] == chain_[task]) return jobs == Jobs::kMixed || !(leads_to(other, task) || leads_to(task, other));
     if (!chain_of(task).by_time() || !by_time(node_.tasks[other])) return true;
@@ -172,7 +172,7 @@ class ChainAnalysis {
     return false;
   }
 
-  // Whether time activates the chain from this instant on until `since` after it; or at the same instant.
+  // Returns whether time activates the chain from this instant until `since` after it, or at the same instant.
   bool meets(std::size_t instant, std::size_t chain, std::int64_t since) const {
     const auto is_it = [chain](const processor::TimedInstants::Neighbour& other) { return other.chain == chain; };
     const auto behind = set_.timed.within(instant, since, processor::TimedInstants::kForward);
@@ -180,7 +180,7 @@ class ChainAnalysis {
     return std::any_of(behind.begin(), behind.end(), is_it) || std::any_of(beside.begin(), beside.end(), is_it);
   }
 
-  // From the activation of the chain's first task to the end of this one.
+  // Returns the time from the activation of the chain's first task to the end of this one.
   std::int64_t until_end(std::size_t task, const Responses& all) const {
     const std::int64_t own = all[task].worst.ns;
     return before_[task] ? until_end(*before_[task], all) + own : own;
@@ -197,7 +197,7 @@ class ChainAnalysis {
   const model::Cluster& cluster_;
   const model::Node& node_;
   std::vector<std::optional<std::size_t>> before_;  // the task whose end activates it
-  std::vector<std::optional<std::size_t>> chain_;   // in set_; none of tasks that go round and round
+  std::vector<std::optional<std::size_t>> chain_;   // index in set_; absent for tasks in a ring
   processor::TaskChains set_;
 };
 

@@ -1,11 +1,11 @@
-// How long a node's tasks take at worst from their activation to their end, other tasks' turns included, and how soon
-// they may be activated again.
+// Worst-case response times of a node's tasks, from activation to end, with all waiting for other tasks, and the
+// shortest times between their activations.
 //
-// One processor per node, no preemption, first come first served: schedules/analysis/processor/busy_period.h bounds the
-// first tasks of chains, each with all that follows it. A task that follows another starts its own account when that
-// one ends. What may then be before it was activated since the other's activation; of every task at most one activation
-// is pending, which is what the checker demands of all (an end before the next activation) and what makes these bounds
-// hold one after the other. Durations are the node's own time, in which executions and deadlines are counted.
+// One processor per node, no preemption, first come first served. schedules/analysis/processor/busy_period.h
+// bounds the first task of each chain, with all tasks that follow it. A following task is activated at the end
+// of its predecessor; then tasks activated since the predecessor's activation may come before it. At most one
+// activation of every task is pending: the checker demands an end before the next activation. These bounds
+// therefore hold one after the other. Durations are in the node's own time, like executions and deadlines.
 #pragma once
 
 #include <optional>
@@ -21,23 +21,23 @@ namespace ttf::schedules::analysis {
 
 struct TaskResponse {
   Duration worst{};  // from activation to end
-  // Shortest between two activations; nothing where nothing is known of them, or where the next waits for the task's
-  // end.
+  // Shortest time between two activations; nullopt if it is unknown, or if the next activation waits for the
+  // task's end.
   std::optional<Duration> gap;
-  std::optional<Duration> written;  // shortest between two ends
+  std::optional<Duration> written;  // shortest time between two ends
 };
 
-// By task, in file order; nothing for a node that may be busy without end, or whose chains lead back to no beginning.
-// No two tasks that time activates may overlap, as the checker demands first.
+// Returns the responses by task, in file order; nullopt for a node that may be busy without end, or whose chains
+// form a ring. Tasks activated by time must not overlap, which the checker demands first.
 std::optional<std::vector<TaskResponse>> worst_responses(const model::Cluster& cluster, NodeId node,
                                                          WritersOfLists writers = WritersOfLists::kKnown);
 
-// The same of one task, where of some others more is known: `ahead`, by task, is how long before this task's activation
-// the newest activation of the other was at the latest (zero: nothing is known). For a task that messages activate.
+// Returns the response of one task that messages activate, with leads of other tasks. `ahead`, by task, is the
+// least time by which the newest activation of the other precedes this task's activation (zero: unknown).
 std::optional<Duration> worst_response(const model::Cluster& cluster, NodeId node, std::size_t task,
                                        std::span<const Duration> ahead);
 
-// The longest time a node may be busy without a break that worst_responses() looks into.
+// Returns the longest busy time without a break that worst_responses() considers.
 Duration longest_busy_time(const model::Cluster& cluster, const model::Node& node);
 
 }  // namespace ttf::schedules::analysis

@@ -17,7 +17,7 @@ Duration at_most(const model::Cluster& cluster, Duration time) {
   return {time.ns + clock_bounds(cluster).drift_ns(time.ns) + model::kGranularity_ns};
 }
 
-// Over FlexRay nothing is counted on.
+// Over FlexRay no minimum is assumed.
 Duration shortest_transfer(const model::Cluster& cluster, const model::PortBinding& raw) {
   if (raw.medium.is_flexray()) return {};
   const model::CanBus& bus = cluster.can(raw.medium);

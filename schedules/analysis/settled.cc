@@ -18,7 +18,7 @@ std::optional<SettledRound> settled_round(const model::Cluster& cluster, SensorI
   const Path path = path_of(cluster, sensor);
   const std::size_t fusing = path.available;
   if (fusing >= path.stages.size() || path.stages[fusing].kind != Stage::Kind::kActivation) return std::nullopt;
-  // From the stamp to the entry at the gate, the first stage on the grid.
+  // The time from the stamp to the entry at the gate, the first stage on the grid.
   std::int64_t before =
       clock_bounds(cluster).apart_ns + (cluster.flexray.gdMacrotick_ps + 999) / 1000 + kStampRounding_ns;
   std::size_t gate = 0;
@@ -37,13 +37,13 @@ std::optional<SettledRound> settled_round(const model::Cluster& cluster, SensorI
   for (const std::int64_t entered : gates) {
     const GlobalTime at{walk(cluster, path, gate, fusing + 1, entered, true, true).back()};
     const GlobalTime measured{entered - before};
-    // Entries in order: the last of several that are read at one instant settles the most.
+    // Entries are in order: the last of several read at one instant settles the most.
     if (!result.instants.empty() && result.instants.back().at == at)
       result.instants.back().measured = measured;
     else
       result.instants.push_back({at, measured});
   }
-  // What the next round settles at the same instant is more.
+  // The first instant of the next round settles more at the same time.
   if (result.instants.back().at == result.instants.front().at + result.round) result.instants.pop_back();
   return result;
 }

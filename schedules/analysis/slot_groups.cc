@@ -16,7 +16,7 @@ void set_static_times(const model::GlobalParameters& g, SlotGroup& group) {
   group.complete_by = slot_start(g, group.last + 1);
 }
 
-// On whichever channel it goes out first, and has gone out last.
+// Takes the latest turn and the latest end over both channels.
 void set_dynamic_times(const model::Cluster& cluster, PduId pdu, SlotGroup& group) {
   const model::GlobalParameters& g = cluster.flexray;
   std::int64_t taken_by = 0, over = 0;

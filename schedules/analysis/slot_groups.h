@@ -10,29 +10,29 @@
 
 namespace ttf::schedules::analysis {
 
-// The slots of one list in the cycles of one base and repetition, and when in a cycle a list goes out.
+// The slots of one list in the cycles of one base and repetition, and its sending times in a cycle.
 struct SlotGroup {
   int base_cycle = 0, repetition = 1;
   int first = 0, last = 0;  // slots
   int first_fragment = 0;   // slot of fragment 0
   bool dynamic = false;
-  // The controller takes the newest list at the action point of the first slot: at the earliest and at the latest then,
-  // as macroticks of the cycle. In the static segment `taken_from` is the slot's beginning, which is on the safe side.
+  // The earliest and latest action point of the first slot, when the controller takes the newest list, as
+  // macroticks of the cycle. In the static segment `taken_from` is the slot's beginning, which is safe.
   Macroticks taken_from{}, taken_by{};
-  Macroticks complete_by{};  // the end of the last fragment's slot; in the dynamic segment with all slots in use
-  // Sent whole in the cycle it is taken in. Of a dynamic list that may have to wait for later cycles this is not so,
-  // and the times above are none.
+  Macroticks complete_by{};  // end of the last fragment's slot; in the dynamic segment with all slots in use
+  // The list is sent whole in the cycle in which it is taken. False for a dynamic list that may wait for later
+  // cycles; the times above are then invalid.
   bool bounded = true;
 };
 
-// By base cycle and repetition; empty for a PDU that is not on FlexRay.
+// Returns the groups by base cycle and repetition; empty for a PDU that is not on FlexRay.
 std::vector<SlotGroup> slot_groups(const model::Cluster& cluster, PduId pdu);
 
-// Macrotick at which a static slot (1..) begins.
+// Returns the macrotick at which a static slot (1..) begins.
 Macroticks slot_start(const model::GlobalParameters& flexray, int slot);
 
-// The shortest and the longest time between the beginnings of two sendings of a PDU that follow each other, over all 64
-// cycles, and how much later than its beginning one can be complete. Nothing if it has no slots, or if some sending has
+// The shortest and longest time between the beginnings of two successive sendings of a PDU, over all 64 cycles,
+// and the longest time from its beginning to completion. Absent if the PDU has no slots, or if some sending has
 // no bound.
 struct SlotGap {
   Duration gap{};

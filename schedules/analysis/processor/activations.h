@@ -1,6 +1,6 @@
-// How often a task may be activated: at most floor((a + J) / T) + 1 times in a closed window of length a, for each T
-// and J that is known. A flow that is bounded twice is bounded by the smaller (J. Y. Le Boudec, P. Thiran: Network
-// Calculus, Springer 2001, section 1.2).
+// Bounds the activations of a task: at most floor((a + J) / T) + 1 in a closed window of length a, for each
+// known pair of T and J. The smallest of several bounds applies (J. Y. Le Boudec, P. Thiran: Network Calculus,
+// Springer 2001, section 1.2).
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@
 namespace ttf::schedules::analysis::processor {
 
 struct ActivationBound {
-  std::int64_t period = 0;  // T, 1 at least; nanoseconds
+  std::int64_t period = 0;  // T, at least 1; nanoseconds
   std::int64_t jitter = 0;  // J
 };
 
 struct ActivationBounds {
-  std::vector<ActivationBound> all;  // empty: nothing is known
+  std::vector<ActivationBound> all;  // empty: no bound is known
 
-  // In a closed window; where nothing is known, 1.
+  // Returns the most activations in a closed window; 1 if no bound is known.
   std::int64_t most(std::int64_t window_ns) const;
-  // Between two activations at the least.
+  // Returns the shortest time between two activations.
   std::optional<std::int64_t> gap() const;
 };
 

@@ -9,13 +9,13 @@ namespace {
 
 constexpr int kMostRounds = 10'000;
 
-// This much work more in windows from this length on.
+// `work` is added in windows of length `window` or more.
 struct Load {
   std::int64_t window = 0;
   std::int64_t work = 0;
 };
 
-// The work that time brings from one instant on, or up to it, in windows up to `most`; by window.
+// Returns the work that time activates from one instant on, or up to it, in windows up to `most`; by window.
 std::vector<Load> timed_loads(const TaskChains& set, std::size_t instant, std::int64_t most,
                               TimedInstants::Direction direction) {
   std::vector<Load> loads;
@@ -40,7 +40,7 @@ Int128 work_of(std::int64_t, const ByTime&, std::int64_t) { return 0; }
 Int128 work_of(std::int64_t work, const ActivationBounds& by, std::int64_t window) {
   return static_cast<Int128>(work) * by.most(window);
 }
-// All of the last activation, and of those before it what fits between the pauses.
+// Counts the last activation in full, and of earlier ones the work that fits between the pauses.
 Int128 work_of(std::int64_t work, const ByFollower& by, std::int64_t window) {
   if (window < by.shortest_round()) return work;
   return work + static_cast<Int128>(window) * by.worst / (by.worst + by.pause);
@@ -48,12 +48,12 @@ Int128 work_of(std::int64_t work, const ByFollower& by, std::int64_t window) {
 
 std::int64_t lead_of(Leads leads, std::size_t chain) { return leads.empty() ? 0 : leads[chain]; }
 
-// What may come at any phase: no more than twice what is looked into, enough to know that it never ends.
+// Returns the work activated at any phase, cut at twice the longest busy time, which already means unbounded.
 std::int64_t sporadic_work(const TaskChains& set, Leads leads, std::int64_t window) {
   Int128 work = 0;
   for (std::size_t c = 0; c < set.chains.size(); ++c) {
     const Chain& chain = set.chains[c];
-    // Whose newest activation was some time ago has none in the last of the window.
+    // A chain whose newest activation precedes the window's end by its lead has no activation in that time.
     const std::int64_t before = window - lead_of(leads, c);
     if (before >= 0)
       work += std::visit([&](const auto& by) { return work_of(chain.work, by, before); }, chain.activation);
@@ -67,12 +67,12 @@ void add_steps(const ActivationBounds& by, std::int64_t lead, std::int64_t busy,
     for (std::int64_t at = one.period - one.jitter % one.period; at <= busy; at += one.period)
       steps.push_back(lead + at);
 }
-// Behind its step its work grows more slowly than the window.
+// After its step, this work grows more slowly than the window.
 void add_steps(const ByFollower& by, std::int64_t lead, std::int64_t, std::vector<std::int64_t>& steps) {
   steps.push_back(lead + by.shortest_round());
 }
 
-// The windows from which on more sporadic work may be in: in order, from none at all.
+// Returns the window lengths at which sporadic work may increase: in order, from zero.
 std::vector<std::int64_t> sporadic_steps(const TaskChains& set, Leads leads, std::int64_t busy) {
   std::vector<std::int64_t> steps{0};
   for (std::size_t c = 0; c < set.chains.size(); ++c) {
@@ -86,7 +86,7 @@ std::vector<std::int64_t> sporadic_steps(const TaskChains& set, Leads leads, std
   return steps;
 }
 
-// The largest W(a) - a, with what time brings given. It lies where W has a step.
+// Returns the largest W(a) - a, given the work activated by time. It lies at a step of W.
 std::int64_t latest(const TaskChains& set, Leads leads, const std::vector<std::int64_t>& steps,
                     const std::vector<Load>& timed) {
   std::int64_t worst = 0, timed_so_far = 0;
@@ -105,7 +105,7 @@ std::int64_t latest(const TaskChains& set, Leads leads, const std::vector<std::i
 
 std::optional<std::int64_t> busy_time(const TaskChains& set, std::int64_t limit) {
   if (!set.timed.empty() && !set.timed.can_be_counted_on()) return std::nullopt;
-  // From below, so that the smallest is met first.
+  // Iterates from below, so that the smallest solution is found first.
   std::int64_t window = 0;
   for (int rounds = 0; rounds < kMostRounds; ++rounds) {
     const std::int64_t work = sporadic_work(set, {}, window) + timed_work(set, window);
@@ -119,8 +119,8 @@ std::optional<std::int64_t> busy_time(const TaskChains& set, std::int64_t limit)
 std::int64_t worst_chain_response(const TaskChains& set, std::size_t chain, std::int64_t busy, Leads leads) {
   const std::vector<std::int64_t> steps = sporadic_steps(set, leads, busy);
   if (set.timed.empty()) return latest(set, leads, steps, {});
-  // A chain of time comes at its own instants, behind what time brought up to them; any other may come when time has
-  // just begun to bring the most.
+  // A chain activated by time comes at its own instants, after the work of time up to them. Any other chain may
+  // come just when time begins to activate the most work.
   const bool by_time = set.chains[chain].by_time();
   const auto direction = by_time ? TimedInstants::kBackward : TimedInstants::kForward;
   std::int64_t worst = 0;

@@ -1,20 +1,20 @@
-// How long chains of tasks take at worst on one processor that serves them without preemption, first come first served.
+// Worst-case response times of chains of tasks on one processor, without preemption, first come first served.
 //
-// Whatever runs before a job was activated after the last instant at which the processor was idle, and at or before the
-// job; so a job activated a after that instant ends at the latest
+// All work before a job was activated after the last instant at which the processor was idle, and at or before
+// the job. A job activated a after that instant therefore ends at the latest
 //   W(a) - a
-// after its activation, W(a) being the work activated in a closed window of length a (J. Y. Le Boudec, P. Thiran:
-// Network Calculus, Springer 2001, section 1.4: the horizontal distance for a FIFO server of rate one). The bound is
-// the largest over all a up to the longest busy time, the smallest A with W(A) <= A. A chain's work comes at its
-// beginning at the earliest; so in W it is as much as all its tasks together, whenever its first one is activated:
+// after its activation. W(a) is the work activated in a closed window of length a (J. Y. Le Boudec, P. Thiran:
+// Network Calculus, Springer 2001, section 1.4: the horizontal distance for a FIFO server of rate one). The
+// bound is the largest value over all a up to the longest busy time, the smallest A with W(A) <= A. W counts the
+// work of all tasks of a chain at the activation of the first one, which is the earliest:
 //
-//   by time         the exact instants of a round, at the distances that the clock's corrections can shrink them to
-//   by messages     at most floor((a + J) / T) + 1 times in a window, T the shortest time between two lists where they
-//   and sensors     are sent and J by how much their way may differ from one to the next; schedules/analysis/
-//                   activation_bounds.h has what is known of both
-//   by a sensor     that waits for the task's end: the next comes R after that end at the soonest, so the executions
-//   that follows    between activations in a window are at most a C / (C + R), and one C more, with C the worst case;
-//                   schedules/analysis/sensor_loop.h has R
+//   by time         the exact instants of a round, at the shortest distances that the clock's corrections allow
+//   by messages     at most floor((a + J) / T) + 1 times in a window, T the shortest time between two lists at their
+//   and sensors     sender and J the variation of their way; schedules/analysis/activation_bounds.h has the known
+//                   pairs
+//   by a sensor     that waits for the task's end: the next activation comes at least R after that end, so the
+//   that follows    executions between activations in a window are at most a C / (C + R), and one C more, with C the
+//                   worst case; schedules/analysis/sensor_loop.h has R
 //
 // Durations are nanoseconds of the processor's own clock.
 #pragma once
@@ -31,14 +31,14 @@
 
 namespace ttf::schedules::analysis::processor {
 
-inline constexpr std::int64_t kLongestBusy_ns = 20'000'000'000;  // twice the longest deadline a file can ask for
+inline constexpr std::int64_t kLongestBusy_ns = 20'000'000'000;  // twice the longest deadline that a file allows
 
-struct ByTime {};  // at its instants in TaskChains::timed
+struct ByTime {};  // at the chain's instants in TaskChains::timed
 
-// By a sensor that waits for the end of the chain's first task.
+// Activation by a sensor that waits for the end of the chain's first task.
 struct ByFollower {
   std::int64_t best = 0, worst = 0;  // that task's execution
-  std::int64_t pause = 0;            // from its end to the next activation, at the least; above zero
+  std::int64_t pause = 0;            // least time from its end to the next activation; above zero
 
   std::int64_t shortest_round() const { return best + pause; }
 };
@@ -46,7 +46,7 @@ struct ByFollower {
 struct Chain {
   using Activation = std::variant<ByTime, ActivationBounds, ByFollower>;
 
-  std::int64_t work = 0;  // of all its tasks at worst
+  std::int64_t work = 0;  // worst case of all its tasks
   Activation activation;
 
   bool by_time() const { return std::holds_alternative<ByTime>(activation); }
@@ -57,16 +57,16 @@ struct TaskChains {
   TimedInstants timed;
 };
 
-// The longest time that the processor may be busy without a break; nothing if that may be more than `limit`, or if the
-// clock cannot be counted on.
+// Returns the longest time that the processor may be busy without a break; nullopt if that may exceed `limit`,
+// or if the clock's corrections leave no bound.
 std::optional<std::int64_t> busy_time(const TaskChains& set, std::int64_t limit);
 
-// By chain: how long before some activation the newest one of this chain was at the latest. Zero, or no leads at all,
-// where nothing is known.
+// By chain: the least time by which its newest activation precedes some instant. Zero, or no leads, if it is
+// unknown.
 using Leads = std::span<const std::int64_t>;
 
-// From a chain's activation to the end of its work at worst, with the others' leads before it. `busy` is the longest
-// busy time.
+// Returns the longest time from a chain's activation to the end of its work, given the others' leads before it.
+// `busy` is the longest busy time.
 std::int64_t worst_chain_response(const TaskChains& set, std::size_t chain, std::int64_t busy, Leads leads = {});
 
 }  // namespace ttf::schedules::analysis::processor
