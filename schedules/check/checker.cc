@@ -12,8 +12,7 @@
 namespace ttf::schedules::check {
 namespace {
 
-// FlexRay 2.1A, annex B: cdCAS in gdBit; and a bus driver's longest reaction from idle to activity (electrical physical
-// layer 2.1A, dBDRxai).
+// A bus driver's longest reaction from idle to activity (electrical physical layer 2.1A, dBDRxai).
 constexpr std::int64_t kDriverReaction_ps = 400'000;
 
 // 2 gdActionPointOffset + ceil((bits gdBitMax + delays) / (gdMacrotick (1 - cClockDeviationMax))).

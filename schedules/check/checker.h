@@ -1,13 +1,12 @@
-// Proves a cluster consistent before anything runs: what the loader cannot see key by key.
+// Proves a cluster consistent before anything runs, beyond the key-by-key tests of the loader.
 //
-// The rules and where they come from:
+// The rules and their sources:
 //   cycle        constraints 16 and 18, static slot length, action point against the assumed precision, durations of
 //                cycle, macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
-//   star         a guardian sits in a star
+//   star         a guardian needs a star
 //   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
-//   slots        nobody owns a slot another owns in the same cycle and channel; a sender is attached to the
-//                frame's channels; payload fits, behind the network management vector where the frame carries it; a
-//                PDU's fragments complete
+//   slots        one owner per slot, cycle and channel; a sender is attached to the frame's channels; the payload has
+//                room for the fragment and any network management vector; a PDU's fragments are complete
 //   dynamic      minislots that all clocks count alike, frames that end within the segment
 //                (schedules/analysis/minislots.h)
 //   CAN          frames fit, identifiers are unique, worst-case load, responses within periods
@@ -15,7 +14,7 @@
 //   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
 //                (schedules/analysis/responses.h)
 //   loops        a sensor that follows its host does so in a closed loop (schedules/analysis/sensor_loop.h)
-//   flow         every reader has a writer and the other way round, sensors have their tasks, no list goes in a ring
+//   flow         every reader has a writer and the reverse, sensors have their tasks, no list flows in a ring
 #pragma once
 
 #include <algorithm>
@@ -33,17 +32,17 @@
 
 namespace ttf::schedules::check {
 
-// Everything that is wrong, in a fixed order; empty for a cluster that may run.
+// Returns all findings in a fixed order; empty for a cluster that may run.
 std::vector<Finding> check(const model::Cluster& cluster);
 
-// Reads a cluster file (schedules/file/loader.h) and checks it: throws InputError with the findings of either.
+// Reads a cluster file (schedules/file/loader.h) and checks it. Throws InputError with the findings of either.
 model::Cluster load_checked_cluster(const std::string& path);
 
 // Collects findings about one cluster; shared by the checker's parts.
 class ClusterFindings {
  public:
   explicit ClusterFindings(const model::Cluster& cluster) : cluster_(cluster) {}
-  // About a parameter of the file, by its path ("flexray.gdNIT"): its line is looked up.
+  // Adds a finding about a parameter of the file by its path ("flexray.gdNIT"), with its line.
   void parameter(const std::string& path, const std::string& value, const std::string& expected);
   void at(int line, const std::string& key, const std::string& value, const std::string& expected);
   std::size_t size() const { return list_.size(); }
@@ -54,11 +53,11 @@ class ClusterFindings {
   std::vector<Finding> list_;
 };
 
-// "nodes.fusion.tasks.fuse"
+// Returns for example "nodes.fusion.tasks.fuse".
 std::string task_path(const model::Node& node, const model::Task& task);
-// "2.5 ms"
+// Returns for example "2.5 ms".
 std::string ms(Duration duration);
-// Of picoseconds: "0.1 us", "12.5 ns"
+// Return picoseconds as text: "0.1 us", "12.5 ns".
 std::string us(std::int64_t ps);
 std::string ns(std::int64_t ps);
 
@@ -72,12 +71,13 @@ void check_slots(const model::Cluster& cluster, ClusterFindings& findings);
 void check_dynamic(const model::Cluster& cluster, ClusterFindings& findings);  // after check_slots()
 void check_can(const model::Cluster& cluster, ClusterFindings& findings);
 void check_tasks(const model::Cluster& cluster, ClusterFindings& findings);
-// A node whose tasks passed check_tasks(): deadlines with other tasks' turns, and what its lists promise on CANs.
+// For a node whose tasks passed check_tasks(): deadlines with other tasks' executions, and the periods of its
+// CAN lists.
 void check_responses(const model::Cluster& cluster, NodeId node, ClusterFindings& findings);
 void check_flow(const model::Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
 void check_loops(const model::Cluster& cluster, ClusterFindings& findings);  // after all others
 
-// Shortest static slot that holds a frame of gPayloadLengthStatic words, in macroticks.
+// Returns the shortest static slot for a frame of gPayloadLengthStatic words, in macroticks.
 std::int64_t shortest_static_slot(const model::GlobalParameters& flexray);
 
 }  // namespace ttf::schedules::check

@@ -1,4 +1,4 @@
-// The checker's rules about clocks and who may start them: a table for each node, one for each controller, one for the
+// The checker's rules about clocks and start-up nodes: one table for nodes, one for controllers, one for the
 // cluster. A finding is about one parameter, in the order of the tables.
 #include <fmt/format.h>
 
@@ -50,7 +50,7 @@ struct Controller {
   const model::NodeParameters& p = *node.flexray;
 };
 
-// Against the node that is farthest off to the other side, counted in own microticks.
+// Assumes the other node with the largest opposite drift; counted in own microticks.
 std::int64_t least_rate_correction(const Controller& c) {
   return model::ceil_div(static_cast<Int128>(c.p.pMicroPerCycle) * (analysis::worst_drift_ppb(c.node) + c.worst_drift),
                          1'000'000'000 - c.worst_drift);
@@ -60,15 +60,15 @@ std::int64_t least_offset_correction(const Controller& c) {
   return model::ceil_div(assumed_precision_ps(c.g), c.p.pdMicrotick_ps);
 }
 
-// What an offset correction can take from the macroticks behind gOffsetCorrectionStart, in the shortest cycle that rate
-// correction makes, and still leave each of them a microtick. The external terms come on top of both corrections.
+// Returns the largest offset correction that leaves a microtick to each macrotick after gOffsetCorrectionStart,
+// in the shortest cycle after rate correction. Both corrections include their external terms.
 std::int64_t most_offset_correction(const Controller& c) {
   const std::int64_t macroticks = c.g.gMacroPerCycle - c.g.gOffsetCorrectionStart;
   return macroticks * (c.p.pMicroPerCycle - c.p.pRateCorrectionOut - c.p.pExternRateCorrection) / c.g.gMacroPerCycle -
          macroticks - c.p.pExternOffsetCorrection;
 }
 
-// The key slot is the node's own, static, on all its channels, in every cycle.
+// Checks that the key slot is static and the node's own, on all its channels, in every cycle.
 bool owns_its_key_slot(const Controller& c) {
   return std::any_of(c.cluster.frames.begin(), c.cluster.frames.end(), [&](const model::FrameSlot& frame) {
     return frame.sender == c.id && frame.slot == c.p.pKeySlotId && frame.repetition == 1 &&
@@ -151,8 +151,8 @@ constexpr Rule<Controller> kControllerRules[] = {
        return fmt::format("must be a static slot that {} owns on {} in every cycle", c.node.name,
                           c.p.pChannels == model::Channels::kAB ? "both channels" : "its channel");
      }},
-    // A node that sends in its key slot only until its host commands ALL_SLOTS must have nothing else to send: no host
-    // gives that command on its own.
+    // In single-slot mode a node sends only in its key slot until its host commands ALL_SLOTS. No host sends
+    // that command, so the node must have no other frame.
     {"pKeySlotOnlyEnabled", [](C c) { return !c.p.pKeySlotOnlyEnabled || frame_in_another_slot(c) == nullptr; },
      [](C) -> std::string { return "true"; },
      [](C c) {
@@ -164,13 +164,13 @@ constexpr Rule<Controller> kControllerRules[] = {
      }},
 };
 
-// How many nodes have a controller, how many of them keep the clocks together, and how many start them.
+// Counts the nodes with a controller, the sync nodes and the startup nodes.
 struct Members {
   int most_sync = 0;  // gSyncNodeMax
   int controllers = 0, sync = 0, startup = 0;
 };
 
-// Two nodes need both of them, more need three.
+// A cluster of two nodes needs both, a larger one three.
 int least_startup(const Members& m) { return std::clamp(m.controllers, 2, 3); }
 
 using M = const Members&;

@@ -1,5 +1,5 @@
-// The checker's rules about the dynamic segment, where frames are sent in it: minislots that everybody counts alike,
-// frames that end within it, lists whose delay has a bound where one is needed.
+// The checker's rules about a dynamic segment in use: all clocks count its minislots alike, frames end within
+// it, and delays have bounds where needed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 namespace ttf::schedules::check {
 namespace {
 
-// A transmission that begins or ends at a sender's action point begins or ends in the same minislot of every receiver's
-// clock, and the channel is seen idle before the next slot may begin (annex B: gdMinislotActionPointOffset, gdMinislot,
+// Checks that a transmission begins and ends in the same minislot on every receiver's clock, and that the
+// channel is seen idle before the next slot may begin (annex B: gdMinislotActionPointOffset, gdMinislot,
 // gdDynamicSlotIdlePhase).
 void check_grid(const model::Cluster& cluster, ClusterFindings& findings) {
   const model::GlobalParameters& g = cluster.flexray;
@@ -50,8 +50,8 @@ void check_grid(const model::Cluster& cluster, ClusterFindings& findings) {
                     phase));
 }
 
-// The longest frame of a node, begun in minislot pLatestTx, ends in the segment; its turns come before that minislot is
-// over.
+// Checks that the longest frame of a node ends in the segment if it begins in minislot pLatestTx, and that its
+// turns can come by that minislot.
 void check_sender(const model::Cluster& cluster, NodeId id, ClusterFindings& findings) {
   const model::Node& node = cluster.node(id);
   const model::GlobalParameters& g = cluster.flexray;
@@ -81,7 +81,7 @@ void check_sender(const model::Cluster& cluster, NodeId id, ClusterFindings& fin
         fmt::format("must be at most {}: {}, which must not end behind them", analysis::last_start(g, words), frame));
 }
 
-// Who counts on when the list arrives; empty: nobody does.
+// Returns the reason why the list's arrival needs a bound; empty if it needs no bound.
 std::string counted_on(const model::Cluster& cluster, const model::FrameSlot& frame) {
   if (const SensorId sensor = cluster.pdu(frame.pdu).sensor; sensor != kNoSensor)
     return fmt::format("the age of measurements of {} would have no bound", cluster.sensor(sensor).name);
@@ -121,7 +121,7 @@ void check_dynamic(const model::Cluster& cluster, ClusterFindings& findings) {
   if (senders.empty()) return;
   check_grid(cluster, findings);
   for (const NodeId sender : senders) check_sender(cluster, sender, findings);
-  std::set<PduId> unbounded;  // said once of a list
+  std::set<PduId> unbounded;  // reported once per list
   for (const model::FrameSlot& frame : cluster.frames) {
     if (!is_dynamic(g, frame) || !senders.contains(frame.sender) || frame.pdu == kNoPdu) continue;
     const std::size_t before = findings.size();

@@ -1,4 +1,4 @@
-// The checker's rules about where lists come from and go to.
+// The checker's rules about the sources and destinations of lists.
 #include <fmt/format.h>
 
 #include <compare>
@@ -37,7 +37,7 @@ std::string flow_name(const model::Cluster& cluster, const Flow& flow) {
                      flow.medium.is_can() ? cluster.can(flow.medium).name : "flexray");
 }
 
-// Who may send the list on its medium: the message's sender, or the owner of its slots.
+// Returns the node that may send the list on its medium: the message's sender, or the owner of its slots.
 std::optional<NodeId> sender_of(const model::Cluster& cluster, const Flow& flow) {
   if (flow.medium.is_can()) {
     for (const model::CanMessage& message : cluster.can(flow.medium).messages)
@@ -49,7 +49,7 @@ std::optional<NodeId> sender_of(const model::Cluster& cluster, const Flow& flow)
   return std::nullopt;
 }
 
-// A reader on FlexRay is attached to a channel of every frame of the list.
+// Checks that a reader on FlexRay is attached to a channel of every frame of the list.
 void check_hears(const model::Cluster& cluster, const End& end, const std::string& name, ClusterFindings& findings) {
   const model::Node& node = cluster.node(end.node);
   if (!node.flexray)
@@ -91,7 +91,7 @@ void check_sensor(const model::Cluster& cluster, SensorId id, ClusterFindings& f
                 "must be on FlexRay: it stamps the measurements with global time");
 }
 
-// A sensor's lists go one way: followed from any task over what it writes, they never come back to it.
+// Checks that a sensor's lists never return to a task that they passed.
 class RingFinder {
  public:
   RingFinder(const model::Cluster& cluster, const std::map<Flow, std::vector<End>>& readers, SensorId sensor,

@@ -1,4 +1,4 @@
-// The checker's rules about sensors that follow their hosts: the loop is closed, and `longest` is longer than it.
+// The checker's rules about sensors that follow their hosts: the loop is closed, and shorter than `longest`.
 #include <fmt/format.h>
 
 #include "schedules/analysis/sensor_loop.h"
@@ -7,7 +7,7 @@
 namespace ttf::schedules::check {
 
 void check_loops(const model::Cluster& cluster, ClusterFindings& findings) {
-  const bool sound = findings.size() == 0;  // rounds are known of what passed all other rules
+  const bool sound = findings.size() == 0;  // loop times are only valid after all other rules
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
     const model::Sensor& sensor = cluster.sensors[s];
     if (!sensor.follows()) continue;

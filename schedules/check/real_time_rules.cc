@@ -18,12 +18,12 @@ std::int64_t room_ps(const model::Cluster& cluster) {
   return (slots * g.gdStaticSlot - g.gdActionPointOffset) * g.gdMacrotick_ps;
 }
 
-// In the unit of picoseconds times parts per million, in which everything here is whole.
+// The unit is picoseconds times parts per million: all values are whole in it.
 Int128 scaled_ps(Duration duration) { return static_cast<Int128>(duration.ns) * 1'000 * kTimeScaleOne; }
 
 std::string us_text(Duration duration) { return scaled_text(duration.ns, 1'000) + " us"; }
 
-// "; --time-scale 1.2 and more would do"
+// Returns for example "; --time-scale 1.2 or more would do".
 std::string remedy(const model::Cluster& cluster) {
   const std::int64_t needed = smallest_time_scale(cluster, *cluster.arrival_window);
   if (needed > kLargestTimeScale)

@@ -1,5 +1,5 @@
-// The checker's rules about waiting: every task ends by its deadline and before it is activated again, and lists are
-// not sent more often than their CAN is told.
+// The checker's rules about waiting: every task ends by its deadline and before its next activation, and lists
+// are sent no more often than their CAN messages declare.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void check_task(const model::Node& node, const model::Task& task, const analysis
                     ms(response.worst), ms(*response.gap)));
 }
 
-// In true time: the node's clock may be slow.
+// Compares in true time: the node's clock may be slow.
 void check_written(const model::Cluster& cluster, const model::Node& node, const model::Task& task, Duration written,
                    ClusterFindings& findings) {
   const Duration shortest{static_cast<std::int64_t>(static_cast<Int128>(written.ns) *

@@ -1,4 +1,4 @@
-// The checker's rules about who sends what when: slots and private CANs.
+// The checker's rules about the owners of slots and the messages of private CANs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace ttf::schedules::check {
 namespace {
 
-// The frames of one list in the cycles of one base and repetition, by slot.
+// The frames of one list in the cycles of one base and repetition, ordered by slot.
 using Group = std::vector<const model::FrameSlot*>;
 using Groups = std::map<std::pair<int, int>, Group>;
 
@@ -23,8 +23,9 @@ std::string cycles_text(const model::FrameSlot& frame) {
   return fmt::format("base cycle {}, repetition {}", frame.base_cycle, frame.repetition);
 }
 
-// Each fragment once, in ascending order, and a list once in a cycle: so the last fragment is the last to leave. A slot
-// may carry the same one on both channels, or two of them, the smaller first: a list that is dealt out to both.
+// Checks that each fragment is sent once, in ascending order, and a list once in a cycle: the last fragment then
+// leaves last. A slot may carry the same fragment on both channels. It may also carry two of them, the smaller
+// first, for a list split between the channels.
 void check_order(const model::PduLayout& layout, const Groups& groups, ClusterFindings& findings) {
   const auto wrong = [&](const model::FrameSlot& frame, const std::string& expected) {
     findings.at(frame.line, fmt::format("frames.slot {}", frame.slot),
@@ -34,7 +35,7 @@ void check_order(const model::PduLayout& layout, const Groups& groups, ClusterFi
     const Group& frames = group->second;
     for (std::size_t i = 1; i < frames.size(); ++i) {
       const model::FrameSlot &before = *frames[i - 1], &frame = *frames[i];
-      // One slot may be given channel by channel.
+      // A file may list one slot channel by channel.
       const bool repeated = frame.slot == before.slot && frame.fragment == before.fragment;
       if (repeated || frame.fragment > before.fragment) continue;
       wrong(frame,
@@ -95,7 +96,7 @@ void check_list(const model::Cluster& cluster, PduId pdu, ClusterFindings& findi
   }
 }
 
-// A slot there is, and what its segment asks for.
+// Checks that the slot exists and meets the demands of its segment.
 void check_segment(const model::Cluster& cluster, const model::FrameSlot& frame, const std::string& key,
                    ClusterFindings& findings) {
   const model::GlobalParameters& g = cluster.flexray;
@@ -112,7 +113,7 @@ void check_segment(const model::Cluster& cluster, const model::FrameSlot& frame,
                     g.gNumberOfStaticSlots));
 }
 
-// What the frame carries fits its payload: the fragment, behind the network management vector where there is one.
+// Checks that the payload has room for the fragment, after any network management vector.
 void check_payload(const model::Cluster& cluster, const model::FrameSlot& frame, const std::string& key,
                    ClusterFindings& findings) {
   const model::GlobalParameters& g = cluster.flexray;
@@ -125,7 +126,7 @@ void check_payload(const model::Cluster& cluster, const model::FrameSlot& frame,
       findings.at(frame.line, key,
                   fmt::format("{} ({} bytes)", cluster.pdu(frame.pdu).name, cluster.pdu(frame.pdu).fragment_bytes),
                   fmt::format("must have at most {} bytes behind its message id", most));
-    return;  // as long as its fragment
+    return;  // a dynamic frame is as long as its fragment
   }
   if (frame.message_id)
     findings.at(frame.line, key, fmt::format("message_id: {}", *frame.message_id),
@@ -165,7 +166,8 @@ void check_slots(const model::Cluster& cluster, ClusterFindings& findings) {
                               channels_text(sender.flexray->pChannels), sender.name));
     if (frame.pdu != kNoPdu) lists.insert(frame.pdu);
     check_payload(cluster, frame, key, findings);
-    // Frames are ordered by slot, so the others of this one stand right before it. One owner too many is enough to say.
+    // Frames are ordered by slot, so other frames of this slot stand right before it. One conflict per frame is
+    // reported.
     for (std::size_t j = i; j-- > 0 && cluster.frames[j].slot == frame.slot;) {
       const model::FrameSlot& other = cluster.frames[j];
       if (!share_a_channel(other.channels, frame.channels) || !share_a_cycle(other, frame)) continue;
@@ -201,7 +203,7 @@ void check_can(const model::Cluster& cluster, ClusterFindings& findings) {
       if (!pdus.insert(message.pdu).second)
         findings.at(message.line, key, layout.name, "must be sent by one message of its CAN only");
     }
-    if (!all_fit) continue;  // no load without lengths
+    if (!all_fit) continue;  // without lengths the load is unknown
     const double load = analysis::can_worst_load(cluster, bus);
     if (load > analysis::kCanLoadLimit) {
       findings.at(bus.line, path, fmt::format("worst-case load {:.1f} %", 100.0 * load),
@@ -209,7 +211,7 @@ void check_can(const model::Cluster& cluster, ClusterFindings& findings) {
       continue;  // responses may have no bound
     }
     for (const model::CanMessage& message : bus.messages) {
-      // What makes the response a bound: no second list of the message while the first is on its way.
+      // The response is a bound only if no second list of the message is queued while the first is on its way.
       const auto response = analysis::can_worst_response(cluster, bus, message);
       if (response && *response > message.shortest_period)
         findings.at(

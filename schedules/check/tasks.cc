@@ -1,4 +1,4 @@
-// The checker's rules about tasks: when they are activated, how long they take.
+// The checker's rules about tasks: their activations and execution times.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,20 +14,21 @@
 namespace ttf::schedules::check {
 namespace {
 
-// Do two periodic intervals, each shorter than its period, meet? Their starts differ by `distance` modulo the shorter
-// period: repetitions are powers of two.
+// Returns whether two periodic intervals, each shorter than its period, overlap. Their starts differ by `from_a`
+// modulo the shorter period, since repetitions are powers of two.
 bool meet(const model::GlobalParameters& flexray, const model::Task& a, const model::Task& b) {
   const model::CycleInstant &x = a.activation.at, &y = b.activation.at;
   const std::int64_t cycle_ns = flexray.cycle_ps() / 1000;
   const std::int64_t period = cycle_ns * std::min(x.repetition, y.repetition);
   const std::int64_t start_a = time_of(flexray, x.base_cycle, x.offset).ns;
   const std::int64_t start_b = time_of(flexray, y.base_cycle, y.offset).ns;
-  const std::int64_t from_a = ((start_b - start_a) % period + period) % period;  // a's start to the next start of b
+  const std::int64_t from_a =
+      ((start_b - start_a) % period + period) % period;  // from the start of a to the next start of b
   return from_a < a.worst_case.ns || period - from_a < b.worst_case.ns;
 }
 
-// The shortest time between two lists that activate the task, where they are sent, or written if that is less often;
-// zero where nothing is known.
+// Returns the shortest time between two lists that activate the task, at their sending, or at their writing if
+// that is less often; zero if it is unknown.
 Duration shortest_period(const model::Cluster& cluster, const model::Task& task, const model::PortBinding& binding) {
   if (binding.medium.is_can()) {
     for (const model::CanMessage& message : cluster.can(binding.medium).messages)
@@ -66,7 +67,7 @@ void check_activation(const model::Cluster& cluster, NodeId id, const model::Tas
         break;
       }
       const Duration period = shortest_period(cluster, task, *read);
-      // A sensor that waits for the task's end sends nothing before.
+      // A sensor that waits for the task's end sends no list before it.
       const bool waited_for = analysis::loop_through(cluster, id, task).has_value();
       if (period > Duration{} && task.worst_case > period && !waited_for)
         findings.parameter(
@@ -86,7 +87,7 @@ void check_activation(const model::Cluster& cluster, NodeId id, const model::Tas
       break;
     }
     case model::ActivationKind::kCompletion: {
-      // Followed to its beginning, a chain of completions must end at another kind of activation.
+      // The first task of a chain of completions must have another kind of activation.
       const model::Task* at = &task;
       for (std::size_t steps = 0; at && at->activation.kind == model::ActivationKind::kCompletion; ++steps) {
         const auto before = std::find_if(node.tasks.begin(), node.tasks.end(), [&](const model::Task& candidate) {
