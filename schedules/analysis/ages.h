@@ -17,8 +17,8 @@
 //                that all of this fits the cycle.
 // Assumptions:
 //   A1  no faults: no lost frame, no missed deadline, no list replaced before it is read
-//   A2  the cluster's clocks agree to gAssumedPrecision plus one macrotick; unsynchronised spans, and global time against
-//       true time, have the largest drift of the nodes. So the bounds hold on any clock.
+//   A2  the cluster's clocks agree to gAssumedPrecision plus one macrotick; unsynchronised spans, and global time
+//       against true time, have the largest drift of the nodes. So the bounds hold on any clock.
 //   A3  a measurement is fused as soon as the fusion node has it (ADVA, TT); BUFF's waiting is bounded separately
 //   A4  one processor per node without preemption, first come first served; schedules/analysis/responses.h bounds
 //       the wait

@@ -22,8 +22,7 @@ bool meet(const model::GlobalParameters& flexray, const model::Task& a, const mo
   const std::int64_t period = cycle_ns * std::min(x.repetition, y.repetition);
   const std::int64_t start_a = time_of(flexray, x.base_cycle, x.offset).ns;
   const std::int64_t start_b = time_of(flexray, y.base_cycle, y.offset).ns;
-  const std::int64_t from_a =
-      ((start_b - start_a) % period + period) % period;  // from the start of a to the next start of b
+  const std::int64_t from_a = ((start_b - start_a) % period + period) % period;  // a's start to the next start of b
   return from_a < a.worst_case.ns || period - from_a < b.worst_case.ns;
 }
 

@@ -15,7 +15,7 @@
 namespace ttf::schedules::exchange {
 namespace {
 
-// A C identifier that none of `taken` is, as much like `name` as can be.
+// Returns a C identifier as similar to `name` as possible that is not in `taken`.
 std::string identifier_like(std::string_view name, std::set<std::string>& taken) {
   std::string text;
   for (const char c : name) {
@@ -30,14 +30,14 @@ std::string identifier_like(std::string_view name, std::set<std::string>& taken)
   return unique;
 }
 
-// Strings have no escape in this format.
+// Replaces quotes and control characters: strings have no escape in this format.
 std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? '\'' : static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   return out + '"';
 }
 
-// What travels with identifier 0 on the interfaces of the FlexRay channels (docs/socketcan.md), by its first byte.
+// The content of identifier 0 on the interfaces of the FlexRay channels (docs/socketcan.md), by its first byte.
 struct OnChannel {
   int kind;
   std::string_view name, unit;
@@ -146,10 +146,11 @@ class DbcWriter {
       });
       if (reads) text += (text.empty() ? "" : ",") + nodes_[n];
     }
-    return text.empty() ? "Vector__XXX" : text;  // what the format calls nobody
+    return text.empty() ? "Vector__XXX" : text;  // the format's word for no receiver
   }
 
-  // A big-endian signal is named by its most significant bit; bits count up from each byte's least significant one.
+  // A big-endian signal stands at its most significant bit; bits count up from each byte's least significant
+  // one.
   void put_signal(const model::Signal& signal, int first_bit, const std::string& name, const std::string& receivers) {
     text_ += fmt::format(" SG_ {} : {}|{}@0+ ({},{}) [{}|{}] {} {}\n", name, first_bit / 8 * 8 + 7 - first_bit % 8,
                          signal.bits, signal.resolution, signal.low, signal.low, signal.high, in_quotes(signal.unit),
@@ -227,7 +228,7 @@ class DbcWriter {
   std::vector<std::string> nodes_;  // by node
   std::vector<Message> messages_;
   std::vector<Line> lines_;
-  std::string channels_;  // the message of the FlexRay channels; empty: none
+  std::string channels_;  // the message of the FlexRay channels, or empty
   std::set<std::string> node_names_, message_names_;
   std::string text_;
 };

@@ -1,21 +1,22 @@
-// A cluster's private CANs as a DBC file, for the tools that decode CAN with one: cantools, SavvyCAN, CANdb++ and
+// Writes a cluster's private CANs as a DBC file, for tools that decode CAN: cantools, SavvyCAN, CANdb++ and
 // others.
 //
-// One message per CAN message of the cluster file, one frame of it being one fragment of a list; its length is the
-// frame's, CAN FD's padding included. Signals are the list's header, then each element's with the element's place in
-// the frame behind the name (x_0, y_0, x_1, ...); all unsigned and big-endian (Motorola), physical = offset + factor
-// * raw. Receivers are the nodes with a task that reads the list from this CAN. What the format has no place for is
-// in comments: fragments, and the shortest period; and in attributes: which CAN a message is on, and that it is a CAN
-// FD frame.
+// Each CAN message of the cluster file is one message: one fragment of a list per frame, as long as the frame,
+// with CAN FD's padding. Its signals are those of the list's header, then those of each element, with the
+// element's index in the frame appended (x_0, y_0, x_1, ...). All are unsigned and big-endian (Motorola),
+// physical = offset + factor * raw. Receivers are the nodes with a task that reads the list from this CAN.
+// Comments hold the fragments and the shortest period; attributes hold the CAN of a message, and its CAN FD
+// format.
 //
-// Two messages more per sensor, NAME_strobe and NAME_trigger on the CAN of its raw data, are its wires in real time
-// (sensor_lines.h); those whose identifiers the cluster's messages have are left out.
+// Each sensor adds two messages on the CAN of its raw data, NAME_strobe and NAME_trigger: its wires in real time
+// (sensor_lines.h). A message whose identifier the cluster already uses is left out.
 //
-// Identifier 0, if no CAN of the cluster uses it, is what has that identifier where the FlexRay channels are on CAN FD
-// (docs/socketcan.md): symbols and follow-ups, told apart by a multiplexor. It is in files of all CANs only.
+// Identifier 0, if unused by the cluster's CANs, describes the frames with that identifier on FlexRay channels
+// over CAN FD (docs/socketcan.md): symbols and follow-ups, distinguished by a multiplexor. Only files of all
+// CANs have it.
 //
-// The format has no public standard; what is written is its common core. Names are C identifiers there: other
-// characters become '_', and a name that another has already gets a number.
+// The format has no public standard; this is its common core. Its names are C identifiers: other characters
+// become '_', and a repeated name gets a number.
 #pragma once
 
 #include <string>
@@ -24,9 +25,8 @@
 
 namespace ttf::schedules::exchange {
 
-// The same bytes for the same cluster. A DBC file has one message per identifier: without `can`, the name of one of
-// its CANs, all of them are written, and two with messages of one identifier end in an InputError, as does a name
-// that no CAN has.
+// Returns the same bytes for the same cluster. `can` selects one of its CANs; empty selects all of them. Throws
+// InputError for a name of no CAN, and for two messages with one identifier, which a DBC file cannot have.
 std::string dbc_text(const model::Cluster& cluster, const std::string& can = "");
 
 }  // namespace ttf::schedules::exchange

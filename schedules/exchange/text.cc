@@ -21,8 +21,8 @@ std::string cycles_text(int base_cycle, int repetition) {
   return fmt::format("cycles {} + n*{}", base_cycle, repetition);
 }
 
-// The cycle to scale: S static slots in use, s free ones, D what dynamic frames can take at most, d the rest of their
-// segment, w symbol window (a column at least), n network idle time.
+// Draws the cycle to scale: S static slots in use, s free ones, D the most that dynamic frames can take, d the
+// rest of their segment, w symbol window (at least one column), n network idle time.
 std::string bar(const model::Cluster& cluster) {
   constexpr int kWidth = 96;
   const model::GlobalParameters& g = cluster.flexray;
@@ -49,8 +49,8 @@ std::string bar(const model::Cluster& cluster) {
   return text;
 }
 
-// From the beginning of its slot to the end of the last of a row; of a dynamic one, at the earliest and at the latest,
-// but never beyond the segment.
+// Returns the macroticks from the start of the first slot to the end of the last. For dynamic slots these are
+// the earliest start and the latest end, within the segment.
 std::pair<std::int64_t, std::int64_t> macroticks(const model::Cluster& cluster, const model::FrameSlot& first,
                                                  const model::FrameSlot& last) {
   const model::GlobalParameters& g = cluster.flexray;
@@ -79,8 +79,8 @@ std::string activation_text(const model::Cluster& cluster, const model::Task& ta
   return {};
 }
 
-// Fragments of one list in slots one behind the other. Others may stand between them in the file's order: those of
-// other cycles, and of a list that is dealt out to both channels those on the other one.
+// Fragments of one list in successive slots. Other frames may stand between them in file order: those of other
+// cycles, and for a list split between the channels those of the other channel.
 struct FrameRun {
   const model::FrameSlot* last = nullptr;
   int step = 1;

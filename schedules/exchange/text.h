@@ -1,4 +1,5 @@
-// A cluster's schedule as text: the cycle, who sends what in which slot, and when which task runs.
+// Writes a cluster's schedule as text: the cycle, the slots with their senders, and the tasks with their
+// instants.
 #pragma once
 
 #include <string>
@@ -7,8 +8,8 @@
 
 namespace ttf::schedules::exchange {
 
-// Several lines, at most about 100 columns. Consecutive slots with the fragments of one list share a line. The cluster
-// must have passed check().
+// Returns several lines of at most about 100 columns. Consecutive slots with the fragments of one list share a
+// line. The cluster must have passed check().
 std::string show_text(const model::Cluster& cluster);
 
 }  // namespace ttf::schedules::exchange

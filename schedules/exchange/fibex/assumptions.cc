@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
 
-// The legal value next to `value`.
+// Sets the parameter to the legal value closest to `value`.
 template <class Parameters, class Table>
 void set_next_to(Parameters& parameters, const Table& table, std::string_view name, std::int64_t value) {
   for (const auto& p : table)
@@ -50,7 +50,7 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
     if (!given(p.name) && (g.*p.member < p.low || g.*p.member > p.high))
       missing(fmt::format("parameters from which {} follows in {}..{} {}", p.name, scaled_text(p.low, p.scale),
                           scaled_text(p.high, p.scale), p.unit));
-  // Constraint 18: what is left of the cycle.
+  // Constraint 18: the rest of the cycle.
   const int action_points =
       g.gNumberOfMinislots == 0 ? 0 : std::max(g.gdActionPointOffset - g.gdMinislotActionPointOffset, 0);
   if (!given("gdNIT"))
@@ -78,8 +78,7 @@ model::NodeParameters assume_local(const FibexEcu& ecu, const model::GlobalParam
   const auto assume = [&](std::string_view parameter, std::int64_t value) {
     if (!given(parameter)) set_next_to(p, file::kNodeIntegers, parameter, value);
   };
-  // pSamplesPerMicrotick = 8 pdMicrotick / gdBit; a common microtick is 25 ns, or one sample where that is
-  // longer.
+  // pSamplesPerMicrotick = 8 pdMicrotick / gdBit; a common microtick is 25 ns, or one sample if that is longer.
   const std::int64_t sample_ps = std::max<std::int64_t>(global.gdBit_ps / model::kSamplesPerBit, 1);
   if (!given("pdMicrotick"))
     p.pdMicrotick_ps = given("pSamplesPerMicrotick")
@@ -87,8 +86,8 @@ model::NodeParameters assume_local(const FibexEcu& ecu, const model::GlobalParam
                            : std::clamp<std::int64_t>(sample_ps, 25'000, 50'000);
   assume("pSamplesPerMicrotick", p.pdMicrotick_ps / sample_ps);
   assume("pMicroPerCycle", global.cycle_ps() / p.pdMicrotick_ps);
-  // Two clocks off by cClockDeviationMax = 0.0015 to either side: 0.003 / (1 - 0.0015) of a cycle apart after
-  // one.
+  // Two clocks with opposite drifts of cClockDeviationMax = 0.0015 differ by 0.003 / (1 - 0.0015) of a cycle
+  // after one cycle.
   const std::int64_t drift = ecu.max_drift.value_or(model::ceil_div(std::int64_t{p.pMicroPerCycle} * 6, 1997));
   assume("pRateCorrectionOut", drift);
   assume("pdListenTimeout", 2 * (p.pMicroPerCycle + drift));

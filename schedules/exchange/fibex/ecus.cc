@@ -1,4 +1,5 @@
-// ECUs of a FIBEX file: their controllers' parameters, and what they send and receive on the cluster's channels.
+// The ECUs of a FIBEX file: parameters of their controllers, and their inputs and outputs on the cluster's
+// channels.
 #include <set>
 
 #include "schedules/exchange/fibex/file.h"
@@ -7,7 +8,7 @@
 namespace ttf::schedules::exchange::fibex {
 namespace {
 
-// STARTUP-SYNC and SYNC hold the slot; NONE none, which our own extension adds.
+// STARTUP-SYNC and SYNC contain the slot; for NONE it is in our own extension.
 void read_key_slot(XmlElement& controller, FibexEcu& out, FibexReader& reader) {
   static constexpr FibexParameter kKeySlot[] = {
       {"pKeySlotId", "flexray:STARTUP-SYNC"}, {"pKeySlotId", "flexray:SYNC"}, {"pKeySlotId", "ttf:KEY-SLOT-ID"}};
@@ -31,7 +32,7 @@ void read_controller(XmlElement& controller, FibexEcu& out, FibexReader& reader)
   controller.ignore("ho:SHORT-NAME");
   read_key_slot(controller, out, reader);
   reader.parameters(controller, kFibexController, out.parameters, out.given);
-  // Both follow from others, if these are there.
+  // Both follow from other parameters, if these are present.
   if (controller.has("flexray:MAX-DRIFT"))
     out.max_drift = reader.integer(controller, "flexray:MAX-DRIFT", kLeastMaxDrift, kMostMaxDrift);
   if (controller.has("flexray:MICRO-PER-MACRO-NOM"))
@@ -41,8 +42,8 @@ void read_controller(XmlElement& controller, FibexEcu& out, FibexReader& reader)
   controller.finish();
 }
 
-// Whether a connector is a plug of the ECU's FlexRay controller on the cluster. Where it does not say of which
-// controller or channel it is, it is.
+// Returns whether a connector belongs to the ECU's FlexRay controller on the cluster. A missing reference to a
+// controller or channel counts as a match.
 bool is_of_the_cluster(XmlElement& connector, const std::set<std::string>& controllers, const std::string& controller,
                        const ChannelIds& channels, FibexReader& reader) {
   const std::string of = connector.reference("fx:CONTROLLER-REF"), on = connector.reference("fx:CHANNEL-REF");
@@ -59,7 +60,7 @@ bool is_of_the_cluster(XmlElement& connector, const std::set<std::string>& contr
   return false;
 }
 
-// A connector is a node's plug on one channel. One that names none says nothing of pChannels.
+// A connector attaches a node to one channel. Without a channel it does not affect pChannels.
 void read_attachment(XmlElement& connector, const ChannelIds& channels, unsigned& attached, FibexEcu& out,
                      FibexReader& reader) {
   const bool wakes = connector.has("flexray:WAKE-UP-CHANNEL");
@@ -110,7 +111,7 @@ FibexEcu read_ecu(XmlElement& ecu, const ChannelIds& channels, FibexReader& read
     ports("fx:OUTPUTS", "fx:OUTPUT-PORT", one.sends);
     connector.finish();
   }
-  if (elsewhere) one.has_controller = false;  // on another cluster, as far as this one knows
+  if (elsewhere) one.has_controller = false;  // on another cluster
   if (attached != 0) {
     one.parameters.pChannels = static_cast<model::Channels>(attached);
     one.given.insert("pChannels");

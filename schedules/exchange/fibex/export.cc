@@ -144,7 +144,7 @@ class Exporter {
     }
   }
 
-  // A node takes in the frames of every list that one of its tasks reads from FlexRay.
+  // Returns whether a task of the node reads the frame's list from FlexRay.
   bool receives(const model::Node& node, const model::FrameSlot& frame) const {
     if (frame.pdu == kNoPdu) return false;
     for (const model::Task& task : node.tasks)

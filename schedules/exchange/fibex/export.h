@@ -1,9 +1,9 @@
-// A cluster as a FIBEX 3.1 file (ASAM MCD-2 NET): its FlexRay side, for the tools that read FIBEX.
+// Writes the FlexRay side of a cluster as a FIBEX 3.1 file (ASAM MCD-2 NET), for tools that read FIBEX.
 //
-// Parameters stand where schedules/exchange/fibex/parameters.h says, lists as schedules/exchange/fibex/lists.h says.
-// Each slot is a frame and a triggering per channel; a node is an ECU with one controller and a connector per channel,
-// whose ports say what it sends and what its tasks read. Not in the file, for FIBEX has no place for it:
-// tasks, sensors and drifts; and the CANs.
+// schedules/exchange/fibex/parameters.h has the places of parameters, schedules/exchange/fibex/lists.h those of
+// lists. Each slot is a frame and a triggering per channel. A node is an ECU with one controller and a connector
+// per channel, with ports for the frames it sends and those its tasks read. FIBEX has no place for tasks,
+// sensors and drifts; these and the CANs are not in the file.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace ttf::schedules::exchange::fibex {
 
-// The same bytes for the same cluster. The cluster should be proved consistent (schedules/check/checker.h).
+// Returns the same bytes for the same cluster, which should have passed schedules/check/checker.h.
 std::string fibex_text(const model::Cluster& cluster);
 
 }  // namespace ttf::schedules::exchange::fibex

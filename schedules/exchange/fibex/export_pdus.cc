@@ -8,7 +8,7 @@
 namespace ttf::schedules::exchange::fibex {
 namespace {
 
-// In the order of first use.
+// Returns the units in the order of first use.
 std::vector<std::string> units_of(const model::Cluster& cluster) {
   std::vector<std::string> units;
   for (const model::PduLayout& pdu : cluster.pdus)
@@ -35,8 +35,8 @@ std::string coding_id(std::size_t pdu, bool header, std::size_t signal) {
   return fmt::format("coding_{}_{}_{}", pdu, header ? "header" : "element", signal);
 }
 
-// Where a signal stands whose most significant bit is `offset` bits from the start: sawtooth counting,
-// high-low order.
+// Returns the position of a signal with its most significant bit `offset` bits from the start: sawtooth
+// counting, high-low order.
 int position_of(int offset) { return offset / 8 * 8 + 7 - offset % 8; }
 
 void put_instance(pugi::xml_node to, const std::string& signal, int offset) {
@@ -54,7 +54,7 @@ pugi::xml_node put_pdu(pugi::xml_node pdus, const std::string& id, const std::st
   return one;
 }
 
-// Whole bytes: the same in either byte order.
+// Whole bytes are the same in either byte order.
 void put_segment(pugi::xml_node part, int first_bit, int bits) {
   pugi::xml_node segment = part.append_child("fx:SEGMENT-POSITIONS").append_child("fx:SEGMENT-POSITION");
   put(segment, "fx:BIT-POSITION", std::to_string(first_bit));
@@ -107,7 +107,7 @@ void put_coding(pugi::xml_node codings, const std::string& id, const std::string
   };
   limit("ho:LOWER-LIMIT", signal.low);
   limit("ho:UPPER-LIMIT", signal.high);
-  // physical = (low + resolution * raw) / 1; the shortest decimals that give the same numbers again.
+  // physical = (low + resolution * raw) / 1, as the shortest decimals that parse to the same numbers.
   pugi::xml_node coefficients = method.append_child("ho:COMPU-INTERNAL-TO-PHYS")
                                     .append_child("ho:COMPU-SCALES")
                                     .append_child("ho:COMPU-SCALE")

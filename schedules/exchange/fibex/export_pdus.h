@@ -1,5 +1,5 @@
-// The parts of the FIBEX export about PDUs, signals and codings (schedules/exchange/fibex/lists.h), and what all parts
-// put elements with.
+// The parts of the FIBEX export for PDUs, signals and codings (schedules/exchange/fibex/lists.h), and helpers of
+// all parts.
 #pragma once
 
 #include <pugixml.hpp>
@@ -10,7 +10,7 @@
 
 namespace ttf::schedules::exchange::fibex {
 
-// Each appends one child and gives it back.
+// Each appends one child and returns it.
 pugi::xml_node put(pugi::xml_node to, std::string_view name, const std::string& text);
 pugi::xml_node put_reference(pugi::xml_node to, std::string_view name, const std::string& id);
 pugi::xml_node put_named(pugi::xml_node to, std::string_view name, const std::string& id, const std::string& short_name,

@@ -57,7 +57,7 @@ bool FibexReader::boolean(XmlElement& element, std::string_view name, bool other
 std::vector<double> FibexReader::numbers(XmlElement& element, std::string_view name) {
   std::vector<double> found;
   for (XmlElement& child : element.children(name)) {
-    child.ignore("@INTERVAL-TYPE");  // all limits are read as closed ones
+    child.ignore("@INTERVAL-TYPE");  // all limits count as closed
     const std::string text = child.text();
     child.finish();
     double value = 0.0;
@@ -94,7 +94,7 @@ namespace {
 constexpr int kLastSlotId = 2047;  // cSlotIDMax
 constexpr std::int64_t kPsPerUs = 1'000'000;
 
-// An eighth of gdBit (cSamplesPerBit), which is read, or else derived from the bit rate.
+// Checks that the period is an eighth of gdBit (cSamplesPerBit), which is read or derived from the bit rate.
 void read_sample_clock(XmlElement& cluster, const FibexFile& file, FibexReader& reader) {
   constexpr std::int64_t kShortest = 12'500, kLongest = 50'000;  // ps, gdSampleClockPeriod
   auto period = cluster.child("flexray:SAMPLE-CLOCK-PERIOD");
@@ -156,7 +156,7 @@ void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
     out.channels.insert(one.attribute("ID-REF"));
     one.finish();
   }
-  cluster.ignore("fx:MEDIUM");  // electrical or optical: its delays are parameters of their own
+  cluster.ignore("fx:MEDIUM");  // electrical or optical: its delays are separate parameters
   if (const auto policy = cluster.text_of("fx:BIT-COUNTING-POLICY"); policy && *policy != "SAWTOOTH")
     reader.fail(cluster, *policy, "must have the BIT-COUNTING-POLICY SAWTOOTH: no other is understood");
   if (!reader.boolean(cluster, "fx:IS-HIGH-LOW-BIT-ORDER", true))
@@ -180,7 +180,7 @@ void read_timing(XmlElement& timing, FibexTriggering& out, FibexReader& reader) 
   timing.finish();
 }
 
-// Which of the two it is; nothing where it does not say.
+// Returns channel A or B; nullopt if the file does not name it.
 std::optional<model::Channel> read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
   const std::string name = channel.text_of("flexray:FLEXRAY-CHANNEL-NAME").value_or("");
   channel.ignore("ho:SHORT-NAME");
@@ -210,7 +210,7 @@ bool is_understood(const std::string& version) {
   return digits && version.size() > 1 && version[0] >= '2' && version[0] <= '4' && version[1] == '.';
 }
 
-// The channels of the cluster; those of another are none of its own.
+// Reads the channels of the cluster and leaves out those of others.
 ChannelIds read_channels(XmlElement& elements, FibexFile& out, FibexReader& reader) {
   ChannelIds channels;
   for (XmlElement& channel : elements.children_of("fx:CHANNELS", "fx:CHANNEL")) {

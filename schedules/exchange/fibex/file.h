@@ -1,9 +1,9 @@
-// What a FIBEX file says about one FlexRay cluster, element by element, before any of it is understood as
-// slots and lists (schedules/exchange/fibex/import.h). References are kept as the ids of the file.
+// The content of a FIBEX file about one FlexRay cluster, element by element, before
+// schedules/exchange/fibex/import.h interprets it as slots and lists. References keep the ids of the file.
 //
-// Bit positions in a PDU count as FIBEX' SAWTOOTH policy does: bit 0 is the least significant bit of byte 0,
-// bit 8 of byte 1. A signal in high-low byte order stands at its most significant bit, one in low-high order
-// at its least significant.
+// Bit positions in a PDU follow FIBEX' SAWTOOTH policy: bit 0 is the least significant bit of byte 0, bit 8 of
+// byte 1. A signal in high-low byte order stands at its most significant bit, one in low-high order at its least
+// significant bit.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@
 
 namespace ttf::schedules::exchange::fibex {
 
-// How a signal's raw number is meant. `unlike` says why our signals cannot mean it, or is empty.
+// The meaning of a signal's raw number. `unlike` is the reason why our signals cannot express it, or empty.
 struct FibexCoding {
   model::Signal meaning;  // without name: unit, bits, low, high, resolution
   std::string unlike;
@@ -35,8 +35,8 @@ struct FibexSignal {
   bool high_low = true;
   int line = 0;
 
-  // Bits from the PDU's first bit (the most significant of byte 0) to the signal's most significant one;
-  // nothing for a low-high signal over more than one byte, which is not contiguous in that order.
+  // Bits from the PDU's first bit (the most significant of byte 0) to the signal's most significant bit. Nullopt
+  // for a low-high signal over more than one byte: it is not contiguous in that order.
   std::optional<int> offset() const;
 };
 
@@ -46,15 +46,15 @@ struct FibexMultiplexer {
   int dynamic_position = 0;                                   // of its one segment
   std::vector<std::pair<std::int64_t, std::string>> layouts;  // switch code, PDU
   std::string static_pdu;
-  std::string unlike;  // what of it is not kept here, or empty
+  std::string unlike;  // parts that this struct cannot hold, or empty
 };
 
 struct FibexPdu {
   std::string id, name;
   int bytes = 0;
-  std::vector<FibexSignal> signals;  // in the order of their bits, as far as they have an offset
+  std::vector<FibexSignal> signals;  // in the order of their bits if they have an offset
   std::optional<FibexMultiplexer> multiplexer;
-  std::optional<int> max_elements;  // of our own extension
+  std::optional<int> max_elements;  // in our own extension
   int line = 0;
 };
 
@@ -66,7 +66,7 @@ struct FibexFrame {
   std::string id, name;
   int bytes = 0;
   std::vector<Place> places;
-  std::optional<int> fragment;  // these three of our own extension
+  std::optional<int> fragment;  // these three are in our own extension
   bool network_management = false;
   std::optional<int> message_id = std::nullopt;
   int line = 0;
@@ -82,7 +82,7 @@ struct FibexTriggering {
 struct FibexEcu {
   std::string name;
   model::NodeParameters parameters;
-  std::set<std::string, std::less<>> given;  // names of parameters that the file states
+  std::set<std::string, std::less<>> given;  // names of parameters stated in the file
   bool has_controller = false;
   std::vector<std::string> sends, receives;  // ids of frame triggerings
   std::optional<int> max_dynamic_words;      // MAX-DYNAMIC-PAYLOAD-LENGTH
@@ -93,40 +93,40 @@ struct FibexEcu {
 
 struct FibexFile {
   std::string cluster_name;
-  model::Topology topology = model::Topology::kBus;  // these two of our own extension
+  model::Topology topology = model::Topology::kBus;  // these two are in our own extension
   bool guardian = false;
   model::GlobalParameters global;
-  std::set<std::string, std::less<>> given;  // names of parameters that the file states
+  std::set<std::string, std::less<>> given;  // names of parameters stated in the file
   int cluster_line = 0;
-  std::set<std::string> channels;  // ids of CHANNEL-REFS; none: all FlexRay channels of the file are its own
+  std::set<std::string> channels;  // ids of CHANNEL-REFS; empty: all FlexRay channels of the file are its own
   std::vector<FibexEcu> ecus;
   std::vector<FibexTriggering> triggerings;  // in the order of the file
   std::vector<FibexFrame> frames;
   std::vector<FibexPdu> pdus;
 };
 
-// What is wrong goes to `wrong`, what is not understood to `left_out`.
+// Adds errors to `wrong` and unknown content to `left_out`.
 FibexFile read_fibex(const XmlFile& file, Findings& wrong, Findings& left_out);
 
-// The parts of read_fibex (fibex_file.cc, fibex_ecus.cc, fibex_signals.cc), and what they share.
+// The helpers shared by the parts of read_fibex (file.cc, ecus.cc, signals.cc).
 class FibexReader {
  public:
   FibexReader(const std::string& file, Findings& wrong, Findings& left_out)
       : file_(file), wrong_(wrong), left_out_(left_out) {}
 
-  // SHORT-NAME, or else the ID; one of them must be there, and printable.
+  // Returns SHORT-NAME, or the ID if that is absent. One of them must be present and printable.
   std::string name_of(XmlElement& element);
-  // A whole number in a child; `otherwise` where the child is absent.
+  // Returns a whole number in a child; `otherwise` for an absent child.
   int integer(XmlElement& element, std::string_view name, int low, int high, std::optional<int> otherwise = {});
-  // "true", "false", "1", "0".
+  // Returns a boolean in a child: "true", "false", "1", "0"; `otherwise` for an absent child.
   bool boolean(XmlElement& element, std::string_view name, bool otherwise);
-  // All children of that name, and the one there should be.
+  // Return the numbers in all children of that name, and the number in the only one.
   std::vector<double> numbers(XmlElement& element, std::string_view name);
   std::optional<double> number(XmlElement& element, std::string_view name);
 
-  // By its xsi:type, or, where it has none, by an element that only FlexRay has.
+  // Decides by its xsi:type; without one, by an element that only FlexRay has.
   bool is_flexray(XmlElement& element, std::string_view type, std::string_view witness);
-  // Sets the parameters whose elements are there.
+  // Sets the parameters with an element in the file.
   template <class Parameters, std::size_t kCount>
   void parameters(XmlElement& element, const FibexParameter (&table)[kCount], Parameters& parameters,
                   std::set<std::string, std::less<>>& given) {
@@ -151,7 +151,7 @@ class FibexReader {
   Findings& left_out_;
 };
 
-// Channels by the ids of their elements.
+// Maps ids of elements to channels.
 using ChannelIds = std::map<std::string, model::Channel>;
 
 std::vector<FibexEcu> read_ecus(XmlElement& elements, const ChannelIds& channels, FibexReader& reader);

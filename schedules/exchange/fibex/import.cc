@@ -64,7 +64,7 @@ class Importer {
   }
 
   void take_lists() {
-    std::set<std::string> parts;  // of lists: said with them
+    std::set<std::string> parts;  // parts of lists, which are reported with them
     std::vector<const FibexPdu*> others;
     std::map<std::string, int> names;
     for (const FibexPdu& pdu : file_.pdus) {
@@ -84,7 +84,7 @@ class Importer {
     }
   }
 
-  // ECUs that have something to do with the cluster.
+  // Takes the ECUs that are on the cluster.
   void take_nodes() {
     std::set<std::string> triggered;
     for (const FibexTriggering& one : file_.triggerings) triggered.insert(one.id);
@@ -111,7 +111,7 @@ class Importer {
     }
   }
 
-  // Whether a cluster file can have it in one of its segments.
+  // Returns whether a cluster file can have the frame in one of its segments.
   bool has_a_slot(const FibexTriggering& one) {
     const auto out = [&](const std::string& value, const char* why) {
       leave_out(one.line, "fx:FRAME-TRIGGERING", value, why);
@@ -127,7 +127,7 @@ class Importer {
   }
 
   void take_frames() {
-    // Slot, base cycle, repetition, frame by its place in the file, sender -> channels, line of the first.
+    // Slot, base cycle, repetition, index of the frame in the file, sender -> channels, line of the first.
     using Key = std::tuple<int, int, int, std::ptrdiff_t, NodeId>;
     std::map<Key, std::pair<unsigned, int>> slots;
     for (const FibexTriggering& one : file_.triggerings) {
@@ -183,7 +183,7 @@ class Importer {
     out_.contents = std::move(contents);
   }
 
-  // In the dynamic segment of a cluster file a frame is a fragment of a list, and as long.
+  // A dynamic frame of a cluster file is a fragment of a list, and as long as that.
   bool fits_dynamic(const FibexFrame& frame, const model::FrameSlot& out) {
     if (out.pdu == kNoPdu) {
       leave_out(out.line, "fx:FRAME-TRIGGERING", fmt::format("slot {}", out.slot),
@@ -200,7 +200,7 @@ class Importer {
     return true;
   }
 
-  // Sets what the frame carries of a list; the words say what else it does.
+  // Sets the frame's part of a list; the returned text describes any other content.
   std::string take_contents(const FibexFrame& frame, model::FrameSlot& out) {
     std::string contents;
     const bool dynamic = is_dynamic(out_.cluster.flexray, out);
@@ -230,7 +230,7 @@ class Importer {
     return contents;
   }
 
-  // As our own extension says; else counted in the order of the slots.
+  // Takes the number in our own extension, or counts in the order of the slots.
   void take_fragment(const FibexFrame& frame, PduId pdu, model::FrameSlot& out) {
     const int fragments = out_.cluster.pdu(pdu).max_fragments();
     out.pdu = pdu;
@@ -282,7 +282,7 @@ class Importer {
     }
   }
 
-  // What the file says of a controller besides, and follows from what is kept.
+  // Checks further values of a controller that follow from the kept ones.
   void check_derived(const FibexEcu& ecu, const model::NodeParameters& p) {
     const auto other = [&](const char* key, int value, std::string what) {
       leave_out(ecu.controller_line, key, std::to_string(value), "is left out: " + std::move(what));
@@ -297,7 +297,7 @@ class Importer {
             fmt::format("it is pMicroPerCycle by gMacroPerCycle, {}", least));
   }
 
-  // An element that is not understood usually is so a hundred times.
+  // Merges repeated findings: an unknown element often occurs a hundred times.
   void name_once() {
     std::map<std::tuple<std::string, std::string, std::string>, std::size_t> known;
     std::vector<std::pair<Finding, int>> once;
@@ -331,7 +331,7 @@ class Importer {
 FibexImport import_from(const XmlFile& xml) {
   Findings wrong, left_out;
   check_references(xml, wrong);
-  wrong.throw_if_any();  // who follows a reference further down finds what it leads to
+  wrong.throw_if_any();  // later steps follow references without checks
   FibexFile file = read_fibex(xml, wrong, left_out);
   return Importer(std::move(file), xml.name(), std::move(wrong), std::move(left_out)).import();
 }

@@ -15,7 +15,7 @@ bool same_meaning(const model::Signal& a, const model::Signal& b) {
   return a.unit == b.unit && a.bits == b.bits && a.low == b.low && a.high == b.high && a.resolution == b.resolution;
 }
 
-// Why a cluster file cannot say it, or empty.
+// Returns the reason why a cluster file cannot express the signal, or an empty text.
 std::string unlike_ours(const FibexSignal& signal) {
   const model::Signal& s = signal.meaning;
   if (!signal.unlike.empty()) return fmt::format("{}: {}", signal.name, signal.unlike);
@@ -26,7 +26,7 @@ std::string unlike_ours(const FibexSignal& signal) {
   return in_range ? "" : fmt::format("{}: its range is not one of a cluster file", signal.name);
 }
 
-// Signals one behind the other from the first bit on; or why they are not.
+// Takes signals that follow each other without gaps from the first bit on; otherwise returns the reason.
 std::string take_contiguous(const FibexPdu& pdu, std::vector<model::Signal>& signals, int& bits) {
   bits = 0;
   for (const FibexSignal& signal : pdu.signals) {
@@ -40,7 +40,7 @@ std::string take_contiguous(const FibexPdu& pdu, std::vector<model::Signal>& sig
   return signals.empty() ? fmt::format("{} has no signals", pdu.name) : "";
 }
 
-// "x_12": 12, and the name is cut to "x".
+// Returns 12 for "x_12" and cuts the name to "x".
 std::optional<int> take_index(std::string& name) {
   const auto at = name.rfind('_');
   if (at == std::string::npos || at == 0) return std::nullopt;
@@ -52,7 +52,7 @@ std::optional<int> take_index(std::string& name) {
   return index;
 }
 
-// The signals of one element, where `all` are several elements alike; else all of them are one element.
+// Takes the signals of one element if `all` are several equal elements; otherwise all of them are one element.
 int take_elements(const std::vector<model::Signal>& all, std::vector<model::Signal>& element) {
   element.clear();
   std::vector<model::Signal> stems = all;
@@ -79,7 +79,7 @@ bool names_differ(const std::vector<model::Signal>& signals) {
   return true;
 }
 
-// The loader's rules for the header, and that the switch is its fragment number.
+// Checks the loader's rules for the header, and that the switch is its fragment number.
 std::string check_header(const model::PduLayout& layout, const FibexMultiplexer& multiplexer) {
   const auto needs = [&](const char* name, std::int64_t largest) {
     const auto found = find_signal(layout.header, name);
@@ -97,7 +97,7 @@ std::string check_header(const model::PduLayout& layout, const FibexMultiplexer&
   return "";
 }
 
-// The PDU of every fragment; or why there is none.
+// Finds the PDU of every fragment; otherwise returns the reason.
 std::string find_elements(const FibexMultiplexer& multiplexer, const std::map<std::string, const FibexPdu*>& by_id,
                           const FibexPdu*& elements) {
   std::set<std::int64_t> codes;

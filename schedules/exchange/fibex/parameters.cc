@@ -22,7 +22,7 @@ template <class Struct> struct Tables {
 Tables<file::Global> tables_of(const file::Global&) { return {file::kGlobalIntegers, file::kGlobalScaled, {}}; }
 Tables<file::Local> tables_of(const file::Local&) { return {file::kNodeIntegers, file::kNodeScaled, file::kNodeFlags}; }
 
-// FIBEX knows times in microseconds only.
+// FIBEX has times in microseconds only.
 std::int64_t fibex_scale(std::string_view unit) { return unit == "bit/s" ? 1 : kPicosecondsPerMicrosecond; }
 
 template <class Struct> std::string value_text(const Struct& parameters, std::string_view name, bool fibex) {

@@ -1,6 +1,6 @@
-// Where FIBEX 3.1 (ASAM MCD-2 NET) keeps FlexRay's parameters: specification name -> element, in the order of
-// the schema, and their values as its text. FIBEX gives times in microseconds, the bit rate in bit/s,
-// everything else in the specification's unit; names and ranges are those of schedules/file/parameter_table.h.
+// Maps FlexRay's parameters to FIBEX 3.1 (ASAM MCD-2 NET): specification name -> element, in the order of the
+// schema, and values to their text. FIBEX has times in microseconds and the bit rate in bit/s. Everything else
+// is in the specification's unit; names and ranges are those of schedules/file/parameter_table.h.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct FibexParameter {
   std::string_view element;
 };
 
-// In fx:CLUSTER, behind fx:SPEED (the baudrate); flexray:WAKE-UP stands behind gdTSSTransmitter.
+// In fx:CLUSTER, after fx:SPEED (the baudrate); flexray:WAKE-UP follows gdTSSTransmitter.
 inline constexpr FibexParameter kFibexCluster[] = {
     {"gColdStartAttempts", "flexray:COLD-START-ATTEMPTS"},
     {"gdActionPointOffset", "flexray:ACTION-POINT-OFFSET"},
@@ -52,14 +52,14 @@ inline constexpr FibexParameter kFibexWakeUp[] = {
     {"gdWakeupSymbolTxLow", "flexray:WAKE-UP-SYMBOL-TX-LOW"},
 };
 
-// What FIBEX has no place for: in fx:CLUSTER/fx:MANUFACTURER-EXTENSION, in a namespace of our own.
+// Parameters without a place in FIBEX: in fx:CLUSTER/fx:MANUFACTURER-EXTENSION, in a namespace of our own.
 inline constexpr FibexParameter kFibexExtension[] = {
     {"gdMaxPropagationDelay", "ttf:MAX-PROPAGATION-DELAY"},
     {"gdMinPropagationDelay", "ttf:MIN-PROPAGATION-DELAY"},
     {"gdMaxMicrotick", "ttf:MAX-MICROTICK"},
 };
 
-// In fx:CONTROLLER, behind flexray:KEY-SLOT-USAGE (pKeySlotId and what it is used for).
+// In fx:CONTROLLER, after flexray:KEY-SLOT-USAGE (pKeySlotId and its use).
 inline constexpr FibexParameter kFibexController[] = {
     {"pClusterDriftDamping", "flexray:CLUSTER-DRIFT-DAMPING"},
     {"pDecodingCorrection", "flexray:DECODING-CORRECTION"},
@@ -85,21 +85,22 @@ inline constexpr FibexParameter kFibexController[] = {
     {"pdMicrotick", "flexray:MICROTICK"},
 };
 
-// In fx:CONTROLLER, too: pdMaxDrift [microticks], which follows as pdListenTimeout = 2 (pMicroPerCycle + pdMaxDrift).
+// Also in fx:CONTROLLER: pdMaxDrift [microticks], which follows from pdListenTimeout = 2 (pMicroPerCycle +
+// pdMaxDrift).
 inline constexpr int kLeastMaxDrift = 2, kMostMaxDrift = 1923;
 
-// The value of the parameter of that name, as FIBEX writes it. A name that is not in the tables is a bug of
-// ours.
+// Returns the parameter's value as FIBEX writes it. The name must be in the tables.
 std::string fibex_value(const model::GlobalParameters& parameters, std::string_view name);
 std::string fibex_value(const model::NodeParameters& parameters, std::string_view name);
 
-// Sets it from FIBEX's text; or says what is expected instead ("must be 2..31"), and leaves it as it was.
+// Sets the parameter from FIBEX's text. For a wrong text it returns the expectation ("must be 2..31") and
+// changes nothing.
 std::optional<std::string> set_fibex_value(model::GlobalParameters& parameters, std::string_view name,
                                            std::string_view text);
 std::optional<std::string> set_fibex_value(model::NodeParameters& parameters, std::string_view name,
                                            std::string_view text);
 
-// The same in the words of a cluster file, whose units differ (pdMicrotick: ns there, us here).
+// Returns the value as a cluster file writes it, in its own units (pdMicrotick: ns there, us here).
 std::string yaml_value(const model::GlobalParameters& parameters, std::string_view name);
 std::string yaml_value(const model::NodeParameters& parameters, std::string_view name);
 

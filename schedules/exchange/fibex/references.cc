@@ -10,7 +10,7 @@
 namespace ttf::schedules::exchange::fibex {
 namespace {
 
-// The references that the importer follows, and what they lead to.
+// The references that the importer follows, and their targets.
 struct ReferenceKind {
   std::string_view reference, target;
 };
@@ -31,7 +31,8 @@ struct Target {
 };
 using Targets = std::map<std::string, Target>;
 
-// All elements of a file, each before those in it: without recursion, because a file decides how deep it goes.
+// Returns all elements of a file, each before its children. There is no recursion, because the file decides its
+// depth.
 std::vector<XmlElement> all_elements(const XmlFile& file, Findings& left_out) {
   std::vector<XmlElement> all, open{file.root(left_out)};
   while (!open.empty()) {
@@ -68,7 +69,7 @@ void check_reference(const XmlFile& file, XmlElement& element, const Targets& ta
 }  // namespace
 
 void check_references(const XmlFile& file, Findings& wrong) {
-  Findings unused;  // nobody is asked for anything here
+  Findings unused;  // nothing is left out here
   std::vector<XmlElement> elements = all_elements(file, unused);
   Targets targets;
   for (XmlElement& element : elements) {

@@ -1,6 +1,6 @@
-// What holds of a whole FIBEX file, whoever reads which part of it: an ID names one element, and a reference leads to
-// one. The parts are read as far as they are understood (schedules/exchange/fibex/file.h); a reference that nobody
-// follows would else be passed over in silence, and with it what hangs on it.
+// Checks the identifiers of a whole FIBEX file: each ID names one element, and each FIBEX reference leads to
+// one. The readers (schedules/exchange/fibex/file.h) skip unknown parts; without this check a broken reference
+// in them, and all that depends on it, would be dropped silently.
 #pragma once
 
 #include "core/errors.h"
@@ -9,9 +9,9 @@
 namespace ttf::schedules::exchange::fibex {
 
 // Adds to `wrong`, in the order of the file:
-//   an ID that an element before has (xs:ID: one namespace for all kinds of element),
-//   an ID-REF to an ID that no element has, or to one of another kind than CHANNEL-REF, PDU-REF, ... say,
-//   one of these without ID-REF.
+//   an ID that an earlier element has (xs:ID: one namespace for all kinds of element),
+//   an ID-REF without its element, or to an element of another kind than CHANNEL-REF, PDU-REF, ... require,
+//   a CHANNEL-REF, PDU-REF, ... without ID-REF.
 void check_references(const XmlFile& file, Findings& wrong);
 
 }  // namespace ttf::schedules::exchange::fibex

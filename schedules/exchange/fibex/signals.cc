@@ -104,7 +104,7 @@ void read_method(XmlElement& method, const Units& units, FibexCoding& coding, Fi
     coding.unlike = fmt::format("its numbers are coded as {}", category);
     method.ignore("ho:COMPU-INTERNAL-TO-PHYS");
   }
-  // Where no limit says otherwise, all raw numbers are in use.
+  // Without limits all raw numbers are valid.
   model::Signal& meaning = coding.meaning;
   meaning.high = meaning.low + (std::ldexp(1.0, meaning.bits) - 1.0) * meaning.resolution;
   read_limits(method, coding, reader);
@@ -154,7 +154,7 @@ std::map<std::string, NamedCoding> read_signals(XmlElement& elements, FibexReade
   return signals;
 }
 
-// The segments of a static or a dynamic part: one contiguous piece is all a list of ours can be.
+// Reads the segments of a static or a dynamic part. Our lists need one contiguous segment.
 std::optional<int> read_segment(XmlElement& part, FibexReader& reader) {
   auto segments = part.children_of("fx:SEGMENT-POSITIONS", "fx:SEGMENT-POSITION");
   std::optional<int> first;
@@ -164,7 +164,7 @@ std::optional<int> read_segment(XmlElement& part, FibexReader& reader) {
     area.position = reader.integer(segment, "fx:BIT-POSITION", 0, kMostBits - 1);
     area.high_low = reader.boolean(segment, "fx:IS-HIGH-LOW-BYTE-ORDER", false);
     segment.finish();
-    // Whole bytes lie the same in either order.
+    // Whole bytes are the same in either order.
     first = !area.high_low && area.position % 8 == 0 ? area.position : area.offset();
   }
   return segments.size() == 1 ? first : std::nullopt;
@@ -296,7 +296,7 @@ std::vector<FibexFrame> read_frames(XmlElement& elements, FibexReader& reader) {
     for (XmlElement& instance : element.children_of("fx:PDU-INSTANCES", "fx:PDU-INSTANCE")) {
       frame.places.push_back(
           {instance.reference("fx:PDU-REF"), reader.integer(instance, "fx:BIT-POSITION", 0, kMostBits - 1) / 8});
-      instance.ignore("fx:IS-HIGH-LOW-BYTE-ORDER");  // PDUs begin at whole bytes in either
+      instance.ignore("fx:IS-HIGH-LOW-BYTE-ORDER");  // PDUs begin at whole bytes in either order
       instance.finish();
     }
     if (auto extension = element.child("fx:MANUFACTURER-EXTENSION")) {

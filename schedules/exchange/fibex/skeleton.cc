@@ -1,4 +1,4 @@
-// A cluster file from what FIBEX said, with what is left to do in comments.
+// Writes a cluster file from imported FIBEX content, with open tasks in comments.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::string remark(std::string_view unit, bool assumed) {
   return fmt::format("   # {}{}{}", unit, !unit.empty() && assumed ? ", " : "", assumed ? kAssumed : "");
 }
 
-// Plain where no reader of YAML can take it for anything but text.
+// Writes a plain scalar if every YAML reader takes it for text, otherwise a quoted one.
 std::string scalar(const std::string& text) {
   static const std::set<std::string> kMeaningful{"null",  "Null",  "NULL", "true", "True", "TRUE", "false",
                                                  "False", "FALSE", "yes",  "no",   "on",   "off"};
@@ -35,7 +35,7 @@ std::string scalar(const std::string& text) {
   return quoted + '"';
 }
 
-// Comments stay on one line, whatever the file's names hold.
+// Keeps a comment on one line, whatever the names in the file contain.
 std::string comment(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
@@ -124,7 +124,7 @@ class Writer {
     return values;
   }
 
-  // What all nodes say alike is said once.
+  // Writes values shared by all nodes only once.
   void write_nodes() {
     if (cluster_.nodes.empty()) {
       line("\nnode_parameters: {}\n\n# To be added: FIBEX names no controller on this cluster.\nnodes: {}");

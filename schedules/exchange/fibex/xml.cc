@@ -12,7 +12,7 @@ namespace ttf::schedules::exchange::fibex {
 struct XmlElement::Content {
   std::string file;
   std::vector<std::ptrdiff_t> line_starts;
-  std::map<std::string, std::string, std::less<>> prefixes;  // the file's -> ours
+  std::map<std::string, std::string, std::less<>> prefixes;  // the file's prefix -> ours
   pugi::xml_document document;
 
   int line_at(std::ptrdiff_t offset) const {
@@ -26,7 +26,7 @@ struct XmlElement::Content {
     const auto found = prefixes.find(prefix);
     return found == prefixes.end() ? std::string(name) : fmt::format("{}:{}", found->second, local);
   }
-  // Without a prefix an attribute is in no namespace, not in the default one.
+  // An attribute without a prefix is in no namespace, not even the default one.
   std::string attribute_name(std::string_view name) const {
     return name.find(':') == std::string_view::npos ? std::string(name) : canonical(name);
   }
@@ -44,13 +44,13 @@ std::string trimmed(std::string_view text) {
 
 bool is_text(const pugi::xml_node& node) { return node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata; }
 
-// Where it begins to be more than space.
+// Returns the offset of the first character other than space.
 std::ptrdiff_t text_offset(const pugi::xml_node& node) {
   const auto first = std::string_view(node.value()).find_first_not_of(kSpace);
   return node.offset_debug() + static_cast<std::ptrdiff_t>(first == std::string_view::npos ? 0 : first);
 }
 
-// Length of the UTF-8 character at the front, 0 if there is none: RFC 3629, table 3-7 of the Unicode
+// Returns the length of the first UTF-8 character, 0 if it is invalid: RFC 3629, table 3-7 of the Unicode
 // standard.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
@@ -71,7 +71,7 @@ std::size_t character_length(std::string_view text) {
   return 0;
 }
 
-// Where something stands that is no character of XML in UTF-8; the parser would end there or pass over it.
+// Returns the offset of the first invalid XML character in UTF-8. The parser would stop there or skip it.
 std::size_t first_bad_character(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = character_length(text.substr(at));
@@ -97,7 +97,7 @@ XmlFile XmlFile::parse(std::string text, std::string name) {
   };
   if (const std::size_t bad = first_bad_character(text); bad != std::string_view::npos)
     throw damaged(static_cast<std::ptrdiff_t>(bad), "is no XML in UTF-8: a byte here is no character of it");
-  // Doctype and text outside the root element are kept, so as to be refused.
+  // Keeps the document type and text outside the root element, to report them.
   const unsigned how = pugi::parse_default | pugi::parse_doctype | pugi::parse_fragment;
   const auto result = content->document.load_buffer(text.data(), text.size(), how, pugi::encoding_utf8);
   if (!result) throw damaged(result.offset, fmt::format("is no well-formed XML: {}", result.description()));
@@ -206,7 +206,7 @@ std::string XmlElement::text() {
 }
 
 std::string XmlElement::attribute(std::string_view wanted) {
-  // Some tools leave the prefix of an attribute out.
+  // Some tools omit the prefix of an attribute.
   const std::string_view local = wanted.substr(wanted.find(':') == std::string_view::npos ? 0 : wanted.find(':') + 1);
   for (const std::string_view name : {wanted, local}) asked_.push_back(fmt::format("@{}", name));
   for (const pugi::xml_attribute& attribute : node_.attributes()) {
@@ -227,7 +227,7 @@ void XmlElement::leave_out(std::string path, int line) {
 void XmlElement::finish() {
   for (const pugi::xml_attribute& attribute : node_.attributes()) {
     const std::string_view raw = attribute.name();
-    // What an element is called by, and of which type it is, bears no meaning beyond what is asked for.
+    // IDs and types have no meaning beyond the attributes read.
     if (raw == "ID" || raw == "xmlns" || raw.starts_with("xmlns:")) continue;
     const std::string name = content_->attribute_name(raw);
     if (!name.starts_with("xsi:") && !is_asked("@" + name)) leave_out(path() + "/@" + name, line());

@@ -1,15 +1,15 @@
-// A strict reader of XML: what nobody asked for is named by its path and line, never silently dropped.
+// A strict reader of XML: content that was not read is reported with its path and line, never silently dropped.
 //
 // clang-format off
 //   XmlFile file = XmlFile::load("cluster.xml");   // throws InputError on unreadable or damaged XML, with its line
 //   Findings left_out;
 //   XmlElement root = file.root(left_out);
 //   for (XmlElement& one : root.children("fx:CLUSTER")) { ...; one.finish(); }
-//   root.finish();                                 // names elements, attributes and text nobody asked for
+//   root.finish();                                 // reports elements, attributes and text that were not read
 // clang-format on
 //
-// Elements are called by the customary prefix of their namespace (fx, ho, flexray), whatever prefix the file
-// gave it.
+// Elements are named with the customary prefix of their namespace (fx, ho, flexray), whatever prefix the file
+// uses.
 #pragma once
 
 #include <memory>
@@ -23,8 +23,7 @@
 
 namespace ttf::schedules::exchange::fibex {
 
-// Namespaces and the prefixes elements are called by here. Elements of other namespaces keep the prefix the
-// file gave them.
+// The namespaces and their prefixes in this program. Elements of other namespaces keep the prefix of the file.
 struct XmlNamespace {
   std::string_view prefix;
   std::string_view name;
@@ -40,30 +39,30 @@ inline constexpr XmlNamespace kFibexNamespaces[] = {
 class XmlElement {
  public:
   bool has(std::string_view name) const;
-  // The child of that name; if there are more, they stay unasked for, and are named.
+  // Returns the first child of that name. Further ones count as not read and are reported.
   std::optional<XmlElement> child(std::string_view name);
   std::vector<XmlElement> children(std::string_view name);
-  // children("fx:CLUSTER") of the child "fx:CLUSTERS"; none where it is absent.
+  // Returns children("fx:CLUSTER") of the child "fx:CLUSTERS"; empty if that is absent.
   std::vector<XmlElement> children_of(std::string_view list, std::string_view name);
-  // Text of the child, without the space around it; nothing where there is no such child.
+  // Returns the text of the child without surrounding space; nullopt for an absent child.
   std::optional<std::string> text_of(std::string_view name);
-  // The child's attribute ID-REF; empty where either is absent.
+  // Returns the child's attribute ID-REF; empty if either is absent.
   std::string reference(std::string_view name);
-  // This element's text without the space around it.
+  // Returns this element's text without surrounding space.
   std::string text();
-  // Of an attribute; empty where it is absent.
+  // Returns the value of an attribute; empty if it is absent.
   std::string attribute(std::string_view name);
-  // Known, and deliberately without effect here.
+  // Marks an element as read although it has no effect here.
   void ignore(std::string_view name) { asked_.emplace_back(name); }
 
-  // All child elements, in the order of the file; none of them counts as asked for.
+  // Returns all child elements in the order of the file, without marking them as read.
   std::vector<XmlElement> elements() const;
 
   std::string name() const;
   std::string path() const;
   int line() const;
 
-  // Adds what nobody asked for to the findings of root().
+  // Adds all content that was not read to the findings of root().
   void finish();
 
  private:
