@@ -18,7 +18,7 @@ using schedules::model::NodeParameters;
 constexpr int kMaxPayloadWords = 127;
 constexpr int kMinNit = 2;  // [MT]
 
-// Slots are looked through in their order.
+// Users of the frames expect them in this order.
 void sort(std::vector<FrameSlot>& frames) {
   std::stable_sort(frames.begin(), frames.end(), [](const FrameSlot& a, const FrameSlot& b) {
     return a.slot != b.slot ? a.slot < b.slot : a.base_cycle < b.base_cycle;
@@ -60,7 +60,7 @@ std::string lengthen_slots(const Fault& fault, Cluster& believed) {
   GlobalParameters& g = believed.flexray;
   const int longer = fault.by * g.gNumberOfStaticSlots;
   const int before_correction = g.gOffsetCorrectionStart - (g.gMacroPerCycle - g.gdNIT);
-  // Both the network idle time and the instant of correction in it are behind the segments.
+  // The segments precede both the network idle time and the instant of correction in it.
   const int room = std::min(g.gdNIT - kMinNit, before_correction);
   if (longer > room)
     return fmt::format("must not make the network idle time shorter by more than {} macroticks: {} slots would take {}",
@@ -78,7 +78,7 @@ std::string lengthen_payload(const Fault& fault, Cluster& believed) {
   return {};
 }
 
-// Another coldstart node's, the first in file order; 0: there is none.
+// Returns the key slot of another coldstart node, the first in file order; 0 if there is none.
 int anothers_key_slot(NodeId node, const Cluster& cluster) {
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     const auto& p = cluster.nodes[n].flexray;

@@ -1,5 +1,5 @@
-// The schedules that nodes believe in where faults make them another than the cluster's: wrong slots, wrong lengths,
-// the key slot of another node. Nodes, PDUs, tasks and sensors are the same; what differs is FlexRay's.
+// The schedules that faulty nodes believe in: wrong slots, wrong lengths, or the key slot of another node. Only
+// FlexRay's part differs from the cluster; nodes, PDUs, tasks and sensors are the same.
 #pragma once
 
 #include <memory>
@@ -12,18 +12,18 @@
 
 namespace ttf::faults {
 
-// Whether the fault is one of belief: wrong_schedule, or a duplicate_coldstart by the same key slot.
+// Returns whether the fault changes a belief: wrong_schedule, or duplicate_coldstart with the same key slot.
 bool changes_schedule(const Fault& fault);
 
-// Changes `believed` as such a fault does. Empty, or what is wrong with it in this cluster, "must ..."; `believed` is
-// not changed then.
+// Changes `believed` as such a fault does. Returns an empty text, or an objection ("must ...") and leaves
+// `believed` unchanged.
 std::string believe(const Fault& fault, schedules::model::Cluster& believed);
 
 class BelievedSchedules {
  public:
-  // `plan`: resolved for this cluster. Several faults of one node add up.
+  // `plan` is resolved for this cluster. Several faults of one node accumulate.
   BelievedSchedules(const FaultPlan& plan, const schedules::model::Cluster& cluster);
-  // Null: the cluster's.
+  // Returns null for a node that believes in the cluster's schedule.
   const schedules::model::Cluster* of(NodeId node) const { return believed_[index_of(node)].get(); }
 
  private:

@@ -1,6 +1,6 @@
-// The kinds of faults: one row says all that a plan needs to know of a kind. Two other tables have a row for each
-// kind, too: one says how its faults work (sim/faults/families.cc), one what may be their doing
-// (evaluation/faults/reach.cc). is_one_row_a_kind() holds every table to this list.
+// The kinds of faults: one row holds a plan's data about a kind. Two other tables also have a row for each kind:
+// the effect of its faults (sim/faults/families.cc) and their possible consequences
+// (evaluation/faults/reach.cc). is_one_row_a_kind() checks every table against this list.
 #pragma once
 
 #include <array>
@@ -10,26 +10,26 @@
 
 namespace ttf::faults {
 
-// Values are part of recordings and campaigns' streams: append only, before kEnd.
+// The values are part of recordings and of campaigns' streams: append only, before kEnd.
 enum class FaultKind : std::uint8_t {
   kCrash,          // the node loses its supply; with a duration it starts cold afterwards
-  kOmission,       // frames do not leave it, or do not reach it
-  kBabblingIdiot,  // it sends besides its schedule
-  kMasquerading,   // it sends what claims to be another's
+  kOmission,       // frames do not leave it or do not reach it
+  kBabblingIdiot,  // it sends outside its schedule
+  kMasquerading,   // its frames claim to be another node's
   kSosTiming,      // slightly off the specification: frames early or late, so that receivers disagree
-  kSosValue,       // the same of the signal's shape: some receivers cannot make it out
-  kBitFlipHeader,  // bits of its frames are inverted on the way
+  kSosValue,       // the same for the signal's shape: some receivers cannot decode it
+  kBitFlipHeader,  // bits of its frames are inverted on the bus
   kBitFlipPayload,
   kBitFlipTrailer,
-  kChannelSwap,         // what it sends on one channel appears on the other
-  kByzantineClock,      // its frames say another time to every receiver
+  kChannelSwap,         // its signal for one channel appears on the other
+  kByzantineClock,      // its frames show a different time to every receiver
   kDrift,               // its oscillator runs at another rate
-  kLoneColdstart,       // the only coldstart node that has a supply
-  kDuplicateColdstart,  // it starts the cluster while others do, or again and again
-  kWrongSchedule,       // it believes in another schedule than the cluster's
-  kNoise,               // activity on a channel that nobody sent
+  kLoneColdstart,       // it is the only coldstart node with a supply
+  kDuplicateColdstart,  // it starts the cluster while others do, or repeatedly
+  kWrongSchedule,       // it follows another schedule than the cluster's
+  kNoise,               // activity without a sender on a channel
   kTransient,           // everything on the channels is destroyed
-  kEnd,                 // no kind: their number
+  kEnd,                 // not a kind: their number
 };
 inline constexpr std::size_t kFaultKinds = static_cast<std::size_t>(FaultKind::kEnd);
 constexpr std::size_t index_of(FaultKind kind) { return static_cast<std::size_t>(kind); }
@@ -39,7 +39,7 @@ inline constexpr auto kAllFaultKinds = [] {
   return all;
 }();
 
-// Whether a table has one row for every kind, in their order. Rows begin with a `kind`.
+// Returns whether a table has one row for every kind, in their order. Rows begin with a `kind`.
 template <class Table> constexpr bool is_one_row_a_kind(const Table& table) {
   std::size_t row = 0;
   for (const auto& one : table)
@@ -47,16 +47,16 @@ template <class Table> constexpr bool is_one_row_a_kind(const Table& table) {
   return row == kFaultKinds;
 }
 
-// Who fails.
+// The faulty part.
 enum class Failing : std::uint8_t {
-  kNode,    // the one that the fault names
-  kOthers,  // the others, or some of them: the one that the fault names is left alone
+  kNode,    // the node that the fault names
+  kOthers,  // some or all other nodes; the named node works
   kMedium,  // the channels: the fault names no node
 };
-// What the node that a fault names has to be, besides on FlexRay.
+// A demand on the named node, besides being on FlexRay.
 enum class NodeDemand : std::uint8_t { kNothing, kColdstart, kBothChannels };
 
-// What a plan says of a fault beside kind and node: a key, or some that go together (parameters.h).
+// A parameter of a fault beside kind and node: one key, or several that belong together (parameters.h).
 enum class FaultParameter : std::uint8_t {
   kNone,
   kDirection,      // `direction`
@@ -77,16 +77,16 @@ enum class FaultParameter : std::uint8_t {
   kOccasions,      // `probability`, `every`
   kChannels,       // `channels`
   kWindow,         // `from`, `duration`
-  kFrom,           // `from`: it stays to the end
-  kPassing,        // `from`, `duration`: it has to pass
-  kEnd,            // no parameter: their number
+  kFrom,           // `from`: it lasts to the end
+  kPassing,        // `from`, `duration`: it must end
+  kEnd,            // not a parameter: their number
 };
 inline constexpr std::size_t kFaultParameters = static_cast<std::size_t>(FaultParameter::kEnd);
 
 struct FaultKindRow {
   FaultKind kind{};
-  std::string_view name;                       // as in YAML and in recordings: "babbling_idiot"
-  std::array<FaultParameter, 5> parameters{};  // as they are written, in that order; kNone behind the last
+  std::string_view name;                       // in YAML and in recordings: "babbling_idiot"
+  std::array<FaultParameter, 5> parameters{};  // in the order of their keys; then kNone
   Failing failing = Failing::kNode;
   NodeDemand demand = NodeDemand::kNothing;
 };
@@ -94,7 +94,7 @@ const FaultKindRow& row_of(FaultKind kind);
 
 inline std::string_view name_of(FaultKind kind) { return row_of(kind).name; }
 inline bool has_node(FaultKind kind) { return row_of(kind).failing != Failing::kMedium; }
-// Whether a fault of this kind has the parameter; its mode may still do without (applies(), plan.h).
+// Returns whether faults of this kind have the parameter; some modes may lack it (applies(), plan.h).
 bool takes(FaultKind kind, FaultParameter parameter);
 
 }  // namespace ttf::faults

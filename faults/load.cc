@@ -1,4 +1,4 @@
-// Reads faults. Whatever is in an entry beside what its kind takes is unknown.
+// Reads faults. Any key that the kind of an entry does not take is unknown.
 #include "faults/parameters.h"
 #include "faults/plan.h"
 
@@ -10,7 +10,7 @@ Fault load_fault(YamlMap& yaml, Duration latest) {
   Fault fault;
   fault.line = yaml.line();
   fault.kind = yaml.choice<FaultKind>("kind", kinds);
-  // Of no kind: it cannot be said which other keys are right.
+  // Without a kind the right keys are unknown.
   if (!yaml.has("kind") || yaml.text("kind") != name_of(fault.kind)) return fault;
   if (has_node(fault.kind)) fault.node_name = yaml.text("node");
   read_parameters(yaml, fault, latest);

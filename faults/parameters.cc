@@ -15,15 +15,16 @@ namespace {
 using schedules::model::Channels;
 
 constexpr Range<Duration> kFaultDurations{Duration::nanoseconds(1), Duration::milliseconds(3'600'000)};
-// Not earlier than the shortest frame is long (frame_bits() of no payload), so that nothing arrives before it leaves.
+// At most the length of the shortest frame (frame_bits() without payload), so that a frame never arrives before
+// it leaves.
 constexpr Duration kMostEarly = Duration::microseconds(9);
 constexpr int kFrameHeaderBits = 40, kMostPayloadBits = 127 * 16, kFrameTrailerBits = 24;
 
-// What is read, and what is written.
+// The arguments of reading and of writing.
 struct Reading {
   YamlMap& yaml;
   Fault& fault;
-  Duration latest;  // largest `from`
+  Duration latest;  // the largest permitted `from`
 };
 struct Writing {
   std::vector<std::pair<std::string_view, std::string>>& keys;
@@ -36,7 +37,7 @@ struct Writing {
   void add(std::string_view key, Duration duration) const { add(key, fmt::format("{} ns", duration.ns)); }
 };
 
-// What the values of an enumeration are called.
+// The names of an enumeration's values.
 template <class Value> struct Named {
   std::string_view name;
   Value value;
@@ -101,7 +102,7 @@ void read_occasions(const Reading& in) {
   in.fault.every = static_cast<int>(in.yaml.integer_or("every", in.fault.every, {1, 1'000'000}, "frames"));
 }
 void write_occasions(const Writing& out) {
-  out.add("probability", out.fault.probability);  // as many digits as make it this very number
+  out.add("probability", out.fault.probability);  // the shortest digits that parse to the same number
   out.add("every", out.fault.every);
 }
 
@@ -171,7 +172,7 @@ void write_lie(const Writing& out) {
   out.add("pattern", name_in(kPatternNames, out.fault.pattern));
 }
 
-// Of a region of a frame that has so many bits at most.
+// Reads bits of a region of a frame with at most `most_bits` bits.
 template <int most_bits> void read_bits(const Reading& in) {
   YamlMap& yaml = in.yaml;
   std::vector<int>& bits = in.fault.bits;
@@ -191,7 +192,7 @@ void write_bits(const Writing& out) {
     out.add("bits", fmt::format("[{}]", fmt::join(out.fault.bits, ", ")));
 }
 
-// In ppm, to the ppb.
+// In ppm, with a resolution of one ppb.
 void read_drift(const Reading& in) {
   in.fault.drift_ppb = in.yaml.scaled("drift", 1000, {-kMostDriftPpb, kMostDriftPpb}, "ppm");
 }
@@ -236,10 +237,10 @@ void write_wrong_schedule(const Writing& out) {
 }
 
 bool in_every_mode(const Fault&) { return true; }
-// Frames and symbols are as long as they are.
+// Only noise has a length; frames and symbols have their own.
 bool is_noise(const Fault& fault) { return fault.signal == FaultSignal::kNoise; }
 bool comes_in_bursts(const Fault& fault) { return fault.duplicate == DuplicateMode::kCas; }
-// A schedule is believed in from the beginning to the end, on all channels.
+// A believed schedule holds from the beginning to the end, on all channels.
 bool is_no_belief(const Fault& fault) { return fault.duplicate != DuplicateMode::kSameKeySlot; }
 
 struct ParameterRow {

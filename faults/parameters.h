@@ -1,5 +1,4 @@
-// The parameters of faults, each read from a plan and written into one: keys, units and ranges are here and nowhere
-// else.
+// Reads the parameters of faults from a plan and writes them: the only place of their keys, units and ranges.
 #pragma once
 
 #include <string>
@@ -14,8 +13,7 @@
 
 namespace ttf::faults {
 
-// All parameters that the fault has are read, or written, in its kind's order. `latest`: the largest `from` that makes
-// sense.
+// Read or write all parameters of the fault, in its kind's order. `latest` is the largest permitted `from`.
 void read_parameters(YamlMap& yaml, Fault& fault, Duration latest);
 void write_parameters(const Fault& fault, const schedules::model::Cluster& cluster,
                       std::vector<std::pair<std::string_view, std::string>>& keys);

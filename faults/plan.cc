@@ -13,7 +13,7 @@ namespace {
 
 using schedules::model::Cluster;
 
-// What is wrong with a plan in this cluster.
+// Resolves faults and collects the mistakes of the plan in this cluster.
 class Resolver {
  public:
   Resolver(const Cluster& cluster, const std::string& file, Findings& findings)
@@ -98,7 +98,7 @@ class Resolver {
   const Cluster& cluster_;
   const std::string& file_;
   Findings& findings_;
-  std::map<NodeId, Cluster> believed_;  // by those who err
+  std::map<NodeId, Cluster> believed_;  // by faulty node
   const Fault* fault_ = nullptr;
   std::size_t index_ = 0;
 };

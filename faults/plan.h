@@ -1,11 +1,11 @@
-// What goes wrong in a run, as data: a list of faults, each of one kind. A scenario gives it under `faults:`
+// The faults of a drive as data: a list of faults, each of one kind. A scenario has it under `faults:`
 //
 //   faults:
 //     - {kind: crash, node: camera_host, from: 800 ms, duration: 200 ms}
 //     - {kind: bit_flip_payload, node: fusion, flips: 3, probability: 0.1}
 //
-// and a campaign makes it in code. The nodes know nothing of it: sim/faults injects it into media, clocks and supplies.
-// docs/faults.md says what every kind does and which check should see it.
+// and a campaign makes it in code. Nodes do not know the plan: sim/faults injects its faults into media, clocks
+// and supplies. docs/faults.md describes the effect of every kind and the checks that should detect it.
 #pragma once
 
 #include <cstdint>
@@ -26,65 +26,65 @@ namespace ttf::faults {
 enum class FaultDirection : std::uint8_t { kSend = 1, kReceive = 2, kBoth = 3 };
 enum class FaultSignal : std::uint8_t { kNoise, kFrame };
 enum class MasqueradeMode : std::uint8_t {
-  kInSlot,   // a frame more, in the other's slot; a collision unless that is free or its owner silent
+  kInSlot,   // an extra frame in the other's slot; it collides unless that slot is free or its owner silent
   kOwnSlot,  // its own frames carry the other's frame id
 };
 enum class ByzantinePattern : std::uint8_t {
-  kRandom,     // every frame to every receiver by an amount of its own, evenly drawn
+  kRandom,     // every frame to every receiver by its own amount, evenly drawn
   kPullApart,  // late at receivers with even ids, early at the others
-  kPullRates,  // the same, and the other way round in every other cycle: double cycles seem too long or too short
+  kPullRates,  // the same, but reversed in every other cycle: double cycles seem too long or too short
 };
 enum class DuplicateMode : std::uint8_t {
   kCas,            // sends a collision avoidance symbol at intervals
-  kStartupFrames,  // sends its startup frame once a cycle, on a grid of its own that begins at `from`
-  kSameKeySlot,    // believes another coldstart node's key slot to be its own
+  kStartupFrames,  // sends its startup frame once a cycle, on its own grid that begins at `from`
+  kSameKeySlot,    // uses another coldstart node's key slot as its own
 };
 enum class WrongSchedule : std::uint8_t {
-  kShiftedSlots,   // sends everything `by` slots later
-  kCycleLength,    // the network idle time, and the cycle with it, is `by` macroticks longer
+  kShiftedSlots,   // sends all frames `by` slots later
+  kCycleLength,    // the network idle time, and with it the cycle, is `by` macroticks longer
   kStaticSlot,     // static slots are `by` macroticks longer, the network idle time shorter
   kPayloadLength,  // static frames are `by` words longer
   kKeySlot,        // the key slot is `slot`
 };
 
-// One fault. Times count from the start of cycle 0; in a cold run from its time zero. Which members a kind has is
-// what its keys in docs/faults.md say; the others are left as they are here.
+// One fault. Times count from the start of cycle 0, in a cold drive from its time zero. docs/faults.md lists the
+// keys of each kind; other members keep their defaults.
 struct Fault {
   static constexpr Duration kToTheEnd{std::numeric_limits<std::int64_t>::max() / 4};
 
   FaultKind kind{};
-  NodeId node = kNoNode;  // the faulty one; kNoNode for the medium's, and before resolve()
+  NodeId node = kNoNode;  // the faulty node; kNoNode for faults of the medium, and before resolve()
   schedules::model::Channels channels = schedules::model::Channels::kAB;
   Duration from{};
   Duration duration = kToTheEnd;
 
-  // What happens to single frames. A frame on both channels is one occasion: every `every`-th, the first included, is
-  // chosen with `probability`.
+  // Selection of single frames. A frame on both channels is one occasion. Every `every`-th occasion, from the
+  // first on, is chosen with `probability`.
   double probability = 1.0;                          // 0..1
   int every = 1;                                     // 1..1'000'000
-  std::vector<NodeId> receivers;                     // empty: all (sos_value: each one drawn, by half)
+  std::vector<NodeId> receivers;                     // empty: all (sos_value: each is drawn with probability one half)
   FaultDirection direction = FaultDirection::kSend;  // omission
-  std::vector<int> bits;                             // bit flips: 0 is the region's first on the bus; empty: drawn
-  int flips = 1;                                     // bit flips: how many different ones are drawn, 1..24
-  Duration shift{};                                  // sos_timing: late, or early; byzantine_clock: the most it is off
+  std::vector<int> bits;                             // bit flips: 0 is the region's first bit on the bus; empty: drawn
+  int flips = 1;                                     // bit flips: how many different bits are drawn, 1..24
+  Duration shift{};  // sos_timing: late, or early if negative; byzantine_clock: the largest error
   ByzantinePattern pattern = ByzantinePattern::kRandom;
 
-  // What comes out of nothing: bursts, the first at `from`, from start to start `interval` and an evenly drawn
-  // 0..`jitter`.
+  // Signals without a schedule: bursts, the first at `from`. From start to start they are `interval` plus an
+  // evenly drawn 0..`jitter` apart.
   FaultSignal signal = FaultSignal::kNoise;       // babbling_idiot
-  Duration length = Duration::microseconds(30);   // of a burst of noise; frames last as long as they are
-  Duration interval = Duration::milliseconds(1);  // shorter than what is sent: back to back
+  Duration length = Duration::microseconds(30);   // of a burst of noise; frames have their own length
+  Duration interval = Duration::milliseconds(1);  // shorter than the burst: back to back
   Duration jitter{};
 
-  int slot = 0;  // of another, static; duplicate_coldstart, 0: the next coldstart node's
+  int slot = 0;  // the other's static slot; duplicate_coldstart, 0: the next coldstart node's
   MasqueradeMode masquerade = MasqueradeMode::kInSlot;
   DuplicateMode duplicate = DuplicateMode::kCas;
   WrongSchedule wrong = WrongSchedule::kShiftedSlots;
   int by = 0;                  // wrong_schedule: slots, macroticks or words
-  std::int64_t drift_ppb = 0;  // drift: from then on, within +-kMostDriftPpb
-  bool all_others = false;     // lone_coldstart: not only the coldstart nodes among the others are off
+  std::int64_t drift_ppb = 0;  // drift: from `from` on, within +-kMostDriftPpb
+  bool all_others = false;     // lone_coldstart: all other nodes are off, not only coldstart nodes
 
-  // As written, until resolve().
+  // Names as written, until resolve().
   std::string node_name;
   std::vector<std::string> receiver_names;
   int line = 0;
@@ -93,7 +93,7 @@ struct Fault {
 };
 inline constexpr std::int64_t kMostDriftPpb = 50'000'000;
 
-// Whether the fault has the parameter, which its kind takes: some modes do without.
+// Returns whether the fault has the parameter, which its kind takes: some modes lack it.
 bool applies(FaultParameter parameter, const Fault& fault);
 
 struct FaultPlan {
@@ -103,22 +103,22 @@ struct FaultPlan {
   bool empty() const { return faults.empty(); }
 };
 
-// The list `faults` of a mapping, empty where there is none; `latest`: the largest `from` that makes sense. Findings
-// are the mapping's. Names are kept as they are: a scenario's clusters need not have been read.
+// Reads the list `faults` of a mapping; empty if absent. `latest` is the largest permitted `from`. Findings go
+// to the mapping. Names are not looked up here: a scenario's clusters need not have been read.
 FaultPlan load_fault_plan(YamlMap& yaml, Duration latest);
-// One entry of such a list.
+// Reads one entry of such a list.
 Fault load_fault(YamlMap& yaml, Duration latest);
 
-// A fault's keys beside `kind` and `node`: those that its kind and mode have, with their values as in YAML, so that
-// they are read again as they are. Left out: `duration` of what lasts to the end, `receivers` that are all, `slot`
-// that is the next coldstart node's. The fault is resolved for the cluster.
+// Returns a fault's keys beside `kind` and `node`, as its kind and mode have them. The values are YAML and parse
+// to the same fault. Defaults are left out: `duration` to the end, `receivers` for all nodes, `slot` for the
+// next coldstart node's. The fault is resolved for the cluster.
 std::vector<std::pair<std::string_view, std::string>> keys_of(const Fault& fault,
                                                               const schedules::model::Cluster& cluster);
-// The whole entry in one line: "{kind: crash, node: fusion, from: 0 ns}".
+// Returns the whole entry in one line: "{kind: crash, node: fusion, from: 0 ns}".
 std::string entry_of(const Fault& fault, const schedules::model::Cluster& cluster);
 
-// The same plan with its names looked up, and slots and bits within what the cluster has. Throws InputError with every
-// finding: names nobody has, nodes that are off FlexRay, slots and bits beyond the end.
+// Returns the plan with its names looked up, and slots and bits checked against the cluster. Throws InputError
+// with every finding: unknown names, nodes off FlexRay, slots and bits out of range.
 FaultPlan resolve(FaultPlan plan, const schedules::model::Cluster& cluster);
 
 }  // namespace ttf::faults

@@ -1,4 +1,4 @@
-// Writes faults as they are read: what their kinds take, in exact units.
+// Writes faults in the form that load.cc reads: the keys of their kinds, in exact units.
 #include <fmt/format.h>
 
 #include "faults/parameters.h"
