@@ -15,7 +15,7 @@
 namespace ttf::drives {
 namespace {
 
-// Who sleeps has its supply from the start on.
+// A sleeping node has its supply from the start on.
 void start_cold(sim::crank::SimulationConfig& config, const std::vector<nodes::host::NodeStart>& starts) {
   config.power_on = [starts](NodeId node) -> std::optional<TrueTime> {
     const nodes::host::NodeStart& cold = starts[index_of(node)];
@@ -71,7 +71,7 @@ void check_recording(const Scenario& scenario, const schedules::model::Cluster& 
 void check_late(const Scenario& scenario, const schedules::model::Cluster& cluster,
                 fusion::strategies::StrategyKind strategy) {
   const fusion::oosm::Kind late = scenario.tracker.late;
-  if (late == fusion::oosm::Kind::kRewind) return;  // always possible; sensors' timing takes a while
+  if (late == fusion::oosm::Kind::kRewind) return;  // always possible; computing the sensors' timing takes a while
   const bool only_positions = std::none_of(
       cluster.sensors.begin(), cluster.sensors.end(),
       [](const schedules::model::Sensor& sensor) { return sensor.kind == schedules::model::SensorKind::kRadar; });

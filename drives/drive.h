@@ -1,6 +1,6 @@
-// One drive of a scenario with one strategy: the cluster, the world it drives through, and the reference beside it.
+// One drive of a scenario with one strategy: the cluster, its world and the reference.
 //
-// Truth and reference fixes are recorded here, not by any node (drives/observer.h).
+// drives/observer.h records the truth and the reference's fixes; no node does.
 #pragma once
 
 #include <cstdint>
@@ -25,49 +25,50 @@ struct DriveConfig {
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
   std::shared_ptr<const recording::rows::RecordedInput> recorded;
-  // Null: the whole cluster. Else one node of it, the others being in processes of their own: what is recorded is that
-  // node's share, and all shares together are what is recorded where this is null, but for PrecisionSample.
+  // Null: the whole cluster. Otherwise one node of it, while the others run in processes of their own. The drive
+  // then records that node's share; all shares together equal the records of the whole cluster, except for
+  // PrecisionSample.
   sim::processes::TurnTaking* others = nullptr;
-  // Whether anybody wants the clocks compared; what is recorded is the same otherwise, but for PrecisionSample.
+  // Whether to compare the clocks; the records are the same otherwise, except for PrecisionSample.
   bool compares_clocks = true;
 };
 
-// What only the whole run knows; of one node among others, that node's counts and no precision.
+// Results that only the whole drive has; for one node among others, that node's counts and no precision.
 struct DriveOutcome {
-  Duration precision{};  // where the clocks were compared
+  Duration precision{};  // if the clocks were compared
   nodes::host::ExecutiveCounts counts;
-  double flexray_load = 0.0;     // share of the time in which the busier channel is taken
+  double flexray_load = 0.0;     // share of time in which the busier channel is occupied
   std::vector<double> can_load;  // by Cluster::can_buses
   std::uint64_t frames_sent = 0;
   std::vector<sim::faults::Injector::Activation> faults;  // by Scenario::faults
 };
 
-// Whether scenario and cluster take what they are given: a cluster with recorded sources needs a recording and nodes
-// that begin integrated, and any other has no use for a recording. Throws InputError; run_drive() asks it, too.
+// Checks that scenario and cluster match the recording. A cluster with recorded sources needs one, and nodes
+// that begin integrated; any other cluster must have none. Throws InputError; run_drive() calls it too.
 void check_recording(const Scenario& scenario, const schedules::model::Cluster& cluster, bool given);
-// Whether that strategy can take late lists of this cluster in as the scenario says (tracker.late). Throws InputError;
-// run_drive() asks it, too.
+// Checks that the strategy can fuse late lists of this cluster as the scenario demands (tracker.late). Throws
+// InputError; run_drive() calls it too.
 void check_late(const Scenario& scenario, const schedules::model::Cluster& cluster,
                 fusion::strategies::StrategyKind strategy);
-// Whether that strategy can fuse when the cluster has it fuse: TT not when lists arrive. Throws InputError; run_drive()
-// asks it, too.
+// Checks that the strategy works with the activation of the cluster's fusion task: TT does not if lists activate
+// it. Throws InputError; run_drive() calls it too.
 void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::StrategyKind strategy);
-// The same of all that a scenario says of its cluster's nodes, and of the recording: faults, start-up, late lists.
-// Throws InputError, so that nothing has to be begun to find it out.
+// Checks the scenario's demands on the cluster's nodes and the recording before anything starts: faults,
+// start-up, late lists. Throws InputError.
 void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,
                 fusion::strategies::StrategyKind strategy, bool recording_given);
 
-// Runs the drive to its end, with the scenario's faults; their times count from kFirstCycle. Throws InputError where
-// scenario, cluster and code do not fit together.
+// Runs the drive to its end, with the scenario's faults; their times count from kFirstCycle. Throws InputError
+// if scenario, cluster and code do not match.
 DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out);
 
-// True time at which the drive (world or recording) starts in this cluster. In a cold one (drives/startup.h) the
-// world moves while the nodes start up: it starts when the first supply may come.
+// Returns the true time at which the world or the recording starts in this cluster. In a cold drive
+// (drives/startup.h) the world moves while the nodes start up: it starts at the earliest supply.
 TrueTime drive_start(const schedules::model::Cluster& cluster);
 
-// From `evaluation_start` to `drive_end` the drive is judged and drawn: both the scenario's evaluate_from and its
-// duration count from the start of cycle 0, whenever a recording begins; in a cold drive, whose cycles begin later,
-// from the same instant.
+// The drive is judged and drawn from `evaluation_start` to `drive_end`. The scenario's evaluate_from and
+// duration both count from the start of cycle 0, even if a recording begins later. In a cold drive, whose cycles
+// begin later, they count from the same instant.
 TrueTime evaluation_start(const Scenario& scenario);
 TrueTime drive_end(const Scenario& scenario);
 

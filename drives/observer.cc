@@ -40,9 +40,9 @@ void Observer::on(const recording::records::FusionStep& step) {
   }
 }
 
-// GPS time is the reference's own. It is on the cluster's scale by its offset to cycle 0, known after the drive; where
-// nobody knows beforehand when that is, and at which rate the cluster will count, by the reading of the fusion node's
-// clock when it took the fix in.
+// GPS time is the reference's own. In an integrated drive its offset to cycle 0 puts it on the cluster's scale.
+// In a cold drive the start and rate of the cluster's time are unknown beforehand: the fusion node's clock at
+// the fix is used.
 GlobalTime Observer::global_of(TrueTime at, const recording::records::Stamp& fused) const {
   return integrated_ ? GlobalTime{} + (at - sim::crank::kFirstCycle) : fused.global + (at - fused.true_time);
 }

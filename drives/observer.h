@@ -1,8 +1,8 @@
-// Adds what nobody in the cluster knows to the records of a drive: the truth, whenever a sensor measures and whenever
-// the feature service uses an image; a fix of the reference, when the fusion node first could have it.
+// Adds records that no node can make. The truth is recorded whenever a sensor measures and whenever the feature
+// service uses an image. A fix of the reference is recorded when the fusion node first could have it.
 //
-// The truth says on whose clock it was when (records::TruthState): nodes that measure at one instant each record it,
-// once.
+// A truth record names the node and clock that set its instant (records::TruthState). Nodes that measure at one
+// instant each record it once.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ namespace ttf::drives {
 
 class Observer final : public recording::records::Sink {
  public:
-  // Listens to the records of a run; `out` gets what it adds, between them. Both must outlive it.
+  // Listens to the records of a drive, and adds its own to `out` between them. Both must outlive the observer.
   Observer(const nodes::sensing::Scene& scene, std::size_t nodes, recording::records::Sink& out);
 
-  // `start`: of the world, which the reference is in. `integrated`: cycle 0 starts at kFirstCycle.
+  // `start` is that of the world, which contains the reference. `integrated`: cycle 0 starts at kFirstCycle.
   void follow(const sim::world::Reference& reference, const sim::world::World& world, TrueTime start, bool integrated);
 
   bool wants_frames() const override { return false; }

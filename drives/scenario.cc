@@ -20,7 +20,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
   constexpr Duration kLongest = Duration::milliseconds(3'600'000);
   const std::size_t mistakes = findings.size();
   scenario.duration = root.duration("duration", {Duration::milliseconds(100), kLongest});
-  // What must be within a duration that is none is not judged by what stands in for it.
+  // Without a valid duration no other value is checked against it.
   const Duration latest = findings.size() == mistakes ? scenario.duration : kLongest;
   scenario.evaluate_from = root.duration_or("evaluate_from", Duration{}, {Duration{}, latest});
 

@@ -1,5 +1,5 @@
-// A drive: what the world does, what the sensors are like, which cluster each strategy runs on, and the seed. One YAML
-// file under scenarios/; everything it leaves open has a documented default in the room that uses it.
+// A scenario describes a drive: the world, the sensors, the cluster of each strategy, and the seed. It is one
+// YAML file under scenarios/. Each omitted key has a documented default in its room.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct Scenario {
   std::string text;  // the YAML as read, attached to logs
   std::uint64_t seed = 1;
   Duration duration{};       // of the drive, from its start (drives/drive.h)
-  Duration evaluate_from{};  // likewise; measures and pictures start here, before it the tracker warms up
+  Duration evaluate_from{};  // from the same start; the tracker warms up before measures and pictures begin
   Startup startup;
   // By StrategyKind, as paths that can be opened.
   std::array<std::string, fusion::strategies::kStrategyCount> cluster_files;
@@ -45,12 +45,12 @@ struct Scenario {
   fusion::config::TrackerConfig tracker;
   nodes::sensing::RecordedNoise recorded_noise;
   nodes::service::FeatureConfig feature;
-  faults::FaultPlan faults;  // names as written: resolve() looks them up in the cluster of the drive
+  faults::FaultPlan faults;  // names as written: resolve() looks them up in the drive's cluster
 };
 
-// Throws InputError with every finding in the file. The clusters it names are not opened here.
+// Throws InputError with every finding in the file. The clusters are not opened here.
 Scenario load_scenario(const std::string& path);
-// The same of a text; `name` is what errors call it, and clusters are looked for in its folder.
+// Reads a scenario from a text. `name` stands for the file in errors, and its folder is that of the clusters.
 Scenario parse_scenario(std::string text, std::string name);
 
 }  // namespace ttf::drives

@@ -1,16 +1,16 @@
-// How a drive begins: with all nodes integrated, or cold, each node when its supply comes.
+// The beginning of a drive: with all nodes integrated, or cold, with a power-on time for each node.
 //
 //   startup: integrated                     # or left out: cycle 0 starts with the drive, and every node is in it
 //   startup:
 //     kind: cold
-//     spread: 20 ms                         # supplies come at a drawn time 0..spread from the start of the drive on,
-//     power_on: {fusion: 0 ms, gateway: 12 ms}   # or when it says here
-//     wake_up: fusion                       # this node wakes the cluster first (left out: nobody needs to be woken)
+//     spread: 20 ms                         # power-on times are drawn in 0..spread from the start of the drive,
+//     power_on: {fusion: 0 ms, gateway: 12 ms}   # or set here
+//     wake_up: fusion                       # this node wakes the cluster first (left out: no node sleeps)
 //
-// With `wake_up`, the named node sends a wake-up pattern on its wake-up channel before it starts up. Every other node
-// on that channel sleeps: its supply is there from the start of the drive on, but its controller and host are off until
-// it hears the pattern, and its power-on time counts from then. Nodes on the other channel only, or off FlexRay, nobody
-// can wake: their power-on times count from the start of the drive.
+// With `wake_up`, the named node sends a wake-up pattern on its wake-up channel before it starts up. Every other
+// node on that channel sleeps. Its supply is on from the start of the drive, but its controller and host are off
+// until it hears the pattern; its power-on time counts from then. Nodes only on the other channel or off FlexRay
+// do not sleep: their power-on times count from the start of the drive.
 #pragma once
 
 #include <cstdint>
@@ -34,17 +34,17 @@ struct Startup {
     int line = 0;
   };
   std::vector<PowerOn> power_on;
-  std::string wake_up;  // empty: nobody
+  std::string wake_up;  // empty: no node
   std::string file;     // for messages
   int wake_up_line = 0;
 };
 
-// The key `startup` of a scenario, and what goes without it; nothing comes later than `latest`. Findings are the
-// mapping's.
+// Reads the key `startup` of a scenario and its defaults; no power-on may be later than `latest`. Findings go to
+// the mapping.
 Startup load_startup(YamlMap& scenario, Duration latest);
 
-// Of every node of the cluster, drawn where the scenario leaves it open. Throws InputError with every finding: names
-// nobody has, a node that wakes without FlexRay, or whose wake-up channel it is not attached to.
+// Returns the start of every node of the cluster, drawn where the scenario sets no time. Throws InputError with
+// every finding: unknown names, a waking node off FlexRay or without its wake-up channel.
 std::vector<nodes::host::NodeStart> node_starts(const Startup& startup, const schedules::model::Cluster& cluster,
                                                 std::uint64_t seed, std::uint32_t replication);
 

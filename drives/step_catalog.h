@@ -1,4 +1,4 @@
-// Which code a cluster's steps are: the names a schedule may use, the ports each has, and how one is made.
+// Maps the names of steps in a schedule to code: the known names, the ports of each, and their construction.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace ttf::drives {
 
-// Every step there is, with its ports.
+// Returns every step with its ports.
 std::span<const schedules::model::StepPorts> step_ports();
 
 struct NodeSetConfig {
@@ -27,10 +27,11 @@ struct NodeSetConfig {
   std::shared_ptr<const recording::rows::RecordedInput> recorded;  // for clusters with recorded sources
 };
 
-// The code of a node's tasks, in file order. Throws InputError where the schedule's names and the code's do not agree.
+// Returns the steps of a node's tasks, in file order. Throws InputError if the schedule's names do not match the
+// code's.
 std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& config, NodeId node);
 
-// Whether the cluster takes its observations from a recording.
+// Returns whether the cluster takes its observations from a recording.
 bool is_recorded(const schedules::model::Cluster& cluster);
 
 }  // namespace ttf::drives

@@ -1,5 +1,5 @@
-// What a cluster drives through, and the reference beside it: the same for whoever simulates, whoever runs one node of
-// it in real time, and whoever adds the truth afterwards.
+// The world and the reference of a drive, the same in a simulation, in one node in real time, and for the truth
+// added afterwards.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ namespace ttf::drives {
 
 struct Surroundings {
   std::shared_ptr<const nodes::sensing::Scene> scene;
-  std::shared_ptr<const nodes::sensing::WorldScene> world;  // the same, unless it is recorded
-  std::optional<sim::world::Reference> reference;           // in a world, of the first object that has one
+  std::shared_ptr<const nodes::sensing::WorldScene> world;  // the same scene; null if it is recorded
+  std::optional<sim::world::Reference> reference;           // in a world: of the first object with a reference
 
-  // Has the observer look at the reference, too. This must outlive it.
+  // Makes the observer record the reference, too. This must outlive the observer.
   void show(Observer& observer, const Scenario& scenario, const schedules::model::Cluster& cluster) const;
 };
 
-// `recorded`: null where the cluster takes none.
+// `recorded` is null for a cluster without a recording.
 Surroundings surroundings_of(const Scenario& scenario, const schedules::model::Cluster& cluster, std::uint64_t seed,
                              std::uint32_t replication,
                              const std::shared_ptr<const recording::rows::RecordedInput>& recorded);
