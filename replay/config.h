@@ -1,9 +1,8 @@
-// What recorded observations are replayed with: the tracker, the strategy, and what is known of each sensor. As YAML,
-// in which every key has a default:
+// The configuration of a replay: the tracker, the strategy and the sensors. In its YAML every key has a default:
 //
 //   strategy: adva                # buff, adva or tt
 //   tracker: {process_noise: 4.0}                # the same keys as in a scenario (fusion/config/tracker_config.h)
-//   sensors:                                     # those of the recording; without this key, whichever it has
+//   sensors:                                     # those of the recording; absent: all sensors in it
 //     laser: {position: 0.15, period: 100 ms, worst_delay: 10 ms}
 //     radar: {range: 0.3, bearing: 0.03, range_rate: 0.3, period: 100 ms, first: 50 ms, worst_delay: 70 ms}
 //     side:                                      # place and biases: fusion/sensors/known_sensor.h
@@ -25,7 +24,7 @@
 
 namespace ttf::replay {
 
-// Standard deviations of what a row gives without a covariance or a sigma of its own.
+// Standard deviations for rows without a covariance or sigma of their own.
 struct SensorNoise {
   double position = 0.5;             // [m], per axis
   double range = 0.5;                // [m]
@@ -37,37 +36,37 @@ struct SensorNoise {
 
 struct SensorSetup {
   SensorNoise noise;
-  // Without them: what the recording shows (replay/sensor_timing.h).
+  // Absent: estimated from the recording (replay/sensor_timing.h).
   std::optional<Duration> worst_delay, period;
   std::optional<GlobalTime> first;     // an instant of the schedule; only with a period
   fusion::sensors::KnownSensor known;  // its place on the vehicle, and its biases
 };
 
 struct ReplayConfig {
-  std::string file;  // empty: there is none
+  std::string file;  // empty: no file
   fusion::strategies::StrategyKind strategy = fusion::strategies::StrategyKind::kAdva;
-  fusion::config::TrackerConfig tracker;                     // with what is known of the sensors
-  int late_line = 0;                                         // of tracker.late; 0: it is not there
-  std::vector<std::pair<std::string, SensorSetup>> sensors;  // by SensorId; none: whichever a recording has
+  fusion::config::TrackerConfig tracker;                     // with the known sensors
+  int late_line = 0;                                         // of tracker.late; 0: absent
+  std::vector<std::pair<std::string, SensorSetup>> sensors;  // by SensorId; empty: all of the recording
 };
 
 inline constexpr std::size_t kMostSensors = 100;
-// Allowed for every sigma of SensorNoise, in its unit.
+// The permitted range for every sigma of SensorNoise, in its unit.
 inline constexpr Range<double> kSigmaAllowed{1e-3, 100.0}, kAngleSigmaAllowed{1e-4, 0.5};
 inline constexpr Range<Duration> kDelayAllowed{Duration{}, Duration::milliseconds(3'600'000)};
 inline constexpr Range<Duration> kPeriodAllowed{Duration::microseconds(1), Duration::milliseconds(3'600'000)};
 
-// The sigma of that name, and what is allowed for it; null where there is none.
+// The sigma of that name and its permitted range; null for an unknown name.
 struct NamedSigma {
   double* value = nullptr;
   Range<double> allowed{};
   const char* unit = "";
 };
 NamedSigma sigma_of(SensorNoise& noise, std::string_view name);
-// Their names, as in "must be position, range, ...".
+// Returns the names as in "must be position, range, ...".
 std::string sigma_names();
 
-// Of a sensor, what the file does not say is as in `any`. Throws InputError.
+// Keys missing for a sensor are as in `any`. Throws InputError.
 ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any);
 ReplayConfig parse_replay_config(const std::string& text, const std::string& name, const SensorSetup& any);
 

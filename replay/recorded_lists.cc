@@ -60,7 +60,7 @@ fusion::sensors::Observation observation_of(const ObservationRow& row, const Sen
   return out;
 }
 
-// In the order of their names, whatever that of the rows: of equal scores the first one's counts.
+// Alphabetical, whatever the order of rows: of equal scores the first class counts.
 std::vector<std::string> classes_of(const std::vector<ObservationRow>& rows, const std::string& name) {
   std::set<std::string> seen;
   for (const ObservationRow& row : rows) {
@@ -91,7 +91,7 @@ bool arrives_before(const RecordedList& a, const RecordedList& b) {
   return std::tuple(a.arrival, a.measured, a.id.sensor) < std::tuple(b.arrival, b.measured, b.id.sensor);
 }
 
-// Numbers the lists of each sensor by their time, and those that were heard before by their arrival.
+// Numbers the lists of each sensor by their time, and copies by their arrival.
 void give_numbers(std::vector<RecordedList>& lists, std::size_t sensors) {
   std::stable_sort(lists.begin(), lists.end(), arrives_before);
   std::vector<std::map<GlobalTime, std::uint32_t>> times(sensors), heard(sensors);
@@ -179,7 +179,7 @@ void simulate(RecordedLists& recorded, const SimulatedArrivals& simulated) {
   }
   std::stable_sort(recorded.lists.begin(), recorded.lists.end(), arrives_before);
   if (simulated.shuffle <= 1) return;
-  // No sensor's number: there are fewer of those.
+  // An entity that no sensor has: their numbers are smaller.
   RandomStream stream({.seed = simulated.seed, .purpose = Purpose::kArrival, .entity = 0xffff});
   for (std::size_t from = 0; from < recorded.lists.size(); from += simulated.shuffle) {
     const std::size_t count = std::min(simulated.shuffle, recorded.lists.size() - from);

@@ -1,10 +1,10 @@
-// Recorded observations as a fusion node receives them: lists, each of one sensor and one instant, in the order in
-// which they arrive.
+// Recorded observations as a fusion node receives them: lists of one sensor and one instant each, in the order
+// of arrival.
 //
-// A list is all rows of a sensor at a time that arrive at one instant; the same sensor and time with another arrival is
-// the list heard again. Lists are numbered by sensor in the order of their measurements, so that their numbers say
-// nothing of when they arrived. Of several measurements at one instant the tracker takes that of the first sensor
-// first, as the configuration lists them, whatever the order of rows.
+// A list is all rows of a sensor at a time that arrive at one instant. Rows of the same sensor and time with
+// another arrival are a copy of the list. Lists are numbered by sensor in the order of their measurements,
+// independent of their arrival. Of several measurements at one instant the tracker takes in that of the first
+// sensor first, in the configuration's order, whatever the order of rows.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace ttf::replay {
 struct RecordedList {
   MeasurementId id;
   GlobalTime measured{}, arrival{};
-  std::uint32_t copy = 0;  // how often it was heard before
+  std::uint32_t copy = 0;  // the number of earlier copies
   std::vector<fusion::sensors::Observation> observations;
 
   fusion::sensors::ObservationList view() const { return {id, measured, observations}; }
@@ -33,30 +33,30 @@ struct RecordedList {
 
 struct RecordedLists {
   std::vector<std::string> sensors;  // by SensorId
-  std::vector<std::string> classes;  // by fusion::ClassId, in the order of their names
-  std::vector<RecordedList> lists;   // in the order of arrival; at one instant, in that of measurement
+  std::vector<std::string> classes;  // by fusion::ClassId, in alphabetical order
+  std::vector<RecordedList> lists;   // in the order of arrival; at one instant, of measurement
 };
 
-// Where the configuration lists no sensor: lists those of the rows, by name, each as `any`. Throws InputError, naming
-// the file, where they are more than kMostSensors.
+// For a configuration without sensors: adds those of the rows, by name, each as `any`. Throws InputError, which
+// names the file, if they exceed kMostSensors.
 void list_sensors(ReplayConfig& config, const std::vector<recording::rows::ObservationRow>& rows,
                   const SensorSetup& any, const std::string& name);
 
-// One finding, and the row left out, for each row of a sensor that the configuration does not list, with a covariance
-// that is none, or beyond the most observations that a list may have (max_observations of the tracker). `name`: the
-// file's. Throws InputError where there are more classes than fusion::kMostClasses.
+// Makes lists of rows. A row is a finding and left out if the configuration lacks its sensor, its covariance is
+// invalid, or its list already has the most observations (max_observations of the tracker). `name` is the
+// file's. Throws InputError if there are more classes than fusion::kMostClasses.
 RecordedLists recorded_lists_of(const std::vector<recording::rows::ObservationRow>& rows, const ReplayConfig& config,
                                 const std::string& name, Findings& findings);
 
-// Delays that are drawn in place of the recorded ones, and arrivals in disorder. Draws depend on the seed, the sensor's
-// place among the sensors, the number of the list and which copy of it it is, never on what else there is.
+// Drawn delays instead of the recorded ones, and shuffled arrivals. Draws depend only on the seed, the sensor's
+// index, the number of the list and its copy.
 struct SimulatedArrivals {
   struct Delay {
     Duration least, most;  // drawn evenly, both ends included
   };
-  std::vector<std::optional<Delay>> delays;  // by sensor; of those without one the recorded delays stay
-  // Each so many lists that arrive one after the other come together when the last of them arrives, in drawn order; 1:
-  // as they come.
+  std::vector<std::optional<Delay>> delays;  // by sensor; absent: the recorded delays stay
+  // Each group of this many successive lists arrives together, when its last list arrives, in drawn order; 1: no
+  // shuffling.
   std::size_t shuffle = 1;
   std::uint64_t seed = 1;
 };

@@ -71,11 +71,11 @@ class Replay {
     ++account_.sensors[index_of(list.id.sensor)].held;
   }
 
-  // Whether it is in the tracks now.
+  // Returns whether the list is in the tracks now.
   bool settle(const fusion::strategies::FusedList& list) {
     SensorAccount& account = account_.sensors[index_of(list.id.sensor)];
     auto waiting = find(list);
-    // Of a list that is heard again while it waits, the later one is the duplicate.
+    // If a list arrives again while the first copy waits, the later copy is the duplicate.
     if (list.disposition == fusion::strategies::Disposition::kDuplicate) waiting = std::prev(waiting_.end());
     account.longest_hold = std::max(account.longest_hold, now_ - waiting->arrival);
     waiting_.erase(waiting);
@@ -113,7 +113,7 @@ class Replay {
   const TrackSink& sink_;
   std::unique_ptr<fusion::strategies::Strategy> strategy_;
   GlobalTime now_{};
-  std::vector<Waiting> waiting_;  // accepted, and of no fate yet
+  std::vector<Waiting> waiting_;  // accepted, without a fate yet
   std::vector<fusion::tracks::TrackView> image_;
   std::set<TrackId> tracks_;
   ReplayAccount account_;

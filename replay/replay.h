@@ -1,7 +1,7 @@
-// Recorded observations through a strategy and its tracker, as a fusion node would: list by list as they arrive,
-// online. What arrives is accepted and fused at once, as far as the strategy lets it; while it holds lists back, it is
-// asked again at every instant at which one of them may be let go. After the last arrival the replay goes on until
-// nothing is held.
+// Sends recorded lists through a strategy and its tracker, as a fusion node would: online, list by list as they
+// arrive. Each list is accepted and fused at once if the strategy permits. While the strategy holds lists, it is
+// asked again at every instant that may release one. After the last arrival the replay continues until no list
+// is held.
 #pragma once
 
 #include <cstdint>
@@ -18,33 +18,33 @@
 
 namespace ttf::replay {
 
-// What became of the lists of one sensor.
+// Counts the fates of one sensor's lists.
 struct SensorAccount {
   std::uint64_t lists = 0, observations = 0;
-  std::uint64_t in_order = 0, late = 0, too_old = 0, duplicates = 0;  // one of these for every list
-  std::uint64_t held = 0;                                             // lists that were not let go as they arrived
+  std::uint64_t in_order = 0, late = 0, too_old = 0, duplicates = 0;  // exactly one of these for every list
+  std::uint64_t held = 0;                                             // lists not released on arrival
   Duration longest_hold, longest_delay;
 };
 
 struct ReplayAccount {
   std::vector<SensorAccount> sensors;  // by SensorId
-  std::uint64_t tracks = 0;            // confirmed ones, each counted once
-  std::uint64_t rows = 0;              // handed to the sink
+  std::uint64_t tracks = 0;            // confirmed tracks, each counted once
+  std::uint64_t rows = 0;              // passed to the sink
 };
 
-// The tracks after a fusion that took something in: confirmed ones, not given up.
+// Receives the tracks after each fusion of a list: the confirmed ones that were not given up.
 using TrackSink = std::function<void(ttf::GlobalTime known, std::span<const ttf::fusion::tracks::TrackView> tracks)>;
 
 struct ReplaySetup {
   fusion::strategies::StrategyKind strategy = fusion::strategies::StrategyKind::kAdva;
   fusion::config::TrackerConfig tracker;
   std::vector<fusion::strategies::SensorTiming> timings;  // by SensorId
-  bool predict = false;  // tracks predicted to the instant of the fusion, not as of the newest measurement
+  bool predict = false;  // predict tracks to the fusion instant, not only to the newest measurement
 };
 
 ReplayAccount replay(const RecordedLists& recorded, const ReplaySetup& setup, const TrackSink& sink);
 
-// `classes`: those of the recorded lists.
+// `classes` are those of the recorded lists.
 recording::rows::TrackRow track_row_of(const fusion::tracks::TrackView& view, GlobalTime known,
                                        const std::vector<std::string>& classes);
 

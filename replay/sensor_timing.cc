@@ -8,7 +8,7 @@
 namespace ttf::replay {
 namespace {
 
-// Of each sensor, ascending and each once.
+// Returns the times of each sensor, ascending and without repetition.
 std::vector<std::vector<GlobalTime>> times_measured(const RecordedLists& recorded) {
   std::vector<std::vector<GlobalTime>> times(recorded.sensors.size());
   for (const RecordedList& list : recorded.lists)
@@ -17,7 +17,7 @@ std::vector<std::vector<GlobalTime>> times_measured(const RecordedLists& recorde
   return times;
 }
 
-// The nearest whole number; both above zero.
+// Rounds to the nearest whole number; both are above zero.
 std::int64_t rounds(Duration whole, Duration part) { return (whole.ns + part.ns / 2) / part.ns; }
 
 }  // namespace
@@ -38,7 +38,7 @@ std::optional<Duration> regular_period(const std::vector<GlobalTime>& times) {
   std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
   const Duration middle = steps[steps.size() / 2];
   if (middle > kPeriodAllowed.high) return std::nullopt;
-  // As exact as the whole recording tells it.
+  // Averages over the whole recording, for the best resolution.
   std::int64_t in_all = 0;
   for (std::size_t i = 1; i < times.size(); ++i) in_all += rounds(times[i] - times[i - 1], middle);
   if (in_all == 0) return std::nullopt;

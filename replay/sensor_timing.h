@@ -1,4 +1,4 @@
-// What a replay may promise the strategies of its sensors: what the configuration says, else what the recording shows.
+// The timing of sensors that a replay gives to strategies: from the configuration, otherwise from the recording.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@
 
 namespace ttf::replay {
 
-// By sensor: the longest that a list was under way. Zero for a sensor without lists.
+// Returns the longest delay of a list, by sensor; zero for a sensor without lists.
 std::vector<Duration> longest_delays(const RecordedLists& recorded);
 
-// A period from the first of `times` (ascending) on which all of them lie within a quarter of it, also where some of
-// its instants have none; nothing for less than three, and for what is not regular.
+// Returns a period such that all `times` (ascending) lie within a quarter of it around the grid from the first
+// one. Grid instants may lack a time. Returns nullopt for fewer than three times and for irregular ones.
 std::optional<Duration> regular_period(const std::vector<GlobalTime>& times);
 
-// Whether nothing else was measured.
+// Returns whether the observations contain positions only.
 bool only_positions(const RecordedLists& recorded);
 
-// By sensor. The worst delay is the longest seen unless the configuration has one. Instants are scheduled for TT, and
-// for clones, where the configuration has a period, or else the recording is regular. Throws InputError where TT is
-// asked for and no sensor's instants are known, for it would wait for none, and where the strategy cannot take late
-// lists in as the configuration says (fusion::late_refusal()).
+// Returns the timings by sensor. The worst delay is the configuration's, otherwise the longest in the recording.
+// Scheduled instants, for TT and for clones, need a period in the configuration or a regular recording. Throws
+// InputError if TT would know no sensor's instants, and so wait for none. Also throws it if the strategy cannot
+// fuse late lists as configured (fusion::late_refusal()).
 std::vector<fusion::strategies::SensorTiming> sensor_timings(const RecordedLists& recorded, const ReplayConfig& config,
                                                              fusion::strategies::StrategyKind strategy);
 
