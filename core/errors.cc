@@ -17,8 +17,8 @@ std::string all_sentences(const std::vector<Finding>& findings) {
   return text;
 }
 
-// Returns text from outside in a form that cannot break the line or fill the screen: control characters become
-// \xNN, and the text is cut to `most` bytes (between characters of UTF-8).
+// Makes text from outside safe for one line of a message. Control characters become \xNN, and the text is cut to
+// `most` bytes (between characters of UTF-8).
 std::string shown(std::string_view text, std::size_t most) {
   std::size_t end = std::min(most, text.size());
   while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;

@@ -1,5 +1,5 @@
-// Small strongly typed identifiers. Each indexes a list of its cluster or scenario, in file order, so it is the
-// same in every process and every drive of the same files.
+// Small strongly typed identifiers. Each indexes a list of its cluster or scenario, in file order. It is
+// therefore the same in every process and every drive of the same files.
 #pragma once
 
 #include <compare>

@@ -4,7 +4,7 @@
 // The 64-bit key is the drive's seed; the 128-bit counter is
 //   word 0  block within the stream        word 2  entity (16 bits) and purpose (16 bits)
 //   word 1  index (which measurement, ...) word 3  replication
-// Streams therefore never overlap, and the draws of one entity do not depend on those of another: paradigms
+// Streams therefore never overlap, and the draws of one entity do not depend on those of another. Paradigms
 // compared on the same seed see the same noise.
 #pragma once
 
@@ -47,8 +47,8 @@ std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> counter,
 // Reads one stream from its beginning. It is a value: a copy continues from the same position independently.
 class RandomStream {
  public:
-  // The 32-bit words that draws take from the stream, which is made in blocks of four. normal() draws a pair and
-  // returns its second value at the next call without drawing. integer() takes kWordsOfUniform, and rarely more.
+  // The 32-bit words that draws take from the stream, which consists of blocks of four. A pair serves two calls
+  // of normal(): the second draws no words. A call of integer() takes kWordsOfUniform, and rarely more.
   static constexpr std::uint32_t kWordsOfABlock = 4, kWordsOfUniform = 2, kWordsOfANormalPair = 4;
 
   // Starts at block `first`. A stream with parts of known length can be cut into blocks, and each part read

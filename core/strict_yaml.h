@@ -1,5 +1,5 @@
-// A strict reader of YAML mappings: unknown, missing, duplicate, mistyped and out-of-range keys are findings
-// with file, line, key, value and allowed range, never a warning with a default.
+// A strict reader of YAML mappings: unknown, missing, duplicate, mistyped and out-of-range keys are findings. A
+// finding has file, line, key, value and allowed range; a default with a warning never replaces it.
 //
 //   StrictYaml file = StrictYaml::load("clusters/paper.yaml");     // throws InputError on unreadable or broken YAML
 //   Findings findings;

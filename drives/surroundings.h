@@ -1,5 +1,5 @@
-// The world and the reference of a drive, the same in a simulation, in one node in real time, and for the truth
-// added afterwards.
+// The world and the reference of a drive. A simulation, a node in real time and the truth added afterwards share
+// them.
 #pragma once
 
 #include <cstdint>

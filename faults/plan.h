@@ -66,7 +66,7 @@ struct Fault {
   FaultDirection direction = FaultDirection::kSend;  // omission
   std::vector<int> bits;                             // bit flips: 0 is the region's first bit on the bus; empty: drawn
   int flips = 1;                                     // bit flips: how many different bits are drawn, 1..24
-  Duration shift{};  // sos_timing: late, or early if negative; byzantine_clock: the largest error
+  Duration shift{};                                  // sos_timing: late, if negative early; byzantine_clock: most off
   ByzantinePattern pattern = ByzantinePattern::kRandom;
 
   // Signals without a schedule: bursts, the first at `from`. From start to start they are `interval` plus an

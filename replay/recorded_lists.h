@@ -3,8 +3,8 @@
 //
 // A list is all rows of a sensor at a time that arrive at one instant. Rows of the same sensor and time with
 // another arrival are a copy of the list. Lists are numbered by sensor in the order of their measurements,
-// independent of their arrival. Of several measurements at one instant the tracker takes in that of the first
-// sensor first, in the configuration's order, whatever the order of rows.
+// independent of their arrival. The tracker takes in measurements of one instant in the configuration's order of
+// sensors, whatever the order of rows.
 #pragma once
 
 #include <cstdint>
@@ -42,9 +42,9 @@ struct RecordedLists {
 void list_sensors(ReplayConfig& config, const std::vector<recording::rows::ObservationRow>& rows,
                   const SensorSetup& any, const std::string& name);
 
-// Makes lists of rows. A row is a finding and left out if the configuration lacks its sensor, its covariance is
-// invalid, or its list already has the most observations (max_observations of the tracker). `name` is the
-// file's. Throws InputError if there are more classes than fusion::kMostClasses.
+// Makes lists of rows. A row is a finding and left out if the configuration lacks its sensor, if its covariance
+// is invalid, or if its list is full (max_observations of the tracker). `name` is the file's. Throws InputError
+// if there are more classes than fusion::kMostClasses.
 RecordedLists recorded_lists_of(const std::vector<recording::rows::ObservationRow>& rows, const ReplayConfig& config,
                                 const std::string& name, Findings& findings);
 

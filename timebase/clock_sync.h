@@ -1,10 +1,10 @@
 // FlexRay clock synchronisation as pure steps: deviations in, corrections out (FlexRay 2.1A, chapter 8).
 //
 // A deviation is the observed minus the expected action point of a sync frame, in the receiver's microticks. It
-// is positive when the frame came late, so when this node's clock is ahead. The node's own sync frame counts as
-// 0. Fault-tolerant midpoint: sort, drop the k smallest and k largest (k = 0 for 1-2 values, 1 for 3-7, 2 for
-// 8-15), and take (smallest + largest of the rest) / 2, rounded towards zero. The algorithm descends from
-// Lundelius Welch and Lynch, "A new fault-tolerant algorithm for clock synchronization", Information and
+// is positive for a late frame: this node's clock is then ahead. The node's own sync frame counts as 0.
+// Fault-tolerant midpoint: sort, and drop the k smallest and k largest values (k = 0 for 1-2 values, 1 for 3-7,
+// 2 for 8-15). The result is (smallest + largest of the rest) / 2, rounded towards zero. The algorithm descends
+// from Lundelius Welch and Lynch, "A new fault-tolerant algorithm for clock synchronization", Information and
 // Computation 77 (1988).
 #pragma once
 
@@ -46,9 +46,9 @@ struct SyncMeasurements {
 // lengthens it.
 Correction offset_correction(std::span<const SyncDeviation> deviations, int limit);
 
-// Returns the rate correction for the next double cycle: the midpoint of odd minus even deviations of the same
-// frame (mean of the channels valid in both), plus the previous rate, damped by `damping` towards zero, limited
-// to +-pRateCorrectionOut.
+// Returns the rate correction for the next double cycle. The midpoint of odd minus even deviations of the same
+// frame (mean of the channels valid in both) is added to the previous rate. The sum is damped by `damping`
+// towards zero and limited to +-pRateCorrectionOut.
 Correction rate_correction(const SyncMeasurements& measured, int previous, int damping, int limit);
 
 }  // namespace ttf::timebase

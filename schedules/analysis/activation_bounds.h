@@ -8,9 +8,9 @@
 //               ends of its task, J the longest time from an end until the list is complete: a list that has just
 //               missed its slots waits for the next ones
 // A writer that itself waits for lists over FlexRay is bounded by their slots alone, since two writers might
-// wait for each other. All times are in the node's own time. No faults are assumed (schedules/analysis/ages.h,
-// A1): a list lost in its static slots comes with the next ones, later than J allows, but never closer to
-// another list than their slots.
+// wait for each other. All times are in the node's own time. Faults are not considered
+// (schedules/analysis/ages.h, A1). A list lost in its static slots comes with the next ones: later than J
+// allows, but never closer to another list than their slots.
 #pragma once
 
 #include "schedules/analysis/processor/activations.h"

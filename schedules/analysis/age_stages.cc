@@ -160,9 +160,9 @@ class Builder {
   }
 
   // Other tasks activated by lists on the same CAN. One list's last frame ends before the other's next begins.
-  // When `in` arrives, such a task has therefore had the processor for at least `lead`: the duration of the last
-  // frame of `in`, or of all its frames for lists that must wait for every one. A shorter list has a shorter
-  // lead but arrived earlier by the same amount, so the longest list is the worst.
+  // When `in` arrives, such a task has therefore had the processor for at least `lead`. The lead is the duration
+  // of the last frame of `in`, or of all its frames if the other list must wait for them. A shorter list has a
+  // shorter lead but arrived earlier by the same amount: the longest list is the worst.
   struct Before {
     std::vector<const model::Task*> tasks;
     Duration lead{};

@@ -46,8 +46,8 @@ Path path_of(const model::Cluster& cluster, SensorId sensor);
 std::vector<std::int64_t> walk(const model::Cluster& cluster, const Path& path, std::size_t first, std::size_t last,
                                std::int64_t start, bool latest, bool first_is_exact);
 
-// Returns the instants within 64 cycles from `from_cycle` at which a list just enters a stage on the grid
-// (earliest) or, one nanosecond later, may miss it (latest).
+// Returns the last instants for entering a stage on the grid, within 64 cycles from `from_cycle` (earliest). For
+// the latest walk they are one nanosecond later, so that the list may miss the stage.
 std::vector<std::int64_t> entries(const model::Cluster& cluster, const Stage& stage, std::int64_t from_cycle,
                                   bool latest);
 

@@ -53,7 +53,7 @@ class Ages {
     }
   }
 
-  // For tasks activated by lists: a list that no sensor's slowest list can precede is released by the next list
+  // For tasks activated by lists. A list waits until no slower list can precede it, and then for the next list
   // of the sensor with the shortest time between arrivals.
   Duration held_for_arrivals(const std::vector<AgePath>& paths) const {
     Duration slowest{};
@@ -73,7 +73,7 @@ class Ages {
     std::int64_t fused = 0, used = 0;
     const std::size_t last = std::max(path.used, path.fused);
     if (path.on_arrival) return buffer(ages, path, held_for_arrivals);
-    // Not activated by time: no fusion instants exist to hold a list for.
+    // Without activation by time there are no fusion instants to hold a list for.
     if (gate >= path.stages.size() || path.stages[gate].kind != Stage::Kind::kActivation) return;
     for (const Release& release : releases) {
       const auto instants = walk(cluster_, path, gate, last, release.at.ns, true, true);

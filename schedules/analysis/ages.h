@@ -1,8 +1,8 @@
 // The age of a measurement when it is available, fused and used: best and worst case by path.
 //
-// The path of a sensor's lists leads from its measuring task through media and tasks to the task that fuses
-// them, which reads them and writes none. It continues through the task of the same node that writes the image,
-// to the image's reader. Stages of a path:
+// The path of a sensor's lists leads from its measuring task through media and tasks to the fusing task, which
+// reads them and writes none. It continues through the task of the same node that writes the image, to the
+// image's reader. Stages of a path:
 //   span         an execution, a CAN transfer or the wait for a busy processor: between best and worst, at any phase.
 //                The best CAN transfer is one frame without stuff bits. The worst is a full list with maximal stuffing
 //                behind one frame of lower priority and all traffic of higher priority (schedules/analysis/can_load.h).
@@ -52,8 +52,8 @@ struct AgePath {
   Duration fused_best{}, fused_worst{};  // measurement -> start of the fusion task that reads it
   std::vector<Contribution> to_use;      // measurement -> start of the task that reads the first image that contains it
   Duration use_best{}, use_worst{};
-  // The largest age of the sensor's newest measurement in an image, at any use of an image: the age at the last
-  // use before the one that shows the next measurement.
+  // The largest age of the sensor's newest measurement in an image, at any use of the image. It is reached at
+  // the last use before the one that shows the next measurement.
   Duration newest_worst{};
   // With BUFF: held until no older measurement of any sensor can arrive (schedules/analysis/settled.h) and, if
   // lists activate the fusing task, until the next list comes.

@@ -7,11 +7,11 @@
 // (CRC delimiter, ACK and its delimiter, 7 EOF, 3 intermission).
 //
 // CAN FD with bit-rate switching (ISO 11898-1:2015): SOF to BRS (17 bits) and the 13 unstuffed bits are at the
-// nominal rate; ESI, DLC, data, stuff count and CRC at the data rate. SOF to IDE (14 bits) need 3 stuff bits at
-// worst; FDF, res and BRS alternate, so that a new run begins with BRS. Dynamic stuffing ends with the data.
-// Stuff count (4 bits) and CRC (17 bits up to 16 bytes, else 21) have fixed stuff bits, one first and one after
-// every fourth bit: 6 or 7. The two bits in which the rate changes (BRS, CRC delimiter) count at the nominal
-// rate, which is safe.
+// nominal rate. ESI, DLC, data, stuff count and CRC are at the data rate. SOF to IDE (14 bits) need 3 stuff bits
+// at worst; FDF, res and BRS alternate, so that a new run begins with BRS. Dynamic stuffing ends with the data.
+// Stuff count (4 bits) and CRC (17 bits up to 16 bytes, else 21) have 6 or 7 fixed stuff bits: one first and one
+// after every fourth bit. The two bits in which the rate changes (BRS, CRC delimiter) count at the nominal rate,
+// which is safe.
 #pragma once
 
 #include <cstdint>

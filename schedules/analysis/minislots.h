@@ -1,5 +1,5 @@
 // The dynamic segment in the schedule: the minislots of a frame, and the earliest and latest turn of a slot
-// (FlexRay 2.1A, chapter 5.1.3; bus/controller/dynamic_segment.h counts minislots during a cycle).
+// (FlexRay 2.1A, chapter 5.1.3). During a cycle bus/controller/dynamic_segment.h counts the minislots.
 //
 // A transmission begins at the action point of a minislot m. Its trailing sequence (DTS, at least one bit) ends
 // at the first action point that leaves room for the frame, in minislot m + k,
@@ -9,8 +9,8 @@
 //   aMinislotPerDynamicFrame = k + 1 + gdDynamicSlotIdlePhase
 // A slot that begins no later than in minislot pLatestTx ends within the segment if
 //   pLatestTx <= gNumberOfMinislots - aMinislotPerDynamicFrame + 1
-// This is the specification's constraint on pLatestTx in annex B, for the longest frame of the node; the
-// derivation above is from the controller's rule in chapter 5.1.3. A silent slot takes one minislot.
+// This is the specification's constraint on pLatestTx in annex B, for the longest frame of the node. The
+// derivation above uses the controller's rule in chapter 5.1.3. A silent slot takes one minislot.
 //
 // The earliest turn of slot s on a channel is in minislot s - gNumberOfStaticSlots, when all slots before it are
 // silent. The latest turn is when every slot before it that shares one of its cycles carries its longest frame.

@@ -163,7 +163,7 @@ class ChainAnalysis {
   }
 
   // Returns whether `other` may be activated between the activation and the end of the predecessor of `task`.
-  // That end is `since` after the activation of their chain.
+  // `since` is the time from the activation of their chain to that end.
   bool may_be_before(std::size_t task, std::size_t other, Jobs jobs, std::int64_t since) const {
     if (chain_[other] == chain_[task]) return jobs == Jobs::kMixed || !(leads_to(other, task) || leads_to(task, other));
     if (!chain_of(task).by_time() || !by_time(node_.tasks[other])) return true;

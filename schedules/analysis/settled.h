@@ -1,11 +1,11 @@
 // The lists that have certainly arrived at a fusion instant. With this bound a fusion node stops waiting for a
-// missing list at the first fusion instant by which it must have arrived, and at no earlier one.
+// missing list at the first fusion instant by which it must have arrived, and not earlier.
 //
 // A list measured at m enters the first stage of its path on the cycle's grid (its slots, or the fusing task
-// itself) at m + W at the latest, with W the sum of the worst cases before it. From there the latest way is a
-// step function of the entry, with a step behind every instant of that stage. A list that enters at such an
-// instant g is read at the fusion instant a(g) at the latest; a list that enters behind it may be read an
-// instant later. So at a(g), and not before, every list stamped
+// itself) by m + W. W is the sum of the worst cases before that stage. From there the latest way is a step
+// function of the entry, with a step behind every instant of that stage. A list that enters at such an instant g
+// is read at the fusion instant a(g) at the latest. A list that enters after g may be read an instant later. So
+// at a(g), and not before, every list stamped
 //   m(g) = g - W - (clocks apart) - (stamp)
 // or earlier has arrived or never will. Stages, worst cases and the clocks' difference are those of
 // schedules/analysis/ages.h, with its assumptions A1, A2 and A4. A stamp is the reading of a clock, at most a

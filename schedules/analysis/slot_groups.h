@@ -31,9 +31,8 @@ std::vector<SlotGroup> slot_groups(const model::Cluster& cluster, PduId pdu);
 // Returns the macrotick at which a static slot (1..) begins.
 Macroticks slot_start(const model::GlobalParameters& flexray, int slot);
 
-// The shortest and longest time between the beginnings of two successive sendings of a PDU, over all 64 cycles,
-// and the longest time from its beginning to completion. Absent if the PDU has no slots, or if some sending has
-// no bound.
+// The shortest and longest time between the beginnings of two successive sendings of a PDU, and the longest
+// duration of one, over all 64 cycles. Absent if the PDU has no slots, or if some sending has no bound.
 struct SlotGap {
   Duration gap{};
   Duration longest{};

@@ -13,9 +13,9 @@
 namespace ttf::schedules::check {
 namespace {
 
-// Checks that a transmission begins and ends in the same minislot on every receiver's clock, and that the
-// channel is seen idle before the next slot may begin (annex B: gdMinislotActionPointOffset, gdMinislot,
-// gdDynamicSlotIdlePhase).
+// Checks that a transmission begins and ends in the same minislot on every receiver's clock. Also checks that
+// receivers see the channel idle before the next slot may begin. (Annex B: gdMinislotActionPointOffset,
+// gdMinislot, gdDynamicSlotIdlePhase.)
 void check_grid(const model::Cluster& cluster, ClusterFindings& findings) {
   const model::GlobalParameters& g = cluster.flexray;
   const auto wrong = [&](const char* name, std::int64_t value, const std::string& expected) {
@@ -50,8 +50,8 @@ void check_grid(const model::Cluster& cluster, ClusterFindings& findings) {
                     phase));
 }
 
-// Checks that the longest frame of a node ends in the segment if it begins in minislot pLatestTx, and that its
-// turns can come by that minislot.
+// Checks that the longest frame of a node ends in the segment if it begins in minislot pLatestTx. Also checks
+// that each of its frames can have its turn by that minislot.
 void check_sender(const model::Cluster& cluster, NodeId id, ClusterFindings& findings) {
   const model::Node& node = cluster.node(id);
   const model::GlobalParameters& g = cluster.flexray;

@@ -1,5 +1,5 @@
-// The rules for a schedule in real time: it runs as separate processes, which an ordinary kernel wakes up late,
-// on media that carry frames as they come. In virtual time these rules do not matter.
+// The rules for a schedule in real time. Its nodes are processes that an ordinary kernel wakes up late, on media
+// that carry frames as they come. In virtual time these rules do not matter.
 //
 // The time scale says how many times longer the drive lasts in real time than by the schedule: real time = time
 // scale x drive time. It is in parts per million, so that it is exact. Arrival windows (cluster.h) are in real

@@ -1,5 +1,5 @@
-// The checker's rules about waiting: every task ends by its deadline and before its next activation, and lists
-// are sent no more often than their CAN messages declare.
+// The checker's rules about waiting. Every task ends by its deadline and before its next activation. Lists are
+// sent no more often than their CAN messages declare.
 #include <fmt/format.h>
 
 #include <algorithm>

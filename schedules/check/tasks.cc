@@ -26,8 +26,8 @@ bool meet(const model::GlobalParameters& flexray, const model::Task& a, const mo
   return from_a < a.worst_case.ns || period - from_a < b.worst_case.ns;
 }
 
-// Returns the shortest time between two lists that activate the task, at their sending, or at their writing if
-// that is less often; zero if it is unknown.
+// Returns the shortest time between two lists that activate the task, or zero if it is unknown. It counts their
+// sendings, or their writings if these are rarer.
 Duration shortest_period(const model::Cluster& cluster, const model::Task& task, const model::PortBinding& binding) {
   if (binding.medium.is_can()) {
     for (const model::CanMessage& message : cluster.can(binding.medium).messages)

@@ -1,5 +1,5 @@
 // Reads a cluster file. Every parameter of the FlexRay specification is required, under its own name and within
-// its range of annex B (2.1 Rev. A); unknown, missing, duplicate and out-of-range keys are findings, all
+// its range of annex B (2.1 Rev. A). Unknown, missing, duplicate and out-of-range keys are findings, all
 // reported at once.
 //
 //   name: paper_synchronised

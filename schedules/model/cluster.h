@@ -156,7 +156,7 @@ enum class SensorKind : std::uint8_t { kLaser, kCamera, kRadar };
 
 // A sensor measures in one of three ways. Free: with a period on the device's own clock, first at `phase` (drawn
 // if absent). Scheduled: at an instant of the host's global time, by a trigger line. Following: by the same
-// line, at each end of a task of the host (its preprocessing), so as often as that task allows; the first
+// line, at each end of a task of the host (its preprocessing), so as often as that task allows. Its first
 // measurement is like a free one. A lost message would stop a following sensor: without a trigger the device
 // measures by itself after `longest`. Always the host latches its global time at the device's strobe, as the
 // measurement's time stamp.

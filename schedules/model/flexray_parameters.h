@@ -70,9 +70,9 @@ inline constexpr int kSamplesPerBit = 8;  // cSamplesPerBit
 // cdCAS: low bits of a collision avoidance symbol after its TSS (annex A) [bit].
 inline constexpr int kCasBits = 30;
 
-// Returns the bits on the bus from the first TSS bit to the last FES bit of a static frame: TSS, FSS, FES, and
-// ten bits (byte start sequence and data) for each of 8 header and trailer bytes and each payload byte. The idle
-// delimiter after it is not included.
+// Returns the bits on the bus from the first TSS bit to the last FES bit of a static frame. These are TSS, FSS
+// and FES, and ten bits (byte start sequence and data) for each of 8 header and trailer bytes and each payload
+// byte. The idle delimiter is not included.
 constexpr int frame_bits(const GlobalParameters& flexray, int payload_words) {
   return flexray.gdTSSTransmitter + 1 + 80 + 20 * payload_words + 2;
 }

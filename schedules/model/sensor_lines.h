@@ -1,7 +1,7 @@
 // The two wires between a sensor and its host as CAN frames, for media that carry only frames. One is a trigger
 // to the device. The other is a strobe back at the instant of measuring; its arrival is the measurement's time
 // stamp. Both use the CAN of the device's raw data. They have its lowest identifiers and so precede all other
-// messages there; in real time no message of that CAN may use these identifiers
+// messages there. In real time no message of that CAN may use these identifiers
 // (schedules/check/real_time_rules.h, W6).
 //
 //   trigger   identifier 2 s + 2   no data

@@ -1,6 +1,6 @@
-// Bounds the activations of a task: at most floor((a + J) / T) + 1 in a closed window of length a, for each
-// known pair of T and J. The smallest of several bounds applies (J. Y. Le Boudec, P. Thiran: Network Calculus,
-// Springer 2001, section 1.2).
+// Bounds the activations of a task. For each known pair of T and J there are at most floor((a + J) / T) + 1 in a
+// closed window of length a. The smallest of several bounds applies (J. Y. Le Boudec, P. Thiran: Network
+// Calculus, Springer 2001, section 1.2).
 #pragma once
 
 #include <cstdint>

@@ -57,8 +57,8 @@ struct TaskChains {
   TimedInstants timed;
 };
 
-// Returns the longest time that the processor may be busy without a break; nullopt if that may exceed `limit`,
-// or if the clock's corrections leave no bound.
+// Returns the longest time that the processor may be busy without a break. Returns nullopt if that may exceed
+// `limit`, or if the clock's corrections leave no bound.
 std::optional<std::int64_t> busy_time(const TaskChains& set, std::int64_t limit);
 
 // By chain: the least time by which its newest activation precedes some instant. Zero, or no leads, if it is
