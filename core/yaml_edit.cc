@@ -10,7 +10,7 @@
 namespace ttf {
 namespace {
 
-// Undefined for a path without a node.
+// Returns an undefined node for a path that leads nowhere.
 YAML::Node at(const YAML::Node& root, std::string_view path) {
   YAML::Node node = root;
   while (!path.empty() && node.IsDefined()) {

@@ -158,8 +158,8 @@ enum class SensorKind : std::uint8_t { kLaser, kCamera, kRadar };
 // if absent). Scheduled: at an instant of the host's global time, by a trigger line. Following: by the same
 // line, at each end of a task of the host (its preprocessing), so as often as that task allows. Its first
 // measurement is like a free one. A lost message would stop a following sensor: without a trigger the device
-// measures by itself after `longest`. Always the host latches its global time at the device's strobe, as the
-// measurement's time stamp.
+// measures by itself after `longest`. In all three the host latches its global time at the device's strobe, as
+// the measurement's time stamp.
 struct Sensor {
   std::string name;
   SensorKind kind = SensorKind::kLaser;
@@ -185,8 +185,8 @@ enum class Topology : std::uint8_t {
 
 // The arrival window of real-time media: how long before and after the action point of its slot a frame may
 // arrive, on the receiver's clock. It replaces FlexRay's own windows, which an ordinary kernel misses by its
-// wake-ups alone. It is in real time: a stretched schedule (--time-scale) does not widen it. The schedule has
-// room for it if the static segment continues for that long behind the last static slot in use.
+// wake-ups alone. Its times are real time: a stretched schedule (--time-scale) does not widen it. The schedule
+// has room for it if the static segment continues for that long behind the last static slot in use.
 struct ArrivalWindow {
   Duration early{};
   Duration late{};
