@@ -89,7 +89,7 @@ void check_cycle(const model::Cluster& cluster, ClusterFindings& findings) {
             fmt::format("must be 0 (none) or at least {} macroticks (constraint 16)", needed));
   }
   if (cluster.guardian && cluster.topology != model::Topology::kStar)
-    findings.parameter("guardian", "true", "needs topology: star, in whose middle it sits");
+    findings.parameter("guardian", "true", "needs topology: star; a guardian sits in the middle of a star");
   if (g.gOffsetCorrectionStart < g.gMacroPerCycle - g.gdNIT || g.gOffsetCorrectionStart >= g.gMacroPerCycle)
     wrong("gOffsetCorrectionStart", g.gOffsetCorrectionStart,
           fmt::format("must lie in the network idle time, {}..{} macroticks", g.gMacroPerCycle - g.gdNIT,

@@ -104,7 +104,7 @@ constexpr Rule<Controller> kControllerRules[] = {
      },
      [](C c) { return number(c.p.pSamplesPerMicrotick); },
      [](C c) {
-       return fmt::format("must be as many samples of gdBit / 8 = {} as make pdMicrotick = {}",
+       return fmt::format("must be pdMicrotick = {1} divided by a sample, gdBit / 8 = {0}",
                           ns(c.g.gdBit_ps / model::kSamplesPerBit), ns(c.p.pdMicrotick_ps));
      }},
     {"pRateCorrectionOut", [](C c) { return c.p.pRateCorrectionOut >= least_rate_correction(c); },
@@ -121,8 +121,8 @@ constexpr Rule<Controller> kControllerRules[] = {
      [](C c) { return number(c.p.pOffsetCorrectionOut); },
      [](C c) {
        return fmt::format(
-           "must be {}..{} microticks: from the assumed precision to what fits behind "
-           "gOffsetCorrectionStart at the fastest rate",
+           "must be {}..{} microticks: from the assumed precision to the room after gOffsetCorrectionStart at the "
+           "fastest rate",
            least_offset_correction(c), most_offset_correction(c));
      }},
     {"pClusterDriftDamping",
@@ -180,7 +180,7 @@ constexpr Rule<Members> kClusterRules[] = {
     {"flexray.gSyncNodeMax", [](M m) { return m.sync >= 2 && m.sync <= m.most_sync; },
      [](M m) { return number(m.most_sync); },
      [](M m) {
-       return fmt::format("must allow the nodes with pKeySlotUsedForSync, which must be at least 2: there are {}",
+       return fmt::format("must be at least the number of nodes with pKeySlotUsedForSync, {}, which must be at least 2",
                           m.sync);
      }},
     {"nodes", [](M m) { return m.startup >= least_startup(m); }, [](M m) { return number(m.startup); },

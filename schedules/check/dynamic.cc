@@ -26,28 +26,24 @@ void check_grid(const model::Cluster& cluster, ClusterFindings& findings) {
       model::scaled(std::max<std::int64_t>(precision - g.gdMinPropagationDelay_ps, 0)), shortest_macroticks(g, 1));
   if (g.gdMinislotActionPointOffset < offset)
     wrong("gdMinislotActionPointOffset", g.gdMinislotActionPointOffset,
-          fmt::format(
-              "must be at least {} macroticks where frames are sent in the dynamic segment: the assumed precision",
-              offset));
+          fmt::format("must be at least {} macroticks, the assumed precision, if the dynamic segment is used", offset));
   const std::int64_t length =
       g.gdMinislotActionPointOffset +
       model::ceil_div(model::scaled(precision + g.gdMaxPropagationDelay_ps), shortest_macroticks(g, 1));
   if (g.gdMinislot < length)
     wrong("gdMinislot", g.gdMinislot,
-          fmt::format(
-              "must be at least {} macroticks where frames are sent in the dynamic segment: its action point, the "
-              "longest propagation delay and the assumed precision",
-              length));
+          fmt::format("must be at least {} macroticks if the dynamic segment is used: its action point, the longest "
+                      "propagation delay and the assumed precision",
+                      length));
   const Int128 idle = longest_bits(g, model::kIdleDelimiterBits) +
                       model::scaled(precision + g.gdMaxPropagationDelay_ps) -
                       shortest_macroticks(g, g.gdMinislot - g.gdMinislotActionPointOffset);
   const std::int64_t phase = idle <= 0 ? 0 : model::ceil_div(idle, shortest_macroticks(g, g.gdMinislot));
   if (g.gdDynamicSlotIdlePhase < phase)
-    wrong(
-        "gdDynamicSlotIdlePhase", g.gdDynamicSlotIdlePhase,
-        fmt::format("must be at least {} minislots where frames are sent in the dynamic segment: the channel has to be "
-                    "seen idle behind a frame",
-                    phase));
+    wrong("gdDynamicSlotIdlePhase", g.gdDynamicSlotIdlePhase,
+          fmt::format("must be at least {} minislots if the dynamic segment is used: receivers must see the channel "
+                      "idle after a frame",
+                      phase));
 }
 
 // Checks that the longest frame of a node ends in the segment if it begins in minislot pLatestTx. Also checks
@@ -61,12 +57,11 @@ void check_sender(const model::Cluster& cluster, NodeId id, ClusterFindings& fin
     if (longest == nullptr || analysis::dynamic_words(cluster, frame) > analysis::dynamic_words(cluster, *longest))
       longest = &frame;
     if (analysis::earliest_turn(g, frame) > node.flexray->pLatestTx)
-      findings.at(
-          frame.line, fmt::format("frames.slot {}", frame.slot), fmt::format("{}", frame.slot),
-          fmt::format("must be at most {}: its turn comes in minislot {} at the earliest, and {} sends nothing behind "
-                      "its pLatestTx = {}",
-                      g.gNumberOfStaticSlots + node.flexray->pLatestTx, analysis::earliest_turn(g, frame), node.name,
-                      node.flexray->pLatestTx));
+      findings.at(frame.line, fmt::format("frames.slot {}", frame.slot), fmt::format("{}", frame.slot),
+                  fmt::format("must be at most {}: its earliest turn is in minislot {}, but {} begins no frame after "
+                              "its pLatestTx = {}",
+                              g.gNumberOfStaticSlots + node.flexray->pLatestTx, analysis::earliest_turn(g, frame),
+                              node.name, node.flexray->pLatestTx));
   }
   if (longest == nullptr) return;
   const int words = analysis::dynamic_words(cluster, *longest);
@@ -78,7 +73,7 @@ void check_sender(const model::Cluster& cluster, NodeId id, ClusterFindings& fin
   else if (node.flexray->pLatestTx > analysis::last_start(g, words))
     findings.parameter(
         fmt::format("nodes.{}.flexray.pLatestTx", node.name), fmt::format("{}", node.flexray->pLatestTx),
-        fmt::format("must be at most {}: {}, which must not end behind them", analysis::last_start(g, words), frame));
+        fmt::format("must be at most {}: {} and must end within them", analysis::last_start(g, words), frame));
 }
 
 // Returns the reason why the list's arrival needs a bound; empty if it needs no bound.
@@ -92,9 +87,9 @@ std::string counted_on(const model::Cluster& cluster, const model::FrameSlot& fr
         if (&node == &cluster.node(frame.sender)) fuses |= cluster.pdu(in.pdu).sensor != kNoSensor;
         if (in.pdu == frame.pdu && in.medium.is_flexray() && task.activation.kind == model::ActivationKind::kMessage &&
             task.activation.port == in.port)
-          return fmt::format("{} is activated by it", task_path(node, task));
+          return fmt::format("it activates {}", task_path(node, task));
       }
-  return fuses ? fmt::format("{} makes it of measurements, and their age would have no bound",
+  return fuses ? fmt::format("{} computes it from measurements, and their age would have no bound",
                              cluster.node(frame.sender).name)
                : "";
 }
@@ -103,12 +98,11 @@ void check_bounds(const model::Cluster& cluster, const model::FrameSlot& frame, 
   if (analysis::always_in_time(cluster, frame)) return;
   const std::string why = counted_on(cluster, frame);
   if (why.empty()) return;
-  findings.at(
-      frame.line, fmt::format("frames.slot {}", frame.slot), cluster.pdu(frame.pdu).name,
-      fmt::format("must have its turn by minislot {} (pLatestTx of {}) in every cycle, but may have it in minislot {} "
-                  "where all slots before it are used: {}",
-                  cluster.node(frame.sender).flexray->pLatestTx, cluster.node(frame.sender).name,
-                  analysis::latest_turn(cluster, frame), why));
+  findings.at(frame.line, fmt::format("frames.slot {}", frame.slot), cluster.pdu(frame.pdu).name,
+              fmt::format("must have its turn by minislot {} (pLatestTx of {}) in every cycle, but has it in minislot "
+                          "{} if all slots before it are used: {}",
+                          cluster.node(frame.sender).flexray->pLatestTx, cluster.node(frame.sender).name,
+                          analysis::latest_turn(cluster, frame), why));
 }
 
 }  // namespace

@@ -14,20 +14,18 @@ void check_loops(const model::Cluster& cluster, ClusterFindings& findings) {
     const std::string path = "sensors." + sensor.name;
     const auto loop = analysis::loop_of(cluster, static_cast<SensorId>(s));
     if (!loop || loop->raw->medium.is_flexray()) {
-      findings.parameter(
-          path + ".after", sensor.after,
-          fmt::format("must be a task of {} that a list over a CAN from the measuring task of {} activates, and "
-                      "that no other task follows",
-                      cluster.node(sensor.host).name, cluster.node(sensor.device).name));
+      findings.parameter(path + ".after", sensor.after,
+                         fmt::format("must be a task of {}, activated by a list over a CAN from the measuring task of "
+                                     "{} and followed by no other task",
+                                     cluster.node(sensor.host).name, cluster.node(sensor.device).name));
       continue;
     }
     const auto longest = sound ? longest_round(cluster, *loop) : std::nullopt;
     if (longest && sensor.longest < *longest)
-      findings.parameter(
-          path + ".longest_period", ms(sensor.longest),
-          fmt::format("must be at least {}: from one measurement to the next, if everything takes as long as it "
-                      "may; the device must not measure by itself where nothing is lost",
-                      ms(*longest)));
+      findings.parameter(path + ".longest_period", ms(sensor.longest),
+                         fmt::format("must be at least {}, the longest time between two measurements: without losses "
+                                     "the device must not measure by itself",
+                                     ms(*longest)));
   }
 }
 

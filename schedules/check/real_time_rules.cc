@@ -36,13 +36,13 @@ void check_window(const model::Cluster& cluster, std::int64_t time_scale_ppm, Cl
   if (const Duration room = arrival_room(cluster, time_scale_ppm); window.late > room)
     findings.parameter(
         "real_time.late", us_text(window.late),
-        fmt::format("must be at most {} at time scale {}, from the action point of slot {}, the last one in "
+        fmt::format("must be at most {} at time scale {}: the time from the action point of slot {}, the last one in "
                     "use, to the end of the static segment{}",
                     us_text(room), time_scale_text(time_scale_ppm), last_static_slot(cluster), remedy(cluster)));
   if (scaled_ps(window.early + window.late) >= static_cast<Int128>(cluster.flexray.cycle_ps()) * time_scale_ppm)
     findings.parameter("real_time.early", us_text(window.early),
-                       fmt::format("must be less than a cycle together with late ({}), {} at time scale {}: else the "
-                                   "windows of a slot in two cycles overlap{}",
+                       fmt::format("must be less than a cycle together with late ({}), {} at time scale {}: otherwise "
+                                   "the arrival windows of a slot in two cycles overlap{}",
                                    us_text(window.late), us_text(stretched(cluster.cycle(), time_scale_ppm)),
                                    time_scale_text(time_scale_ppm), remedy(cluster)));
 }
@@ -53,11 +53,10 @@ void check_sensor_lines(const model::Cluster& cluster, ClusterFindings& findings
     const auto can = can_of_lines(cluster, sensor);
     if (!can) {
       const std::string& device = cluster.node(cluster.sensor(sensor).device).name;
-      findings.at(
-          cluster.sensor(sensor).line, fmt::format("sensors.{}.device", cluster.sensor(sensor).name), device,
-          fmt::format("must write to a CAN in a task that the sensor activates, in real time: trigger and strobe go "
-                      "over the CAN of {}'s raw data",
-                      device));
+      findings.at(cluster.sensor(sensor).line, fmt::format("sensors.{}.device", cluster.sensor(sensor).name), device,
+                  fmt::format("must write to a CAN in a task that the sensor activates: in real time trigger and "
+                              "strobe use the CAN of {}'s raw data",
+                              device));
       continue;
     }
     const model::CanBus& bus = cluster.can_buses[*can];
@@ -67,7 +66,7 @@ void check_sensor_lines(const model::Cluster& cluster, ClusterFindings& findings
       findings.at(
           message.line, fmt::format("can.{}.messages.{}", bus.name, cluster.pdu(message.pdu).name),
           fmt::format("identifier {}", message.identifier),
-          fmt::format("must be another one in real time: {0} has {1} for its strobe and {2} for its trigger there",
+          fmt::format("must be another identifier in real time: {0} uses {1} for its strobe and {2} for its trigger",
                       cluster.sensor(sensor).name, model::strobe_identifier(sensor),
                       model::trigger_identifier(sensor)));
     }

@@ -16,15 +16,15 @@ void check_task(const model::Node& node, const model::Task& task, const analysis
                 ClusterFindings& findings) {
   const std::string path = task_path(node, task);
   if (response.worst > task.deadline)
-    findings.parameter(path + ".deadline", ms(task.deadline),
-                       fmt::format("must be at least {}: from its activation to its end, other tasks' turns included",
-                                   ms(response.worst)));
-  if (response.gap && response.worst >= *response.gap)
     findings.parameter(
-        path + ".worst_case", ms(task.worst_case),
-        fmt::format("must let the task end, at worst {} after its activation, before the next one, at the "
-                    "shortest {} after it",
-                    ms(response.worst), ms(*response.gap)));
+        path + ".deadline", ms(task.deadline),
+        fmt::format("must be at least {}: the longest time from activation to end, with all waiting for other tasks",
+                    ms(response.worst)));
+  if (response.gap && response.worst >= *response.gap)
+    findings.parameter(path + ".worst_case", ms(task.worst_case),
+                       fmt::format("must let the task end before its next activation: it may end {} after its "
+                                   "activation, and the next may follow {} after it",
+                                   ms(response.worst), ms(*response.gap)));
 }
 
 // Compares in true time: the node's clock may be slow.
@@ -51,9 +51,10 @@ void check_responses(const model::Cluster& cluster, NodeId id, ClusterFindings& 
   const model::Node& node = cluster.node(id);
   const auto responses = analysis::worst_responses(cluster, id);
   if (!responses) {
-    findings.at(node.line, fmt::format("nodes.{}.tasks", node.name), "",
-                fmt::format("must leave the node idle at least once in {}: its tasks may take more time than there is",
-                            ms(analysis::longest_busy_time(cluster, node))));
+    findings.at(
+        node.line, fmt::format("nodes.{}.tasks", node.name), "",
+        fmt::format("must leave the node idle at least once in {}: its tasks may need more than all of its time",
+                    ms(analysis::longest_busy_time(cluster, node))));
     return;
   }
   for (std::size_t t = 0; t < node.tasks.size(); ++t) {

@@ -86,11 +86,10 @@ void check_list(const model::Cluster& cluster, PduId pdu, ClusterFindings& findi
     for (const model::FrameSlot* frame : frames) fragments.insert(frame->fragment);
     for (int f = 0; f < layout.max_fragments(); ++f)
       if (!fragments.contains(f)) {
-        findings.at(
-            line, fmt::format("frames.{}", layout.name), "",
-            fmt::format("must have a slot for each of the {} fragments in the same cycles: fragment {} has none "
-                        "in base cycle {}, repetition {}",
-                        layout.max_fragments(), f, cycles.first, cycles.second));
+        findings.at(line, fmt::format("frames.{}", layout.name), "",
+                    fmt::format("must have a slot for each of the {} fragments in the same cycles: fragment {} has no "
+                                "slot in base cycle {}, repetition {}",
+                                layout.max_fragments(), f, cycles.first, cycles.second));
         break;
       }
   }
@@ -109,7 +108,7 @@ void check_segment(const model::Cluster& cluster, const model::FrameSlot& frame,
   else if (is_dynamic(g, frame) && frame.pdu == kNoPdu)
     findings.at(
         frame.line, key, cluster.node(frame.sender).name,
-        fmt::format("needs a PDU in the dynamic segment (slots above {}): without one there is never anything to send",
+        fmt::format("needs a PDU in the dynamic segment (slots above {}): a frame without a PDU would never be sent",
                     g.gNumberOfStaticSlots));
 }
 

@@ -48,7 +48,7 @@ void check_activation(const model::Cluster& cluster, NodeId id, const model::Tas
   switch (task.activation.kind) {
     case model::ActivationKind::kTime: {
       if (!node.flexray)
-        findings.parameter(path + ".activation", "time", "needs a node on FlexRay: there is no global time elsewhere");
+        findings.parameter(path + ".activation", "time", "needs a node on FlexRay: other nodes have no global time");
       const Duration period = cluster.cycle() * task.activation.at.repetition;
       if (task.deadline > period)
         findings.parameter(path + ".deadline", ms(task.deadline),

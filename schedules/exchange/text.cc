@@ -137,7 +137,8 @@ void show_real_time(const model::Cluster& cluster, std::string& text) {
   text += "\nreal time\n";
   if (const auto& window = cluster.arrival_window)
     text += fmt::format(
-        "  frames come {:g} us before to {:g} us after their action point; at time scale 1 there is room for {:g} us\n",
+        "  frames may arrive from {:g} us before to {:g} us after their action point; time scale 1 has room for {:g} "
+        "us\n",
         1e3 * in_ms(window->early), 1e3 * in_ms(window->late),
         1e3 * in_ms(check::arrival_room(cluster, check::kTimeScaleOne)));
   for (const Finding& finding : check::check_real_time(cluster, check::kTimeScaleOne))

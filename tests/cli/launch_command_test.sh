@@ -64,9 +64,9 @@ edited '/^real_time:/d'
 expect 2 'edited.yaml:[0-9]+: real_time: is missing: .* for virtual time only' launch "$work/edited.yaml" --dry-run
 expect 0 'node fusion' launch "$work/edited.yaml" --virtual-time --dry-run
 edited 's/late: 500 us/late: 2 ms/'
-expect 2 'edited.yaml:10: real_time.late = 2000 us: must be at most 581 us at time scale 1, .*; --time-scale 3.442341 or more' \
+expect 2 'edited.yaml:10: real_time.late = 2000 us: must be at most 581 us at time scale 1: .*; --time-scale 3.442341 or more' \
   node fusion "$work/edited.yaml"
-expect 2 'must be at most 1999.999 us at time scale 3.44234,' \
+expect 2 'must be at most 1999.999 us at time scale 3.44234:' \
   node fusion "$work/edited.yaml" --time-scale 3.44234
 expect 0 'node fusion .* --time-scale 3.442341 ' launch "$work/edited.yaml" --time-scale 3.442341 --dry-run
 edited 's/observation_can/observation_can_/g'

@@ -79,7 +79,7 @@ class Importer {
       if (parts.count(pdu.id) != 0) continue;
       std::string reason = as_list(pdu, pdus_).reason;
       leave_out(pdu.line, "fx:PDU", pdu.name,
-                fmt::format("is no list of a cluster file, and a comment there: {}", reason));
+                fmt::format("is not a list of a cluster file, and becomes a comment: {}", reason));
       out_.foreign.push_back({pdu, std::move(reason)});
     }
   }
@@ -119,7 +119,7 @@ class Importer {
     };
     const model::GlobalParameters& g = out_.cluster.flexray;
     if (one.slot > g.gNumberOfStaticSlots + g.gNumberOfMinislots)
-      return out(fmt::format("slot {}", one.slot), "is left out: it is neither a static slot nor has it a minislot");
+      return out(fmt::format("slot {}", one.slot), "is left out: it is beyond the static slots and the minislots");
     if ((one.repetition & (one.repetition - 1)) != 0)
       return out(fmt::format("repetition {}", one.repetition), "is left out: cycles repeat by a power of two");
     if (senders_.count(one.id) == 0) return out(one.id, "is left out: no ECU sends it");
@@ -276,8 +276,7 @@ class Importer {
       const int words = analysis::longest_dynamic_words(out_.cluster, static_cast<NodeId>(i));
       if (const auto most = ecus_[i]->max_dynamic_words; most && *most != words)
         leave_out(ecus_[i]->controller_line, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", std::to_string(*most),
-                  fmt::format("is left out: it is that of the longest frame {} sends in the dynamic segment, {}",
-                              node.name, words));
+                  fmt::format("is left out: it is the length of {}'s longest dynamic frame, {}", node.name, words));
       check_derived(*ecus_[i], *node.flexray);
     }
   }
@@ -288,13 +287,12 @@ class Importer {
       leave_out(ecu.controller_line, key, std::to_string(value), "is left out: " + std::move(what));
     };
     if (const int drift = p.pdListenTimeout / 2 - p.pMicroPerCycle; ecu.max_drift && *ecu.max_drift != drift)
-      other("flexray:MAX-DRIFT", *ecu.max_drift,
-            fmt::format("it is what pdListenTimeout waits longer than pMicroPerCycle, {}", drift));
+      other("flexray:MAX-DRIFT", *ecu.max_drift, fmt::format("it is pdListenTimeout / 2 - pMicroPerCycle, {}", drift));
     const int macroticks = out_.cluster.flexray.gMacroPerCycle, least = p.pMicroPerCycle / macroticks;
     const int most = (p.pMicroPerCycle + macroticks - 1) / macroticks;
     if (ecu.micro_per_macro && (*ecu.micro_per_macro < least || *ecu.micro_per_macro > most))
       other("flexray:MICRO-PER-MACRO-NOM", *ecu.micro_per_macro,
-            fmt::format("it is pMicroPerCycle by gMacroPerCycle, {}", least));
+            fmt::format("it is pMicroPerCycle / gMacroPerCycle, {}", least));
   }
 
   // Merges repeated findings: an unknown element often occurs a hundred times.

@@ -86,12 +86,10 @@ class Writer {
     line(comment(
         fmt::format("# From the FIBEX file {}: the timing of the cluster, its controllers, slots, PDUs and signals.",
                     cluster_.file)));
-    line(
-        "# What FIBEX does not say, and is to be added before this cluster can run: the tasks of each node "
-        "and what they read and");
-    line("# write, sensors, CANs, oscillator drifts. Values marked as assumed are to be confirmed.");
+    line("# To be added before this cluster can run, as FIBEX does not have it: the tasks of each node with the lists");
+    line("# they read and write, sensors, CANs, oscillator drifts. Values marked as assumed are to be confirmed.");
     if (in_.left_out.empty()) return;
-    line("# Left out, or not as it was:");
+    line("# Left out or changed:");
     for (const Finding& finding : in_.left_out) line(comment("#   " + finding.sentence()));
   }
 

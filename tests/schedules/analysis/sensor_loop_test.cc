@@ -65,7 +65,7 @@ TEST(Mutations, OfFollowingSensors) {
            "$1      more:\n        step: gateway\n        activation: {kind: completion, after: preprocess}\n"
            "        best_case: 1 ms\n        worst_case: 1 ms\n        draw: uniform\n        deadline: 9 ms\n$2",
            {"measurement: completion, after: preprocess, shortest_period: 16 ms", "sensors.camera.after", "preprocess",
-            "that no other task follows"}},
+            "followed by no other task"}},
           {"longest_too_short",
            "longest_period: 33 ms",
            "longest_period: 31 ms",

@@ -44,7 +44,7 @@ TEST(Mutations, OfDynamicSlots) {
           {"never_its_turn",
            "slot: 23, ",
            "slot: 90, ",
-           {"slot: 90", "frames.slot 90", "90", "must be at most 89: its turn comes in minislot 70 at the earliest"}},
+           {"slot: 90", "frames.slot 90", "90", "must be at most 89: its earliest turn is in minislot 70"}},
           {"segment_too_short",
            "gNumberOfMinislots: 80",
            "gNumberOfMinislots: 11",
@@ -59,7 +59,7 @@ TEST(Mutations, OfDynamicSlots) {
            "gdMinislot: 7",
            "gdMinislot: 6",
            {"gdMinislot: 6", "flexray.gdMinislot", "6",
-            "must be at least 7 macroticks where frames are sent in the dynamic segment"}},
+            "must be at least 7 macroticks if the dynamic segment is used"}},
           {"idle_phase",
            "gdDynamicSlotIdlePhase: 1",
            "gdDynamicSlotIdlePhase: 0",
@@ -69,13 +69,12 @@ TEST(Mutations, OfDynamicSlots) {
            "pLatestTx: 69 ",
            "pLatestTx: 36 ",
            {"slot: 23", "frames.slot 24", "camera_objects",
-            "by minislot 36 (pLatestTx of camera_pre) in every cycle, but may have it in minislot 37 where all slots "
-            "before it are "
-            "used: the age of measurements of camera would have no bound"}},
+            "by minislot 36 (pLatestTx of camera_pre) in every cycle, but has it in minislot 37 if all slots before it "
+            "are used: the age of measurements of camera would have no bound"}},
           {"image_without_bound",
            "slot: 7, ",
            "slot: 85, ",
-           {"slot: 85", "frames.slot 85", "image", "fusion makes it of measurements"}},
+           {"slot: 85", "frames.slot 85", "image", "fusion computes it from measurements"}},
           {"symbol_window",
            "gdSymbolWindow: 13([^~]*gdNIT: )427",
            "gdSymbolWindow: 12$01428",
@@ -105,7 +104,7 @@ TEST(Mutations, OfAListThatActivatesATask) {
   ASSERT_NE(text, shipped_text("flexray_demo"));
   EXPECT_NE(sentences(findings_of(std::regex_replace(text, std::regex("    sensor: camera\n    fragment_bytes: 56"),
                                                      "    fragment_bytes: 56")))
-                .find("nodes.fusion.tasks.fuse is activated by it"),
+                .find("it activates nodes.fusion.tasks.fuse"),
             std::string::npos);
 }
 

@@ -129,7 +129,7 @@ TEST(Mutations, OfTasksAndTheirFlow) {
        "ms(.*\n.*\n.*deadline: )2 ms([^~]*fragments: 13\\})",
        "activation: {kind: message, port: image}$016 ms$0232 ms$03\n"
        "  - {slot: 22, channels: AB, sender: fusion, base_cycle: 2, repetition: 8, pdu: image, fragments: 13}",
-       {"worst_case: 6 ms", "nodes.feature.tasks.use.worst_case", "6 ms", "before the next one, at the shortest 3.87"}},
+       {"worst_case: 6 ms", "nodes.feature.tasks.use.worst_case", "6 ms", "and the next may follow 3.87"}},
       {"message_too_often",
        "activation: \\{kind: time, base_cycle: 1, repetition: 8, offset: 2900\\}(.*\n.*\n.*worst_case: )1 "
        "ms(.*\n.*\n.*deadline: )2 ms",

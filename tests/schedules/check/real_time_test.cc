@@ -61,9 +61,8 @@ TEST(RealTime, LateMayBeAsLongAsTheRoom) {
   EXPECT_EQ(findings[0].value, "581.001 us");
   EXPECT_EQ(line_of(cluster.text, findings[0].line), "real_time: {early: 100 us, late: 500 us}");
   EXPECT_EQ(findings[0].expected,
-            "must be at most 581 us at time scale 1, from the action point of slot 34, the last one in use, "
-            "to the end of the "
-            "static segment; --time-scale 1.000002 or more would do");
+            "must be at most 581 us at time scale 1: the time from the action point of slot 34, the last one in "
+            "use, to the end of the static segment; --time-scale 1.000002 or more would do");
 }
 
 TEST(RealTime, TheWindowsOfASlotInTwoCyclesMustNotOverlap) {
@@ -73,9 +72,8 @@ TEST(RealTime, TheWindowsOfASlotInTwoCyclesMustNotOverlap) {
   EXPECT_EQ(findings[0].key, "real_time.early");
   EXPECT_EQ(findings[0].value, "4500 us");
   EXPECT_EQ(findings[0].expected,
-            "must be less than a cycle together with late (500 us), 5000 us at time scale 1: else the "
-            "windows of a slot in two "
-            "cycles overlap; --time-scale 1.000001 or more would do");
+            "must be less than a cycle together with late (500 us), 5000 us at time scale 1: otherwise the "
+            "arrival windows of a slot in two cycles overlap; --time-scale 1.000001 or more would do");
 }
 
 // Whatever the window: the scale that is named would do, and the one before would not.
@@ -132,7 +130,7 @@ TEST(RealTime, ASensorsLinesHaveTheirIdentifiersToThemselves) {
   EXPECT_EQ(strobe[0].key, "can.laser_can.messages.laser_scan");
   EXPECT_EQ(strobe[0].value, "identifier 1");
   EXPECT_EQ(strobe[0].expected,
-            "must be another one in real time: laser has 1 for its strobe and 2 for its trigger there");
+            "must be another identifier in real time: laser uses 1 for its strobe and 2 for its trigger");
   EXPECT_NE(line_of(paper({}, us(500)).text, strobe[0].line).find("laser_scan"), std::string::npos);
   ASSERT_EQ(trigger.size(), 1u) << sentences(trigger);
   EXPECT_EQ(trigger[0].key, "can.camera_can.messages.camera_frame");
@@ -157,10 +155,9 @@ TEST(RealTime, ASensorsLinesNeedACan) {
     ASSERT_EQ(findings.size(), 1u) << sentences(findings);
     EXPECT_EQ(findings[0].key, "sensors.camera.device");
     EXPECT_EQ(findings[0].value, "camera");
-    EXPECT_EQ(
-        findings[0].expected,
-        "must write to a CAN in a task that the sensor activates, in real time: trigger and strobe go over the CAN "
-        "of camera's raw data");
+    EXPECT_EQ(findings[0].expected,
+              "must write to a CAN in a task that the sensor activates: in real time trigger and strobe use the CAN "
+              "of camera's raw data");
     EXPECT_EQ(findings[0].line, whole.sensors[1].line);
     EXPECT_NE(line_of(whole.text, findings[0].line).find("camera"), std::string::npos);
   }
@@ -208,9 +205,8 @@ TEST(RealTime, TheSectionIsReadStrictly) {
 
 TEST(RealTime, IsShown) {
   EXPECT_NE(exchange::show_text(paper(us(100), us(400)))
-                .find("\nreal time\n  frames come 100 us before to 400 us after their action point; at time "
-                      "scale 1 there is "
-                      "room for 581 us\n"),
+                .find("\nreal time\n  frames may arrive from 100 us before to 400 us after their action point; time "
+                      "scale 1 has room for 581 us\n"),
             std::string::npos);
   EXPECT_NE(exchange::show_text(paper(us(100), us(1'162)))
                 .find("\n  not at time scale 1: real_time.late = 1162 us must be at most 581 us"),

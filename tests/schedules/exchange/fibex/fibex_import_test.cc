@@ -152,7 +152,7 @@ TEST_F(Powertrain, WhatIsNotUnderstoodIsNamedWithItsLine) {
       {"fx:FRAME-TRIGGERING = slot 61", "<fx:FRAME-TRIGGERING ID=\"ft4\">", "carries a list, and Startup does not"},
       {elements + "fx:GATEWAYS", "<fx:GATEWAYS>", "not understood"},
       {"flexray:MAX-DYNAMIC-PAYLOAD-LENGTH = 127", "<fx:CONTROLLER ID=\"E1C\"",
-       "that of the longest frame Engine sends in the dynamic segment, 0"},
+       "the length of Engine's longest dynamic frame, 0"},
       {"fx:PDU", "<fx:PDU ID=\"pdu1\">", "CrankTorque"},
       {"fx:PDU", "<fx:PDU ID=\"pdu2\">", "Reserve"},
       {elements + "fx:CODINGS/fx:CODING/ho:COMPU-METHODS/ho:COMPU-METHOD/ho:PHYS-CONSTRS/ho:SCALE-CONSTR",
@@ -245,7 +245,7 @@ TEST(FibexObjects, SlotsBehindTheStaticOnesAreDynamic) {
   const FibexImport short_segment = with_minislots("1");
   EXPECT_EQ(short_segment.cluster.frames.size(), 1u);
   EXPECT_THAT(sentences(short_segment.left_out),
-              HasSubstr("slot 47: is left out: it is neither a static slot nor has it a minislot"));
+              HasSubstr("slot 47: is left out: it is beyond the static slots and the minislots"));
   // A frame that is not as long as what it carries.
   const FibexImport longer =
       parse_fibex(replaced(replaced(text, "<flexray:MACROTICK>",
@@ -378,9 +378,9 @@ TEST(FibexImport, WhatContradictsAValueThatIsKeptIsNamed) {
       {"<flexray:MICROTICK>",
        "<flexray:LISTEN-TIMEOUT>401202</flexray:LISTEN-TIMEOUT><flexray:MAX-DRIFT>600</"
        "flexray:MAX-DRIFT><flexray:MICROTICK>",
-       "MAX-DRIFT = 600: is left out: it is what pdListenTimeout waits longer than pMicroPerCycle, 601"},
+       "MAX-DRIFT = 600: is left out: it is pdListenTimeout / 2 - pMicroPerCycle, 601"},
       {"<flexray:MICROTICK>", "<flexray:MICRO-PER-MACRO-NOM>40</flexray:MICRO-PER-MACRO-NOM><flexray:MICROTICK>",
-       "MICRO-PER-MACRO-NOM = 40: is left out: it is pMicroPerCycle by gMacroPerCycle, 50"},
+       "MICRO-PER-MACRO-NOM = 40: is left out: it is pMicroPerCycle / gMacroPerCycle, 50"},
   };
   const std::size_t before = parse_fibex(kPowertrain, "demo.xml").left_out.size();
   for (const Contradiction& one : contradictions) {
