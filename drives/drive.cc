@@ -61,11 +61,11 @@ void check_recording(const Scenario& scenario, const schedules::model::Cluster& 
                       "takes no recording, so --input would be ignored: it has no task with step recorded_source"});
   if (needed && scenario.startup.cold)
     throw InputError({scenario.file, 0, "startup", "cold",
-                      "must be integrated: a recording begins with cycle 0, and nobody knows when that will be"});
+                      "must be integrated: a recording begins with cycle 0, whose instant is unknown in a cold start"});
   for (const schedules::model::Sensor& sensor : cluster.sensors)
     if (needed && sensor.follows())
       throw InputError({cluster.file, sensor.line, "sensors." + sensor.name + ".measurement", "completion",
-                        "must be another where observations are recorded: their instants are"});
+                        "must be free or scheduled: recorded observations have fixed instants"});
 }
 
 void check_late(const Scenario& scenario, const schedules::model::Cluster& cluster,

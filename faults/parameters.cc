@@ -159,7 +159,7 @@ void write_masquerade(const Writing& out) {
 void read_shift(const Reading& in) {
   in.fault.shift = in.yaml.duration("shift", {-kMostEarly, Duration::milliseconds(1)});
   if (in.yaml.has("shift") && in.fault.shift == Duration{})
-    in.yaml.fail("shift", "must not be 0, by which nothing is late or early");
+    in.yaml.fail("shift", "must not be 0: no frame would be late or early");
 }
 void write_shift(const Writing& out) { out.add("shift", out.fault.shift); }
 
@@ -176,13 +176,12 @@ void write_lie(const Writing& out) {
 template <int most_bits> void read_bits(const Reading& in) {
   YamlMap& yaml = in.yaml;
   std::vector<int>& bits = in.fault.bits;
-  if (yaml.has("bits") && yaml.has("flips"))
-    yaml.fail("flips", "must not be given along with bits, which says how many there are");
+  if (yaml.has("bits") && yaml.has("flips")) yaml.fail("flips", "must not be given with bits, which sets their number");
   if (yaml.has("bits"))
     for (const std::int64_t bit : yaml.integers("bits", {0, most_bits - 1})) bits.push_back(static_cast<int>(bit));
   std::sort(bits.begin(), bits.end());
   if (std::adjacent_find(bits.begin(), bits.end()) != bits.end())
-    yaml.fail("bits", "must be different bits: one that is inverted twice is as it was");
+    yaml.fail("bits", "must be different bits: inverting a bit twice restores it");
   in.fault.flips = static_cast<int>(yaml.integer_or("flips", in.fault.flips, {1, 24}));
 }
 void write_bits(const Writing& out) {

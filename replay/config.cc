@@ -64,7 +64,7 @@ ReplayConfig parse_replay_config(const std::string& text, const std::string& nam
   if (std::optional<YamlMap> tracker = root.map_if("tracker")) {
     config.tracker = fusion::config::load_tracker(*tracker);
     if (!config.tracker.sensors.empty())
-      tracker->fail("sensors", "must not be given here: mounting and biases stand with the recording's sensors");
+      tracker->fail("sensors", "must not be given here: mounting and biases belong under the top-level key sensors");
     config.tracker.sensors.clear();
     if (tracker->has("late")) config.late_line = tracker->line("late");
     tracker->finish();

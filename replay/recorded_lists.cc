@@ -143,7 +143,7 @@ RecordedLists recorded_lists_of(const std::vector<ObservationRow>& rows, const R
     const auto s = static_cast<std::size_t>(known - recorded.sensors.begin());
     fusion::sensors::Observation observation = observation_of(row, config.sensors[s].second.noise);
     if (!has_covariance(observation)) {
-      findings.add({name, row.line, "covariance", "", "must be positive definite, and more than rounding"});
+      findings.add({name, row.line, "covariance", "", "must be positive definite beyond rounding errors"});
       continue;
     }
     take_unfiltered(observation, row, recorded.classes);

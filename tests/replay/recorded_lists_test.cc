@@ -86,7 +86,7 @@ TEST(RecordedLists, WhatNoFilterCanTakeIsAFinding) {
   const RecordedLists arrivals = recorded_lists_of(rows, config, "o.csv", findings);
   EXPECT_THAT(sentences_of(findings),
               ElementsAre("o.csv:3: sensor = c: must be a sensor of c.yaml: a or b",
-                          "o.csv:4: covariance: must be positive definite, and more than rounding",
+                          "o.csv:4: covariance: must be positive definite beyond rounding errors",
                           "o.csv:99: sensor = a: must have at most 64 observations at one time "
                           "(max_observations of the tracker)"));
   ASSERT_EQ(arrivals.lists.size(), 1u);
@@ -228,7 +228,7 @@ TEST(SensorTiming, TtNeedsASchedule) {
     FAIL() << "nothing is known of any schedule";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "c.yaml: strategy = tt: needs the period of at least one sensor: none is given, and none "
+                 "c.yaml: strategy = tt: needs the period of at least one sensor: no period is given, and no sensor "
                  "measures at regular instants");
   }
 }
