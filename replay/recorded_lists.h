@@ -42,7 +42,7 @@ struct RecordedLists {
 void list_sensors(ReplayConfig& config, const std::vector<recording::rows::ObservationRow>& rows,
                   const SensorSetup& any, const std::string& name);
 
-// Makes lists of rows. A row is a finding and left out if the configuration lacks its sensor, if its covariance
+// Puts rows into lists. A row is a finding and left out if the configuration lacks its sensor, if its covariance
 // is invalid, or if its list is full (max_observations of the tracker). `name` is the file's. Throws InputError
 // if there are more classes than fusion::kMostClasses.
 RecordedLists recorded_lists_of(const std::vector<recording::rows::ObservationRow>& rows, const ReplayConfig& config,

@@ -120,7 +120,7 @@ class FibexReader {
   int integer(XmlElement& element, std::string_view name, int low, int high, std::optional<int> otherwise = {});
   // Returns a boolean in a child: "true", "false", "1", "0"; `otherwise` for an absent child.
   bool boolean(XmlElement& element, std::string_view name, bool otherwise);
-  // Return the numbers in all children of that name, and the number in the only one.
+  // Return the numbers in all children of that name, or the number in the single one.
   std::vector<double> numbers(XmlElement& element, std::string_view name);
   std::optional<double> number(XmlElement& element, std::string_view name);
 
