@@ -2,9 +2,9 @@
 //
 // A list NAME is a multiplexed PDU of fragment_bytes bytes. Its static part is the PDU NAME_header with the
 // header signals; its switch is the header signal "fragment". For each fragment the dynamic part is the same PDU
-// NAME_elements. That has the signals of the first element (x_0, y_0, ...), of the second (x_1, y_1, ...), and
-// so on. All are most significant bit first, without gaps ("spare" signals included); the elements follow the
-// header's last byte.
+// NAME_elements. This PDU has the signals of the first element (x_0, y_0, ...), of the second (x_1, y_1, ...),
+// and so on. All are most significant bit first, without gaps ("spare" signals included); the elements follow
+// the header's last byte.
 #pragma once
 
 #include <map>
