@@ -396,7 +396,7 @@ done
 for keys in 'feature_service: {max_image_age: 100 ms}' 'tracker: {coast_after: 300 ms, delete_after: 1 s}'; do
   inner=${keys#*\{}
   for key in "${keys%%:*}" "${inner%%:*}"; do
-    grep -q "\`$key\`" "$source/README.md" || fail "README does not name $key"
+    grep -q "\`$key\`" "$source/docs/faults.md" || fail "docs/faults.md does not name $key"
   done
   (cat "$work/scenarios/paper_scenario2.yaml" && echo "$keys") >"$work/scenarios/page.yaml"
   expect 0 'precision of the time base' run "$work/scenarios/page.yaml" --strategy tt --no-log --out "$work/page"
