@@ -114,7 +114,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   Microticks next_due() const;
   void watch_lines();
   bus::ports::HostTime next_health(bus::ports::HostTime now) const;
-  void tell_health();
+  bus::ports::HostTime tell_health();
   std::uint64_t dropped() const;
   void record_account();
 
