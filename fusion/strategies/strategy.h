@@ -40,6 +40,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/check.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "fusion/config/tracker_config.h"
@@ -53,27 +54,61 @@ namespace ttf::fusion::strategies {
 enum class StrategyKind : std::uint8_t { kBuff = 0, kAdva = 1, kTt = 2, kCount };
 inline constexpr std::size_t kStrategyCount = static_cast<std::size_t>(StrategyKind::kCount);
 
-// The names that files, options and logs give the strategies, in the order of StrategyKind.
-inline constexpr std::array<std::pair<std::string_view, StrategyKind>, kStrategyCount> kStrategyNames{
-    {{"buff", StrategyKind::kBuff}, {"adva", StrategyKind::kAdva}, {"tt", StrategyKind::kTt}}};
+// What a strategy knows from that nothing older is to come.
+enum class ReliesOn : std::uint8_t {
+  kUnsaid,    // no strategy's
+  kNothing,   // it does not ask
+  kDelays,    // how long lists are on their way at most
+  kSchedule,  // the instants of measuring and of fusing, which must be known beforehand
+};
+// How it can take late lists in, by TrackerConfig::late.
+enum class TakesLate : std::uint8_t {
+  kUnsaid,         // no strategy's
+  kByGoingBack,    // always, whatever the configuration says: none is late by design
+  kByClones,       // by going back, or by clones where the schedule knows the instants
+  kByEveryMethod,  // there is
+};
+
+struct StrategyRow {
+  StrategyKind kind{};
+  std::string_view name;  // as files, options and logs give it
+  ReliesOn relies_on{};
+  TakesLate takes_late{};
+};
+// In the order of StrategyKind.
+inline constexpr std::array<StrategyRow, kStrategyCount> kStrategies{{
+    {StrategyKind::kBuff, "buff", ReliesOn::kDelays, TakesLate::kByGoingBack},
+    {StrategyKind::kAdva, "adva", ReliesOn::kNothing, TakesLate::kByEveryMethod},
+    {StrategyKind::kTt, "tt", ReliesOn::kSchedule, TakesLate::kByClones},
+}};
 inline constexpr std::array<StrategyKind, kStrategyCount> kAllStrategies = [] {
   std::array<StrategyKind, kStrategyCount> all{};
   for (std::size_t i = 0; i < kStrategyCount; ++i) all[i] = static_cast<StrategyKind>(i);
   return all;
 }();
-static_assert(std::equal(kStrategyNames.begin(), kStrategyNames.end(), kAllStrategies.begin(),
-                         [](const auto& named, StrategyKind kind) {
-                           return !named.first.empty() && named.second == kind;
+static_assert(std::equal(kStrategies.begin(), kStrategies.end(), kAllStrategies.begin(),
+                         [](const StrategyRow& row, StrategyKind kind) {
+                           return row.kind == kind && !row.name.empty() && row.relies_on != ReliesOn::kUnsaid &&
+                                  row.takes_late != TakesLate::kUnsaid;
                          }),
-              "every strategy has its name, in its place");
+              "every strategy has its row, in its place, and the row says all");
+inline constexpr auto kStrategyNames = [] {
+  std::array<std::pair<std::string_view, StrategyKind>, kStrategyCount> names{};
+  for (std::size_t i = 0; i < kStrategyCount; ++i) names[i] = {kStrategies[i].name, kStrategies[i].kind};
+  return names;
+}();
 
+constexpr const StrategyRow& row_of(StrategyKind kind) {
+  TTF_CHECK(kind < StrategyKind::kCount, "strategy {}", static_cast<int>(kind));
+  return kStrategies[static_cast<std::size_t>(kind)];
+}
 // Empty for what is no strategy.
 constexpr std::string_view name_of(StrategyKind kind) {
-  return kind < StrategyKind::kCount ? kStrategyNames[static_cast<std::size_t>(kind)].first : std::string_view{};
+  return kind < StrategyKind::kCount ? row_of(kind).name : std::string_view{};
 }
 constexpr std::optional<StrategyKind> strategy_named(std::string_view name) {
-  for (const auto& [known, kind] : kStrategyNames)
-    if (known == name) return kind;
+  for (const StrategyRow& row : kStrategies)
+    if (row.name == name) return row.kind;
   return std::nullopt;
 }
 
