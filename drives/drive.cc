@@ -1,5 +1,7 @@
 #include "drives/drive.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -84,13 +86,15 @@ void check_late(const Scenario& scenario, const schedules::model::Cluster& clust
 }
 
 void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::StrategyKind strategy) {
-  if (strategy != fusion::strategies::StrategyKind::kTt) return;
+  if (fusion::strategies::row_of(strategy).relies_on != fusion::strategies::ReliesOn::kSchedule) return;
   for (const schedules::model::Node& node : cluster.nodes)
     for (const schedules::model::Task& task : node.tasks)
       if (task.step == "fusion" && task.activation.kind != schedules::model::ActivationKind::kTime)
         throw InputError(
             {cluster.file, task.line, "nodes." + node.name + ".tasks." + task.name + ".activation", "",
-             "must be of kind time with strategy tt, which relies on fusion instants that the schedule knows"});
+             fmt::format(
+                 "must be of kind time with strategy {}, which relies on fusion instants that the schedule knows",
+                 name_of(strategy))});
 }
 
 void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,

@@ -272,15 +272,10 @@ constexpr std::array<ParameterRow, kFaultParameters> kParameterRows{{
     {P::kFrom, read_from, write_from},
     {P::kPassing, read_passing, write_window},
 }};
-constexpr bool is_one_row_a_parameter() {
-  for (std::size_t row = 0; row < kParameterRows.size(); ++row)
-    if (static_cast<std::size_t>(kParameterRows[row].parameter) != row) return false;
-  return true;
-}
-static_assert(is_one_row_a_parameter(), "a parameter without a row, or rows in another order");
+static_assert(is_one_row_a_parameter(kParameterRows), "a parameter without a row, or rows in another order");
 
 const ParameterRow& row_of(FaultParameter parameter) {
-  const auto row = static_cast<std::size_t>(parameter);
+  const std::size_t row = index_of(parameter);
   TTF_CHECK(row < kParameterRows.size(), "parameter {}", row);
   return kParameterRows[row];
 }

@@ -67,7 +67,8 @@ std::vector<fusion::strategies::SensorTiming> sensor_timings(const RecordedLists
   const std::vector<std::vector<GlobalTime>> times = times_measured(recorded);
   std::vector<fusion::strategies::SensorTiming> timings;
   const fusion::oosm::Kind late = config.tracker.late;
-  const bool on_schedule = strategy == fusion::strategies::StrategyKind::kTt || late == fusion::oosm::Kind::kClone;
+  const bool needs_schedule = fusion::strategies::row_of(strategy).relies_on == fusion::strategies::ReliesOn::kSchedule;
+  const bool on_schedule = needs_schedule || late == fusion::oosm::Kind::kClone;
   bool any_scheduled = false;
   for (std::size_t s = 0; s < recorded.sensors.size(); ++s) {
     const SensorSetup& setup = config.sensors[s].second;
@@ -84,10 +85,9 @@ std::vector<fusion::strategies::SensorTiming> sensor_timings(const RecordedLists
     }
     timings.push_back(timing);
   }
-  if (strategy == fusion::strategies::StrategyKind::kTt && !any_scheduled)
-    throw InputError(
-        {config.file.empty() ? "command line" : config.file, 0, "strategy", std::string(name_of(strategy)),
-         "needs the period of at least one sensor: no period is given, and no sensor measures at regular instants"});
+  if (needs_schedule && !any_scheduled)
+    throw InputError({config.file.empty() ? "command line" : config.file, 0, "strategy", std::string(name_of(strategy)),
+                      "needs the period of at least one sensor: none is given, and none measures at regular instants"});
   const std::string refusal = fusion::strategies::late_refusal(strategy, late, timings, only_positions(recorded));
   if (!refusal.empty())
     throw InputError({config.file, config.late_line, "tracker.late", std::string(name_of(late)), refusal});

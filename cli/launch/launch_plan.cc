@@ -10,8 +10,9 @@
 #include <stdexcept>
 
 #include "cli/drive/drive_setup.h"
+#include "cli/live_media/bus.h"
+#include "cli/live_media/dds_configuration.h"
 #include "cli/node_set/can_interfaces.h"
-#include "cli/node_set/dds_preflight.h"
 #include "cli/node_set/live_topics.h"
 #include "cli/supervision/shell_text.h"
 #include "core/errors.h"
@@ -75,9 +76,8 @@ LaunchPlan plan_of(const LaunchArguments& arguments) {
   }
   set_policies(arguments.policies, plan.set.cluster, plan.nodes);
   refuse_restart_in_virtual_time(plan);
-  if (plan.set.bus.kind == supervision::BusKind::kDds || plan.set.topics) node_set::check_dds_configuration();
-  plan.preflight =
-      supervision::look_at(plan.set.bus, node_set::private_cans(plan.set.cluster, plan.set.can_interfaces));
+  if (plan.set.needs_dds()) live_media::check_dds_configuration();
+  plan.preflight = live_media::look_at(plan.set.bus, node_set::private_cans(plan.set.cluster, plan.set.can_interfaces));
   plan.preflight.insert(plan.preflight.begin(), {plan.set.cluster.file, true, "is consistent", {}});
   return plan;
 }
@@ -97,10 +97,8 @@ nlohmann::ordered_json facts_of(const node_set::NodeSet& set) {
 
 void show_preflight(const LaunchPlan& plan) {
   fmt::print(stderr, "{}", supervision::text_of(plan.preflight));
-  if (plan.set.bus.kind == supervision::BusKind::kSocketCan && !supervision::all_good(plan.preflight))
-    fmt::print(stderr,
-               "without any CAN: --bus dds (the default); CANs on a kernel of one's own, without root: "
-               "tools/test_bed.sh (docs/socketcan.md)\n");
+  const std::string_view way_out = plan.set.bus.medium->way_out;
+  if (!way_out.empty() && !supervision::all_good(plan.preflight)) fmt::print(stderr, "{}\n", way_out);
 }
 
 void show_plan(const LaunchPlan& plan, bool as_json) {

@@ -9,13 +9,12 @@
 #include <string>
 
 #include "cli/drive/drive_setup.h"
-#include "cli/node/live_bus.h"
+#include "cli/live_media/dds_configuration.h"
+#include "cli/live_media/live_media.h"
 #include "cli/node/node_command.h"
 #include "cli/node/node_ending.h"
-#include "cli/node_set/dds_preflight.h"
 #include "cli/node_set/live_topics.h"
 #include "cli/node_set/node_drive.h"
-#include "cli/node_set/session.h"
 #include "cli/output.h"
 #include "cli/supervision/control.h"
 #include "cli/supervision/folder_lock.h"
@@ -156,14 +155,15 @@ int run_node_live(const NodeOptions& options) {
   if (!supervisor) {
     check_told_start(set);
     supervision::FolderLock::refuse_if_held(set.folder);
-    if (set.bus.kind == supervision::BusKind::kDds || set.topics) node_set::check_dds_configuration();
+    if (set.needs_dds()) live_media::check_dds_configuration();
   }
   if (set.topics) check_topics(set);
   create_folder(set.folder);
   const drives::Surroundings around = drives::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
   const drives::NodeSetConfig code{&set.scenario, &set.cluster, set.strategy, set.seed, 0, around.scene, nullptr};
   auto steps = drives::make_steps(code, options.node);
-  const auto medium = live_medium(set, options.node, supervisor ? kLivePatience : std::chrono::milliseconds{0});
+  const auto medium = set.bus.medium->make({set.cluster, options.node, set.bus.interfaces, set.can_interfaces,
+                                            set.session, supervisor ? kLivePatience : std::chrono::milliseconds{0}});
   if (set.topics) try_topics(set);
   const std::optional<Start> told = supervisor ? std::nullopt : std::optional(told_start(set));
   recording::log::LogWriter log(free_log(options), wall_manifest(set), recording::log::LogWriter::Writing::kBehind);

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "bus/dds/exchange/exchange.h"
+#include "cli/live_media/dds_configuration.h"
 #include "cli/node/node_command.h"
-#include "cli/node_set/dds_preflight.h"
 #include "cli/node_set/node_drive.h"
 #include "cli/node_set/session.h"
 #include "cli/output.h"
@@ -23,7 +23,7 @@ int run_node_virtual(const NodeOptions& options) {
   const node_set::NodeSet& set = options.set;
   auto supervisor = supervision::ControlLine::from_environment();
   if (!supervisor) {
-    node_set::check_dds_configuration();
+    live_media::check_dds_configuration();
     supervision::FolderLock::refuse_if_held(set.folder);
   }
   create_folder(set.folder);

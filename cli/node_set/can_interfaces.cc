@@ -21,9 +21,9 @@ std::map<std::string, std::string> interfaces_by_name(const schedules::model::Cl
   for (const std::string& option : given) {
     const std::size_t sign = option.rfind('=');
     const std::string interface = sign == std::string::npos ? "" : option.substr(sign + 1);
-    if (!supervision::is_interface_name(interface))
+    if (!live_media::is_interface_name(interface))
       throw refused(option, fmt::format("must be NAME=IF, a CAN of {} and its interface ({})", cluster.file,
-                                        supervision::kInterfaceNames));
+                                        live_media::kInterfaceNames));
     const std::string name = option.substr(0, sign);
     if (std::ranges::find(cluster.can_buses, name, &schedules::model::CanBus::name) == cluster.can_buses.end()) {
       std::vector<std::string> names;
@@ -38,11 +38,12 @@ std::map<std::string, std::string> interfaces_by_name(const schedules::model::Cl
 
 }  // namespace
 
-std::vector<std::string> can_interfaces(const schedules::model::Cluster& cluster, const supervision::Bus& bus,
+std::vector<std::string> can_interfaces(const schedules::model::Cluster& cluster, const live_media::Bus& bus,
                                         const std::vector<std::string>& given) {
-  if (bus.kind != supervision::BusKind::kSocketCan) {
+  if (!bus.medium->has_interfaces()) {
     if (!given.empty())
-      throw refused(given.front(), "goes with --bus socketcan:IF[,IF] only: elsewhere private CANs have no interfaces");
+      throw refused(given.front(), fmt::format("goes with --bus {} only: elsewhere private CANs have no interfaces",
+                                               live_media::forms_with_interfaces()));
     return {};
   }
   const auto named = interfaces_by_name(cluster, given);
@@ -53,10 +54,10 @@ std::vector<std::string> can_interfaces(const schedules::model::Cluster& cluster
   for (const schedules::model::CanBus& can : cluster.can_buses) {
     const auto own = named.find(can.name);
     const std::string interface = own == named.end() ? can.name : own->second;
-    if (!supervision::is_interface_name(interface))
+    if (!live_media::is_interface_name(interface))
       throw InputError({cluster.file, can.line, fmt::format("can.{}", can.name), "",
                         fmt::format("needs --can NAME=IF on SocketCAN, as its own name is none of an interface ({})",
-                                    supervision::kInterfaceNames)});
+                                    live_media::kInterfaceNames)});
     if (const auto [user, only] = users.emplace(interface, can.name); !only)
       throw refused(fmt::format("{}={}", can.name, interface),
                     fmt::format("must be another interface than that of {}", user->second));
@@ -73,9 +74,9 @@ std::vector<std::string> can_options(const schedules::model::Cluster& cluster,
   return options;
 }
 
-std::vector<supervision::PrivateCan> private_cans(const schedules::model::Cluster& cluster,
-                                                  const std::vector<std::string>& interfaces) {
-  std::vector<supervision::PrivateCan> cans;
+std::vector<live_media::PrivateCan> private_cans(const schedules::model::Cluster& cluster,
+                                                 const std::vector<std::string>& interfaces) {
+  std::vector<live_media::PrivateCan> cans;
   for (std::size_t i = 0; i < interfaces.size(); ++i)
     cans.push_back({cluster.can_buses[i].name, interfaces[i], cluster.can_buses[i].flexible_data_rate});
   return cans;

@@ -98,8 +98,8 @@ std::string host_option(const std::string& host) {
 }
 
 // What is for virtual time only, or for real time only.
-void refuse_other_time(const NodeSetArguments& arguments) {
-  const auto refuse = [](const char* option, const std::string& value, const char* why) {
+void refuse_other_time(const NodeSetArguments& arguments, const live_media::Bus& bus) {
+  const auto refuse = [](const char* option, const std::string& value, std::string_view why) {
     throw InputError({"command line", 0, option, value, fmt::format("must {}", why)});
   };
   if (!arguments.virtual_time) return;
@@ -111,9 +111,9 @@ void refuse_other_time(const NodeSetArguments& arguments) {
     refuse("--rejoin", "", "not be given with --virtual-time: nobody would wait for the node to catch up");
   if (arguments.host)
     refuse("--host", *arguments.host, "not be given with --virtual-time, where no host's clock counts");
-  if (arguments.bus != "dds")
+  if (const std::string_view why = bus.medium->not_in_virtual_time; !why.empty())
     refuse("--bus", arguments.bus,
-           "be dds with --virtual-time: on CAN nobody can promise to be silent until an instant");
+           fmt::format("be {} with --virtual-time: {}", live_media::kLiveMedia.front()->name, why));
 }
 
 void check_fit_for_real_time(const NodeSet& set) {
@@ -122,7 +122,7 @@ void check_fit_for_real_time(const NodeSet& set) {
   if (!set.scenario.faults.empty())
     throw InputError({set.scenario.file, set.scenario.faults.faults.front().line, "faults", "",
                       "must be run in virtual time: only there faults can be injected"});
-  const bool a_alone = set.bus.kind == supervision::BusKind::kSocketCan && set.bus.interfaces.size() == 1;
+  const bool a_alone = !set.bus.carries(schedules::model::Channel::kB);
   for (const schedules::model::FrameSlot& frame : set.cluster.frames)
     if (a_alone && frame.channels == schedules::model::Channels::kB)
       throw InputError({"command line", 0, "--bus", set.bus.text(),
@@ -139,8 +139,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
       .add_option("--strategy", arguments.strategy, "Fusion strategy, and with it the scenario's cluster (default: tt)")
       ->check(CLI::IsMember(drive::strategy_names()));
   command.add_option("--seed", arguments.seed, "Seed of every random stream, instead of the scenario's");
-  command.add_option("--bus", arguments.bus,
-                     "dds (default), or socketcan:IF[,IF] with the interfaces of channels A and B");
+  command.add_option("--bus", arguments.bus, live_media::bus_help());
   command
       .add_option("--can", arguments.cans,
                   "NAME=IF: the interface of a private CAN on socketcan, for each once (default: IF is its NAME)")
@@ -158,12 +157,12 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   NodeSet set;
   set.file = arguments.scenario;
   set.strategy = drive::strategy_of(arguments.strategy);
-  set.bus = supervision::Bus::parse(arguments.bus);
+  set.bus = live_media::Bus::parse(arguments.bus);
   set.session = session_option(arguments.session);
   set.virtual_time = arguments.virtual_time;
   set.topics = !arguments.no_topics && !arguments.virtual_time;
   if (arguments.time_scale) set.time_scale_ppm = time_scale_option(*arguments.time_scale);
-  refuse_other_time(arguments);
+  refuse_other_time(arguments, set.bus);
   if (arguments.start_at)
     set.start_at_ns = decimal_option("--start-at", *arguments.start_at, kNsPerSecond, kStarts_ns, " s");
   set.rejoin = arguments.rejoin;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/supervision/preflight.h"
+#include "cli/live_media/bus.h"
 #include "core/time.h"
 #include "drives/scenario.h"
 #include "fusion/strategies/strategy.h"
@@ -21,7 +21,7 @@ struct NodeSetArguments {
   std::string scenario;
   std::string strategy = "tt";
   std::optional<std::string> seed, time_scale, duration;
-  std::string bus = "dds";
+  std::string bus{live_media::kLiveMedia.front()->name};
   std::vector<std::string> cans;  // NAME=IF
   std::string session = "ttfusion";
   std::string out;
@@ -41,8 +41,8 @@ struct NodeSet {
   schedules::model::Cluster cluster;  // of the strategy, checked
   fusion::strategies::StrategyKind strategy{};
   std::uint64_t seed = 0;
-  supervision::Bus bus;
-  std::vector<std::string> can_interfaces;  // on SocketCAN: by Cluster::can_buses; else empty
+  live_media::Bus bus;
+  std::vector<std::string> can_interfaces;  // by Cluster::can_buses, where the medium has any; else empty
   std::string session;                      // who is in another one is not heard
   bool virtual_time = false;
   std::int64_t time_scale_ppm = 1'000'000;  // the schedule lasts so much longer in real time; in virtual time always 1
@@ -53,6 +53,8 @@ struct NodeSet {
   bool topics = true;   // in real time: what goes on is published for ROS 2
   std::string folder;   // where the nodes' logs go: NAME.mcap (launch::file_stem)
 
+  // Its medium or its topics are DDS'.
+  bool needs_dds() const { return topics || bus.medium->needs_dds; }
   // The options that make another process read this very node set.
   std::vector<std::string> options() const;
 };

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "bus/dds/common/session.h"
+#include "cli/live_media/dds_session.h"
 #include "cli/node_set/node_set.h"
 
 namespace ttf::cli::node_set {
@@ -12,12 +12,7 @@ namespace ttf::cli::node_set {
 inline constexpr std::chrono::milliseconds kOthersPatience{30'000};
 
 inline bus::dds::common::Session session_of(const NodeSet& set, bool supervised) {
-  bus::dds::common::Session session;
-  session.name = set.session;
-  session.supervised = supervised;
-  for (std::size_t node = 0; node < set.cluster.nodes.size(); ++node)
-    session.members.push_back(static_cast<NodeId>(node));
-  return session;
+  return live_media::session_of(set.session, set.cluster, supervised);
 }
 
 }  // namespace ttf::cli::node_set

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -71,55 +72,75 @@ class Drawing {
   }
 
   void draw(FaultParameter parameter, Fault& fault) {
-    switch (parameter) {
-      case FaultParameter::kDirection:
-        fault.direction = one_of(std::vector{faults::FaultDirection::kSend, faults::FaultDirection::kReceive,
-                                             faults::FaultDirection::kBoth});
-        return;
-      case FaultParameter::kSignal:
-        fault.signal = one_of(std::vector{faults::FaultSignal::kNoise, faults::FaultSignal::kFrame});
-        if (fault.signal == faults::FaultSignal::kFrame) length();  // of no use to it, but part of campaigns' streams
-        return;
-      case FaultParameter::kLength: fault.length = length(); return;
-      case FaultParameter::kBursts: return bursts(fault);
-      case FaultParameter::kMasquerade:
-        fault.masquerade = one_of(std::vector{faults::MasqueradeMode::kInSlot, faults::MasqueradeMode::kOwnSlot});
-        fault.slot = one_of(slots_of_others(fault.node, false));
-        return;
-      case FaultParameter::kShift:
-        // Up to twice the room before the action point: what leaves the slot, and what just does not.
-        fault.shift = signed_up_to(Duration{2 * g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
-        return;
-      case FaultParameter::kLie:
-        fault.shift = between(Duration{100}, Duration{g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
-        fault.pattern = one_of(std::vector{faults::ByzantinePattern::kRandom, faults::ByzantinePattern::kPullApart,
-                                           faults::ByzantinePattern::kPullRates});
-        return;
-      case FaultParameter::kHeaderBits:
-      case FaultParameter::kPayloadBits:
-      case FaultParameter::kTrailerBits:
-        // The frame CRC finds up to five in any frame; more it misses once in 2^24.
-        fault.flips = static_cast<int>(draw_.uniform() < 0.75 ? draw_.integer(1, 5) : draw_.integer(6, 24));
-        return;
-      case FaultParameter::kDrift: {
-        // From what no clock notices to what none can follow: 10 ppm to 50000 ppm, evenly in the logarithm.
-        const double ppb = 1e4 * std::pow(5'000.0, draw_.uniform());
-        fault.drift_ppb = static_cast<std::int64_t>(ppb) * (draw_.uniform() < 0.5 ? -1 : 1);
-        return;
-      }
-      case FaultParameter::kOthers: fault.all_others = draw_.uniform() < 0.5; return;
-      case FaultParameter::kDuplicate: return duplicate(fault);
-      case FaultParameter::kWrongSchedule: return wrong_schedule(fault);
-      case FaultParameter::kReceivers: return receivers(fault);
-      case FaultParameter::kOccasions: return occasions(fault);
-      case FaultParameter::kChannels: fault.channels = channels(); return;
-      case FaultParameter::kWindow:
-      case FaultParameter::kFrom:
-      case FaultParameter::kPassing: return;  // drawn before, by when()
-      case FaultParameter::kNone:
-      case FaultParameter::kEnd: return;
-    }
+    struct Row {
+      FaultParameter parameter{};
+      void (Drawing::*draw)(Fault&) = nullptr;
+    };
+    using P = FaultParameter;
+    static constexpr std::array<Row, faults::kFaultParameters> kRows{{
+        {P::kNone, &Drawing::nothing},
+        {P::kDirection, &Drawing::direction},
+        {P::kSignal, &Drawing::signal},
+        {P::kLength, &Drawing::noise_length},
+        {P::kBursts, &Drawing::bursts},
+        {P::kMasquerade, &Drawing::masquerade},
+        {P::kShift, &Drawing::shift},
+        {P::kLie, &Drawing::lie},
+        {P::kHeaderBits, &Drawing::flips},
+        {P::kPayloadBits, &Drawing::flips},
+        {P::kTrailerBits, &Drawing::flips},
+        {P::kDrift, &Drawing::drift},
+        {P::kOthers, &Drawing::others},
+        {P::kDuplicate, &Drawing::duplicate},
+        {P::kWrongSchedule, &Drawing::wrong_schedule},
+        {P::kReceivers, &Drawing::receivers},
+        {P::kOccasions, &Drawing::occasions},
+        {P::kChannels, &Drawing::fault_channels},
+        {P::kWindow, &Drawing::nothing},  // this and what follows: drawn before, by when()
+        {P::kFrom, &Drawing::nothing},
+        {P::kPassing, &Drawing::nothing},
+    }};
+    static_assert(faults::is_one_row_a_parameter(kRows), "a parameter without a row, or rows in another order");
+    const std::size_t row = faults::index_of(parameter);
+    TTF_CHECK(row < kRows.size(), "parameter {}", row);
+    (this->*kRows[row].draw)(fault);
   }
+
+  void nothing(Fault&) {}
+  void direction(Fault& fault) {
+    fault.direction = one_of(
+        std::vector{faults::FaultDirection::kSend, faults::FaultDirection::kReceive, faults::FaultDirection::kBoth});
+  }
+  void signal(Fault& fault) {
+    fault.signal = one_of(std::vector{faults::FaultSignal::kNoise, faults::FaultSignal::kFrame});
+    if (fault.signal == faults::FaultSignal::kFrame) length();  // of no use to it, but part of campaigns' streams
+  }
+  void noise_length(Fault& fault) { fault.length = length(); }
+  void masquerade(Fault& fault) {
+    fault.masquerade = one_of(std::vector{faults::MasqueradeMode::kInSlot, faults::MasqueradeMode::kOwnSlot});
+    fault.slot = one_of(slots_of_others(fault.node, false));
+  }
+  // Up to twice the room before the action point: what leaves the slot, and what just does not.
+  void shift(Fault& fault) {
+    fault.shift = signed_up_to(Duration{2 * g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
+  }
+  void lie(Fault& fault) {
+    fault.shift = between(Duration{100}, Duration{g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
+    fault.pattern = one_of(std::vector{faults::ByzantinePattern::kRandom, faults::ByzantinePattern::kPullApart,
+                                       faults::ByzantinePattern::kPullRates});
+  }
+  // The frame CRC finds up to five in any frame; more it misses once in 2^24.
+  void flips(Fault& fault) {
+    fault.flips = static_cast<int>(draw_.uniform() < 0.75 ? draw_.integer(1, 5) : draw_.integer(6, 24));
+  }
+  // From what no clock notices to what none can follow: 10 ppm to 50000 ppm, evenly in the logarithm.
+  void drift(Fault& fault) {
+    const double ppb = 1e4 * std::pow(5'000.0, draw_.uniform());
+    fault.drift_ppb = static_cast<std::int64_t>(ppb) * (draw_.uniform() < 0.5 ? -1 : 1);
+  }
+  void others(Fault& fault) { fault.all_others = draw_.uniform() < 0.5; }
+  void fault_channels(Fault& fault) { fault.channels = channels(); }
+
   // What a node believes in, it believes in from the beginning to the end.
   static void always(Fault& fault) {
     fault.from = Duration{};

@@ -1,5 +1,7 @@
 #include "fusion/strategies/strategy.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -283,8 +285,10 @@ static_assert(std::find(kMakers.begin(), kMakers.end(), nullptr) == kMakers.end(
 
 std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors,
                          bool only_positions) {
-  if (kind == StrategyKind::kBuff || late == oosm::Kind::kRewind) return {};
-  if (kind == StrategyKind::kTt && late != oosm::Kind::kClone) return "must be rewind or clone with strategy tt";
+  const TakesLate takes_late = row_of(kind).takes_late;
+  if (takes_late == TakesLate::kByGoingBack || late == oosm::Kind::kRewind) return {};
+  if (takes_late == TakesLate::kByClones && late != oosm::Kind::kClone)
+    return fmt::format("must be rewind or clone with strategy {}", name_of(kind));
   if (!only_positions) return "must be rewind if a sensor measures range and bearing: the other methods take positions";
   const bool scheduled =
       std::all_of(sensors.begin(), sensors.end(), [](const SensorTiming& sensor) { return sensor.scheduled; });
@@ -295,11 +299,11 @@ std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const Sen
 
 std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const config::TrackerConfig& config,
                                         std::span<const SensorTiming> sensors) {
-  TTF_CHECK(kind < StrategyKind::kCount, "strategy {}", static_cast<int>(kind));
+  const bool goes_back = row_of(kind).takes_late == TakesLate::kByGoingBack || config.late == oosm::Kind::kRewind;
   const std::string refusal = late_refusal(kind, config.late, sensors, true);
   TTF_CHECK(refusal.empty(), "late {}", refusal);
   std::unique_ptr<tracks::TrackHistory> history;
-  if (kind == StrategyKind::kBuff || config.late == oosm::Kind::kRewind)
+  if (goes_back)
     history = std::make_unique<tracks::Timeline>(config, config.max_observations);
   else
     history = std::make_unique<late::LateUpdates>(config, config.max_observations, sensors);

@@ -39,6 +39,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/check.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "fusion/config/tracker_config.h"
@@ -52,27 +53,61 @@ namespace ttf::fusion::strategies {
 enum class StrategyKind : std::uint8_t { kBuff = 0, kAdva = 1, kTt = 2, kCount };
 inline constexpr std::size_t kStrategyCount = static_cast<std::size_t>(StrategyKind::kCount);
 
-// The strategies' names in files, options and logs, in the order of StrategyKind.
-inline constexpr std::array<std::pair<std::string_view, StrategyKind>, kStrategyCount> kStrategyNames{
-    {{"buff", StrategyKind::kBuff}, {"adva", StrategyKind::kAdva}, {"tt", StrategyKind::kTt}}};
+// The knowledge by which a strategy is certain that no older list is to come.
+enum class ReliesOn : std::uint8_t {
+  kUnsaid,    // not stated; no strategy has it
+  kNothing,   // it fuses without certainty
+  kDelays,    // the longest delay of each sensor's lists
+  kSchedule,  // the scheduled instants of measuring and of fusing
+};
+// The methods (TrackerConfig::late) by which a strategy can take late lists in.
+enum class TakesLate : std::uint8_t {
+  kUnsaid,         // not stated; no strategy has it
+  kByGoingBack,    // only rewinding, whatever the configuration says: by design no list is late
+  kByClones,       // rewinding, or clones where the schedule knows the instants
+  kByEveryMethod,  // all methods
+};
+
+struct StrategyRow {
+  StrategyKind kind{};
+  std::string_view name;  // in files, options and logs
+  ReliesOn relies_on{};
+  TakesLate takes_late{};
+};
+// In the order of StrategyKind.
+inline constexpr std::array<StrategyRow, kStrategyCount> kStrategies{{
+    {StrategyKind::kBuff, "buff", ReliesOn::kDelays, TakesLate::kByGoingBack},
+    {StrategyKind::kAdva, "adva", ReliesOn::kNothing, TakesLate::kByEveryMethod},
+    {StrategyKind::kTt, "tt", ReliesOn::kSchedule, TakesLate::kByClones},
+}};
 inline constexpr std::array<StrategyKind, kStrategyCount> kAllStrategies = [] {
   std::array<StrategyKind, kStrategyCount> all{};
   for (std::size_t i = 0; i < kStrategyCount; ++i) all[i] = static_cast<StrategyKind>(i);
   return all;
 }();
-static_assert(std::equal(kStrategyNames.begin(), kStrategyNames.end(), kAllStrategies.begin(),
-                         [](const auto& named, StrategyKind kind) {
-                           return !named.first.empty() && named.second == kind;
+static_assert(std::equal(kStrategies.begin(), kStrategies.end(), kAllStrategies.begin(),
+                         [](const StrategyRow& row, StrategyKind kind) {
+                           return row.kind == kind && !row.name.empty() && row.relies_on != ReliesOn::kUnsaid &&
+                                  row.takes_late != TakesLate::kUnsaid;
                          }),
-              "every strategy has its name, in its place");
+              "every strategy has its row, in its place, and the row says all");
+inline constexpr auto kStrategyNames = [] {
+  std::array<std::pair<std::string_view, StrategyKind>, kStrategyCount> names{};
+  for (std::size_t i = 0; i < kStrategyCount; ++i) names[i] = {kStrategies[i].name, kStrategies[i].kind};
+  return names;
+}();
 
+constexpr const StrategyRow& row_of(StrategyKind kind) {
+  TTF_CHECK(kind < StrategyKind::kCount, "strategy {}", static_cast<int>(kind));
+  return kStrategies[static_cast<std::size_t>(kind)];
+}
 // Returns the name, empty for any other value.
 constexpr std::string_view name_of(StrategyKind kind) {
-  return kind < StrategyKind::kCount ? kStrategyNames[static_cast<std::size_t>(kind)].first : std::string_view{};
+  return kind < StrategyKind::kCount ? row_of(kind).name : std::string_view{};
 }
 constexpr std::optional<StrategyKind> strategy_named(std::string_view name) {
-  for (const auto& [known, kind] : kStrategyNames)
-    if (known == name) return kind;
+  for (const StrategyRow& row : kStrategies)
+    if (row.name == name) return row.kind;
   return std::nullopt;
 }
 

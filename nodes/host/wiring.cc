@@ -49,6 +49,8 @@ std::span<Input> Wiring::read(std::size_t task, const recording::records::Stamp&
   for (std::size_t i = 0; i < ports.inputs.size(); ++i) {
     Input& input = ports.inputs[i];
     Source& source = ports.sources[i];
+    TTF_CHECK(source.list != nullptr, "task {} reads from medium {}, which its node is not on", task,
+              source.medium.number());
     input.list = source.list->latest();
     input.fresh = source.list->mark_read();
     input.discarded = false;
@@ -74,8 +76,11 @@ void Wiring::write(std::size_t task, const recording::records::Stamp& at) {
     Output& output = ports.outputs[o];
     records_.counts().saturated_signals += static_cast<std::uint64_t>(output.take_saturated());
     if (!output.written()) continue;
-    records_.hop(at, recording::records::Hop::kWritten, output.pdu(), output.view().sequence, ports.drains[o].medium);
-    ports.drains[o].lists->send(output.pdu(), output.view());
+    const Drain& drain = ports.drains[o];
+    TTF_CHECK(drain.lists != nullptr, "task {} writes to medium {}, which its node is not on", task,
+              drain.medium.number());
+    records_.hop(at, recording::records::Hop::kWritten, output.pdu(), output.view().sequence, drain.medium);
+    drain.lists->send(output.pdu(), output.view());
     output.clear();
   }
 }

@@ -43,7 +43,8 @@ struct ListArrival {
 
 class Wiring {
  public:
-  // `cluster`, `time` and `records` outlive this. Tasks with a port to a medium that is not among `media` must not run.
+  // `cluster`, `time` and `records` outlive this. A task that reads from a medium that is not among `media`, or writes to
+  // one, must not run: it stops the program.
   Wiring(const schedules::model::Cluster& cluster, const schedules::model::Node& node, std::vector<Connection> media,
          const NodeTime& time, NodeRecords& records);
 

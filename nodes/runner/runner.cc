@@ -242,15 +242,17 @@ bus::ports::MachineTime Runner::next_health(bus::ports::MachineTime now) const {
   return config_.clock.next_turn(kHealthEvery, phase, now);
 }
 
-void Runner::tell_health() {
+// Returns the instant of the next report, which may come sooner if a task ends before and makes room.
+bus::ports::MachineTime Runner::tell_health() {
   const bus::ports::MachineTime now = machine_clock_.now();
-  if (now < health_due_) return;
+  if (now < health_due_) return health_due_;
   const Microticks next = next_due();
   const bool room = next == kNever<Microticks> || machine_time(next) > now + kRoomForHealth;
-  if (!room && now < health_due_ + kHealthEvery) return;
+  if (!room && now < health_due_ + kHealthEvery) return health_due_ + kHealthEvery;
   health_due_ = next_health(now);
   record_account();
   if (on_health_) on_health_(health());
+  return health_due_;
 }
 
 std::uint64_t Runner::dropped() const {
@@ -303,11 +305,11 @@ RunnerEnd Runner::run() {
       break;
     }
     if (now >= end) break;
-    tell_health();
+    const bus::ports::MachineTime tells = tell_health();
     watch_lines();
     const Microticks next = next_due();
     const bus::ports::MachineTime due = next == kNever<Microticks> ? end : std::min(end, machine_time(next));
-    machine_clock_.wait_until(std::min(due, health_due_));
+    machine_clock_.wait_until(std::min(due, tells));
   }
   record_account();
   return how;

@@ -116,7 +116,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   Microticks next_due() const;
   void watch_lines();
   bus::ports::MachineTime next_health(bus::ports::MachineTime now) const;
-  void tell_health();
+  bus::ports::MachineTime tell_health();
   std::uint64_t dropped() const;
   void record_account();
 

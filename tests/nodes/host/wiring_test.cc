@@ -53,7 +53,7 @@ struct Wired {
   Box::Content first, second;
   std::optional<Wiring> wiring;
 
-  Wired() {
+  explicit Wired(bool on_second = true) {
     schedules::model::Task reader = task("reader", 10), both = task("both", 10);
     reader.reads = {{"in", bus::kList, kFirst, 0}};
     reader.writes = {{"out", kOther, kSecond, 0}};
@@ -62,7 +62,7 @@ struct Wired {
     cluster.nodes[0].tasks = {reader, both};
     std::vector<Connection> media;
     media.push_back({kFirst, std::make_unique<Box>(cluster, first)});
-    media.push_back({kSecond, std::make_unique<Box>(cluster, second)});
+    if (on_second) media.push_back({kSecond, std::make_unique<Box>(cluster, second)});
     wiring.emplace(cluster, cluster.nodes[0], std::move(media), time, records);
   }
   // A whole list comes, over that medium as the wiring is told.
@@ -125,6 +125,17 @@ TEST(Wiring, TheSameListOverAnotherMediumIsAnotherList) {
   Wired wired;
   EXPECT_TRUE(wired.wiring->arrived({kSecond, bus::kList, bus::cni::ArrivalEffect::kCompleted, 1, {}}, {}).empty());
   EXPECT_TRUE(wired.told.hops.empty()) << "no task reads it from there";
+}
+
+// What its node is not on a task can neither read nor write.
+TEST(Wiring, NoTaskUsesAMediumThatIsNotThere) {
+  Wired wired(false);
+  EXPECT_EQ(wired.comes(kFirst, bus::kList, 1), (std::vector<std::size_t>{0}));
+  EXPECT_DEATH(wired.wiring->read(1, {}), "task 1 reads from medium 1, which its node is not on");
+  EXPECT_TRUE(wired.wiring->read(0, {})[0].fresh);
+  wired.wiring->write(0, {});  // nothing
+  wired.wiring->outputs(0)[0].begin(9, 3, GlobalTime{});
+  EXPECT_DEATH(wired.wiring->write(0, {}), "task 0 writes to medium 1, which its node is not on");
 }
 
 }  // namespace

@@ -69,6 +69,7 @@ class RunnerTest : public LiveNodeSet {
       counts = runner.counts();
       wake_ups = runner.timing().wake_ups.count();
       sleeps = process.sleeps;
+      waits_for_nothing = process.waits_for_nothing;
       return end;
     }
 
@@ -161,6 +162,7 @@ class RunnerTest : public LiveNodeSet {
     host::ExecutiveCounts counts;
     std::uint64_t wake_ups = 0;
     std::vector<Duration> sleeps;
+    int waits_for_nothing = 0;
 
    private:
     const RunnerTest& set_;

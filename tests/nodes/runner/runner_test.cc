@@ -233,6 +233,7 @@ TEST_F(RunnerTest, HealthIsToldWhereThereIsRoomForIt) {
   EXPECT_GT(gateway.told_health[0], kOrigin + ms(625));
   EXPECT_GT(gateway.told_health[0], gateway.action_point(62, 21) - us(500));
   EXPECT_LT(gateway.told_health[0], gateway.action_point(62, 21) + us(500));
+  EXPECT_EQ(gateway.waits_for_nothing, 0) << "until there is room it waits for what is due";
 }
 
 // A cycle that takes half a millisecond never has room.
@@ -242,6 +243,7 @@ TEST_F(RunnerTest, HealthIsPutOffByASecondAtMost) {
   ASSERT_EQ(gateway.told_health.size(), 1u);
   EXPECT_GE(gateway.told_health[0], kOrigin + ms(1625));
   EXPECT_LT(gateway.told_health[0], kOrigin + ms(1626));
+  EXPECT_EQ(gateway.waits_for_nothing, 0);
 }
 
 // Who sends no sync frame and hears none cannot correct its clock, and halts; its host starts it anew at once.

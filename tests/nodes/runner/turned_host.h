@@ -88,7 +88,10 @@ class TurnedHost::Process final : public MachineClock {
     if (descriptor >= 0) watched_.push_back({descriptor, POLLIN, 0});
   }
   void clear() override { watched_.clear(); }
-  void wait_until(bus::ports::MachineTime until) override { host_.wait(*this, until, true); }
+  void wait_until(bus::ports::MachineTime until) override {
+    waits_for_nothing += until <= host_.now();
+    host_.wait(*this, until, true);
+  }
   void sleep(Duration lasts) override {
     sleeps.push_back(lasts);
     host_.wait(*this, host_.now() + lasts, false);
@@ -101,6 +104,7 @@ class TurnedHost::Process final : public MachineClock {
 
   recording::records::BinnedDurations told_floor;  // what the plain thread beside it is said to have been late by
   std::vector<Duration> sleeps;                    // so far
+  int waits_for_nothing = 0;                       // so far: for an instant that was over
 
  private:
   friend class TurnedHost;

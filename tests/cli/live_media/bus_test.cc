@@ -1,32 +1,69 @@
-#include "cli/supervision/preflight.h"
+#include "cli/live_media/bus.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
+#include <set>
+#include <string_view>
 
-#include "cli/supervision/shell_text.h"
+#include "cli/supervision/preflight.h"
 #include "core/errors.h"
 
-namespace ttf::cli::supervision {
+namespace ttf::cli::live_media {
 namespace {
 
+using supervision::all_good;
+using supervision::json_of;
+using supervision::text_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(Bus, IsReadAndWritten) {
-  EXPECT_EQ(Bus::parse("dds").kind, BusKind::kDds);
+  EXPECT_EQ(Bus::parse("dds").medium, &kDds);
+  EXPECT_THAT(Bus::parse("dds").interfaces, IsEmpty());
+  EXPECT_EQ(Bus::parse("socketcan:can0").medium, &kSocketCan);
   EXPECT_EQ(Bus::parse("dds").text(), "dds");
   EXPECT_THAT(Bus::parse("socketcan:can0").interfaces, ElementsAre("can0"));
   EXPECT_THAT(Bus::parse("socketcan:vcan0,vcan1").interfaces, ElementsAre("vcan0", "vcan1"));
   EXPECT_EQ(Bus::parse("socketcan:vcan0,vcan1").text(), "socketcan:vcan0,vcan1");
 }
 
+TEST(Bus, CarriesAChannelThatItHasAnInterfaceFor) {
+  using schedules::model::Channel;
+  EXPECT_TRUE(Bus::parse("dds").carries(Channel::kB));  // which has no interfaces
+  EXPECT_TRUE(Bus::parse("socketcan:a").carries(Channel::kA));
+  EXPECT_FALSE(Bus::parse("socketcan:a").carries(Channel::kB));
+  EXPECT_TRUE(Bus::parse("socketcan:a,b").carries(Channel::kB));
+}
+
+TEST(Bus, IsExplained) {
+  EXPECT_EQ(bus_help(), "dds (default), or socketcan:IF[,IF] with the interfaces of channels A and B");
+  EXPECT_EQ(forms_with_interfaces(), "socketcan:IF[,IF]");
+}
+
+// Whichever media there are.
+TEST(LiveMedia, EachRowIsWhole) {
+  std::set<std::string_view> names;
+  for (const LiveMediumRow* const medium : kLiveMedia) {
+    EXPECT_TRUE(names.insert(medium->name).second) << medium->name;
+    EXPECT_EQ(medium->name.find_first_of(":,"), std::string_view::npos) << medium->name;
+    EXPECT_TRUE(medium->form.starts_with(medium->name)) << medium->form;
+    EXPECT_FALSE(medium->expectation.empty()) << medium->name;
+    EXPECT_LE(medium->least_interfaces, medium->most_interfaces) << medium->name;
+    EXPECT_LE(medium->most_interfaces, 2u) << medium->name;  // one a channel
+    EXPECT_TRUE(medium->look_at != nullptr && medium->make != nullptr) << medium->name;
+  }
+  // --virtual-time says so.
+  EXPECT_TRUE(kLiveMedia.front()->not_in_virtual_time.empty());
+  EXPECT_FALSE(kLiveMedia.front()->has_interfaces());
+}
+
 TEST(Bus, RefusesWhatIsNone) {
-  for (const char* const text : {"", "can", "dds:lo", "socketcan", "socketcan:", "socketcan:,", "socketcan:a,",
-                                 "socketcan:,a", "socketcan:a,b,c", "socketcan:a,a", "socketcan:a b", "socketcan:a/b",
-                                 "socketcan:..", "socketcan:sixteen_letters_", "socketcan:a;reboot\n"}) {
+  for (const char* const text :
+       {"", "can", "dds:", "dds:lo", "dds,lo", "socketcan", "socketcan:", "socketcan:,", "socketcan:a,", "socketcan:,a",
+        "socketcan:a,b,c", "socketcan:a,a", "socketcan:a b", "socketcan:a/b", "socketcan:..",
+        "socketcan:sixteen_letters_", "socketcan:a;reboot\n"}) {
     try {
       Bus::parse(text);
       ADD_FAILURE() << text;
@@ -84,18 +121,5 @@ TEST(Preflight, DdsNeedsLoopback) {
   EXPECT_EQ(json_of(items)[0]["good"], items[0].good);
 }
 
-// What it prints is read back by a shell as it was.
-TEST(ShellText, IsWhatAShellReads) {
-  EXPECT_EQ(shell_text({"ttfusion", "node", "laser_pre", "--out=a/b"}), "ttfusion node laser_pre --out=a/b");
-  const std::vector<std::string> arguments{"printf", "%s|",  "a b", "it's", "",  "$HOME",
-                                           "`x`",    "a\nb", "~",   "\\",   "#", "*"};
-  FILE* const shell = popen(shell_text(arguments).c_str(), "r");
-  ASSERT_NE(shell, nullptr);
-  std::string text(200, '\0');
-  text.resize(fread(text.data(), 1, text.size(), shell));
-  EXPECT_EQ(pclose(shell), 0);
-  EXPECT_EQ(text, "a b|it's||$HOME|`x`|a\nb|~|\\|#|*|");
-}
-
 }  // namespace
-}  // namespace ttf::cli::supervision
+}  // namespace ttf::cli::live_media

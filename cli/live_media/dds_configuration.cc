@@ -1,4 +1,4 @@
-#include "cli/node_set/dds_preflight.h"
+#include "cli/live_media/dds_configuration.h"
 
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -18,7 +18,7 @@
 #include "cli/supervision/descriptor.h"
 #include "core/errors.h"
 
-namespace ttf::cli::node_set {
+namespace ttf::cli::live_media {
 namespace {
 
 [[noreturn]] void fail(const char* what) {
@@ -74,4 +74,4 @@ void check_dds_configuration() {
                                 said.empty() ? "nothing" : words_of(std::move(said)))});
 }
 
-}  // namespace ttf::cli::node_set
+}  // namespace ttf::cli::live_media
