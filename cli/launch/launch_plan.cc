@@ -100,7 +100,7 @@ void show_preflight(const LaunchPlan& plan) {
   if (plan.set.bus.kind == supervision::BusKind::kSocketCan && !supervision::all_good(plan.preflight))
     fmt::print(stderr,
                "without any CAN: --bus dds (the default); CANs on a kernel of one's own, without root: "
-               "tools/test_bed.sh (docs/socketcan_use.md)\n");
+               "tools/test_bed.sh (docs/socketcan.md)\n");
 }
 
 void show_plan(const LaunchPlan& plan, bool as_json) {
