@@ -1,5 +1,5 @@
-# ttf_idl_types(<name> FILES <files.idl...>): the library <name> of the types that Cyclone DDS' idlc makes of these, for
-# who links it and Cyclone DDS itself. Generated code is not ours to keep free of warnings; everything else is.
+# ttf_idl_types(<name> FILES <files.idl...>): the library <name> of the types that Cyclone DDS' idlc generates. Its users link
+# Cyclone DDS, too. Warnings are off for generated code only.
 function(ttf_idl_types name)
   cmake_parse_arguments(IDL "" "" "FILES" ${ARGN})
   idlc_generate(TARGET ${name}_idl FILES ${IDL_FILES})

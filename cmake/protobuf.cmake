@@ -1,5 +1,5 @@
-# ttf_protobuf(<name> <file.proto>): the library <name> of what protoc makes of it, in the folder it lies in. Generated code is
-# not ours to keep free of warnings; everything else is.
+# ttf_protobuf(<name> <file.proto>): the library <name> of the code that protoc generates, in the file's own folder. Warnings
+# are off for generated code only.
 function(ttf_protobuf name file)
   protobuf_generate_cpp(sources headers ${file})
   add_library(${name} STATIC ${sources} ${headers})

@@ -1,13 +1,13 @@
-# One CMake target per room; every target compiles with the same rules.
+# Every room is one CMake target; all targets compile by the same rules.
 
 add_library(ttf_options INTERFACE)
-# The same bits at every optimisation level: no contraction. -mno-fma besides, because g++ 12's vectoriser joins a*b-c*d,
-# a*b+c*d into vfmaddsub even then, and so that Eigen's packets round as its scalars do. Which instruction set there is and
-# which warnings are errors is the presets' business (CMakePresets.json): kept hashes are those of x86-64-v3.
+# Results have the same bits at every optimisation level, so contraction is off. -mno-fma is needed besides: g++ 12's vectoriser
+# joins a*b-c*d, a*b+c*d into vfmaddsub all the same, and Eigen's packets must round as its scalars do. The presets
+# (CMakePresets.json) choose the instruction set and which warnings are errors; kept hashes are those of x86-64-v3.
 target_compile_options(ttf_options INTERFACE -mno-fma -ffp-contract=off -pthread)
 target_include_directories(ttf_options INTERFACE ${PROJECT_SOURCE_DIR})
 if(TTF_SANITIZE)
-  # g++ 12 sees uninitialised reads inside the standard library where sanitizers keep it from inlining.
+  # Sanitizers keep g++ 12 from inlining; it then reports uninitialised reads inside the standard library.
   target_compile_options(ttf_options INTERFACE
     -fsanitize=${TTF_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
@@ -17,15 +17,15 @@ if(TTF_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     message(FATAL_ERROR "TTF_FUZZ needs clang++ (libFuzzer); use the preset asan-ubsan")
   endif()
-  # Coverage of our own code guides the fuzzers; libFuzzer itself is linked into the targets alone (tests/fuzz).
+  # Coverage of our own code guides the fuzzers. Only the fuzz targets link libFuzzer itself (tests/fuzz).
   target_compile_options(ttf_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# g++ collects its garbage as if memory were scarce: a twelfth of a build's time.
+# g++ collects garbage as if memory were scarce, which costs a twelfth of the build.
 target_compile_options(ttf_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 
-# What nearly every source includes is read once for the rooms and once for the tests. A source includes all the same
-# what it needs: presets without this (clang, sanitizers) find out.
+# Headers that nearly every source includes are compiled once for the rooms and once for the tests. A source still includes
+# every header it needs: presets without compiled headers (clang, sanitizers) find a missing one.
 set(TTF_COMMON_HEADERS
   <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory> <numeric>
   <optional> <set> <span> <sstream> <string> <string_view> <utility> <variant> <vector> <fmt/format.h> <Eigen/Core>)
@@ -40,8 +40,8 @@ function(ttf_common_headers name)
 endfunction()
 ttf_common_headers(ttf_room_headers)
 
-# ttf_room(<name> SOURCES <files...> [DEPS <targets...>] [HOT]): the static library of a folder. One that is HOT, where a
-# drive spends most of its time, is optimised further than compiled headers would let it be: 3 to 5 % fewer instructions.
+# ttf_room(<name> SOURCES <files...> [DEPS <targets...>] [HOT]): the static library of a folder. A drive spends most of its time
+# in HOT rooms. They are optimised further, without compiled headers, and take 3 to 5 % fewer instructions.
 function(ttf_room name)
   cmake_parse_arguments(ROOM "HOT" "" "SOURCES;DEPS" ${ARGN})
   if(ROOM_SOURCES)
@@ -60,22 +60,21 @@ endfunction()
 
 if(TTF_BUILD_TESTS)
   find_package(GTest REQUIRED)
-  # What tests call in the rooms is optimised as ever.
-  set(TTF_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+  # Tests' own code is not optimised, which builds faster; the rooms that it calls are.
+  set(TTF_TEST_OPTIONS $<$<CONFIG:Release>:-O0>)
   ttf_common_headers(ttf_test_headers
     OPTIONS ${TTF_TEST_OPTIONS} HEADERS <gtest/gtest.h> <gmock/gmock.h> DEPS GTest::gmock)
 endif()
 
-# ttf_as_test(<name>): compiles a program as tests are; their headers come with GoogleTest, whether it is called or not.
+# ttf_as_test(<name>): compiles a program as a test is compiled, with the tests' headers.
 function(ttf_as_test name)
   target_compile_definitions(${name} PRIVATE GTEST_HAS_PTHREAD=1)
   target_compile_options(${name} PRIVATE ${TTF_TEST_OPTIONS})
   target_precompile_headers(${name} REUSE_FROM ttf_test_headers)
 endfunction()
 
-# What takes longest to build or to run is labelled slow: .ci/run has it, tools/test.sh has not. ttf_slow(<targets...>)
-# leaves programs out of what is built by default; their tests, which have the fixture slow_tests, have them built.
-# Sanitizers have a build of their own, in which nothing is left out.
+# Tests that take longest to build or to run are labelled slow: .ci/run has them, tools/test.sh has not. ttf_slow(<targets...>)
+# excludes their programs from the default build; the fixture slow_tests builds them. A build with sanitizers excludes none.
 if(TTF_BUILD_TESTS AND NOT TTF_SANITIZE)
   add_custom_target(slow_tests)
   add_test(NAME build_slow_tests COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target slow_tests)
@@ -89,11 +88,11 @@ function(ttf_slow)
 endfunction()
 
 # ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [SLOW | SLOW_TESTS <patterns...>]
-# [UNSANITIZED | UNSANITIZED_TESTS <patterns...>] [COST <n>]): one GoogleTest program, one ctest entry per test program;
-# SLOW, it is as ttf_slow() has it; SLOW_TESTS, these of it are another entry, <name>_slow, labelled slow.
-# Sanitizers get what they can find something in: bytes, buffers, lifetimes. They are spared statistics over thousands of
-# runs, whole drives of which others run, and headers full of arithmetic that take the compiler minutes: an UNSANITIZED
-# program is not built, UNSANITIZED_TESTS are not run.
+# [UNSANITIZED | UNSANITIZED_TESTS <patterns...>] [COST <n>]): one GoogleTest program and its ctest entry. SLOW: see ttf_slow().
+# SLOW_TESTS: tests of the program that have a second entry, <name>_slow, labelled slow.
+# Sanitizers run where they can find something: bytes, buffers, lifetimes. They skip statistics over thousands of runs, whole
+# drives that other tests run, and headers full of arithmetic, which take the compiler minutes. With sanitizers an UNSANITIZED
+# program is not built, and UNSANITIZED_TESTS do not run.
 function(ttf_test name)
   cmake_parse_arguments(TEST "UNSANITIZED;SLOW" "COST" "SOURCES;DEPS;SLOW_TESTS;UNSANITIZED_TESTS" ${ARGN})
   if(TEST_UNSANITIZED AND TTF_SANITIZE)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Holds every source to .clang-format. Exit code 1 and the places where one differs; --fix formats them.
+# Compares every source with .clang-format. Exit code 1 with the places that differ; --fix formats them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 how=(--dry-run -Werror)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Holds every source to the house's table, tools/house.toml: who may include whom, and by which doors. Runs as a test.
+"""Compares every source with the house's table, tools/house.toml: which room may include which, and by which doors. A test.
 
     check_layers.py [REPOSITORY]      exit 1 and one line for every problem
 
-Between rooms counts what a file sees, through other headers too; between sub-rooms and at doors, what it includes itself. Every
-source file lies in a room; the project's own headers are included with quotes, by their path from the top. A source's namespace
-is its path (core/ is ttf itself), a test's that of the folder it mirrors. tests/tools/check_layers_test.py tries the ways around.
+Between rooms, the rule covers every header that a file sees, directly or through others. Between sub-rooms and at doors, it
+covers the file's own includes. Every source lies in a room. The project's own headers are included with quotes, by their path
+from the top. A source's namespace is its path (core/ is ttf itself); a test has the namespace of the folder that it mirrors.
+tests/tools/check_layers_test.py tries the ways around.
 """
 
 import pathlib
@@ -16,20 +17,20 @@ import tomllib
 MOST_SOURCES = 25
 THREAD_HEADERS = {"thread", "mutex", "shared_mutex", "future", "atomic", "condition_variable", "semaphore", "latch",
                   "barrier", "stop_token", "execution", "pthread.h", "threads.h", "stdatomic.h", "omp.h"}
-# What tests share is no mirror of a room.
+# Folders that tests share; they mirror no room.
 SHARED_TESTS = {"laws", "support", "golden", "bench", "fuzz", "tools", "test_bed"}
 
 SOURCES = {".h", ".cc"}
 OTHER_SOURCES = {".c", ".cpp", ".cxx", ".c++", ".hh", ".hpp", ".hxx", ".inc", ".inl", ".ipp", ".tcc", ".cppm", ".ixx"}
-MADE = {"build", "out", "tools/js/node_modules"}   # not written by hand; nor is what hidden folders at the top hold
+MADE = {"build", "out", "tools/js/node_modules"}   # generated files; hidden folders at the top are left out, too
 
-# Comments, and what could be mistaken for one; then directives.
+# Comments, strings (which may look like comments), and directives.
 TOKEN = re.compile(r'''R"(?P<mark>[^(\s"]*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"|//[^\n]*|/\*.*?\*/''', re.DOTALL)
 DIRECTIVE = re.compile(r"^[ \t]*(?:#|%:|\?\?=)[ \t]*(?:include_next|include|import)\b[ \t]*(.*)$", re.MULTILINE)
 
 
 class House:
-    """The table, with what follows from it."""
+    """The table, and the rules that follow from it."""
 
     def __init__(self, table: dict):
         self.allowed = {room: list(rooms) for room, rooms in table["may_include"].items()}
@@ -71,7 +72,7 @@ def read_house() -> House:
 
 
 def directives(text: str) -> list[str]:
-    """What follows each #include, without comments and continued lines."""
+    """Returns each #include's argument; comments are removed and continued lines joined."""
     text = re.sub(r"\\\r?\n", "", text)
     text = TOKEN.sub(lambda token: " " if token[0].startswith("/") else token[0], text)
     return [argument.strip() for argument in DIRECTIVE.findall(text)]
@@ -91,7 +92,7 @@ def source_files(root: pathlib.Path, folder: str = "") -> list[pathlib.Path]:
 
 
 def include_problem(house: House, root: pathlib.Path, include: str) -> str | None:
-    """What is wrong with a quoted include, whoever it belongs to."""
+    """Returns the problem of a quoted include, or None. The including file does not matter."""
     parts = include.split("/")
     if house.room_of(include) is None or "." in parts or ".." in parts or "" in parts:
         return "is in no room: includes start with the folder's name"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Sets everything up on a fresh Debian 12, runs both of the paper's drives with all three strategies, prints one comparison
-# table, and leaves the pictures, logs, an index page and a report of both drives in out/demo (or the folder given).
+# Sets everything up on a fresh Debian 12 and runs both of the paper's drives with all three strategies. Prints one comparison
+# table. Leaves pictures, logs, an index page and a report of both drives in out/demo, or in the folder given.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=${1:-out/demo}

@@ -2,9 +2,9 @@
 # Builds the fuzz targets (clang, libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer: the preset asan-ubsan) and runs
 # each for a while, two at a time. Exits with 1 if one of them finds something; the input is then in build/fuzz/findings.
 #   tools/fuzz.sh [--keep] [SECONDS_PER_TARGET] [TARGET...]   default: 20 s of every target (tests/fuzz/*_fuzz.cc)
-# A run begins with the seeds, what earlier runs in this tree learned (build/fuzz/corpus) and the kept corpus
-# (tests/fuzz/corpus, an archive per target). --keep makes that anew from all three: the fewest inputs that reach what they
-# reach together.
+# A run begins with the seeds, the inputs that earlier runs in this tree found (build/fuzz/corpus), and the kept corpus
+# (tests/fuzz/corpus, an archive per target). --keep writes the kept corpus anew: the fewest inputs that reach the same code as
+# all three together.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 keep=0
@@ -32,7 +32,7 @@ seeds=$build/seeds
 mkdir -p "$findings" "$build/fuzz-logs"
 "$programs/fuzz_seeds" "$seeds"
 
-# Text gets room for a whole shipped file and more; the rest stays small, and so fast.
+# Text gets room for a whole shipped file. Other inputs stay small, which keeps a run fast.
 max_length() {
   case $1 in
     *_text) echo 20000 ;;
@@ -63,7 +63,7 @@ run() {
   [[ $keep -eq 0 ]] || pack "$target"
 }
 
-# Archives with the same inputs are the same bytes.
+# Makes archives reproducible: the same inputs give the same bytes.
 pack() {
   local target=$1 program=$programs/fuzz_$1 small=$build/corpus-small/$1
   rm -rf "$small"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what ttfusion needs on Debian 12, and nothing when it is all there. Runs as root or with sudo.
+# Installs the packages of Debian 12 that ttfusion needs and that are not installed yet. Runs as root or with sudo.
 set -euo pipefail
 
 packages=(
@@ -14,14 +14,14 @@ packages=(
   # tests
   libgtest-dev libgmock-dev libbenchmark-dev clang-format
 )
-# Programs the build and the tests call, wherever they come from, and the package that has them.
+# Programs that the build and the tests call, from whatever source, and the package that has each.
 programs=(
   node:nodejs npm:npm   # the report's plots; the log's official reader
   tshark:tshark         # captures, as Wireshark sees them
   gnuplot:gnuplot-nox   # the pictures of exported scripts
 )
-# The slower gates (.ci/run) also need a second compiler and the fuzzer's runtime, what counts instructions, and the test bed:
-# a kernel's source, what it is built with, and strangers for its CANs; and a browser, for the report.
+# The slower gates (.ci/run) also need a second compiler with the fuzzer's runtime, a counter of instructions, and a browser.
+# The test bed needs a kernel's source, its build tools, and foreign programs for its CANs.
 if [[ ${1:-} == --gates ]]; then
   packages+=(clang libclang-rt-14-dev valgrind)
   packages+=(linux-source-6.1 xz-utils make flex bison bc busybox-static iproute2 can-utils)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Counts the instructions of the hot paths (tests/bench/hot_paths.cc; valgrind's callgrind), which no load on the machine
-# changes, and holds them against tests/bench/instruction_counts: exit code 1 where one is more than 3 % above or below.
+# Counts the instructions of the hot paths (tests/bench/hot_paths.cc) with valgrind's callgrind and compares them with
+# tests/bench/instruction_counts. Exit code 1 if one differs by more than 3 %. The machine's load does not change the counts.
 #   tools/instruction_counts.sh            says what has changed
 #   tools/instruction_counts.sh --update   keeps what was counted
 set -euo pipefail
@@ -23,7 +23,7 @@ export -f count
 export program
 {
   "$program" --list | xargs -P "$(nproc)" -I{} bash -c 'count {}' | LC_ALL=C sort
-  # Other compilers, other counts.
+  # Other compilers make other counts.
   echo "made_with $(dpkg-query -W -f '${Package} ${Version}\n' $made_with | sha256sum | cut -c 1-16)"
 } >"$counted"
 

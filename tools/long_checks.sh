@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What takes too long for .ci/run, by hand and now and then: hours on two cores. Each check that passes leaves the commit it
-# passed on, and the day, in tools/long_checks.passed, to be committed.
+# The checks that take too long for .ci/run: hours on two cores, started by hand. Each one that passes writes the commit and
+# the day into tools/long_checks.passed, which is committed.
 #   tools/long_checks.sh [CHECK...]      default: all of those below
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -31,7 +31,7 @@ for check; do
   declare -F "$check" >/dev/null || { echo "error: $check is no check: must be one of ${all[*]}" >&2; exit 2; }
   echo "== $check"
   start=$SECONDS
-  # Not in a condition, where -e would not hold.
+  # A condition would switch -e off inside.
   set +e
   (set -e; "$check")
   result=$?

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds as those do who know nothing of our presets: cmake -B FOLDER -DCMAKE_BUILD_TYPE=Release, with g++ or clang++.
+# Builds without presets: cmake -B FOLDER -DCMAKE_BUILD_TYPE=Release, with g++ or clang++.
 #   tools/plain_build.sh [COMPILER] [TARGET...]      default: g++, everything
 set -euo pipefail
 cd "$(dirname "$0")/.."

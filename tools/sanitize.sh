@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The second compiler and the sanitizers: builds the program and the tests that sanitizers can find something in (but those
-# marked UNSANITIZED, cmake/rooms.cmake) with clang++, warnings as errors, AddressSanitizer and UndefinedBehaviorSanitizer, and
-# runs them. The golden drives must give the bits they give with g++. The fuzz targets are of the same build (tools/fuzz.sh).
+# Builds the program and the tests with clang++, warnings as errors, AddressSanitizer and UndefinedBehaviorSanitizer, and runs
+# the tests. Those marked UNSANITIZED (cmake/rooms.cmake) are left out. The golden drives must give the same bits as with g++.
+# tools/fuzz.sh uses the same build.
 #   tools/sanitize.sh [--slow]      --slow: also what is slow, and by the wall clock
 set -euo pipefail
 cd "$(dirname "$0")/.."

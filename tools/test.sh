@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Sets everything up on a fresh Debian 12 and runs the tests. Those labelled slow (cmake/rooms.cmake), those by the wall clock
-# (realtime) and the report in a browser are left to .ci/run.
+# Sets everything up on a fresh Debian 12 and runs the quick tests. The slow ones (cmake/rooms.cmake), those by the wall clock
+# (realtime) and the report in a browser run in .ci/run.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install_deps.sh

@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
-# Runs a command on a Linux with real SocketCAN and virtual time, whatever the machine's own kernel has: a User-Mode
-# Linux kernel is an ordinary program. Sleeping costs no time there and computing no virtual time, so that the same
-# command takes the same virtual instants, however fast or busy the machine is.
+# Runs a command on a Linux with real SocketCAN and virtual time. The machine's own kernel needs neither: a User-Mode Linux
+# kernel is an ordinary program. Sleeping takes no real time there, and computing takes no virtual time. A command thus sees
+# the same virtual instants on a fast, slow or busy machine.
 #   tools/test_bed.sh [--seconds N] COMMAND [ARGUMENT...]
 #   tools/test_bed.sh --build       only builds the kernel, once: some 3 minutes on two cores
-# The command runs as root of that Linux, with this machine's files (and the rights of whoever started this), in this
-# folder and with this environment; vcan0, vcan1 and lo are up, vcan ones for CAN FD. /proc, /sys, /dev and /run are
-# its own. Its exit code is this script's. After N seconds (default 300) of this machine's time everything is ended:
-# exit code 124; 125 if the kernel went down before the command ended. What does not end there: waiting for something
-# in a loop that does not sleep. It stops virtual time.
+# The command runs as root of that Linux, in this folder and environment, with this machine's files and the caller's rights
+# on them. vcan0, vcan1 and lo are up; both vcans carry CAN FD. /proc, /sys, /dev and /run are its own. Its exit code is this
+# script's. After N seconds (default 300) of the machine's time all is ended with exit code 124. Exit code 125 means that the
+# kernel went down before the command ended. A loop that waits without sleeping stops virtual time, so it never ends.
 set -euo pipefail
 project=$(cd "$(dirname "$0")/.." && pwd)
 cache=$project/build/test-bed
@@ -91,7 +90,7 @@ quoted() { printf '%q ' "$@"; }
   echo '#!/bin/bash'
   export -p
   cat <<INIT
-# What comes before the command may use no more than is there: kernel file systems first.
+# Kernel file systems come first: the commands below need them.
 exec >>$(quoted "$run/init") 2>&1
 export PATH=\$PATH:/usr/sbin:/sbin
 busybox mount -t proc proc /proc

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# clang-tidy (.clang-tidy) on sources, and headers by themselves: each must compile without another one before it.
-#   tools/tidy.sh             all of the rooms
-#   tools/tidy.sh --changed   what changed since the long checks last passed (tools/long_checks.passed; never: with the last
-#                             commit), the newest first, as many as begin within 100 seconds; tools/long_checks.sh has the rest
+# Runs clang-tidy (.clang-tidy) on sources, and compiles each header alone.
+#   tools/tidy.sh             all rooms
+#   tools/tidy.sh --changed   the files changed since the long checks last passed (tools/long_checks.passed; if they never did,
+#                             those of the last commit). The newest come first, until 100 seconds are over; long_checks.sh
+#                             has the rest
 #   tools/tidy.sh FILE...
-# Exit code 1 if something is found. How to compile a source is known from the preset asan-ubsan.
+# Exit code 1 if something is found. The preset asan-ubsan supplies the compiler's flags.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=build/asan-ubsan
@@ -35,7 +36,7 @@ check() {
   checked=$((checked + 1))
 }
 
-# Every second file each, on two processors.
+# Two processes take every second file each.
 half() {
   local i checked=0 failed=0
   for ((i = $1; i < ${#files[@]}; i += 2)); do check "${files[i]}" || failed=1; done

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The tests that need real SocketCAN, on the test bed (tools/test_bed.sh), whatever this machine's kernel has.
+# Runs the tests that need real SocketCAN on the test bed (tools/test_bed.sh), independent of this machine's kernel.
 #   tools/vcan_bed.sh                    exit code 1 if one fails
-#   tools/vcan_bed.sh --update-golden    only the drives whose hashes are kept in tests/golden/vcan_hashes: shows what
-#                                        has changed, and keeps what was computed
+#   tools/vcan_bed.sh --update-golden    only the drives whose hashes are kept in tests/golden/vcan_hashes: shows the
+#                                        differences, and keeps the new hashes
 # shellcheck disable=SC2016   # lines for at_once, which are another bash's
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,9 +13,9 @@ export out=build/test-bed/vcan peer=build/release/tests/test_bed/vcan_peer ttfus
 rm -rf "$out"
 mkdir -p "$out"
 
-# at_once LINE...: lines of bash, which have this script's functions, as many at once as there are processors; what one said
-# is shown when it ends, and none is begun after one has failed. Each has a processor to itself: a bed's processes take
-# turns, and turns that go from one processor to another take half as long again.
+# at_once LINE...: runs lines of bash, one a processor at a time, with this script's functions. Shows a line's output when it
+# ends; after a failure no further line begins. Each line keeps to one processor: a bed's processes take turns, and turns
+# across processors take half as long again.
 at_once() {
   local processors
   processors=$(python3 -c 'import os; print(*os.sched_getaffinity(0))')
@@ -31,7 +31,7 @@ at_its_place() {
   [[ $code -eq 0 ]] || exit 255   # xargs begins nothing more
 }
 
-# bed [NAME=VALUE...] COMMAND [ARGUMENT...]: in these variables and those alone, whoever calls.
+# bed [NAME=VALUE...] COMMAND [ARGUMENT...]: runs the command on the bed with these variables only.
 bed() { env -i LC_ALL=C HOME=/ PATH=/usr/sbin:/usr/bin:/sbin:/bin tools/test_bed.sh env "$@"; }
 script() { bed "tests/test_bed/$1.sh" "${@:2}"; }
 
@@ -49,13 +49,13 @@ ends_with() {
 sockets_tests() {
   bed build/release/tests/bus/socketcan/test_socketcan >"$out/sockets_tests" || { cat "$out/sockets_tests"; return 1; }
   tail -2 "$out/sockets_tests"
-  ! grep '^\[  SKIPPED' "$out/sockets_tests"   # none is
+  ! grep '^\[  SKIPPED' "$out/sockets_tests"   # a skipped test is an error here
 }
 
-# drive SCRIPT REPEAT [NAME=VALUE...]: processes on vcans, the same, bit for bit, whenever and wherever they are run.
+# drive SCRIPT REPEAT [NAME=VALUE...]: a drive of processes on vcans; repeats must be bit-identical.
 drive() { bed "${@:3}" LOGS="$out/$1.$2.mcap" "tests/test_bed/$1.sh" "$ttfusion" >"$out/$1.$2"; }
-# The dynamic loader looks for libraries in more sub-folders, the more the processor can do: here in none, or in all of them
-# in one folder more. Where the environment is larger, all that is on a stack lies elsewhere.
+# The dynamic loader searches sub-folders by the processor's features. One repeat masks the features, another adds a folder to
+# search and a large environment, which moves the stack. Neither may change a bit.
 export fewer_looks=GLIBC_TUNABLES=glibc.cpu.hwcap_mask=0:glibc.cpu.hwcaps=-POPCNT
 more_looks="LD_LIBRARY_PATH=/run/nowhere LARGE=$(printf %05000d 0)"
 export more_looks
@@ -71,7 +71,7 @@ compare_drives() {
     cmp "$out/$drive.1.mcap" "$out/$drive.2.mcap" >&2 || exit 1
     echo "$drive $(sed -n 's/.*"content_hash": "\(.*\)"/\1/p' "$out/$drive.1")"
   done >"$out/golden"
-  # Who is woken first at an instant, and for how long somebody sleeps, is the kernel's and the libraries' business, too.
+  # The kernel and the libraries also decide which process wakes first at an instant, and how long one sleeps.
   echo "made_with $(dpkg-query -W -f '${Package} ${Version}\n' $made_with | sha256sum | cut -c 1-16)" >>"$out/golden"
   if [[ ${1:-} != --update-golden && $(grep ^made_with "$golden") != $(grep ^made_with "$out/golden") ]]; then
     echo "vcan bed: $golden was made with other versions of $made_with: its hashes are not compared"
@@ -99,7 +99,7 @@ compare_exchanges() {
   exit 1
 }
 
-# What takes longest begins first.
+# The longest line begins first.
 at_once 'script node_set_strangers $ttfusion $peer' sockets_tests "${drives[@]:0:2}" 'script node_set_down $ttfusion' \
   "${drives[@]:2}" "${exchanges[@]}" 'script strangers $peer' the_bed_itself
 compare_drives
