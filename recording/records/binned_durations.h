@@ -1,11 +1,11 @@
-// Durations counted in the bins of recording/records/lateness_bins.h: as many as there are, in the same few kilobytes.
-// For lateness, and for whatever else is worth its quantiles.
+// Durations counted in the bins of recording/records/lateness_bins.h: any number of them takes the same few
+// kilobytes. Lateness uses it, and other durations whose quantiles matter.
 //
-// Quantiles are those of the sorted list, nearest rank: of n durations the q-quantile is the ceil(q n)-th smallest.
-// What is returned is where that one's bin ends, or the longest of all where that is less: never less than the sorted
-// list's, and more by a bin at most (1 us up to 64 us, from there on 3 %).
+// Quantiles are those of the sorted list, nearest rank: of n durations the q-quantile is the ceil(q n)-th
+// smallest. The returned value is the end of its bin, or the longest duration if that is less. The value is
+// never below the exact quantile, and above it by a bin at most (1 us up to 64 us, 3 % from there on).
 //
-// No heap: a real-time thread may count with it.
+// It uses no heap: a real-time thread may count with it.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace ttf::recording::records {
 class BinnedDurations {
  public:
   BinnedDurations() = default;
-  // As a histogram has them; bins beyond the last there is are passed over.
+  // From a histogram's counts; bins beyond the last one are ignored.
   BinnedDurations(std::span<const std::uint64_t> counts, Duration longest) : longest_(longest) {
     std::copy_n(counts.begin(), std::min(counts.size(), kLatenessBins), counts_.begin());
     empty_ = count() == 0;
@@ -45,16 +45,16 @@ class BinnedDurations {
 
   bool empty() const { return empty_; }
   std::uint64_t count() const { return count_from(0); }
-  // How many of them are in `bin` or later ones: as long as lateness_from(bin), or longer. (Bin 0 holds what is not
-  // late, too.)
+  // Returns how many durations lie in `bin` or later ones, that is, are at least lateness_from(bin). (Bin 0
+  // also holds the durations that are not late.)
   std::uint64_t count_from(std::size_t bin) const {
     std::uint64_t all = 0;
     for (; bin < kLatenessBins; ++bin) all = sum(all, counts_[bin]);
     return all;
   }
-  Duration longest() const { return longest_; }  // 0 of none
+  Duration longest() const { return longest_; }  // 0 if empty
 
-  // In thousandths: 500 is the median, 999 what one in a thousand is longer than. 0 of none.
+  // In thousandths: 500 is the median, 999 the duration that one in a thousand exceeds. 0 if empty.
   Duration quantile(int thousandths) const {
     const auto rank = static_cast<std::uint64_t>((UInt128{count()} * static_cast<unsigned>(thousandths) + 999) / 1000);
     std::uint64_t below = 0;
@@ -65,7 +65,7 @@ class BinnedDurations {
     return longest_;
   }
 
-  // By bin, to the last that is not empty: as records::LatenessHistogram has them.
+  // By bin, up to the last bin that is not empty, as records::LatenessHistogram has them.
   std::span<const std::uint64_t> counts() const {
     std::size_t size = kLatenessBins;
     while (size > 0 && counts_[size - 1] == 0) --size;
@@ -73,7 +73,7 @@ class BinnedDurations {
   }
 
  private:
-  // Numbers in a damaged log may be any.
+  // Saturates: numbers in a damaged log may have any value.
   static constexpr std::uint64_t sum(std::uint64_t a, std::uint64_t b) {
     return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max() : a + b;
   }

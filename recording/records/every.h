@@ -1,4 +1,4 @@
-// A sink that does the same with every kind of record: whoever derives from it says once, in each(), what that is.
+// A sink that treats every kind of record alike: the derived class defines each() once.
 //
 //   class Counter final : public Every<Counter> {
 //    public:

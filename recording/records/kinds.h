@@ -1,4 +1,4 @@
-// Kinds of record by their numbers, as logs have them.
+// Kinds of record by number, as in logs.
 #pragma once
 
 #include <array>
@@ -13,18 +13,18 @@
 
 namespace ttf::recording::records {
 
-// From 1 to kKindCount; what is read from a file may be another, which is no kind.
+// From 1 to kKindCount. A number read from a file may be outside, and is then no kind.
 enum class RecordKind : std::uint8_t {};
 constexpr std::size_t number_of(RecordKind kind) { return static_cast<std::size_t>(kind); }
 constexpr bool is_kind(std::size_t number) { return number >= 1 && number <= kKindCount; }
 
-// Calls `f.operator()<Record>()` with every kind's record, in the order of the list.
+// Calls `f.operator()<Record>()` for the record of every kind, in the order of the list.
 template <class F> constexpr void for_each_kind(F&& f) {
   [&]<std::size_t... i>(std::index_sequence<i...>) { (f.template operator()<RecordAt<i + 1>>(), ...); }
   (std::make_index_sequence<kKindCount>{});
 }
 
-// The same with the record of one kind; false where it is no kind.
+// Calls `f` for the record of one kind. Returns false if the number is no kind.
 template <class F> constexpr bool for_kind(RecordKind kind, F&& f) {
   return [&]<std::size_t... i>(std::index_sequence<i...>) {
     return ((number_of(kind) == i + 1 && (f.template operator()<RecordAt<i + 1>>(), true)) || ...);
@@ -42,7 +42,7 @@ template <class Record> constexpr RecordKind kind_of() {
 }
 template <class Record> inline constexpr RecordKind kKindOf = kind_of<Record>();
 
-// By number - 1.
+// Indexed by number - 1.
 inline constexpr auto kTopics =
     std::apply([](const auto&... kind) { return std::array<std::string_view, kKindCount>{kind.topic...}; }, kKinds);
 constexpr std::string_view topic_of(RecordKind kind) { return kTopics[number_of(kind) - 1]; }

@@ -1,5 +1,5 @@
-// The bins of records::LatenessHistogram, fixed for good so that histograms can be added: a microsecond wide up to 64
-// us, from there on 32 to every doubling (3 % wide), up to 67 s.
+// The bins of records::LatenessHistogram, fixed so that histograms can be added. A bin is a microsecond wide up
+// to 64 us; from there on each doubling has 32 bins (3 % wide), up to 67 s.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,7 @@ namespace ttf::recording::records {
 
 inline constexpr std::size_t kLatenessBins = 64 + 20 * 32;
 
-// Early counts as not late; what is later than the last bin counts into it.
+// Early counts as not late; anything later than the last bin counts in that bin.
 constexpr std::size_t lateness_bin(Duration late) {
   if (late.ns <= 0) return 0;
   const auto us = static_cast<std::uint64_t>(late.ns) / 1000;
@@ -22,7 +22,7 @@ constexpr std::size_t lateness_bin(Duration late) {
   return bin < kLatenessBins ? bin : kLatenessBins - 1;
 }
 
-// Where the bin begins; that of the next is where it ends.
+// Returns where the bin begins; it ends where the next begins.
 constexpr Duration lateness_from(std::size_t bin) {
   if (bin < 64) return Duration::microseconds(static_cast<std::int64_t>(bin));
   const std::size_t octave = (bin - 64) / 32, step = (bin - 64) % 32;
