@@ -39,7 +39,7 @@ void LogBehind::add(const LogMessage& message) {
   full_.store(true, std::memory_order_release);
 }
 
-// Whoever adds wakes nobody up, which would take time: the writer looks in now and then.
+// add() wakes no thread, since that takes time: the writer looks every kPause.
 void LogBehind::run() {
   for (bool last = false; !last;) {
     {
@@ -54,7 +54,7 @@ void LogBehind::run() {
 void LogBehind::write_handed_over() {
   if (!full_.load(std::memory_order_acquire)) return;
   between_.swap(writing_);
-  full_.store(false, std::memory_order_release);  // before it is written: more may come meanwhile
+  full_.store(false, std::memory_order_release);  // before writing, so that more can come meanwhile
   write_all(writing_);
 }
 

@@ -1,11 +1,11 @@
-// Takes messages for a file off the hands of a thread that must not wait: they are kept in memory and written by a
-// thread of its own some milliseconds later, in order.
+// Takes messages for a file from a thread that must not wait. A thread of its own writes them, in order, some
+// milliseconds later.
 //
-// add() never waits for that thread, whatever it does, and were it preempted anywhere: what is added goes to a buffer
-// of the adding thread's own, and with the next message from there to the writer, wherever that has emptied the place
-// between the two: so the last burst before a silence stays there, and with it what a process that is killed then had
-// not written. It allocates only while it keeps more than ever before: a disk that stands still costs memory, not
-// time, and nothing is lost.
+// add() never waits for the writer, even if the writer is preempted. It appends to a buffer of the adding
+// thread, and swaps that buffer with the place between the two threads if the writer has emptied it. Hence the
+// last burst before a pause stays in the buffer until the next message; a killed process loses it. add()
+// allocates only while the buffer is longer than ever before: a stalled disk costs memory, not time, and loses
+// no message.
 #pragma once
 
 #include <atomic>
@@ -27,15 +27,15 @@ struct LogMessage {
 
 class LogBehind {
  public:
-  // `write` is called from the other thread, and from close() when that has ended. It must not throw.
+  // `write` is called by the other thread, and by close() after that thread has ended. It must not throw.
   explicit LogBehind(std::function<void(const ttf::recording::log::LogMessage&)> write);
   ~LogBehind();  // close()
   LogBehind(const LogBehind&) = delete;
   LogBehind& operator=(const LogBehind&) = delete;
 
-  // From one thread.
+  // Call it from one thread only.
   void add(const LogMessage& message);
-  // Writes what is left; for that thread, and nothing may be added afterwards.
+  // Writes the rest. Call it from the thread that adds; add() may not follow.
   void close();
 
  private:
@@ -44,11 +44,11 @@ class LogBehind {
   void write_all(std::string& kept);  // and empties it
 
   const std::function<void(const ttf::recording::log::LogMessage&)> write_;
-  std::string filling_;            // of the thread that adds
-  std::string between_;            // of that one while it is empty, of the writer while it is full
-  std::string writing_;            // of the writer
-  std::atomic<bool> full_{false};  // between_
-  std::mutex mutex_;               // of close() and the writer alone
+  std::string filling_;            // belongs to the thread that adds
+  std::string between_;            // belongs to that thread while empty, to the writer while full
+  std::string writing_;            // belongs to the writer
+  std::atomic<bool> full_{false};  // whether between_ is full
+  std::mutex mutex_;               // of close() and the writer only
   std::condition_variable wake_;
   bool closing_ = false;  // guarded by mutex_
   std::thread thread_;

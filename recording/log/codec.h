@@ -1,9 +1,8 @@
-// Records to protobuf messages and back. Private to the room: it drags in generated code.
+// Records to protobuf messages and back. Private to the room, as it includes generated code.
 //
-// An encoder fills messages that are used again and again: it sets every field, so that a message need not be cleared,
-// for Clear() frees the messages within. No heap use once the lists have had their largest size. A Decoder checks that
-// every number fits its field's type and that lists have their lengths: it returns false, and calls nothing, where they
-// do not.
+// An encoder reuses its messages. It sets every field and never calls Clear(), which would free nested
+// messages. It uses no heap once the lists have had their largest size. A Decoder checks that every number fits
+// its field's type and that lists have their lengths. On failure it returns false and calls no sink.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +21,7 @@
 
 namespace ttf::recording::log {
 
-// What each kind of record is written as. One without it does not compile.
+// The message of each kind of record. A kind without one does not compile.
 template <class Record> struct PayloadOf;
 template <> struct PayloadOf<records::Measured> : std::type_identity<ttfusion::Measured> {};
 template <> struct PayloadOf<records::CanFrameSent> : std::type_identity<ttfusion::CanFrame> {};
@@ -52,11 +51,11 @@ template <> struct PayloadOf<records::LatenessHistogram> : std::type_identity<tt
 template <> struct PayloadOf<records::MediumCounts> : std::type_identity<ttfusion::Medium> {};
 template <class Record> using Payload = typename PayloadOf<Record>::type;
 
-// One of each, for reuse.
+// One message per kind, for reuse.
 class Payloads {
  public:
   template <class Record> Payload<Record>& of() { return std::get<Payload<Record>>(all_); }
-  // Null for what is no kind.
+  // Null if the number is no kind.
   google::protobuf::Message* of(records::RecordKind kind) {
     google::protobuf::Message* payload = nullptr;
     records::for_kind(kind, [&]<class Record>() { payload = &of<Record>(); });
@@ -69,7 +68,7 @@ class Payloads {
   decltype(each_of(std::make_index_sequence<records::kKindCount>{})) all_;
 };
 
-// The two stamps MCAP keeps per message, before they are clamped to be non-negative.
+// The two stamps that MCAP keeps per message, before negative values are clamped to 0.
 struct LogTimes {
   std::int64_t log = 0;
   std::int64_t publish = 0;
@@ -80,7 +79,7 @@ struct Encoded {
   const google::protobuf::Message& payload;
   LogTimes times;
 };
-// Fills the payload of every record it is told, and hands it on.
+// Fills the payload of every record that it receives, and hands it to `out`.
 std::unique_ptr<records::Sink> encoder(Payloads& payloads, std::function<void(const Encoded&)> out);
 
 class Decoder {
@@ -88,7 +87,7 @@ class Decoder {
   // Parses one payload and hands the record to `sink`.
   bool decode(records::RecordKind kind, std::string_view bytes, records::Sink& sink);
 
-  // What a record's lists are kept in while it is looked at.
+  // Storage for a record's lists during the call of the sink.
   struct Lists {
     std::vector<ObjectId> truth_ids;
     std::vector<records::ImageObject> image_objects;

@@ -1,10 +1,10 @@
-// The hash by which runs are compared without comparing files.
+// The hash that compares drives without comparing files.
 //
-// Each record hashes to 64 bits from (log time, kind, payload bytes); a log's hash is the sum of these modulo 2^64,
-// mixed with their number. A record's time, kind, node and sequence numbers are in its payload, and the sum is the same
-// in any order: the logs of separate processes agree with the log of one process, in whatever order things were written
-// (recording/merge/merge.h puts them into one). Equal records count as often as they occur. Not cryptographic: it
-// detects change, not malice.
+// Each record hashes to 64 bits from (log time, kind, payload bytes). A log's hash is the sum of these modulo
+// 2^64, mixed with their number. The payload has the record's time, kind, node and sequence numbers, and the
+// sum is the same in any order. Thus the logs of separate processes agree with the log of one process, in any
+// order of writing (recording/merge/merge.h puts them into one). Equal records count as often as they occur.
+// Not cryptographic: it detects change, not malice.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace ttf::recording::log {
 
 class ContentHash {
  public:
-  // What does not count (recording/records/records.h) is passed over.
+  // Ignores kinds that do not count in the hash (recording/records/records.h).
   void add(std::uint64_t log_time, std::uint8_t kind, std::string_view payload) {
     if (!records::counts_in_hash(static_cast<records::RecordKind>(kind))) return;
     std::uint64_t hash = mix(log_time ^ mix((static_cast<std::uint64_t>(payload.size()) << 8) | kind));
@@ -29,7 +29,7 @@ class ContentHash {
     sum_ += mix(hash);
     ++records_;
   }
-  // All records of another log, too.
+  // Adds all records of another log.
   void add(const ContentHash& other) {
     sum_ += other.sum_;
     records_ += other.records_;
@@ -49,7 +49,7 @@ class ContentHash {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
-  // Little endian; the platform is (recording/mcap/bytes.h checks).
+  // Little endian, like the platform (recording/mcap/bytes.h checks).
   static std::uint64_t word(const char* bytes, std::size_t count) {
     std::uint64_t value = 0;
     std::memcpy(&value, bytes, count);

@@ -9,7 +9,7 @@
 namespace ttf::recording::log {
 namespace {
 
-// Narrows what a payload says to what a record holds, remembering whether all of it fitted.
+// Narrows a payload's values to a record's types, and remembers whether all of them fitted.
 class Reading {
  public:
   explicit Reading(Decoder::Lists& kept) : lists(kept) {}

@@ -42,7 +42,7 @@ void fill(ttfusion::ImageObject& out, const records::ImageObject& in) {
 
 LogTimes times_of(const records::Stamp& stamp) { return {stamp.true_time.ns, stamp.global.ns}; }
 
-// Into the string that is there: it grows to the longest words, then no more.
+// Assigns in place: the string grows to the longest text, then no more.
 void fill_text(std::string& out, std::string_view in) { out.assign(in); }
 
 void fill_bytes(std::string& out, std::span<const std::byte> in) {

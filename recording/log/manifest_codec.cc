@@ -11,7 +11,7 @@ namespace {
 
 std::string checksum(const ManifestEntries& entries) {
   uLong crc = 0;
-  const auto add = [&crc](const std::string& text) {  // with its terminating zero, which keeps neighbours apart
+  const auto add = [&crc](const std::string& text) {  // with its terminating zero, which separates neighbours
     crc = crc32_z(crc, reinterpret_cast<const Bytef*>(text.c_str()), text.size() + 1);
   };
   for (const auto& [key, value] : entries) {
@@ -29,7 +29,7 @@ template <class Int> std::optional<Int> whole(std::string_view text) {
   return value;
 }
 
-// Writers list names in order; anything else is damage.
+// Writers list names in order; any other order is damage.
 bool append(std::vector<std::string>& names, std::string_view index, const std::string& name) {
   if (whole<std::size_t>(index) != names.size()) return false;
   names.push_back(name);
@@ -79,7 +79,7 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
   if (const auto index = rest_after("can_bus.")) return append(manifest.can_bus_names, *index, value);
   if (key == "task_lists") {
     const auto count = whole<std::size_t>(value);
-    if (!count || *count > 256) return false;  // there are no more node ids
+    if (!count || *count > 256) return false;  // as many as node ids exist
     return manifest.task_names.resize(*count), true;
   }
   if (const auto rest = rest_after("node.")) {

@@ -16,13 +16,13 @@ inline constexpr std::string_view kResultName = "ttfusion.result";  // written a
 
 using ManifestEntries = std::vector<std::pair<std::string, std::string>>;
 
-// Keys: version, seed, scenario, cluster, strategy, cycle_ns, bit_ps, hash.<what>, node.<i>, node.<i>.task.<j>,
-// pdu.<i>, pdu_sensor.<i>, sensor.<i>, can_bus.<i>, where they say something recording, clock, host and time_scale_ppm,
-// and crc32 over all of it.
+// Keys: version, seed, scenario, cluster, strategy, cycle_ns, bit_ps, task_lists, hash.<name>, node.<i>,
+// node.<i>.task.<j>, pdu.<i>, pdu_sensor.<i>, sensor.<i>, can_bus.<i>; recording, clock, host and
+// time_scale_ppm unless they have their defaults; and crc32 over all of them.
 ManifestEntries manifest_entries(const LogManifest& manifest);
 
-// Reads what it can; false if the checksum does not match (metadata has none of its own) or a number is
-// broken.
+// Reads every readable entry. Returns false if the checksum does not match (metadata has none of its own) or a
+// number is broken.
 bool read_manifest(const ManifestEntries& entries, LogManifest& manifest);
 
 }  // namespace ttf::recording::log

@@ -60,8 +60,8 @@ class Collector final : public mcap::McapHandler {
 void check_is_log(std::string_view bytes, const std::string& name) {
   if (!bytes.starts_with(mcap::kMcapMagic))
     throw InputError({name, 0, "", "", "is not a log: it does not begin as an MCAP file does"});
-  // A damaged header is no reason to give up a log whose manifest is there; a sound one of another program
-  // is.
+  // A log with a damaged header is still read if its manifest is there; a sound header of another program is an
+  // error.
   const std::string_view profile = mcap::mcap_profile(bytes);
   if (!profile.empty() && profile != kLogProfile && bytes.find(kManifestName) == std::string_view::npos)
     throw InputError({name, 0, "profile", std::string(profile), "is an MCAP file, but its profile must be ttfusion"});

@@ -17,7 +17,8 @@
 namespace ttf::recording::log {
 namespace {
 
-// The schema of one message: a FileDescriptorSet with the message and what it refers to, in the file's order.
+// Returns the schema of one message: a FileDescriptorSet with the message and its nested types, in the file's
+// order.
 std::string schema_of(const google::protobuf::Descriptor& message) {
   std::set<std::string> needed;
   const auto need = [&needed](const auto& self, const google::protobuf::Descriptor& type) -> void {
@@ -50,7 +51,7 @@ struct LogWriter::Impl {
   explicit Impl(const std::string& path) : mcap(path, kLogProfile, "ttfusion") {}
 
   void write(const Encoded& record) {
-    // No maps and no unknown fields in our payloads: fields are written in the order of their numbers, always.
+    // Our payloads have no maps and no unknown fields, so fields are written in the order of their numbers.
     bytes.clear();
     const auto kind = static_cast<std::uint8_t>(record.kind);
     TTF_CHECK(record.payload.AppendToString(&bytes), "kind {}", kind);
@@ -73,7 +74,7 @@ struct LogWriter::Impl {
   ContentHash hash;
   std::uint64_t records = 0;
   bool closed = false;
-  std::optional<LogBehind> behind;  // last: its thread ends before what it writes to
+  std::optional<LogBehind> behind;  // last, so that its thread ends before the members that it writes to
 };
 
 LogWriter::LogWriter(const std::string& path, const LogManifest& manifest, Writing writing)
@@ -95,7 +96,7 @@ LogWriter::~LogWriter() {
   try {
     close();
   } catch (const std::exception&) {
-    // Nobody is left to tell; callers who care call close().
+    // A destructor cannot report the failure; callers that need it call close().
   }
 }
 

@@ -1,9 +1,9 @@
-// The log of a run: every record as one MCAP message with a protobuf payload (recording/log/log.proto).
+// The log of a drive: every record as one MCAP message with a protobuf payload (recording/log/log.proto).
 //
-// docs/log_format.md describes the file. One thread at a time, no dates, no addresses: the same records give the same
-// bytes. log_time is the record's true time (Stamp::true_time, else the end or the instant the record names),
-// publish_time the node's global time where there is one; times before the start of the run count as 0 there,
-// the payload has them exactly.
+// docs/log_format.md describes the file. One thread may write at a time. The file has no dates and no
+// addresses: the same records give the same bytes. log_time is the record's true time (Stamp::true_time, else
+// the end or the instant that the record names), publish_time the node's global time if it has one. Both are 0
+// for times before the start of the drive, which the payload has exactly.
 #pragma once
 
 #include <cstdint>
@@ -20,24 +20,25 @@ class LogWriter final : public records::Every<LogWriter> {
  public:
   enum class Writing : std::uint8_t {
     kAtOnce,  // by the thread that records
-    kBehind,  // by a thread of its own, so that who records in real time never waits for a disk or for compression
+    kBehind,  // by a thread of its own, so that recording in real time never waits for a disk or for
+              // compression
   };
-  // Opens `path` and writes manifest, schemas and channels. Throws std::runtime_error when the file
-  // cannot be created.
+  // Opens `path` and writes manifest, schemas and channels. Throws std::runtime_error if the file cannot be
+  // created.
   LogWriter(const std::string& path, const LogManifest& manifest, Writing writing = Writing::kAtOnce);
-  ~LogWriter() override;  // closes; a failure then is lost: call close() to hear of it
+  ~LogWriter() override;  // closes and ignores a failure; call close() to learn of it
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  // Puts a file into the log (schedule, scenario), before anything is recorded. Names should be unique.
+  // Puts a file (schedule, scenario) into the log, before the first record. Names should be unique.
   void attach(std::string_view name, std::string_view media_type, std::string_view bytes);
 
-  // Writes the last chunk and the summary. Throws std::runtime_error if anything could not be written (disk
-  // full). Calling it again does nothing; nothing may be recorded afterwards.
+  // Writes the last chunk and the summary. Throws std::runtime_error if a write failed (disk full). A second
+  // call does nothing; no record may follow.
   void close();
 
-  // Hash over all records so far in canonical order; recording/log/content_hash.h defines it. Of a log that is written
-  // behind: once it is closed.
+  // Returns the hash over all records so far in canonical order (recording/log/content_hash.h). A log that is
+  // written behind must be closed first.
   std::uint64_t content_hash() const;
   // The hash as the program prints it: 16 hex digits.
   std::string content_hash_text() const;
