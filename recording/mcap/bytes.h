@@ -34,7 +34,7 @@ enum class Opcode : std::uint8_t {
   kDataEnd,
 };
 
-// CRC-32 of ISO 3309, of what `crc` is of and these bytes behind it.
+// Returns the CRC-32 of ISO 3309 of `bytes`, continuing from `crc`, the CRC of the bytes before them.
 inline std::uint32_t crc_of(std::string_view bytes, std::uint32_t crc = 0) {
   return static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
@@ -50,7 +50,7 @@ inline void put_text(std::string& out, std::string_view text) {
   out.append(text);
 }
 
-// Starts a record whose length is filled in by end_record; returns where it starts.
+// Begins a record and returns where it starts; end_record fills in its length.
 inline std::size_t begin_record(std::string& out, Opcode opcode) {
   const std::size_t start = out.size();
   out.push_back(static_cast<char>(opcode));
@@ -62,8 +62,8 @@ inline void end_record(std::string& out, std::size_t start) {
   std::memcpy(out.data() + start + 1, &length, sizeof length);
 }
 
-// Takes fields off the front of untrusted bytes. After the first field that does not fit, `ok` is false and
-// all further fields read as zero or empty.
+// Takes fields off the front of untrusted bytes. After the first field that does not fit, ok() is false and all
+// further fields read as zero or empty.
 class FieldReader {
  public:
   explicit FieldReader(std::string_view bytes) : rest_(bytes) {}
@@ -86,7 +86,7 @@ class FieldReader {
   std::string_view text() { return bytes(take<std::uint32_t>()); }
 
   bool ok() const { return ok_; }
-  bool done() const { return ok_ && rest_.empty(); }  // everything was used, nothing was missing
+  bool done() const { return ok_ && rest_.empty(); }  // every byte was used, and no field was cut off
   std::string_view rest() const { return rest_; }
 
  private:

@@ -1,7 +1,8 @@
-// The records of an MCAP file that matter for reading a log, and its chunks unpacked. Private to the room.
+// The parts of an MCAP file that reading a log needs: its records, and the messages in its chunks. Private to
+// the room.
 //
-// Trusts nothing: a record's fields must fill it exactly, a chunk's checksum must match before anything of it is handed
-// on.
+// The bytes are not trusted: a record's fields must fill it exactly, and a chunk's checksum must match before
+// any of its messages is handed on.
 #pragma once
 
 #include <zstd.h>
@@ -22,7 +23,7 @@ struct McapRecord {
   std::uint8_t opcode = 0;
   std::string_view content;
 };
-// The record that begins at `at`, if it ends within the bytes.
+// Returns the record that begins at `at`, if it ends within the bytes.
 std::optional<McapRecord> record_at(std::string_view bytes, std::size_t at);
 
 struct ChunkFields {
@@ -35,8 +36,8 @@ bool read_chunk(std::string_view content, ChunkFields& out);
 // Decompresses chunks, one after the other.
 class ChunkOpener {
  public:
-  // The records in a chunk record's content; nothing where they are damaged. Valid as long as `buffer` and `content`
-  // are.
+  // Returns the records in a chunk's content; absent if they are damaged. Valid as long as `buffer` and
+  // `content` are.
   std::optional<std::string_view> open(std::string_view content, std::string& buffer);
 
  private:
@@ -46,8 +47,9 @@ class ChunkOpener {
   std::unique_ptr<ZSTD_DCtx, Free> zstd_{ZSTD_createDCtx()};
 };
 
-// Calls `message(channel, log time, payload)` for every message among a chunk's records, in their order; it returns
-// false where the payload is unreadable. Returns how many were, what is no record included.
+// Calls `message(channel, log time, payload)` for every message among a chunk's records, in their order.
+// `message` returns false if the payload is unreadable. Returns how many messages were unreadable; a torn
+// record counts as one.
 template <class Message> std::uint64_t for_each_message(std::string_view records, Message&& message) {
   std::uint64_t unreadable = 0;
   for (std::size_t offset = 0; offset < records.size();) {
@@ -59,7 +61,7 @@ template <class Message> std::uint64_t for_each_message(std::string_view records
     const auto channel = fields.take<std::uint16_t>();
     fields.take<std::uint32_t>();  // sequence
     const auto log_time = fields.take<std::uint64_t>();
-    fields.take<std::uint64_t>();  // publish time, a copy of what the payload has
+    fields.take<std::uint64_t>();  // publish time, which the payload has too
     if (!fields.ok() || !message(channel, log_time, fields.rest())) ++unreadable;
   }
   return unreadable;

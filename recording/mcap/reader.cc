@@ -43,8 +43,8 @@ bool read_metadata(std::string_view content, std::string_view& name,
   return map.ok();
 }
 
-// Whether a record's fields fill it exactly. Takes time in proportion to the number of fields, never to their
-// lengths.
+// Returns whether a record's fields fill it exactly. The time taken grows with the number of fields, not with
+// their lengths.
 bool consistent(const McapRecord& record) {
   FieldReader fields(record.content);
   switch (static_cast<Opcode>(record.opcode)) {
@@ -102,7 +102,7 @@ bool consistent(const McapRecord& record) {
       fields.bytes(16);
       fields.text();
       return fields.done();
-    case Opcode::kMessage: return false;  // ours stand in chunks, where a checksum covers them
+    case Opcode::kMessage: return false;  // valid in chunks only, where a checksum covers it
   }
   return false;
 }
@@ -111,7 +111,7 @@ bool known(std::uint8_t opcode) {
   return opcode >= static_cast<std::uint8_t>(Opcode::kHeader) && opcode <= static_cast<std::uint8_t>(Opcode::kDataEnd);
 }
 
-// Whether the file has its last record, whatever happened before it.
+// Returns whether the file has its last record, whether or not earlier bytes are damaged.
 bool has_end(std::string_view bytes) {
   if (bytes.size() < kFooterBytes + kMcapMagic.size() || bytes.substr(bytes.size() - 8) != kMcapMagic) return false;
   const auto footer = record_at(bytes, bytes.size() - 8 - kFooterBytes);
@@ -164,14 +164,14 @@ class Walk {
   std::size_t next_record(std::size_t from) const {
     for (std::size_t at = from; at + kRecordHead < bytes_.size(); ++at) {
       if (!known(static_cast<std::uint8_t>(bytes_[at])) || bytes_[at] == static_cast<char>(Opcode::kHeader)) continue;
-      if (bytes_.substr(at + 5, 4) != std::string_view("\0\0\0\0", 4)) continue;  // no record of 4 GiB
+      if (bytes_.substr(at + 5, 4) != std::string_view("\0\0\0\0", 4)) continue;  // no record has 4 GiB
       const auto record = record_at(bytes_, at);
       if (record && consistent(*record)) return at;
     }
     return bytes_.size();
   }
 
-  // True after the footer.
+  // Returns true after the footer.
   bool take(const McapRecord& record, std::size_t at) {
     switch (static_cast<Opcode>(record.opcode)) {
       case Opcode::kChunk: take_chunk(record.content, at); return false;

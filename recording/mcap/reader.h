@@ -1,9 +1,8 @@
-// Walks through the bytes of an MCAP file, trusting none of them. Private to the room.
+// Walks through the untrusted bytes of an MCAP file. Private to the room.
 //
-// Every record must be consistent in itself (its fields fill its length exactly) before it is used. Where one
-// is not, the walk looks for the next place at which a consistent record begins and goes on there, so that
-// damage costs what it hit and no more. Chunks count only whole: their checksum must match before the first
-// message is handed on.
+// Every record must be consistent (its fields fill its length exactly) before it is used. After an inconsistent
+// one, the walk goes on at the next place where a consistent record begins, so damage costs only the damaged
+// records. A chunk's checksum must match before its first message is handed on.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +13,26 @@
 
 namespace ttf::recording::mcap {
 
-// What a walk finds, in file order. Views are valid during the call only.
+// Receives the contents of a walk, in file order. Views are valid during the call only.
 class McapHandler {
  public:
   virtual ~McapHandler() = default;
   virtual void on_metadata(std::string_view name, const std::vector<std::pair<std::string, std::string>>& entries) = 0;
   virtual void on_attachment(std::string_view name, std::string_view media_type, std::string_view bytes) = 0;
-  // A sound chunk, whose messages follow; its record's content lies in the walked bytes (recording/mcap/chunk.h opens
-  // it).
+  // A sound chunk; its messages follow. The argument is the record's content within the walked bytes
+  // (recording/mcap/chunk.h opens it).
   virtual void on_chunk(std::string_view) {}
-  // False: the payload is unreadable.
+  // Returns false if the payload is unreadable.
   virtual bool on_message(std::uint16_t channel, std::uint64_t log_time, std::string_view payload) = 0;
 };
 
 struct McapReport {
   bool truncated = false;
-  std::vector<std::string> warnings;  // without the file's name; bounded
+  std::vector<std::string> warnings;  // without the file's name; at most 21
   std::uint64_t chunks_read = 0, chunks_lost = 0;
 };
 
-// The profile in the header; empty where there is none or it is damaged.
+// Returns the profile in the header; empty if the header has none or is damaged.
 std::string_view mcap_profile(std::string_view bytes);
 
 // Precondition: `bytes` begins with the magic, or is a beginning of it.

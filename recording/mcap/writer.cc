@@ -26,7 +26,7 @@ struct McapWriter::Impl {
 
   std::string path;
   std::FILE* file = nullptr;
-  std::string error;         // of the first write that failed
+  std::string error;         // of the first failed write
   std::uint64_t offset = 0;  // bytes written so far
   std::uint32_t data_crc = 0;
   bool closed = false;
@@ -300,7 +300,7 @@ void McapWriter::close() {
   start = begin_record(out, Opcode::kFooter);
   put(out, summary_start);
   put(out, offsets_start);
-  // The checksum covers the summary and the footer up to itself, whose length field must be right already.
+  // The checksum covers the summary and the footer up to itself, so the footer's length must be in place first.
   const std::uint64_t footer_length = 20;
   std::memcpy(out.data() + start + 1, &footer_length, sizeof footer_length);
   put(out, crc_of(out));

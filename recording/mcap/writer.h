@@ -1,10 +1,10 @@
 // A writer of MCAP files (https://mcap.dev/spec, version 0): zstd chunks, message indexes, attachments,
 // metadata, summary with statistics and offsets, all checksums.
 //
-// A chunk closes when it holds kChunkBytes or when the next message would make it span more than kChunkSpan
-// of log time, never on wall time, so that the same messages give the same bytes. A closed chunk and its
-// indexes are flushed to the file at once: after a crash everything up to the last closed chunk is readable.
-// Write errors are kept and thrown by close(); nothing else throws after construction.
+// A chunk closes when it holds kChunkBytes, or when the next message would make it span more than kChunkSpan of
+// log time. The machine's clock has no part in this: the same messages give the same bytes. A closed chunk and
+// its indexes are flushed to the file at once, so a crash loses only the open chunk. close() throws the first
+// write error; no other function throws after construction.
 #pragma once
 
 #include <cstddef>
@@ -26,12 +26,12 @@ class McapWriter {
 
   // Throws std::runtime_error if `path` cannot be created. `profile` and `library` go into the header record.
   McapWriter(const std::string& path, std::string_view profile, std::string_view library);
-  ~McapWriter();  // abandons what is not closed: the file reads as torn
+  ~McapWriter();  // abandons the open chunk and the summary: the file reads as torn
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  // Schemas and channels are declared before the first message, outside chunks, ids ascending from 1 without
-  // gaps.
+  // Schemas and channels are declared before the first message and outside chunks. Their ids ascend from 1
+  // without gaps.
   void add_schema(std::uint16_t id, std::string_view name, std::string_view encoding, std::string_view data);
   void add_channel(std::uint16_t id, std::uint16_t schema, std::string_view topic, std::string_view encoding);
   void add_metadata(std::string_view name, const Entries& entries);  // keys unique
@@ -40,8 +40,8 @@ class McapWriter {
   // The message's sequence number counts the channel's messages from 0.
   void add_message(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time, std::string_view payload);
 
-  void flush();  // closes the chunk that is open, if any
-  void close();  // throws std::runtime_error if anything could not be written
+  void flush();  // closes the open chunk, if any
+  void close();  // throws std::runtime_error if a write failed
 
  private:
   struct Impl;
