@@ -25,7 +25,7 @@ enum class BlockOption : std::uint16_t {
 inline constexpr std::uint32_t kByteOrderMagic = 0x1a2b3c4d;
 inline constexpr std::uint32_t kPcapMicroseconds = 0xa1b2c3d4, kPcapNanoseconds = 0xa1b23c4d;
 inline constexpr std::size_t kBlockFrame = 12;             // type, length, length again
-inline constexpr std::uint32_t kMostPacketBytes = 262144;  // what libpcap takes, too
+inline constexpr std::uint32_t kMostPacketBytes = 262144;  // libpcap's limit, too
 
 // Blocks, options and data are padded to whole 32-bit words.
 constexpr std::size_t padded(std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; }

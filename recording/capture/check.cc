@@ -21,7 +21,7 @@ struct Frame {
   std::uint64_t number = 0;
   std::optional<std::int64_t> time_ns;
   FlexRayPacket packet;
-  std::optional<int> elsewhere;  // where it was if not in the slot it claims (frames_in_wrong_slots)
+  std::optional<int> elsewhere;  // the slot it was in, if not the slot of its id (frames_in_wrong_slots)
 
   bool is_sound() const {
     return packet.kind == FlexRayPacket::Kind::kFrame && packet.whole_header && packet.header_crc_holds;
@@ -52,7 +52,7 @@ class CaptureChecker {
   }
 
  private:
-  // In the order of time where all have stamps, else of the file.
+  // In the order of time if all packets have stamps, else in the order of the file.
   std::vector<Frame> frames_of(const Capture& capture, const std::string& name) {
     std::vector<Frame> frames;
     bool stamped = true;
@@ -92,7 +92,7 @@ class CaptureChecker {
     return since >= options_.from_ns && (!options_.to_ns || since < *options_.to_ns);
   }
 
-  // All have stamps, or none has.
+  // Either all frames have stamps, or no frame has.
   void find_wrong_slots(std::vector<Frame>& frames) const {
     std::vector<StampedFrame> stamped;
     for (const Frame& frame : frames)
@@ -121,7 +121,7 @@ class CaptureChecker {
     if ((packet.errors & kFrameCrcError) != 0) say(Contradiction::kFrameCrc, "the frame CRC is flagged as wrong");
     if (coding) say(Contradiction::kCoding, fmt::format("coding errors are flagged ({:#04x})", packet.errors));
     if (!packet.header_crc_holds) {
-      // Neither slot nor length can be believed.
+      // Slot and length are unreliable then.
       say(Contradiction::kHeaderCrc,
           fmt::format("the header CRC is {:#05x}, which it should not be", header.header_crc));
       coverage_.damaged(header.cycle, header.frame_id, packet.channel);
@@ -137,7 +137,7 @@ class CaptureChecker {
     if (!place.counter_fits || header.cycle > cluster_.flexray.gCycleCountMax)
       say(Contradiction::kCycleCounter, fmt::format("the cycle counter should be {}", place.counter));
     check_owner(header, packet.channel, place.counter, say);
-    if (frame.elsewhere)  // and its own slot is without it
+    if (frame.elsewhere)  // and its own slot lacks it
       say(Contradiction::kWrongSlot, was_in <= cluster_.flexray.gNumberOfStaticSlots
                                          ? fmt::format("was sent in slot {}", was_in)
                                          : std::string("was sent outside of the static segment"));
@@ -185,7 +185,7 @@ class CaptureChecker {
   const CaptureCheckOptions& options_;
   CycleTracker cycles_;
   CaptureCoverage coverage_;
-  std::int64_t advance_ = 0;  // cycles since the last frame that the coverage was told of
+  std::int64_t advance_ = 0;  // cycles since the last frame that the coverage received
   CaptureVerdict verdict_;
 };
 

@@ -1,7 +1,8 @@
-// A capture held against the schedule it should obey: which of its FlexRay frames contradict it, and which are missing.
+// Compares a capture with its schedule: finds the FlexRay frames that contradict the schedule, and those that
+// are missing.
 //
-// The schedule is believed in normal operation: a capture of a start-up, in which not every node sends yet, is checked
-// from a later instant on (CaptureCheckOptions::from_ns).
+// The schedule holds in normal operation only. In a start-up not every node sends yet, so such a capture is
+// checked from a later instant on (CaptureCheckOptions::from_ns).
 #pragma once
 
 #include <array>
@@ -18,35 +19,36 @@
 namespace ttf::recording::capture {
 
 enum class Contradiction : std::uint8_t {
-  kMalformed,           // a FlexRay packet that is neither symbol nor has a whole frame header
+  kMalformed,           // a FlexRay packet with neither a symbol nor a whole frame header
   kHeaderCrc,           // recomputed, or flagged by the capture
   kFrameCrc,            // as flagged: link type 210 carries no trailer
   kCoding,              // flagged: start sequence, coding or frame end
-  kStartupWithoutSync,  // the startup indicator in a frame that is no sync frame
+  kStartupWithoutSync,  // a frame with the startup indicator that is no sync frame
   kCycleCounter,        // jumps, or stands still
-  kUnownedSlot,         // a frame in a slot nobody owns
-  kWrongChannel,        // the slot has an owner, on the other channel only
-  kWrongCycle,          // ... on this channel, but not in this cycle
-  kWrongSlot,           // sent in another slot than the one it bears the id of, as its stamp says (capture_slots.h)
+  kUnownedSlot,         // a frame in a slot without an owner
+  kWrongChannel,        // the slot has an owner on the other channel only
+  kWrongCycle,          // the slot's owner sends on this channel, but not in this cycle
+  kWrongSlot,           // sent outside the slot of its id, by its stamp (wrong_slots.h)
   kTwice,               // a second frame of the same slot, channel and cycle
-  kPayloadLength,       // not gPayloadLengthStatic, or not what the header says
-  kMissing,             // an owned slot without a frame, between the first and the last frame of the capture
+  kPayloadLength,       // not gPayloadLengthStatic, or not as in the header
+  kMissing,             // a frame absent from its owned slot, between the first and the last frame of the
+                        // capture
 };
 inline constexpr std::size_t kContradictions = 13;
-// "header CRC error", by value.
+// Indexed by value: "header CRC error" etc.
 extern const std::array<std::string_view, kContradictions> kContradictionNames;
 
 struct CaptureFinding {
   Contradiction kind{};
-  std::uint64_t packet = 0;  // of a missing frame: the packet after which it is missing
+  std::uint64_t packet = 0;  // for a missing frame: the packet after which it is missing
   std::string text;          // "slot 6 on A, cycle 12: ..."
 };
 
 struct CaptureVerdict {
-  std::uint64_t frames = 0;  // FlexRay frames held against the schedule
+  std::uint64_t frames = 0;  // FlexRay frames compared with the schedule
   std::uint64_t symbols = 0;
-  std::uint64_t other_packets = 0;  // of other link types or channels, or outside the window
-  std::int64_t cycles = 0;          // from the first frame's to the last one's
+  std::uint64_t other_packets = 0;  // of other link types or channels, or outside the time window
+  std::int64_t cycles = 0;          // from the cycle of the first frame to that of the last
   std::array<std::uint64_t, kContradictions> counts{};
   std::vector<CaptureFinding> findings;  // by packet; the first kMostFindings
 
@@ -61,9 +63,9 @@ struct CaptureCheckOptions {
   std::optional<std::int64_t> to_ns;
 };
 
-// The cluster must be consistent (schedules/check/checker.h). Throws InputError if nothing can be said: no FlexRay
-// frame with a sound header in the window, or a window of a capture without time stamps. `name` is the capture's, for
-// messages.
+// The cluster must be consistent (schedules/check/checker.h). Throws InputError if nothing can be compared: the
+// time window has no FlexRay frame with a sound header, or is given for a capture without time stamps. Messages
+// call the capture `name`.
 CaptureVerdict check_capture(const Capture& capture, const std::string& name, const schedules::model::Cluster& cluster,
                              const CaptureCheckOptions& options);
 

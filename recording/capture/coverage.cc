@@ -76,7 +76,7 @@ void CaptureCoverage::close_cycle(int before_slot) {
   }
 }
 
-// Cycles without a single frame, from counter_ on.
+// Counts the frames missing in `count` cycles without a frame, from counter_ on.
 void CaptureCoverage::silent_cycles(std::int64_t count) {
   if (count == 0) return;
   std::uint64_t all = 0, missing = 0;

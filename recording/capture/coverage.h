@@ -1,4 +1,4 @@
-// Which owned slots of the cycles a capture covers brought a frame. Private to the room.
+// Tracks which owned slots of a capture's cycles have a frame. Private to the room.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ class CaptureCoverage {
   using Missing = std::function<void(std::uint64_t packet, std::uint64_t count, std::string text)>;
   CaptureCoverage(const schedules::model::Cluster& cluster, schedules::model::Channels channels, Missing missing);
 
-  // The next frame was sent `advance` cycles after the one before, in a cycle with this counter. Whether it is the
-  // first one of its slot and channel there.
+  // Takes the next frame, sent `advance` cycles after the previous one, in a cycle with this counter. Returns
+  // whether it is the first frame of its slot and channel in that cycle.
   bool frame(std::int64_t advance, int counter, int slot, schedules::model::Channel channel, std::uint64_t packet);
-  // A frame that claims this place, but with a header that fails its CRC: it is damaged, not missing.
+  // Takes a frame that claims this place, but whose header fails its CRC: it is damaged, not missing.
   void damaged(int counter, int slot, schedules::model::Channel channel);
-  // After the last frame.
+  // Call it after the last frame.
   void finish();
   std::int64_t cycles() const { return cycle_ + 1; }
 
@@ -31,7 +31,7 @@ class CaptureCoverage {
     schedules::model::Channel channel{};
   };
   struct Claim {
-    std::int64_t cycle = 0;  // the running one when it came
+    std::int64_t cycle = 0;  // the running cycle at its arrival
     int counter = 0;
     Owned place;
   };
@@ -42,12 +42,12 @@ class CaptureCoverage {
 
   Missing missing_;
   int counters_;
-  std::vector<std::vector<Owned>> owned_;  // by cycle counter, in order of slots
-  std::vector<std::uint64_t> packets_;     // of the current cycle, by slot and channel; 0: none
+  std::vector<std::vector<Owned>> owned_;  // by cycle counter, in the order of slots
+  std::vector<std::uint64_t> packets_;     // of the current cycle, by slot and channel; 0: no packet
   std::vector<Claim> damaged_;
   std::int64_t cycle_ = -1;  // running, from 0
   int counter_ = 0;
-  int after_slot_ = 0;  // where the first cycle's coverage begins
+  int after_slot_ = 0;  // the first cycle's coverage begins after this slot
   int last_slot_ = 0;
   std::uint64_t last_packet_ = 0, last_before_cycle_ = 0;
 };

@@ -6,8 +6,8 @@
 namespace ttf::recording::capture {
 namespace {
 
-// In cycles. Where stamps are not good enough to tell (capture_slots.h), a frame in a wrong slot may be off by the
-// whole static segment and yet be in the right cycle.
+// In cycles. If stamps are too coarse for a judgement (wrong_slots.h), a frame in a wrong slot may be off by
+// the whole static segment and still be in the right cycle.
 constexpr double kSameCycle = 0.75;
 constexpr double kWellStamped = 0.1;
 constexpr int kMostAstray = 4;
@@ -19,7 +19,7 @@ CycleTracker::CycleTracker(const schedules::model::GlobalParameters& flexray)
 
 std::int64_t CycleTracker::offset_ns(int slot) const {
   if (slot <= flexray_.gNumberOfStaticSlots) return static_slot_offset_ns(flexray_, slot);
-  // A dynamic frame is somewhere in its segment.
+  // A dynamic frame is somewhere in its segment: take the middle.
   return static_slot_offset_ns(flexray_, flexray_.gNumberOfStaticSlots + 1) +
          std::int64_t{flexray_.gNumberOfMinislots} * flexray_.gdMinislot / 2 * flexray_.gdMacrotick_ps / 1000;
 }

@@ -1,9 +1,9 @@
-// Which communication cycle a captured frame was sent in: from its cycle counter, and from when it was captured.
+// Finds the communication cycle in which a captured frame was sent, from its cycle counter and its stamp.
 //
-// The counter wraps after gCycleCountMax and may be wrong; the capture's clock runs off the cluster's and knows no
-// cycle's start. A frame's slot says how far into its cycle it was sent; so two frames' stamps say how many cycles lie
-// between them, to within what clocks may differ (0.15 % each) and what stamping is off. Where counter and stamps
-// agree, the counter is believed; where not, the stamps are, and the counter is in error.
+// The counter wraps after gCycleCountMax and may be wrong. The capture's clock drifts against the cluster's and
+// knows no start of a cycle. A frame's slot gives its offset in the cycle, so two frames' stamps give the
+// number of cycles between them, to within the clocks' drift (0.15 % each) and the error of the stamps. If
+// counter and stamps agree, the counter counts; if not, the stamps count, and the counter is in error.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@
 
 namespace ttf::recording::capture {
 
-// What two clocks' rates may differ by: 1500 ppm to either side (cClockDeviationMax).
+// The largest difference between two clocks' rates: 1500 ppm to either side (cClockDeviationMax).
 inline constexpr double kClockDeviation = 0.003;
 
-// When a static slot begins in its cycle, and how long it lasts [ns].
+// Returns the offset of a static slot in its cycle; the next function returns its length [ns].
 inline std::int64_t static_slot_offset_ns(const schedules::model::GlobalParameters& flexray, int slot) {
   return std::int64_t{slot - 1} * flexray.gdStaticSlot * flexray.gdMacrotick_ps / 1000;
 }
@@ -29,14 +29,14 @@ class CycleTracker {
   explicit CycleTracker(const schedules::model::GlobalParameters& flexray);
 
   struct Place {
-    std::int64_t advance = 0;  // cycles from the frame before to this one; never negative
-    int counter = 0;           // what the cycle counter must be
+    std::int64_t advance = 0;  // cycles from the previous frame to this one; never negative
+    int counter = 0;           // the correct value of the cycle counter
     bool counter_fits = true;
   };
-  // Frames in the order of time; `slot` is where the frame was, whatever its header says. The first one's counter is
-  // believed. A counter that disagrees throughout a cycle is the cluster's new one (it was started anew) and believed
-  // from the next frame on. Without stamps, a counter that moves on by more than one is in error, and believed from
-  // the next frame on.
+  // Places one frame; frames come in the order of time. `slot` is where the frame was, whatever its header
+  // says. The first frame's counter is taken as right. A counter that disagrees throughout a cycle is the
+  // counter of a restarted cluster, and is right from the next frame on. Without stamps, a counter that moves
+  // on by more than one is in error, and right from the next frame on.
   Place place(int slot, int counter, std::optional<std::int64_t> time_ns);
 
  private:
@@ -51,7 +51,7 @@ class CycleTracker {
   int counter_ = 0;                    // of the current cycle
   std::optional<std::int64_t> start_;  // of the current cycle, by the capture's clock
   int astray_ = 0;                     // frames in a row whose stamps do not fit `start_`
-  std::optional<int> disagreement_;    // of the frames before: counter less what is due
+  std::optional<int> disagreement_;    // of the previous frames: counter minus the correct value
   std::int64_t disagreed_cycles_ = 0;
 };
 

@@ -44,7 +44,7 @@ CheckedFlexRayFrame check_broken_frame(schedules::model::Channel channel, std::s
   if (!crcs.header_holds) frame.errors |= kHeaderCrcError;
   const std::size_t until_trailer = bus::wire::kHeaderBytes + std::size_t{2} * header->payload_words;
   if (bytes.size() == until_trailer + bus::wire::kTrailerBytes && !crcs.frame_holds) frame.errors |= kFrameCrcError;
-  // Without a sound header nobody knows where the payload ends.
+  // Without a sound header the end of the payload is unknown.
   if (crcs.header_holds) frame.header_and_payload = bytes.first(std::min(bytes.size(), until_trailer));
   return frame;
 }

@@ -1,4 +1,4 @@
-// What one packet of a capture holds, for the two link types this program writes and reads.
+// The content of one packet of a capture, for the two link types that this program writes and reads.
 //
 //   LINKTYPE_FLEXRAY (210)        | channel and type | error flags | header 5 | payload 0..254 |     no trailer
 //                                 | channel and type | length in bits |                              a symbol
@@ -28,47 +28,49 @@ enum FlexRayErrors : std::uint8_t {
   kFrameCrcError = 0x10,
 };
 
-// One FlexRay frame as logged, taken apart: `header_and_payload` as on the wire without the trailer, and what our own
-// checks say of it.
+// One logged FlexRay frame, taken apart: `header_and_payload` as on the wire without the trailer, and the
+// result of our own checks.
 struct CheckedFlexRayFrame {
   std::uint8_t errors = 0;  // FlexRayErrors
   bus::wire::FrameHeader header;
   std::span<const std::byte> header_and_payload;
 };
 
-// Computes both CRCs anew from `bytes` (header, payload, trailer). Bytes that are too few for a header and a trailer,
-// or not as many as the header says, fail the frame CRC, too few for a header also the header CRC.
+// Computes both CRCs anew from `bytes` (header, payload, trailer). Bytes without a whole header and trailer, or
+// of another length than the header says, fail the frame CRC; bytes without a whole header also fail the header
+// CRC.
 CheckedFlexRayFrame check_flexray_frame(schedules::model::Channel channel, std::span<const std::byte> bytes);
 
-// The same of what is left of a frame that could not be made out to its end: `bytes`, as many as were there as a whole,
-// with the trailer, if that was there, too. Whatever can be checked of it is.
+// Checks the rest of a frame that could not be decoded to its end, as far as possible. `bytes` are its whole
+// bytes, with the trailer if that was there.
 CheckedFlexRayFrame check_broken_frame(schedules::model::Channel channel, std::span<const std::byte> bytes);
 
 // Appends a packet of link type 210.
 void put_flexray_packet(std::string& out, schedules::model::Channel channel, const CheckedFlexRayFrame& frame);
 
-// Appends a symbol's packet of link type 210: how long it was low, in bits. Its 7 bits end at kLongestSymbolBits, which
-// is that and all that is longer, as a wake-up pattern.
+// Appends a symbol's packet of link type 210: the duration of its low phase in bits. The field has 7 bits:
+// kLongestSymbolBits stands for itself and all longer ones, such as a wake-up pattern.
 void put_symbol_packet(std::string& out, schedules::model::Channel channel, std::int64_t bits);
 inline constexpr std::int64_t kLongestSymbolBits = 127;
 
-// A packet of link type 210 as somebody captured it. Nothing in it is believed: the header may be cut short, the
-// payload may have another length than the header says.
+// A captured packet of link type 210. Its content is not trusted: the header may be cut short, and the payload
+// may have another length than the header says.
 struct FlexRayPacket {
   enum class Kind : std::uint8_t { kFrame = 1, kSymbol = 2, kUnknown = 0 };
   Kind kind = Kind::kUnknown;
   schedules::model::Channel channel{};
-  std::uint8_t errors = 0;    // FlexRayErrors, of a frame
+  std::uint8_t errors = 0;    // FlexRayErrors of a frame
   int symbol_bits = 0;        // of a symbol
-  bool whole_header = false;  // of a frame; without it the fields below are zero
+  bool whole_header = false;  // of a frame; if false, the fields below are zero
   bus::wire::FrameHeader header;
   bool header_crc_holds = false;  // recomputed
   std::span<const std::byte> payload;
 };
 FlexRayPacket parse_flexray_packet(std::span<const std::byte> data);
 
-// Appends a packet of link type 227. Base identifiers up to 0x7ff, extended above; with `flexible_data_rate` the bit
-// rate is switched too, as on every CAN FD of this program. At most 64 bytes of data go in.
+// Appends a packet of link type 227. Identifiers up to 0x7ff are base identifiers, larger ones extended. With
+// `flexible_data_rate` the bit rate is switched too, as on every CAN FD of this program. At most 64 bytes of
+// data are kept.
 void put_can_packet(std::string& out, std::uint32_t identifier, bool flexible_data_rate,
                     std::span<const std::byte> data);
 

@@ -1,4 +1,4 @@
-// What the readers of pcap and pcapng share. Private to the room.
+// The common part of the readers of pcap and pcapng. Private to the room.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace ttf::recording::capture {
 
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-// A number in the byte order of the file.
+// Returns a number in the byte order of the file.
 template <class Int> Int number_at(std::string_view bytes, std::size_t at, bool swapped) {
   static_assert(sizeof(Int) <= 8);
   std::uint64_t value = 0;
@@ -25,7 +25,7 @@ template <class Int> Int number_at(std::string_view bytes, std::size_t at, bool 
   return static_cast<Int>(value);
 }
 
-// A capture while it is read: where we are, and how to complain.
+// The state of reading one capture: its place in the bytes, and its errors.
 class CaptureParser {
  public:
   CaptureParser(Capture& capture, const std::string& name) : capture_(capture), name_(name), bytes_(capture.bytes) {}
@@ -33,7 +33,7 @@ class CaptureParser {
  protected:
   std::size_t left() const { return bytes_.size() - at_; }
   template <class Int> Int number(std::size_t offset) const { return number_at<Int>(bytes_, at_ + offset, swapped_); }
-  // `expected` is a sentence about the packet that comes next, or about the block before it.
+  // `expected` is a sentence about the next packet, or about the block before it.
   [[noreturn]] void damaged(const std::string& what, const std::string& value, const std::string& expected) const {
     throw InputError({name_, 0, what, value, expected});
   }

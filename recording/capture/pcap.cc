@@ -1,4 +1,4 @@
-// The older format: a file header, then one header of 16 bytes before each packet (draft-ietf-opsawg-pcap).
+// The older format: a file header, then a header of 16 bytes before each packet (draft-ietf-opsawg-pcap).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace ttf::recording::capture {
 namespace {
 
 constexpr std::size_t kFileHeader = 24, kPacketHeader = 16;
-constexpr std::uint32_t kLinkTypeMask = 0x03ffffff;  // above: whether and how long a frame check sequence is
+constexpr std::uint32_t kLinkTypeMask = 0x03ffffff;  // the bits above: presence and length of a frame check sequence
 
 class PcapParser : CaptureParser {
  public:

@@ -1,4 +1,4 @@
-// The newer format: blocks, each with its type and, at both ends, its length (draft-ietf-opsawg-pcapng).
+// The newer format: blocks, each with its type, and with its length at both ends (draft-ietf-opsawg-pcapng).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 namespace ttf::recording::capture {
 namespace {
 
-// Differences of stamps stay within 64 bits, with room to spare.
+// Keeps differences of stamps within 64 bits, with room to spare.
 constexpr std::int64_t kLatest = std::numeric_limits<std::int64_t>::max() / 2;
 constexpr std::uint32_t kMostBlockBytes = 16u << 20;
 
-// What time stamps of an interface count in.
+// The unit and origin of an interface's time stamps.
 struct Clock {
   bool binary = false;  // 2^-digits s, else 10^-digits s
   int digits = 6;
@@ -57,7 +57,7 @@ class PcapngParser : CaptureParser {
       case BlockType::kEnhancedPacket: enhanced_packet(); break;
       case BlockType::kObsoletePacket: obsolete_packet(); break;
       case BlockType::kSimplePacket: simple_packet(); break;
-      default: break;  // statistics, names, and what others made
+      default: break;  // statistics, names, and other programs' blocks
     }
     at_ += size_;
   }
@@ -71,7 +71,7 @@ class PcapngParser : CaptureParser {
               "must have the byte order magic 0x1a2b3c4d");
   }
 
-  // The block must have so many bytes before its options.
+  // Checks that the block has `fields` bytes before its options.
   void need(std::size_t fields, const std::string& what) const {
     if (size_ < kBlockFrame + fields)
       damaged(what, fmt::format("{} bytes", size_), fmt::format("must have at least {}", kBlockFrame + fields));
@@ -163,7 +163,7 @@ class PcapngParser : CaptureParser {
     need(20, next_packet());
     stamped_packet(number<std::uint32_t>(8));
   }
-  // As above, but the interface has 16 bits, and the number of lost packets the other 16.
+  // As above, but the interface has 16 bits, and the number of lost packets has the other 16.
   void obsolete_packet() {
     need(20, next_packet());
     stamped_packet(number<std::uint16_t>(8));

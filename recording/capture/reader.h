@@ -1,9 +1,9 @@
-// Reads captures that other programs made: pcap (either byte order, microseconds or nanoseconds) and pcapng (sections
+// Reads captures of other programs: pcap (either byte order, microseconds or nanoseconds) and pcapng (sections
 // of either byte order; interfaces, enhanced, simple and obsolete packet blocks; all other blocks are skipped).
 //
-// Nothing in the file is trusted. What is damaged ends in one sentence that names the file and the packet; only a file
-// that breaks off within a packet or block, as when the capturing program was killed, is read up to there with a
-// warning.
+// The file is not trusted. Damage is an error, one sentence that names the file and the packet. The exception
+// is a file that ends within a packet or block, as after the capturing program was killed: it is read up to
+// there, with a warning.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace ttf::recording::capture {
 
-// Of one interface; in a pcap file there is one, without a name.
+// One interface. A pcap file has one, without a name.
 struct CaptureSource {
   std::uint32_t link_type = 0;  // https://www.tcpdump.org/linktypes.html
   std::string name;
@@ -25,11 +25,11 @@ struct CaptureSource {
 struct CapturedPacket {
   std::uint64_t number = 0;             // from 1, in the order of the file, as Wireshark counts
   std::size_t interface = 0;            // index in Capture::interfaces
-  std::optional<std::int64_t> time_ns;  // 1970 to 2116; simple packet blocks have none
+  std::optional<std::int64_t> time_ns;  // between 1970 and 2116; simple packet blocks have no stamp
   std::uint64_t data_begin = 0;         // in the file
   std::uint32_t data_size = 0;
   std::uint32_t original_size = 0;  // before the capture cut it
-  std::string comment;              // all of the packet's, one per line
+  std::string comment;              // all comments of the packet, one per line
 };
 
 struct Capture {
@@ -44,7 +44,7 @@ struct Capture {
   std::uint32_t link_type(const CapturedPacket& packet) const { return interfaces[packet.interface].link_type; }
 };
 
-// Both throw InputError; `name` is what it calls the file.
+// Both throw InputError; errors call the file `name`.
 Capture read_capture(const std::string& path);
 Capture parse_capture(std::string bytes, const std::string& name);
 

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t kFrameIds = 2048;  // 11 bits
 constexpr std::int64_t kCyclesAway = 2, kCyclesBetween = 8;
-constexpr std::int64_t kAgreement = 10;  // of a slot
+constexpr std::int64_t kAgreement = 10;  // fractions of a slot
 
-// The median; `values` are not empty, and left in another order.
+// Returns the median; `values` are not empty, and are reordered.
 template <class Number> Number median(std::vector<Number>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -35,7 +35,7 @@ class SlotJudge {
     const std::optional<std::int64_t> start = cycle_start(index);
     if (!start) return std::nullopt;
     const StampedFrame& frame = frames_[index];
-    // Slots are where a frame in them would be, and half a slot to either side; slot 1 before its cycle begins.
+    // A slot reaches half a slot to either side of a frame's place in it; slot 1 thus begins before its cycle.
     const auto since = static_cast<double>(modulo(frame.time_ns - *start + slot_ / 2));
     const int slot = static_cast<int>(since / (stretch_ * static_cast<double>(slot_length_ns(flexray_)))) + 1;
     if (slot <= flexray_.gNumberOfStaticSlots) return slot != frame.slot ? std::optional(slot) : std::nullopt;
@@ -47,8 +47,8 @@ class SlotJudge {
     return frame.slot >= 1 && frame.slot <= flexray_.gNumberOfStaticSlots;
   }
 
-  // How much longer a cycle is by the capture's clock: the median over frames of one slot and channel that follow each
-  // other.
+  // Returns how much longer a cycle is by the capture's clock: the median over consecutive frames of one slot
+  // and channel.
   double stretch(std::int64_t nominal) const {
     std::vector<const StampedFrame*> before(kFrameIds * 2);
     std::vector<double> all;
@@ -68,14 +68,14 @@ class SlotJudge {
   }
 
   std::int64_t modulo(std::int64_t time) const { return (time % cycle_ + cycle_) % cycle_; }
-  // Into the half cycles before and after 0.
+  // Wraps into the half cycles before and after 0.
   std::int64_t wrapped(std::int64_t time) const { return modulo(time + cycle_ / 2) - cycle_ / 2; }
-  // When the cycle began that a static frame was sent in, or one many cycles away.
+  // Returns when the cycle of a static frame began, or a cycle a whole number of cycles away.
   std::int64_t phase(const StampedFrame& frame) const {
     return frame.time_ns - std::llround(stretch_ * static_cast<double>(static_slot_offset_ns(flexray_, frame.slot)));
   }
 
-  // S2. Frames are in order: those before and after it alone can be so near.
+  // S2. Frames are in order: only those right before and after can be so near.
   bool is_impossible(std::size_t index) const {
     const StampedFrame& frame = frames_[index];
     const auto is_there = [&](const StampedFrame& other) { return other.channel == frame.channel; };
@@ -86,7 +86,7 @@ class SlotJudge {
     return false;
   }
 
-  // Where its neighbours say that a cycle began (S3).
+  // Returns when a cycle began by the neighbours' stamps (S3).
   std::optional<std::int64_t> cycle_start(std::size_t index) {
     const StampedFrame& frame = frames_[index];
     const std::int64_t reach = kCyclesAway * cycle_;
@@ -125,7 +125,7 @@ class SlotJudge {
   std::span<const StampedFrame> frames_;
   double stretch_ = 1.0;
   std::int64_t cycle_ = 0, slot_ = 0;           // by the capture's clock [ns]
-  std::vector<const StampedFrame*> witnesses_;  // kept for their memory
+  std::vector<const StampedFrame*> witnesses_;  // members, to keep their memory
   std::vector<std::int64_t> phases_;
 };
 

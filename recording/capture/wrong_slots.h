@@ -1,9 +1,9 @@
-// Which captured frames were sent in another slot than the one whose id they bear. Private to the room.
+// Finds captured frames that were sent outside the slot of their id. Private to the room.
 //
-// The header says a frame's slot, its stamp when it was there. Less its slot's offset in the cycle, the stamps of all
-// static frames are a whole number of cycles apart; one that is off by more than half a slot was in another slot.
-// That is as good as the stamps are: it is said only where the frames around it vouch for them, which they do when they
-// are themselves, nearly all, well inside their slots. Coarse, jittered or patched up stamps thus say nothing.
+// The header gives a frame's slot, the stamp its instant. Less its slot's offset in the cycle, every static
+// frame's stamp is a whole number of cycles from any other's. A frame that is off by more than half a slot was
+// in another slot. The judgement is as good as the stamps, so it needs witnesses: nearly all frames around it
+// must be well inside their slots. Coarse, jittered or repaired stamps thus yield no judgement.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +15,26 @@
 
 namespace ttf::recording::capture {
 
-// By its stamp and by its header.
+// A frame's stamp, and its place by its header.
 struct StampedFrame {
   std::int64_t time_ns = 0;
   int slot = 0;
   schedules::model::Channel channel{};
 };
 
-// For every frame, in the order of time, where it was if not in its slot: a static slot, or gNumberOfStaticSlots + 1,
-// which is anywhere outside of the static segment. Nothing for a frame that was in its slot, or where the stamps do not
-// tell. A dynamic frame has no place to be, but the static segment is a wrong one. The capture's clock may run off the
-// cluster's by what two clocks may differ.
+// Returns for every frame the slot that it was in, if that is not its own: a static slot, or
+// gNumberOfStaticSlots + 1 for any place outside the static segment. Absent for a frame in its own slot, and
+// where the stamps allow no judgement. A dynamic frame has no fixed place, but it is wrong in the static
+// segment. `frames` are in the order of time. The capture's clock may drift against the cluster's as any two
+// clocks may.
 //
 // Laws
 //   S1  A frame whose stamp is within half a slot of its place is never in a wrong slot.
-//   S2  Neither is one that has another frame of its channel within half a slot: both were not there at once, so that
-//       it is the stamp that is wrong.
-//   S3  Of the frames of other slots that are next to it, up to kWitnesses before and as many after, not more than two
-//       cycles away, there are kLeastWitnesses at least, and three in four agree to a tenth of a slot. Those are of two
-//       slots at least: of two senders alone, either may be in the wrong.
+//   S2  A frame within half a slot of another frame of its channel is never in a wrong slot: two frames cannot overlap,
+//       so the stamp is wrong.
+//   S3  Witnesses are frames of other slots: up to kWitnesses before the frame and as many after it, at most two cycles
+//       away. At least kLeastWitnesses are needed, and three in four must agree to a tenth of a slot. Those that agree
+//       must be of at least two slots: of two senders alone, either may be wrong.
 std::vector<std::optional<int>> frames_in_wrong_slots(const schedules::model::GlobalParameters& flexray,
                                                       std::span<const StampedFrame> frames);
 inline constexpr std::size_t kWitnesses = 16, kLeastWitnesses = 8;
