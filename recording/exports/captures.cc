@@ -12,7 +12,7 @@ namespace ttf::recording::exports {
 namespace {
 
 constexpr char kFlexRayName[] = "FlexRay";
-constexpr std::size_t kLongestDevice = 15;  // IFNAMSIZ less the closing zero
+constexpr std::size_t kLongestDevice = 15;  // IFNAMSIZ minus the closing zero
 constexpr std::int64_t kMicrosecond = 1'000, kSecond = 1'000'000'000;
 constexpr std::int64_t kCandumpStart_s = 1'000'000'000;
 
@@ -30,7 +30,7 @@ void put_hex(std::string& out, std::span<const std::byte> bytes) {
   }
 }
 
-// What our own checks say of a frame's bytes, and the decoder of what is not there.
+// Checks a frame's bytes anew; errors of coding and of the frame's end come from the log.
 capture::CheckedFlexRayFrame checked(const LoggedFrame& frame, std::span<const std::byte> bytes) {
   if ((frame.state & records::kChannelCoding) == 0) return capture::check_flexray_frame(channel_of(frame), bytes);
   capture::CheckedFlexRayFrame broken = capture::check_broken_frame(channel_of(frame), bytes);
@@ -39,7 +39,7 @@ capture::CheckedFlexRayFrame checked(const LoggedFrame& frame, std::span<const s
   return broken;
 }
 
-// Whose it is, where the frame itself does not say so truly.
+// Returns the origin of a frame, if its own header does not give it truly.
 std::string origin_of(const LoggedFrame& frame, const LogNames& names) {
   if (!frame.flexray || frame.as_sent) return "";
   if (frame.of_controller) return fmt::format("slot {} of {}", frame.id, names.node(frame.sender));
@@ -75,7 +75,7 @@ bool can_be_a_device(const std::string& name) {
                      [](char c) { return c > 0x20 && c < 0x7f && c != '/' && c != ':' && c != '=' && c != '%'; });
 }
 
-// A field of a comma-separated row (RFC 4180).
+// Returns a field of a comma-separated row (RFC 4180).
 std::string quoted(const std::string& text) {
   if (std::none_of(text.begin(), text.end(), [](char c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; }))
     return text;

@@ -1,14 +1,14 @@
-// A log's frames as other people's programs read them; the same log gives the same bytes.
+// Exports a log's frames for other programs; the same log gives the same bytes.
 //
 //   pcapng   Wireshark: FlexRay (link type 210) and every private CAN (227), each an interface of its own. FlexRay
-//            frames are as they were on the channel, with error flags from our own checks of the logged bytes; one that
-//            no decoder makes out is a packet without header and payload, or with the bytes that were there before it
-//            broke off. Symbols are packets of their own kind. A packet's comment names the measurement its frame
-//            carries something of, and the list and fragment. The start of the run is 1970-01-01 00:00:00 UTC.
-//   candump  canplayer, log2asc: the private CANs' frames, `(1000000001.234567) laser_can 100##1DEADBEEF`;
-//            microseconds, as these programs read no more. The start of the run is second 1000000000: log2asc takes
-//            second 0 for "no start yet". A CAN whose name cannot be a network interface's is called canN by its index.
-//   csv      one row per frame of any bus, nanoseconds since the start of the run; see kCsvHeader
+//            frames are as they were on the channel, with error flags from our own checks of the logged bytes. An
+//            undecodable frame is a packet without header and payload, or with the bytes before it broke off. Symbols
+//            are packets of their own kind. A packet's comment names the measurement that its frame carries, the list
+//            and the fragment. The start of the drive is 1970-01-01 00:00:00 UTC.
+//   candump  canplayer, log2asc: the private CANs' frames, `(1000000001.234567) laser_can 100##1DEADBEEF`, in
+//            microseconds, the unit of these programs. The start of the drive is second 1000000000, as log2asc takes
+//            second 0 for "no start yet". A CAN is called canN by its index if its name cannot be an interface's.
+//   csv      one row per frame of any bus, nanoseconds since the start of the drive; see kCsvHeader
 #pragma once
 
 #include <string>
@@ -19,14 +19,15 @@
 
 namespace ttf::recording::exports {
 
-// id: slot or CAN identifier, decimal. kind: frame, null, noise, symbol (FlexRay), can, can_fd. flags: names joined by
-// '+': sync, startup, preamble, header_crc_error, frame_crc_error, coding_error, frame_end_error (FlexRay), extended,
-// brs (CAN); of a symbol cas, wakeup or media_test. measurement: sensor and sequence. payload: hex. What no controller
-// sent has no cycle, noise no id, and what came out of nothing no sender; a symbol has neither cycle nor id.
+// id: slot or CAN identifier, decimal. kind: frame, null, noise, symbol (FlexRay), can, can_fd. flags: names
+// joined by '+': sync, startup, preamble, header_crc_error, frame_crc_error, coding_error, frame_end_error
+// (FlexRay), extended, brs (CAN); cas, wakeup or media_test of a symbol. measurement: sensor and sequence.
+// payload: hex. The cycle is empty for symbols and for frames that no controller sent, the id for symbols and
+// noise, the sender if there is no sending node.
 inline constexpr std::string_view kCsvHeader =
     "time_ns,bus,channel,cycle,id,sender,kind,flags,pdu,sequence,fragment,measurement,payload\n";
 
-// `frames` as from collector.in_order().
+// `frames` are those of collector.in_order().
 std::string export_pcapng(const FrameCollector& collector, const std::vector<LoggedFrame>& frames,
                           const LogNames& names);
 std::string export_candump(const FrameCollector& collector, const std::vector<LoggedFrame>& frames,

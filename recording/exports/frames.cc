@@ -113,7 +113,7 @@ LoggedFrame FrameCollector::with_data(LoggedFrame frame, std::span<const std::by
 }
 
 std::vector<LoggedFrame> FrameCollector::in_order() const {
-  // A frame is told of twice: as it was sent, and, if it was not so there, as it was on the channel.
+  // A frame may have two records: one as sent, and one as it was on the channel if that differs.
   using Key = std::tuple<std::int64_t, std::uint8_t, NodeId>;
   std::map<Key, const OnChannel*> became;
   for (const OnChannel& one : on_channel_) became[{one.sent_ns, one.sent_channel, one.sender}] = &one;

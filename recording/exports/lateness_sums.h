@@ -1,7 +1,8 @@
-// How late the processes of a run were, node by node, added up from the histograms in its logs.
+// Sums the lateness of a drive's processes, node by node, from the histograms in its logs.
 //
-// A histogram tells everything since its process began, so that the newest holds all before it; where a count, or the
-// local time, has become less, the process is another one, and what the former told is added to it.
+// A histogram counts from the start of its process, so the newest one includes all before it. If a count or the
+// local time has decreased, the node has a new process, and the last histogram of the old one is added to the
+// sum.
 #pragma once
 
 #include <array>
@@ -17,16 +18,16 @@ namespace ttf::recording::exports {
 
 // In real time.
 struct NodeLateness {
-  records::BinnedDurations wake_ups;    // of the node's process, at what it had to do
+  records::BinnedDurations wake_ups;    // of the acts of the node's process
   records::BinnedDurations floor;       // of a plain periodic thread beside it
   records::BinnedDurations departures;  // of its frames, behind their action points
   records::BinnedDurations arrivals;    // of others' frames, behind their action points on its clock
-  records::BinnedDurations transits;    // of what came from its own host: from its sender to the node's process
+  records::BinnedDurations transits;    // from sender to process, for frames of the same machine
 };
 
 class LatenessSums final : public records::Sink {
  public:
-  // Nodes that told of anything, by id; none in virtual time.
+  // Returns the nodes with a histogram, by id; empty in virtual time.
   std::map<NodeId, NodeLateness> nodes() const;
 
   using records::Sink::on;
@@ -35,9 +36,9 @@ class LatenessSums final : public records::Sink {
  private:
   static constexpr std::size_t kKinds = records::kLatenessOfTransits;
   struct Told {
-    records::BinnedDurations before;  // by the node's former processes
-    records::BinnedDurations newest;  // by its present one
-    LocalTime at{};                   // when it did
+    records::BinnedDurations before;  // of the node's former processes
+    records::BinnedDurations newest;  // of its present process
+    LocalTime at{};                   // local time of the newest histogram
   };
   std::map<NodeId, std::array<Told, kKinds>> told_;
 };

@@ -12,7 +12,7 @@ bool MeasurementWays::Carried::takes(std::uint8_t on_channel, std::uint8_t fragm
 }
 
 void MeasurementWays::measured(const MeasurementId& id, NodeId node, const WayMark& mark) {
-  // A sensor that has started anew counts anew.
+  // A restarted sensor counts anew.
   if (const auto old = ways_.find(id); old != ways_.end()) end(old);
   Way& way = ways_[id].way;
   way.id = id;
@@ -30,7 +30,7 @@ void MeasurementWays::frame(bool flexray, std::uint8_t channel, NodeId sender, S
       followed->second.way.stops.push_back({Deed::kFrame, mark.at, sender, mark});
     return;
   }
-  // In its turn: which image it is of may not be known before.
+  // Put off until its time comes: its image may not be known before.
   if (flexray) acts_.push_back({Deed::kImageFrame, mark.at, sender, {}, sequence, mark, channel, fragment});
 }
 
@@ -40,8 +40,8 @@ void MeasurementWays::run(NodeId node, TrueTime start, TrueTime end, const WayMa
 
 void MeasurementWays::act(Act act) { acts_.push_back(std::move(act)); }
 
-// What is written is of the run that ends then, all else of the one that starts then, or, where tasks are told of less
-// exactly, of the last that had started.
+// A kWritten belongs to the execution that ends then, any other act to the one that starts then. If stamps are
+// less exact, it belongs to the last execution that had started.
 std::optional<WayMark> MeasurementWays::run_of(const Act& act) const {
   if (act.deed == Deed::kImageFrame || act.deed == Deed::kLost) return std::nullopt;
   const auto of_node = runs_.find(act.node);
@@ -56,7 +56,7 @@ std::optional<WayMark> MeasurementWays::run_of(const Act& act) const {
   return best != nullptr ? std::optional(best->mark) : std::nullopt;
 }
 
-// A run that began before the measurement was another list's.
+// An execution that began before the measurement dealt with another list.
 void MeasurementWays::pass(const MeasurementId& id, const Stop& stop) {
   const auto followed = ways_.find(id);
   if (followed == ways_.end()) return;

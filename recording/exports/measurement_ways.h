@@ -1,12 +1,13 @@
-// Measurements' ways through a drive, followed while its records go by: what each passed, from the sensor to the
-// feature service. Diagrams and exports draw the same ways.
+// Follows measurements through a drive, from the sensor to the feature service, while its records go by.
+// Diagrams and exports draw the same ways.
 //
-// A measurement is known by its sensor and number, which its lists' frames and hops bear. It passes the frames of its
-// lists (on the first channel that has them, and each fragment the first time it is sent), the tasks that read or write
-// one, the step that fuses it (those that hold it back before, too), the step that writes the first image in which it
-// is the newest of its sensor, that image's frames, and the task that first uses the image, where the way ends. One
-// that was not fused ends where it was lost. Nobody is followed for longer than kLongestWay. An image's own way goes on
-// from the task that wrote it. Exact numbers, not nearness in time, tell lists apart.
+// Sensor and number name a measurement; its lists' frames and hops bear them. A way passes, in this order: the
+// frames of its lists (on the first channel that has them, each fragment once), the tasks that read or write a
+// list, the step that fuses it (and any that held it before), the step that writes the first image in which it
+// is its sensor's newest, that image's frames, and the task that first uses the image. There the way ends. The
+// way of a measurement that was not fused ends where it was lost. No way is followed longer than kLongestWay.
+// An image's own way starts at the task that wrote it. Lists are told apart by exact numbers, not by nearness
+// in time.
 #pragma once
 
 #include <bitset>
@@ -22,7 +23,7 @@
 
 namespace ttf::recording::exports {
 
-// A frame, a task's run or an instant that may be passed, as whoever tells of it numbers them.
+// A frame, an execution of a task or an instant on a way, numbered by the caller.
 struct WayMark {
   TrueTime at{};
   std::uint64_t serial = 0;
@@ -40,8 +41,8 @@ class MeasurementWays {
     kWritten,
     kHeld,
     kFused,
-    kRefused,  // by the fusion step: too old, or there already
-    kLost,     // on its way to it
+    kRefused,  // by the fusion step: too old, or a duplicate
+    kLost,     // on the way to the fusion step
     kImage,    // written
     kImageFrame,
     kUsed,
@@ -50,14 +51,15 @@ class MeasurementWays {
     Deed deed{};
     TrueTime at{};
     NodeId node = kNoNode;
-    std::optional<WayMark> mark;  // what was passed; of what a task did its run, none where that was not told
+    std::optional<WayMark> mark;  // the stop's frame or instant; for an act of a task its execution, absent if
+                                  // unknown
   };
   struct Way {
     MeasurementId id;
-    std::uint64_t number = 0;  // as they were measured, from 1 on
+    std::uint64_t number = 0;  // order of the measurements, from 1 on
     TrueTime measured{};
-    std::vector<Stop> stops;      // as they were told
-    std::optional<WayMark> lost;  // where it was lost first, or refused
+    std::vector<Stop> stops;      // in the order of their reports
+    std::optional<WayMark> lost;  // where the list was first lost or refused
     bool fused = false, in_image = false;
   };
   struct Image {
@@ -73,26 +75,27 @@ class MeasurementWays {
   };
   explicit MeasurementWays(Ended ended) : ended_(std::move(ended)) {}
 
-  // What may be passed. In the order of time, but for what of one instant may come later.
+  // Report the points that ways may pass, in the order of time; only within one instant the order is free.
   void measured(const MeasurementId& id, NodeId node, const WayMark& mark);
   void frame(bool flexray, std::uint8_t channel, NodeId sender, SensorId sensor, std::uint32_t sequence,
              std::uint8_t fragment, const WayMark& mark);
   void run(NodeId node, TrueTime start, TrueTime end, const WayMark& mark);
 
-  // What a node's task did then: kWritten at its end, all others at its start. Images are known by their number.
-  // (kImageFrame is what frame() makes of an image's.)
+  // An act of a node's task: kWritten at its end, all others at its start. Numbers name images. (frame() makes
+  // a kImageFrame of an image's frame.)
   struct Act {
     Deed deed{};
     TrueTime at{};
     NodeId node{};
-    std::vector<MeasurementId> ids;  // of an image: the newest of each sensor; of a use: none
+    std::vector<MeasurementId> ids;  // for an image: the newest of each sensor; for a use: empty
     std::uint32_t image = 0;
-    WayMark mark{};  // where it was lost or refused; the image's frame
+    WayMark mark{};  // where the list was lost or refused; or the image's frame
     std::uint8_t channel = 0, fragment = 0;
   };
   void act(Act act);
 
-  // Time has come to `now`. Calls `told(act, run)` with every act whose task's run is known: the run's mark.
+  // Advances to `now`. Calls `told(act, run)` for every act whose task's execution is known, with the mark of
+  // the execution.
   template <class Told> void advance(TrueTime now, Told&& told) {
     while (!acts_.empty() && acts_.front().at + kRunIsTold < now) {
       if (const std::optional<WayMark> run = perform(acts_.front())) told(acts_.front(), *run);
@@ -100,16 +103,18 @@ class MeasurementWays {
     }
     forget(now);
   }
-  // All ways end.
+  // Ends all ways.
   void finish();
 
  private:
-  static constexpr Duration kRunIsTold = Duration::milliseconds(1);  // after what a task did at its start
-  static constexpr Duration kTolerance = Duration::microseconds(2);  // between a task's start and what it reports then
+  static constexpr Duration kRunIsTold = Duration::milliseconds(1);  // delay of the execution's record after the
+                                                                     // start of the task
+  static constexpr Duration kTolerance = Duration::microseconds(2);  // between a task's start and the stamps of its
+                                                                     // acts then
 
   struct Carried {
     std::optional<std::uint8_t> channel;  // the first that had it
-    std::bitset<256> fragments;           // there
+    std::bitset<256> fragments;           // seen so far
     bool takes(std::uint8_t on_channel, std::uint8_t fragment);
   };
   struct Followed {
@@ -118,7 +123,7 @@ class MeasurementWays {
   };
   struct FollowedImage {
     Image image;
-    std::vector<MeasurementId> ids;  // whose ways go on with it
+    std::vector<MeasurementId> ids;  // measurements whose ways go on with the image
     Carried on_flexray;
   };
   struct Run {
@@ -138,7 +143,7 @@ class MeasurementWays {
 
   Ended ended_;
   Ways ways_;
-  std::deque<std::pair<TrueTime, MeasurementId>> begun_;  // in order; those that have ended, too
+  std::deque<std::pair<TrueTime, MeasurementId>> begun_;  // in order; includes those that have ended
   std::deque<FollowedImage> images_;
   std::map<NodeId, std::deque<Run>> runs_;
   std::deque<Act> acts_;

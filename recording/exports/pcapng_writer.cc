@@ -25,7 +25,7 @@ std::string printable(std::string_view text) {
 
 void pad(std::string& out, std::size_t bytes) { out.append(capture::padded(bytes) - bytes, '\0'); }
 
-// A block from its type to the second copy of its length.
+// A block, from its type to the second copy of its length.
 class Block {
  public:
   Block(std::string& out, capture::BlockType type) : out_(out), start_(out.size()) {
@@ -60,7 +60,7 @@ CaptureWriter::CaptureWriter(std::string& out, std::span<const CaptureInterface>
   mcap::put(out_, capture::kByteOrderMagic);
   mcap::put(out_, std::uint16_t{1});  // version 1.0
   mcap::put(out_, std::uint16_t{0});
-  mcap::put(out_, std::int64_t{-1});  // length of the section: not said
+  mcap::put(out_, std::int64_t{-1});  // length of the section: unspecified
   if (!comment.empty()) section.option(capture::BlockOption::kComment, printable(comment));
   section.close();
   for (const CaptureInterface& interface : interfaces) {

@@ -1,6 +1,6 @@
-// Writes a pcapng capture, little endian, with stamps in nanoseconds (draft-ietf-opsawg-pcapng): one section, its
-// interfaces first, then the packets as enhanced packet blocks. No dates and no host: the same packets give the same
-// bytes.
+// Writes a pcapng capture, little endian, with stamps in nanoseconds (draft-ietf-opsawg-pcapng): one section,
+// its interfaces first, then the packets as enhanced packet blocks. It names no dates and no machine: the same
+// packets give the same bytes.
 #pragma once
 
 #include <cstddef>
@@ -20,11 +20,11 @@ struct CaptureInterface {
 
 class CaptureWriter {
  public:
-  // Appends to `out`, which must outlive the writer. `comment` is of the section; empty: none.
+  // Appends to `out`, which must outlive the writer. `comment` describes the section; empty: no comment.
   CaptureWriter(std::string& out, std::span<const CaptureInterface> interfaces, std::string_view comment);
 
-  // `interface` indexes the list above. Instants before the epoch count as 0: stamps of the format are unsigned.
-  // `comment`: empty for none; control characters become '?', what is very long is cut.
+  // `interface` indexes the list above. Instants before the epoch become 0, as stamps of the format are
+  // unsigned. An empty `comment` is left out; control characters in it become '?', and a very long one is cut.
   void packet(std::size_t interface, std::int64_t time_ns, std::string_view data, std::string_view comment);
 
  private:

@@ -15,7 +15,7 @@ constexpr const char *kFlexRayGroup = "FlexRay", *kCanGroup = "CAN", *kFaultGrou
 constexpr Duration kKeptBack = MeasurementWays::kLongestWay + Duration::milliseconds(100);
 constexpr std::size_t kImagesKept = 8;
 
-// Of a damaged log times may be any: within 36 years they can be computed with.
+// A damaged log may have any times; within 36 years arithmetic does not overflow.
 constexpr std::int64_t kTraceReach_ns = std::int64_t{1} << 60;
 constexpr bool within_reach(std::int64_t ns) { return ns >= -kTraceReach_ns && ns <= kTraceReach_ns; }
 TrueTime shown(TrueTime at) { return {std::clamp<std::int64_t>(at.ns, 0, kTraceReach_ns)}; }
@@ -23,7 +23,7 @@ TrueTime shown(TrueTime at) { return {std::clamp<std::int64_t>(at.ns, 0, kTraceR
 std::string channel_lane(std::uint8_t channel) { return channel == 0 ? "channel A" : "channel B"; }
 std::string microseconds(Duration time) { return fmt::format("{:.1f} us", static_cast<double>(time.ns) * 1e-3); }
 
-// What became of a frame on a channel: bits of records::ChannelFrame.
+// Names the bits of records::ChannelFrame.
 std::string channel_state_words(unsigned state) {
   static constexpr std::pair<unsigned, const char*> kWords[] = {{records::kChannelHeaderCrc, "header CRC error"},
                                                                 {records::kChannelFrameCrc, "frame CRC error"},
@@ -74,7 +74,7 @@ std::string PerfettoExport::measurement(const MeasurementId& id) const {
   return fmt::format("{} {}", names_.sensor(id.sensor), id.sequence);
 }
 
-// Records come in the order of time: what is long enough ago is complete.
+// Advances the timeline. Records come in the order of time, so marks that are old enough are complete.
 TrueTime PerfettoExport::come_to(TrueTime at) {
   const TrueTime now = shown(at);
   ways_.advance(now, [this](const MeasurementWays::Act& act, const WayMark& run) { told(act, run); });
@@ -89,7 +89,7 @@ TraceCounts PerfettoExport::finish() {
   return timeline_.counts();
 }
 
-// A way's slices are joined by a flow. One that was not fused ends where it was lost.
+// Joins the slices of a way by a flow. The flow of a measurement that was not fused ends where it was lost.
 void PerfettoExport::join(const MeasurementWays::Way& way) {
   std::vector<WayMark> marks;
   for (const MeasurementWays::Stop& stop : way.stops)
@@ -97,11 +97,11 @@ void PerfettoExport::join(const MeasurementWays::Way& way) {
   if (!way.fused && way.lost) marks.push_back(*way.lost);
   std::ranges::sort(marks);
   marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
-  if (marks.size() < 2) return;  // there is nothing to join
+  if (marks.size() < 2) return;  // a flow needs two slices
   for (const WayMark& mark : marks) flows_[mark.serial].push_back({way.number, mark == marks.back()});
 }
 
-// Complete when kLongestWay has passed since the mark; forgotten by asking.
+// Returns and forgets a mark's flows; they are complete once kLongestWay has passed since the mark.
 std::vector<TraceFlow> PerfettoExport::flows_of(const TraceMark& mark) {
   const auto found = flows_.find(mark.serial);
   if (found == flows_.end()) return {};
@@ -110,7 +110,7 @@ std::vector<TraceFlow> PerfettoExport::flows_of(const TraceMark& mark) {
   return flows;
 }
 
-// A task's slice says what it did.
+// Notes an act in the slice of its task.
 void PerfettoExport::told(const MeasurementWays::Act& act, const WayMark& run) {
   const TraceMark slice{run.at, run.serial};
   const auto note = [&](const char* name, const MeasurementId& id) { timeline_.note(slice, {name, measurement(id)}); };

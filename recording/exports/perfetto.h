@@ -1,18 +1,18 @@
-// A run as a Perfetto trace, for ui.perfetto.dev and its SQL: Perfetto's TrackEvent protobuf
+// A drive as a Perfetto trace, for ui.perfetto.dev and its SQL: Perfetto's TrackEvent protobuf
 // (recording/exports/perfetto.proto).
 //
-//   a group a node   a lane a task, one of its sensor's measurements, of what its receivers found wrong, of lists lost
-//                    there, of its controller's states. Counters: clock corrections [microticks]; of the feature
-//                    service the age of the newest measurement in the image when it uses one [ms]; of the fusion node
-//                    its confirmed tracks
-//   FlexRay          a lane a channel: frames and symbols as they were sent, and a mark where a frame was otherwise on
-//                    the channel. Counter: the clocks' precision [us]
-//   CAN              a lane a bus
-//   faults           a lane a fault of the run's plan
+//   a group a node   a lane per task, and lanes for its sensor's measurements, slot problems, lost lists and
+//                    controller states. Counters: clock corrections [microticks]; for the feature service the age
+//                    of the newest measurement in the image when used [ms]; for the fusion node the confirmed tracks
+//   FlexRay          a lane per channel: frames and symbols as sent, with a mark where a frame differed on the channel.
+//                    Counter: the clocks' precision [us]
+//   CAN              a lane per bus
+//   faults           a lane per fault of the fault plan
 //   flows            a measurement's way from sensor to feature service (recording/exports/measurement_ways.h)
 //
-// Timestamps are true times, nanoseconds since the start of the run; what was before it stands at it. The same records
-// in the same order give the same bytes. What is in memory is of the last seconds of the drive, however long it is.
+// Timestamps are true times, nanoseconds since the start of the drive; earlier events stand at the start. The
+// same records in the same order give the same bytes. Memory holds the last seconds of the drive only, however
+// long it is.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@
 
 namespace ttf::recording::exports {
 
-// Wants records in the order of MergedLogs::read(). Bytes go to `write` as they come; call finish() at the end.
+// Takes records in the order of MergedLogs::read(). Bytes go to `write` as they come; call finish() at the end.
 class PerfettoExport final : public records::Sink {
  public:
   PerfettoExport(LogNames names, TraceTimeline::Write write);
@@ -59,7 +59,7 @@ class PerfettoExport final : public records::Sink {
  private:
   struct Image {
     std::uint32_t sequence = 0;
-    TrueTime newest{};  // when the newest measurement in it was made
+    TrueTime newest{};  // instant of the newest measurement in it
   };
   TrueTime come_to(TrueTime at);
   void told(const MeasurementWays::Act& act, const WayMark& run);
@@ -70,7 +70,7 @@ class PerfettoExport final : public records::Sink {
 
   LogNames names_;
   MeasurementWays ways_;
-  std::map<std::uint64_t, std::vector<TraceFlow>> flows_;  // by mark, until it is written
+  std::map<std::uint64_t, std::vector<TraceFlow>> flows_;  // by mark, until the mark is written
   TraceTimeline timeline_;
   std::deque<Image> images_;  // the last few
 };

@@ -1,4 +1,4 @@
-// What receivers find wrong with a slot, in words.
+// A receiver's problems with a slot, in words.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace ttf::recording::exports {
 
-// Of the bits of records::SlotProblem, joined; "status 0" and the like where none of them is known.
+// Joins the words for the bits of records::SlotProblem; returns "status 0" and the like if no bit is known.
 std::string slot_status_words(std::uint8_t status);
 
 }  // namespace ttf::recording::exports

@@ -15,7 +15,7 @@ constexpr Duration kLongestSlice = Duration::milliseconds(10'000);
 constexpr std::size_t kMostLanesBeside = 8;
 constexpr std::uint32_t kOnlySequence = 1, kSequenceBegins = 1;
 
-// As a packet of a trace: the field's key, the length, the packet.
+// Encodes a packet of a trace: the field's key, the length, the packet.
 std::string as_packet(ttfusion::perfetto::TracePacket& packet) {
   packet.set_trusted_packet_sequence_id(kOnlySequence);
   std::string bytes(1, '\x0a');
@@ -106,7 +106,7 @@ void TraceTimeline::end(const std::string& group, const std::string& lane, TrueT
   Lane& own = lane_of(group, lane, false);
   if (!own.open) return;
   own.open = false;
-  // Not before its begin, which may have been told of at this very instant.
+  // One nanosecond later, as the begin may be at this very instant.
   put(at + Duration{1}, {What::kEnd, own.track, 0, "", {}});
 }
 

@@ -1,9 +1,10 @@
 // A timeline of lanes with slices, instants, counters and flows, written as a Perfetto trace while it grows.
 //
-// What is told comes roughly in the order of time; what is written is in that order exactly, because it is kept back
-// for a while. Within a lane slices do not overlap: one that begins before the last has ended goes into a lane beside
-// it, of the same name with a number. What has no length is an instant, and so is a slice that lasts longer than any
-// can (the log is damaged). One packet sequence; times before the run's start are written as its start.
+// Events come roughly in the order of time. They are kept for a while, and written exactly in that order.
+// Slices of a lane do not overlap: a slice that begins before the last one has ended goes into a lane beside
+// it, with the same name and a number. A slice without length becomes an instant, and so does one too long to
+// be true (the log is damaged). The trace has one packet sequence; times before the drive's start are written
+// as its start.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +21,16 @@
 
 namespace ttf::recording::exports {
 
-// A property that a slice or an instant shows when it is selected.
+// A property of a slice or an instant, shown when it is selected.
 struct TraceNote {
   const char* name;
   std::variant<std::int64_t, std::string> value;
 };
 
-// A slice or an instant that was told of.
+// A reported slice or instant.
 struct TraceMark {
   TrueTime at{};
-  std::uint64_t serial = 0;  // as it was told
+  std::uint64_t serial = 0;  // order of the reports
   auto operator<=>(const TraceMark&) const = default;
 };
 
@@ -45,28 +46,28 @@ struct TraceCounts {
 
 class TraceTimeline {
  public:
-  // Bytes of the trace, in order.
+  // Receives the bytes of the trace, in order.
   using Write = std::function<void(std::string_view)>;
-  // What flows through a mark; asked once, when it is written.
+  // Returns the flows through a mark; called once, when the mark is written.
   using FlowsOf = std::function<std::vector<TraceFlow>(const ttf::recording::exports::TraceMark&)>;
 
   TraceTimeline(Write write, FlowsOf flows_of) : write_(std::move(write)), flows_of_(std::move(flows_of)) {}
 
-  // A group is a heading under which its lanes stand.
+  // A group is a heading over its lanes.
   TraceMark slice(const std::string& group, const std::string& lane, TrueTime begin, TrueTime end, std::string name,
                   std::vector<TraceNote> notes);
   TraceMark instant(const std::string& group, const std::string& lane, TrueTime at, std::string name,
                     std::vector<TraceNote> notes);
   void counter(const std::string& group, const std::string& lane, TrueTime at, double value);
-  // A slice whose end is not known yet, in a lane that has only this one; until finish() at the latest.
+  // Opens a slice whose end is not known yet, in a lane that has only this one. finish() ends it at the latest.
   void begin(const std::string& group, const std::string& lane, TrueTime at, std::string name,
              std::vector<TraceNote> notes);
   void end(const std::string& group, const std::string& lane, TrueTime at);
 
-  // Adds to a mark that is not yet written.
+  // Adds a note to a mark that is not yet written.
   void note(const TraceMark& mark, TraceNote note);
 
-  // Writes what is before `at`: nothing will be told of it any more.
+  // Writes all events before `at`; no later report may be that old.
   void write_before(TrueTime at);
   void finish();
   const TraceCounts& counts() const { return counts_; }
@@ -98,7 +99,7 @@ class TraceTimeline {
   std::map<std::tuple<std::string, std::string, std::size_t>, Lane> lanes_;
   std::map<Place, Event> waiting_;
   std::uint64_t tracks_ = 0, serials_ = 0;
-  TrueTime written_{}, last_{};  // nothing before `written_` is written any more
+  TrueTime written_{}, last_{};  // events before `written_` are written
   TraceCounts counts_;
 };
 
