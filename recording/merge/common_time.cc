@@ -22,10 +22,10 @@ TrueTime within_type(Int128 ns) {
   return {static_cast<std::int64_t>(std::clamp<Int128>(ns, Limits::min(), Limits::max()))};
 }
 
-// Stamps of one node, in the order of the host's clock.
+// Stamps of one node, in the order of its machine's clock.
 using Stamps = std::vector<SyncStamp>;
 
-// Of the node that has most; of the first of several.
+// Returns the stamps of the node with the most; of several such nodes, the first.
 Stamps most_of(const std::map<NodeId, Stamps>& nodes) {
   const auto most = std::max_element(nodes.begin(), nodes.end(),
                                      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
@@ -35,7 +35,7 @@ Stamps most_of(const std::map<NodeId, Stamps>& nodes) {
   return stamps;
 }
 
-// How many rounds `behind` is, rounded; none where it is not known how long a round is.
+// Returns `behind` in whole rounds, rounded; 0 if the length of a round is unknown.
 std::int64_t rounds_in(std::int64_t behind_ns, std::int64_t round_ns) {
   if (round_ns <= 0) return 0;
   const std::int64_t half = behind_ns < 0 ? -round_ns / 2 : round_ns / 2;
@@ -60,7 +60,7 @@ template <class... Instants> void rescale_all(const CommonTime& time, Instants&.
   (rescale(time, instants), ...);
 }
 
-// All instants of true time that a record holds.
+// Rescales all instants of true time that a record holds.
 void put_on(const CommonTime& time, records::Measured& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::CanFrameSent& r) { rescale_all(time, r.start, r.end); }
 void put_on(const CommonTime& time, records::SlotFrameSent& r) { rescale_all(time, r.stamp, r.end); }

@@ -1,20 +1,22 @@
-// One time for the logs of several hosts.
+// Puts the logs of several machines on one time scale.
 //
-// In virtual time there is one true time, the simulator's. In a run by the wall clock (manifest: `clock` = wall) a
-// record's true time is what the clock of its process' host showed, since the instant that the run was to start at.
-// Processes of one host share it; different hosts' clocks are apart, and run at different rates. What their nodes have
-// in common is the global time, and how a host's clock relates to it is in its logs: every ClockCorrected has a stamp
-// of both, once per node and double cycle. So a host's clock T is put on the common scale by
+// In virtual time there is one true time, the simulator's. In a drive by the wall clock (manifest: `clock` =
+// wall) a record's true time is that of the machine's clock since the start of the drive. Processes of one
+// machine share it; different machines' clocks differ, and run at different rates. Their nodes share the global
+// time. A machine's logs relate its clock to the global time: every ClockCorrected has a stamp of both, once
+// per node and double cycle. Hence a machine's clock T is put on the common scale by
 //
-//   M(T) = piecewise linear through (true time, global time + C) of the stamps of one of its nodes, that with the
-//          most of them; before the first and after the last at the rate of the host's own clock
+//   M(T) = piecewise linear through (true time, global time + C) of the stamps of one of its nodes, the one with
+//          the most stamps; before the first and after the last at the rate of the machine's own clock
 //
-// with one C for all: the first stamp of the reference keeps its time. The reference is the host of the lowest such
-// node. Accurate to the cluster's precision and what a clock is corrected by in a double cycle.
+// with one C for all: the first stamp of the reference keeps its time. The reference is the machine of the
+// lowest such node. The error is bounded by the cluster's precision plus a clock's correction in a double
+// cycle.
 //
-// Nodes count rounds of 64 cycles each for itself, and anew when they restart: whole rounds are added so that the first
-// stamp of a host is within half a round of its clock (so hosts' clocks must agree to that: 160 ms at a cycle of 5 ms),
-// and every other one has come on as that clock has. What goes back, or stands still, is passed over.
+// Each node counts rounds of 64 cycles for itself, and anew after a restart. Whole rounds are added so that a
+// machine's first stamp is within half a round of its clock, and every other stamp advances as that clock does.
+// Machines' clocks must therefore agree to half a round: 160 ms at a cycle of 5 ms. A stamp that goes back or
+// stands still is ignored.
 #pragma once
 
 #include <memory>
@@ -40,8 +42,8 @@ class CommonTime {
   struct Point {
     TrueTime host, common;
   };
-  CommonTime() = default;                                                         // what it is given
-  explicit CommonTime(std::vector<Point> points) : points_(std::move(points)) {}  // both growing
+  CommonTime() = default;                                                         // leaves times as they are
+  explicit CommonTime(std::vector<Point> points) : points_(std::move(points)) {}  // both coordinates increase
 
   TrueTime operator()(TrueTime host) const;  // never decreasing
   bool changes_nothing() const { return points_.empty(); }
@@ -50,11 +52,11 @@ class CommonTime {
   std::vector<Point> points_;
 };
 
-// For each log. They change nothing in virtual time and where all are of one host, nor for a host without a
-// synchronised node, which gets a warning.
+// Returns the scale of each log. It changes no time in virtual time, if all logs are of one machine, or for a
+// machine without a synchronised node; the last adds a warning.
 std::vector<CommonTime> common_times(const std::vector<StoredLog>& logs, std::vector<std::string>& warnings);
 
-// Passes every record on with its true times put on the common scale. Both must outlive the sink.
+// Passes every record on with its true times put on the common scale. Both arguments must outlive the sink.
 std::unique_ptr<records::Sink> on_common_time(const CommonTime& time, records::Sink& out);
 
 }  // namespace ttf::recording::merge

@@ -26,11 +26,11 @@ std::map<std::string, std::string> keys_of(const StoredLog& log) {
   return keys;
 }
 
-// What tells the run of `log` from that of `first`, by the first key of the manifest in which they differ.
+// Returns the first key of the manifest by which `log` is of another drive than `first`; absent if they agree.
 std::optional<Finding> misfit(const StoredLog& log, const StoredLog& first) {
   const auto mine = keys_of(log), others = keys_of(first);
   if (mine == others) return std::nullopt;
-  for (const auto& [key, unused] : manifest_entries(first.info().manifest)) {  // in that order
+  for (const auto& [key, unused] : manifest_entries(first.info().manifest)) {  // in the order of writing
     const auto value = mine.find(key), expected = others.find(key);
     if (expected == others.end() || (value != mine.end() && value->second == expected->second)) continue;
     return Finding{log.name(), 0, key, value == mine.end() ? "" : value->second,
@@ -54,7 +54,7 @@ bool is_copy(const StoredLog& log, const StoredLog& other) {
          (log.info().records.records() > 0 && log.info().content_hash == other.info().content_hash);
 }
 
-// One of them that holds what the others, two or more, hold together; end() where there is none.
+// Returns the log that holds the records of the others, two or more, together; end() if there is none.
 std::vector<StoredLog>::iterator whole_among(std::vector<StoredLog>& logs) {
   log::ContentHash all;
   std::size_t with_records = 0;
@@ -115,7 +115,7 @@ MergedLogs::MergedLogs(std::vector<StoredLog> logs) : logs_(std::move(logs)) {
 }
 
 std::vector<log::Attachment> MergedLogs::attachments() const {
-  // By what they are, the first place in any log.
+  // By content, the first place in any log.
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const StoredLog& log : logs_) {
     const std::vector<log::Attachment>& own = log.info().attachments;
@@ -196,7 +196,7 @@ std::vector<MergedLogs> merge_by_run(std::vector<StoredLog> logs) {
 }
 
 void write_merged(const MergedLogs& merged, const std::string& path) {
-  std::error_code none;  // what does not exist yet is none of them
+  std::error_code none;  // a path that does not exist yet equals no log
   for (const StoredLog& log : merged.logs())
     if (std::filesystem::equivalent(log.name(), path, none))
       throw InputError({path, 0, "", "", "must be another file than the logs that are merged"});

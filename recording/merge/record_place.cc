@@ -30,7 +30,7 @@ using CausalOrder =
           records::PrecisionSample, records::LatenessHistogram, records::MediumCounts>;
 static_assert(CausalOrder::kNone == records::kKindCount, "each kind of record has one rank");
 
-// What a fault does is stamped by nodes, in whole microticks of theirs, and may seem to come before it by less than
+// Nodes stamp a fault's effects in whole microticks of their own; these may seem to precede it by less than
 // this.
 constexpr std::int64_t kMicroticks_ns = schedules::model::kGranularity_ns;
 constexpr std::int64_t kEarliest = std::numeric_limits<std::int64_t>::min();

@@ -13,7 +13,7 @@
 namespace ttf::recording::merge {
 namespace {
 
-// From when to when the records of each chunk are.
+// Collects the first and last time of each chunk's records.
 class ChunkTimes {
  public:
   explicit ChunkTimes(std::vector<StoredLog::Chunk>& chunks) : chunks_(chunks) {}
@@ -45,7 +45,7 @@ class SyncStamps final : public records::Sink {
   }
 
  private:
-  // Within 36 years of the run's start: what else a damaged log says is not computed with.
+  // Within 36 years of the drive's start: other times, from damaged logs, could overflow.
   static bool possible(std::int64_t ns) {
     constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 60;
     return ns >= -kFarthest_ns && ns <= kFarthest_ns;

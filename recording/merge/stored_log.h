@@ -1,5 +1,5 @@
-// A log in memory, as its file's bytes, read through once: what it says of itself, and which of its chunks has records
-// of which time. What is damaged is left out here and has its warning; the chunks listed are sound.
+// A log in memory, as its file's bytes, read through once for its manifest and the times of its chunks. Damaged
+// parts are left out and have a warning; the listed chunks are sound.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace ttf::recording::merge {
 
-// The logs (*.mcap) of a folder, by their names; none where it cannot be read.
+// Returns the logs (*.mcap) of a folder, by name; empty if the folder is unreadable.
 std::vector<std::string> logs_in(const std::string& folder);
 
 class StoredLog {
@@ -26,13 +26,13 @@ class StoredLog {
   const std::string& name() const { return name_; }
   const log::LogInfo& info() const { return info_; }
 
-  // From the first to the last of its records' true times.
+  // A chunk, with the first and last true time of its records.
   struct Chunk {
-    std::size_t begin = 0, size = 0;  // of its record's content, in the bytes
+    std::size_t begin = 0, size = 0;  // of its record's content, within the bytes
     TrueTime first{}, last{};
   };
   const std::vector<Chunk>& chunks() const { return chunks_; }  // in file order; none without a readable record
-  // How its nodes' global times relate to its true time, where that is a host's clock.
+  // Relates the global times of its nodes to its true time, if that is a machine's clock.
   const std::vector<SyncStamp>& sync_stamps() const { return sync_stamps_; }
   std::string_view content(const Chunk& chunk) const {
     return std::string_view(bytes_).substr(chunk.begin, chunk.size);

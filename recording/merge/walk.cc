@@ -8,7 +8,7 @@
 namespace ttf::recording::merge {
 namespace {
 
-// The records of one instant, into their order.
+// Sorts the records of one instant.
 void put_in_order(std::vector<MergeWalk::Message>& instant) {
   if (instant.size() < 2) return;
   using Message = MergeWalk::Message;
@@ -52,7 +52,7 @@ void MergeWalk::open(const Upcoming& upcoming) {
   const StoredLog& log = logs_[upcoming.log];
   const auto records = opener_.open(log.content(log.chunks()[upcoming.chunk]), chunk->buffer);
   if (!records) return;  // it was sound when the log was read through
-  RecordPlace place;     // the decoder tells it once for a readable payload, and not at all for any other
+  RecordPlace place;     // the decoder passes one for a readable payload, and none for any other
   const std::unique_ptr<records::Sink> sink = placing([&place](const RecordPlace& found) { place = found; });
   std::uint64_t in_log = std::uint64_t{upcoming.chunk} << 32;
   mcap::for_each_message(*records, [&](std::uint16_t channel, std::uint64_t, std::string_view payload) {

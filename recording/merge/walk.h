@@ -22,15 +22,15 @@ class MergeWalk {
     RecordPlace place;
     records::RecordKind kind{};
     std::uint32_t log = 0;
-    std::uint32_t repetition = 0;  // how many of its node, kind and instant its log has before it
+    std::uint32_t repetition = 0;  // how many records of its node, kind and instant precede it in its log
     std::uint64_t in_log = 0;      // place in its log
     std::string_view payload;
   };
 
-  // `times`: by log, where its true times are on the common scale. Both must outlive this.
+  // `times`: by log, its common scale. Both arguments must outlive the walk.
   MergeWalk(const std::vector<StoredLog>& logs, const std::vector<CommonTime>& times);
 
-  // All records of the next instant, in their order; empty at the end. Valid until the next call.
+  // Returns all records of the next instant, in their order; empty at the end. Valid until the next call.
   const std::vector<Message>& next();
 
  private:
@@ -53,7 +53,7 @@ class MergeWalk {
   const std::vector<CommonTime>& times_;
   std::vector<Upcoming> upcoming_;           // the next one last
   std::vector<std::unique_ptr<Open>> open_;  // a heap, the earliest first
-  std::vector<std::unique_ptr<Open>> used_;  // what has been read to its end: for the next instant's call, then again
+  std::vector<std::unique_ptr<Open>> used_;  // read to the end; valid until the next call, then free
   std::vector<std::unique_ptr<Open>> free_;
   std::vector<Message> instant_;
   mcap::ChunkOpener opener_;
