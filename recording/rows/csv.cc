@@ -14,7 +14,7 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-// Takes a quoted field off the front, with the blanks behind it; false where no quote ends it.
+// Takes a quoted field off the front, with the blanks after it; returns false if the closing quote is missing.
 bool take_quoted(std::string_view& line, std::string& field) {
   for (std::size_t at = 1; at < line.size(); ++at) {
     if (line[at] != '"') {

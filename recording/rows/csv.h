@@ -1,7 +1,8 @@
-// Comma-separated text, line by line (RFC 4180, but for line ends within quotes, which nothing here needs).
+// Reads comma-separated text line by line (RFC 4180, without line ends within quotes, which no file here
+// needs).
 //
-// A byte order mark at the beginning, line ends of Windows and a last line without an end are fine; empty lines and
-// those that begin with # are passed over. Blanks around a field without quotes do not count.
+// A byte order mark, Windows line ends and a last line without an end are accepted. Empty lines and lines that
+// begin with # are ignored, and so are blanks around an unquoted field.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +14,14 @@ namespace ttf::recording::rows {
 
 class CsvLines {
  public:
-  // The text must outlive it.
+  // `text` must outlive the reader.
   explicit CsvLines(std::string_view text);
 
-  // To the next line with something on it; false at the end.
+  // Advances to the next line with fields; returns false at the end.
   bool next();
   int line() const { return line_; }
   const std::vector<std::string>& fields() const { return fields_; }
-  // Why the line is no list of fields, as what is expected; empty where it is one.
+  // Returns the rule that the line breaks, as a sentence with "must"; empty for a sound line.
   std::string_view broken() const { return broken_; }
 
  private:
@@ -32,7 +33,7 @@ class CsvLines {
   std::string_view broken_;
 };
 
-// A field as it is written: in quotes where it would not be read again without.
+// Writes a field, with quotes if it could not be read back without.
 std::string csv_field(std::string_view text);
 
 }  // namespace ttf::recording::rows

@@ -35,7 +35,7 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
   }
 }
 
-// A broken line in a message: short and printable.
+// Shortens a broken line for a message, and makes it printable.
 std::string shown(std::string_view text) {
   std::string out;
   for (const char c : text.substr(0, 40)) out += c >= ' ' && c <= '~' ? c : '?';
@@ -48,7 +48,7 @@ struct Column {
   std::string_view unit;
 };
 
-// Rows of one table: reads numbers by column, one finding per broken line.
+// Reads the numbers of a table's rows by column, with one finding per broken line.
 class Rows {
  public:
   Rows(const std::string& name, Findings& findings) : name_(name), findings_(findings) {}
@@ -58,8 +58,7 @@ class Rows {
     findings_.add({name_, line_, std::string(column), shown(value), std::move(expected)});
   }
 
-  // The fields as numbers into `out`, of the columns' count; false, with one finding, if one of them is
-  // broken.
+  // Reads the fields as numbers into `out`, one per column. Returns false, with one finding, if one is broken.
   bool numbers(std::span<const std::string_view> fields, std::span<const Column> columns, std::span<double> out) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::string_view field = fields[i];
@@ -98,7 +97,8 @@ template <class Handle> void for_each_line(std::string_view text, Handle&& handl
   }
 }
 
-// Bounds only tell numbers from garbage: a road scene is well within 10 km, and turns and speeds below these.
+// Bounds that only separate numbers from garbage: a road scene is far smaller than 10 km, and turns and speeds
+// are lower.
 constexpr double kFar = 1e4, kFast = 1e3, kTurns = 100;
 constexpr std::array<Column, 2> kLaserColumns{{{"px", -kFar, kFar, "m"}, {"py", -kFar, kFar, "m"}}};
 constexpr std::array<Column, 3> kRadarColumns{

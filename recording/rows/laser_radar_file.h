@@ -1,7 +1,7 @@
-// Recorded measurements in: text files that other people's sensors wrote.
+// Reads recorded measurements: text files from other people's sensors.
 //
-// Each broken line is one finding (file, line, column name, value, what is expected); all are thrown at once
-// as one InputError, as are a file that cannot be read and one without a single row.
+// Each broken line is one finding (file, line, column name, value, expected value). All findings are thrown at
+// once as one InputError, as are an unreadable file and one without rows.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@
 
 namespace ttf::recording::rows {
 
-// What one sensor saw at one instant. Position: x, y in metres. Range-bearing-rate: range in metres, bearing
-// in radians (0 ahead, positive left), range rate in m/s (positive: going away). The sensor stands at the
-// origin.
+// One sensor's observation at one instant. Position: x, y in metres. Range-bearing-rate: range in metres,
+// bearing in radians (0 ahead, positive left), range rate in m/s (positive: going away). The sensor stands at
+// the origin.
 struct RecordedObservation {
   enum class Kind : std::uint8_t { kPosition = 1, kRangeBearingRate = 2 };
   std::string sensor;                   // "laser" or "radar"
@@ -24,7 +24,7 @@ struct RecordedObservation {
   double range = 0, bearing = 0, range_rate = 0;  // kRangeBearingRate
 };
 
-// The truth that came with the recording at the same instant.
+// The truth that the recording has for the same instant.
 struct RecordedTruth {
   std::int64_t time_us_from_start = 0;
   double x = 0, y = 0, vx = 0, vy = 0, yaw = 0, yaw_rate = 0;
@@ -52,13 +52,13 @@ struct RecordedScan {
   std::vector<RecordedReturn> returns;
 };
 
-// Comma-separated rows "frame, azimuth_rad, range_m, intensity", with or without a header line; frames never
-// decrease.
+// Reads comma-separated rows "frame, azimuth_rad, range_m, intensity", with or without a header line; frames
+// never decrease.
 std::vector<RecordedScan> read_lidar_scans(const std::string& path);
 std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::string& name);
 
-// Which reader a file is for, told by how it begins: by no more than its first kRecordingHead bytes, which must reach
-// to the first row or heading. Throws InputError if by none.
+// Returns the format of a file, judged by its first kRecordingHead bytes; these must reach the first row or
+// heading. Throws InputError if the format is unknown.
 inline constexpr std::size_t kRecordingHead = 64 * 1024;
 enum class RecordingFormat : std::uint8_t { kLog = 1, kLaserRadar = 2, kLidarScans = 3 };
 RecordingFormat sniff_recording(const std::string& path);

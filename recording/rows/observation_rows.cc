@@ -21,7 +21,7 @@ struct NumberColumn {
   std::string_view unit;
 };
 
-// Bounds tell numbers from garbage, and keep the filters' arithmetic within what doubles can do.
+// Bounds that separate numbers from garbage, and keep the filters' arithmetic within the reach of doubles.
 constexpr double kAway = 1e7, kCovariance = 1e8, kAngle = 100, kSide = 1e3;
 // In the order of kNumberColumns.
 enum NumberIndex : std::size_t {
@@ -76,7 +76,7 @@ constexpr std::int64_t kNsPerSecond = 1'000'000'000, kLatest = 4'000'000'000 * k
                        kLongestWay = 3600 * kNsPerSecond;
 constexpr std::size_t kLongestName = 40;
 
-// Where the heading has a column, counted from 0; nothing where it has none.
+// The heading's columns, counted from 0; absent columns have no value.
 struct Heading {
   std::array<std::optional<std::size_t>, kNumbers> number;
   std::array<std::optional<std::size_t>, kTexts> text;
@@ -115,7 +115,8 @@ Heading heading_of(const CsvLines& lines, const std::string& name) {
   return heading;
 }
 
-// Exact where it is a plain decimal of at most nine decimals; else the nearest nanosecond of the nearest double.
+// Returns nanoseconds: exact for a plain decimal with at most nine decimals, else the nearest to the nearest
+// double.
 std::optional<std::int64_t> nanoseconds_of(std::string_view text) {
   std::optional<std::int64_t> exact = parse_scaled(text, kNsPerSecond);
   if (!exact) {
@@ -133,7 +134,7 @@ bool is_name(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
 
-// One line as a row. The first thing that is wrong with it is its finding.
+// Reads one line as a row. Its first error is its finding.
 class RowReader {
  public:
   RowReader(const Heading& heading, const std::string& name, Findings& findings)
@@ -163,7 +164,7 @@ class RowReader {
   std::string_view text(TextIndex column) const {
     return heading_.text[column] ? std::string_view((*fields_)[*heading_.text[column]]) : std::string_view();
   }
-  // What stands in a column of numbers, for a message.
+  // Returns the text in a column of numbers, for a message.
   std::string_view shown_in(NumberIndex column) const {
     return heading_.number[column] ? std::string_view((*fields_)[*heading_.number[column]]) : std::string_view();
   }
@@ -184,7 +185,7 @@ class RowReader {
     return true;
   }
 
-  // `there` is given, so `needed` must be, too; and the other way round.
+  // Checks that either both are given or neither is.
   bool both(NumberIndex there, NumberIndex needed) {
     if (value_[there].has_value() == value_[needed].has_value()) return true;
     const NumberIndex absent = value_[there] ? needed : there, given = value_[there] ? there : needed;
@@ -225,7 +226,7 @@ class RowReader {
     for (const NumberIndex diagonal : {kCov11, kCov22, kCov33})
       if (!value_[diagonal] && (three || diagonal != kCov33))
         return fail(kNumberColumns[diagonal].name, "", "must be given where another part of the covariance is");
-    // Beyond that a bearing says nothing that a position could (fusion/sensors/converted_position.h).
+    // With a larger variance a bearing does not help a position (fusion/sensors/converted_position.h).
     constexpr double kLargestBearingVariance = 0.25;  // [rad^2]
     if (row_.kind == ObservationRow::Kind::kRangeBearing && *value_[kCov22] > kLargestBearingVariance)
       return fail("cov_22", fmt::format("{}", *value_[kCov22]),
@@ -282,7 +283,7 @@ class RowReader {
   const std::vector<std::string>* fields_ = nullptr;
   std::array<std::optional<double>, kNumbers> value_;
   ObservationRow row_;
-  std::map<std::string, std::int64_t> newest_;  // by sensor, the time of its row above
+  std::map<std::string, std::int64_t> newest_;  // by sensor, the time of its previous row
 };
 
 }  // namespace

@@ -1,24 +1,24 @@
-// Recorded observations in: one row per object that a sensor saw, as comma-separated text with a heading.
+// Reads recorded observations: one row per object that a sensor saw, as comma-separated text with a heading.
 //
-// The heading names the columns, in any order; an empty cell is one that is not given.
+// The heading names the columns, in any order; an empty cell has no value.
 //
 //   time *                       instant of the measurement [s], on any scale
-//   arrival                      instant at which the list came to the fusion [s]; without it, that of the measurement
+//   arrival                      arrival of the list at the fusion [s]; default: the instant of the measurement
 //   sensor *                     its name
 //   x, y                         position [m], or
-//   range, bearing, range_rate   distance [m], direction [rad] from x to y, and, where the sensor tells it, the
-//                                change of the distance [m/s], positive going away; the sensor stands at the origin
+//   range, bearing, range_rate   distance [m], direction [rad] from x to y, and, if the sensor has it, the rate of
+//                                the distance [m/s], positive going away; the sensor stands at the origin
 //   cov_11, cov_12, cov_22, cov_13, cov_23, cov_33
-//                                covariance of what was measured, in its order and units; off the diagonal, 0 unless
-//                                given
+//                                covariance of the measured values, in their order and units; 0 off the diagonal
+//                                unless given
 //   heading, sigma_heading       axis of the object [rad], known up to half a turn
 //   length, sigma_length, width, sigma_width       [m]
-//   z, height                    of the box's centre, and its third side [m]
-//   class, score                 what the object is taken for, and how much that counts (1 where it is not given)
+//   z, height                    of the box: its centre's, and its third side [m]
+//   class, score                 class of the object, and the weight of that (default 1)
 //
-// * in every row, and one of the two kinds of measurement. Columns that begin with gt_ (truth) are passed over; others
-// that are not known are refused. Rows of one sensor at one time are one list. A sensor's rows are in the order of its
-// measurements; what arrives when is the column arrival, in any order, and different sensors may stand in any order.
+// * in every row, with one of the two kinds of measurement. Columns that begin with gt_ (truth) are ignored;
+//   other unknown columns are refused. Rows of one sensor at one time are one list. A sensor's rows are in the
+//   order of its measurements; sensors may be mixed, and arrivals may have any order.
 #pragma once
 
 #include <array>
@@ -34,15 +34,15 @@ namespace ttf::recording::rows {
 
 struct ObservationRow {
   enum class Kind : std::uint8_t { kPosition = 1, kRangeBearing = 2, kRangeBearingRate = 3 };
-  int line = 0;  // in the file; 0 where it came from no such file
+  int line = 0;  // in the file; 0 if the row is not from such a file
   std::int64_t time_ns = 0, arrival_ns = 0;
   std::string sensor;
   Kind kind = Kind::kPosition;
   std::array<double, 3> z{};                        // as many as the kind has
-  std::optional<std::array<double, 6>> covariance;  // 11, 12, 22, 13, 23, 33; finite, not yet known to be one
+  std::optional<std::array<double, 6>> covariance;  // 11, 12, 22, 13, 23, 33; finite, not yet checked
   std::optional<double> heading, sigma_heading, length, sigma_length, width, sigma_width;
   std::optional<double> elevation, height;
-  std::string class_name;  // empty: not told
+  std::string class_name;  // empty: not given
   double score = 1.0;
 };
 
@@ -50,14 +50,14 @@ constexpr int dimension_of(ObservationRow::Kind kind) {
   return kind == ObservationRow::Kind::kRangeBearingRate ? 3 : 2;
 }
 
-// The rows that are right, in the order of the file; one finding for every one that is not, which is left out. Throws
-// InputError where the file cannot be read, its heading is wrong, or it has no row at all.
+// Returns the valid rows, in the order of the file; each invalid one is left out and has one finding. Throws
+// InputError if the file is unreadable, has a wrong heading, or has no row at all.
 std::vector<ObservationRow> read_observation_rows(const std::string& path, Findings& findings);
 std::vector<ObservationRow> parse_observation_rows(const std::string& text, const std::string& name,
                                                    Findings& findings);
 
-// A recording of laser and radar as such rows, without its truth. Throws InputError that names `name` where a time or a
-// range is beyond what such rows may have.
+// Converts a recording of laser and radar into such rows, without its truth. Throws InputError that names
+// `name` if a time or a range is out of bounds for such rows.
 std::vector<ObservationRow> observation_rows_of(const RecordedInput& input, const std::string& name);
 
 }  // namespace ttf::recording::rows

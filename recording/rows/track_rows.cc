@@ -10,7 +10,7 @@ namespace {
 
 std::string six_decimals(double value) {
   std::string text = fmt::format("{:.6f}", value);
-  // What rounds to zero has no sign.
+  // A value rounded to zero has no sign.
   if (text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
   return text;
 }
