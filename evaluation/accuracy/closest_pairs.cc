@@ -12,7 +12,8 @@ std::vector<TruthPair> closest_pairs(std::span<const PlanePosition> truth, std::
     TruthPair pair;
   };
   std::vector<Candidate> candidates;
-  // On one axis alone, and no tighter than rounding: nearly all pairs of many objects are further apart.
+  // Bounds each axis on its own, no tighter than rounding: that excludes nearly all pairs of many objects
+  // cheaply.
   const double reach = gate_m * (1.0 + 1e-9);
   for (std::size_t t = 0; t < truth.size(); ++t)
     for (std::size_t e = 0; e < estimates.size(); ++e) {

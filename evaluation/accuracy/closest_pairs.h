@@ -1,4 +1,4 @@
-// Which estimate belongs to which true object: one to one, the closest pair first.
+// Matches estimates and true objects one to one, the closest pair first.
 #pragma once
 
 #include <cstddef>
@@ -19,11 +19,11 @@ struct TruthPair {
   std::size_t truth = 0, estimate = 0;
 };
 
-// An image's object and a true one that are further apart do not belong together [m].
+// The largest distance [m] between an image's object and a true object that may be matched.
 inline constexpr double kGate_m = 4.0;
 
-// Pairs no further apart than `gate_m` [m], by growing distance; each truth and each estimate in at most one. Equal
-// distances are taken in the order of truth, then estimate.
+// Returns pairs no further apart than `gate_m` [m], by growing distance; each truth and each estimate is in at
+// most one. Pairs of equal distance are taken in the order of truth, then estimate.
 std::vector<TruthPair> closest_pairs(std::span<const PlanePosition> truth, std::span<const PlanePosition> estimates,
                                      double gate_m);
 

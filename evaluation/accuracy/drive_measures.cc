@@ -13,15 +13,15 @@ void AgeStatistics::add(Duration age) {
   worst = std::max(worst, age);
 }
 
-// The reference itself may be off by metres.
+// Twice the gate: the reference itself may be off by metres.
 DriveMeasures::DriveMeasures(TrueTime from, double gate_m) : ImageUses(gate_m), from_(from), reference_(2.0 * gate_m) {}
 
 void DriveMeasures::on(const recording::records::FusionInput& input) {
   ++summary_.received;
-  // A fusion node whose clock has gone back has started anew, and received nothing yet.
+  // If its clock has gone back, the fusion node was restarted and has received no list yet.
   if (input.stamp.global < receiving_) newest_received_.reset();
   receiving_ = input.stamp.global;
-  // Lists that a fusion step takes in together have no order among themselves.
+  // Lists of one fusion step have no order among themselves.
   if (input.step != receiving_step_) {
     receiving_step_ = input.step;
     newest_before_ = newest_received_;
@@ -30,7 +30,7 @@ void DriveMeasures::on(const recording::records::FusionInput& input) {
   newest_received_ = newest_received_ ? std::max(*newest_received_, input.measured) : input.measured;
 }
 
-// Until something else becomes of it. A fusion node that restarts has forgotten what it held.
+// Keeps a held list until its fate is known. A restarted fusion node has forgotten its held lists.
 void DriveMeasures::note_held(const recording::records::ListFused& list) {
   const auto known = std::find_if(held_.begin(), held_.end(), [&](const Held& held) {
     return held.id == list.id && held.measured == list.measured;

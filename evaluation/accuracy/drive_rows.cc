@@ -11,7 +11,7 @@ namespace {
 constexpr double kNoRow = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNeesWindows = 25;
 
-// 1, 2 or 5 of some power of ten, at least `least`.
+// Returns 1, 2 or 5 times a power of ten, at least `least`.
 double round_step(double least) {
   const double power = std::pow(10.0, std::floor(std::log10(least)));
   for (const double step : {1.0, 2.0, 5.0})

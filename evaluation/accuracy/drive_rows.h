@@ -1,7 +1,5 @@
-// What a drive's figures are drawn from, as rows: how wrong every object of an image was when that was used, how wrong
-// the filter believed it to be, and how old measurements were.
-//
-// The same errors and ages that DriveMeasures has the means of, one by one.
+// The rows behind a drive's figures: the error of every object of an image when used, the filter's belief about
+// it, and the ages of measurements. DriveMeasures has the means of the same errors and ages.
 #pragma once
 
 #include <array>
@@ -22,15 +20,15 @@ namespace ttf::evaluation::accuracy {
 struct ErrorRow {
   TrueTime at{};
   ObjectId object{};
-  std::array<double, 4> error{};  // x, y [m], vx, vy [m/s]: estimate less truth
-  // The filter's standard deviations of the same, and its normalised estimation error squared; not a number where the
-  // image was used again, as its covariance says nothing about then.
+  std::array<double, 4> error{};  // x, y [m], vx, vy [m/s]: estimate minus truth
+  // The filter's standard deviations of the same, and its normalised estimation error squared. Not a number at
+  // a later use of the image, since its covariance holds at the first use only.
   std::array<double, 4> sigma{};
   double nees = 0.0;
 };
 
-// Consecutive instants taken together: the mean of their NEES, and the band it lies in with 95 % if samples are
-// independent and the model is right.
+// The mean NEES over consecutive instants. It lies in the band with 95 % if the samples are independent and the
+// model is right.
 struct NeesRow {
   double from_s = 0.0, to_s = 0.0;
   std::uint64_t samples = 0;
@@ -47,13 +45,13 @@ inline constexpr Duration kAgeBin = Duration::milliseconds(1);
 class DriveRows final : public ImageUses {
  public:
   explicit DriveRows(double gate_m = kGate_m) : ImageUses(gate_m) {}
-  void finish() { finish_use(); }  // completes what waits for its truth; once, at the end
+  void finish() { finish_use(); }  // judges the last use; call it once, at the end
 
   const std::vector<ErrorRow>& errors() const { return errors_; }
-  // How many ages are in [n, n + 1) bins of kAgeBin.
+  // The number of ages in [n, n + 1) bins of kAgeBin, by n.
   using Histogram = std::map<std::int64_t, std::uint64_t>;
   const std::map<std::pair<AgeOf, SensorId>, Histogram>& ages() const { return ages_; }
-  std::optional<ObjectId> referenced() const { return referenced_; }  // the object that a reference is of
+  std::optional<ObjectId> referenced() const { return referenced_; }  // the object of the reference
 
   using ImageUses::on;
   void on(const recording::records::ReferenceFix&) override;

@@ -35,8 +35,8 @@ void ImageUses::on(const recording::records::TrackState& track) {
   }
 }
 
-// An image's predictions are reported before it, one an object. Where a torn log lost some, they are not to be told
-// apart.
+// An image's predictions are reported before it, one per object. If a torn log lost some, the rest cannot be
+// assigned.
 void ImageUses::on(const recording::records::ImageWritten& image) {
   if (predicted_.size() != image.objects.size()) predicted_.clear();
   Image& made = images_.emplace_back();
@@ -49,7 +49,7 @@ void ImageUses::on(const recording::records::ImageWritten& image) {
   while (images_.size() > kImagesRemembered) images_.pop_front();
 }
 
-// The last of this number: a fusion node that restarts counts its images anew.
+// Returns the newest image of this number: a restarted fusion node counts its images anew.
 const ImageUses::Image* ImageUses::image_of(std::uint32_t sequence) const {
   const auto last =
       std::find_if(images_.rbegin(), images_.rend(), [&](const Image& image) { return image.sequence == sequence; });
@@ -72,7 +72,7 @@ void ImageUses::on(const recording::records::TruthState& truth) {
     if (pending_ && truth_.front().at == pending_->at) finish_use();
     truth_.clear();
   }
-  // Once for every node that recorded it at that instant: the same truth, on other clocks.
+  // Every node that recorded the truth of that instant has the same, on its own clocks: keep the first node's.
   if (truth_.empty() || truth_.front().node == truth.node) truth_.push_back(truth);
 }
 
@@ -88,7 +88,7 @@ void ImageUses::judge(const Use& use) {
   for (const PlaneEstimate& object : use.objects) objects.push_back({object.x, object.y});
   const std::vector<TruthPair> pairs = closest_pairs(truth, objects, gate_);
   JudgedUse result{use.at, truth.size() - pairs.size(), objects.size() - pairs.size(), {}};
-  // An image used again was predicted to its first use.
+  // The predictions of an image hold at its first use.
   const Image* image = use.fresh ? image_of(use.image) : nullptr;
   const bool predicted = image != nullptr && image->predicted.size() == use.objects.size();
   for (const TruthPair& pair : pairs) {

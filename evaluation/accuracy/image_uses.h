@@ -1,9 +1,10 @@
-// The uses of images in a drive, put together from its records: each with the age of what its image was made from, and
-// with how wrong every object of it was, against the truth at that very time. DriveMeasures sums them up, and DriveRows
+// Finds the uses of images in a drive's records: each with the ages of the measurements in its image, and with
+// the errors of its objects against the truth at that very time. DriveMeasures sums them up, and DriveRows
 // lists them one by one.
 //
-// Records of a use do not come at once: an image's predictions are told before it, the truth of an instant before or
-// behind the use. A use is judged when the next one comes, when the truth of its instant is complete, or at the end.
+// A use's records do not come at once: an image's predictions precede the image, the truth of an instant
+// precedes or follows the use. A use is judged when the next one comes, when the truth of its instant is
+// complete, or at the end.
 #pragma once
 
 #include <array>
@@ -21,34 +22,34 @@
 
 namespace ttf::evaluation::accuracy {
 
-// The newest measurement of a sensor in an image, when that is used.
+// The age of a sensor's newest measurement in an image, when the image is used.
 struct SensorAge {
   SensorId sensor{};
   Duration age{};
 };
 
-// What the filter believed of an object, predicted to the use with its full state and covariance, which the image
+// The filter's belief about an object, predicted to the use with its full state and covariance, which the image
 // rounds and shortens: standard deviations of x, y, vx, vy, and the normalised estimation error squared.
 struct Belief {
   std::array<double, 4> sigma{};
   double nees = 0.0;
 };
-// An object of a used image that is one of the truth, too.
+// An object of a used image that matches a true object.
 struct UsedObject {
   ObjectId object{};
-  std::array<double, 4> error{};  // x, y [m], vx, vy [m/s]: estimate less truth
-  std::optional<Belief> belief;   // none where the image was used before: it says nothing about now
+  std::array<double, 4> error{};  // x, y [m], vx, vy [m/s]: estimate minus truth
+  std::optional<Belief> belief;   // absent if the image was used before: the belief held then
 };
 struct JudgedUse {
   TrueTime at{};
-  std::size_t missed = 0;    // true objects without an image within the gate
-  std::size_t spurious = 0;  // image objects without a true object within the gate
+  std::size_t missed = 0;    // true objects without an image's object within the gate
+  std::size_t spurious = 0;  // an image's objects without a true object within the gate
   std::vector<UsedObject> objects;
 };
 
 class ImageUses : public recording::records::Sink {
  public:
-  // Image and truth further apart than `gate_m` do not belong together.
+  // `gate_m`: the largest distance of matched objects.
   explicit ImageUses(double gate_m) : gate_(gate_m) {}
 
   using recording::records::Sink::on;
@@ -61,12 +62,12 @@ class ImageUses : public recording::records::Sink {
  protected:
   // A measurement of this age was fused, in time or late.
   virtual void fused(SensorId sensor, Duration age) = 0;
-  // An image is used, or refused as stale: then nothing has an age. False: it is not to be judged.
+  // An image is used, or refused as stale; then `ages` is empty. Returns false if the use is not to be judged.
   virtual bool used(const recording::records::FeatureUsed& use, std::span<const PlaneEstimate> objects,
                     std::span<const SensorAge> ages) = 0;
   virtual void judged(const JudgedUse& use) = 0;
 
-  // Judges the use that waits for its truth. To be called at the end.
+  // Judges the use that waits for its truth. Call it at the end.
   void finish_use();
 
  private:
@@ -75,12 +76,12 @@ class ImageUses : public recording::records::Sink {
     std::array<double, 4> state;
     std::array<double, 16> covariance;
   };
-  // A measurement of a sensor, known by its number as long as the sensor does not count anew.
+  // A measurement, known by its number until the sensor restarts and counts anew.
   struct Fused {
     MeasurementId id;
     TrueTime measured{};
   };
-  // What an image shows and was made from; its objects and predictions are in the same order.
+  // An image's number and the measurements in it; its predictions are in the order of its objects.
   struct Image {
     std::uint32_t sequence = 0;
     std::vector<Fused> newest;
@@ -97,8 +98,8 @@ class ImageUses : public recording::records::Sink {
 
   double gate_;
   std::map<SensorId, Fused> newest_fused_;
-  std::vector<Predicted> predicted_;  // for the image that is being written
-  std::deque<Image> images_;          // as they were written, the last few
+  std::vector<Predicted> predicted_;  // for the next image
+  std::deque<Image> images_;          // the last few, in the order of writing
   std::optional<Use> pending_;
   std::vector<recording::records::TruthState> truth_;  // of one instant
 };

@@ -6,7 +6,7 @@
 namespace ttf::evaluation::accuracy {
 namespace {
 
-// A use whose fix has not come by then waits in vain: the reference's period and latency are 10 s at most.
+// A use without a fix by then never gets one: the reference's period and latency are 10 s at most.
 constexpr Duration kLongestWait = Duration::milliseconds(20'000);
 
 double root_mean(double squares, std::uint64_t n) {
@@ -25,7 +25,7 @@ void ReferenceJudge::fix(const recording::records::ReferenceFix& fix) {
 }
 
 void ReferenceJudge::use(TrueTime at, std::span<const PlaneEstimate> estimates) {
-  if (!after_) return;  // no fix is before it
+  if (!after_) return;  // no fix precedes it
   Use use{at, {estimates.begin(), estimates.end()}};
   if (at <= after_->measured_true) return judge(use);
   waiting_.push_back(std::move(use));
