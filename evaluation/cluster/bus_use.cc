@@ -7,7 +7,7 @@
 
 namespace ttf::evaluation::cluster {
 
-// As long as its bits are: when it left, an ordinary kernel has its say in.
+// Counts a frame by its number of bits: its recorded times depend on an ordinary kernel.
 void BusUse::on(const recording::records::SlotFrameSent& frame) {
   ++frames_sent_;
   const std::size_t least = bus::wire::kHeaderBytes + bus::wire::kTrailerBytes;

@@ -1,5 +1,5 @@
-// How much of each bus a drive took, from the records of those who sent: what a simulation's media know of themselves,
-// and the records of a drive on real media still tell.
+// The load of each bus in a drive, from the senders' records. A simulation's media know it, but a drive on real
+// media has only these records.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ class BusUse final : public recording::records::Sink {
   void on(const recording::records::SlotFrameSent& frame) override;
   void on(const recording::records::CanFrameSent& frame) override;
 
-  std::uint64_t frames_sent() const { return frames_sent_; }  // on FlexRay, each channel's
-  // Of the busier channel, and of each CAN.
+  std::uint64_t frames_sent() const { return frames_sent_; }  // on FlexRay, summed over the channels
+  // Loads of the busier channel, and of each CAN.
   double flexray_load(Duration elapsed) const;
   std::vector<double> can_load(Duration elapsed) const;
 

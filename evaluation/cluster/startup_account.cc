@@ -29,7 +29,7 @@ void StartupAccount::on(const recording::records::StateChanged& change) {
   startup.why = change.why;
   if (!change.consequence.empty()) startup.why += "; " + std::string(change.consequence);
   if (change.to != kNormalActive || startup.active) return;
-  // At the start of a cycle; global time counts whole macroticks.
+  // It happens at the start of a cycle; global time counts whole macroticks.
   const std::int64_t cycle = cycle_.ns > 0 ? (change.stamp.global.ns + cycle_.ns / 2) / cycle_.ns : 0;
   startup.active = {change.stamp.true_time, cycle, std::string(change.from_name), startup.why};
 }

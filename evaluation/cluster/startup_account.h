@@ -1,5 +1,5 @@
-// What start-up came to, node by node, from a drive's records alone: when each was powered on, when and in which cycle
-// it became active, and why it is in the state it is in.
+// The account of start-up, node by node, from a drive's records alone: when a node was powered on, when and in
+// which cycle it became active, and the reason for its present state.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ struct NodeStartup {
   std::optional<TrueTime> powered;  // for the first time
   struct Active {
     TrueTime at{};
-    std::int64_t cycle = 0;  // that begins then, on the node's own count
+    std::int64_t cycle = 0;  // begins then, by the node's own count
     std::string from, why;   // the state before, and why it was left
   };
   std::optional<Active> active;  // for the first time
-  // The last change of its state, which it is in now.
+  // The present state, and the reason of the change to it.
   std::string state, why;
 };
 
@@ -32,7 +32,8 @@ class StartupAccount final : public recording::records::Sink {
   // `cycle`: nominal length of the communication cycle.
   explicit StartupAccount(Duration cycle) : cycle_(cycle) {}
 
-  // Nodes that were powered on or changed their state, by id. None in a drive that began integrated and went well.
+  // Returns nodes that were powered on or changed their state, by id; empty for a drive without a fault that
+  // began integrated.
   std::vector<NodeStartup> nodes() const;
 
   using recording::records::Sink::on;
