@@ -8,7 +8,7 @@
 namespace ttf::evaluation::faults {
 namespace {
 
-// What is asked about is no older: losses are settled two cycles after them.
+// No older act is needed: losses are settled two cycles after them.
 constexpr int kCyclesRemembered = 5;
 constexpr Duration kRounded{schedules::model::kGranularity_ns};
 
@@ -67,7 +67,8 @@ bool FaultCauses::disturbs(const Suspect& suspect, const Signal& signal) const {
   return first != suspect.acts.end() && *first <= signal.until + kRounded;
 }
 
-// One that has never acted is it only where no other fits: what it does may be seen a moment before it is said.
+// A fault that has never acted is the cause only if no other fits: its effect may be seen a moment before its
+// record.
 template <class Fits> FaultCauses::Cause FaultCauses::latest(TrueTime until, Fits fits) const {
   Cause cause;
   std::pair<bool, TrueTime> newest;

@@ -1,17 +1,15 @@
-// Whose doing it was: what a check saw, or a node suffered, goes to the one fault of the plan that it fits, or to none.
+// Attributes a check's finding, or a node's harm, to the one fault of the plan that fits it, or to none.
 //
-//   its own       the slots of the nodes that the fault names (named_by()), what these nodes see of themselves, and all
-//                 that they receive where the fault is of their hearing; from its beginning to its end, and on until
-//                 they are back. A fault-free node that it drove out of normal active is its own until that is back,
-//                 too.
-//   a channel     every slot in which it acts, where what it sends is not due there: bursts, frames in slots of others.
-//                 It does not make silence.
-//   the clocks    where nothing of the above fits: what the cluster's common time suffers, every slot of everybody
-//                 suffers
-//   the cluster   the state and the clock of a fault-free node hang on all others: any fault
-// The last two while the fault acts, and after it as long as a controller puts up with missing sync frames.
-// Where several fit, it is the one that acted last, or began last where none has acted. Nodes say when in their own
-// microticks, so a fault may seem to come a little after what it did.
+//   its own       the slots of the nodes that the fault names (named_by()), these nodes' own reports, and, for a
+//                 fault of their hearing, all that they receive; from its beginning to its end, and on until they are
+//                 back. A fault-free node that it drove out of normal active is its own, too, until that node is back.
+//   a channel     every slot in which it acts with signals that are not due there: bursts, frames in others' slots. It
+//                 does not make silence.
+//   the clocks    if none of the above fits: damage to the cluster's common time affects every slot of every node
+//   the cluster   the state and the clock of a fault-free node depend on all others: any fault
+// The last two hold while the fault acts, and afterwards as long as a controller tolerates missing sync frames.
+// If several faults fit, the cause is the one that acted last, or, if none has acted, the one that began last.
+// Nodes stamp in their own microticks, so a fault may seem to come a little after its effect.
 #pragma once
 
 #include <cstddef>
@@ -31,36 +29,36 @@ class FaultCauses {
  public:
   using Cause = std::optional<std::size_t>;  // index in the plan
 
-  // `plan`: resolved for the cluster; both must outlive this.
+  // `plan` is resolved for the cluster; both must outlive this object.
   FaultCauses(const ttf::faults::FaultPlan& plan, const schedules::model::Cluster& cluster);
 
-  // What the faults do, in the order of time.
+  // Report the faults' activities, in the order of time.
   void begins(std::size_t fault, TrueTime at);
   void acts(std::size_t fault, TrueTime at);
   void ends(std::size_t fault, TrueTime at);
-  // What became of nodes: it left normal active or lost its supply by the doing of `cause`; it is normal active again.
+  // Report that a node left normal active or lost its supply by `cause`, and that it is normal active again.
   void left(NodeId node, std::size_t cause);
   void is_back(NodeId node);
 
   bool any_begun(TrueTime by) const;
 
-  // What was received in a slot, or at a star's branch.
+  // An observation in a slot, or at a star's branch.
   struct Signal {
-    NodeId owner = kNoNode;     // who sends there; kNoNode: nobody
-    NodeId receiver = kNoNode;  // who saw it; kNoNode: a guardian
+    NodeId owner = kNoNode;     // sender in the slot; kNoNode: none
+    NodeId receiver = kNoNode;  // kNoNode: a guardian
     schedules::model::Channels channels{};
-    TrueTime from{}, until{};  // when
-    bool silence = false;      // there was nothing
+    TrueTime from{}, until{};  // time span
+    bool silence = false;      // no signal was there
   };
   Cause of_signal(const Signal& signal) const;
-  // What became of a node's state or of its clock; kNoNode: of all clocks together.
+  // Returns the cause of a change of a node's state or clock; kNoNode: of all clocks together.
   Cause of_node(NodeId node, TrueTime at) const;
 
  private:
   struct Suspect {
     FaultReach reach;
-    schedules::model::Channels channels{};  // on which it acts
-    std::vector<bool> named, out;           // by NodeId; `out` by its doing
+    schedules::model::Channels channels{};  // of its acts
+    std::vector<bool> named, out;           // by NodeId; `out`: left by this fault
     std::optional<TrueTime> began, ended;
     std::deque<TrueTime> acts;  // of the last cycles, and one before
   };

@@ -1,19 +1,19 @@
-// What a fault may do to nodes that have none, and who may notice it: common to the judge of single faults, who is told
-// by controllers inside a simulation (evaluation/faults/judge.h), and to the account of a run's faults, which has the
-// records alone (evaluation/faults/fault_account.h).
+// The harms that a fault may do to fault-free nodes, and the checks that may notice it. The judge of single
+// faults (evaluation/faults/judge.h), which sees controllers inside a simulation, and the account of a drive's
+// faults (evaluation/faults/fault_account.h), which has the records alone, share them.
 //
-// A fault-free node is one that the fault does not name (reach.h). From the beginning of the fault on, it is
+// The fault does not name a fault-free node (reach.h). From the beginning of the fault on, such a node is
 // harmed when
 //   H1  it leaves normal active
-//   H2  it is not normal active when the run is over, and never was since the beginning (of a run that begins with
+//   H2  it is not normal active at the end of the drive, and never was since the beginning (of a drive that begins with
 //       start-up)
 //   H3  the global times of the fault-free nodes are further apart than the assumed precision
 //   H4  it is normal active and receives a frame of another fault-free, normal active node on none of the channels that
-//       both share with the frame
-//   H5  it accepts as valid, in a slot of a fault-free node, what that node did not send there in this cycle
-// A frame that a fault-free node sends is owed to every fault-free node that is normal active when it leaves.
+//       it shares with that frame
+//   H5  it accepts as valid, in a slot of a fault-free node, a frame that this node did not send there in this cycle
+// A frame of a fault-free node is owed to every fault-free node that is normal active when it leaves.
 //
-// Who noticed it: the checks of the fault-free nodes' controllers and of the guardians; the faulty node's own are kept
+// Checks are those of the fault-free nodes' controllers and of the guardians; the faulty node's own are kept
 // apart.
 #pragma once
 
@@ -37,7 +37,7 @@ enum class Check : std::uint8_t {
   kLimit,  // of clock correction
   kPassive,
   kHalt,      // states
-  kGuardian,  // kept something from the others
+  kGuardian,  // blocked or cut a bus signal
 };
 inline constexpr std::array kAllChecks = {Check::kSyntax,  Check::kContent,     Check::kBoundary, Check::kConflict,
                                           Check::kNoFrame, Check::kMissingTerm, Check::kLimit,    Check::kPassive,
@@ -49,7 +49,7 @@ inline constexpr std::array kAllHarms = {Harm::kLeftActive, Harm::kNotStarted, H
                                          Harm::kFrameForged};
 std::string_view name_of(Harm harm);
 
-// Those of `all` whose bit is set, joined by "+".
+// Returns the names of those of `all` whose bit is set, joined by "+".
 template <class All> std::string names_of(unsigned bits, const All& all) {
   std::string out;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -60,7 +60,7 @@ template <class All> std::string names_of(unsigned bits, const All& all) {
   return out;
 }
 
-// Calls `seen` with every check that is in the status of a slot (bus::controller::SlotStatus).
+// Calls `seen` with every check in the status of a slot (bus::controller::SlotStatus).
 template <class Seen> void for_each_check(std::uint8_t status, Seen seen) {
   constexpr std::array<std::pair<bus::controller::SlotStatus, Check>, 5> kOfSlots{
       {{bus::controller::kSyntaxError, Check::kSyntax},

@@ -19,13 +19,13 @@ schedules::model::Channels only(std::uint8_t channel) {
   return channel == 0 ? schedules::model::Channels::kA : schedules::model::Channels::kB;
 }
 
-// From start-up, to where it begins or ends without success.
+// Returns whether a change leads from start-up back to its beginning, or to an end without success.
 bool falls_back(const recording::records::StateChanged& change) {
   using bus::poc::PocKind;
   const auto from = static_cast<PocKind>(change.from);
   switch (static_cast<PocKind>(change.to)) {
     case PocKind::kHalt:
-    case PocKind::kWakeupDetect:  // somebody else is on the channel
+    case PocKind::kWakeupDetect:  // another node is on the channel
     case PocKind::kColdstartGap: return true;
     case PocKind::kColdstartListen:
     case PocKind::kIntegrationListen:
@@ -88,7 +88,7 @@ FaultEffects& FaultAccount::effects(Cause cause) {
   return cause ? static_cast<FaultEffects&>(findings_.faults[*place_[*cause]]) : findings_.unattributed;
 }
 
-// The running cycle, by the newest that is known.
+// Returns the running cycle, counted on from the newest known one.
 std::int64_t FaultAccount::cycle_at(TrueTime at) const {
   const auto [began, cycle] = cycle_began_.value_or(std::pair(TrueTime{}, std::int64_t{0}));
   return cycle + std::max<std::int64_t>(0, (at - began).ns / cycle_.ns);
@@ -184,8 +184,8 @@ void FaultAccount::on(const recording::records::SlotProblem& problem) {
   signal.owner =
       owner_of(cluster_, problem.slot, static_cast<schedules::model::Channel>(problem.channel & 1), problem.cycle);
   if (problem.slot >= 1 && problem.slot <= g.gNumberOfStaticSlots) {
-    // Told when the static segment is over. Frames begin an action point offset into their slots: clocks are less apart
-    // than that.
+    // Reported at the end of the static segment. Frames begin an action point offset into their slots, and
+    // clocks differ by less.
     signal.until = at - slot_ * (g.gNumberOfStaticSlots - problem.slot);
     signal.from = signal.until - slot_;
   } else {
@@ -265,7 +265,7 @@ void FaultAccount::changed(Cause cause, NodeId node, std::string_view from, std:
     states.push_back({node, std::string(from), std::string(to), std::string(why), at, 1});
 }
 
-// On none of the channels that receiver and sender share: whatever acts on one of them may be why.
+// The frame came on none of the channels that receiver and sender share, so a fault on either may be the cause.
 void FaultAccount::lost(const SlotLoss& loss) {
   unsigned channels = 0;
   for (const auto channel : {schedules::model::Channel::kA, schedules::model::Channel::kB})
@@ -281,7 +281,7 @@ void FaultAccount::lost(const SlotLoss& loss) {
 }
 
 void FaultAccount::harm(Cause cause, Harm harm, TrueTime at, NodeId node, NodeId sender, int slot) {
-  // A frame that was under way when the first fault began may be lost by it.
+  // The first fault may destroy a frame that was under way when it began.
   if (!causes_.any_begun(at + slot_)) return;
   std::vector<HarmSeen>& harms = effects(cause).harms[static_cast<std::size_t>(harm)];
   const auto known = std::find_if(harms.begin(), harms.end(), [&](const HarmSeen& seen) { return seen.node == node; });

@@ -1,15 +1,15 @@
-// What the faults of a run did: injected, seen by which check and in how many cycles, kept from the others by the
-// guardians, which nodes changed state, and whether a node without a fault was harmed. From the fault plan and the
-// records alone, so that a live run's report and its log's are the same.
+// The account of a drive's faults: when they were injected, which checks saw them and in how many cycles, what
+// the guardians stopped, which nodes changed state, and which fault-free nodes were harmed. It uses the fault
+// plan and the records alone, so a live drive and its log give the same report.
 //
-// Checks and harms are those of evaluation/faults/checks.h. Where the judge of single faults
-// (evaluation/faults/judge.h) looks on from inside a simulation, records tell a little less:
-//   - a node is without a fault until a fault that names it begins
-//   - H3 is told from when frames begin (evaluation/faults/frame_clocks.h), H4 and H5 from who reports which slot
+// Checks and harms are those of evaluation/faults/checks.h. Records hold a little less than a simulation shows
+// the judge of single faults (evaluation/faults/judge.h):
+//   - a node is fault-free until a fault that names it begins
+//   - H3 follows from the starts of frames (evaluation/faults/frame_clocks.h), H4 and H5 from reports about slots
 //     (evaluation/faults/slot_ledger.h), in the static segment
-// Of a node that has to start, the steps on its way are nobody's doing, only those back are, and all once a fault took
-// its supply. What is seen or harmed belongs to the fault that it fits (evaluation/faults/causes.h), or is
-// unattributed. Nothing counts before the first fault has begun.
+// A starting node's steps forwards have no cause; its steps back have one, and so do all its steps after a
+// fault took its supply. A finding or a harm belongs to the fault that it fits (evaluation/faults/causes.h), or
+// is unattributed. Nothing counts before the first fault has begun.
 #pragma once
 
 #include <array>
@@ -31,22 +31,23 @@
 
 namespace ttf::evaluation::faults {
 
-// One check, as seen by nodes of one side: those without a fault, or those with one.
+// One check, as seen by the nodes of one side: the fault-free ones, or the others.
 struct CheckSeen {
-  std::uint64_t cycles = 0;         // in which it was seen
-  TrueTime first{};                 // where there are any
-  std::vector<NodeId> nodes;        // in the order in which they saw it first; a guardian is no node
+  std::uint64_t cycles = 0;         // with a finding
+  TrueTime first{};                 // valid if cycles > 0
+  std::vector<NodeId> nodes;        // in the order of their first findings; a guardian is no node
   std::array<bool, 2> guardians{};  // by channel
 };
 
 struct StateSeen {
   NodeId node{};
-  std::string from, to, why;  // as at the first time; to "without supply", "with supply" where its power went or came
+  std::string from, to, why;  // as at the first time; `to` is "without supply" or "with supply" after a change
+                              // of power
   TrueTime first{};
   std::uint64_t times = 0;
 };
 
-// What guardians kept from the others for one reason, in the words of the records.
+// Bus signals that guardians blocked or cut for one reason, in the words of the records.
 struct GuardianSeen {
   bool cut = false;  // else blocked
   std::string why;
@@ -56,48 +57,48 @@ struct GuardianSeen {
 };
 
 struct HarmSeen {
-  NodeId node = kNoNode;  // the harmed one; kNoNode: of the precision
+  NodeId node = kNoNode;  // kNoNode: the precision is harmed
   TrueTime first{};
-  NodeId sender = kNoNode;  // whose frame it was about at the first time, where it was about one
+  NodeId sender = kNoNode;  // of the frame, if the harm is about one
   int slot = 0;
   std::uint64_t times = 0;
 };
 
-// What came of one fault, or of none.
+// The effects of one fault, or those without a cause.
 struct FaultEffects {
   std::array<CheckSeen, kAllChecks.size()> by_others, by_faulty;  // by Check
   std::vector<GuardianSeen> guardians;
   std::vector<StateSeen> states;
   std::array<std::vector<HarmSeen>, kAllHarms.size()> harms;  // by Harm, every harmed node once
   bool harmed() const;
-  bool nothing() const;  // nobody saw anything, nothing changed
+  bool nothing() const;  // no check saw it and no node changed
 };
 
 struct FaultSeen : FaultEffects {
   std::uint32_t fault = 0;  // index in the plan
-  std::string kind, text;   // as the plan names it; what it did first, empty if nothing
-  NodeId node = kNoNode;    // kNoNode: the medium's
+  std::string kind, text;   // the plan's name of the kind; its first act, empty if it never acted
+  NodeId node = kNoNode;    // kNoNode: a fault of the medium
   TrueTime begins{};
   std::optional<TrueTime> ends, first_act;
   std::uint64_t acts = 0;
 };
 
 struct FaultFindings {
-  std::vector<FaultSeen> faults;  // as many of the plan's as began, in that order
-  FaultEffects unattributed;      // what fits none of them
+  std::vector<FaultSeen> faults;  // those of the plan that began, in that order
+  FaultEffects unattributed;      // effects that fit none of them
   bool harmed() const;
 };
 
 class FaultAccount final : public recording::records::Sink {
  public:
-  // `plan`: resolved for the cluster, and the run's. `begins_integrated`: the nodes are in normal operation from the
-  // start; else they have no supply until they say so.
+  // `plan` is the drive's, resolved for the cluster. `begins_integrated`: the nodes are in normal operation
+  // from the start; else they have no supply until their records say so.
   FaultAccount(const schedules::model::Cluster& cluster, ttf::faults::FaultPlan plan, bool begins_integrated);
   FaultAccount(const FaultAccount&) = delete;
   FaultAccount& operator=(const FaultAccount&) = delete;
 
-  // The run is over: what is open is settled. Who has not become normal active since the beginning is harmed (H2), if
-  // the run began with start-up.
+  // Ends the drive and settles the open cycles. In a drive that began with start-up, a fault-free node that
+  // never became normal active is harmed (H2).
   void finish(TrueTime at);
   const FaultFindings& findings() const { return findings_; }
 
@@ -112,12 +113,12 @@ class FaultAccount final : public recording::records::Sink {
 
  private:
   using Cause = FaultCauses::Cause;
-  // A cycle is counted once however many nodes and slots it is about: by its counter, where that comes again after a
-  // round.
+  // A cycle counts once, however many nodes and slots it has findings about: indexed by its counter, which
+  // comes again after a round.
   using Counted = std::array<std::array<std::optional<TrueTime>, 64>, 2 * kAllChecks.size()>;
 
   bool knows(NodeId node) const { return index_of(node) < standings_.size(); }  // a log may be of another cluster
-  // Whatever is at fault, it would take these steps: only those back are anybody's doing.
+  // A starting node takes these steps in any case, so only those back have a cause.
   bool starts_as_planned(NodeId node) const { return standings_.has_to_start(node) && !cut_off_[index_of(node)]; }
   FaultEffects& effects(Cause cause);
   std::int64_t cycle_at(TrueTime at) const;
@@ -132,15 +133,15 @@ class FaultAccount final : public recording::records::Sink {
   const ttf::faults::FaultPlan plan_;
   Duration cycle_, slot_, action_point_, assumed_precision_;
   Standings standings_;
-  std::vector<bool> cut_off_;  // by NodeId: a fault has taken its supply, or keeps it
+  std::vector<bool> cut_off_;  // by NodeId: a fault has taken its supply, or withholds it
   FaultCauses causes_;
   FrameClocks clocks_;
   SlotLedger ledger_;
-  // The newest cycle known, by a fault-free node's clock.
+  // The newest known cycle, by a fault-free node's clock.
   std::optional<std::pair<TrueTime, std::int64_t>> cycle_began_;
   FaultFindings findings_;
   std::vector<std::optional<std::size_t>> place_;  // in findings_.faults, by index in the plan
-  std::vector<Counted> counted_;                   // by index in the plan, and of what is unattributed
+  std::vector<Counted> counted_;                   // by index in the plan; the last: unattributed
 };
 
 }  // namespace ttf::evaluation::faults

@@ -1,14 +1,14 @@
-// How far the clocks of nodes are apart, told from the frames they send: each begins when its sender's own clock says
+// Finds the differences of nodes' clocks from their frames: each frame begins when its sender's own clock says
 // so.
 //
 //   cycle    |  2k                    |  2k+1                  |
 //   node n   ----T(2k)--------------------T(2k+1)-----------E-->   true time
 //
-// Within a double cycle a clock runs at one rate, and its offset is corrected at the end. So its rate is known from the
-// first frame the node sends in either cycle, and with it E: the true time at which its clock shows the end of the
-// double cycle, the correction of its offset left out. The clocks are apart by the difference of their E, which is the
-// largest of the double cycle but for what they come together in it. Exact to the nanoseconds that records are rounded
-// to.
+// Within a double cycle a clock runs at one rate, and its offset is corrected at the end. The first frames that
+// the node sends in both cycles give its rate. The rate gives E, the true time at which the clock shows the end
+// of the double cycle, without the offset correction. Two clocks differ by the difference of their E. That is
+// their largest difference in the double cycle, unless they approach each other in it. Exact to the nanoseconds
+// to which records are rounded.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ class FrameClocks {
  public:
   explicit FrameClocks(const schedules::model::Cluster& cluster);
 
-  // A frame of a node whose clock counts, in the order of time. The largest distance to any other such clock in the
-  // same double cycle, where this frame makes it known.
+  // Takes a frame of a node whose clock counts, in the order of time. If the frame gives its sender's E,
+  // returns the largest difference to any other such clock in the same double cycle.
   std::optional<Duration> sent(const recording::records::SlotFrameSent& frame);
-  // The node's clock counts no more, until it sends again.
+  // Ignores the node's clock until it sends again.
   void forget(NodeId node);
 
  private:
@@ -41,7 +41,7 @@ class FrameClocks {
   };
   struct Clock {
     Reading first;                // the first frame of the newest even cycle
-    std::optional<TrueTime> end;  // of the newest double cycle that is known
+    std::optional<TrueTime> end;  // of the newest known double cycle
   };
   Duration cycle_;
   std::vector<Clock> clocks_;  // by NodeId

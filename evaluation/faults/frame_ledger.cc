@@ -32,7 +32,8 @@ bool FrameLedger::Sent::says(const bus::wire::DecodedFrame& frame) const {
          other.sync == header.sync && other.startup == header.startup && same_bytes(payload(), frame.payload);
 }
 
-// The other channel's copy: at the same instant in the static segment, maybe a cycle later in the dynamic one.
+// Returns whether the frame is the other channel's copy: at the same instant in the static segment, perhaps a
+// cycle later in the dynamic one.
 bool FrameLedger::is_copy(const Owed& owed, NodeId node, int slot, Channel channel,
                           const bus::wire::DecodedFrame& frame, TrueTime at) const {
   if (owed.sender != node) return false;
@@ -55,7 +56,7 @@ void FrameLedger::owe(Owed& owed, NodeId sender, int slot) {
   }
 }
 
-// Who has not received it by now never will.
+// Reports every receiver that has not received the frame by now as a loss.
 void FrameLedger::collect(Owed& owed, int slot) {
   for (std::size_t n = 0; n < standings_.size(); ++n) {
     if (owed.receivers[n]) told_({owed.sent, static_cast<NodeId>(n), owed.sender, slot, owed.cycle, false});

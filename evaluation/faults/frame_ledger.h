@@ -1,9 +1,9 @@
-// Which frames came to whom they were owed, told from the frames themselves: what a controller sent, and what the
-// others made of it, byte by byte.
+// Finds the frames that did not reach their receivers, from the frames themselves: sent and received frames are
+// compared byte by byte.
 //
-// A frame that a fault-free node sends is owed to every fault-free node that is normal active when it leaves; it is
-// overdue two cycles later, or when the next frame leaves in its slot, or when the run is over. Frames that leave in
-// the last two cycles are not owed. Records tell a little less: slot_ledger.h.
+// A frame of a fault-free node is owed to every fault-free node that is normal active when it leaves. It is
+// overdue two cycles later, or when the next frame leaves in its slot. Frames of a drive's last two cycles are
+// not owed. Records show a little less: slot_ledger.h.
 #pragma once
 
 #include <array>
@@ -23,16 +23,16 @@ namespace ttf::evaluation::faults {
 
 class FrameLedger {
  public:
-  // `told`: of every loss between nodes without a fault. `standings` outlives this.
+  // `told` is called for every loss between fault-free nodes. `standings` must outlive this object.
   FrameLedger(const schedules::model::Cluster& cluster, const Standings& standings,
               std::function<void(const SlotLoss&)> told);
 
-  // In the order of time; `frame` only during the call.
+  // Calls come in the order of time; `frame` is valid during the call only.
   void sent(NodeId node, int slot, schedules::model::Channel channel, const bus::wire::DecodedFrame& frame,
             TrueTime at);
   void received(NodeId node, int slot, schedules::model::Channel channel, const bus::wire::DecodedFrame& frame,
                 TrueTime at);
-  // The run is over at `at`.
+  // Ends the drive at `at`.
   void finish(TrueTime at);
 
  private:
@@ -46,7 +46,7 @@ class FrameLedger {
     std::span<const std::byte> payload() const { return std::span<const std::byte>(bytes).first(size); }
     bool says(const bus::wire::DecodedFrame& frame) const;
   };
-  // The newest frame of a slot, and who has still to receive it.
+  // The newest frame of a slot, and the nodes that have still to receive it.
   struct Owed {
     NodeId sender = kNoNode;
     TrueTime sent{};

@@ -43,7 +43,7 @@ void FaultJudge::harm(Harm harm, TrueTime when, NodeId node, NodeId sender, int 
 }
 
 void FaultJudge::state_changed(NodeId node, PocKind from, PocKind to, TrueTime when) {
-  // It leaves normal active also where it has lost its supply since, and begins anew.
+  // It leaves normal active, too, if it has lost its supply meanwhile and begins anew.
   if (to != PocKind::kNormalActive || from == PocKind::kDefaultConfig) left_active(node, when);
   if (to == PocKind::kNormalPassive) {
     notice(Check::kPassive, node, when);

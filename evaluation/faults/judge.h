@@ -1,5 +1,5 @@
-// Whether a single fault harmed those that have none, and who noticed it (checks.h), as controllers tell their
-// hosts, and by the clocks' spread. Frames are overdue as frame_ledger.h says.
+// Judges whether a single fault harmed fault-free nodes, and which checks noticed it (checks.h). It uses the
+// controllers' reports to their hosts and the difference of the clocks. frame_ledger.h defines overdue frames.
 #pragma once
 
 #include <array>
@@ -24,14 +24,15 @@ struct Judgement {
   std::array<Since, kAllChecks.size()> seen_by_itself{};  // by the faulty node's own controller
   struct Harmed {
     TrueTime first{};
-    NodeId node = kNoNode;    // the harmed one; kNoNode: of the precision
-    NodeId sender = kNoNode;  // whose frame it is about
+    NodeId node = kNoNode;    // kNoNode: the precision is harmed
+    NodeId sender = kNoNode;  // of the frame
     int slot = 0;
   };
   std::array<std::optional<Harmed>, kAllHarms.size()> harms{};  // by Harm
   Since passive, halt;                                          // of any node, the faulty one included
-  // Of any node that lost normal active or its supply: the longest time until it was normal active again, from then or
-  // from the end of the fault, whichever was later; and how many did not come back.
+  // For nodes that lost normal active or their supply: the longest time until one was normal active again,
+  // counted from the loss or the end of the fault, whichever was later; and the number of nodes that did not
+  // come back.
   std::optional<Duration> reintegration;
   int still_out = 0;
 
@@ -41,28 +42,28 @@ struct Judgement {
 
 struct JudgeSettings {
   std::vector<bool> faulty;  // by NodeId: named by the fault
-  TrueTime from{};           // the fault begins: what was before does not count
-  TrueTime until{};          // it ends
+  TrueTime from{};           // beginning of the fault: nothing counts before
+  TrueTime until{};          // its end
   Duration assumed_precision{};
-  bool starts_up = false;  // the run begins with start-up, so all fault-free nodes have to become active
-  // What the same start-up shows without the fault, and until when: these checks count from then on only.
+  bool starts_up = false;  // the drive begins with start-up, so all fault-free nodes have to become active
+  // Until `settled`, checks in `usual` do not count: the same start-up without the fault shows them, too.
   TrueTime settled{};
   std::array<bool, kAllChecks.size()> usual{};
 };
 
 class FaultJudge {
  public:
-  // Nodes are in normal operation where the run begins so; else they have no supply.
+  // Nodes are in normal operation if the drive begins so; else they have no supply.
   FaultJudge(const schedules::model::Cluster& cluster, JudgeSettings settings);
   FaultJudge(const FaultJudge&) = delete;
   FaultJudge& operator=(const FaultJudge&) = delete;
 
-  // What happened, in the order of time.
+  // Events, in the order of time.
   void state_changed(NodeId node, bus::poc::PocKind from, bus::poc::PocKind to, TrueTime at);
   void lost_supply(NodeId node, TrueTime at) { left_active(node, at); }
   void slot_problem(NodeId node, bus::controller::SlotStatus status, TrueTime at);
   void clock_corrected(NodeId node, bool missing, bool limit_reached, TrueTime at);
-  // `frame` only during the call.
+  // `frame` is valid during the call only.
   void frame_sent(NodeId node, int slot, schedules::model::Channel channel, const bus::wire::DecodedFrame& frame,
                   TrueTime at) {
     ledger_.sent(node, slot, channel, frame, at);
@@ -72,11 +73,11 @@ class FaultJudge {
     ledger_.received(node, slot, channel, frame, at);
   }
   void guardian_intervened(TrueTime at) { notice(Check::kGuardian, kNoNode, at); }
-  // Among the fault-free nodes that are synchronised.
+  // The difference among the synchronised fault-free nodes.
   void precision(Duration apart, TrueTime at);
 
   bool all_fault_free_active() const { return standings_.all_fault_free_active(); }
-  // What there is to say once nothing more happens until `at`.
+  // Returns the judgement if no further event comes until `at`.
   const Judgement& finish(TrueTime at);
 
  private:

@@ -16,7 +16,7 @@ struct ReachRow {
 };
 constexpr std::array<ReachRow, ttf::faults::kFaultKinds> kReaches{{
     {.kind = K::kCrash, .supply = true, .hearing = true},
-    {.kind = K::kOmission, .hearing = true},  // but in what it sends
+    {.kind = K::kOmission, .hearing = true},  // not if it acts on sending only
     {.kind = K::kBabblingIdiot, .channel = true},
     {.kind = K::kMasquerading, .channel = true},
     {.kind = K::kSosTiming, .channel = true, .clocks = true},
@@ -31,7 +31,7 @@ constexpr std::array<ReachRow, ttf::faults::kFaultKinds> kReaches{{
     {.kind = K::kDuplicateColdstart, .hearing = true, .channel = true, .clocks = true},
     {.kind = K::kWrongSchedule, .hearing = true, .channel = true, .clocks = true},
     {.kind = K::kNoise, .channel = true},
-    {.kind = K::kTransient, .channel = true, .clocks = true},  // sync frames, too
+    {.kind = K::kTransient, .channel = true, .clocks = true},  // acts on sync frames, too
 }};
 static_assert(ttf::faults::is_one_row_a_kind(kReaches), "a kind without a reach, or rows in another order");
 
@@ -59,7 +59,7 @@ FaultReach reach_of(const ttf::faults::Fault& fault, const schedules::model::Clu
   const Duration frame = bus::wire::frame_duration(cluster.flexray, static_cast<int>(bus::wire::kMaxPayloadBytes / 2));
   const bool of_sending_only = ttf::faults::takes(fault.kind, ttf::faults::FaultParameter::kDirection) &&
                                fault.direction == ttf::faults::FaultDirection::kSend;
-  // Where it has no length or no shift of its own, neither makes it longer than a frame.
+  // A kind without a length or shift of its own has 0 there, so it lasts as long as a frame.
   return {row.hearing && !of_sending_only, row.channel, row.clocks,
           std::max(frame, fault.length) + std::max(fault.shift, Duration{})};
 }

@@ -1,4 +1,5 @@
-// How far a fault reaches, by its kind: whom it names, whose supply it takes, and what may be its doing beyond that.
+// The reach of a fault by its kind: the nodes that it names, the supplies that it takes, and further possible
+// effects.
 #pragma once
 
 #include <vector>
@@ -10,16 +11,16 @@
 
 namespace ttf::evaluation::faults {
 
-// The nodes that the fault names, or takes the supply of, by NodeId.
+// Returns by NodeId whether the fault names the node, or takes its supply.
 std::vector<bool> named_by(const ttf::faults::Fault& fault, const schedules::model::Cluster& cluster);
-// Whether it takes the supply of `node`, one of these.
+// Returns whether the fault takes the supply of `node`, one of those.
 bool takes_supply(const ttf::faults::Fault& fault, NodeId node);
 
 struct FaultReach {
-  bool hearing = false;  // what the nodes receive that it names
-  bool channel = false;  // slots of others in which it acts
+  bool hearing = false;  // reception of the nodes that it names
+  bool channel = false;  // others' slots in which it acts
   bool clocks = false;   // the cluster's common time
-  Duration lasts{};      // what it puts on a channel, from the instant it acts on
+  Duration lasts{};      // duration of its signals on a channel, from the act on
 };
 FaultReach reach_of(const ttf::faults::Fault& fault, const schedules::model::Cluster& cluster);
 

@@ -25,12 +25,12 @@ SlotLedger::SlotLedger(const schedules::model::Cluster& cluster, const Standings
   }
 }
 
-// The cycle's page; what was there before is four cycles old, and settled.
+// Returns the cycle's page; its previous content is four cycles old, and settled.
 SlotLedger::Cycle& SlotLedger::open(std::int64_t cycle) {
   const std::int64_t counter = cycle & (schedules::model::kCycles - 1);
   Cycle& page = cycles_[static_cast<std::size_t>(counter) % kCycles];
   if (page.counter == counter) return page;
-  // Two cycles back, all have reported.
+  // All nodes have reported the cycle before the last.
   const std::int64_t due = (counter + schedules::model::kCycles - 2) & (schedules::model::kCycles - 1);
   Cycle& before = cycles_[static_cast<std::size_t>(due) % kCycles];
   if (before.counter == due) settle(before, kEverything);
@@ -59,7 +59,7 @@ void SlotLedger::finish(TrueTime at) {
 }
 
 void SlotLedger::on(const recording::records::SlotFrameSent& frame) {
-  if (!standings_.counts(frame.stamp.node)) return;  // it may be in a cycle of its own
+  if (!standings_.counts(frame.stamp.node)) return;  // a node out of operation may be in a cycle of its own
   Cycle& page = open(frame.cycle);
   for (std::size_t f = 0; f < cluster_.frames.size(); ++f) {
     const schedules::model::FrameSlot& expected = cluster_.frames[f];
@@ -90,7 +90,8 @@ void SlotLedger::settle(const Cycle& cycle, TrueTime over) {
     const Slot& slot = cycle.slots[f];
     if (frame.slot > cluster_.flexray.gNumberOfStaticSlots || !slot.counted || !standings_.counts(frame.sender))
       continue;
-    // From the frame on: the slots that are left, and this one, which began an action point offset before it.
+    // From the frame to the end of the static segment: the remaining slots, and this one, which began an action
+    // point offset before its frame.
     if (slot.at + slot_ * (cluster_.flexray.gNumberOfStaticSlots - frame.slot + 1) > over) continue;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
       const auto receiver = static_cast<NodeId>(n);

@@ -1,12 +1,13 @@
-// Which static slots brought a receiver what their sender sent, told from what senders and receivers report.
+// Finds the static slots in which a receiver did not get its sender's frame, from the reports of senders and
+// receivers.
 //
-// A receiver in normal operation reports every slot that was anything but one valid frame, per channel. So a slot that
-// it does not report was a valid frame: of the sender, if that sent there, of somebody else otherwise. A slot it
-// reports counts as not received, though a valid frame may have come before what disturbed it: reports do not tell
-// these apart. Who has the frames themselves knows more: frame_ledger.h.
+// A receiver in normal operation reports, per channel, every slot without exactly one valid frame. A slot
+// without a report thus had a valid frame: the sender's if it sent there, another node's otherwise. A reported
+// slot counts as not received, although a valid frame may have preceded the disturbance: reports do not
+// distinguish these. The frames themselves show more: frame_ledger.h.
 //
-// A cycle is settled two cycles after it, when all have reported, or when the run is over: then those of its slots that
-// have ended. Nodes count whole rounds of the cycle counter each for itself.
+// A cycle is settled two cycles later, when all nodes have reported, or at the end of the drive; then only its
+// ended slots count. Each node counts whole rounds of the cycle counter for itself.
 #pragma once
 
 #include <array>
@@ -25,22 +26,21 @@ namespace ttf::evaluation::faults {
 
 class SlotLedger {
  public:
-  // `told`: of every loss between nodes that count, both at the time of the slot and when it is settled. `standings`
-  // outlives this.
+  // `told` is called for every loss between nodes that count, both in the slot and when it is settled.
+  // `standings` must outlive this object.
   SlotLedger(const schedules::model::Cluster& cluster, const Standings& standings,
              std::function<void(const SlotLoss&)> told);
 
   void on(const recording::records::SlotFrameSent& frame);
   void on(const recording::records::SlotProblem& problem);
-  // The run is over at `at`: settles what is open still. A slot counts if those that have not received anything in it
-  // must have reported by then, which they do when their static segment is over.
+  // Ends the drive at `at` and settles the open cycles. A slot counts if a node without its frame must have
+  // reported it by then, that is, if its static segment is over.
   void finish(TrueTime at);
 
  private:
-  static constexpr std::size_t kCycles =
-      4;  // open at a time: the present one, and those whose reports may be missing still
+  static constexpr std::size_t kCycles = 4;  // open at a time: the present one, and those that may lack reports
   struct Slot {
-    bool counted = false;  // its sender did when it sent
+    bool counted = false;  // its sender counted when it sent
     TrueTime at{};
     std::array<bool, 2> sent{};                 // by channel
     std::array<std::vector<bool>, 2> reported;  // by channel and receiver
@@ -57,8 +57,8 @@ class SlotLedger {
   const Standings& standings_;
   std::function<void(const SlotLoss&)> told_;
   std::array<Cycle, kCycles> cycles_;
-  std::int64_t newest_ = -1;  // counter of the cycle that was opened last
-  Duration slot_;             // how long a static one lasts
+  std::int64_t newest_ = -1;  // counter of the cycle opened last
+  Duration slot_;             // length of a static slot
 };
 
 }  // namespace ttf::evaluation::faults

@@ -1,4 +1,4 @@
-// A frame that did not come to whom it was owed, or came from somebody else; and who owes what to whom in a slot.
+// A frame that did not reach its receiver, or came from another sender; and the owners of slots.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ struct SlotLoss {
   bool forged = false;     // H5, a valid frame that the sender did not send; else H4 (checks.h)
 };
 
-// Whose frame is expected there in this cycle; kNoNode: nobody's.
+// Returns the node whose frame is expected there in this cycle; kNoNode: none.
 NodeId owner_of(const schedules::model::Cluster& cluster, int slot, schedules::model::Channel channel,
                 std::int64_t cycle);
 
-// Whether the receiver hears the frame's sender on this channel.
+// Returns whether the receiver hears the frame's sender on this channel.
 inline bool comes_on(const schedules::model::FrameSlot& frame, const schedules::model::Cluster& cluster,
                      NodeId receiver, schedules::model::Channel channel) {
   const auto& from = cluster.node(frame.sender).flexray;

@@ -1,5 +1,5 @@
-// How the nodes of a cluster stand: in normal operation or not, with a fault or without. Who is in normal operation and
-// without a fault counts.
+// The standing of each node of a cluster: in normal operation or not, fault-free or not. A fault-free node in
+// normal operation counts.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace ttf::evaluation::faults {
 
 class Standings {
  public:
-  // Nodes on FlexRay are in normal operation from the start, or have to get there.
+  // Nodes on FlexRay are in normal operation from the start, or have to start.
   Standings(const schedules::model::Cluster& cluster, bool begins_integrated);
 
   std::size_t size() const { return nodes_.size(); }
@@ -19,7 +19,7 @@ class Standings {
   bool faulty(NodeId node) const { return node != kNoNode && nodes_[index_of(node)].faulty; }
   bool counts(NodeId node) const { return active(node) && !faulty(node); }
   bool has_to_start(NodeId node) const { return nodes_[index_of(node)].has_to_start; }  // and has not yet
-  // H2 (checks.h), where the run is over.
+  // H2 (checks.h), at the end of the drive.
   bool never_started(NodeId node) const { return has_to_start(node) && !faulty(node); }
   bool all_fault_free_active() const;
 
