@@ -9,9 +9,9 @@ namespace ttf::evaluation::lateness {
 namespace {
 
 constexpr Duration kLongestCycle = Duration::milliseconds(16);  // cCycleMax
-constexpr std::int64_t kGapCycles = 5;                          // from one stamp to the one after the next it is four
+constexpr std::int64_t kGapCycles = 5;                          // a missing stamp leaves a gap of four, two of six
 
-// Within 36 years of the run's start: what else a damaged log says is not computed with.
+// Within 36 years of the drive's start: other times, from damaged logs, could overflow.
 bool possible(std::int64_t ns) {
   constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 60;
   return ns >= -kFarthest_ns && ns <= kFarthest_ns;
@@ -25,7 +25,7 @@ AchievedPrecision::AchievedPrecision(Duration cycle) {
   longest_gap_ = cycle * kGapCycles;
 }
 
-// Into half a round to either side.
+// Wraps into half a round to either side.
 std::int64_t AchievedPrecision::within_round(std::int64_t ns) const {
   const std::int64_t rest = ns % round_ns_;
   if (rest >= round_ns_ / 2) return rest - round_ns_;

@@ -1,14 +1,16 @@
-// How well the clocks of a cluster agreed in a run by the wall clock, from what each node's log says of its own.
+// Measures the agreement of a cluster's clocks in a drive by the wall clock, from each node's log of its own
+// clock.
 //
-// Every ClockCorrected has the node's global time and the host's clock (the stamp's true time) of one instant, once per
-// double cycle. Between two of them
+// Every ClockCorrected has the node's global time and the machine's clock (the stamp's true time) at one
+// instant, once per double cycle. Between two of them
 //
-//   global - host, at t = o1 + (o2 - o1) (t - t1) / (t2 - t1),     o = global - host at t1 and t2
+//   global - machine, at t = o1 + (o2 - o1) (t - t1) / (t2 - t1),     o = global - machine at t1 and t2
 //
-// and how far apart a set of nodes is at t is the largest of these less the smallest, whole rounds of the cycle counter
-// left out: nodes count these each for itself. Asked at every stamp of every node; there nodes are near stamps of their
-// own, so that what a correction does in between matters little. Only nodes of one host share its clock: those of
-// different hosts are not compared. A node that leaves out two stamps has no global time between its last and its next.
+// The difference of a set of nodes at t is the largest of these minus the smallest, without whole rounds of the
+// cycle counter, since each node counts these for itself. It is taken at every stamp of every node. There the
+// other nodes are near stamps of their own, so a correction in between matters little. Only nodes of one
+// machine are compared, since they share its clock. A node that lacks two stamps has no global time from its
+// last to its next.
 #pragma once
 
 #include <deque>
@@ -24,26 +26,27 @@ namespace ttf::evaluation::lateness {
 
 class AchievedPrecision {
  public:
-  // `cycle`: nominal length of the communication cycle; 0, or longer than any can be: nothing is compared.
+  // `cycle`: nominal length of the communication cycle. At 0, or if longer than possible, nothing is compared.
   explicit AchievedPrecision(Duration cycle);
 
-  // Of one host's nodes, in the order of its clock.
+  // Takes stamps of one machine's nodes, in the order of its clock.
   void add(const recording::records::Stamp& stamp);
-  // At the end, once: the differences at all instants at which two nodes or more had a global time.
+  // Returns the differences at all instants at which two nodes or more had a global time. Call it once, at the
+  // end.
   recording::records::BinnedDurations finish();
 
  private:
   struct Offset {
     TrueTime at{};
-    std::int64_t ns = 0;  // global less true time
+    std::int64_t ns = 0;  // global minus true time
   };
   std::int64_t within_round(std::int64_t ns) const;
   void compare(TrueTime at);
 
   std::int64_t round_ns_ = 0;
   Duration longest_gap_{};
-  std::map<NodeId, std::deque<Offset>> offsets_;  // of each: what is needed still
-  std::deque<TrueTime> instants_;                 // to be compared, when all have said what they showed then
+  std::map<NodeId, std::deque<Offset>> offsets_;  // by node: those still needed
+  std::deque<TrueTime> instants_;                 // to be compared once all nodes have stamped around them
   recording::records::BinnedDurations apart_;
 };
 

@@ -1,10 +1,10 @@
-// What a run by the wall clock was like in its machine's time, from its records alone: how late processes and frames
-// were, next to a plain thread's lateness on the same machine; what was not in its time, or never came, and what the
-// media counted; how well the clocks agreed. How old what the feature service used was is in DriveSummary
-// (evaluation/accuracy/drive_measures.h).
+// The account of a drive by the wall clock, in its machine's time, from its records alone: the lateness of
+// processes and frames, next to that of a plain thread on the same machine; late, early and lost frames, and
+// the media's counts; the clocks' agreement. DriveSummary (evaluation/accuracy/drive_measures.h) has the ages
+// at the uses of the feature service.
 //
-// Lateness is in real time already. Differences of the records' times are in the drive's, which a stretched run
-// (--time-scale) takes so much longer for: in_real_time().
+// Lateness is in real time already. Differences of the records' times are in the drive's time, which a
+// stretched drive (--time-scale) multiplies: see in_real_time().
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@
 
 namespace ttf::evaluation::lateness {
 
-// What the logs say of the run, beside records.
+// Facts about the drive from the logs' manifests.
 struct RealTimeRun {
   std::int64_t time_scale_ppm = 1'000'000;  // recording::LogManifest
-  std::map<NodeId, std::string> hosts;      // where each node ran; who is not in it is not compared
+  std::map<NodeId, std::string> hosts;      // the machine of each node; a node without one is not compared
 };
 RealTimeRun real_time_run(const recording::merge::MergedLogs& logs);
 
-// Rounded towards zero; what its type does not hold is the nearest that it does.
+// Rounded towards zero; a value beyond the type becomes its limit.
 Duration in_real_time(Duration of_the_drive, std::int64_t time_scale_ppm);
 
 struct NodeTiming {
@@ -44,7 +44,7 @@ struct NodeTiming {
   std::uint64_t frames_lost = 0;  // never came
   MissingFramesCount missing;     // of these: by their senders' logs
   std::uint64_t lost_on_the_way() const { return frames_lost - missing.withheld - missing.away; }
-  // Of the node's clock; none if it was never corrected. By size, in real time.
+  // Of the node's clock, absent if it was never corrected. The size, in real time.
   std::optional<Duration> largest_offset_correction;
 };
 
@@ -56,10 +56,11 @@ struct HostPrecision {
 
 struct RealTimeFindings {
   std::int64_t time_scale_ppm = 1'000'000;
-  std::map<NodeId, recording::exports::NodeLateness> lateness;  // of nodes that told of any
-  std::map<NodeId, NodeTiming> timing;  // of nodes that told of any, were corrected, or had problems
-  std::map<NodeId, recording::records::MediumCounts> medium;  // of nodes that told of any
-  std::vector<HostPrecision> precision;                       // of hosts with two synchronised nodes or more, by name
+  std::map<NodeId, recording::exports::NodeLateness> lateness;  // of nodes with histograms
+  std::map<NodeId, NodeTiming> timing;                          // of nodes with such records, corrections or problems
+  std::map<NodeId, recording::records::MediumCounts> medium;    // of nodes with counts
+  std::vector<HostPrecision> precision;                         // of machines with two synchronised nodes or more, by
+                                                                // name
 
   std::uint64_t frames_lost() const;
   std::uint64_t late_frames() const;
@@ -69,7 +70,7 @@ class LatenessAccount final : public recording::records::Sink {
  public:
   LatenessAccount(const schedules::model::Cluster& cluster, RealTimeRun run);
 
-  // At the end, once. Nothing where no record is of a run in real time.
+  // Returns the findings; absent if no record is of real time. Call it once, at the end.
   std::optional<RealTimeFindings> finish();
 
   using recording::records::Sink::on;
@@ -84,7 +85,7 @@ class LatenessAccount final : public recording::records::Sink {
 
   const schedules::model::Cluster& cluster_;
   RealTimeRun run_;
-  bool any_ = false;  // a record of a run in real time
+  bool any_ = false;  // a record of real time
   recording::exports::LatenessSums sums_;
   MediumSums medium_;
   MissingFrames missing_;

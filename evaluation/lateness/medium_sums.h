@@ -1,7 +1,7 @@
-// What the media of a run's nodes counted, added up from the counts in its logs.
+// Sums the counts of a drive's live media, node by node, from its logs.
 //
-// A record tells everything since its process began, so that the newest holds all before it; where a count, or the
-// local time, has become less, the process is another one, and what the former told is added to it.
+// A record counts from the start of its process, so the newest one includes all before it. If a count or the
+// local time has decreased, the node has a new process, and the last record of the old one is added to the sum.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@ namespace ttf::evaluation::lateness {
 
 class MediumSums final : public recording::records::Sink {
  public:
-  // Nodes that told of anything, by id; none in virtual time. Their stamps are of what was told last.
+  // Returns the nodes with counts, by id; empty in virtual time. The stamp is that of the newest record.
   std::map<NodeId, recording::records::MediumCounts> nodes() const;
 
   using recording::records::Sink::on;
@@ -21,8 +21,8 @@ class MediumSums final : public recording::records::Sink {
 
  private:
   struct Told {
-    recording::records::MediumCounts before;  // by the node's former processes
-    recording::records::MediumCounts newest;  // by its present one
+    recording::records::MediumCounts before;  // of the node's former processes
+    recording::records::MediumCounts newest;  // of its present process
   };
   std::map<NodeId, Told> told_;
 };

@@ -16,7 +16,7 @@ std::int64_t within_type_ns(Int128 ns) {
   return static_cast<std::int64_t>(std::clamp<Int128>(ns, Limits::min(), Limits::max()));
 }
 
-// 0..63, of any number.
+// Returns 0..63 for any number.
 std::size_t cycle_counter(Int128 cycle) { return static_cast<std::size_t>((cycle % kCycles + kCycles) % kCycles); }
 
 bool is_on(const FrameSlot& frame, int slot, std::uint8_t channel) {
@@ -27,7 +27,7 @@ bool is_on(const FrameSlot& frame, int slot, std::uint8_t channel) {
 
 }  // namespace
 
-// Of how many turns from `first_back` to `last_back` cycles before `cycle`; 1 or more.
+// Counts the turns from `first_back` to `last_back` cycles before `cycle`; both are 1 or more.
 std::int64_t MissingFrames::Sender::turns_before(std::int64_t cycle, std::int64_t first_back,
                                                  std::int64_t last_back) const {
   const auto up_to = [&](std::int64_t back) {
@@ -55,7 +55,8 @@ MissingFrames::Sender& MissingFrames::sender_at(const Place& place) {
   return sender;
 }
 
-// By the counters, and by the instants where rounds are concerned; nothing where it is not known how long a cycle is.
+// Returns the cycles between two turns: by the counters, with whole rounds by the instants. Absent if the
+// length of a cycle is unknown.
 std::optional<std::int64_t> MissingFrames::cycles_from(const Turn& earlier, const Turn& later) const {
   const Int128 cycle_ns = cluster_.cycle().ns;
   if (cycle_ns <= 0) return std::nullopt;
@@ -83,7 +84,7 @@ void MissingFrames::add(const recording::records::SlotFrameSent& frame) {
   sender.last = turn;
 }
 
-// So many cycles before the one of the frame that came was the first that did not.
+// Returns how many cycles the first missing frame was before the one that came.
 std::int64_t MissingFrames::reach_of(const Lost& lost) const {
   std::vector<std::int64_t> turns;  // of one round, backwards
   for (std::int64_t back = 1; back <= kCycles; ++back) {
@@ -100,14 +101,14 @@ std::int64_t MissingFrames::reach_of(const Lost& lost) const {
 }
 
 MissingFramesCount MissingFrames::count(const Lost& lost, std::int64_t reach, const Sender& sender) const {
-  // Nothing earlier is near, and nothing later.
+  // Turns outside this range are too far away.
   const Int128 cycle_ns = cluster_.cycle().ns;
   const std::int64_t from_ns = within_type_ns(lost.came.due_ns - (reach + kCycles) * cycle_ns);
   const std::int64_t to_ns = within_type_ns(lost.came.due_ns + kCycles * cycle_ns);
   const auto is_before = [](const Turn& turn, std::int64_t ns) { return turn.due_ns < ns; };
   const auto ends_before = [](const Silence& silence, std::int64_t ns) { return silence.behind.due_ns < ns; };
 
-  std::vector<std::int64_t> missed;  // so many cycles before
+  std::vector<std::int64_t> missed;  // in cycles before the frame that came
   for (auto turn = std::lower_bound(sender.missed.begin(), sender.missed.end(), from_ns, is_before);
        turn != sender.missed.end() && turn->due_ns <= to_ns; ++turn)
     if (const auto back = cycles_from(*turn, lost.came); back && *back >= 1 && *back <= reach) missed.push_back(*back);
@@ -130,13 +131,13 @@ MissingFramesCount MissingFrames::count(const Lost& lost, std::int64_t reach, co
 
 std::map<NodeId, MissingFramesCount> MissingFrames::by_receiver() const {
   std::map<Place, Sender> senders = senders_;
-  for (auto& [place, sender] : senders)  // what was told late is of before
+  for (auto& [place, sender] : senders)  // late reports are of earlier turns
     std::sort(sender.missed.begin(), sender.missed.end(),
               [](const Turn& a, const Turn& b) { return a.due_ns < b.due_ns; });
   std::map<NodeId, MissingFramesCount> all;
   for (const Lost& lost : lost_) {
     const std::int64_t reach = reach_of(lost);
-    std::uint64_t left = lost.count;  // of a damaged log, records may say more
+    std::uint64_t left = lost.count;  // records of a damaged log may claim more
     MissingFramesCount& of_node = all[lost.receiver];
     for (auto at = senders.lower_bound({lost.slot, lost.channel, NodeId{0}});
          at != senders.end() && std::get<0>(at->first) == lost.slot && std::get<1>(at->first) == lost.channel; ++at) {

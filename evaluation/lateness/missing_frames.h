@@ -1,16 +1,16 @@
-// Why frames never came. A receiver cannot tell those that went astray from those that were not sent; the senders'
-// logs can.
+// Finds the reasons of missing frames. A receiver cannot tell lost frames from frames that were not sent; the
+// senders' logs can.
 //
-// A record of `count` lost frames is of the last `count` turns of its slot before its cycle. Of these turns
+// A record of `count` lost frames covers the last `count` turns of its slot before its cycle. Each of these is
 //
-//   withheld   a sender recorded the slot it missed: it woke up too late
-//   away       a sender recorded no frame in the turn, though some before and behind it: it was not in operation
-//   neither    it was lost on the way
+//   withheld   a sender recorded the slot as missed: it woke up too late
+//   away       a sender recorded no frame in the turn, but some before and after it: it was not in operation
+//   neither    the frame was lost on the way
 //
-// Two records are of one turn where slot, channel and cycle counter are the same, and the instants are less than half a
-// round of that counter apart: nodes number their rounds each for itself, and anew when they restart, so that running
-// cycles and global times do not compare. True times do, on one scale (recording/merge/common_time.h): a record's less
-// what it says it was late by is near enough to when the turn was due.
+// Two records are of one turn if slot, channel and cycle counter agree, and their instants differ by less than
+// half a round of that counter. Each node numbers its rounds for itself, and anew after a restart, so running
+// cycles and global times do not compare. True times do, on one scale (recording/merge/common_time.h): a
+// record's true time minus its lateness is near enough to the instant at which the turn was due.
 #pragma once
 
 #include <bitset>
@@ -28,7 +28,7 @@
 
 namespace ttf::evaluation::lateness {
 
-// How many of the frames that never came to a node.
+// Counts of the frames that never came to a node, by reason.
 struct MissingFramesCount {
   std::uint64_t withheld = 0, away = 0;
 };
@@ -38,16 +38,16 @@ class MissingFrames {
   MissingFrames(const schedules::model::Cluster& cluster, std::int64_t time_scale_ppm)
       : cluster_(cluster), time_scale_ppm_(time_scale_ppm) {}
 
-  // Of the two kinds that matter; in any order.
+  // Takes the two kinds that matter, in any order; ignores others.
   void add(const recording::records::TimingProblem& problem);
-  // Each node's in the order of their instants.
+  // Takes each node's frames in the order of time.
   void add(const recording::records::SlotFrameSent& frame);
 
-  // None of a node that lacks none.
+  // Lists only nodes that lack frames.
   std::map<NodeId, MissingFramesCount> by_receiver() const;
 
  private:
-  // A turn of a slot: when, in the drive's time, and in which cycle, by the node's own count.
+  // A slot's turn: its instant in the drive's time, and its cycle by the node's own count.
   struct Turn {
     std::int64_t due_ns = 0;
     std::int64_t cycle = 0;
@@ -55,17 +55,17 @@ class MissingFrames {
   struct Silence {
     Turn before, behind;  // the last frame before it, and the first behind it
   };
-  // What is known of a sender in a slot of a channel.
+  // The known acts of a sender in a slot of a channel.
   struct Sender {
     std::bitset<schedules::model::kCycles> turns;  // by cycle counter
     std::vector<Turn> missed;
-    std::vector<Silence> silences;  // in the order of their instants
-    std::optional<Turn> last;       // that it sent
+    std::vector<Silence> silences;  // in the order of time
+    std::optional<Turn> last;       // the last one it sent
     std::int64_t turns_before(std::int64_t cycle, std::int64_t first_back, std::int64_t last_back) const;
   };
   using Place = std::tuple<std::uint16_t, std::uint8_t, NodeId>;  // slot, channel, sender
   struct Lost {
-    Turn came;  // the frame that showed it
+    Turn came;  // the frame that showed the loss
     NodeId receiver{};
     std::uint16_t slot = 0;
     std::uint8_t channel = 0;
