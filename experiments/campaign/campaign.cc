@@ -13,7 +13,7 @@
 namespace ttf::experiments::campaign {
 namespace {
 
-constexpr std::size_t kFaultsAtATime = 16;  // faults a worker takes
+constexpr std::size_t kFaultsAtATime = 16;  // faults that a worker takes at a time
 constexpr std::chrono::milliseconds kProgressInterval{500};
 
 }  // namespace
@@ -29,7 +29,7 @@ std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const Campai
   for (std::uint64_t i = shard.part; i < static_cast<std::uint64_t>(campaign.faults); i += shard.count)
     results.push_back({static_cast<std::uint32_t>(i), {}, {}});
 
-  std::atomic<std::size_t> next{0};  // every result is written by the one worker that took it
+  std::atomic<std::size_t> next{0};  // each result is written only by the worker that took it
   std::mutex mutex;
   std::condition_variable done;
   std::size_t finished = 0;  // guarded by mutex, as the two below

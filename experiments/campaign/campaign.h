@@ -1,5 +1,5 @@
-// A whole campaign: every fault in every variant, on as many workers as there are. Results are gathered by index, so
-// they are the same for any number of workers, and those of shards put together the same as of one run.
+// Runs a whole campaign: every fault in every variant, on several workers. Results are gathered by index, so
+// any number of workers gives the same, and the merged shards give the same as one run.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,11 @@ struct FaultResult {
 
 struct CampaignClusters {
   explicit CampaignClusters(const CampaignFile& campaign);  // throws InputError
-  schedules::model::Cluster base;                           // faults are drawn in
+  schedules::model::Cluster base;                           // faults are drawn in this one
   std::vector<schedules::model::Cluster> variants;          // in the file's order
 };
 
-// `progress`: called now and then by the calling thread, with how many faults are done.
+// `progress` receives the number of faults done, now and then, on the calling thread.
 std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters,
                                       results::Shard shard, unsigned workers,
                                       const std::function<void(std::uint64_t)>& progress);

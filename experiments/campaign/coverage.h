@@ -1,5 +1,5 @@
-// What a campaign shows, class by class: how many faults did something, who noticed them, whom they harmed, and how
-// long it took.
+// A campaign's coverage, class by class: how many faults were active, which checks noticed them, which harms
+// they did, and the delays.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace ttf::experiments::campaign {
 
-// Median and worst; nothing where there is nothing.
+// Median and worst; meaningless if count is 0.
 struct Spread {
   std::uint64_t count = 0;
   std::int64_t median_ns = 0, worst_ns = 0;
@@ -21,17 +21,18 @@ struct Spread {
 // The lower one of two medians.
 Spread spread_of(std::vector<std::int64_t> values);
 
-// As the table names a class: "noise", and "noise A+B *" outside of the hypothesis.
+// Returns a class' name in tables: "noise", and "noise A+B *" outside the hypothesis.
 std::string class_text(faults::FaultKind kind, bool in_hypothesis);
 
-// The faults of one class that are of the hypothesis, or those that are not.
+// The faults of one class within the hypothesis, or those outside.
 struct ClassCoverage {
   faults::FaultKind kind{};
   bool in_hypothesis = true;
   std::uint64_t injected = 0, activated = 0;
   std::uint64_t detected = 0;  // of the activated, by another node or a guardian
-  std::array<std::uint64_t, evaluation::faults::kAllChecks.size()> by_check{};  // one fault may count for several
-  std::uint64_t by_itself = 0;                                                  // its own controller noticed something
+  std::array<std::uint64_t, evaluation::faults::kAllChecks.size()> by_check{};  // a fault may count for several
+                                                                                // checks
+  std::uint64_t by_itself = 0;                                                  // noticed by its own controller
   std::uint64_t harmed = 0;
   std::array<std::uint64_t, evaluation::faults::kAllHarms.size()> by_harm{};
   std::uint64_t without = 0;  // start-ups that fail without the fault, too
@@ -41,14 +42,14 @@ struct ClassCoverage {
 struct Coverage {
   std::string variant;
   bool guarded = false;                // with guardians and two channels
-  std::vector<ClassCoverage> classes;  // in the order of the kinds; those with faults only
+  std::vector<ClassCoverage> classes;  // classes with faults only, in the order of the kinds
   std::uint64_t harmed_in_hypothesis = 0;
 };
 
 // `variant`: index in the campaign.
 Coverage coverage_of(const CampaignFile& campaign, std::span<const FaultResult> results, std::size_t variant);
 
-// As it is printed; times in cycles.
+// Returns the table for people; times in cycles.
 std::string coverage_text(const Coverage& coverage, Duration cycle);
 
 // "frame_lost: feature did not receive fusion's slot 3, 1.2 cycles after the fault's first act"

@@ -24,7 +24,7 @@ std::string_view node_name(NodeId node, const schedules::model::Cluster& cluster
   return node == kNoNode ? std::string_view() : std::string_view(cluster.node(node).name);
 }
 
-// What every line begins with; also what it is known again by.
+// Returns the beginning of a line, which identifies the fault and the variant.
 std::string drawn_text(const FaultResult& result, const Variant& variant, const schedules::model::Cluster& cluster) {
   const faults::Fault& fault = result.drawn.fault;
   return fmt::format("{},{},{},{},{},{},{}", result.index, variant.name, faults::name_of(fault.kind),
@@ -161,7 +161,7 @@ std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const C
 
 namespace {
 
-// Which shards are not there: "2/3, 3/3". Empty where those that are there are not shards of one number of parts.
+// Returns the missing shards: "2/3, 3/3". Empty if the given ones are not shards of one number of parts.
 std::string missing_shards(const CampaignFile& campaign, const std::vector<std::vector<FaultResult>>& shards) {
   std::uint32_t count = 0;
   std::set<std::uint32_t> parts;

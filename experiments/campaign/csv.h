@@ -1,4 +1,5 @@
-// A campaign's results as a table: one line per fault and variant; what a shard leaves, and what is put together again.
+// A campaign's results as a table with one line per fault and variant: a shard writes it, and the merge reads
+// it.
 #pragma once
 
 #include <span>
@@ -12,13 +13,12 @@ namespace ttf::experiments::campaign {
 std::string campaign_csv(const CampaignFile& campaign, const CampaignClusters& clusters,
                          std::span<const FaultResult> results);
 
-// The results of one such table, of this very campaign: each line's fault is drawn again, and must be the same. `name`:
-// for messages. Throws InputError.
+// Reads the results of such a table, of this very campaign: each line's fault is drawn again and must be the
+// same. `name` is the table's, for messages. Throws InputError.
 std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const CampaignClusters& clusters,
                                            const std::string& text, const std::string& name);
 
-// Puts the results of several shards together, by index. Throws InputError where a fault is there twice, or some is
-// missing.
+// Merges the results of several shards, by index. Throws InputError if a fault is repeated or missing.
 std::vector<FaultResult> merged(const CampaignFile& campaign, std::vector<std::vector<FaultResult>> shards);
 
 }  // namespace ttf::experiments::campaign

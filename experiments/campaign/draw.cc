@@ -61,7 +61,7 @@ class Drawing {
     TTF_CHECK(!candidates.empty(), "no coldstart node in {}", cluster_.name);
     return one_of(candidates);
   }
-  // A running cluster has had cycles without a fault, a start-up none. One in three stays to the end.
+  // A running cluster has had cycles without a fault, a start-up has not. One fault in three lasts to the end.
   void when(Fault& fault, bool starts_up) {
     fault.from = starts_up ? between(Duration{}, cycle_ * 12) : between(cycle_ * 4, cycle_ * 8);
     if (others_fail(fault.kind)) fault.from = Duration{};
@@ -96,7 +96,7 @@ class Drawing {
         {P::kReceivers, &Drawing::receivers},
         {P::kOccasions, &Drawing::occasions},
         {P::kChannels, &Drawing::fault_channels},
-        {P::kWindow, &Drawing::nothing},  // this and what follows: drawn before, by when()
+        {P::kWindow, &Drawing::nothing},  // this and the next two: drawn before, by when()
         {P::kFrom, &Drawing::nothing},
         {P::kPassing, &Drawing::nothing},
     }};
@@ -113,14 +113,14 @@ class Drawing {
   }
   void signal(Fault& fault) {
     fault.signal = one_of(std::vector{faults::FaultSignal::kNoise, faults::FaultSignal::kFrame});
-    if (fault.signal == faults::FaultSignal::kFrame) length();  // of no use to it, but part of campaigns' streams
+    if (fault.signal == faults::FaultSignal::kFrame) length();  // unused there, but part of campaigns' streams
   }
   void noise_length(Fault& fault) { fault.length = length(); }
   void masquerade(Fault& fault) {
     fault.masquerade = one_of(std::vector{faults::MasqueradeMode::kInSlot, faults::MasqueradeMode::kOwnSlot});
     fault.slot = one_of(slots_of_others(fault.node, false));
   }
-  // Up to twice the room before the action point: what leaves the slot, and what just does not.
+  // Up to twice the room before the action point: some frames leave the slot, others just do not.
   void shift(Fault& fault) {
     fault.shift = signed_up_to(Duration{2 * g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
   }
@@ -129,11 +129,11 @@ class Drawing {
     fault.pattern = one_of(std::vector{faults::ByzantinePattern::kRandom, faults::ByzantinePattern::kPullApart,
                                        faults::ByzantinePattern::kPullRates});
   }
-  // The frame CRC finds up to five in any frame; more it misses once in 2^24.
+  // The frame CRC finds up to five flips in any frame; it misses more of them once in 2^24.
   void flips(Fault& fault) {
     fault.flips = static_cast<int>(draw_.uniform() < 0.75 ? draw_.integer(1, 5) : draw_.integer(6, 24));
   }
-  // From what no clock notices to what none can follow: 10 ppm to 50000 ppm, evenly in the logarithm.
+  // From unnoticeable to untrackable: 10 ppm to 50000 ppm, evenly in the logarithm.
   void drift(Fault& fault) {
     const double ppb = 1e4 * std::pow(5'000.0, draw_.uniform());
     fault.drift_ppb = static_cast<std::int64_t>(ppb) * (draw_.uniform() < 0.5 ? -1 : 1);
@@ -141,16 +141,16 @@ class Drawing {
   void others(Fault& fault) { fault.all_others = draw_.uniform() < 0.5; }
   void fault_channels(Fault& fault) { fault.channels = channels(); }
 
-  // What a node believes in, it believes in from the beginning to the end.
+  // A wrong belief holds from the beginning to the end.
   static void always(Fault& fault) {
     fault.from = Duration{};
     fault.duration = Fault::kToTheEnd;
   }
-  // Macroticks that every static slot may be longer by in the same cycle, at most.
+  // Returns by how many macroticks at most every static slot may be longer in the same cycle.
   int room_in_slots() const {
     return std::min(g_.gdNIT - 2, g_.gOffsetCorrectionStart - (g_.gMacroPerCycle - g_.gdNIT)) / g_.gNumberOfStaticSlots;
   }
-  // What the cluster leaves room for; a wrong length of the cycle is always possible.
+  // Returns the wrong schedules with room in the cluster; a wrong length of the cycle is always possible.
   std::vector<faults::WrongSchedule> wrong_schedules(NodeId node) const {
     std::vector<faults::WrongSchedule> possible;
     if (g_.gNumberOfStaticSlots > 1) possible.push_back(faults::WrongSchedule::kShiftedSlots);
@@ -166,7 +166,7 @@ class Drawing {
     fault.duplicate = one_of(possible);
     switch (fault.duplicate) {
       case faults::DuplicateMode::kCas:
-        channels();  // as its length, of no use to it, but part of campaigns' streams
+        channels();  // unused, as its length is, but part of campaigns' streams
         length();
         return;
       case faults::DuplicateMode::kStartupFrames: return;
@@ -242,7 +242,7 @@ std::string parameters_text(const Fault& fault, const schedules::model::Cluster&
   std::string out;
   for (const auto& [key, value] : faults::keys_of(fault, cluster)) {
     if (!out.empty()) out += "; ";
-    std::string cell = value;  // a list's commas would be the table's
+    std::string cell = value;  // a list's commas would split the table's cell
     for (std::size_t at = 0; (at = cell.find(", ", at)) != std::string::npos;) cell.replace(at, 2, 1, '+');
     out += fmt::format("{}: {}", key, cell);
   }

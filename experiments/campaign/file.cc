@@ -36,7 +36,7 @@ CampaignFile read(const StrictYaml& yaml) {
   const std::string kind = root.text("kind");
   if (!kind.empty() && kind != "fault_campaign") {
     root.fail("kind", "must be fault_campaign, the one kind of experiment there is");
-    findings.throw_if_any();  // another kind's keys are not to be judged
+    findings.throw_if_any();  // the keys of another kind are not judged
   }
   campaign.name = root.text("name");
   campaign.cluster_file =

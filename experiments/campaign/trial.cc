@@ -47,7 +47,7 @@ FaultOutcome outcome_of(const evaluation::faults::Judgement& judgement,
   return outcome;
 }
 
-// A start-up without the fault: what it shows is not the doing of a fault that meets it.
+// A start-up without the fault: its findings are not effects of the fault.
 struct UsualStartup {
   bool completes = false;
   TrueTime settled{};
@@ -64,7 +64,7 @@ UsualStartup usual_startup(const TrialSetting& setting, evaluation::faults::Judg
   return usual;
 }
 
-// From when to when the fault is at work.
+// Sets the time span of the fault.
 void set_window(evaluation::faults::JudgeSettings& judge, const faults::Fault& fault) {
   const TrueTime from = trial_origin(judge.starts_up) + fault.from;
   judge.from = faults::changes_schedule(fault) ? TrueTime{} : from;

@@ -1,8 +1,9 @@
-// One fault in one cluster: an own simulation of controllers on clocks of their own, the fault, and the judge.
+// A trial: one fault in one cluster. It simulates controllers on clocks of their own, with the fault and the
+// judge.
 //
-// Every node's host writes its lists anew in every cycle (trial_host.h), and restarts a halted controller when the
-// campaign says so (trial_run.h). A trial is a pure function of campaign, wiring and index: clocks and times of
-// power-on (trial_draws.h) and what the fault draws come from streams of that index.
+// Every node's host writes its lists anew in every cycle (trial_host.h), and restarts a halted controller after
+// the campaign's delay (trial_run.h). A trial is a pure function of campaign, wiring and index. Clocks and
+// times of power-on (trial_draws.h) and the fault's draws come from streams of that index.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +15,24 @@
 
 namespace ttf::experiments::campaign {
 
-// What came of one fault; times in nanoseconds.
+// The outcome of one fault; times in nanoseconds.
 struct FaultOutcome {
-  bool activated = false;            // the fault did something
-  bool starts_without = true;        // a start-up: without the fault all nodes became active
+  bool activated = false;            // the fault acted
+  bool starts_without = true;        // for a start-up: all nodes became active without the fault
   std::uint16_t seen_by_others = 0;  // bits by Check
   std::uint16_t seen_by_itself = 0;
   std::uint8_t harms = 0;                     // bits by Harm
   NodeId harmed = kNoNode, sender = kNoNode;  // of the first harm, as in Judgement
   int slot = 0;
   std::int16_t still_out = 0;  // nodes that lost normal active and did not come back
-  std::optional<std::int64_t> detected_after, passive_after, halt_after;  // the fault's first act
+  std::optional<std::int64_t> detected_after, passive_after, halt_after;  // after the fault's first act
   std::optional<std::int64_t> harmed_after;
   std::optional<std::int64_t> reintegrated_after;  // Judgement::reintegration
 
   bool operator==(const FaultOutcome&) const = default;
 };
 
-// `cluster`: as wired (cluster_of()). `story` may be null. `bit_true`: on a medium that encodes and decodes every
+// `cluster` is wired (cluster_of()). `story` may be null. `bit_true`: the medium encodes and decodes every
 // frame; the outcome is the same.
 FaultOutcome run_trial(const CampaignFile& campaign, const schedules::model::Cluster& cluster, const DrawnFault& drawn,
                        std::uint32_t index, TrialStory* story = nullptr, bool bit_true = false);

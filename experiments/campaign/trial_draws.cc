@@ -36,7 +36,7 @@ std::vector<sim::crank::BusNode> TrialDraws::starting() const {
   return nodes;
 }
 
-// As start-up leaves them: the rate correction cancels the drift to a microtick per cycle.
+// The rate correction cancels the drift to a microtick per cycle, as after start-up.
 std::vector<sim::crank::BusNode> TrialDraws::integrated(TrueTime origin) const {
   std::vector<sim::crank::BusNode> nodes;
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {

@@ -1,5 +1,5 @@
-// What a trial draws of its cluster: the clocks of nodes and guardians, and when nodes are powered on. A pure function
-// of the campaign's seed and the trial's index.
+// Draws a trial's cluster: the clocks of nodes and guardians, and the instants of power-on. A pure function of
+// the campaign's seed and the trial's index.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ class TrialDraws {
   TrialDraws(std::uint64_t seed, std::uint32_t index, const schedules::model::Cluster& cluster)
       : seed_(seed), index_(index), cluster_(cluster) {}
 
-  // Nodes that are powered on within some cycles, or that have integrated into a cluster whose cycle 0 starts at
-  // `origin`; by NodeId.
+  // Nodes by NodeId: powered on within some cycles, or integrated in a cluster whose cycle 0 starts at
+  // `origin`.
   std::vector<sim::crank::BusNode> starting() const;
   std::vector<sim::crank::BusNode> integrated(TrueTime origin) const;
   std::vector<timebase::Oscillator> guardians() const;  // by channel

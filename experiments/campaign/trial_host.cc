@@ -9,7 +9,7 @@
 namespace ttf::experiments::campaign {
 namespace {
 
-// As many of the value's bits as the signal has.
+// Writes the lower bits of the value, as many as the signal has.
 void write_header(const schedules::model::PduLayout& layout, std::span<std::byte> payload, std::string_view name,
                   std::uint32_t value) {
   const std::size_t signal = bus::wire::header_signal(layout, name);

@@ -1,5 +1,5 @@
-// The host of one node in a trial: writes its lists and its network management vector anew in every cycle, so that no
-// two frames are alike.
+// The host of one node in a trial: writes its lists and its network management vector anew in every cycle, so
+// that all frames differ.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// One run of a cluster for a trial: controllers on drawn clocks with hosts that write their lists, with a fault or
-// without, and the judge, who is told what controllers and guardians report.
+// One simulation of a cluster for a trial, with a fault or without: controllers on drawn clocks, hosts that
+// write their lists, and the judge, which receives the reports of controllers and guardians.
 #pragma once
 
 #include <cstdint>
@@ -22,26 +22,26 @@
 
 namespace ttf::experiments::campaign {
 
-// What does not depend on whether there is a fault. All of it outlives the run.
+// The setting, with or without a fault. All of it must outlive the TrialRun.
 struct TrialSetting {
   const CampaignFile& campaign;
   const schedules::model::Cluster& cluster;  // as wired
   std::uint32_t index = 0;
-  bool bit_true = false;  // a medium that encodes and decodes every frame
+  bool bit_true = false;  // the medium encodes and decodes every frame
 };
 
-// When cycle 0 begins, of a start-up or of a cluster that runs.
+// Returns when cycle 0 begins, in a start-up or in a running cluster.
 TrueTime trial_origin(bool starts_up);
 
 class TrialRun final : public sim::medium::Disturbance, public sim::crank::Plant, public recording::records::Sink {
  public:
-  // `fault`: none for the same run without one. `story` may be null.
+  // `fault`: absent for the same simulation without one. `story` may be null.
   TrialRun(const TrialSetting& setting, const std::optional<faults::Fault>& fault,
            const evaluation::faults::JudgeSettings& judge, TrialStory* story = nullptr);
   ~TrialRun() override;
 
   void run_until(TrueTime end);
-  // When they are: to a quarter of a cycle. Nothing if they are not by `end`.
+  // Returns the instant, to a quarter of a cycle; absent if some node is not active by `end`.
   std::optional<TrueTime> run_until_all_active(TrueTime end);
   const evaluation::faults::Judgement& finish() { return judge_.finish(simulation_->now()); }
   const sim::faults::Injector::Activation& activation() const { return injector_->activations().front(); }
@@ -61,7 +61,7 @@ class TrialRun final : public sim::medium::Disturbance, public sim::crank::Plant
   TrueTime next() const override;
   void act(TrueTime at) override;
 
-  // The plant: who loses its supply is told to the judge.
+  // The plant: the judge is informed of lost supplies.
   TrueTime now() const override { return simulation_->now(); }
   bool powered(NodeId node) const override { return simulation_->powered(node); }
   void power_off(NodeId node) override;

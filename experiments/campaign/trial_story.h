@@ -1,4 +1,4 @@
-// Who is told what happens in a trial, for a replay in words.
+// Receives the events of a trial, for a replay in words.
 #pragma once
 
 #include "bus/poc/poc.h"
