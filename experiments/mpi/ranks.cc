@@ -18,8 +18,8 @@ namespace {
 using results::Run;
 using results::RunKey;
 
-constexpr int kRuns = 1;  // to rank 0: runs that were driven, maybe none; whoever sends it has nothing to do
-constexpr int kKeys = 2;  // from rank 0: what to drive; nothing: it is over
+constexpr int kRuns = 1;                       // to rank 0: results, perhaps none; the sender is idle
+constexpr int kKeys = 2;                       // from rank 0: keys to drive; empty: the end
 constexpr std::chrono::milliseconds kLook{1};  // between two looks for a message; MPI itself would wait spinning
 
 using Bytes = std::vector<char>;
@@ -30,7 +30,7 @@ template <class Number> void put(Bytes& bytes, Number number) {
   bytes.insert(bytes.end(), from, from + sizeof number);
 }
 
-// What another rank of this program has put.
+// Reads a message that another rank of this program has written.
 class Reader {
  public:
   explicit Reader(const Bytes& bytes) : bytes_(bytes) {}
@@ -93,7 +93,7 @@ void send(const Bytes& bytes, int to, int tag) {
   MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_CHAR, to, tag, MPI_COMM_WORLD);
 }
 
-// A message that is there.
+// Receives a message that has arrived.
 Bytes receive(const MPI_Status& status) {
   int size = 0;
   MPI_Get_count(&status, MPI_CHAR, &size);
@@ -132,7 +132,7 @@ Ranks::~Ranks() {
   int begun = 0;
   MPI_Initialized(&begun);
   if (begun == 0) return;
-  // Whoever still drives something says so when that is done; nobody wants it any more.
+  // A rank that still drives reports its end; its results are dropped.
   while (served_ && idle_.size() + 1 < static_cast<std::size_t>(size_)) {
     MPI_Status status;
     while (!is_there(MPI_ANY_SOURCE, kRuns, status)) std::this_thread::sleep_for(kLook);

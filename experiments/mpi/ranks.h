@@ -1,11 +1,11 @@
-// An experiment's runs on many machines: the processes that mpirun has started (OpenMPI).
+// An experiment's drives on many machines: the processes that mpirun has started (OpenMPI).
 //
-// Every rank reads the experiment for itself. Rank 0 has the store and hands out runs, a few at a time, to whoever has
-// none; the others drive them and send back what they came to. As a run is a function of its key, the store holds what
-// one process alone would have put there. A rank that dies ends them all, as mpirun has it: what rank 0 has written by
-// then stays, and a resumed experiment goes on from there.
+// Every rank reads the experiment for itself. Rank 0 has the store and hands out a few drives at a time to idle
+// ranks; these drive them and send back the results. A result is a function of its key, so the store is the
+// same as from one process alone. If a rank dies, mpirun ends them all; the store of rank 0 remains, and a
+// resumed experiment goes on from there.
 //
-// All ranks must be of one byte order and one program; that they read the same files is checked.
+// All ranks must be of one byte order and one program. A check ensures that they read the same files.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ namespace ttf::experiments::mpi {
 
 class Ranks final : public sweep::Elsewhere {
  public:
-  // Of a process that mpirun did not start: it is alone, and MPI is not begun.
+  // A process that mpirun did not start is alone, and does not initialise MPI.
   Ranks();
-  // Of rank 0: the others are done, too.
+  // On rank 0: also ends the other ranks.
   ~Ranks() override;
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
@@ -30,13 +30,13 @@ class Ranks final : public sweep::Elsewhere {
   int rank() const { return rank_; }
   int size() const { return size_; }
 
-  // Called by all, with what is wrong on this one, "" if nothing is: what is wrong on the first rank where something
-  // is, the same for all.
+  // A collective call: each rank passes its problem, or "". Returns the problem of the first rank that has one,
+  // the same on all ranks.
   std::string first_problem(const std::string& mine) const;
-  // Called by all: whether this rank has the same text as rank 0.
+  // A collective call: returns whether this rank has the same text as rank 0.
   bool same_as_first(const std::string& text) const;
 
-  // On every rank but 0: drives what it is handed, until rank 0 is done.
+  // On every rank but 0: drives what rank 0 hands out, until rank 0 ends it.
   void serve(const sweep::SweepDrives& drives);
   // On rank 0: the others serve, or will.
   void are_served() { served_ = true; }
@@ -48,7 +48,7 @@ class Ranks final : public sweep::Elsewhere {
   int rank_ = 0, size_ = 1;
   bool served_ = false;
   std::vector<int> idle_;               // ranks that have nothing to drive
-  std::vector<std::size_t> under_way_;  // runs, by rank
+  std::vector<std::size_t> under_way_;  // number of drives, by rank
 };
 
 }  // namespace ttf::experiments::mpi
