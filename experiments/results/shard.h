@@ -1,4 +1,4 @@
-// A part of an experiment, for one of several machines; and how many workers this one has.
+// A part of an experiment, for one of several machines; and the number of workers on this machine.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Means, and how sure they are.
+// Means and their confidence.
 #pragma once
 
 #include <cstdint>
@@ -6,22 +6,23 @@
 
 namespace ttf::experiments::results {
 
-// Mean and variance of what is added, in one pass (Welford: "Note on a method for calculating corrected sums of squares
-// and products", Technometrics 4, 1962). What is not finite is not counted.
+// Computes mean and variance in one pass (Welford: "Note on a method for calculating corrected sums of squares
+// and products", Technometrics 4, 1962). Values that are not finite are ignored.
 class Moments {
  public:
   void add(double x);
   std::uint64_t count() const { return count_; }
   double mean() const { return count_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }
-  double variance() const;  // of the samples, unbiased; not a number of fewer than two
+  double variance() const;  // of the samples, unbiased; not a number for fewer than two
 
  private:
   std::uint64_t count_ = 0;
   double mean_ = 0.0, squares_ = 0.0;
 };
 
-// mean +- half_width contains the expectation in a share `confidence` of all such samples, if the mean is normally
-// distributed: Student's t. Not a number where there are too few. `confidence` is above 0 and below 1.
+// mean +- half_width contains the expectation in a share `confidence` of all such samples, if the mean is
+// normally distributed: Student's t. Not a number for fewer than two samples. `confidence` is above 0 and below
+// 1.
 struct Interval {
   std::uint64_t count = 0;
   double mean = std::numeric_limits<double>::quiet_NaN();

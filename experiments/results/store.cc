@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kReplications = "replications";  // a key of meta
 
-// Names come from experiment files: whatever they are, they stay names.
+// Quotes a name from an experiment file, so that it stays a name whatever it is.
 std::string identifier(std::string_view name) {
   std::string out = "\"";
   for (const char c : name) out += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -71,7 +71,7 @@ class Statement {
   void bind(int at, std::string_view text) {
     check(sqlite3_bind_text(handle_, at, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
   }
-  bool row() {  // false: no more
+  bool row() {  // false: no more rows
     const int code = sqlite3_step(handle_);
     if (code != SQLITE_ROW && code != SQLITE_DONE) fail();
     return code == SQLITE_ROW;
@@ -122,7 +122,7 @@ Store& Store::operator=(Store&&) noexcept = default;
 
 Store Store::create(const std::string& path, const StoreHead& head) {
   if (std::filesystem::exists(path)) throw std::runtime_error(path + ": is there already");
-  // Under another name until it is whole: a store without its head is none.
+  // Under another name until it is whole: a store needs its head.
   const std::string unfinished = path + ".new";
   std::filesystem::remove(unfinished);
   create_in(Database(unfinished, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE), head);
@@ -173,7 +173,7 @@ Store Store::open(const std::string& path) {
     for (std::size_t begin = 0, end = 0; (end = measures->find('\n', begin)) != std::string::npos; begin = end + 1)
       store.head_.measures.push_back(measures->substr(begin, end - begin));
     Statement runs(store.database_->handle, store.database_->path,
-                   "SELECT " + columns(store.head_) + " FROM runs LIMIT 1");  // whether they are as said
+                   "SELECT " + columns(store.head_) + " FROM runs LIMIT 1");  // whether the columns are as stated
     (void)runs.row();
     return store;
   } catch (const std::runtime_error& error) {
@@ -208,7 +208,7 @@ void Store::add(const std::vector<Run>& runs) {
     }
     database_->execute("COMMIT");
   } catch (...) {
-    sqlite3_exec(database_->handle, "ROLLBACK", nullptr, nullptr, nullptr);  // some errors have done so already
+    sqlite3_exec(database_->handle, "ROLLBACK", nullptr, nullptr, nullptr);  // some errors have rolled back already
     throw;
   }
 }

@@ -1,13 +1,13 @@
-// What runs came to, in one SQLite file: a row a run, as soon as it is there. Whoever is killed has lost what was not
-// committed and nothing else.
+// Keeps the results of drives in one SQLite file, a row per drive, as soon as it is done. A killed process
+// loses only uncommitted rows.
 //
-//   meta(key, value)                           what the runs are of: name, identity, version, the experiment's text;
-//                                              replications, how many of every point are asked for
-//   runs(point, replication, paradigm,         the run's key
-//        status,                               "done", or in a sentence what went wrong
-//        <a column a measure>)                 real; NULL where a run has none
+//   meta(key, value)                           the drives' origin: name, identity, version, the experiment's text;
+//                                              the number of replications wanted of every point
+//   runs(point, replication, paradigm,         the drive's key
+//        status,                               "done", or a sentence about the failure
+//        <a column a measure>)                 real; NULL if the drive has none
 //
-// Rows come back in the order of their keys, whatever order they came in.
+// Rows come back in the order of their keys.
 #pragma once
 
 #include <cstdint>
@@ -25,35 +25,35 @@ struct RunKey {
 
 struct Run {
   RunKey key;
-  std::string status;          // kDone, or what went wrong
-  std::vector<double> values;  // by measure; NaN where there is none
+  std::string status;          // kDone, or the failure
+  std::vector<double> values;  // by measure; NaN if the drive has none
 };
 inline constexpr const char* kDone = "done";
 
 struct StoreHead {
   std::string name;
-  // Of all files the runs follow from, and of the program: two stores of the same of both hold the same runs.
+  // Hashes of all files behind the drives, and of the program: stores with both equal hold the same drives.
   std::string identity, version;
   std::string text;  // the experiment's file
   std::vector<std::string> measures;
-  std::uint32_t replications = 0;  // asked for, of every point; none: nobody said
+  std::uint32_t replications = 0;  // wanted of every point; 0: not stated
 };
 
 class Store {
  public:
-  // Creates it. Throws std::runtime_error where the file is there already or cannot be written.
+  // Creates a store. Throws std::runtime_error if the file exists already or cannot be written.
   static Store create(const std::string& path, const StoreHead& head);
-  // Opens one, for reading too. Throws InputError where it is none.
+  // Opens a store for reading and writing. Throws InputError if the file is no store.
   static Store open(const std::string& path);
   ~Store();
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
 
   const StoreHead& head() const { return head_; }
-  // From now on so many are asked for. Throws std::runtime_error.
+  // Sets the number wanted from now on. Throws std::runtime_error.
   void ask_for(std::uint32_t replications);
-  // All or none of them; a run that is there already stays as it is. Throws std::runtime_error, disk full for instance:
-  // what was there before still is.
+  // Adds all of them, or none; a row that exists stays as it is. Throws std::runtime_error, for instance if the
+  // disk is full; earlier rows remain.
   void add(const std::vector<Run>& runs);
   std::uint64_t count() const;
   std::vector<RunKey> keys() const;                                                            // in order
