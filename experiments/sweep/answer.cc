@@ -12,7 +12,7 @@ using results::Interval;
 using results::Moments;
 using results::Run;
 
-// Adds up a point's runs, which come replication by replication.
+// Sums a point's results, which come replication by replication.
 class Sums {
  public:
   explicit Sums(const SweepFile& sweep, std::size_t other_than_baseline)
@@ -80,7 +80,7 @@ void add_points(const SweepFile& sweep, const results::Store& store, SweepAnswer
   }
 }
 
-// Along one axis, from every point whose neighbour on it there is.
+// Searches along one axis, from every point that has a neighbour on it.
 void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a, SweepAnswer& answer) {
   const std::vector<const Axis*> grid = sweep.grid();
   const Axis& axis = *grid[a];
@@ -91,7 +91,7 @@ void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a,
     const std::vector<const Setting*> settings = sweep.settings_of(point), next = sweep.settings_of(point + stride);
     if (settings[a] + 1 != next[a] || !settings[a]->number || !next[a]->number) continue;
     const Interval before = answer.points[point].differences[paradigm].front();
-    // Where there is no difference at all, the other side is behind it.
+    // Points without any difference are skipped: the other side is behind them.
     std::uint32_t behind = point + stride;
     const Setting* const last = &axis.settings.back();
     while (answer.points[behind].differences[paradigm].front().mean == 0.0 && sweep.settings_of(behind)[a] != last)
@@ -116,7 +116,7 @@ std::size_t measure_index(const SweepFile& sweep, const std::string& name) {
   return static_cast<std::size_t>(found - sweep.measures.begin());
 }
 
-// At one point: run by run, one measure less the other.
+// At one point: compares the two measures drive by drive.
 bool agree(const SweepFile& sweep, const Expectation& expectation, const std::vector<Run>& runs) {
   const std::size_t paradigm = index_of(sweep, expectation.less), first = sweep.drawn().size();
   const std::size_t one = measure_index(sweep, expectation.measure), other = measure_index(sweep, expectation.agrees);
@@ -125,7 +125,7 @@ bool agree(const SweepFile& sweep, const Expectation& expectation, const std::ve
     if (run.key.paradigm == paradigm && run.status == results::kDone)
       difference.add(run.values[first + one] - run.values[first + other]);
   const Interval interval = interval_of(difference, sweep.confidence);
-  return interval.low() <= 0.0 && interval.high() >= 0.0;  // not where it is no number
+  return interval.low() <= 0.0 && interval.high() >= 0.0;  // false if the interval is not a number
 }
 
 bool less(const SweepFile& sweep, const Expectation& expectation, const std::vector<Run>& runs) {

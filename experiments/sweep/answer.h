@@ -1,6 +1,6 @@
-// What an experiment's runs say: means with intervals by point, paradigm and measure, differences between paradigms of
-// the same draws (paired, so that what all of them suffer from cancels), where two of them cross, and whether what was
-// expected came out. A pure function of the store.
+// The answer of an experiment's results: means with intervals by point, paradigm and measure; differences
+// between paradigms of the same draws (paired, so that common effects cancel); where two paradigms cross; and
+// whether the expectations hold. A pure function of the store.
 #pragma once
 
 #include <cstdint>
@@ -16,26 +16,26 @@ namespace ttf::experiments::sweep {
 
 struct PointAnswer {
   std::uint32_t point = 0;
-  // By paradigm, then measure. Differences are of this paradigm from the baseline, replication by replication; of the
-  // baseline itself there are none.
+  // By paradigm, then measure. Differences are this paradigm's minus the baseline's, replication by
+  // replication; the baseline has none.
   std::vector<std::vector<results::Interval>> means, differences;
 };
 
-// Between two neighbours on a numeric axis of the grid, all else equal, the first measure's difference changes its
-// sign; or between two points with others between them at which there is no difference at all.
+// A change of sign of the first measure's difference between two neighbours on a numeric axis of the grid, all
+// else equal. Points without any difference may lie between the two.
 struct Crossing {
-  std::size_t paradigm = 0;  // it and the baseline
+  std::size_t paradigm = 0;  // this one and the baseline
   std::string axis;
   std::string others;                   // the other axes' values, "" if there are none
   std::uint32_t before = 0, after = 0;  // points
-  double at = 0.0;       // interpolated: linear in the value, or in its logarithm where the axis is logarithmic
-  bool certain = false;  // the intervals of both exclude 0
+  double at = 0.0;                      // interpolated: linear in the value, or in its logarithm on a logarithmic axis
+  bool certain = false;                 // the intervals of both exclude 0
 };
 
 struct ExpectationAnswer {
   std::string text;
   bool holds = false;
-  std::vector<std::string> where_not;  // points at which it is otherwise or not certain
+  std::vector<std::string> where_not;  // points at which the expectation fails or is not certain
 };
 
 struct SweepAnswer {
@@ -48,7 +48,7 @@ struct SweepAnswer {
 
 SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store);
 
-// Whether the stop rule is content with what there is of a point: replications 0..to-1 of `runs`, in order.
+// Returns whether a point satisfies the stop rule with replications 0..to-1 of `runs`, which are in order.
 bool sure_enough(const SweepFile& sweep, const std::vector<results::Run>& runs, std::uint32_t to);
 
 }  // namespace ttf::experiments::sweep

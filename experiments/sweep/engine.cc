@@ -20,11 +20,11 @@ using results::Run;
 using results::RunKey;
 
 constexpr std::uint32_t kRunsAtATime = 8;           // for a worker
-constexpr std::chrono::milliseconds kWritten{500};  // how long a run waits at most to be written down
+constexpr std::chrono::milliseconds kWritten{500};  // the longest wait until a result is written
 constexpr std::chrono::milliseconds kTurn{2};       // between two looks at what is driven elsewhere
-constexpr std::size_t kMostWaiting = 100'000;       // runs
+constexpr std::size_t kMostWaiting = 100'000;       // results
 
-// Which runs there are, a bit each.
+// The existing results, a bit each.
 class Ledger {
  public:
   Ledger(const SweepFile& sweep, const results::Store& store)
@@ -43,7 +43,7 @@ class Ledger {
   std::vector<bool> there_;
 };
 
-// Nothing where it cannot be: run() says why.
+// Returns nothing if preparation fails; run() reports the reason.
 std::optional<PreparedDrive> try_prepare(const SweepDrives& drives, const RunKey& key) {
   try {
     return drives.prepare(key);
@@ -52,7 +52,8 @@ std::optional<PreparedDrive> try_prepare(const SweepDrives& drives, const RunKey
   }
 }
 
-// Drives `wanted` on all workers, and elsewhere; `take` gets what is there now and then, on the calling thread.
+// Drives `wanted` on all workers, and elsewhere; `take` receives the results now and then, on the calling
+// thread.
 class Workers {
  public:
   Workers(const SweepDrives& drives, const std::vector<RunKey>& wanted, Elsewhere* elsewhere)
@@ -68,7 +69,7 @@ class Workers {
         const std::lock_guard lock(mutex_);
         ++running_;
       }
-    } catch (const std::system_error&) {  // with fewer, then
+    } catch (const std::system_error&) {  // go on with fewer
       if (threads.empty()) throw;
     }
     for (bool last = false; !last;) {
@@ -107,7 +108,7 @@ class Workers {
     changed_.notify_all();
   }
 
-  // The next few runs for who asks.
+  // Returns the next few keys.
   std::span<const RunKey> grab() {
     const std::size_t first = next_.fetch_add(kRunsAtATime);
     if (first >= wanted_.size()) return {};
@@ -129,7 +130,7 @@ class Workers {
     return running_ == 0;
   }
 
-  // Until it is time to write down what is there, or all is. Whether nothing is to be expected from elsewhere.
+  // Waits until results should be written, or all are there. Returns whether no result is pending elsewhere.
   bool await_runs() {
     if (elsewhere_ == nullptr) {
       std::unique_lock lock(mutex_);
@@ -157,7 +158,7 @@ class Workers {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Run> waiting_;  // guarded, as the next two
-  int running_ = 0;           // may be below 0 for a moment: who is done before it is counted
+  int running_ = 0;           // may be below 0 for a moment: a worker may end before it is counted
   std::exception_ptr failure_;
 };
 

@@ -10,10 +10,11 @@
 namespace ttf::experiments::sweep {
 namespace {
 
-constexpr double kWorldStep_s = 0.01;  // in each of which the world draws (sim/world/world.h)
+constexpr double kWorldStep_s = 0.01;  // the world draws once per step (sim/world/world.h)
 constexpr std::size_t kMostTruths = 128, kMostSeen = 128, kMostImages = 8;
 
-// As white noise: along the heading the acceleration, across it what the turn rate does at this speed.
+// Converts the world's noise to white noise: the acceleration along the heading, and across it the turn rate's
+// effect at this speed.
 PointMotion motion_of(const drives::Scenario& scenario) {
   const sim::world::ObjectConfig& object = scenario.world.objects.front();
   PointMotion motion = PointMotion::known(scenario.tracker.process_noise, scenario.tracker.initial_velocity_sigma);
@@ -47,7 +48,7 @@ void ExpectedError::on(const recording::records::TruthState& truth) {
   if (truth_.size() > kMostTruths) truth_.pop_front();
 }
 
-// The truth is told at the instants at which sensors measure, on their own clocks: the nearest one is meant.
+// Truth is recorded when sensors measure, by their own clocks: take the nearest one.
 void ExpectedError::on(const recording::records::ObservationSeen& observation) {
   const TrueTime measured = recording::records::true_time_of(observation.stamp, observation.measured);
   const auto off = [&](const recording::records::TruthState& truth) { return std::abs((truth.at - measured).ns); };
@@ -69,7 +70,7 @@ void ExpectedError::on(const recording::records::ObservationSeen& observation) {
 }
 
 void ExpectedError::on(const recording::records::ListFused& list) {
-  // A fusion node that comes back has forgotten all, and may count time anew.
+  // A restarted fusion node has forgotten everything, and may count time anew.
   if (list.stamp.global < fusing_) {
     recursion_ = ErrorRecursion(motion_);
     images_.clear();

@@ -1,10 +1,10 @@
-// The expected error of one drive, from the instants that it had: when lists were measured, with which covariance, when
-// they were fused, and when images were used. No estimate is looked at.
+// The expected error of one drive, from its instants alone: when lists were measured, with which covariance,
+// when they were fused, and when images were used. It uses no estimate.
 //
-// The recursion of experiments/sweep/expected_error.h over these, with the scenario's process noise as assumed and the
-// world's as actual. What is not in it: systematic errors of sensors and manoeuvres, which are no noise; associations,
-// for of every list the observation next to the object is taken, within 4 m, and a list that has none says nothing;
-// that a sensor's own noise may be another than the covariance it gives; what the bus rounds.
+// It applies the recursion of experiments/sweep/expected_error.h, with the scenario's process noise as assumed
+// and the world's as actual. It leaves out systematic errors of sensors and manoeuvres, which are no noise, and
+// the bus' rounding. It takes a sensor's covariance for its true noise. Instead of an association it takes
+// every list's observation next to the object, within 4 m; a list without one is ignored.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,13 @@ namespace ttf::experiments::sweep {
 
 class ExpectedError final : public recording::records::Sink {
  public:
-  // One object, and a tracker of constant velocity, in whose plane all that is measured is a position.
+  // Returns whether the scenario has one object, and a tracker of constant velocity. All measurements are then
+  // positions in its plane.
   static bool is_defined(const drives::Scenario& scenario);
   explicit ExpectedError(const drives::Scenario& scenario);
 
-  // Expected square of the position's error [m^2] over the first uses of images from the scenario's evaluate_from on;
-  // not a number where there are none.
+  // Returns the expected square of the position's error [m^2] over the first uses of images from the scenario's
+  // evaluate_from on; not a number if there are none.
   double position_mse() const;
 
   bool wants_frames() const override { return false; }
@@ -50,10 +51,10 @@ class ExpectedError final : public recording::records::Sink {
   TrueTime from_;
   PointMotion motion_;
   ErrorRecursion recursion_;
-  GlobalTime fusing_{};                               // instant of the newest list's fusion
+  GlobalTime fusing_{};                               // instant at which the newest list was fused
   std::deque<recording::records::TruthState> truth_;  // the last few instants
-  std::deque<Seen> seen_;     // of lists that are not fused yet: the observation next to the object
-  std::deque<Image> images_;  // the last few
+  std::deque<Seen> seen_;                             // of lists not fused yet: the observation next to the object
+  std::deque<Image> images_;                          // the last few
   double sum_ = 0.0;
   std::uint64_t uses_ = 0;
 };

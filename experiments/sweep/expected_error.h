@@ -1,16 +1,17 @@
-// The error that a schedule must be expected to leave, without drawing anything: the covariance recursion of the Kalman
-// filter over what a strategy knows at every instant of use.
+// The expected error of a schedule, without any draws: the covariance recursion of the Kalman filter over the
+// lists that a strategy has at every instant of use.
 //
-// A point moves at constant velocity but for white acceleration, and sensors say where it is, without bias. Then the
-// error is
+// A point moves at constant velocity with white acceleration, and sensors measure its position without bias.
+// Then the error is
 //   P(t + dt) = F P F' + Q(dt),   F = [I, I dt; 0, I],   Q(dt) = [D dt^3/3, D dt^2/2; D dt^2/2, D dt]
 //   P+ = (I - K H) P (I - K H)' + K R K',   H = [I, 0],   K = A H' (H A H' + R)^-1,
-// where A follows the same recursion with what the filter assumes, so that a filter with a wrong density has its error
-// told, too; where it is right, P = A. Nothing in it depends on what is measured (Bar-Shalom, Li, Kirubarajan:
-// "Estimation with Applications to Tracking and Navigation", 2001, 5.2.3 and 5.3.1). BUFF, ADVA and TT differ in what
-// they have fused by a use, and in nothing else: what is fused late counts as if it had come in order.
+// where A follows the same recursion with the filter's assumptions. P thus holds for a filter with a wrong
+// density, too; with the right one, P = A. The recursion does not depend on measured values (Bar-Shalom, Li,
+// Kirubarajan: "Estimation with Applications to Tracking and Navigation", 2001, 5.2.3 and 5.3.1). BUFF, ADVA
+// and TT differ only in the lists fused by a use: a list fused late counts as if it had come in order.
 //
-// States (x, y, vx, vy) [m, m/s]; written on its own, so that the filters in fusion/ can be held against it.
+// States are (x, y, vx, vy) [m, m/s]. The code is independent of the filters in fusion/, so that tests can
+// compare them.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,11 +25,11 @@ struct PointMotion {
   // Spectral densities of the acceleration [m^2/s^3], symmetric.
   Eigen::Matrix2d assumed = Eigen::Matrix2d::Identity();
   Eigen::Matrix2d actual = Eigen::Matrix2d::Identity();
-  // Of the velocity when the first measurement is made, which says nothing of it [m^2/s^2]: the variance that the
-  // filter assumes, and the expected square of what it is off from nothing.
+  // Of the velocity at the first measurement, which does not observe it [m^2/s^2]: the variance that the filter
+  // assumes, and the expected square of the true velocity.
   Eigen::Matrix2d assumed_velocity = Eigen::Matrix2d::Identity();
   Eigen::Matrix2d actual_velocity = Eigen::Matrix2d::Identity();
-  // That a filter knows: the same for both.
+  // A motion that the filter knows: both are the same.
   static PointMotion known(double density, double velocity_sigma);
 };
 
@@ -42,17 +43,17 @@ class ErrorRecursion {
  public:
   explicit ErrorRecursion(const PointMotion& motion) : motion_(motion) {}
 
-  // In any order: one that is older than others is taken in before them.
+  // Takes measurements in any order; an older one is inserted before the newer ones.
   void fuse(const Look& look);
   bool empty() const { return steps_.empty(); }
-  // The expected square of the error of what is predicted to `use`; nothing must be fused that is newer, and something
-  // must be.
+  // Returns the expected square of the error of the prediction to `use`. A measurement must have been fused,
+  // and none newer than `use`.
   Eigen::Matrix4d at(GlobalTime use) const;
 
  private:
   struct Step {
     Look look;
-    // With it.
+    // After this measurement.
     Eigen::Matrix4d assumed = Eigen::Matrix4d::Zero(), actual = Eigen::Matrix4d::Zero();
   };
   PointMotion motion_;

@@ -29,7 +29,7 @@ std::string with_unit(double number, const std::string& unit) {
   return unit.empty() ? fmt::format("{}", number) : fmt::format("{} {}", number, unit);
 }
 
-// Rounded to six digits: what stands in tables is what was simulated.
+// Rounds to six digits, so that tables show the simulated values exactly.
 double rounded(double x) { return *number_of(fmt::format("{:.6g}", x)); }
 
 constexpr std::string_view kNames = "must be of letters, digits, dots, _ and -, and not begin with a dot";
@@ -41,7 +41,7 @@ bool is_name(const std::string& name) {
   });
 }
 
-// Of the store, whose columns have no case.
+// Returns whether the store has such a column; its columns ignore case.
 bool is_column(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
@@ -57,7 +57,7 @@ class Reader {
     file_.file = yaml_.name();
     file_.text = yaml_.text();
     if (root_.text("kind") != "sweep") root_.fail("kind", "must be sweep");
-    findings_.throw_if_any();  // another kind's keys are not to be judged
+    findings_.throw_if_any();  // the keys of another kind are not judged
     file_.name = root_.text("name");
     if (!is_name(file_.name)) root_.fail("name", std::string(kNames));
     file_.question = root_.text("question");
@@ -88,7 +88,7 @@ class Reader {
     return is_file({key, value, "", 0}) && !value.empty() ? path_of(value) : value;
   }
 
-  // What stands before a slash is a paradigm.
+  // A name before a slash is a paradigm's.
   Edit edit(const std::string& text, const std::string& value, int line) {
     const std::size_t slash = text.find('/');
     const std::string paradigm = slash == std::string::npos ? "" : text.substr(0, slash);

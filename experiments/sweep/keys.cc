@@ -14,7 +14,7 @@ constexpr std::string_view kNotTheirs = "the experiment has a seed, and paradigm
 
 bool is_fixed(const Edit& edit) { return edit.key == "seed" || edit.key.starts_with("clusters"); }
 
-// Whether there is a paradigm of both; an empty name means all.
+// Returns whether one paradigm may have both; an empty name means all.
 bool meet(const std::string& one, const std::string& other) { return one.empty() || other.empty() || one == other; }
 
 class KeyCheck {
@@ -40,7 +40,7 @@ class KeyCheck {
     std::string axis, paradigm;
   };
 
-  // One finding an axis: a mistake is in all of its settings.
+  // Adds one finding per axis at most: all its settings share a mistake.
   void check(const Axis& axis) {
     for (const Edit& key : axis.keys)
       if (!varied(key, axis.name)) return;
@@ -79,7 +79,7 @@ class KeyCheck {
 
   const SweepFile& sweep_;
   Findings& findings_;
-  std::multimap<std::string, Owner> owners_;  // of a key
+  std::multimap<std::string, Owner> owners_;  // by key
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// That nobody sets what another sets.
+// Checks that no key is set twice.
 #pragma once
 
 #include "core/errors.h"
@@ -6,9 +6,9 @@
 
 namespace ttf::experiments::sweep {
 
-// A key that two would set has one value, and nobody can tell whose: of two axes, or of an axis and a paradigm, or of
-// one setting with itself, those are findings that may meet in one paradigm. So is a key that is not an experiment's to
-// vary.
+// A key set twice has one value of unknown origin. It is a finding if two axes set it, an axis and a paradigm,
+// or one setting twice, and one paradigm may have both. A key that an experiment must not vary is a finding,
+// too.
 void check_keys(const SweepFile& sweep, Findings& findings);
 
 }  // namespace ttf::experiments::sweep

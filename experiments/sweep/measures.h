@@ -1,4 +1,4 @@
-// What is taken of a run, by name: a number each, not a number where the run has none.
+// The measures of a drive, by name: a number each, or not a number if the drive has none.
 #pragma once
 
 #include <array>

@@ -28,9 +28,9 @@ namespace ttf::experiments::sweep {
 namespace {
 
 constexpr std::string_view kOfCluster = "cluster.";
-constexpr std::size_t kAllPrepared = 1000;  // drives of a grid that are prepared, every one, before it begins
+constexpr std::size_t kAllPrepared = 1000;  // the largest grid of which every drive is prepared before the first one
 
-// The last one's, if there is one.
+// Returns the last value of the key, or null.
 const std::string* file_of(const std::vector<Edit>& edits, std::string_view key) {
   const auto last = std::find_if(edits.rbegin(), edits.rend(), [&](const Edit& edit) { return edit.key == key; });
   return last == edits.rend() ? nullptr : &last->value;
@@ -54,7 +54,7 @@ SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep) {
       for (std::size_t s = 1; s < axis->settings.size(); ++s) each_paradigm(static_cast<std::uint32_t>(s * step));
     }
   }
-  // The same from whichever folder it is looked at.
+  // The identity does not depend on the folder of the files.
   std::vector<std::string> others;
   for (const auto& [path, text] : texts_)
     if (path != sweep.scenario_file) others.push_back(std::filesystem::path(path).filename().string() + '\0' + text);
@@ -64,7 +64,7 @@ SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep) {
   identity_ = hex_hash(all);
 }
 
-// All that any drive may ask for: the clusters that the scenarios have, too.
+// Reads all files that a drive may need, including the scenarios' clusters.
 void SweepDrives::read_files() {
   std::vector<std::string> scenarios{sweep_.scenario_file};
   const auto read = [&](const std::string& file) {
@@ -89,7 +89,7 @@ void SweepDrives::read_files() {
   }
 }
 
-// Says at which point something is wrong.
+// Adds the point to the sentences of errors.
 void SweepDrives::prepare_at(const results::RunKey& key) const {
   try {
     std::vector<double> low, high;
@@ -121,7 +121,7 @@ std::vector<double> SweepDrives::drawn(std::uint32_t replication) const {
 
 PreparedDrive SweepDrives::prepare(const results::RunKey& key) const { return prepare(key, drawn(key.replication)); }
 
-// The paradigm's own, the point's, and what is drawn, in this order.
+// In this order: the paradigm's own, the point's, and drawn values.
 std::vector<Edit> SweepDrives::edits_of(const results::RunKey& key, const std::vector<double>& drawn) const {
   const Paradigm& paradigm = sweep_.paradigms[key.paradigm];
   std::vector<Edit> edits = paradigm.edits;
@@ -147,7 +147,7 @@ std::string SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster,
       text = with_value(text, name, std::string_view(edit.key).substr(is ? kOfCluster.size() : 0), edit.value);
     } catch (const InputError& error) {
       if (error.findings().front().line != 0) throw;
-      // It stands nowhere: who asks for it does.
+      // The file lacks the key: the finding names the line that sets it.
       throw InputError({sweep_.file, edit.line, edit.key, "",
                         fmt::format("must be in the file {}: only what is written there can be varied", name)});
     }
@@ -155,7 +155,7 @@ std::string SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster,
   return text;
 }
 
-// As if it had been written in the scenario.
+// Takes the faults as if the scenario had them.
 void SweepDrives::plan_faults(const std::string& file, drives::Scenario& scenario) const {
   if (!scenario.faults.empty())
     throw InputError({scenario.file, 0, "faults", "", "must not be there where " + file + " says what goes wrong"});

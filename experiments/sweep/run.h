@@ -1,5 +1,5 @@
-// One run of an experiment: the base scenario and the paradigm's cluster with what the point, the paradigm and the
-// replication change in them, driven and measured.
+// One drive of an experiment: the base scenario and the paradigm's cluster, changed by the point, the paradigm
+// and the replication, driven and measured.
 #pragma once
 
 #include <map>
@@ -20,27 +20,29 @@ struct PreparedDrive {
   fusion::strategies::StrategyKind strategy{};
 };
 
-// The files an experiment follows from, read once; const afterwards, for many workers.
+// The files behind an experiment, read once; const afterwards, for many workers.
 class SweepDrives {
  public:
-  // Prepares every point of small grids, of large ones every value of every axis, with the ends of what is drawn, so
-  // that what cannot be driven is known before anything is. Throws InputError, whose sentences name file, line and
+  // Prepares every point of a small grid; of a large one, every value of every axis, and both ends of drawn
+  // values. Errors are thus known before any drive. Throws InputError, whose sentences name file, line and
   // point.
   explicit SweepDrives(const SweepFile& sweep);
 
   // Throws InputError.
   PreparedDrive prepare(const results::RunKey& key) const;
-  // By random axis, in the file's order: a function of seed, axis and replication alone. Rounded to six digits.
+  // Returns values by random axis, in the file's order: a function of seed, axis and replication alone. Rounded
+  // to six digits.
   std::vector<double> drawn(std::uint32_t replication) const;
-  // Measures and drawn axes; a run that fails says why, but for std::bad_alloc, which says nothing of the run.
+  // Returns drawn axes and measures. A failed drive has the reason as its status; std::bad_alloc is thrown
+  // instead, since it does not depend on the drive.
   results::Run run(const results::RunKey& key) const;
-  // The same of a drive that is prepared, with a listener more.
+  // Drives a prepared drive, with one more listener.
   results::Run run(const results::RunKey& key, const PreparedDrive& drive,
                    recording::records::Sink* listener = nullptr) const;
 
-  // The store's columns: a drawn axis is called as in the file.
+  // The store's columns; a drawn axis has its name in the file.
   std::vector<std::string> columns() const;
-  // A hash of all files that the runs follow from.
+  // A hash of all files behind the drives.
   const std::string& identity() const { return identity_; }
   const SweepFile& sweep() const { return sweep_; }
 
@@ -49,12 +51,12 @@ class SweepDrives {
   void read_files();
   void prepare_at(const results::RunKey& key) const;
   std::vector<Edit> edits_of(const results::RunKey& key, const std::vector<double>& drawn) const;
-  // Those of a cluster, or of a scenario, in what stands in the file `name`.
+  // Applies the edits of a cluster, or of a scenario, to the text of the file `name`.
   std::string edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const;
   void plan_faults(const std::string& file, drives::Scenario& scenario) const;
 
   const SweepFile& sweep_;
-  std::map<std::string, std::string> texts_;  // of scenarios, clusters and plans of faults, by path
+  std::map<std::string, std::string> texts_;  // of scenarios, clusters and fault plans, by path
   std::string identity_;
 };
 

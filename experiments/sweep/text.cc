@@ -13,7 +13,7 @@ namespace {
 
 using results::Interval;
 
-// Enough digits for the interval to have two.
+// Prints digits so that the interval has two.
 std::string text_of(const Interval& interval, bool sign) {
   if (std::isnan(interval.mean)) return "-";
   const double width = std::isnan(interval.half_width) ? std::abs(interval.mean) * 1e-3 : interval.half_width;

@@ -1,4 +1,4 @@
-// An experiment's answer in words and tables; and its numbers as CSV, for spreadsheets and papers.
+// An experiment's answer in words and tables, and its numbers as CSV for spreadsheets and papers.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace ttf::experiments::sweep {
 
-// What was asked, the first measure by point, and what it comes to in sentences.
+// Returns the question, the first measure by point, and the answer in sentences.
 std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer);
-// A paradigm other than the baseline at a time: at how many points its first measure is less, more, undecided, and
+// For each paradigm but the baseline: at how many points its first measure is less, more or undecided, and
 // where that changes for certain.
 std::string answer_sentences(const SweepFile& sweep, const SweepAnswer& answer);
 
