@@ -21,8 +21,8 @@ struct ErrorRow {
   TrueTime at{};
   ObjectId object{};
   std::array<double, 4> error{};  // x, y [m], vx, vy [m/s]: estimate minus truth
-  // The filter's standard deviations of the same, and its normalised estimation error squared. Not a number at
-  // a later use of the image, since its covariance holds at the first use only.
+  // The filter's standard deviations of the same, and its normalised estimation error squared. The covariance
+  // holds at the first use of an image only, so both are not a number at later uses.
   std::array<double, 4> sigma{};
   double nees = 0.0;
 };

@@ -28,8 +28,8 @@ struct SensorAge {
   Duration age{};
 };
 
-// The filter's belief about an object, predicted to the use with its full state and covariance, which the image
-// rounds and shortens: standard deviations of x, y, vx, vy, and the normalised estimation error squared.
+// The filter's belief about an object: standard deviations of x, y, vx, vy, and the normalised estimation error
+// squared. It is predicted to the use with the full state and covariance, which the image rounds and shortens.
 struct Belief {
   std::array<double, 4> sigma{};
   double nees = 0.0;

@@ -18,8 +18,8 @@
 
 namespace ttf::evaluation::accuracy {
 
-// The parts of an interpolated fix, averaged over the compared uses: with the share s of the later fix, (1 -
-// s)^2 + s^2 and 2 s (1 - s), and the square of the distance from the sensor car [m^2].
+// The parts of an interpolated fix, averaged over the compared uses. With the share s of the later fix they are
+// (1 - s)^2 + s^2, 2 s (1 - s), and the square of the distance from the sensor car [m^2].
 struct ReferenceWeights {
   double squares = 0.0, products = 0.0, range_squared = 0.0;
 };

@@ -1,5 +1,5 @@
-// The account of start-up, node by node, from a drive's records alone: when a node was powered on, when and in
-// which cycle it became active, and the reason for its present state.
+// The account of start-up, node by node, from a drive's records alone. It has the instants at which a node was
+// powered on and became active, the cycle of the latter, and the reason for its present state.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// The account of a drive's faults: when they were injected, which checks saw them and in how many cycles, what
-// the guardians stopped, which nodes changed state, and which fault-free nodes were harmed. It uses the fault
-// plan and the records alone, so a live drive and its log give the same report.
+// The account of a drive's faults: their injections, the checks that saw them and in how many cycles, the signals
+// that guardians stopped, the nodes that changed state, and harms to fault-free nodes. It uses the fault plan and
+// the records alone, so a live drive and its log give the same report.
 //
 // Checks and harms are those of evaluation/faults/checks.h. Records hold a little less than a simulation shows
 // the judge of single faults (evaluation/faults/judge.h):

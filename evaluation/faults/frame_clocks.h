@@ -1,14 +1,16 @@
 // Finds the differences of nodes' clocks from their frames: each frame begins when its sender's own clock says
 // so.
 //
+//
 //   cycle    |  2k                    |  2k+1                  |
 //   node n   ----T(2k)--------------------T(2k+1)-----------E-->   true time
 //
+//
 // Within a double cycle a clock runs at one rate, and its offset is corrected at the end. The first frames that
 // the node sends in both cycles give its rate. The rate gives E, the true time at which the clock shows the end
-// of the double cycle, without the offset correction. Two clocks differ by the difference of their E. That is
-// their largest difference in the double cycle, unless they approach each other in it. Exact to the nanoseconds
-// to which records are rounded.
+// of the double cycle, without the offset correction. Two clocks differ by the difference of their E. This is
+// their largest difference in the double cycle, unless they approach each other in it. It is exact to the
+// nanoseconds to which records are rounded.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@
 
 namespace ttf::evaluation::faults {
 
-// What the judge has found.
+// The judge's findings.
 struct Judgement {
   using Since = std::optional<TrueTime>;                  // the first time, if any
   std::array<Since, kAllChecks.size()> seen_by_others{};  // by Check
@@ -30,9 +30,9 @@ struct Judgement {
   };
   std::array<std::optional<Harmed>, kAllHarms.size()> harms{};  // by Harm
   Since passive, halt;                                          // of any node, the faulty one included
-  // For nodes that lost normal active or their supply: the longest time until one was normal active again,
-  // counted from the loss or the end of the fault, whichever was later; and the number of nodes that did not
-  // come back.
+  // Nodes that lost normal active or their supply: the longest time until one was normal active again, and the
+  // number of nodes that did not come back. The time counts from the loss or the end of the fault, whichever
+  // was later.
   std::optional<Duration> reintegration;
   int still_out = 0;
 

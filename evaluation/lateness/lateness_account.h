@@ -1,6 +1,6 @@
-// The account of a drive by the wall clock, in its machine's time, from its records alone: the lateness of
-// processes and frames, next to that of a plain thread on the same machine; late, early and lost frames, and
-// the media's counts; the clocks' agreement. DriveSummary (evaluation/accuracy/drive_measures.h) has the ages
+// The account of a drive by the wall clock, in its machine's time, from its records alone. It has the lateness
+// of processes and frames, next to that of a plain thread on the same machine; late, early and lost frames; the
+// media's counts; and the clocks' agreement. DriveSummary (evaluation/accuracy/drive_measures.h) has the ages
 // at the uses of the feature service.
 //
 // Lateness is in real time already. Differences of the records' times are in the drive's time, which a
@@ -44,7 +44,7 @@ struct NodeTiming {
   std::uint64_t frames_lost = 0;  // never came
   MissingFramesCount missing;     // of these: by their senders' logs
   std::uint64_t lost_on_the_way() const { return frames_lost - missing.withheld - missing.away; }
-  // Of the node's clock, absent if it was never corrected. The size, in real time.
+  // By size, in real time; absent if the node's clock was never corrected.
   std::optional<Duration> largest_offset_correction;
 };
 

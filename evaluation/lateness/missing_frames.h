@@ -53,7 +53,7 @@ class MissingFrames {
     std::int64_t cycle = 0;
   };
   struct Silence {
-    Turn before, behind;  // the last frame before it, and the first behind it
+    Turn before, behind;  // the last frame before it, and the first after it
   };
   // The known acts of a sender in a slot of a channel.
   struct Sender {

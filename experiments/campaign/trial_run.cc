@@ -26,7 +26,7 @@ faults::FaultPlan plan_of(const CampaignFile& campaign, const std::optional<faul
 
 TrueTime trial_origin(bool starts_up) { return starts_up ? TrueTime{} : TrueTime{} + kBeforeFirstCycle; }
 
-// Passes a controller's events to the judge, and lets the host write what is sent next.
+// Passes a controller's events to the judge, and lets the host write its next lists.
 class TrialRun::Witness final : public bus::controller::ControllerEvents {
  public:
   Witness(TrialRun& run, NodeId node) : run_(run), node_(node), host_(run.setting_.cluster, node) {}

@@ -1,5 +1,5 @@
-// One simulation of a cluster for a trial, with a fault or without: controllers on drawn clocks, hosts that
-// write their lists, and the judge, which receives the reports of controllers and guardians.
+// One simulation of a cluster for a trial, with a fault or without. It has controllers on drawn clocks, hosts
+// that write their lists, and the judge. The judge receives the reports of controllers and guardians.
 #pragma once
 
 #include <cstdint>

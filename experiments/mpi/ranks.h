@@ -36,7 +36,7 @@ class Ranks final : public sweep::Elsewhere {
   // A collective call: returns whether this rank has the same text as rank 0.
   bool same_as_first(const std::string& text) const;
 
-  // On every rank but 0: drives what rank 0 hands out, until rank 0 ends it.
+  // On every rank but 0: drives the keys that rank 0 hands out, until it ends.
   void serve(const sweep::SweepDrives& drives);
   // On rank 0: the others serve, or will.
   void are_served() { served_ = true; }
@@ -47,7 +47,7 @@ class Ranks final : public sweep::Elsewhere {
 
   int rank_ = 0, size_ = 1;
   bool served_ = false;
-  std::vector<int> idle_;               // ranks that have nothing to drive
+  std::vector<int> idle_;               // ranks without a drive
   std::vector<std::size_t> under_way_;  // number of drives, by rank
 };
 

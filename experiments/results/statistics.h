@@ -21,8 +21,8 @@ class Moments {
 };
 
 // mean +- half_width contains the expectation in a share `confidence` of all such samples, if the mean is
-// normally distributed: Student's t. Not a number for fewer than two samples. `confidence` is above 0 and below
-// 1.
+// normally distributed: Student's t. half_width is not a number for fewer than two samples. `confidence` is
+// above 0 and below 1.
 struct Interval {
   std::uint64_t count = 0;
   double mean = std::numeric_limits<double>::quiet_NaN();

@@ -1,6 +1,6 @@
-// The answer of an experiment's results: means with intervals by point, paradigm and measure; differences
-// between paradigms of the same draws (paired, so that common effects cancel); where two paradigms cross; and
-// whether the expectations hold. A pure function of the store.
+// The answer of an experiment's results, a pure function of the store. It has means with intervals by point,
+// paradigm and measure, and differences between paradigms of the same draws (paired, so that common effects
+// cancel). It says where two paradigms cross, and whether the expectations hold.
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,7 @@ using results::RunKey;
 
 constexpr std::uint32_t kRunsAtATime = 8;           // for a worker
 constexpr std::chrono::milliseconds kWritten{500};  // the longest wait until a result is written
-constexpr std::chrono::milliseconds kTurn{2};       // between two looks at what is driven elsewhere
+constexpr std::chrono::milliseconds kTurn{2};       // between two looks at drives elsewhere
 constexpr std::size_t kMostWaiting = 100'000;       // results
 
 // The existing results, a bit each.
@@ -43,7 +43,7 @@ class Ledger {
   std::vector<bool> there_;
 };
 
-// Returns nothing if preparation fails; run() reports the reason.
+// Absent if preparation fails; run() reports the reason.
 std::optional<PreparedDrive> try_prepare(const SweepDrives& drives, const RunKey& key) {
   try {
     return drives.prepare(key);

@@ -1,6 +1,6 @@
 // Drives the part of an experiment that its store lacks, on several workers.
 //
-// The final store is the same for any number of workers and interruptions: every result is a function of its
+// The final store is the same for any number of workers and interruptions. Every result is a function of its
 // key, and the stop rule judges a point only after a whole batch of its replications.
 #pragma once
 

@@ -25,8 +25,8 @@ struct PointMotion {
   // Spectral densities of the acceleration [m^2/s^3], symmetric.
   Eigen::Matrix2d assumed = Eigen::Matrix2d::Identity();
   Eigen::Matrix2d actual = Eigen::Matrix2d::Identity();
-  // Of the velocity at the first measurement, which does not observe it [m^2/s^2]: the variance that the filter
-  // assumes, and the expected square of the true velocity.
+  // The filter's assumed variance of the velocity at the first measurement, which does not observe it, and the
+  // expected square of the true velocity [m^2/s^2].
   Eigen::Matrix2d assumed_velocity = Eigen::Matrix2d::Identity();
   Eigen::Matrix2d actual_velocity = Eigen::Matrix2d::Identity();
   // A motion that the filter knows: both are the same.

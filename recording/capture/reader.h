@@ -1,9 +1,9 @@
 // Reads captures of other programs: pcap (either byte order, microseconds or nanoseconds) and pcapng (sections
 // of either byte order; interfaces, enhanced, simple and obsolete packet blocks; all other blocks are skipped).
 //
-// The file is not trusted. Damage is an error, one sentence that names the file and the packet. The exception
-// is a file that ends within a packet or block, as after the capturing program was killed: it is read up to
-// there, with a warning.
+// The file is not trusted. Damage is an error, one sentence that names the file and the packet. Only a file
+// that ends within a packet or block, as after the capturing program was killed, is read up to there, with a
+// warning.
 #pragma once
 
 #include <cstddef>

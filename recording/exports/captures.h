@@ -22,8 +22,8 @@ namespace ttf::recording::exports {
 // id: slot or CAN identifier, decimal. kind: frame, null, noise, symbol (FlexRay), can, can_fd. flags: names
 // joined by '+': sync, startup, preamble, header_crc_error, frame_crc_error, coding_error, frame_end_error
 // (FlexRay), extended, brs (CAN); cas, wakeup or media_test of a symbol. measurement: sensor and sequence.
-// payload: hex. The cycle is empty for symbols and for frames that no controller sent, the id for symbols and
-// noise, the sender if there is no sending node.
+// payload: hex. Symbols have no id and no cycle, noise has no id, a frame that no controller sent has no cycle,
+// and noise without a sending node has no sender.
 inline constexpr std::string_view kCsvHeader =
     "time_ns,bus,channel,cycle,id,sender,kind,flags,pdu,sequence,fragment,measurement,payload\n";
 

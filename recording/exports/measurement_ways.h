@@ -1,13 +1,14 @@
 // Follows measurements through a drive, from the sensor to the feature service, while its records go by.
 // Diagrams and exports draw the same ways.
 //
-// Sensor and number name a measurement; its lists' frames and hops bear them. A way passes, in this order: the
-// frames of its lists (on the first channel that has them, each fragment once), the tasks that read or write a
-// list, the step that fuses it (and any that held it before), the step that writes the first image in which it
-// is its sensor's newest, that image's frames, and the task that first uses the image. There the way ends. The
-// way of a measurement that was not fused ends where it was lost. No way is followed longer than kLongestWay.
-// An image's own way starts at the task that wrote it. Lists are told apart by exact numbers, not by nearness
-// in time.
+// Sensor and number name a measurement; its lists' frames and hops bear them. A way passes, in this order:
+// - the frames of its lists, on the first channel that has them, each fragment once;
+// - the tasks that read or write a list;
+// - the step that fuses it, and any that held it before;
+// - the step that writes the first image in which it is its sensor's newest, and that image's frames;
+// - the task that first uses the image, where the way ends.
+// The way of a measurement that was not fused ends where it was lost. No way is followed longer than kLongestWay.
+// An image's own way starts at the task that wrote it. Exact numbers tell lists apart, not nearness in time.
 #pragma once
 
 #include <bitset>

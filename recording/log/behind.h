@@ -2,8 +2,8 @@
 // milliseconds later.
 //
 // add() never waits for the writer, even if the writer is preempted. It appends to a buffer of the adding
-// thread, and swaps that buffer with the place between the two threads if the writer has emptied it. Hence the
-// last burst before a pause stays in the buffer until the next message; a killed process loses it. add()
+// thread. If the writer has emptied the place between the two threads, add() swaps it with that buffer. The
+// last burst before a pause thus stays in the buffer until the next message; a killed process loses it. add()
 // allocates only while the buffer is longer than ever before: a stalled disk costs memory, not time, and loses
 // no message.
 #pragma once

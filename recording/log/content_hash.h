@@ -4,7 +4,7 @@
 // 2^64, mixed with their number. The payload has the record's time, kind, node and sequence numbers, and the
 // sum is the same in any order. Thus the logs of separate processes agree with the log of one process, in any
 // order of writing (recording/merge/merge.h puts them into one). Equal records count as often as they occur.
-// Not cryptographic: it detects change, not malice.
+// The hash is not cryptographic: it detects change, not malice.
 #pragma once
 
 #include <cstddef>

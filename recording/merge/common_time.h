@@ -4,7 +4,7 @@
 // wall) a record's true time is that of the machine's clock since the start of the drive. Processes of one
 // machine share it; different machines' clocks differ, and run at different rates. Their nodes share the global
 // time. A machine's logs relate its clock to the global time: every ClockCorrected has a stamp of both, once
-// per node and double cycle. Hence a machine's clock T is put on the common scale by
+// per node and double cycle. The common time of a machine's clock T is
 //
 //   M(T) = piecewise linear through (true time, global time + C) of the stamps of one of its nodes, the one with
 //          the most stamps; before the first and after the last at the rate of the machine's own clock

@@ -1,18 +1,19 @@
 // Merges the logs of one drive: the records of all, in one canonical order.
 //
 // Each process of a node set writes a log of its own nodes' records. Merged, these are the log of the drive.
-// The same sequence of records comes out of one process with one log, and of many logs in any order; the same
-// merge is applied to both. recording/merge/record_place.h and docs/log_format.md define the order.
+// One process with one log, and many logs in any order, give the same sequence of records; both go through the
+// same merge. recording/merge/record_place.h and docs/log_format.md define the order.
 // recording/merge/common_time.h puts the true times of different machines on one scale.
 //
 // The merge is exact for any order within the logs. Records stand in a log in the order of their reports, which
-// is not that of true time. A task's execution is reported at its end but stamped with its start; a FlexRay
+// is not that of true time. A task's execution is reported at its end but stamped with its start. A FlexRay
 // list's hop `sent` is reported when its frame begins but stamped with its end. A reference fix is reported
-// when the fusion node, or a restarted one, takes it in: seconds later, without a bound. Hence no window
-// suffices for sorting. Every log is read through once for the first and last time of each chunk. Then a chunk
-// is unpacked when its time has come, and dropped after its last record. Memory holds the logs' bytes as on
-// disk, and the chunks of one instant: mostly one or two per log, at worst all. A drive of a minute among 25
-// vehicles, 70 MB of logs, takes at most 110 to 150 MB resident, and twice the time of reading it unmerged.
+// when the fusion node, or a restarted one, takes it in: seconds later, without a bound. For this reason a sort
+// within a time window does not suffice. Every log is read through once for the first and last time of each
+// chunk. Then a chunk is unpacked when its time has come, and dropped after its last record. Memory holds the
+// logs' bytes as on disk, and the chunks of one instant: mostly one or two per log, at worst all. A drive of a
+// minute among 25 vehicles, 70 MB of logs, takes at most 110 to 150 MB resident, and twice the time of reading
+// it unmerged.
 #pragma once
 
 #include <cstdint>

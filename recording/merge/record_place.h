@@ -6,10 +6,10 @@
 //
 // True time is the record's own, signed, as in MCAP's log_time. A fault counts 100 ns earlier: nodes stamp its
 // effects in whole microticks, which could put an effect before its cause. The ranks put causes before effects
-// at one instant, and readers rely on that. A fault begins before it acts, power changes precede changes of
-// state, a fusion step's inputs precede its tracks, tracks the image made of them, and uses the truth that
-// judges them. Within a kind, the order of a node's own reports counts: its states follow each other, and an
-// image's predictions have the order of its objects. That order is the same in every process that runs the
+// at one instant, and readers rely on that. A fault begins before it acts, and power changes precede changes of
+// state. A fusion step's inputs precede its tracks, and tracks the image made of them. Uses precede the truth
+// that judges them. Within a kind, the order of a node's own reports counts: its states follow each other, and
+// an image's predictions have the order of its objects. This order is the same in every process that runs the
 // node.
 #pragma once
 

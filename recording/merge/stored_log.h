@@ -31,7 +31,7 @@ class StoredLog {
     std::size_t begin = 0, size = 0;  // of its record's content, within the bytes
     TrueTime first{}, last{};
   };
-  const std::vector<Chunk>& chunks() const { return chunks_; }  // in file order; none without a readable record
+  const std::vector<Chunk>& chunks() const { return chunks_; }  // in file order, each with a readable record
   // Relates the global times of its nodes to its true time, if that is a machine's clock.
   const std::vector<SyncStamp>& sync_stamps() const { return sync_stamps_; }
   std::string_view content(const Chunk& chunk) const {

@@ -74,14 +74,13 @@ struct SlotFrameSent {
 };
 
 // A frame that differed on its channel from the frame that its sender's controller sent, or that no controller
-// sent, such as noise. The record holds what the best-placed receiver had; an error of a single receiver is a
-// SlotProblem of that receiver instead. The record is written once the frame has arrived everywhere, or can
-// arrive nowhere any more. That may be before its sender records it. Symbols have no such record.
+// sent, such as noise. The record holds the frame of the best-placed receiver; an error of a single receiver is
+// a SlotProblem of that receiver instead. The record is written once the frame has arrived everywhere, or can
+// arrive nowhere any more, which may be before its sender records it. Symbols have no such record.
 inline constexpr std::uint8_t kChannelHeaderCrc = 1;  // the header CRC fails
 inline constexpr std::uint8_t kChannelFrameCrc = 2;   // the frame CRC fails, or the length differs from the header's
 inline constexpr std::uint8_t kChannelCoding = 4;     // undecodable for every receiver, wholly or beyond `bytes`
-inline constexpr std::uint8_t kChannelCut = 8;        // the frame ends early, after `bytes`; a CRC that never came is
-                                                      // not wrong
+inline constexpr std::uint8_t kChannelCut = 8;        // the frame ends early, after `bytes`; a missing CRC is not wrong
 inline constexpr std::uint8_t kChannelNothing = 16;   // no receiver got any of it; excludes the other bits
 struct ChannelFrame {
   TrueTime start{};  // first and last bit, as they left the sender, or where they appeared
@@ -295,7 +294,7 @@ struct FeatureObject {
 struct FeatureUsed {
   Stamp stamp;
   std::uint32_t image_sequence = 0;
-  GlobalTime image_valid_at{};  // its age is stamp.global less this
+  GlobalTime image_valid_at{};  // its age is stamp.global minus this
   bool fresh = true;            // first use of this image
   std::span<const FeatureObject> objects;
   bool stale = false;  // too old to be used: nothing was judged, and `objects` is empty
