@@ -1,10 +1,8 @@
-// Finds the uses of images in a drive's records: each with the ages of the measurements in its image, and with
-// the errors of its objects against the truth at that very time. DriveMeasures sums them up, and DriveRows
-// lists them one by one.
+// Finds the uses of images in a drive's records, with the ages of their measurements and the errors of their
+// objects against the truth at that very time. DriveMeasures sums them up; DriveRows lists them one by one.
 //
-// A use's records do not come at once: an image's predictions precede the image, the truth of an instant
-// precedes or follows the use. A use is judged when the next one comes, when the truth of its instant is
-// complete, or at the end.
+// The truth of an instant may precede or follow the use. A use is judged when the next one comes, when the
+// truth of its instant is complete, or at the end.
 #pragma once
 
 #include <array>

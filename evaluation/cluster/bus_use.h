@@ -1,5 +1,4 @@
-// The load of each bus in a drive, from the senders' records. A simulation's media know it, but a drive on real
-// media has only these records.
+// The load of each bus in a drive, from the senders' records, so that drives on real media have it, too.
 #pragma once
 
 #include <array>

@@ -1,8 +1,7 @@
 // The harms that a fault may do to fault-free nodes, and the checks that may notice it. The judge of single
-// faults (evaluation/faults/judge.h), which sees controllers inside a simulation, and the account of a drive's
-// faults (evaluation/faults/fault_account.h), which has the records alone, share them.
+// faults (judge.h) uses them inside a simulation, the account of a drive's faults (fault_account.h) on its records.
 //
-// The fault does not name a fault-free node (reach.h). From the beginning of the fault on, such a node is
+// A fault-free node is one that the fault does not name (reach.h). From the beginning of the fault on, it is
 // harmed when
 //   H1  it leaves normal active
 //   H2  it is not normal active at the end of the drive, and never was since the beginning (of a drive that begins with

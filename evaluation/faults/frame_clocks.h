@@ -1,10 +1,8 @@
 // Finds the differences of nodes' clocks from their frames: each frame begins when its sender's own clock says
 // so.
 //
-//
 //   cycle    |  2k                    |  2k+1                  |
 //   node n   ----T(2k)--------------------T(2k+1)-----------E-->   true time
-//
 //
 // Within a double cycle a clock runs at one rate, and its offset is corrected at the end. The first frames that
 // the node sends in both cycles give its rate. The rate gives E, the true time at which the clock shows the end

@@ -1,10 +1,9 @@
-// Finds the static slots in which a receiver did not get its sender's frame, from the reports of senders and
-// receivers.
+// Finds the static slots in which a receiver did not get its sender's frame, from both nodes' reports.
 //
 // A receiver in normal operation reports, per channel, every slot without exactly one valid frame. A slot
 // without a report thus had a valid frame: the sender's if it sent there, another node's otherwise. A reported
-// slot counts as not received, although a valid frame may have preceded the disturbance: reports do not
-// distinguish these. The frames themselves show more: frame_ledger.h.
+// slot counts as not received, even if a valid frame preceded the disturbance: reports do not distinguish that.
+// The frames themselves show more: frame_ledger.h.
 //
 // A cycle is settled two cycles later, when all nodes have reported, or at the end of the drive; then only its
 // ended slots count. Each node counts whole rounds of the cycle counter for itself.

@@ -4,7 +4,7 @@
 // Every ClockCorrected has the node's global time and the machine's clock (the stamp's true time) at one
 // instant, once per double cycle. Between two of them
 //
-//
+//   global - machine, at t = o1 + (o2 - o1) (t - t1) / (t2 - t1),     o = global - machine at t1 and t2
 //
 // The difference of a set of nodes at t is the largest of these minus the smallest. Whole rounds of the cycle
 // counter are left out, since each node counts these for itself. The difference is taken at every stamp of

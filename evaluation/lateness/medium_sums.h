@@ -1,7 +1,7 @@
 // Sums the counts of a drive's live media, node by node, from its logs.
 //
-// A record counts from the start of its process, so the newest one includes all before it. If a count or the
-// local time has decreased, the node has a new process, and the last record of the old one is added to the sum.
+// A record counts from the start of its process, so the newest one suffices. If a count or the local time
+// decreases, the node has a new process; the last record of the old one then joins the sum.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
-// A campaign's results as a table with one line per fault and variant: a shard writes it, and the merge reads
-// it.
+// A campaign's results as a table with one line per fault and variant, which a shard writes and the merge
+// reads.
 #pragma once
 
 #include <span>

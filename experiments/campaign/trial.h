@@ -1,9 +1,9 @@
 // A trial: one fault in one cluster. It simulates controllers on clocks of their own, with the fault and the
 // judge.
 //
-// Every node's host writes its lists anew in every cycle (trial_host.h), and restarts a halted controller after
-// the campaign's delay (trial_run.h). A trial is a pure function of campaign, wiring and index. Clocks and
-// times of power-on (trial_draws.h) and the fault's draws come from streams of that index.
+// Every host writes its lists anew in every cycle (trial_host.h), and restarts a halted controller after the
+// campaign's delay (trial_run.h). A trial is a pure function of campaign, wiring and index: clocks, times of
+// power-on (trial_draws.h) and the fault's draws come from streams of that index.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // An experiment's drives on many machines: the processes that mpirun has started (OpenMPI).
 //
 // Every rank reads the experiment for itself. Rank 0 has the store and hands out a few drives at a time to idle
-// ranks; these drive them and send back the results. A result is a function of its key, so the store is the
-// same as from one process alone. If a rank dies, mpirun ends them all; the store of rank 0 remains, and a
-// resumed experiment goes on from there.
+// ranks, which send back the results. A result is a function of its key, so the store is the same as from one
+// process. If a rank dies, mpirun ends them all; the store remains, and a resumed experiment goes on from
+// there.
 //
 // All ranks must be of one byte order and one program. A check ensures that they read the same files.
 #pragma once

@@ -1,8 +1,7 @@
-// Compares a capture with its schedule: finds the FlexRay frames that contradict the schedule, and those that
-// are missing.
+// Finds the FlexRay frames of a capture that contradict its schedule, and those that are missing.
 //
-// The schedule holds in normal operation only. In a start-up not every node sends yet, so such a capture is
-// checked from a later instant on (CaptureCheckOptions::from_ns).
+// The schedule holds in normal operation only; a capture of a start-up is checked from a later instant on
+// (CaptureCheckOptions::from_ns).
 #pragma once
 
 #include <array>

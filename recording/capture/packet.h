@@ -36,13 +36,12 @@ struct CheckedFlexRayFrame {
   std::span<const std::byte> header_and_payload;
 };
 
-// Computes both CRCs anew from `bytes` (header, payload, trailer). Bytes without a whole header and trailer, or
-// of another length than the header says, fail the frame CRC; bytes without a whole header also fail the header
-// CRC.
+// Computes both CRCs anew from `bytes` (header, payload, trailer). A frame cut short, or of another length than
+// its header says, fails the frame CRC; without a whole header it also fails the header CRC.
 CheckedFlexRayFrame check_flexray_frame(schedules::model::Channel channel, std::span<const std::byte> bytes);
 
-// Checks the rest of a frame that could not be decoded to its end, as far as possible. `bytes` are its whole
-// bytes, with the trailer if that was there.
+// Checks a frame that could not be decoded to its end, as far as it came: `bytes` are its whole bytes, perhaps
+// with the trailer.
 CheckedFlexRayFrame check_broken_frame(schedules::model::Channel channel, std::span<const std::byte> bytes);
 
 // Appends a packet of link type 210.

@@ -1,9 +1,9 @@
 // Finds captured frames that were sent outside the slot of their id. Private to the room.
 //
-// The header gives a frame's slot, the stamp its instant. Less its slot's offset in the cycle, every static
-// frame's stamp is a whole number of cycles from any other's. A frame that is off by more than half a slot was
-// in another slot. The judgement is as good as the stamps, so it needs witnesses: nearly all frames around it
-// must be well inside their slots. Coarse, jittered or repaired stamps thus yield no judgement.
+// The header gives a frame's slot, the stamp its instant. Minus their slots' offsets in the cycle, the stamps
+// of static frames are whole cycles apart. A frame that is off by more than half a slot was in another slot.
+// The stamps must be good enough for this: nearly all frames around it, its witnesses, must be well inside
+// their slots. Coarse, jittered or repaired stamps yield no judgement.
 #pragma once
 
 #include <cstdint>

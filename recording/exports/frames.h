@@ -1,5 +1,4 @@
-// The frames of a log on all buses, and the symbols on FlexRay, in one form and in the order of time, for the
-// exports.
+// A log's frames on all buses, and its symbols on FlexRay, in one form and in the order of time.
 #pragma once
 
 #include <cstddef>
@@ -62,8 +61,8 @@ struct SymbolName {
 };
 SymbolName name_of_symbol(std::uint8_t symbol);  // records::kSymbolCas, ...
 
-// Collects frames while a log is read. FlexRay frames are as they were on the channel: a frame that reached no
-// receiver is left out, noise without a sender is included. Symbols are as sent; a log has no more about them.
+// Collects frames while a log is read. FlexRay frames are as they were on the channel: without those that
+// reached no receiver, and with noise. Symbols are as sent; a log has no more about them.
 class FrameCollector final : public records::Sink {
  public:
   using records::Sink::on;

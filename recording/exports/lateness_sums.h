@@ -1,8 +1,7 @@
 // Sums the lateness of a drive's processes, node by node, from the histograms in its logs.
 //
-// A histogram counts from the start of its process, so the newest one includes all before it. If a count or the
-// local time has decreased, the node has a new process, and the last histogram of the old one is added to the
-// sum.
+// A histogram counts from the start of its process, so the newest one suffices. If a count or the local time
+// decreases, the node has a new process; the last histogram of the old one then joins the sum.
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-// Reads a logged frame's bytes for rooms that read logs and do not see the wire: only bus/wire knows a header's
-// layout.
+// Reads a logged frame's header for rooms that do not include bus/wire.
 #pragma once
 
 #include "recording/records/records.h"

@@ -1,6 +1,6 @@
 // Writes a pcapng capture, little endian, with stamps in nanoseconds (draft-ietf-opsawg-pcapng): one section,
-// its interfaces first, then the packets as enhanced packet blocks. It names no dates and no machine: the same
-// packets give the same bytes.
+// its interfaces, then the packets as enhanced packet blocks. The same packets give the same bytes: no dates,
+// no machine's name.
 #pragma once
 
 #include <cstddef>

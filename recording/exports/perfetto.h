@@ -11,8 +11,7 @@
 //   flows            a measurement's way from sensor to feature service (recording/exports/measurement_ways.h)
 //
 // Timestamps are true times, nanoseconds since the start of the drive; earlier events stand at the start. The
-// same records in the same order give the same bytes. Memory holds the last seconds of the drive only, however
-// long it is.
+// same records in the same order give the same bytes. Memory holds only the last seconds of the drive.
 #pragma once
 
 #include <cstdint>

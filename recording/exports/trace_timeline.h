@@ -1,10 +1,9 @@
 // A timeline of lanes with slices, instants, counters and flows, written as a Perfetto trace while it grows.
 //
-// Events come roughly in the order of time. They are kept for a while, and written exactly in that order.
-// Slices of a lane do not overlap: a slice that begins before the last one has ended goes into a lane beside
-// it, with the same name and a number. A slice without length becomes an instant, and so does one too long to
-// be true (the log is damaged). The trace has one packet sequence; times before the drive's start are written
-// as its start.
+// Events come roughly in the order of time; after a while they are written in exactly that order. A slice that
+// begins before the last one of its lane has ended goes into a lane beside it, with the same name and a number.
+// A slice becomes an instant if it has no length, or is too long to be true (a damaged log). The trace is one
+// packet sequence; times before the drive's start are written as its start.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 // The hash that compares drives without comparing files.
 //
 // Each record hashes to 64 bits from (log time, kind, payload bytes). A log's hash is the sum of these modulo
-// 2^64, mixed with their number. The payload has the record's time, kind, node and sequence numbers, and the
-// sum is the same in any order. Thus the logs of separate processes agree with the log of one process, in any
-// order of writing (recording/merge/merge.h puts them into one). Equal records count as often as they occur.
-// The hash is not cryptographic: it detects change, not malice.
+// 2^64, mixed with their number. The payload has the record's time, kind, node and sequence numbers, and a sum
+// ignores the order. The logs of separate processes thus agree with the log of one process
+// (recording/merge/merge.h puts them into one). Equal records count as often as they occur. The hash is not
+// cryptographic: it detects change, not malice.
 #pragma once
 
 #include <cstddef>

@@ -1,19 +1,18 @@
 // Merges the logs of one drive: the records of all, in one canonical order.
 //
-// Each process of a node set writes a log of its own nodes' records. Merged, these are the log of the drive.
-// One process with one log, and many logs in any order, give the same sequence of records; both go through the
-// same merge. recording/merge/record_place.h and docs/log_format.md define the order.
+// Each process of a node set writes a log of its own nodes' records; merged, these are the log of the drive.
+// The sequence of records is the same for one process with one log and for many logs in any order, as both go
+// through the merge. recording/merge/record_place.h and docs/log_format.md define the order.
 // recording/merge/common_time.h puts the true times of different machines on one scale.
 //
-// The merge is exact for any order within the logs. Records stand in a log in the order of their reports, which
-// is not that of true time. A task's execution is reported at its end but stamped with its start. A FlexRay
-// list's hop `sent` is reported when its frame begins but stamped with its end. A reference fix is reported
-// when the fusion node, or a restarted one, takes it in: seconds later, without a bound. For this reason a sort
-// within a time window does not suffice. Every log is read through once for the first and last time of each
-// chunk. Then a chunk is unpacked when its time has come, and dropped after its last record. Memory holds the
-// logs' bytes as on disk, and the chunks of one instant: mostly one or two per log, at worst all. A drive of a
-// minute among 25 vehicles, 70 MB of logs, takes at most 110 to 150 MB resident, and twice the time of reading
-// it unmerged.
+// The merge is exact for any order within the logs. Logs have the order of reports, not of true time. A task's
+// execution is reported at its end but stamped with its start; a FlexRay list's hop `sent` is reported when its
+// frame begins but stamped with its end. A reference fix is reported when the fusion node takes it in: seconds
+// later, without a bound. A sort within a time window thus does not suffice. Every log is read through once for
+// the first and last time of each chunk. Then a chunk is unpacked when its time has come, and dropped after its
+// last record. Memory holds the logs' bytes as on disk, and the chunks of one instant: mostly one or two per
+// log, at worst all. A drive of a minute among 25 vehicles, 70 MB of logs, takes at most 110 to 150 MB
+// resident, and twice the time of reading it unmerged.
 #pragma once
 
 #include <cstdint>
@@ -30,10 +29,10 @@ namespace ttf::recording::merge {
 
 class MergedLogs {
  public:
-  // Throws InputError if a log is unreadable, is given twice, or is of another drive than the first: any key of
-  // the manifest but checksum and host differs. A log with a damaged manifest is assumed to belong to the
-  // others. Other damage is left out, with a warning in that log's info. A log that holds the records of all
-  // others together, such as a merged log in the same folder, is ignored with a warning.
+  // Throws InputError if a log is unreadable, is given twice, or is of another drive than the first (a key of
+  // the manifest differs, other than checksum and host). A log with a damaged manifest is assumed to belong to
+  // the others. Other damage is left out, with a warning in that log's info. A log with the records of all
+  // others together, such as a merged one in the same folder, is ignored with a warning.
   explicit MergedLogs(std::vector<StoredLog> logs);
   explicit MergedLogs(const std::vector<std::string>& paths);
 
@@ -43,8 +42,8 @@ class MergedLogs {
   log::ContentHash content_hash() const;             // of all records, as the logs have them
   std::vector<std::string> warnings() const;         // of all logs, as given, then of their merge
 
-  // Passes every record to the sink, at each call. Throws InputError if two logs hold the same record of a
-  // node, that is, if one is a part of the other.
+  // Passes every record to the sink, at each call. Throws InputError if one log is a part of another: both hold
+  // the same record of a node.
   void read(records::Sink& sink) const;
 
  private:

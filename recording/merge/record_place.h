@@ -4,13 +4,11 @@
 //   records of a node                 in the order of that node's reports; repetitions in other logs, by payload
 //   records of the drive as a whole   by payload: any process may have reported them
 //
-// True time is the record's own, signed, as in MCAP's log_time. A fault counts 100 ns earlier: nodes stamp its
-// effects in whole microticks, which could put an effect before its cause. The ranks put causes before effects
-// at one instant, and readers rely on that. A fault begins before it acts, and power changes precede changes of
-// state. A fusion step's inputs precede its tracks, and tracks the image made of them. Uses precede the truth
-// that judges them. Within a kind, the order of a node's own reports counts: its states follow each other, and
-// an image's predictions have the order of its objects. This order is the same in every process that runs the
-// node.
+// True time is the record's own, signed, as in MCAP's log_time. A fault counts 100 ns earlier: nodes stamp in
+// whole microticks, which could put its effect before it. Readers rely on the ranks, which put causes before
+// effects at one instant. A fault begins before it acts, and power changes precede changes of state. A fusion
+// step's inputs precede its tracks, and tracks their image. Uses precede the truth that judges them. Within a
+// kind, a node's own reports keep their order, which is the same in every process that runs the node.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
 // Durations counted in the bins of recording/records/lateness_bins.h: any number of them takes the same few
-// kilobytes. Lateness uses it, and other durations whose quantiles matter.
+// kilobytes.
 //
 // Quantiles are those of the sorted list, nearest rank: of n durations the q-quantile is the ceil(q n)-th
-// smallest. The returned value is the end of its bin, or the longest duration if that is less. The value is
-// never below the exact quantile, and above it by a bin at most (1 us up to 64 us, 3 % from there on).
+// smallest. The returned value is the end of its bin, or the longest duration if that is less. It is never
+// below the exact quantile, and above it by a bin at most (1 us up to 64 us, 3 % from there on).
 //
-// It uses no heap: a real-time thread may count with it.
+// No heap: a real-time thread may count with it.
 #pragma once
 
 #include <algorithm>
@@ -45,8 +45,7 @@ class BinnedDurations {
 
   bool empty() const { return empty_; }
   std::uint64_t count() const { return count_from(0); }
-  // Returns how many durations lie in `bin` or later ones, that is, are at least lateness_from(bin). (Bin 0
-  // also holds the durations that are not late.)
+  // Returns how many durations are at least lateness_from(bin); bin 0 also holds those that are not late.
   std::uint64_t count_from(std::size_t bin) const {
     std::uint64_t all = 0;
     for (; bin < kLatenessBins; ++bin) all = sum(all, counts_[bin]);

@@ -1,8 +1,8 @@
-// The events of a drive as plain structs, and the port that reports them.
+// The events of a drive as plain structs, and the port that reports them: the contract between the producers
+// (simulator, real-time runner) and the readers (log writer, diagrams, reports, measures).
 //
-// These records are the contract between the producers (simulator, real-time runner) and the readers (log
-// writer, diagrams, reports, measures). Spans are views, valid during the call only. Coordinates follow ISO
-// 8855; units are metres, seconds, radians. Covariances are row-major.
+// Spans are views, valid during the call only. Coordinates follow ISO 8855; units are metres, seconds, radians.
+// Covariances are row-major.
 #pragma once
 
 #include <cstddef>
@@ -26,9 +26,9 @@ struct Stamp {
   NodeId node{};
 };
 
-// Returns when the node's global time was or will be `at`, judged by the stamp. Global times of different
-// nodes, or of one node before and after a restart, may differ by whole rounds of the cycle counter; true times
-// are comparable.
+// Returns when the node's global time was or will be `at`, judged by the stamp. Unlike true times, global times
+// of different nodes, or of one node before and after a restart, may differ by whole rounds of the cycle
+// counter.
 constexpr TrueTime true_time_of(const Stamp& stamp, GlobalTime at) { return stamp.true_time + (at - stamp.global); }
 
 // A measurement, as the sensor's device (`stamp.node`) saw it. The time stamp that travels with the
@@ -186,8 +186,8 @@ struct FaultActivity {
   std::string_view text;  // one sentence
 };
 
-// A bus signal that the central guardian of one channel blocked, or cut at `until`. The guardian belongs to no
-// node, so the record has true time only.
+// A bus signal that the central guardian of one channel blocked, or cut at `until`. The guardian has no clock
+// of a node: true time only.
 inline constexpr std::uint8_t kSignalFrame = 1;
 inline constexpr std::uint8_t kSignalCas = 2;     // collision avoidance or media access test symbol
 inline constexpr std::uint8_t kSignalWakeup = 3;  // a wake-up pattern
@@ -203,8 +203,8 @@ struct GuardianIntervention {
   std::string_view why;     // the reason in words
 };
 
-// The largest difference between any two nodes' global times within a double cycle. The simulator sees it and
-// belongs to no node, so the record has true time only.
+// The largest difference between any two nodes' global times within a double cycle, as the simulator sees it:
+// true time only.
 struct PrecisionSample {
   TrueTime at{};
   std::int64_t cycle = 0;
@@ -310,8 +310,7 @@ struct ReferenceFix {  // DGPS on the tracked car, transformed with the (erroneo
   LocalTime measured_local{};                 // on the receiver's own clock, which shows GPS time
 };
 
-// The true state of an object at the instant at which a node measured or used an image. That instant is also
-// given on the node's clocks.
+// The true state of an object when a node measured or used an image; that instant on the node's clocks, too.
 struct TruthState {
   TrueTime at{};
   ObjectId object{};

@@ -1,8 +1,7 @@
-// Reads comma-separated text line by line (RFC 4180, without line ends within quotes, which no file here
-// needs).
+// Reads comma-separated text line by line (RFC 4180, but no line ends within quotes).
 //
-// A byte order mark, Windows line ends and a last line without an end are accepted. Empty lines and lines that
-// begin with # are ignored, and so are blanks around an unquoted field.
+// A byte order mark, Windows line ends and a last line without an end are accepted. Empty lines, lines that
+// begin with # and blanks around an unquoted field are ignored.
 #pragma once
 
 #include <cstddef>
