@@ -20,7 +20,7 @@ void StartupAccount::on(const recording::records::PowerChanged& power) {
   if (power.on && !startup.powered) startup.powered = power.stamp.true_time;
   if (power.on) return;
   startup.state = "off";
-  startup.why = "its supply went";
+  startup.why = "its supply was switched off";
 }
 
 void StartupAccount::on(const recording::records::StateChanged& change) {

@@ -108,8 +108,8 @@ std::string coverage_text(const Coverage& coverage, Duration cycle) {
   }
   std::uint64_t without = 0;
   for (const ClassCoverage& row : coverage.classes) without += row.without;
-  if (without > 0) out += fmt::format("{} start-ups do not come to an end without the fault either\n", without);
-  out += fmt::format("harmed a fault-free node: {} of the hypothesis\n", coverage.harmed_in_hypothesis);
+  if (without > 0) out += fmt::format("{} start-ups fail without the fault, too\n", without);
+  out += fmt::format("faults of the hypothesis that harmed a fault-free node: {}\n", coverage.harmed_in_hypothesis);
   return out;
 }
 

@@ -71,7 +71,7 @@ class Line {
       left.remove_prefix(std::min(left.size(), word.size() + 1));
       const auto found =
           std::find_if(all.begin(), all.end(), [&](auto one) { return evaluation::faults::name_of(one) == word; });
-      if (found == all.end()) fail(word, fmt::format("is nothing known in column {}", column + 1));
+      if (found == all.end()) fail(word, fmt::format("is an unknown word in column {}", column + 1));
       bits |= 1u << (found - all.begin());
     }
     return bits;
@@ -126,7 +126,7 @@ std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const C
     left.remove_prefix(std::min(left.size(), row.size() + 1));
     if (++number_of_line == 1) {
       if (row != kHeader)
-        throw InputError({name, 1, "header", std::string(row), "must be that of a campaign's results"});
+        throw InputError({name, 1, "header", std::string(row), "must be the first line of a campaign's results"});
       continue;
     }
     const Line line(row, name, number_of_line);
@@ -195,7 +195,7 @@ std::vector<FaultResult> merged(const CampaignFile& campaign, std::vector<std::v
     if (i < all.size() && all[i].index == i) continue;
     const bool twice = i < all.size() && all[i].index < i;
     throw InputError({campaign.file, 0, "--merge", fmt::to_string(twice ? all[i].index : i),
-                      twice ? "is a fault that is there twice" : "is a fault that is missing"});
+                      twice ? "is a repeated fault" : "is a missing fault"});
   }
   return all;
 }

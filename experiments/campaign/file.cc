@@ -35,7 +35,7 @@ CampaignFile read(const StrictYaml& yaml) {
   campaign.file = yaml.name();
   const std::string kind = root.text("kind");
   if (!kind.empty() && kind != "fault_campaign") {
-    root.fail("kind", "must be fault_campaign, the one kind of experiment there is");
+    root.fail("kind", "must be fault_campaign");
     findings.throw_if_any();  // the keys of another kind are not judged
   }
   campaign.name = root.text("name");
@@ -56,14 +56,14 @@ CampaignFile read(const StrictYaml& yaml) {
     for (std::size_t k = 0; k < campaign.weights.size(); ++k)
       sum += campaign.weights[k] = classes->integer_or(faults::name_of(faults::kAllFaultKinds[k]), 0, {0, kMostWeight});
     classes->finish();
-    if (sum == 0) root.fail("classes", "must give some class a weight");
+    if (sum == 0) root.fail("classes", "must give a class a weight above 0");
   }
   for (auto& [name, map] : root.named_maps("variants")) campaign.variants.push_back(read_variant(name, map));
-  if (campaign.variants.empty()) root.fail("variants", "must have one at least");
+  if (campaign.variants.empty()) root.fail("variants", "must have at least one");
   if (auto expect = root.map_if("expect")) {
     campaign.expected_harmed = expect->integer("harmed_with_guardian", {0, kMostFaults});
     if (std::none_of(campaign.variants.begin(), campaign.variants.end(), [](const Variant& v) { return v.guarded(); }))
-      expect->fail("harmed_with_guardian", "needs a variant with guardian and both channels to be of");
+      expect->fail("harmed_with_guardian", "needs a variant with guardian and both channels");
     expect->finish();
   }
   root.finish();

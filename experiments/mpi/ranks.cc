@@ -44,7 +44,7 @@ class Reader {
 
  private:
   const char* take(std::size_t size) {
-    if (bytes_.size() - at_ < size) throw std::runtime_error("a message of another rank that ends too early");
+    if (bytes_.size() - at_ < size) throw std::runtime_error("a message of another rank ends too early");
     const char* const from = bytes_.data() + at_;
     at_ += size;
     return from;
@@ -125,7 +125,7 @@ Ranks::Ranks() {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &size_);
   under_way_.resize(static_cast<std::size_t>(size_));
-  if (provided < MPI_THREAD_FUNNELED) throw std::runtime_error("this MPI knows no threads");
+  if (provided < MPI_THREAD_FUNNELED) throw std::runtime_error("this MPI does not support threads");
 }
 
 Ranks::~Ranks() {

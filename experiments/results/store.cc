@@ -167,7 +167,7 @@ Store Store::open(const std::string& path) {
       if (key == "measures") measures = value;
       if (key == kReplications &&
           std::from_chars(value.data(), value.data() + value.size(), store.head_.replications).ec != std::errc{})
-        throw std::runtime_error(path + ": replications are no number");
+        throw std::runtime_error(path + ": replications must be a number");
     }
     if (!measures) throw std::runtime_error(path + ": no measures");
     for (std::size_t begin = 0, end = 0; (end = measures->find('\n', begin)) != std::string::npos; begin = end + 1)

@@ -66,9 +66,9 @@ class Reader {
     file_.replications = static_cast<std::uint32_t>(root_.integer("replications", {1, kMostReplications}));
     read_paradigms();
     for (auto& [name, map] : root_.named_maps("axes")) read_axis(name, map);
-    if (file_.axes.empty()) root_.fail("axes", "must have one at least");
+    if (file_.axes.empty()) root_.fail("axes", "must have at least one");
     if (!file_.axes.empty() && file_.points() > kMostPoints)
-      root_.fail("axes", fmt::format("must make {} points at most, and make {}", kMostPoints, file_.points()));
+      root_.fail("axes", fmt::format("must make at most {} points, not {}", kMostPoints, file_.points()));
     check_runs();
     check_keys(file_, findings_);
     read_measures();
@@ -123,7 +123,8 @@ class Reader {
     Axis axis;
     axis.name = name;
     if (!is_name(name)) map.fail("", std::string(kNames));
-    if (is_column(name)) map.fail("", "must not be called as a measure, or point, replication, paradigm or status");
+    if (is_column(name))
+      map.fail("", "must not have the name of a measure, nor be point, replication, paradigm or status");
     const bool settings = map.has("settings");
     if (!settings)
       for (const std::string& key : map.texts("keys")) axis.keys.push_back(edit(key, "", map.line("keys")));
@@ -134,7 +135,7 @@ class Reader {
           setting.edits.push_back(edit(key, value, edits.line()));
         axis.settings.push_back(std::move(setting));
       }
-      if (axis.settings.empty()) map.fail("settings", "must have one at least");
+      if (axis.settings.empty()) map.fail("settings", "must have at least one");
     } else if (map.has("uniform")) {
       axis.unit = map.text_or("unit", "");
       const std::vector<std::string> bounds = map.texts("uniform");
@@ -144,7 +145,7 @@ class Reader {
         axis.low = *low;
         axis.high = *high;
         if (std::any_of(axis.keys.begin(), axis.keys.end(), [](const Edit& key) { return is_file(key); }))
-          map.fail("keys", "must be no file's where a number is drawn");
+          map.fail("keys", "must not name files if a number is drawn");
       } else {
         map.fail("uniform", "must be two numbers, the lower one first");
       }
@@ -170,7 +171,7 @@ class Reader {
     axis.unit = map.text_or("unit", "");
     if (axis.logarithmic && (from <= 0.0 || to <= 0.0))
       return map.fail("scale", "must be linear, or both ends above 0");
-    if (from == to) return map.fail("to", "must be another than `from`");
+    if (from == to) return map.fail("to", "must differ from `from`");
     for (std::int64_t i = 0; i < count; ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(count - 1);
       const double value = rounded(axis.logarithmic ? from * std::pow(to / from, part) : from + part * (to - from));
@@ -224,7 +225,7 @@ class Reader {
     if (auto stop = root_.map_if("stop")) {
       file_.stop = StopRule{stop->number("half_width", {0.0, kLargest}),
                             static_cast<std::uint32_t>(stop->integer("batch", {2, 1'000'000}))};
-      if (file_.paradigms.size() < 2) stop->fail("half_width", "needs two paradigms: it is of their differences");
+      if (file_.paradigms.size() < 2) stop->fail("half_width", "needs two paradigms: it bounds their differences");
       stop->finish();
     }
   }
@@ -245,8 +246,8 @@ class Reader {
       const std::size_t less = paradigm(map, agreement ? "of" : "less");
       const std::size_t than = agreement ? less : paradigm(map, "than");
       if (file_.paradigms.empty()) continue;
-      if (!agreement && less == than) map.fail("than", "must be another than `less`");
-      if (agreement && expectation.agrees == expectation.measure) map.fail("agrees", "must be another than `measure`");
+      if (!agreement && less == than) map.fail("than", "must differ from `less`");
+      if (agreement && expectation.agrees == expectation.measure) map.fail("agrees", "must differ from `measure`");
       expectation.less = file_.paradigms[less].name;
       if (!agreement) expectation.than = file_.paradigms[than].name;
       expectation.text =

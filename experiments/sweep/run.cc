@@ -158,7 +158,7 @@ std::string SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster,
 // Takes the faults as if the scenario had them.
 void SweepDrives::plan_faults(const std::string& file, drives::Scenario& scenario) const {
   if (!scenario.faults.empty())
-    throw InputError({scenario.file, 0, "faults", "", "must not be there where " + file + " says what goes wrong"});
+    throw InputError({scenario.file, 0, "faults", "", "must be absent, since " + file + " has the faults"});
   const std::string& text = texts_.at(file);
   const StrictYaml yaml = StrictYaml::parse(text, file);
   Findings findings;

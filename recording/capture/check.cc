@@ -122,8 +122,7 @@ class CaptureChecker {
     if (coding) say(Contradiction::kCoding, fmt::format("coding errors are flagged ({:#04x})", packet.errors));
     if (!packet.header_crc_holds) {
       // Slot and length are unreliable then.
-      say(Contradiction::kHeaderCrc,
-          fmt::format("the header CRC is {:#05x}, which it should not be", header.header_crc));
+      say(Contradiction::kHeaderCrc, fmt::format("the header CRC {:#05x} does not hold", header.header_crc));
       coverage_.damaged(header.cycle, header.frame_id, packet.channel);
       return;
     }
@@ -157,7 +156,7 @@ class CaptureChecker {
       if (in_cycle(frame, counter)) return;
     }
     if (!slot)
-      say(Contradiction::kUnownedSlot, "nobody owns this slot");
+      say(Contradiction::kUnownedSlot, "the slot has no owner");
     else if (!on_channel)
       say(Contradiction::kWrongChannel,
           fmt::format("the slot's owner sends on {} only", channel == Channel::kA ? 'B' : 'A'));
@@ -173,7 +172,7 @@ class CaptureChecker {
                                                      cluster_.flexray.gPayloadLengthStatic));
     else if (packet.payload.size() != 2 * static_cast<std::size_t>(words))
       say(Contradiction::kPayloadLength,
-          fmt::format("{} bytes of payload were captured where the header says {}", packet.payload.size(), 2 * words));
+          fmt::format("{} bytes of payload were captured, but the header says {}", packet.payload.size(), 2 * words));
   }
 
   void report(Contradiction kind, std::uint64_t packet, std::string text, std::uint64_t count = 1) {
@@ -193,7 +192,7 @@ class CaptureChecker {
 
 const std::array<std::string_view, kContradictions> kContradictionNames{
     "malformed packet",       "header CRC error",     "frame CRC error", "coding error", "startup frame without sync",
-    "cycle counter error",    "slot nobody owns",     "wrong channel",   "wrong cycle",  "wrong slot",
+    "cycle counter error",    "slot without owner",   "wrong channel",   "wrong cycle",  "wrong slot",
     "second frame in a slot", "wrong payload length", "missing frame"};
 
 std::uint64_t CaptureVerdict::contradictions() const {

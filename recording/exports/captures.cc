@@ -43,7 +43,7 @@ capture::CheckedFlexRayFrame checked(const LoggedFrame& frame, std::span<const s
 std::string origin_of(const LoggedFrame& frame, const LogNames& names) {
   if (!frame.flexray || frame.as_sent) return "";
   if (frame.of_controller) return fmt::format("slot {} of {}", frame.id, names.node(frame.sender));
-  if (frame.sender == kNoNode) return "nobody sent it";
+  if (frame.sender == kNoNode) return "no node sent it";
   return fmt::format("the controller of {} did not send it", names.node(frame.sender));
 }
 
@@ -124,7 +124,7 @@ std::string export_pcapng(const FrameCollector& collector, const std::vector<Log
   const log::LogManifest& run = names.manifest();
   std::string out;
   CaptureWriter writer(out, interfaces,
-                       fmt::format("{} with {} on {}, seed {}; time 0 is the start of the run", run.scenario_name,
+                       fmt::format("{} with {} on {}, seed {}; time 0 is the start of the drive", run.scenario_name,
                                    run.strategy, run.cluster_name, run.seed));
   std::string packet;
   for (const LoggedFrame& frame : frames) {

@@ -29,7 +29,7 @@ std::string channel_state_words(unsigned state) {
                                                                 {records::kChannelFrameCrc, "frame CRC error"},
                                                                 {records::kChannelCoding, "coding error"},
                                                                 {records::kChannelCut, "cut"},
-                                                                {records::kChannelNothing, "reached nobody"}};
+                                                                {records::kChannelNothing, "reached no receiver"}};
   std::string words;
   for (const auto& [bit, word] : kWords)
     if ((state & bit) != 0) words += (words.empty() ? "" : ", ") + std::string(word);
@@ -193,7 +193,7 @@ void PerfettoExport::on(const records::ChannelFrame& r) {
   const std::string whose = r.slot != 0 ? fmt::format("slot {} of {}", r.slot, names_.node(r.sender))
                             : r.sender != kNoNode
                                 ? fmt::format("the controller of {} did not send it", names_.node(r.sender))
-                                : "nobody sent it";
+                                : "no node sent it";
   timeline_.instant(kFlexRayGroup, channel_lane(r.channel), come_to(r.start), state.empty() ? "displaced frame" : state,
                     {{"whose", whose}, {"bytes", whole(r.bytes.size())}});
 }

@@ -82,13 +82,13 @@ LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records:
   if (!collector.has_manifest() && report.chunks_read + report.chunks_lost == 0)
     throw InputError(
         {name, 0, "", "",
-         fmt::format("holds nothing of a log but its beginning: {} bytes, no manifest, no record", bytes.size())});
+         fmt::format("holds only the beginning of a log: {} bytes, no manifest, no record", bytes.size())});
   if (!collector.has_manifest())
     report.warnings.push_back("the manifest is missing: names and seed are unknown");
   else if (!info.manifest_sound)
     report.warnings.push_back("the manifest is damaged: names and seed may be wrong");
   if (report.warnings.empty() && info.stated_content_hash != info.content_hash)
-    report.warnings.push_back("the content hash that the log states is not that of its records");
+    report.warnings.push_back("the stated content hash differs from that of the records");
   for (const std::string& warning : report.warnings) {
     if (!info.warning.empty()) info.warning += '\n';
     info.warning += name + ": " + warning;

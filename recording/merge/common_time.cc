@@ -144,7 +144,8 @@ std::vector<CommonTime> common_times(const std::vector<StoredLog>& logs, std::ve
   std::map<std::string, CommonTime> by_host;
   for (const auto& [host, of_host] : stamps) {
     if (of_host.empty())
-      warnings.push_back(fmt::format("no node of host {} was synchronised: its logs' times are its own clock's", host));
+      warnings.push_back(
+          fmt::format("no node of machine {} was synchronised: its logs have its own clock's times", host));
     else
       by_host[host] = CommonTime(points_of(of_host, reference->at.ns - reference->global.ns, round_ns));
   }

@@ -33,13 +33,14 @@ std::optional<Finding> misfit(const StoredLog& log, const StoredLog& first) {
   for (const auto& [key, unused] : manifest_entries(first.info().manifest)) {  // in the order of writing
     const auto value = mine.find(key), expected = others.find(key);
     if (expected == others.end() || (value != mine.end() && value->second == expected->second)) continue;
-    return Finding{log.name(), 0, key, value == mine.end() ? "" : value->second,
-                   fmt::format("must be {} as in {}: only logs of one run are merged", expected->second, first.name())};
+    return Finding{
+        log.name(), 0, key, value == mine.end() ? "" : value->second,
+        fmt::format("must be {} as in {}: only logs of one drive are merged", expected->second, first.name())};
   }
   for (const auto& [key, value] : mine)
     if (!others.contains(key))
       return Finding{log.name(), 0, key, value,
-                     fmt::format("is not in {}: only logs of one run are merged", first.name())};
+                     fmt::format("is not in {}: only logs of one drive are merged", first.name())};
   return std::nullopt;
 }
 
@@ -82,8 +83,8 @@ MergedLogs::MergedLogs(const std::vector<std::string>& paths) : MergedLogs(store
 
 MergedLogs::MergedLogs(std::vector<StoredLog> logs) : logs_(std::move(logs)) {
   if (const auto whole = whole_among(logs_); whole != logs_.end()) {
-    warnings_.push_back(fmt::format("{}: is passed over: it holds what the other {} logs hold together", whole->name(),
-                                    logs_.size() - 1));
+    warnings_.push_back(
+        fmt::format("{}: is ignored: it holds the records of the other {} logs", whole->name(), logs_.size() - 1));
     logs_.erase(whole);
   }
   Findings findings;
@@ -199,7 +200,7 @@ void write_merged(const MergedLogs& merged, const std::string& path) {
   std::error_code none;  // a path that does not exist yet equals no log
   for (const StoredLog& log : merged.logs())
     if (std::filesystem::equivalent(log.name(), path, none))
-      throw InputError({path, 0, "", "", "must be another file than the logs that are merged"});
+      throw InputError({path, 0, "", "", "must differ from the merged logs"});
   bool created = false;
   try {
     log::LogWriter writer(path, merged.manifest());

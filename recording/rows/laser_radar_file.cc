@@ -218,7 +218,7 @@ RecordingFormat sniff_recording(std::string_view text, const std::string& name) 
   });
   if (!format)
     throw InputError({name, 0, "", "",
-                      "is no recording known here: rows of L or R (laser and radar), of frame, azimuth_rad, range_m, "
+                      "is no known recording: rows of L or R (laser and radar), of frame, azimuth_rad, range_m, "
                       "intensity (scanner), or an MCAP log"});
   return *format;
 }

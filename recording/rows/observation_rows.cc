@@ -101,7 +101,7 @@ Heading heading_of(const CsvLines& lines, const std::string& name) {
     else if (field.substr(0, 3) != "gt_")
       findings.add({name, lines.line(), "column", field, "is not known (docs/track.md lists the columns)"});
     if (place == nullptr) continue;
-    if (*place) findings.add({name, lines.line(), "column", field, "is there twice"});
+    if (*place) findings.add({name, lines.line(), "column", field, "occurs twice"});
     *place = i;
   }
   const auto missing = [&](std::string_view column, std::string_view why) {

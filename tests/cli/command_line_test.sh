@@ -209,15 +209,15 @@ expect 2 '--to = 1.5 s: does not go with --kind lateness' \
   diagram "$work/a/tt.mcap" --kind lateness --to 1.5 -o "$work/none.svg"
 expect 2 '--frame = 3: goes with --kind boxes' diagram "$work/a/tt.mcap" --frame 3 -o "$work/none.svg"
 head -c 100 "$work/a/tt.mcap" >"$work/empty.mcap"
-expect 2 'empty.mcap: holds nothing of a log but its beginning: 100 bytes, no manifest, no record' \
+expect 2 'empty.mcap: holds only the beginning of a log: 100 bytes, no manifest, no record' \
   diagram "$work/empty.mcap" -o "$work/none.svg"
 : >"$work/nothing.mcap"
 for file in empty nothing; do
-  expect 2 "error: .*$file.mcap: (is not a log|holds nothing of a log)" export "$work/$file.mcap" --format csv \
+  expect 2 "error: .*$file.mcap: (is not a log|holds only the beginning of a log)" export "$work/$file.mcap" --format csv \
     -o "$work/none.csv"
   [[ -e $work/none.csv ]] && fail "an export of nothing leaves a file"
 done
-expect 2 "holds nothing of a log" diagram "$work/empty.mcap" -o "$work/none.svg"
+expect 2 "holds only the beginning of a log" diagram "$work/empty.mcap" -o "$work/none.svg"
 cp "$work/a/tt.mcap" "$work/itself.mcap"
 expect 2 '--out = .*itself.mcap: must be another file than the input' \
   export "$work/itself.mcap" --format csv -o "$work/./itself.mcap"
@@ -349,7 +349,7 @@ done
 expect 0 '' diagram "$work"/nodes/*.mcap "$work/a/adva.mcap" --kind plane -o "$work/of_many.svg"
 expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work/of_one.svg"
 cmp -s "$work/of_one.svg" "$work/of_many.svg" || fail "two runs side by side differ by how many logs one of them has"
-expect 2 'adva.mcap: cluster = paper_unsynchronised: must be paper_synchronised as in .*tt.mcap: only logs of one run' \
+expect 2 'adva.mcap: cluster = paper_unsynchronised: must be paper_synchronised as in .*tt.mcap: only logs of one drive' \
   diagram "$work/a/tt.mcap" "$work/a/adva.mcap" -o "$work/none.svg"
 expect 2 'c/tt.mcap: seed = 4: must be 3 as in .*a/tt.mcap' export "$work/a/tt.mcap" "$work/c/tt.mcap" --format csv \
   -o "$work/none"
@@ -441,7 +441,7 @@ expect 2 'campaign.yaml: --merge: lacks shard 2/2: give the folders of all shard
   --merge "$work/shard1"
 expect 0 '' experiment "$campaign" --shard 3/5 --out "$work/shard3"
 expect 2 'lacks shard 1/5, 2/5, 4/5, 5/5' experiment "$campaign" --merge "$work/shard3"
-expect 2 '--merge = [0-9]+: is a fault that is (missing|there twice)' experiment "$campaign" --merge "$work/shard1" \
+expect 2 '--merge = [0-9]+: is a (missing|repeated) fault' experiment "$campaign" --merge "$work/shard1" \
   "$work/shard3"
 expect 0 'fault 3: [a-z_]+ ' experiment "$campaign" --replay 3
 for fault in 2 3 8; do

@@ -70,14 +70,14 @@ assert manifest["exit_code"] == 0 and manifest["virtual_time"] is False and mani
     "$folder" "$strategy"
 done
 # What --help has as an example: all that is in the folder, the merged log among its parts.
-expect 0 'warning: .*/tt.mcap: is passed over: it holds what the other 8 logs hold together' \
+expect 0 'warning: .*/tt.mcap: is ignored: it holds the records of the other 8 logs' \
   diagram "$work"/tt/*.mcap --from 1 --to 1.04 -o "$work/all.svg"
 expect 0 '' diagram "$work/tt/tt.mcap" --from 1 --to 1.04 -o "$work/merged.svg"
 cmp "$work/all.svg" "$work/merged.svg" || fail "the picture of all logs in the folder is not the merged log's"
-expect 0 'tt.mcap: is passed over' export "$work"/tt/*.mcap --format csv -o "$work/all.csv"
+expect 0 'tt.mcap: is ignored' export "$work"/tt/*.mcap --format csv -o "$work/all.csv"
 expect 0 '' export "$work/tt/tt.mcap" --format csv -o "$work/merged.csv"
 cmp "$work/all.csv" "$work/merged.csv" || fail "the frames of all logs in the folder are not the merged log's"
-expect 0 'tt.mcap: is passed over' diagram "$work"/tt/*.mcap --kind position -o "$work/all.svg"
+expect 0 'tt.mcap: is ignored' diagram "$work"/tt/*.mcap --kind position -o "$work/all.svg"
 expect 2 'fusion.mcap: holds the same records as .*tt.mcap: each log may be given once, and a merged one without its parts' \
   diagram "$work"/tt/{tt,fusion}.mcap --from 1 --to 1.04 -o "$work/none.svg"
 logs=$(for node in $nodes; do echo "$work/tt/$node.mcap"; done)

@@ -72,11 +72,11 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   EXPECT_THAT(refusal(kHead + axes + "measures: [speed]\n"), HasSubstr("must be some of position_rmse_truth"));
   EXPECT_THAT(refusal(kHead + axes + "compare: {baseline: b}\n"), HasSubstr("must be one of the paradigms"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: a}]\n"),
-              HasSubstr("another than `less`"));
+              HasSubstr("must differ from `less`"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: speed, of: a}]\n"),
               HasSubstr("one of `measures`"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: nees, of: a}]\n"),
-              HasSubstr("another than `measure`"));
+              HasSubstr("must differ from `measure`"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: missed, less: a}]\n"),
               HasSubstr("expect[0].of"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: t, where: {one: 3}}]\n"),
@@ -88,7 +88,7 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   EXPECT_THAT(axis("{keys: [seed], values: [1]}"), HasSubstr("seed must not be varied"));
   for (const char* name : {"nees", "Status", "point"})
     EXPECT_THAT(refusal(kHead + "axes:\n  " + name + ": {keys: [tracker.process_noise], uniform: [1, 2]}\n"),
-                HasSubstr("must not be called as a measure"));
+                HasSubstr("must not have the name of a measure"));
   EXPECT_THAT(refusal(kHead + "axes:\n  one: {keys: [world.yaw_rate_noise], values: [0, 1]}\n"
                               "  two: {settings: {a: {world.yaw_rate_noise: 0}}}\n"),
               HasSubstr("must not vary world.yaw_rate_noise twice: one and two do"));
@@ -150,7 +150,7 @@ TEST(SweepFile, FilesAreValues) {
 
   const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
   EXPECT_THAT(axis("{keys: [faults], values: [faults/none.yaml]}"), HasSubstr("faults/none.yaml"));
-  EXPECT_THAT(axis("{keys: [faults], uniform: [0, 1]}"), HasSubstr("must be no file's where a number is drawn"));
+  EXPECT_THAT(axis("{keys: [faults], uniform: [0, 1]}"), HasSubstr("must not name files if a number is drawn"));
   EXPECT_THAT(axis("{keys: [faults], values: [../scenarios/dynamics.yaml]}"), HasSubstr("dynamics.yaml:1: name"));
   EXPECT_THAT(axis("{settings: {x: {faults: faults/lists_5.yaml, scenario: ../scenarios/faulty_bus.yaml}}}"),
               HasSubstr("faulty_bus.yaml: faults: must not be there where"));
@@ -160,7 +160,7 @@ TEST(SweepFile, FilesAreValues) {
 TEST(SweepFile, TooManyPointsAreRefused) {
   std::string axes = "axes:\n";
   for (int a = 0; a < 9; ++a) axes += fmt::format("  a{}: {{keys: [key{}], from: 0, to: 9, count: 10}}\n", a, a);
-  EXPECT_THAT(refusal(kHead + axes), HasSubstr("must make 10000 points at most"));
+  EXPECT_THAT(refusal(kHead + axes), HasSubstr("must make at most 10000 points"));
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ TEST(CaptureCheck, AFrameInASlotNobodyOwns) {
   BusFrame stray = frames[at - 1];
   stray.header.frame_id = 38;
   frames.insert(frames.begin() + static_cast<std::ptrdiff_t>(at), stray);
-  EXPECT_THAT(texts(verdict_on(frames)), ElementsAre(packet(at) + "slot 38 on B, cycle 1: nobody owns this slot"));
+  EXPECT_THAT(texts(verdict_on(frames)), ElementsAre(packet(at) + "slot 38 on B, cycle 1: the slot has no owner"));
 }
 
 TEST(CaptureCheck, AFrameOnTheWrongChannel) {

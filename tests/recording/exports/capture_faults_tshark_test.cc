@@ -67,7 +67,7 @@ class FaultyExpectation final : public Expectation {
     if (record.slot == 0) {
       ++foreign;
       const std::string who = record.sender == kNoNode
-                                  ? std::string("nobody sent it")
+                                  ? std::string("no node sent it")
                                   : fmt::format("the controller of {} did not send it", node(record.sender));
       foreign_.push_back({{record.start.ns, flexray_text(who, record.channel, record.bytes, flags)}, flags});
       return;

@@ -60,7 +60,7 @@ TEST(LogDamage, WhatEndsBeforeItsManifestIsNoLog) {
   EXPECT_LT(least, small_log().size() / 4) << "before the first chunk";
   EXPECT_EQ(refusal(0), "log.mcap: is not a log: it does not begin as an MCAP file does");
   EXPECT_EQ(refusal(7), "log.mcap: is not a log: it does not begin as an MCAP file does");
-  EXPECT_EQ(refusal(100), "log.mcap: holds nothing of a log but its beginning: 100 bytes, no manifest, no record");
+  EXPECT_EQ(refusal(100), "log.mcap: holds only the beginning of a log: 100 bytes, no manifest, no record");
   for (std::size_t size = least; size < small_log().size(); size += 501) EXPECT_EQ(refusal(size), "") << size;
 }
 

@@ -170,7 +170,7 @@ TEST(MergeHosts, OnOneHostOrWithoutSynchronisationTimesStayAsTheyAre) {
   const Hosts apart(drive, two, [&](NodeId node) { return node == off_flexray ? std::size_t{1} : std::size_t{0}; });
   const MergedLogs both(apart.paths);
   EXPECT_EQ(both.warnings(),
-            std::vector<std::string>{"no node of host elm was synchronised: its logs' times are its own clock's"});
+            std::vector<std::string>{"no node of machine elm was synchronised: its logs have its own clock's times"});
   EXPECT_GT(apart.most_apart([&](records::Sink& sink) { both.read(sink); }), Duration::milliseconds(8));
 }
 

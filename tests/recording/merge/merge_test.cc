@@ -197,15 +197,15 @@ TEST(Merge, LogsOfDifferentRunsAreRefusedByFileAndKey) {
   };
   EXPECT_EQ(sentence([](log::LogManifest&) {}), "");
   EXPECT_EQ(sentence([](log::LogManifest& m) { m.seed = 4; }),
-            "part1.mcap: seed = 4: must be 18446744073709551615 as in part0.mcap: only logs of one run are merged");
+            "part1.mcap: seed = 4: must be 18446744073709551615 as in part0.mcap: only logs of one drive are merged");
   EXPECT_EQ(sentence([](log::LogManifest& m) { m.strategy = "adva"; }),
-            "part1.mcap: strategy = adva: must be tt as in part0.mcap: only logs of one run are merged");
+            "part1.mcap: strategy = adva: must be tt as in part0.mcap: only logs of one drive are merged");
   EXPECT_EQ(sentence([](log::LogManifest& m) { m.hashes[0].second = "00fe"; }),
-            "part1.mcap: hash.cluster = 00fe: must be 00ff as in part0.mcap: only logs of one run are merged");
+            "part1.mcap: hash.cluster = 00fe: must be 00ff as in part0.mcap: only logs of one drive are merged");
   EXPECT_EQ(sentence([](log::LogManifest& m) { m.recording_name.clear(); }),
-            "part1.mcap: recording: must be street.txt as in part0.mcap: only logs of one run are merged");
+            "part1.mcap: recording: must be street.txt as in part0.mcap: only logs of one drive are merged");
   EXPECT_EQ(sentence([](log::LogManifest& m) { m.can_bus_names.push_back("third"); }),
-            "part1.mcap: can_bus.2 = third: is not in part0.mcap: only logs of one run are merged");
+            "part1.mcap: can_bus.2 = third: is not in part0.mcap: only logs of one drive are merged");
 }
 
 TEST(Merge, ByRunLogsOfEachRunComeTogether) {
@@ -251,7 +251,7 @@ TEST(Merge, TheWholeAmongItsPartsIsPassedOver) {
     const MergedLogs all(std::move(logs));
     ASSERT_EQ(all.logs().size(), 3u);
     EXPECT_EQ(all.warnings(),
-              std::vector<std::string>{"whole.mcap: is passed over: it holds what the other 3 logs hold together"});
+              std::vector<std::string>{"whole.mcap: is ignored: it holds the records of the other 3 logs"});
     EXPECT_EQ(lines_of(all), lines_of(parts));
     EXPECT_EQ(all.content_hash().value(), parts.content_hash().value());
   }
@@ -274,8 +274,7 @@ TEST(Merge, NoLogIsWrittenOver) {
   std::filesystem::copy_file((logs_of(1, crowd()), log::scratch("part0.mcap")), path);
   const std::string before = read_file(path);
   const MergedLogs merged(std::vector<std::string>{path});
-  EXPECT_EQ(refused([&] { write_merged(merged, path); }),
-            path + ": must be another file than the logs that are merged");
+  EXPECT_EQ(refused([&] { write_merged(merged, path); }), path + ": must differ from the merged logs");
   EXPECT_TRUE(read_file(path) == before);
   EXPECT_THROW(write_merged(merged, log::scratch("no/such/folder.mcap")), std::runtime_error);
 }
