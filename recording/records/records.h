@@ -95,9 +95,9 @@ struct ChannelFrame {
   std::span<const std::byte> bytes;  // header, payload and trailer as on the wire; empty if undecodable
 };
 
-// Status of a slot on one channel as one receiver saw it. Recorded for every slot that is not one valid frame
-// of the slot's owner. Bits: 1 syntax error, 2 content error, 4 boundary violation, 8 transmission conflict, 16
-// no frame.
+// Status of a slot on one channel as one receiver saw it. Recorded if the slot had an error, or if the frame that
+// is expected there did not come. Bits: 1 syntax error, 2 content error, 4 boundary violation, 8 transmission
+// conflict, 16 no frame.
 struct SlotProblem {
   Stamp stamp;
   std::int64_t cycle = 0;
