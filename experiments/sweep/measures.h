@@ -34,13 +34,13 @@ inline double share(std::uint64_t part, std::uint64_t of) {
 inline constexpr std::array<Measure, 19> kMeasures{{
   {"position_rmse_truth", "m", "root mean square of the position error against the truth, when the image is used",
    [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.position_rmse_truth; }},
-  {"position_mse_truth", "m^2", "mean square of the same; its mean over drives has no bias",
+  {"position_mse_truth", "m^2", "mean square of the position error against the truth, unbiased when averaged over drives",
    [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.position_rmse_truth * s.position_rmse_truth; }},
   {"velocity_rmse_truth", "m/s", "root mean square of the velocity error against the truth",
    [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.velocity_rmse_truth; }},
   {"position_rmse_reference", "m", "root mean square of the position error against the DGPS",
    [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return s.position_rmse_reference; }},
-  {"position_mse_reference", "m^2", "mean square of the same",
+  {"position_mse_reference", "m^2", "mean square of the position error against the DGPS",
    [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) {
      return s.position_rmse_reference * s.position_rmse_reference;
    }},
@@ -56,7 +56,7 @@ inline constexpr std::array<Measure, 19> kMeasures{{
    [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::milliseconds(s.age_fused); }},
   {"age_used_newest", "ms", "median age of the newest measurement in an image when the image is used",
    [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::milliseconds(s.age_used_newest, 500); }},
-  {"age_used_newest_p99", "ms", "the age that 99 in 100 of them do not exceed",
+  {"age_used_newest_p99", "ms", "99th percentile of the age of the newest measurement in an image when the image is used",
    [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::milliseconds(s.age_used_newest, 990); }},
   {"age_used_oldest", "ms", "median age of the oldest of the sensors' newest measurements",
    [](const evaluation::accuracy::DriveSummary& s, const drives::DriveOutcome&) { return measure::milliseconds(s.age_used_oldest, 500); }},
