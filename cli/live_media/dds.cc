@@ -24,7 +24,7 @@ bool is_on(const schedules::model::Cluster& cluster, NodeId node, schedules::mod
 }
 
 // Who is missing when patience has ended is warned of.
-std::unique_ptr<bus::ports::LiveMedium> make(const MediumSetting& setting) {
+std::unique_ptr<bus::ports::LiveMedium> make_dds(const MediumSetting& setting) {
   const schedules::model::Cluster& cluster = setting.cluster;
   std::vector<bus::dds::live::LiveLinePlan> lines;
   const auto add = [&](bus::ports::Line line, std::string topic, const auto& is_on_it) {
@@ -60,7 +60,7 @@ const LiveMediumRow kDds{
     .needs_dds = true,
     .look_at = look_at_loopback,
     .way_out = "",
-    .make = make,
+    .make = make_dds,
 };
 
 }  // namespace ttf::cli::live_media

@@ -42,7 +42,7 @@ std::vector<supervision::PreflightItem> look_at_cans(const std::vector<std::stri
   return items;
 }
 
-std::unique_ptr<bus::ports::LiveMedium> make(const MediumSetting& setting) {
+std::unique_ptr<bus::ports::LiveMedium> make_socketcan(const MediumSetting& setting) {
   const schedules::model::Node& node = setting.cluster.node(setting.node);
   bus::socketcan::LiveOptions options;
   for (const schedules::model::Channel channel : schedules::model::kBothChannels)
@@ -72,7 +72,7 @@ const LiveMediumRow kSocketCan{
     .way_out =
         "without any CAN: --bus dds (the default); CANs on a kernel of one's own, without root: "
         "tools/test_bed.sh (docs/socketcan.md)",
-    .make = make,
+    .make = make_socketcan,
 };
 
 }  // namespace ttf::cli::live_media
