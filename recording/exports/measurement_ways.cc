@@ -38,7 +38,19 @@ void MeasurementWays::run(NodeId node, TrueTime start, TrueTime end, const WayMa
   runs_[node].push_back({start, end, mark});
 }
 
-void MeasurementWays::act(Act act) { acts_.push_back(std::move(act)); }
+void MeasurementWays::act(Act act) {
+  if (act.deed == Deed::kUsed) act.writer = writer_of(act.node, act.image);
+  acts_.push_back(std::move(act));
+}
+
+// kNoNode if it was not told.
+NodeId MeasurementWays::writer_of(NodeId user, std::uint32_t image) const {
+  const auto lists = read_.find(user);
+  if (lists == read_.end()) return kNoNode;
+  for (const auto& [pdu, sequence] : lists->second)
+    if (const auto writer = writers_.find(pdu); sequence == image && writer != writers_.end()) return writer->second;
+  return kNoNode;
+}
 
 // A kWritten belongs to the execution that ends then, any other act to the one that starts then. If stamps are
 // less exact, it belongs to the last execution that had started.
@@ -98,6 +110,7 @@ std::optional<WayMark> MeasurementWays::perform(const Act& act) {
 }
 
 void MeasurementWays::write_image(const Act& act, const Stop& stop) {
+  fuses_.insert(act.node);
   FollowedImage image{{act.at, act.node, act.image, {stop}}, {}, {}};
   for (const MeasurementId& id : act.ids) {
     const auto followed = ways_.find(id);
@@ -121,8 +134,11 @@ void MeasurementWays::send_image(const Act& act) {
 }
 
 void MeasurementWays::use_image(const Act& act, const Stop& stop) {
-  const auto used = std::find_if(images_.rbegin(), images_.rend(),
-                                 [&](const FollowedImage& one) { return one.image.sequence == act.image; });
+  // A gateway that passes an image on writes none itself: then the number alone decides.
+  const bool known = fuses_.contains(act.writer);
+  const auto used = std::find_if(images_.rbegin(), images_.rend(), [&](const FollowedImage& one) {
+    return one.image.sequence == act.image && (!known || one.image.node == act.writer);
+  });
   if (used == images_.rend() || used->image.used) return;
   used->image.used = true;
   used->image.stops.push_back(stop);

@@ -17,6 +17,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -82,8 +83,13 @@ class MeasurementWays {
              std::uint8_t fragment, const WayMark& mark);
   void run(NodeId node, TrueTime start, TrueTime end, const WayMark& mark);
 
-  // An act of a node's task: kWritten at its end, all others at its start. Numbers name images. (frame() makes
-  // a kImageFrame of an image's frame.)
+  // A node writes or reads a list that belongs to no sensor: it may be an image. A use names the image's number alone;
+  // what the user read before, and who writes that, tell whose image it is.
+  void wrote(NodeId node, PduId pdu) { writers_[pdu] = node; }
+  void read(NodeId node, PduId pdu, std::uint32_t sequence) { read_[node][pdu] = sequence; }
+
+  // An act of a node's task: kWritten at its end, all others at its start. Writer and number name an image. (frame()
+  // makes a kImageFrame of an image's frame.)
   struct Act {
     Deed deed{};
     TrueTime at{};
@@ -92,6 +98,7 @@ class MeasurementWays {
     std::uint32_t image = 0;
     WayMark mark{};  // where the list was lost or refused; or the image's frame
     std::uint8_t channel = 0, fragment = 0;
+    NodeId writer = kNoNode;  // the used image's, if it was told; act() looks it up
   };
   void act(Act act);
 
@@ -139,6 +146,7 @@ class MeasurementWays {
   void write_image(const Act& act, const Stop& stop);
   void send_image(const Act& act);
   void use_image(const Act& act, const Stop& stop);
+  NodeId writer_of(NodeId user, std::uint32_t image) const;
   void end(Ways::iterator followed);
   void forget(TrueTime now);
 
@@ -146,6 +154,9 @@ class MeasurementWays {
   Ways ways_;
   std::deque<std::pair<TrueTime, MeasurementId>> begun_;  // in order; includes those that have ended
   std::deque<FollowedImage> images_;
+  std::set<NodeId> fuses_;                                 // nodes that wrote images
+  std::map<PduId, NodeId> writers_;                        // of lists that belong to no sensor
+  std::map<NodeId, std::map<PduId, std::uint32_t>> read_;  // the last number of each list, by reader
   std::map<NodeId, std::deque<Run>> runs_;
   std::deque<Act> acts_;
   std::uint64_t numbers_ = 0;

@@ -219,7 +219,10 @@ void PerfettoExport::on(const records::ListHop& r) {
     return;
   }
   const bool passes = r.hop == records::Hop::kRead || r.hop == records::Hop::kWritten;
-  if (!passes || r.sensor == kNoSensor) return;
+  if (!passes) return;
+  if (r.sensor == kNoSensor)
+    return r.hop == records::Hop::kRead ? ways_.read(r.stamp.node, r.pdu, r.sequence)
+                                        : ways_.wrote(r.stamp.node, r.pdu);
   ways_.act(
       {r.hop == records::Hop::kRead ? Deed::kRead : Deed::kWritten, come_to(r.stamp.true_time), r.stamp.node, {id}, 0});
 }

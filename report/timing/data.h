@@ -43,6 +43,7 @@ struct TimingData {
     recording::records::Hop hop;
     SensorId sensor;
     std::uint32_t sequence;
+    PduId pdu;
   };
   struct Run {
     TrueTime activated, start, end;

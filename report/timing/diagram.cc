@@ -41,7 +41,7 @@ void TimingDiagram::on(const recording::records::SlotFrameSent& r) {
 }
 void TimingDiagram::on(const recording::records::ListHop& r) {
   if (near(r.stamp.true_time, r.stamp.true_time))
-    data_.hops.push_back({r.stamp.true_time, r.stamp.node, r.hop, r.sensor, r.sequence});
+    data_.hops.push_back({r.stamp.true_time, r.stamp.node, r.hop, r.sensor, r.sequence, r.pdu});
 }
 void TimingDiagram::on(const recording::records::TaskRun& r) {
   if (drawing::possible(r.start.true_time.ns) && near(r.activated.true_time, r.end.true_time))

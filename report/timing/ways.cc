@@ -119,7 +119,11 @@ class Followed {
     }
   }
   void tell(const TimingData::HopAt& h) {
-    if (h.sensor == kNoSensor) return;
+    if (h.sensor == kNoSensor) {
+      if (h.hop == recording::records::Hop::kRead) follower_.read(h.node, h.pdu, h.sequence);
+      if (h.hop == recording::records::Hop::kWritten) follower_.wrote(h.node, h.pdu);
+      return;
+    }
     const auto act = [&](Deed deed) { follower_.act({deed, h.at, h.node, {{h.sensor, h.sequence}}}); };
     switch (h.hop) {
       case recording::records::Hop::kRead: act(Deed::kRead); break;
