@@ -67,7 +67,8 @@ class IncomingList {
   explicit IncomingList(const schedules::model::PduLayout& layout);
   // `fragment`: the slot's fragment, if the schedule fixes it (FlexRay); a CAN frame may carry any.
   ArrivalEffect arrive(std::span<const std::byte> payload, std::optional<int> fragment = std::nullopt);
-  // Returns whether a repetition of that fragment would be kDuplicate and change nothing.
+  // Returns whether a repetition of that fragment would be kDuplicate and change nothing. The test compares it with
+  // arrive() on drawn fragments (tests/bus/cni/list_buffer_test.cc).
   bool knows(std::span<const std::byte> payload, int fragment) const {
     return stale_lists_ == 0 && repeats(payload, fragment);
   }

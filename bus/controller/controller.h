@@ -162,6 +162,8 @@ class FlexRayController {
   void receive(const ports::Reception& reception);
   // Receives one frame on both channels at the same instants, as most frames arrive; `reception` says channel
   // A. The same as receive() for A, then for B. Returns whether next_event() or the state's kind has changed.
+  // The test compares this, knows() and hear_known() with receive() on drawn receptions
+  // (tests/bus/controller/fast_ways_test.cc).
   bool receive_on_both(const ports::Reception& reception);
   // Returns whether `reception`, still on its way on both channels, will change only its slot's status and the
   // sync deviations. Nothing else may reach this node before it. True of null frames and of known fragments, that

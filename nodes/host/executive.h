@@ -67,7 +67,8 @@ class Executive final : private bus::controller::ControllerEvents {
   // Arrivals. `now` is the node's microtick of the arrival. What they set off happens at the next advance(), which
   // next_event() then asks for.
   void receive(const bus::ports::Reception& reception);
-  // The same on both channels at once (bus/controller/controller.h). False: next_event() is what it was.
+  // The same on both channels at once (bus/controller/controller.h). False: next_event() is what it was. The
+  // test compares whole drives with and without it (tests/sim/processes/unwanted_frames_test.cc).
   bool receive_on_both(const bus::ports::Reception& reception);
   // What is on its way to its controller (bus/controller/controller.h).
   bool knows(const bus::ports::Reception& reception) { return !asleep_ && flexray_->knows(reception); }

@@ -83,7 +83,8 @@ class Crank : public Plant {
   virtual void receive(std::size_t node, const bus::ports::Reception& reception) = 0;
   // The same on both channels at once; `reception` says channel A. False: the node's next event is what it was.
   virtual bool receive_on_both(std::size_t node, const bus::ports::Reception& reception) = 0;
-  // bus/controller/controller.h
+  // bus/controller/controller.h. The test compares whole drives with and without these two and receive_on_both()
+  // (tests/sim/processes/unwanted_frames_test.cc).
   virtual bool knows(std::size_t node, const bus::ports::Reception& reception) = 0;
   virtual void hear_known(std::size_t node, const bus::ports::Reception& reception) = 0;
   virtual void drifts(std::size_t node) { (void)node; }  // its oscillator is another one now

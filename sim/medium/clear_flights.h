@@ -5,7 +5,9 @@
 // the plain way (sim/medium/flights.h), whose laws it obeys, too; whoever meets it sees no difference.
 //
 // What leaves on both channels at once and is clear on both, for the same receivers, is one flight, which stops on A
-// and then on B; or on both at once, where nothing else happens until its last stop.
+// and then on B; or on both at once, where nothing else happens until its last stop. Tests compare
+// both with the plain way: single stops in tests/sim/medium/clear_flights_test.cc, stops on both channels in whole drives
+// in tests/sim/processes/unwanted_frames_test.cc.
 #pragma once
 
 #include <array>
