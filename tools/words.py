@@ -153,7 +153,7 @@ def measured_tree():
 
 def write_bounds(bounds):
     lines = ["# The most that tools/words.py allows: mean words a sentence, and finds. Lowered by tools/words.py --update.", ""]
-    lines += [f'{room} = {{ mean = {b["mean"]:.1f}, finds = {b["finds"]} }}' for room, b in sorted(bounds.items())]
+    lines += [f'"{room}" = {{ mean = {b["mean"]:.1f}, finds = {b["finds"]} }}' for room, b in sorted(bounds.items())]
     BOUNDS.write_text("\n".join(lines) + "\n")
 
 

@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""The checks of the pages find each kind of mistake: page_test.py with a program that echoes, links_test.py on small pages."""
+import pathlib
+import tempfile
+import unittest
+
+import links_test
+import page_test
+
+PROGRAM = "#!/bin/sh\n[ \"$1\" = draw ] && cp \"$2\" \"$3\" && exit\n[ \"$1\" = fail ] && exit 3\nprintf '%s\\n' \"$@\"\n"
+SAY = "build/release/ttfusion"
+
+
+class Pages(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
+        for name in ("scenarios", "schedules", "experiments"):
+            (self.root / name).mkdir()
+        (self.root / "schedules/cluster.yaml").write_text("a: 1\nb: 2\na: 1\n")
+        (self.root / "program").write_text(PROGRAM)
+        (self.root / "program").chmod(0o755)
+
+    def expect(self, passes: bool, page: str, says: str = ""):
+        (self.root / "page.md").write_text(page)
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                page_test.run_page(self.root / "program", self.root, self.root / "page.md", pathlib.Path(folder))
+                failure = ""
+            except page_test.Failure as found:
+                failure = str(found)
+        self.assertEqual(failure == "", passes, failure)
+        self.assertIn(says, failure)
+
+    def console(self, shown: str, command: str = f"{SAY} a b c d") -> str:
+        return f"Text:\n\n```console\n$ {command}\n{shown}```\n"
+
+    def test_output(self):
+        self.expect(True, self.console("a\nb\nc\nd\n"))
+        self.expect(False, self.console("a\nb\nc\n"), "+d")
+        self.expect(False, self.console("a\nb\nc\ne\n"), "-e")
+
+    def test_lines_left_out(self):
+        for shown in ("...\n", "a\n...\n", "...\nd\n", "a\n...\nc\n...\n", "...\nb\n...\nd\n"):
+            self.expect(True, self.console(shown))
+        for shown in ("b\n...\n", "...\nc\n", "...\nc\n...\nb\n...\n", "a\n...\na\n...\n", "a\nb\nc\n...\nc\nd\n"):
+            self.expect(False, self.console(shown))
+
+    def test_exit_code(self):
+        self.expect(False, self.console("", f"{SAY} fail"), "ends with 3")
+        self.expect(True, self.console("code 3\n", f'{SAY} fail; echo "code $?"'))
+
+    def test_edits(self):
+        edited = "In `schedules/cluster.yaml`:\n\n```diff\n-{}\n+b: 3\n```\n"
+        shown = self.console("b: 3\n", "grep b: schedules/cluster.yaml")
+        self.expect(True, edited.format("b: 2") + "\n" + shown)
+        self.expect(False, edited.format("c: 2") + "\n" + shown, "0 times")
+        self.expect(False, edited.format("a: 1") + "\n" + shown, "2 times")
+        self.expect(False, "Here:\n\n```diff\n-b: 2\n+b: 3\n```\n", "of which file")
+        self.expect(True, "Create `new.yaml`:\n\n```yaml\nx: 1\n```\n\n" + self.console("x: 1\n", "cat new.yaml"))
+
+    def test_pictures(self):
+        (self.root / "one.svg").write_text("one")
+        (self.root / "schedules/other.yaml").write_text("other")
+        for drawn, passes in ((self.root / "one.svg", True), ("schedules/other.yaml", False)):
+            self.expect(passes, self.console("", f"{SAY} draw {drawn} one.svg") + "\n![one](one.svg)\n")
+
+    def test_a_page_without_commands_fails(self):
+        self.expect(False, "Nothing.\n")
+
+    def test_links(self):
+        for link, passes in (("page.md", True), ("page.md#a-heading-of-it", True), ("#a-heading-of-it", True),
+                             ("schedules", True), ("https://example.org/x", True), ("gone.md", False), ("#gone", False),
+                             ("page.md#gone", False)):
+            page = self.root / "page.md"
+            page.write_text(f"# A `heading` of it\n\n[text]({link})\n")
+            self.assertEqual(not links_test.broken(page), passes, link)
+
+
+if __name__ == "__main__":
+    unittest.main()
