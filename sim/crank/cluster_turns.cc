@@ -1,5 +1,4 @@
-// A cluster of which one node is simulated here, and what leaves the nodes beside the buses: the wires between sensors
-// and their hosts.
+// A cluster with one node simulated here, and the acts outside the buses: the wires between sensors and their hosts.
 #include <fmt/format.h>
 
 #include <stdexcept>
@@ -9,7 +8,7 @@
 
 namespace ttf::sim::crank {
 
-// The own node may have something to do before its turn; nobody else notices it.
+// The own node may work before its turn; the others do not notice it.
 void ClusterSimulation::take_turn(std::size_t node, Microticks now) {
   const auto id = static_cast<NodeId>(node);
   if (is_here(node)) {

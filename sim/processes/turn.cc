@@ -18,8 +18,7 @@ enum class ActKind : std::uint8_t { kSignal = 1, kCanFrame = 2, kTrigger = 3, kS
 constexpr std::size_t kHeaderSize = 1 + 4 + 5 * 8 + 2;
 constexpr std::size_t kUsualSize = 4096;
 constexpr std::size_t kMostCanBytes = 64;
-constexpr std::int64_t kMostAhead = std::int64_t{1}
-                                    << 40;  // [uT] hours: nothing in a turn is about what is further off
+constexpr std::int64_t kMostAhead = std::int64_t{1} << 40;  // [uT] hours: the furthest instant in a turn
 constexpr std::int64_t kLastTick = std::int64_t{1} << 60;
 
 template <class Integer> void put(std::vector<std::byte>& bytes, Integer value) {
@@ -42,7 +41,7 @@ class TurnBytes {
       throw std::runtime_error(fmt::format("a turn with {} {}, which must be at most {}", what, value, most));
     return static_cast<Integer>(value);
   }
-  // Below zero, too: a node's first tick comes within a tick of the start of the run.
+  // May be below zero: a node's first tick comes within a tick of the start of the drive.
   Microticks instant(Microticks from, std::int64_t most, const char* what) {
     const auto value = static_cast<std::int64_t>(take<std::uint64_t>(~std::uint64_t{0}, what));
     if (value < from.value || value > from.value + most)
@@ -50,7 +49,7 @@ class TurnBytes {
           fmt::format("a turn with {} {}, which must be {}..{}", what, value, from.value, from.value + most));
     return {value};
   }
-  // Either may be never.
+  // Reads an instant that may be never.
   Microticks instant_or_never(Microticks from, std::int64_t most, const char* what) {
     TurnBytes ahead = *this;
     if (ahead.take<std::uint64_t>(~std::uint64_t{0}, what) == static_cast<std::uint64_t>(kNever<Microticks>.value)) {
@@ -100,7 +99,7 @@ CanAct read_can(TurnBytes& in, const schedules::model::Cluster& cluster) {
   return act;
 }
 
-// `end`: of the wire that the node must be at.
+// `end` is the end of the sensor's wires where the node must be.
 SensorId read_sensor(TurnBytes& in, const TurnHeader& turn, const schedules::model::Cluster& cluster,
                      NodeId schedules::model::Sensor::*end) {
   const std::size_t sensors = cluster.sensors.size();
@@ -163,7 +162,7 @@ void TurnWriter::add(const Act& act) {
   }
 }
 
-// The header is as long whatever it says, so that its place can be kept free.
+// The header always has the same length, so its place can be kept free.
 std::span<const std::byte> TurnWriter::finish(const TurnHeader& header) {
   const std::size_t size = bytes_.size();
   put(bytes_, static_cast<std::uint8_t>(header.node));
