@@ -1,4 +1,4 @@
-// How a node begins that is powered on cold.
+// The start of a node that is powered on cold.
 #pragma once
 
 #include <cstdint>
