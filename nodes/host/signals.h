@@ -30,7 +30,7 @@ std::array<std::size_t, N> bind_element(const schedules::model::Cluster& cluster
   for (const schedules::model::Signal& signal : layout.element)
     if (signal.name != "spare" && std::find(names.begin(), names.end(), signal.name) == names.end())
       findings.add({cluster.file, layout.line, "pdus." + layout.name + ".element", signal.name,
-                    "is not a signal the code knows"});
+                    "is not a signal that the code knows"});
   findings.throw_if_any();
   return signals;
 }

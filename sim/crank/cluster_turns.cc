@@ -31,8 +31,8 @@ void ClusterSimulation::act(std::size_t node, const processes::Act& act) {
     transmit(node, *sent);
   } else if (const auto* can = std::get_if<processes::CanAct>(&act)) {
     if (can_ports_[node][can->bus] == nullptr)
-      throw std::runtime_error(
-          fmt::format("{} sends on {}, which it is not on", cluster_.node(id).name, cluster_.can_buses[can->bus].name));
+      throw std::runtime_error(fmt::format("{} sends on {}, to which it is not connected", cluster_.node(id).name,
+                                           cluster_.can_buses[can->bus].name));
     send_can(can->bus, id, can->frame);
   } else if (const auto* trigger = std::get_if<processes::TriggerAct>(&act)) {
     pull_trigger(trigger->sensor);

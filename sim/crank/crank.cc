@@ -29,7 +29,7 @@ Crank::Crank(const schedules::model::Cluster& cluster, std::size_t others)
 }
 
 void Crank::seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on) {
-  TTF_CHECK(seats_.size() < cluster_.nodes.size(), "{} nodes are all", seats_.size());
+  TTF_CHECK(seats_.size() < cluster_.nodes.size(), "a clock for more than {} nodes", seats_.size());
   TTF_CHECK(!power_on || *power_on >= TrueTime{}, "power-on at {} ns", power_on->ns);
   seats_.push_back({Clock(oscillator), !power_on, TrueTime{} - Duration{1}, kUnknown});
   next_.push_back(kNever<TrueTime>);

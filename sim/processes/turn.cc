@@ -83,14 +83,14 @@ bus::ports::Transmission read_signal(TurnBytes& in, const TurnHeader& turn) {
   sent.bytes = in.take_bytes(size, "frame");
   if (sent.signal != bus::ports::Signal::kFrame) return sent;
   sent.content = bus::wire::decode_frame(sent.channel, sent.bytes);
-  if (sent.content.error != bus::wire::FrameError::kNone) throw std::runtime_error("a turn with a frame that is none");
+  if (sent.content.error != bus::wire::FrameError::kNone) throw std::runtime_error("a turn with an undecodable frame");
   return sent;
 }
 
 CanAct read_can(TurnBytes& in, const schedules::model::Cluster& cluster) {
   CanAct act;
   const std::size_t buses = cluster.can_buses.size();
-  if (buses == 0) throw std::runtime_error("a turn with a frame on a CAN, of which there are none");
+  if (buses == 0) throw std::runtime_error("a turn with a CAN frame, in a cluster without a CAN");
   act.bus = in.take<std::uint8_t>(buses - 1, "CAN");
   act.frame.identifier = in.take<std::uint32_t>(0x7FF, "CAN identifier");
   act.frame.flexible_data_rate = in.take<std::uint8_t>(1, "flexible data rate") != 0;
@@ -103,7 +103,7 @@ CanAct read_can(TurnBytes& in, const schedules::model::Cluster& cluster) {
 SensorId read_sensor(TurnBytes& in, const TurnHeader& turn, const schedules::model::Cluster& cluster,
                      NodeId schedules::model::Sensor::*end) {
   const std::size_t sensors = cluster.sensors.size();
-  if (sensors == 0) throw std::runtime_error("a turn with a sensor, of which there are none");
+  if (sensors == 0) throw std::runtime_error("a turn with a sensor, in a cluster without sensors");
   const auto sensor = static_cast<SensorId>(in.take<std::uint8_t>(sensors - 1, "sensor"));
   if (cluster.sensor(sensor).*end != turn.node) throw std::runtime_error("a turn with another node's sensor");
   return sensor;
@@ -119,7 +119,7 @@ Act read_act(TurnBytes& in, const TurnHeader& turn, const schedules::model::Clus
       return StrobeAct{sensor, in.take<std::uint32_t>(~std::uint32_t{0}, "sequence")};
     }
   }
-  throw std::runtime_error("a turn with an act of no known kind");
+  throw std::runtime_error("a turn with an act of unknown kind");
 }
 
 }  // namespace
@@ -191,7 +191,7 @@ TurnHeader read_turn(const schedules::model::Cluster& cluster, std::span<const s
   acts.clear();
   for (auto left = in.take<std::uint16_t>(0xFFFF, "number of acts"); left > 0; --left)
     acts.push_back(read_act(in, header, cluster));
-  if (!in.done()) throw std::runtime_error("a turn that goes on behind its last act");
+  if (!in.done()) throw std::runtime_error("a turn that continues after its last act");
   return header;
 }
 
