@@ -79,7 +79,7 @@ class Executive final : private bus::controller::ControllerEvents {
   void trigger(SensorId sensor, Microticks now);                         // reaches a device
   void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);  // reaches a host
 
-  // Starts the controller anew, cold, after it has halted. Losing global time cancels what it scheduled.
+  // Starts a halted controller anew, cold. Losing global time cancels what it scheduled.
   void start_anew(Microticks now);
 
   // Changes the oscillator's drift; its ticks so far stay the same.

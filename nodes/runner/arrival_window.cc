@@ -80,7 +80,7 @@ void ArrivalWindow::arrive(const bus::ports::LiveArrival& arrival, Microticks at
   held.size = bytes.size();
   if (held.kind == Kind::kFlexRay) {
     if (parameters_ == nullptr) return;
-    // A frame is placed when the node reaches the instant of its arrival; only then the clock's state at it is known.
+    // A frame is placed when the node reaches the instant of its arrival: only then is its clock at that instant known.
     if (held.signal == bus::ports::Signal::kFrame)
       held.stage = HeldStage::kArrived;
     else

@@ -7,7 +7,7 @@
 // departure, counted where it exceeds the arrival window, and never corrected in the records. A stopped process
 // catches up: its node does all it missed, in order, but sends nothing that is too late. A node without clock
 // corrections for too long halts (gMaxWithoutClockCorrectionFatal); its host starts it anew, and it integrates.
-// The host also starts a node anew that may only listen for others and hears none.
+// The host also starts a node anew that may only listen for others and hears no frame.
 //
 // Arrivals have the instants at which they reached the machine. So they need no wake-up of their own, except
 // those that a task waits for. Steps run on the same thread. A step that computes beyond the start of the next

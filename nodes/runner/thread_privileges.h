@@ -1,4 +1,4 @@
-// Asks an ordinary kernel for timely wake-ups of a process, and reports what it refuses.
+// Asks an ordinary kernel for timely wake-ups of a process, and reports each refusal.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@
 namespace ttf::nodes::sensing {
 namespace {
 
-// The recording has no size of its tracked vehicle: a passenger car's (the paper's Touran: 4.39 m x 1.79 m).
+// The recording lacks the tracked vehicle's size. This is a passenger car's (the paper's Touran: 4.39 m x 1.79 m).
 constexpr double kCarLength = 4.39, kCarWidth = 1.79;
 
 bool is_radar(const schedules::model::PduLayout& layout) {

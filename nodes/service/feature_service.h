@@ -16,7 +16,7 @@ struct FeatureConfig {
   double corridor_half_width_m = 1.8;  // objects farther off the line of travel cause no warning: half a 3.6 m lane
   double warning_time_s = 2.7;         // warns below this time to collision (ISO 15623 class forward collision warning)
   // The largest difference between an image's predicted instant and its use. An image is predicted to its first use.
-  // A missing image is replaced by the previous one, which is one period older: two in a row of 40 ms may be missing.
+  // A missing image is replaced by the previous one, which is one period older: at 40 ms, two in a row may be missing.
   Duration max_image_age = Duration::milliseconds(100);
 };
 FeatureConfig load_feature(YamlMap& yaml);

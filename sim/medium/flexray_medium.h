@@ -37,9 +37,9 @@ namespace ttf::sim::medium {
 class FlexRayMedium {
  public:
   // Room for signals on their way at once from the beginning, without those that have not reached a coupler yet. A
-  // signal counts until it has ended at its last receiver; merged signals arrive with the one that ends last. So a
-  // channel has at most one signal of each sending node, the rest of one that broke off, one emitted by each fault,
-  // and the frames that a fault delays: one per slot in that time. If a fault plan makes more, there is more room.
+  // signal counts until it has ended at its last receiver; merged signals arrive with the one that ends last. A channel
+  // has at most one signal of each sending node, the rest of one that broke off, and one emitted by each fault. The
+  // frames that a fault delays come on top: one per slot in that time. If a fault plan makes more, there is more room.
   static constexpr std::size_t kFlights = 512;
   // The frames and queue events that it may need.
   static constexpr std::size_t kMostPending = kFlights + 64;

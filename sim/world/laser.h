@@ -2,8 +2,8 @@
 //
 // The defaults are of the class of the paper's Ibeo ALASCA XT, by its maker's data sheet and by papers that
 // used it: 12.5 Hz, four layers within 3.2 degrees, 0.25 degree azimuth steps ahead, single-shot range noise of
-// some centimetres. Dark targets are seen far below the 200 m of bright ones. Rays are cast at the objects'
-// outlines; the nearest outline is hit, so objects hide each other. Noise is keyed by the numbers of the
+// some centimetres. The range for dark targets is far below the 200 m for bright ones. Rays are cast at the
+// objects' outlines; the nearest outline is hit, so objects hide each other. Noise is keyed by the numbers of the
 // measurement and of the beam: a beam's draws do not depend on the rest of the scan. So paradigms that see the
 // scene a little earlier or later see the same noise.
 #pragma once
