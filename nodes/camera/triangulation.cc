@@ -19,7 +19,7 @@ CameraCalibration load_camera_calibration(YamlMap& yaml) {
 }
 
 CameraObject triangulate(const CameraCalibration& k, double bearing, double disparity, double width_px) {
-  // A disparity that noise has brought near zero would be at infinity: as far as half a sigma above zero.
+  // Noise may bring a disparity near zero, and its object to infinity: half a sigma above zero is the limit.
   const double d = std::max(disparity, 0.5 * k.disparity_sigma_px);
   const double depth = k.focal_px * k.baseline_m / d;
   const double t = std::tan(bearing), c = std::cos(bearing), s = std::sin(bearing);
@@ -27,7 +27,7 @@ CameraObject triangulate(const CameraCalibration& k, double bearing, double disp
   object.width = width_px * depth / k.focal_px;
   const double dw_dd = -object.width / d, dw_dp = depth / k.focal_px;
 
-  // From the outline to the centre: h = half length * nominal width / W, within what a rectangle can show.
+  // From the outline to the centre: h = half length * nominal width / W, within the widths that a rectangle can show.
   const double length = 2.0 * k.half_length_m, breadth = k.nominal_width_m;
   const double widest = std::max(length, breadth), shown = std::clamp(object.width, breadth, widest);
   const bool turned = shown == object.width;
@@ -42,7 +42,7 @@ CameraObject triangulate(const CameraCalibration& k, double bearing, double disp
   const double dx_dd = -depth / d + dh_dw * dw_dd * c, dy_dd = -depth * t / d + dh_dw * dw_dd * s;
   const double dx_db = -h * s, dy_db = depth / (c * c) + h * c;
   const double dx_dp = dh_dw * dw_dp * c, dy_dp = dh_dw * dw_dp * s;
-  // Perspective across the line of sight; none for a silhouette as narrow as a rear.
+  // Perspective across the line of sight; zero for a silhouette as narrow as a rear.
   const double u = 0.5 * shown, vv = std::max(0.0, 0.25 * (length * length + breadth * breadth) - u * u);
   const double narrow = breadth / shown, range = depth / c;
   const double across = u * u * vv / (range * range) * (1.0 - narrow * narrow);
@@ -51,7 +51,7 @@ CameraObject triangulate(const CameraCalibration& k, double bearing, double disp
   object.add_error(dx_dp, dy_dp, vp);
   object.add_errors(c, s, vh, across);
   object.sigma_width = std::sqrt(dw_dd * dw_dd * vd + dw_dp * dw_dp * vp);
-  // No depth in it: the span is known far better than the width.
+  // The span does not depend on depth, so it is known far better than the width.
   object.span = width_px * c / k.focal_px;
   object.sigma_span = k.width_sigma_px * c / k.focal_px;
   return object;

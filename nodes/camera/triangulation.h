@@ -1,15 +1,15 @@
-// From a stereo camera's detection to an object's position.
+// Computes an object's position from a stereo camera's detection.
 //
-// Depth z = f b / d along the optical axis (x), x = z, y = z tan(bearing) (rectified pinhole pair). What the pair sees
-// is the silhouette's middle at the mean depth of the outline turned to it; the centre lies further along the line of
-// sight. For a rectangle L by B seen under a silhouette of width W the mean chord is L B / W, so the centre is half of
-// that behind (exact in the far field): L / 2 for a car seen from behind (W = B), B / 2 for one seen from the side (W =
-// L). W is measured, L and B are nominal.
+// Depth z = f b / d along the optical axis (x), x = z, y = z tan(bearing) (rectified pinhole pair). The pair
+// sees the silhouette's middle, at the mean depth of the outline turned to it. The centre lies further along
+// the line of sight. A rectangle L by B under a silhouette of width W has the mean chord L B / W, so its centre
+// lies half of that behind (exact in the far field). The distance is L / 2 for a car seen from behind (W = B),
+// and B / 2 for one seen from the side (W = L). W is measured, L and B are nominal.
 //
-// The covariance is the first-order one of disparity, bearing, width and that distance; depth noise so grows with the
-// square of the range. Across the line of sight there is the perspective of a turned car besides: its outermost corners
-// are opposite ones, (u, v) and (-u, -v) from the centre with u = W / 2 and u^2 + v^2 = (L^2 + B^2) / 4, which moves
-// the silhouette's middle by u v / range to a side that is not known.
+// The covariance is first-order in disparity, bearing, width and that distance, so depth noise grows with the
+// square of the range. The perspective of a turned car adds an error across the line of sight. Its outermost
+// corners are opposite ones, (u, v) and (-u, -v) from the centre with u = W / 2 and
+// u^2 + v^2 = (L^2 + B^2) / 4. They move the silhouette's middle by u v / range, to an unknown side.
 #pragma once
 
 #include "core/strict_yaml.h"
@@ -28,13 +28,14 @@ struct CameraCalibration {
 };
 CameraCalibration load_camera_calibration(YamlMap& yaml);
 
-// The position is the centre's.
+// An object; its position is that of its centre.
 struct CameraObject : ttf::fusion::sensors::PlanePosition {
   double width = 0, sigma_width = 0;  // of the silhouette, across the line of sight [m]
-  double span = 0, sigma_span = 0;    // the angle it subtends [rad]
+  double span = 0, sigma_span = 0;    // the angle under which it is seen [rad]
 };
 
-// bearing [rad] within +-1.5, disparity [px] above zero, width [px]: the silhouette's, f * span / cos(bearing).
+// Computes the object of a silhouette. `bearing` [rad] lies within +-1.5, `disparity` [px] is positive, and
+// `width_px` is f * span / cos(bearing).
 CameraObject triangulate(const CameraCalibration& calibration, double bearing, double disparity, double width_px);
 
 }  // namespace ttf::nodes::camera

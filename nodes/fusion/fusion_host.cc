@@ -15,7 +15,7 @@
 namespace ttf::nodes::fusion {
 namespace {
 
-// When the task that reads the image starts.
+// Returns the start of the task that reads the image.
 schedules::model::CycleInstant image_use(const schedules::model::Cluster& cluster, PduId image) {
   for (const schedules::model::Node& node : cluster.nodes)
     for (const schedules::model::Task& task : node.tasks)
@@ -26,8 +26,8 @@ schedules::model::CycleInstant image_use(const schedules::model::Cluster& cluste
                     "needs a reader that is activated by time: the image is predicted to that instant"});
 }
 
-// The schedule's fusion instants, one by one. A fusing task that time does not activate has none: there the worst delay
-// says when to stop waiting: until its own task, which may wait for others, hands a list to the strategy.
+// Returns the schedule's fusion instants. A fusing task that time does not activate has none. Then the worst
+// delay limits the wait, until the sensor's own task, which may wait for others, hands a list to the strategy.
 ttf::fusion::strategies::Settling settling(const schedules::model::Cluster& cluster,
                                            const schedules::analysis::AgePath& path) {
   const auto round = schedules::analysis::settled_round(cluster, path.sensor);
@@ -37,7 +37,7 @@ ttf::fusion::strategies::Settling settling(const schedules::model::Cluster& clus
   return {std::move(steps), round->round};
 }
 
-// By how many rounds the list's stamp, as its sender counts, was brought to `measured`.
+// Returns the number of rounds between the sender's stamp and `measured`.
 std::int64_t rounds_between(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime near,
                             GlobalTime measured, Duration round) {
   constexpr Duration kNoRounds{std::numeric_limits<std::int64_t>::max()};
@@ -113,15 +113,14 @@ FusionStep::FusionStep(const schedules::model::Cluster& cluster, const schedules
 }
 
 void FusionStep::run(host::StepContext& context) {
-  // A list may come, and activate this, before the node has integrated: then no list has an age.
+  // Before the node has integrated, a list may arrive and activate this task. Such a list has no age.
   if (!context.global_time) {
     for (host::Input& input : context.inputs) input.discarded = input.fresh;
     return;
   }
   ++host_->step;
   const GlobalTime now = context.stamp.global;
-  // Measurements lie behind: up to seven eighths of a round are their age, the rest is for clocks that are ahead of
-  // this one.
+  // Measurements lie in the past: up to seven eighths of a round, the rest allows for clocks ahead of this one.
   const GlobalTime about = now - Duration{round_.ns / 8 * 3};
   for (std::size_t i = 0; i < context.inputs.size(); ++i) {
     host::Input& input = context.inputs[i];
@@ -207,7 +206,7 @@ ImageOutput::ImageOutput(const schedules::model::Cluster& cluster, const schedul
 void ImageOutput::run(host::StepContext& context) {
   const GlobalTime use = schedules::model::next_occurrence(cluster_.flexray, use_, context.stamp.global).time;
   host_->strategy->image(use, views_);
-  // The list holds the nearest objects; the order is theirs, so that it never depends on how tracks are stored.
+  // The list holds the nearest objects, in the order of their distance: it never depends on how tracks are stored.
   std::sort(views_.begin(), views_.end(),
             [](const ttf::fusion::tracks::TrackView& a, const ttf::fusion::tracks::TrackView& b) {
               const double ra = a.state.head<2>().squaredNorm(), rb = b.state.head<2>().squaredNorm();

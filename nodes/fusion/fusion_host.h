@@ -1,9 +1,10 @@
-// The fusion node: decodes what its controller received, hands it to a strategy, and writes the real-time image.
+// The fusion node: decodes the lists from its controller, hands them to a strategy, and writes the real-time image.
 //
-// It knows only bytes from its controller, the schedule and its own clock. Its tasks share one FusionHost: `fusion` at
-// every fusion instant, or one of them for each sensor's list whenever that arrives (BUFF and ADVA), `image_output`
-// before the image's slots. The image is predicted to the instant at which the feature service will use it, which the
-// schedule says beforehand; predicting never touches the filter state.
+// The node knows only bytes from its controller, the schedule and its own clock. Its tasks share one
+// FusionHost. A task `fusion` runs at every fusion instant; with BUFF and ADVA there may be one for each
+// sensor, which runs when a list of that sensor arrives. `image_output` runs before the image's slots. The
+// image is predicted to the instant at which the feature service will use it, known from the schedule. The
+// prediction leaves the filter state unchanged.
 #pragma once
 
 #include <cstdint>
@@ -21,35 +22,36 @@
 
 namespace ttf::nodes::fusion {
 
-// What the schedule promises the strategy about each sensor (schedules/analysis/settled.h computes until when it is
-// waited for).
+// Returns what the strategy knows about each sensor from the schedule (schedules/analysis/settled.h computes
+// how long to wait for a list).
 std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedules::model::Cluster& cluster);
 
-// The tracker of a scenario, its sensors by their ids in this cluster. Throws InputError, naming the scenario's file,
-// for a name that none of them has.
+// Returns the tracker of a scenario with its sensors by their ids in this cluster. Throws InputError, naming
+// the scenario's file, for a sensor name that the cluster lacks.
 ttf::fusion::config::TrackerConfig tracker_in(const schedules::model::Cluster& cluster,
                                               ttf::fusion::config::TrackerConfig tracker,
                                               const std::string& scenario_file);
 
-// `tracker`: as tracker_in() gives it.
+// `tracker` is a result of tracker_in().
 struct FusionHost {
   FusionHost(const schedules::model::Cluster& cluster, ttf::fusion::strategies::StrategyKind kind,
              const ttf::fusion::config::TrackerConfig& tracker);
   std::unique_ptr<ttf::fusion::strategies::Strategy> strategy;
   std::vector<ttf::fusion::sensors::KnownSensor> sensors;  // by SensorId
-  std::size_t most_objects;                                // confirmed tracks there can be
+  std::size_t most_objects;                                // the largest number of confirmed tracks
   std::size_t most_observations;                           // in one list
-  std::uint32_t step = 0;                                  // numbered fusion instants, from 1
-  std::uint64_t unlisted = 0;                              // of the strategy's, up to the last one
+  std::uint32_t step = 0;                                  // the number of the fusion instant, from 1
+  std::uint64_t unlisted = 0;                              // the strategy's count at the last fusion instant
 };
 
-// Whether a list's age is known. Its stamp counts the rounds of the cycle counter as its sender does; the reader brings
-// it to its own count by `rounds` (nodes/host/step.h). An old list, which a living gateway repeats for a dead sensor,
-// would be brought as well, and seem new. So another count is believed only when two lists in a row have it: a repeated
-// list has no second one.
+// Decides whether a list's age is known. A list's stamp counts the rounds of the cycle counter as its sender
+// does; the reader adds `rounds` to get its own count (nodes/host/step.h). A living gateway repeats an old list
+// of a dead sensor, which would be shifted in the same way and seem new. So a new number of rounds is believed
+// only if two lists in a row have it: a repeated list has no successor.
 class RoundsBelieved {
  public:
-  // A list that was not heard before. Nodes that began together agree: 0.
+  // Returns whether to believe the age of a list that was not seen before. Nodes that began together differ by
+  // 0 rounds.
   bool believed(std::int64_t rounds);
 
  private:
@@ -57,7 +59,7 @@ class RoundsBelieved {
   std::optional<std::int64_t> claimed_;
 };
 
-// Ports: one per sensor list, any number. A list whose age is not known is discarded.
+// Ports: any number, one per sensor list. A list of unknown age is discarded.
 class FusionStep final : public host::Step {
  public:
   FusionStep(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
@@ -69,7 +71,7 @@ class FusionStep final : public host::Step {
   void record_result(const host::StepContext& context) const;
 
   std::shared_ptr<FusionHost> host_;
-  Duration round_;                                 // of the schedule
+  Duration round_;                                 // the schedule's round
   std::vector<sensing::ObservationCodec> codecs_;  // per port
   std::vector<RoundsBelieved> rounds_;             // per port
   std::vector<ttf::fusion::sensors::Observation> observations_;
@@ -85,7 +87,7 @@ class ImageOutput final : public host::Step {
  private:
   const schedules::model::Cluster& cluster_;
   std::shared_ptr<FusionHost> host_;
-  schedules::model::CycleInstant use_;  // when the feature service reads
+  schedules::model::CycleInstant use_;  // the instant at which the feature service reads
   ImageSignals signals_;
   std::uint32_t sequence_ = 0;
   std::vector<ttf::fusion::tracks::TrackView> views_;

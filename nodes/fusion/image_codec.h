@@ -1,5 +1,4 @@
-// The real-time image on the bus: what its signals are, written by the fusion node, understood by whoever
-// receives it.
+// The signals of the real-time image on the bus, written by the fusion node and read by its receivers.
 #pragma once
 
 #include <array>
@@ -14,7 +13,7 @@
 
 namespace ttf::nodes::fusion {
 
-// The element's signals, in the code's order; a layout may have them in any.
+// The element's signals in the code's order; a layout may have any order.
 inline constexpr auto kImageSignals = std::to_array<std::string_view>(
     {"id", "x", "y", "heading", "speed", "acceleration", "length", "width", "sigma_x", "sigma_y", "correlation",
      "sigma_heading", "sigma_speed", "sigma_acceleration", "sigma_length", "sigma_width", "status"});
@@ -24,7 +23,7 @@ ImageSignals bind_image(const schedules::model::Cluster& cluster, const schedule
 // Writes element `index` of the list begun in `out`.
 void encode_image_object(const ttf::fusion::tracks::TrackView& view, host::Output& out, int index,
                          const ImageSignals& signals);
-// Element `index` of an image list, as whoever receives it understands it.
+// Returns element `index` of an image list as its receivers decode it.
 recording::records::ImageObject decode_image_object(const schedules::model::PduLayout& layout,
                                                     const bus::cni::ListView& list, int index,
                                                     const ImageSignals& signals);

@@ -1,4 +1,4 @@
-// What a node that is powered on cold begins with.
+// The start of a node that is powered on cold.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@ namespace ttf::nodes::host {
 enum class ColdStart : std::uint8_t {
   kStarts,  // its controller starts up
   kWakes,   // its controller sends a wake-up pattern, then starts up
-  kSleeps,  // it waits for a wake-up pattern, and starts up some time after that
+  kSleeps,  // it waits for a wake-up pattern, and starts up some time later
 };
 
 struct NodeStart {
   ColdStart how = ColdStart::kStarts;
-  Duration after{};  // power-on: from the start of the drive, of who sleeps from the wake-up pattern on
+  Duration after{};  // start of the drive (a sleeping node: the wake-up pattern) to power-on
 };
 
 }  // namespace ttf::nodes::host

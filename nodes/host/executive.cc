@@ -48,7 +48,7 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
   look_ahead();
 }
 
-// A controller for each medium that the node is on, and its lists for the wiring.
+// Makes a controller for each medium that the node is on, and its lists for the wiring.
 std::vector<Connection> Executive::connect(bus::ports::FlexRayPort* flexray,
                                            const std::vector<bus::ports::CanPort*>& cans) {
   const schedules::model::Cluster& cluster = *config_.cluster;
@@ -85,7 +85,7 @@ void Executive::start_anew(Microticks now) {
   look_ahead();
 }
 
-// However the wake-up ended, its host lets the controller start up then.
+// Lets the controller start up after the wake-up, whatever its result.
 void Executive::start_up_after_waking(Microticks now) {
   if (!waking_ || flexray_->state().kind != bus::poc::PocKind::kReady) return;
   waking_ = false;
@@ -123,7 +123,7 @@ Microticks Executive::soonest_end(bool on_can) const {
   return soonest;
 }
 
-// Who loses the global time loses what was to happen by it.
+// Losing global time cancels what it scheduled.
 void Executive::arm_cycle() {
   const timebase::CycleClock* global = clock();
   const std::int64_t cycle = global != nullptr ? global->cycle() : kNoCycle;
@@ -152,7 +152,7 @@ void Executive::advance(Microticks now) {
     flexray_->advance(now);
     start_up_after_waking(now);
   }
-  // As a rule the controller had a frame to send, and nobody else anything to do.
+  // As a rule only the controller had something to do: a frame to send.
   if (!concerned_) return;
   arm_cycle();
   for (const std::size_t task : sensors_.act(now)) processor_.activate(task, now);

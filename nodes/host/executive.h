@@ -1,13 +1,13 @@
 // One node at work: its controllers, its CNI buffers and its tasks, driven from outside in its own microticks.
 //
-// The executive obeys one law under every crank: a task reads its inputs when it starts, and its outputs become visible
-// at its end. It has three parts: the operating system says who runs when (nodes/host/processor.h), the wiring which
-// list goes where (nodes/host/wiring.h), the record keeping what is told of it (nodes/host/node_records.h);
-// nodes/host/sensor_ends.h says when sensors are triggered and measure.
+// One law holds under every crank: a task reads its inputs at its start, and its outputs become visible at its
+// end. The parts are the operating system, which runs tasks (nodes/host/processor.h), the wiring, which moves
+// lists (nodes/host/wiring.h), the sensor ends, which trigger and measure (nodes/host/sensor_ends.h), and the
+// node's records (nodes/host/node_records.h).
 //
-// At one microtick things happen in this order: arrivals (by the crank), ends of tasks, the bus controller,
-// activations, starts. So what becomes visible at a tick is still sent or read at that tick.
-// A sleeping node does nothing and hears nothing but a wake-up pattern.
+// At one microtick the order is: arrivals (by the crank), ends of tasks, the bus controller, activations,
+// starts. So an output that becomes visible at a tick is still sent or read at that tick. A sleeping node does
+// nothing, and hears only a wake-up pattern.
 //   L1  after advance(t) and without further arrivals, next_event() is after t
 //   L2  nothing allocates or throws after construction
 #pragma once
@@ -41,54 +41,53 @@ struct ExecutiveConfig {
   const schedules::model::Cluster* cluster = nullptr;
   NodeId node{};
   timebase::Oscillator oscillator;
-  // Of a node that begins integrated; else it starts up at power_on.
+  // The clock of a node that begins integrated; without it, the node starts up at power_on.
   std::optional<bus::controller::InitialClock> clock;
-  std::uint64_t seed = 0;  // of the execution times
+  std::uint64_t seed = 0;  // for the execution times
   std::uint32_t replication = 0;
-  Microticks power_on{};                  // free-running sensors count their phase from here, too
-  ColdStart cold{};                       // of a node that does not begin integrated
-  Duration boots{};                       // of a sleeping node: from the end of the wake-up pattern to its start-up
-  const TrueClock* true_clock = nullptr;  // null: what is due happens
+  Microticks power_on{};                  // free-running sensors also count their phase from here
+  ColdStart cold{};                       // for a node that does not begin integrated
+  Duration boots{};                       // for a sleeping node: from the end of the wake-up pattern to its start-up
+  const TrueClock* true_clock = nullptr;  // null: events happen when they are due
 };
 
 class Executive final : private bus::controller::ControllerEvents {
  public:
-  // `steps`: one per task of the node, in file order. `flexray` may be null for a node off FlexRay; `cans` has one
-  // entry per CAN of the cluster, null where this node is not on it.
+  // `steps` has one step per task of the node, in file order. `flexray` may be null for a node off FlexRay.
+  // `cans` has one entry per CAN of the cluster, null where this node is not on it.
   Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps, bus::ports::FlexRayPort* flexray,
             const std::vector<bus::ports::CanPort*>& cans, SensorLines& lines, recording::records::Sink& sink);
 
   Microticks next_event() const;
   void advance(Microticks now);
-  // Holds until the next advance() with anything due, or the next arrival that it names. What the node does that others
-  // notice, it does within advance().
+  // Returns a promise that holds until the next advance() with anything due, or until the next arrival that it
+  // names. All acts that others notice happen within advance().
   Promise promise() const;
 
-  // Arrivals. `now` is the node's microtick of the arrival. What they set off happens at the next advance(), which
-  // next_event() then asks for.
+  // Take arrivals in. `now` is the node's microtick of the arrival. Its effects follow at the next advance(),
+  // for which next_event() then asks.
   void receive(const bus::ports::Reception& reception);
-  // The same on both channels at once (bus/controller/controller.h). False: next_event() is what it was. The
-  // test compares whole drives with and without it (tests/sim/processes/unwanted_frames_test.cc).
+  // Takes in one frame on both channels at once (bus/controller/controller.h). False: next_event() is unchanged.
+  // tests/sim/processes/unwanted_frames_test.cc compares whole drives with and without it.
   bool receive_on_both(const bus::ports::Reception& reception);
-  // What is on its way to its controller (bus/controller/controller.h).
+  // For a reception that is still on its way to the controller (bus/controller/controller.h).
   bool knows(const bus::ports::Reception& reception) { return !asleep_ && flexray_->knows(reception); }
   void hear_known(const bus::ports::Reception& reception) { flexray_->hear_known(reception); }
   void receive_can(std::size_t can_bus, const bus::ports::CanFrame& frame, Microticks now);
-  // A frame of this node has left, `now`. `frame` is what the medium knows of it: bus, start, when it has left in true
-  // time, identifier and data; the node reports it with its own clock's times and the list and measurement it is of.
+  // Records that a frame of this node left at `now`. `frame` has the medium's knowledge: bus, start, true time of
+  // the departure, identifier and data. The node adds the times of its own clock, the list and the measurement.
   void can_frame_sent(const recording::records::CanFrameSent& frame, Microticks now);
-  void trigger(SensorId sensor, Microticks now);                         // at a device
-  void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);  // at a host
+  void trigger(SensorId sensor, Microticks now);                         // reaches a device
+  void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);  // reaches a host
 
-  // The host has its controller begin anew, cold, where that has halted. What was to happen by the global time is lost.
+  // Starts a halted controller anew, cold. Losing global time cancels what it scheduled.
   void start_anew(Microticks now);
 
-  // The node's oscillator has changed its drift; its ticks so far are the same.
+  // Changes the oscillator's drift; its ticks so far stay the same.
   void drift(const timebase::Oscillator& oscillator) { time_.drift(oscillator); }
 
-  // It has not been woken yet.
   bool asleep() const { return asleep_; }
-  // The node's clock of the cluster, null while it has none: off FlexRay, or before it has integrated.
+  // Returns the node's clock of the cluster, or null while it has none: off FlexRay, or before it has integrated.
   const timebase::CycleClock* clock() const { return time_.global(); }
   // Null off FlexRay.
   const bus::controller::FlexRayController* controller() const { return flexray_.get(); }
@@ -97,8 +96,7 @@ class Executive final : private bus::controller::ControllerEvents {
   const ExecutiveCounts& counts() const { return records_.counts(); }
 
  private:
-  // What the controller tells becomes records. What happens by the cluster's clock happens at other ticks now where
-  // that has changed.
+  // The controller's events become records. A changed clock moves all events that are due by it.
   void cycle_started(std::int64_t, Microticks) override { concerned_ = true; }
   void list_arrived(PduId pdu, bus::cni::ArrivalEffect effect, std::uint32_t sequence,
                     std::optional<std::uint32_t> torn, Microticks at) override {
@@ -130,7 +128,7 @@ class Executive final : private bus::controller::ControllerEvents {
   }
 
   std::vector<Connection> connect(bus::ports::FlexRayPort* flexray, const std::vector<bus::ports::CanPort*>& cans);
-  void look_ahead();  // own_next_, whenever something has concerned it
+  void look_ahead();  // computes own_next_ anew
   void arrived(const ListArrival& arrival, Microticks at);
   void power_on(Microticks now);
   void start_up_after_waking(Microticks now);
@@ -138,7 +136,7 @@ class Executive final : private bus::controller::ControllerEvents {
   void start_next(Microticks now);
   void run_step(const Processor::Running& running);
   void finish(Microticks now);
-  // The shortest time from an arrival on that kind of medium that activates a task to the task's end.
+  // Returns the shortest time from an arrival on that kind of medium to the end of a task that it activates.
   Microticks soonest_end(bool on_can) const;
 
   const ExecutiveConfig config_;
@@ -152,11 +150,11 @@ class Executive final : private bus::controller::ControllerEvents {
   Processor processor_;
   SensorEnds sensors_;
   std::int64_t armed_cycle_ = -1;
-  bool concerned_ = true;  // own_next_ is to be looked for anew
-  Microticks own_next_{};  // next_event() but for the controller's
+  bool concerned_ = true;  // own_next_ must be computed anew
+  Microticks own_next_{};  // next_event() without the controller's
   bool asleep_;
-  std::optional<Microticks> rises_;  // while asleep: when, once a wake-up pattern was heard
-  bool waking_ = false;              // others: start-up comes after the wake-up
+  std::optional<Microticks> rises_;  // while asleep: the power-on that a wake-up pattern has set
+  bool waking_ = false;              // it wakes others, and starts up afterwards
 };
 
 }  // namespace ttf::nodes::host

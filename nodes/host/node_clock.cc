@@ -18,7 +18,7 @@ bus::controller::InitialClock integrated_clock(const timebase::Oscillator& oscil
                                                const schedules::model::Node& node, TrueTime first_cycle) {
   bus::controller::InitialClock clock;
   clock.cycle_start = oscillator.ticks_at(first_cycle) + Microticks{1};
-  // Ticks in a thousand cycles, so that rounding to one microtick per cycle is all that is lost.
+  // The ticks of a thousand cycles: the only error is rounding to one microtick per cycle.
   const std::int64_t thousand =
       (oscillator.ticks_at(first_cycle + cluster.cycle() * 1000) - oscillator.ticks_at(first_cycle)).value;
   if (cluster.synchronisation) clock.rate = static_cast<int>((thousand + 500) / 1000 - node.flexray->pMicroPerCycle);

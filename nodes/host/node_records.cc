@@ -6,7 +6,7 @@ namespace ttf::nodes::host {
 
 void NodeRecords::frame_sent(const bus::ports::Transmission& transmission, std::int64_t cycle, bool null_frame,
                              PduId pdu, std::uint32_t sequence, int fragment, bool last) {
-  // A frame ends in the cycle it began in, so the clock can say now when that will be.
+  // A frame ends in the cycle of its start, so the clock already knows the end.
   const recording::records::Stamp end = time_.stamp(transmission.end);
   if (wants_frames_) {
     recording::records::SlotFrameSent sent;
@@ -26,7 +26,7 @@ void NodeRecords::frame_sent(const bus::ports::Transmission& transmission, std::
   if (last) hop(end, recording::records::Hop::kSent, pdu, sequence, schedules::model::kFlexRay);
 }
 
-// The message a frame is of; none for a foreign frame, which receivers ignore, too.
+// Finds the message of a frame. A foreign frame stays without one; receivers ignore it, too.
 void NodeRecords::identify(recording::records::CanFrameSent& frame, const bus::cni::CanController& sender) const {
   for (const schedules::model::CanMessage& message : cluster_.can_buses[frame.bus].messages) {
     if (message.identifier != frame.identifier) continue;
@@ -70,8 +70,8 @@ void NodeRecords::slot_problem(std::int64_t cycle, int slot, schedules::model::C
 
 void NodeRecords::clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
                                   const timebase::Correction& rate, Microticks at) {
-  // One instant by both clocks, from which others take what they were apart by: true time is when this one showed that,
-  // however late it was looked at.
+  // One instant on both clocks, from which others compute the clocks' difference. So true time is when this
+  // clock showed that instant, however late it was read.
   recording::records::Stamp both = time_.stamp(at);
   both.true_time = time_.oscillator().time_of(at);
   sink_.on(recording::records::ClockCorrected{both, cycle, offset.value, rate.value, offset.missing, rate.missing,
@@ -80,7 +80,7 @@ void NodeRecords::clock_corrected(std::int64_t cycle, const timebase::Correction
 
 void NodeRecords::symbol_sent(bus::ports::Signal signal, schedules::model::Channel channel, Microticks start,
                               Microticks end) {
-  // A collision avoidance symbol comes before there is a schedule; within one the same bits are a test of the medium.
+  // A collision avoidance symbol comes before there is a schedule; within a schedule the same bits test the medium.
   const std::uint8_t kind = signal == bus::ports::Signal::kWakeup ? recording::records::kSymbolWakeup
                             : time_.global() != nullptr           ? recording::records::kSymbolMediaTest
                                                                   : recording::records::kSymbolCas;

@@ -1,5 +1,5 @@
-// A node's record keeping: what happens at its controllers and to its lists becomes a record each, with all that the
-// node knows of it.
+// A node's records: each event at its controllers and each step of its lists becomes a record, with all that
+// the node knows of it.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace ttf::nodes::host {
 
 class NodeRecords {
  public:
-  // All of them outlive this.
+  // The arguments outlive this.
   NodeRecords(const schedules::model::Cluster& cluster, const NodeTime& time, recording::records::Sink& sink)
       : cluster_(cluster), time_(time), sink_(sink), wants_frames_(sink.wants_frames()) {}
 
-  // Whether every frame is told of; else only when a list's last frame has left.
+  // Returns whether to record every frame; if not, only the departure of a list's last frame is recorded.
   bool wants_frames() const { return wants_frames_; }
   recording::records::Sink& sink() { return sink_; }
   ExecutiveCounts& counts() { return counts_; }
@@ -30,7 +30,7 @@ class NodeRecords {
   void task_run(const recording::records::TaskRun& run) { sink_.on(run); }
   void woke_up(Microticks at) { sink_.on(recording::records::PowerChanged{time_.stamp(at), true}); }
 
-  // As bus::controller::ControllerEvents has them.
+  // The events of bus::controller::ControllerEvents.
   void frame_sent(const bus::ports::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                   std::uint32_t sequence, int fragment, bool last);
   void slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel, bus::controller::SlotStatus status,
@@ -40,8 +40,8 @@ class NodeRecords {
   void symbol_sent(bus::ports::Signal signal, schedules::model::Channel channel, Microticks start, Microticks end);
   void state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at);
 
-  // A frame that `sender`, which is the node's, has sent has left, `now`. `frame`: as Executive::can_frame_sent() has
-  // it.
+  // Records that a frame left at `now`, sent by `sender`, a controller of the node. `frame` is that of
+  // Executive::can_frame_sent().
   void can_frame_sent(recording::records::CanFrameSent frame, const bus::cni::CanController& sender, Microticks now);
 
  private:

@@ -1,5 +1,5 @@
-// An instant on all clocks of a node: the oscillator's microticks, its local time, the cluster's global time where the
-// node knows it, and true time.
+// An instant on all clocks of a node: the oscillator's microticks, local time, the cluster's global time where
+// the node knows it, and true time.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace ttf::nodes::host {
 
-// What an ideal observer's clock shows. In virtual time things happen when they are due, and the oscillator says when
-// that is; in real time they happen later.
+// The clock of an ideal observer. In virtual time events happen when they are due, so the oscillator knows true
+// time; in real time they happen later.
 class TrueClock {
  public:
   virtual ~TrueClock() = default;
@@ -22,21 +22,21 @@ class TrueClock {
 
 class NodeTime {
  public:
-  // `true_clock` may be null: what is due happens.
+  // `true_clock` may be null: events then happen when they are due.
   NodeTime(NodeId node, const timebase::Oscillator& oscillator, const TrueClock* true_clock)
       : node_(node), oscillator_(oscillator), true_clock_(true_clock) {}
 
-  // The controller that keeps the cluster's clock, which outlives this.
+  // Sets the controller that keeps the cluster's clock. It outlives this.
   void follow(const bus::controller::FlexRayController& controller) { controller_ = &controller; }
-  // The oscillator has changed its drift; its ticks so far are the same.
+  // Changes the oscillator's drift; its ticks so far stay the same.
   void drift(const timebase::Oscillator& oscillator) { oscillator_ = oscillator; }
 
-  // The node's clock of the cluster, null while it has none: off FlexRay, or before it has integrated.
+  // Returns the node's clock of the cluster, or null while it has none: off FlexRay, or before it has integrated.
   const timebase::CycleClock* global() const { return controller_ ? controller_->synchronised_clock() : nullptr; }
   const timebase::Oscillator& oscillator() const { return oscillator_; }
 
   recording::records::Stamp stamp(Microticks at) const;
-  // In nominal microticks, rounded up.
+  // Converts to nominal microticks, rounded up.
   Microticks ticks(Duration duration) const {
     const std::int64_t period = oscillator_.nominal_period_ps();
     return {(duration.ns * 1000 + period - 1) / period};

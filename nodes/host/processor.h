@@ -1,11 +1,10 @@
-// A node's operating system: who runs when, on one processor without preemption.
+// A node's operating system: runs tasks on one processor without preemption.
 //
-// Tasks activated while it is busy wait, and an activation that meets a still waiting one of the same task is an
-// overrun. Waiting tasks start in order of their activation. Of those activated at one microtick the one that stands
-// earlier in the file is first, whatever activated them.
+// Tasks activated while the processor is busy wait. A second activation of a waiting task is an overrun. Waiting
+// tasks start in order of their activation; at one microtick the task that stands earlier in the file is first.
 //
-// It knows of a task when it may start and how long it takes, not what it does: that happens between start_next() and
-// finish(). Nothing allocates or throws after construction.
+// The processor decides when a task starts and how long it takes. The task's work is done between start_next()
+// and finish(). Nothing allocates or throws after construction.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +19,7 @@
 
 namespace ttf::nodes::host {
 
-// What execution times are drawn by.
+// The key from which execution times are drawn.
 struct ExecutionKey {
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
@@ -29,46 +28,46 @@ struct ExecutionKey {
 
 class Processor {
  public:
-  // Tasks are known by their places in `tasks`. That outlives this, as do the others.
+  // A task's number is its place in `tasks`. All arguments outlive this.
   Processor(const std::vector<schedules::model::Task>& tasks, const ExecutionKey& key, const NodeTime& time,
             ExecutiveCounts& counts);
 
-  // False for an overrun, which changes nothing else.
+  // Activates a task. Returns false for an overrun, which is only counted.
   bool activate(std::size_t task, Microticks now);
-  void activate_after(std::size_t task, Microticks now);  // whatever the end of `task` sets off
-  // Whatever is armed and due.
+  void activate_after(std::size_t task, Microticks now);  // activates the tasks that follow the end of `task`
+  // Activates the armed tasks that are due.
   void activate_by_time(Microticks now) {
     if (armed_ > 0) activate_armed(now);
   }
-  // What is to happen by the global time in this cycle.
+  // Arms the tasks that the global time activates in this cycle.
   void arm(std::int64_t cycle);
   void disarm();
   bool waits(std::size_t task) const { return tasks_[task].waiting; }
 
-  // What runs, from its start to its end; of `run`, the end is not known yet.
+  // The running task, from its start to its end. The end in `run` is not known yet.
   struct Running {
     std::size_t task = 0;
     std::uint32_t activation = 0;  // how many times the task ran before
     recording::records::TaskRun run;
   };
-  // The first of the waiting ones starts, if the processor is idle; else null.
+  // Starts the first waiting task if the processor is idle; else returns null.
   const Running* start_next(Microticks now);
   bool ends_by(Microticks now) const { return busy_ && running_end_ <= now; }
-  // What runs is over.
+  // Ends the running task.
   const Running& finish(Microticks now);
 
-  // The end of what runs, or the next start; kNever: only an activation from outside makes it go on.
+  // Returns the end of the running task, or the next start; kNever: only an activation from outside continues.
   Microticks next_event() const;
-  // How long the task takes, at least.
+  // Returns the shortest execution time of the task.
   Duration shortest(std::size_t task) const;
 
  private:
   struct State {
-    std::vector<std::size_t> successors;  // tasks that its end activates
+    std::vector<std::size_t> successors;  // the tasks that its end activates
     std::uint32_t activations = 0;
-    bool armed = false;  // activation by time, still due in this cycle
+    bool armed = false;  // its activation by time is still due in this cycle
     bool waiting = false;
-    Microticks activated{};  // of the waiting activation, which may come while the one before still runs
+    Microticks activated{};  // the waiting activation, which may come during the previous execution
     recording::records::Stamp activated_at;
   };
   void activate_armed(Microticks now);
@@ -79,7 +78,7 @@ class Processor {
   const NodeTime& time_;
   ExecutiveCounts& counts_;
   std::vector<State> tasks_;
-  int armed_ = 0;                   // of them
+  int armed_ = 0;                   // number of armed tasks
   std::vector<std::size_t> ready_;  // waiting tasks, by (activation, place in the file)
   bool busy_ = false;
   Running running_;

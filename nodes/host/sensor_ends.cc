@@ -131,10 +131,10 @@ void SensorEnds::triggered(SensorId sensor, Microticks now) {
 }
 
 void SensorEnds::latch(SensorId sensor, std::uint32_t sequence, Microticks now) {
-  // Without global time there is no time of measuring: as if the strobe had not been seen.
+  // Without global time a measurement has no time: its strobe counts as not seen.
   const timebase::CycleClock* global = time_.global();
   if (global == nullptr) return;
-  // In real time a strobe may be heard of when the cycle that it came in is over.
+  // In real time the host may hear of a strobe after the cycle in which it came.
   const Microticks since = std::max(now, global->cycle_start());
   const Duration before{(since - now).value * time_.oscillator().nominal_period_ps() / 1000};
   strobes_[index_of(sensor)].strobe(sequence, global->global_time(since) - before);

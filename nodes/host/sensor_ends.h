@@ -1,8 +1,7 @@
-// A node's ends of the lines between sensors and their hosts: when its devices measure, when its hosts trigger, and the
-// strobes that a host latches.
+// A node's ends of the lines between sensors and their hosts: its devices measure, its hosts trigger and latch strobes.
 //
-// A sensor that follows its host is triggered when the host's task ends, unless that has been activated again already:
-// one list is on its way at a time, also after one was lost and the device has measured by itself.
+// A sensor that follows its host is triggered when the host's task ends, unless that task is already activated
+// again. So one list at a time is on its way, even after a lost list and a measurement without trigger.
 //
 // Nothing allocates or throws after construction.
 #pragma once
@@ -20,7 +19,7 @@
 
 namespace ttf::nodes::host {
 
-// The wires between a sensor and its host: a trigger to the device, a strobe back at the instant of measuring.
+// The wires between a sensor and its host: a trigger to the device, a strobe back at the instant of measurement.
 class SensorLines {
  public:
   virtual ~SensorLines() = default;
@@ -28,7 +27,7 @@ class SensorLines {
   virtual void strobe(SensorId sensor, std::uint32_t sequence) = 0;
 };
 
-// What phases are drawn by that the cluster leaves open.
+// The key from which phases are drawn that the cluster leaves open.
 struct PhaseKey {
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
@@ -41,39 +40,39 @@ class SensorEnds {
              SensorLines& lines);
 
   void power_on(Microticks now);  // devices count their phase from here
-  // The triggers of this cycle of the global time.
+  // Arms the triggers of this cycle of the global time.
   void arm(std::int64_t cycle);
   void disarm();
-  // Triggers and measures what is due. The measuring tasks to activate, until the next call.
+  // Triggers and measures all that is due. Returns the measuring tasks to activate; they are valid until the next call.
   std::span<const std::size_t> act(Microticks now);
-  Microticks next_event() const;  // for act()
+  Microticks next_event() const;  // the next instant for act()
 
-  // A trigger has come to a device.
+  // Takes in a trigger at a device.
   void triggered(SensorId sensor, Microticks now);
-  // A strobe has come to a host.
+  // Takes in a strobe at a host.
   void latch(SensorId sensor, std::uint32_t sequence, Microticks now);
-  // Triggers what follows that task.
+  // Triggers the sensors that follow that task.
   void task_ended(std::size_t task);
 
-  // Whether a trigger makes some device measure.
+  // Returns whether a trigger makes any device measure.
   bool any_triggered() const;
-  // The number of the newest measurement that the task is to send; 0 for one that measures nothing.
+  // Returns the number of the newest measurement for the task to send; 0 if the task measures nothing.
   std::uint32_t measurement(std::size_t task) const;
   std::span<const StrobeLatch> strobes() const { return strobes_; }  // by SensorId
 
  private:
   struct Device {
-    std::size_t task = 0;      // that measures
-    bool runs_freely = false;  // else it follows, or time triggers it
-    Duration phase{};          // but for those that time triggers: from power-on to the first measurement
-    LocalTime first{};         // likewise: the instant of that
+    std::size_t task = 0;      // the measuring task
+    bool runs_freely = false;  // otherwise it follows its host, or time triggers it
+    Duration phase{};          // from power-on to the first measurement; zero for time-triggered devices
+    LocalTime first{};         // the instant of the first measurement
     std::uint32_t measured = 0;
-    std::optional<Microticks> due;  // following or triggered: measures then, at the first act() from it on
-    Microticks ready{};             // following: not before this
+    std::optional<Microticks> due;  // following or triggered: measures at the first act() from then on
+    Microticks ready{};             // following: not earlier than this
   };
   struct Host {
-    bool armed = false;                // trigger still due in this cycle
-    std::optional<std::size_t> after;  // of one that follows: the task whose end triggers
+    bool armed = false;                // a trigger is still due in this cycle
+    std::optional<std::size_t> after;  // for a sensor that follows: the task whose end triggers it
   };
   struct End {
     SensorId id{};
@@ -86,7 +85,7 @@ class SensorEnds {
 
   const NodeTime& time_;
   SensorLines& lines_;
-  std::vector<End> ends_;  // of those sensors that this node is device or host of
+  std::vector<End> ends_;  // the sensors with this node as device or host
   std::vector<StrobeLatch> strobes_;
   std::vector<std::size_t> set_off_;
 };

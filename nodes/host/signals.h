@@ -1,5 +1,5 @@
-// Binding of code to the signals of a PDU by name, once, at start-up: a signal the code needs and the layout lacks, and
-// one the layout has and the code does not know, are both findings (signals called "spare" are padding).
+// Binds code to the signals of a PDU by name, once, at start-up. A signal that the code needs and the layout
+// lacks is a finding, as is a signal unknown to the code. Signals called "spare" are padding.
 #pragma once
 
 #include <algorithm>
@@ -30,12 +30,12 @@ std::array<std::size_t, N> bind_element(const schedules::model::Cluster& cluster
   for (const schedules::model::Signal& signal : layout.element)
     if (signal.name != "spare" && std::find(names.begin(), names.end(), signal.name) == names.end())
       findings.add({cluster.file, layout.line, "pdus." + layout.name + ".element", signal.name,
-                    "is not a signal the code knows"});
+                    "is not a signal that the code knows"});
   findings.throw_if_any();
   return signals;
 }
 
-// The same, for code whose number of signals depends on the PDU.
+// Does the same for code whose number of signals depends on the PDU.
 template <std::size_t N>
 std::vector<std::size_t> bind_elements(const schedules::model::Cluster& cluster,
                                        const schedules::model::PduLayout& layout,
@@ -44,7 +44,7 @@ std::vector<std::size_t> bind_elements(const schedules::model::Cluster& cluster,
   return {signals.begin(), signals.end()};
 }
 
-// The layout of the PDU bound to `port` of a task; ports are checked to exist before (schedules/model/ports.h).
+// Returns the binding of a task's `port`; ports are known to exist by then (schedules/model/ports.h).
 const schedules::model::PortBinding& binding_of(const std::vector<schedules::model::PortBinding>& bindings,
                                                 std::string_view port);
 

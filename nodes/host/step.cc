@@ -42,7 +42,7 @@ void Output::begin(std::uint32_t sequence, int count, GlobalTime time_stamp) {
     bus::wire::write_header_raw(*layout_, payload, fragment_signal, static_cast<std::uint32_t>(f));
     bus::wire::write_header_raw(*layout_, payload, count_signal, static_cast<std::uint32_t>(count));
     if (stamp_signal) {
-      // Nearest microsecond; instants before the start of the run wrap like any other.
+      // The nearest microsecond; instants before the start of the drive wrap like all others.
       const std::int64_t us = (time_stamp.ns + 500 - (time_stamp.ns + 500 < 0 ? 999 : 0)) / 1000;
       bus::wire::write_header_raw(*layout_, payload, *stamp_signal,
                                   low_bits(static_cast<std::uint64_t>(us), layout_->header[*stamp_signal].bits));

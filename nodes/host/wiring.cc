@@ -88,9 +88,9 @@ void Wiring::write(std::size_t task, const recording::records::Stamp& at) {
 std::span<const std::size_t> Wiring::arrived(const ListArrival& arrival, Microticks at) {
   using enum bus::cni::ArrivalEffect;
   if (arrival.effect == kStale || arrival.effect == kMalformed) ++records_.counts().refused_fragments;
-  // One fragment may end two lists: the one it tears, and its own if that is complete with it.
+  // One fragment may end two lists: the one it tears, and its own if it completes that.
   if (!arrival.torn && arrival.effect != kCompleted && arrival.effect != kStale) return {};
-  // Nothing is told of lists that no task here reads.
+  // Lists that no task here reads are not recorded.
   const Route* const route = find_route(arrival.medium, arrival.pdu);
   if (route == nullptr) return {};
 

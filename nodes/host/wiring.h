@@ -1,7 +1,7 @@
-// Which list goes where in a node: from a medium to the tasks that read it, and from a task to the media.
+// Moves lists within a node: from a medium to the tasks that read them, and from a task to the media.
 //
-// A task's inputs are filled when it starts, and its outputs leave when it ends. A medium is whatever the node has
-// registered for a MediumId; the wiring knows nothing else of it. Nothing allocates or throws after construction.
+// A task's inputs are filled at its start, and its outputs leave at its end. The node registers a medium for
+// each MediumId; the wiring knows it only as a ListMedium. Nothing allocates or throws after construction.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@
 
 namespace ttf::nodes::host {
 
-// The lists of a medium, as the node's tasks see it.
+// The lists of a medium, for the tasks of a node.
 class ListMedium {
  public:
   virtual ~ListMedium() = default;
-  virtual bus::cni::IncomingList& incoming(PduId pdu) = 0;  // the same one always
+  virtual bus::cni::IncomingList& incoming(PduId pdu) = 0;  // always the same one
   virtual void send(PduId pdu, const bus::cni::ListView& list) = 0;
 };
 
@@ -32,31 +32,30 @@ struct Connection {
   std::unique_ptr<ListMedium> lists;
 };
 
-// A fragment that has come over a medium.
+// A fragment that has arrived over a medium.
 struct ListArrival {
   schedules::model::MediumId medium;
   PduId pdu{};
   bus::cni::ArrivalEffect effect{};
   std::uint32_t sequence = 0;
-  std::optional<std::uint32_t> torn;  // the list it displaced before that was complete
+  std::optional<std::uint32_t> torn;  // the incomplete list that it displaced
 };
 
 class Wiring {
  public:
-  // `cluster`, `time` and `records` outlive this. A task that reads from a medium that is not among `media`, or writes to
-  // one, must not run: it stops the program.
+  // `cluster`, `time` and `records` outlive this. A task that uses a port to a medium outside `media` stops the program.
   Wiring(const schedules::model::Cluster& cluster, const schedules::model::Node& node, std::vector<Connection> media,
          const NodeTime& time, NodeRecords& records);
 
-  // What the task reads at its start `at`.
+  // Returns the inputs of the task at its start `at`.
   std::span<Input> read(std::size_t task, const recording::records::Stamp& at);
-  // Those of its inputs that it could not use.
+  // Records the inputs that the task could not use.
   void tell_discarded(std::size_t task, const recording::records::Stamp& at);
   std::span<Output> outputs(std::size_t task) { return tasks_[task].outputs; }
-  // Its outputs, which it has written, become visible at its end `at`.
+  // Sends the lists that the task has written; they become visible at its end `at`.
   void write(std::size_t task, const recording::records::Stamp& at);
 
-  // The tasks that the arrival activates.
+  // Returns the tasks that the arrival activates.
   std::span<const std::size_t> arrived(const ListArrival& arrival, Microticks at);
 
  private:
@@ -75,7 +74,7 @@ class Wiring {
     std::vector<Output> outputs;
     std::vector<Drain> drains;  // by output
   };
-  // A list that tasks read, in their order.
+  // A list with the tasks that read it, in their order.
   struct Route {
     schedules::model::MediumId medium;
     PduId pdu{};
@@ -84,7 +83,7 @@ class Wiring {
       std::size_t input = 0;
     };
     std::vector<Reader> readers;
-    std::vector<std::size_t> sets_off;  // tasks
+    std::vector<std::size_t> sets_off;  // the tasks that it activates
   };
   ListMedium* find(schedules::model::MediumId medium) const;
   Route* find_route(schedules::model::MediumId medium, PduId pdu);

@@ -30,7 +30,7 @@ LaserPreprocessor::LaserPreprocessor(const LaserPreprocessingConfig& config, std
     : config_(config), most_points_(most_points) {
   points_.reserve(most_points);
   segments_.reserve(most_points);
-  prepare_orientation_search();  // not within the first scan's deadline
+  prepare_orientation_search();  // outside the first scan's deadline
 }
 
 void LaserPreprocessor::process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out) {
@@ -39,7 +39,7 @@ void LaserPreprocessor::process(std::span<const ScanPoint> scan, std::vector<Las
   for (const Segment& segment : segments_) {
     if (segment.count < static_cast<std::size_t>(config_.fewest_points)) continue;
     const std::span<const PlanePoint> points(points_.data() + segment.first, segment.count);
-    // All layers of a single beam are a post, or a side seen too flatly: no extent to speak of.
+    // A single beam with all its layers is a post, or a side seen too flatly: it has no usable extent.
     if (points.back().azimuth - points.front().azimuth < 0.5 * config_.segmentation.azimuth_step_rad) continue;
     double low_x = points[0].x, high_x = low_x, low_y = points[0].y, high_y = low_y;
     for (const PlanePoint& point : points) {

@@ -1,4 +1,4 @@
-// From a scan to vehicles: segmentation, then a rectangle per segment.
+// Turns a scan into vehicles: segments it, then fits a rectangle to each segment.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,17 @@ namespace ttf::nodes::laser {
 struct LaserPreprocessingConfig {
   SegmentationConfig segmentation;
   RectangleConfig rectangle;
-  int fewest_points = 3;           // fewer are no object, nor are those of a single beam
+  int fewest_points = 3;           // smaller segments are no objects, nor are segments of a single beam
   double longest_extent_m = 12.0;  // longer segments are walls and hedges, not vehicles
 };
 LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml);
 
 class LaserPreprocessor {
  public:
-  // `most_points`: of a scan. Room for them is taken here, and there are never more segments than points.
+  // Reserves room for `most_points`, the points of the largest scan. A scan never has more segments than points.
   LaserPreprocessor(const LaserPreprocessingConfig& config, std::size_t most_points);
-  // Objects in order of azimuth, right to left; nothing allocates where `out` has room for most_objects().
+  // Fills `out` with the scan's objects by azimuth, right to left. Allocates only if `out` lacks room for
+  // most_objects().
   void process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out);
   std::size_t most_objects() const { return most_points_ / static_cast<std::size_t>(config_.fewest_points); }
 

@@ -21,13 +21,13 @@ constexpr double kCoarseStep = std::numbers::pi / 90.0;
 constexpr int kCoarseAngles = 45;
 constexpr int kFineReach = 9, kFineAngles = 2 * kFineReach + 1;  // on either side, up to the next coarse angle
 
-// Candidate angles and the directions of their rectangles' two axes, a quarter turn apart.
+// Candidate angles, and the directions of their rectangles' axes, a quarter turn apart.
 struct Candidates {
   Lanes angle, ax, ay, bx, by;
 };
 template <int kAngles> using Groups = std::array<Candidates, (kAngles + kLanes - 1) / kLanes>;
 
-// Lanes left over repeat the last angle: it does not score higher than itself.
+// Spare lanes repeat the last angle, which cannot score higher than itself.
 template <int kAngles, class AngleOf> Groups<kAngles> candidates(AngleOf angle_of) {
   Groups<kAngles> groups{};
   int i = 0;
@@ -60,7 +60,7 @@ const Grid& grid() {
   return kGrid;
 }
 
-// An axis of four candidates, turned so that it points away from the sensor, and where its near face lies along it.
+// One axis of four candidates, pointing away from the sensor, and the position of its near face.
 struct NearFaces {
   Lanes x, y, near;
   Mask visible;
@@ -82,7 +82,7 @@ Lanes scores(const Candidates& c, std::span<const PlanePoint> points, double clo
     b_high = select(b > b_high, b, b_high);
   }
   NearFaces a = near_faces(c.ax, c.ay, a_low, a_high), b = near_faces(c.bx, c.by, b_low, b_high);
-  // A face out of view is nobody's nearer one. Where neither is in view, the second counts.
+  // A hidden face is never the nearer one. If both are hidden, the second counts.
   a.near = select(a.visible, a.near, -infinity);
   b.near = select(b.visible | ~a.visible, b.near, -infinity);
   const Lanes floor = Lanes{} + closest;

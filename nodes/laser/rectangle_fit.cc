@@ -11,25 +11,25 @@ namespace ttf::nodes::laser {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// Uniform over half a turn to either side.
+// The standard deviation [rad] of a heading that is uniform over half a turn to either side.
 const double kUnknownHeading = kPi / std::sqrt(3.0);
-// What an outline's extent is trusted to besides noise and beams: the orientation's error leaves some centimetres.
+// Uncertainty of an outline's extent besides noise and beams: the orientation's error leaves some centimetres.
 constexpr double kShapeSigma_m = 0.05;
-// A side seen so flatly that its returns are further apart may have been cut off anywhere.
+// A side whose returns are further apart is seen too flatly: it may have been cut off anywhere.
 constexpr double kWidestSpacing_m = 1.2;
-// Returns that reach less far in either direction have no orientation.
+// Shorter outlines have no orientation.
 constexpr double kSmallestShape_m = 0.5;
-// A shorter face is no face, whatever the noise.
+// A shorter face does not count as a face, whatever the noise.
 constexpr double kShortestFace_m = 0.4;
-// Nothing is known better than to a centimetre.
+// The smallest variance: one centimetre, squared.
 constexpr double kCentimetre_m2 = 1e-4;
 
-// The returns seen along one axis of a candidate rectangle: extent, and the face turned to the sensor if there is one.
+// The returns along one axis of a candidate rectangle: their extent, and the face turned to the sensor, if any.
 struct Axis {
   double cx = 1, sy = 0;     // direction
   double low = 0, high = 0;  // extent of the projections
   bool visible = false;      // a face normal to this axis is turned to the sensor
-  double near = 0;           // its position
+  double near = 0;           // the position of that face
   double away = 1;           // sign of the direction away from the sensor
   double project(const PlanePoint& p) const { return cx * p.x + sy * p.y; }
 };
@@ -64,7 +64,7 @@ struct Moments {
   }
 };
 
-// The summed scatter about each face's mean, the returns of the second face turned by a quarter.
+// The summed scatter about each face's mean; the returns of the second face are turned by a quarter.
 struct Scatter {
   double xx = 0.0, xy = 0.0, yy = 0.0;
   void add(const Moments& face, bool turned) {
@@ -75,18 +75,18 @@ struct Scatter {
     xy += turned ? -fxy : fxy;
     yy += turned ? fxx : fyy;
   }
-  // The direction that scatters least.
+  // Returns the direction of the least scatter.
   double minor_axis() const { return 0.5 * std::atan2(2.0 * xy, xx - yy) + 0.5 * kPi; }
 };
 
-// Each return is taken for one of the nearer face in view.
+// Assigns each return to the nearer visible face.
 Scatter scatter_about(const Axis (&axes)[2], std::span<const PlanePoint> points) {
   Moments faces[2];
   for (const PlanePoint& point : points) {
     const double d0 = std::abs(axes[0].project(point) - axes[0].near);
     const double d1 = std::abs(axes[1].project(point) - axes[1].near);
     const int face = !axes[1].visible || (axes[0].visible && d0 <= d1) ? 0 : 1;
-    // Relative to one of the returns: far from the sensor the squares would lose digits.
+    // Relative to one of the returns: far from the sensor, squares would lose digits.
     faces[face].add(point.x - points.front().x, point.y - points.front().y);
   }
   Scatter scatter;
@@ -95,8 +95,8 @@ Scatter scatter_about(const Axis (&axes)[2], std::span<const PlanePoint> points)
   return scatter;
 }
 
-// The search's angle, refined: least squares of the returns' distances to their faces. With the returns of the second
-// face turned by a quarter, both share one normal, the minor axis of their scatter.
+// Refines the search's angle by least squares over the returns' distances to their faces. With the returns of
+// the second face turned by a quarter, both faces share one normal: the minor axis of their scatter.
 double refined_angle(double angle, std::span<const PlanePoint> points) {
   constexpr int kMostSteps = 3;
   constexpr double kLargestStep = 0.15, kSmallestStep = 1e-4;
@@ -110,7 +110,8 @@ double refined_angle(double angle, std::span<const PlanePoint> points) {
   return angle;
 }
 
-// A vehicle of nominal size behind what little was seen: centre half a length behind, uncertain in every direction.
+// Returns a vehicle of nominal size for a few returns. Its centre lies behind them by the mean of half the
+// length and half the width, and is uncertain in every direction.
 LaserObject speck(const RectangleConfig& config, std::span<const PlanePoint> points) {
   double x = 0, y = 0;
   for (const PlanePoint& point : points) {
@@ -124,7 +125,7 @@ LaserObject speck(const RectangleConfig& config, std::span<const PlanePoint> poi
   LaserObject object;
   object.x = x * (1.0 + shift / range);
   object.y = y * (1.0 + shift / range);
-  // Anything between the half width and the half length: uniform over that span, in both directions.
+  // The centre's distance is between half the width and half the length; half the width is added, in both directions.
   const double spread =
       0.5 * (config.nominal_length_m - config.nominal_width_m) / std::sqrt(3.0) + config.nominal_width_m / 2;
   object.sxx = object.syy = spread * spread;
@@ -137,7 +138,7 @@ LaserObject speck(const RectangleConfig& config, std::span<const PlanePoint> poi
   return object;
 }
 
-// Mean position of the face normal to `axis`, and of how many returns: those nearer to it than to the other face.
+// The face normal to an axis: the mean position and the number of its returns. A return counts for the nearer face.
 struct Face {
   double position = 0.0;
   int returns = 0;
@@ -155,7 +156,7 @@ Face face(const Axis& axis, const Axis& other, std::span<const PlanePoint> point
   return {count > 0 ? sum / count : axis.near, count};
 }
 
-// Mean of the returns of the beam at `azimuth`.
+// Returns the mean of the returns of the beam at `azimuth`.
 PlanePoint end_of(std::span<const PlanePoint> points, double azimuth, double step) {
   PlanePoint mean{0.0, 0.0, azimuth, 0.0};
   int count = 0;
@@ -170,8 +171,8 @@ PlanePoint end_of(std::span<const PlanePoint> points, double azimuth, double ste
   return mean;
 }
 
-// The returns of the outermost beams end the outline on either side. Means over their layers, since the extremes of
-// many noisy returns would lie outside.
+// The two ends of the outline: the returns of the outermost beams. Each is a mean over its layers, since the
+// extremes of many noisy returns would lie outside.
 struct Ends {
   PlanePoint first, last;
 };
@@ -179,14 +180,15 @@ struct Ends {
 // The outline along one axis.
 struct Extent {
   Face near;                 // the face normal to the axis
-  double ends_middle = 0.0;  // between the outermost beams
+  double ends_middle = 0.0;  // midway between the outermost beams
   double length = 0.0, sigma = 0.0;
   double steepness = 0.0;  // sine of the incidence at the far end
-  bool measured = false;   // a face was seen along it
+  bool measured = false;   // a face was seen along the axis
 };
 
-// Along an axis runs the face normal to the other one: seen only if that one is visible. Its returns are spaced by the
-// beams' step over the sine of the incidence, and the outline ends up to one such spacing further on.
+// Measures the outline along `axis`. The face along it is normal to `other`, and seen only if `other` is
+// visible. Its returns are spaced by the beams' step over the sine of the incidence. The outline ends up to one
+// such spacing after the last return.
 Extent extent_along(const Axis& axis, const Axis& other, const Ends& ends, std::span<const PlanePoint> points,
                     const RectangleConfig& config) {
   constexpr double kNearest_m = 0.1, kFlattest = 0.01;
@@ -201,13 +203,13 @@ Extent extent_along(const Axis& axis, const Axis& other, const Ends& ends, std::
   const double spacing = range * config.azimuth_step_rad / std::max(kFlattest, extent.steepness);
   const double seen = axis.visible ? axis.away * (axis.project(far) - extent.near.position) : std::abs(a - b);
   extent.length = !other.visible ? seen : axis.visible ? seen + 0.5 * spacing : seen + spacing;
-  // Each end that is not a corner in view: uniform over the spacing.
+  // Each end without a visible corner is uniform over the spacing.
   extent.sigma = std::hypot(spacing * std::sqrt((axis.visible ? 1.0 : 2.0) / 12.0), noise, kShapeSigma_m);
   extent.measured = other.visible && seen > std::max(kShortestFace_m, 4.0 * noise) && spacing < kWidestSpacing_m;
   return extent;
 }
 
-// Which axis the vehicle's length runs along: the one with an extent no width reaches, else across the rear.
+// Returns the axis of the vehicle's length: the one with an extent beyond any width, else the one across the rear.
 int length_axis(const Extent (&extents)[2], const RectangleConfig& config) {
   const double whole[2] = {extents[0].measured ? extents[0].length : 0.0,
                            extents[1].measured ? extents[1].length : 0.0};
@@ -226,7 +228,7 @@ void set_size(LaserObject& object, const Extent& along, const Extent& across, co
   object.sigma_width = object.has_width ? across.sigma : config.width_sigma_m;
 }
 
-// Of an object whose size is known: its orientation is as good as its longest face and the returns on it.
+// Sets the heading. With a known size, it is as good as the longest face and its number of returns.
 void set_heading(LaserObject& object, const Axis& along, std::size_t returns, double noise) {
   constexpr double kSearchSigma = 0.02;
   object.has_heading = object.has_length || object.has_width;
@@ -237,24 +239,24 @@ void set_heading(LaserObject& object, const Axis& along, std::size_t returns, do
                              : kUnknownHeading;
 }
 
-// A length and what it is uncertain by [m].
+// A length and its standard deviation [m].
 struct Size {
   double value, sigma;
 };
 struct Centre {
   double position, variance;
 };
-// Of a vehicle of that size along the axis.
+// Returns the centre of a vehicle of that size along the axis.
 Centre centre_along(const Axis& axis, const Extent& extent, const Size& size, double noise) {
   if (axis.visible)
     return {extent.near.position + axis.away * 0.5 * size.value,
             noise * noise / std::max(1, extent.near.returns) + 0.25 * size.sigma * size.sigma + kCentimetre_m2};
-  // Where only part of a face was seen, its middle may be anywhere within what is missing.
+  // If only part of a face was seen, its middle may be anywhere within the missing part.
   const double missing = std::max(0.0, size.value - (axis.high - axis.low));
   return {extent.ends_middle, 0.25 * extent.sigma * extent.sigma + missing * missing / 12.0 + kCentimetre_m2};
 }
 
-// From where the vehicle's centre lies along either axis.
+// Sets the position from the vehicle's centre along either axis.
 void set_position(LaserObject& object, const Axis (&axes)[2], const Centre& first, const Centre& second) {
   const double c = axes[0].cx, s = axes[0].sy;
   object.x = c * first.position + axes[1].cx * second.position;

@@ -1,4 +1,4 @@
-// One return of a laser scanner as preprocessing sees it, whether emulated or recorded.
+// One return of a laser scanner, as preprocessing receives it, emulated or recorded.
 #pragma once
 
 namespace ttf::nodes::laser {

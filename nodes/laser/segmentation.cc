@@ -6,7 +6,7 @@
 namespace ttf::nodes::laser {
 namespace {
 
-// Neighbours are at most three beams apart (two missed between them); half a beam more for rounded azimuths.
+// Neighbours are at most three beams apart (two missed between them); half a beam more allows for rounded azimuths.
 constexpr double kMissedBeams = 3.5;
 
 }  // namespace
@@ -15,7 +15,7 @@ void segment_scan(const SegmentationConfig& config, std::span<const ScanPoint> s
                   std::vector<Segment>& segments) {
   points.clear();
   segments.clear();
-  // The layers' returns of one beam follow each other: one direction for all of them.
+  // A beam's returns from all layers follow each other and share one direction.
   double azimuth = 0.0, c = 1.0, s = 0.0;
   for (const ScanPoint& point : scan) {
     if (point.azimuth != azimuth) {

@@ -1,14 +1,12 @@
-// Which returns of a scan belong to one object.
+// Cuts a scan into segments: the returns of one object each.
 //
-// Adaptive breakpoint detection (Borges and Aldon, "Line extraction in 2D range images for mobile robotics", Journal of
-// Intelligent and Robotic Systems 40, 2004, eq. 4): neighbours in azimuth are separated where they are further apart
-// than
-//   D = r sin(dphi) / sin(lambda - dphi) + 3 sigma,
-// the distance two returns of a surface seen under the incidence angle lambda would have. That holds for beams next to
-// each other, with a missed one or two between them; across a wider gap without returns there is no surface to speak
-// of, and only the smallest gap holds. D is bounded too: seen that flatly, the next return may as well be another
-// vehicle's. The layers are taken together. A near object that covers the middle of a far one leaves the far one as two
-// segments.
+// Adaptive breakpoint detection (Borges and Aldon, "Line extraction in 2D range images for mobile robotics", Journal
+// of Intelligent and Robotic Systems 40, 2004, eq. 4) separates neighbours in azimuth that are further apart than
+//   D = r sin(dphi) / sin(lambda - dphi) + 3 sigma.
+// D is the distance of two returns from a surface seen under the incidence angle lambda. The formula holds for
+// neighbouring beams, with at most two missed beams between them. Across a wider gap only the smallest gap holds
+// returns together. D has an upper bound: at very flat incidence, the next return may belong to another vehicle. All
+// layers are taken together. A near object in front of the middle of a far one cuts the far one into two segments.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +23,7 @@ struct PlanePoint {
   double azimuth = 0.0, range = 0.0;
 };
 
-// points[first .. first + count)
+// The returns points[first .. first + count).
 struct Segment {
   std::size_t first = 0;
   std::size_t count = 0;
@@ -33,9 +31,9 @@ struct Segment {
 
 struct SegmentationConfig {
   double range_noise_m = 0.06;
-  double incidence_rad = 0.06;  // lambda, the flattest incidence that still holds together: 3.4 degrees
-  double smallest_gap_m = 0.6;  // never separate closer neighbours: cars have windows and wheels
-  double largest_gap_m = 2.0;   // always separate more distant ones
+  double incidence_rad = 0.06;  // lambda, the flattest incidence that holds a surface together: 3.4 degrees
+  double smallest_gap_m = 0.6;  // closer neighbours are never separated: cars have windows and wheels
+  double largest_gap_m = 2.0;   // more distant ones are always separated
   double azimuth_step_rad = 0.00436;
 };
 

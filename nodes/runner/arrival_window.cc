@@ -18,8 +18,8 @@ Microticks bits(const schedules::model::GlobalParameters& g, const schedules::mo
   return {(count * g.gdBit_ps + p.pdMicrotick_ps - 1) / p.pdMicrotick_ps};
 }
 
-// So that wherever a sync frame is put, it is within its slot, a startup frame near enough to be one, and no midpoint
-// of such deviations beyond what may be corrected.
+// Returns the largest distance from the action point with three properties. A sync frame is within its slot. A
+// startup frame is near enough to be one. A midpoint of such deviations can be corrected.
 Microticks reach_of(const schedules::model::GlobalParameters& g, const schedules::model::NodeParameters& p) {
   const std::int64_t macrotick = g.gdMacrotick_ps / p.pdMicrotick_ps;
   const std::int64_t behind = (g.gdStaticSlot - g.gdActionPointOffset) * macrotick -
@@ -80,7 +80,7 @@ void ArrivalWindow::arrive(const bus::ports::LiveArrival& arrival, Microticks at
   held.size = bytes.size();
   if (held.kind == Kind::kFlexRay) {
     if (parameters_ == nullptr) return;
-    // A frame is placed when the node has got to the instant of its arrival: what its clock shows then is known then.
+    // A frame is placed when the node reaches the instant of its arrival: only then is its clock at that instant known.
     if (held.signal == bus::ports::Signal::kFrame)
       held.stage = HeldStage::kArrived;
     else
@@ -122,14 +122,13 @@ ArrivalWindow::Found ArrivalWindow::find(const Held& frame, const timebase::Cycl
   if (header->sync && !frame.late && frame.stage == HeldStage::kArrived) return {HeldEvent::kLatenessUnknown};
   if (clock == nullptr) return {HeldEvent::kWithoutSlot};
   const std::int64_t round = g.gCycleCountMax + 1;
-  // Of the cycles that it may be of the one nearest to where it came; the counter alone would take it for one of
-  // a round before.
+  // The possible cycle nearest to the arrival counts; the counter alone could mean a round before.
   const std::int64_t passed = timebase::floor_div((frame.at - clock->cycle_start()).value, parameters_->pMicroPerCycle);
   std::int64_t off = (header->cycle - (clock->cycle() + passed) % round + 2 * round) % round;
   if (off > round / 2) off -= round;
   const std::int64_t ahead = passed + off;
   if (ahead == 1) return {HeldEvent::kOfNextCycle};
-  if (ahead > 1 || off > 1 || off < -1) return {HeldEvent::kWithoutSlot};  // the controller will say so
+  if (ahead > 1 || off > 1 || off < -1) return {HeldEvent::kWithoutSlot};  // the controller will report it
   const Macroticks action_point{static_cast<std::int64_t>(frame.slot - 1) * g.gdStaticSlot + g.gdActionPointOffset};
   Found found;
   found.sync = header->sync;
@@ -145,7 +144,7 @@ void ArrivalWindow::place(Held& frame, const Found& found, const timebase::Cycle
   frame.stage = after(frame.stage, found.event);
   switch (found.event) {
     case HeldEvent::kLatenessUnknown: frame.due = frame.at + width_.late; break;
-    // It waits behind the begin of its cycle, which comes when the clock says so by then.
+    // Due after the begin of its cycle, if the clock announces that begin by then.
     case HeldEvent::kOfNextCycle: frame.due = clock->cycle_end() + Microticks{1}; break;
     case HeldEvent::kInWindow:
     case HeldEvent::kOutsideWindow: place_in_slot(frame, found); break;
@@ -155,7 +154,7 @@ void ArrivalWindow::place(Held& frame, const Found& found, const timebase::Cycle
       break;
     case HeldEvent::kFollowUp:
     case HeldEvent::kEnded:
-    case HeldEvent::kCycleOver: break;  // not what find() finds
+    case HeldEvent::kCycleOver: break;  // find() does not return these
   }
 }
 
@@ -178,7 +177,7 @@ void ArrivalWindow::place_in_slot(Held& frame, const Found& found) {
   frame.end = frame.due = frame.start + length_of(frame);
 }
 
-// Offsets are measured in odd cycles, rates as what an odd cycle's deviation is more than that of the even one before.
+// Odd cycles measure offsets; rates are the difference of an odd cycle's deviation from the even one before.
 Microticks ArrivalWindow::within_reach(Microticks deviation, std::int64_t cycle, int slot,
                                        schedules::model::Channel channel) {
   Deviation& last = deviations_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
@@ -201,7 +200,7 @@ void ArrivalWindow::count_gap(std::int64_t cycle, int slot, schedules::model::Ch
   if (lost > 0) events_.lost(cycle, slot, channel, lost);
 }
 
-// A clock that comes anew counts anew.
+// A new clock counts cycles anew.
 void ArrivalWindow::forget_cycles() {
   for (auto& heard : heard_) std::fill(heard.begin(), heard.end(), kNotHeard);
   for (auto& deviations : deviations_) std::fill(deviations.begin(), deviations.end(), Deviation{});
@@ -229,11 +228,11 @@ std::optional<ArrivalWindow::Due> ArrivalWindow::take(Microticks now, const time
     if (held.due > now) return std::nullopt;
     if (held.stage != HeldStage::kPlaced) {
       Found found = find(held, clock);
-      // By a clock whose cycle should be over, and is not: no use in waiting for the next.
+      // The clock's cycle should be over and is not: waiting for the next one is useless.
       if (found.event == HeldEvent::kOfNextCycle && clock->cycle_end() < now) found.event = HeldEvent::kWithoutSlot;
       place(held, found, clock);
     } else {
-      // Placed before the node had this clock, or late: its cycle is over, and the controller knows no more of it.
+      // Placed before the node had this clock, or late: its cycle is over, and the controller can no longer use it.
       const bool over = held.kind == Kind::kFlexRay && clock != nullptr && held.end < clock->cycle_start();
       if (over && held.signal == bus::ports::Signal::kFrame)
         events_.missed_window(clock->cycle(), held.slot, held.channel, clock->cycle_start() - held.start);

@@ -1,26 +1,25 @@
-// What has arrived in real time, put in its place on the node's own clock, and handed over in the order of those
+// Puts arrivals in real time in their place on the node's own clock, and hands them over in the order of those
 // instants.
 //
-// FlexRay's own windows are microseconds; an ordinary kernel wakes a sender up later than that. So a medium in real
-// time has an arrival window of its own (schedules::model::ArrivalWindow), and this is who judges it. A frame of the
-// static segment says which slot it is of, and of which cycle. Within its window it is handed over where FlexRay
-// expects it:
+// FlexRay's own windows are microseconds, but an ordinary kernel wakes a sender up later. So a medium in real
+// time has an arrival window (schedules::model::ArrivalWindow), which this class applies. A frame of the static
+// segment says its slot and its cycle. A frame within its window is handed over where FlexRay expects it:
 //
-//   a sync frame        at the instant it would have come at had its sender been in time: arrival less what the sender
-//                       says it left late by; so clock synchronisation measures clocks, not kernels. Never further from
-//                       the action point than FlexRay's windows and the correction's limit reach: what is further is
-//                       put an eighth before their end, so that within a double cycle there is room for what its
-//                       deviations differ by, from which rates are measured. Were both put at the end, rates would
-//                       seem equal, and clocks far apart would lose their rate corrections, and never meet
+//   a sync frame        at its arrival less the lateness that its sender reports: as if the sender had been in time. So
+//                       clock synchronisation measures clocks, not kernels. The distance from the action point stays
+//                       within FlexRay's windows and the limit of the correction. A larger one is put an eighth before
+//                       that limit. The eighth leaves room within a double cycle for the difference of the deviations,
+//                       from which rates are measured. With both at the limit, rates would seem equal: clocks far apart
+//                       would lose their rate corrections, and never meet
 //   any other frame     exactly at the action point of its slot
 //
-// Before or behind its window it is not handed over: it is late (or early), which is told. A frame of the cycle that
-// comes next on this node's clock waits for it. Frames that never came are told by the next one of their slot, as
-// long as no more than kLongestGap cycles are between them: who is silent for longer was away.
+// A frame outside its window is reported as late or early, and not handed over. A frame of the next cycle on
+// this node's clock waits for that cycle. The next frame of a slot reports how many before it never came, if
+// the gap is at most kLongestGap cycles; after a longer silence the sender was away.
 //
-// Without a clock of the cluster, or with a header that nobody can make out, a frame keeps the instant it came at.
-//   L1  take() hands over in the order of due instants; of equal ones, in the order of arrival
-//   L2  nothing is handed over before it is due; nothing allocates after construction
+// Without a clock of the cluster, or with an unreadable header, a frame keeps the instant of its arrival.
+//   L1  take() hands over in the order of due instants, and of arrival where these are equal
+//   L2  a frame is never handed over before it is due; nothing allocates after construction
 #pragma once
 
 #include <array>
@@ -42,9 +41,9 @@ namespace ttf::nodes::runner {
 class ArrivalEvents {
  public:
   virtual ~ArrivalEvents() = default;
-  // A frame of another node was so much behind the action point of its slot (negative: before it).
+  // A frame of another node came so much after the action point of its slot (negative: before it).
   virtual void arrived(Microticks behind) { (void)behind; }
-  // Outside its window, and not used.
+  // A frame came outside its window and was not used.
   virtual void missed_window(std::int64_t cycle, int slot, schedules::model::Channel channel, Microticks behind) {
     (void)cycle, (void)slot, (void)channel, (void)behind;
   }
@@ -57,38 +56,38 @@ class ArrivalEvents {
 class ArrivalWindow {
  public:
   static constexpr std::int64_t kLongestGap = 64;
-  static constexpr std::size_t kMost = 1024;  // held at a time
+  static constexpr std::size_t kMost = 1024;  // arrivals held at a time
 
   struct Width {
     Microticks early{}, late{};
   };
   ArrivalWindow(const schedules::model::Cluster& cluster, NodeId node, Width width, ArrivalEvents& events);
 
-  // `at`: of the arrival, in this node's microticks. `late`: the same of what it says it left late by. `duration`: of a
-  // symbol. `clock`: the controller's, null while it has none.
+  // Takes an arrival in. `at` is its instant in this node's microticks, `late` the lateness of its departure as
+  // its sender reports it, `duration` the length of a symbol. `clock` is the controller's, null while it has none.
   void arrive(const bus::ports::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
               Microticks duration, const timebase::CycleClock* clock);
 
-  // When something is due next; far in the future where nothing is.
+  // Returns the next due instant; far in the future if there is none.
   Microticks next() const;
 
   struct Due {
     bus::ports::LiveArrival::Kind kind{};
-    bus::ports::Reception reception;  // of kFlexRay
-    std::size_t can_bus = 0;          // of kCan
+    bus::ports::Reception reception;  // for kFlexRay
+    std::size_t can_bus = 0;          // for kCan
     bus::ports::CanFrame can;
     Microticks at{};
   };
-  // The next that is due up to `now`; views are valid until the next call of anything here.
+  // Returns the next arrival that is due up to `now`. Its views are valid until the next call of any function here.
   std::optional<Due> take(Microticks now, const timebase::CycleClock* clock);
 
-  // Something whose begin has come is still on its way.
+  // Returns whether something that has begun is still on its way.
   bool carrier(schedules::model::Channel channel, Microticks now) const;
-  // How long after its end a frame in its window may still be handed over: it comes late, and its follow-up as late
-  // again.
+  // How long after its end a frame in its window may still be handed over: it comes late, and its follow-up as
+  // late again.
   Microticks handed_over_within() const { return {2 * width_.late.value}; }
   std::uint64_t held() const { return used_.size(); }
-  // There was no room for them.
+  // The number of arrivals dropped for lack of room.
   std::uint64_t dropped() const { return dropped_; }
 
  private:
@@ -100,7 +99,7 @@ class ArrivalWindow {
     std::uint64_t order = 0;
     Microticks at{}, due{};
     std::optional<Microticks> late;
-    Microticks start{}, end{};  // once it is placed
+    Microticks start{}, end{};  // once placed
     int slot = 0;
     std::size_t can_bus = 0;
     std::uint32_t identifier = 0;
@@ -110,13 +109,13 @@ class ArrivalWindow {
 
     std::span<const std::byte> content() const { return std::span<const std::byte>(bytes).first(size); }
   };
-  // What a frame that is to be placed is found to be.
+  // The judgement of a frame that is to be placed.
   struct Found {
     HeldEvent event{};
     // In or outside its window:
     bool sync = false;
     std::int64_t cycle = 0;
-    Microticks expected{}, behind{};  // at the action point of its slot, and so much later
+    Microticks expected{}, behind{};  // at the action point of its slot, and how much later it came
   };
   void follow_up(const bus::ports::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock);
   Found find(const Held& frame, const timebase::CycleClock* clock) const;
@@ -127,22 +126,22 @@ class ArrivalWindow {
   Microticks within_reach(Microticks deviation, std::int64_t cycle, int slot, schedules::model::Channel channel);
   void count_gap(std::int64_t cycle, int slot, schedules::model::Channel channel);
   void forget_cycles();
-  void drop(std::size_t place);  // in used_
+  void drop(std::size_t place);  // `place` is in used_
 
   const schedules::model::Cluster& cluster_;
-  const schedules::model::NodeParameters* parameters_;  // null: off FlexRay
+  const schedules::model::NodeParameters* parameters_;  // null off FlexRay
   const bus::controller::SlotTable slots_;
   const Width width_;
   ArrivalEvents& events_;
-  Microticks reach_{};  // a sync frame's from its action point, at most
+  Microticks reach_{};  // the largest distance of a sync frame from its action point
   struct Deviation {
-    std::int64_t cycle = -2;  // before any that an odd one follows
+    std::int64_t cycle = -2;  // initially before any cycle that an odd one follows
     Microticks measured{}, put{};
   };
   std::array<std::vector<Deviation>, 2> deviations_;  // by channel and slot - 1, the last one of a sync frame
   std::vector<Held> pool_;
   std::vector<std::uint16_t> free_, used_;
-  std::optional<std::uint16_t> handed_over_;  // its views are out
+  std::optional<std::uint16_t> handed_over_;  // its views are in use
   std::uint64_t order_ = 0, dropped_ = 0;
   std::array<std::vector<std::int64_t>, 2> heard_;  // by channel and slot - 1, the last cycle; kNotHeard
 };

@@ -1,8 +1,8 @@
-// The time of a drive in real time: how much of the drive has passed when the host's clock shows what. With a time
-// scale F the drive goes F times slower than the host's clock, so that the schedule is stretched and everything in it
-// keeps its proportions; what a kernel is late by is then F times less of it.
+// The time of a drive in real time: how much of the drive has passed at an instant of the machine's clock. With
+// a time scale F the drive runs F times slower than that clock. The schedule is stretched and keeps its
+// proportions, so the kernel's lateness weighs F times less.
 //
-// What a run's records call true time is this.
+// This is the true time in the records of a drive in real time.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace ttf::nodes::runner {
 
 class DriveClock {
  public:
-  // `origin`: when true time 0 is. `scale_ppm`: a million times F, positive.
+  // `origin` is true time 0. `scale_ppm` is a million times F, positive.
   DriveClock(bus::ports::MachineTime origin, std::int64_t scale_ppm);
 
   TrueTime drive_time(bus::ports::MachineTime at) const;    // rounded down
@@ -22,8 +22,8 @@ class DriveClock {
   Duration in_drive(Duration real) const;                   // rounded down
   Duration in_real(Duration drive) const;                   // rounded up
   bus::ports::MachineTime origin() const { return origin_; }
-  // The first instant after `now` that is a whole number of periods, and `phase`, from the origin: what is done
-  // periodically is then where it is in the drive, whenever a process was started. `period` positive.
+  // Returns the first instant after `now` that lies a whole number of periods, plus `phase`, after the origin.
+  // So periodic work has its place in the drive, whenever a process was started. `period` is positive.
   bus::ports::MachineTime next_turn(Duration period, Duration phase, bus::ports::MachineTime now) const;
   std::int64_t scale_ppm() const { return scale_ppm_; }
 

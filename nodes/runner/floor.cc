@@ -27,7 +27,7 @@ void Floor::run(Duration period, bus::ports::MachineTime first) {
       const std::lock_guard lock(mutex_);
       lateness_.add(now - next);
     }
-    // What was slept through is one late wake-up, not many.
+    // Several periods slept through are one late wake-up.
     while (next + period <= now) next += period;
   }
 }

@@ -1,5 +1,5 @@
-// A plain periodic thread beside a node's own: it does nothing but be woken up, so what it is late by is the
-// machine's, not the node's. Scheduled as the thread that starts it is.
+// A plain periodic thread beside a node's own. It is only woken up, so its lateness is the machine's, not the
+// node's. It is scheduled like the thread that starts it.
 #pragma once
 
 #include <atomic>
@@ -14,13 +14,13 @@ namespace ttf::nodes::runner {
 
 class Floor {
  public:
-  // Woken up at `first`, and every period from then on.
+  // Wakes up at `first`, and every period from then on.
   Floor(Duration period, bus::ports::MachineTime first);
   ~Floor();
   Floor(const Floor&) = delete;
   Floor& operator=(const Floor&) = delete;
 
-  // So far.
+  // Returns the latenesses so far.
   recording::records::BinnedDurations lateness() const;
 
  private:

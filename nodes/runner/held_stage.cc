@@ -6,7 +6,7 @@ namespace ttf::nodes::runner {
 namespace {
 
 using S = HeldStage;
-constexpr std::optional<HeldStage> kNone;  // it cannot come
+constexpr std::optional<HeldStage> kNone;  // the event cannot come
 
 using Row = std::array<std::optional<HeldStage>, kAllHeldEvents.size()>;
 

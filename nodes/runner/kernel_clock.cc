@@ -46,7 +46,7 @@ void KernelClock::wait_until(bus::ports::MachineTime until) {
   // 0 would switch the timer off.
   const std::int64_t at = std::max<std::int64_t>(until.ns, 1);
   const itimerspec when{.it_interval = {}, .it_value = {.tv_sec = at / kSecond, .tv_nsec = at % kSecond}};
-  // Setting it anew also takes back an expiry that nobody has read.
+  // Setting it anew also takes back an unread expiry.
   timerfd_settime(timer_, TFD_TIMER_ABSTIME, &when, nullptr);
   (void)poll(watched_.data(), watched_.size(), -1);
 }

@@ -1,5 +1,5 @@
-// The clock of a real host, CLOCK_MONOTONIC. It waits to the nanosecond that the kernel is asked for, by a timer of its
-// own (what poll() is given as a time it may stretch by a thousandth).
+// The clock of a real machine, CLOCK_MONOTONIC. It waits by a timer of its own, to the nanosecond: the kernel
+// may stretch the timeout of poll() by a thousandth.
 #pragma once
 
 #include <poll.h>
@@ -14,8 +14,8 @@ namespace ttf::nodes::runner {
 
 class KernelClock final : public MachineClock {
  public:
-  // The plain thread beside it has its turns by `drive`; it is scheduled as the thread that makes this, so ask for
-  // privileges before. Throws std::runtime_error where the system gives no timer.
+  // The plain thread beside it wakes by `drive`, and is scheduled like the thread that makes this: ask for
+  // privileges before. Throws std::runtime_error if the system refuses a timer.
   explicit KernelClock(const DriveClock& drive);
   ~KernelClock() override;
   KernelClock(const KernelClock&) = delete;

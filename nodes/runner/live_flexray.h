@@ -1,8 +1,8 @@
-// The FlexRay port of a node in real time: what its controller sends goes to the medium when it is due, or, where
-// that is so long ago that it would come outside its arrival window, not at all.
+// The FlexRay port of a node in real time. The controller's frames go to the medium when they are due; a frame
+// too late for its arrival window is not sent.
 //
-// The laws of bus/ports/flexray_port.h hold but for L6 and the bits' own lengths: two nodes that send at once do not
-// collide on such a medium, and a frame is there at once. The runner hands it over when it would have ended
+// The laws of bus/ports/flexray_port.h hold except L6 and the lengths of bits: simultaneous frames do not
+// collide on such a medium, and a frame arrives at once. The runner hands it over when it would have ended
 // (nodes/runner/arrival_window.h).
 #pragma once
 
@@ -21,7 +21,7 @@ namespace ttf::nodes::runner {
 
 class LiveFlexRay final : public bus::ports::FlexRayPort {
  public:
-  // `latest`: behind the action point, in real time.
+  // `latest`: the largest lateness behind the action point, in real time.
   LiveFlexRay(const DriveClock& clock, const MachineClock& machine_clock, const timebase::Oscillator& oscillator,
               Duration latest, bus::ports::LiveMedium& medium, const ArrivalWindow& arrival_window,
               TimingAccount& account);
@@ -31,9 +31,9 @@ class LiveFlexRay final : public bus::ports::FlexRayPort {
   Microticks handed_over_within() const override { return arrival_window_.handed_over_within(); }
   bool carrier(schedules::model::Channel channel) const override { return arrival_window_.carrier(channel, now_); }
 
-  // The node's instant, as of everything that is asked until the next one.
+  // Sets the node's instant, which holds until the next call.
   void set_now(Microticks now) { now_ = now; }
-  // Whose port this is: before anything is sent.
+  // Sets the controller that uses this port, before anything is sent.
   void bind(const bus::controller::FlexRayController& controller) { controller_ = &controller; }
 
  private:

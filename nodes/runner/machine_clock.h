@@ -1,8 +1,8 @@
-// What a runner has of its host's time: a clock, and ways to wait by it. All that it knows of time comes through here,
-// so that a test can turn its clock; on a real host it is nodes/runner/kernel_clock.h.
+// A runner's view of time: a clock, and ways to wait by it. All its knowledge of time comes from here, so a
+// test can turn the clock; a real machine has nodes/runner/kernel_clock.h.
 //   L1  now() never goes back
-//   L2  wait_until() returns at `until` or later; sooner where something watched is there to be read, or a signal came
-//   L3  sleep() lasts as long as told or longer, unless a signal came; nothing that is watched shortens it
+//   L2  wait_until() returns at `until` or later; sooner if something watched is readable, or a signal came
+//   L3  sleep() lasts as long as asked or longer, unless a signal came; watched descriptors do not shorten it
 //   L4  nothing allocates after construction
 #pragma once
 
@@ -18,15 +18,15 @@ class MachineClock {
 
   virtual bus::ports::MachineTime now() const = 0;
 
-  // Negative descriptors are passed over. Until clear() every wait watches the others.
+  // Watches a descriptor in every wait until clear(); a negative one is ignored.
   virtual void watch(int descriptor) = 0;
   virtual void clear() = 0;
   virtual void wait_until(bus::ports::MachineTime until) = 0;
   virtual void sleep(Duration lasts) = 0;
-  // Without waiting; a negative one never is.
+  // Checks without waiting; a negative descriptor is never readable.
   virtual bool readable(int descriptor) const = 0;
 
-  // How late a plain periodic thread beside the runner was woken up so far: that is the machine's lateness.
+  // Returns how late a plain periodic thread beside the runner has been woken up so far: the machine's lateness.
   virtual recording::records::BinnedDurations floor() const = 0;
 };
 

@@ -51,7 +51,7 @@ PacedCan::Departure PacedCan::leave() {
   departure.sent.data = data;
   idle_from_ = through_;
   first_ = (first_ + 1) % ring_.size();
-  // What is late itself makes the next one no later: those behind it had been waiting.
+  // A late departure does not delay the next frame, which was already waiting.
   if (--count_ > 0) begin_first(idle_from_);
   return departure;
 }

@@ -1,7 +1,7 @@
-// A node's place on a private CAN in real time. Frames leave one after the other, each when a CAN of the cluster's bit
-// rates would have brought it to the others: media such as vcan carry a hundred frames in no time, and a task that a
-// list activates would run milliseconds before it could have the list. Other nodes' frames do not hold them up here; a
-// real bus does that by itself.
+// A node's place on a private CAN in real time. Frames leave one after the other, each when a CAN of the
+// cluster's bit rates would have carried it. Media such as vcan carry a hundred frames in no time, so a task
+// that a list activates would run milliseconds too early. Frames of other nodes do not delay them here; a real
+// bus delays them by itself.
 #pragma once
 
 #include <array>
@@ -18,21 +18,21 @@ namespace ttf::nodes::runner {
 
 class PacedCan final : public bus::ports::CanPort {
  public:
-  // `now`: true time, with the node's clocks. `most`: frames that wait, at most.
+  // `now`: true time, with the node's clocks. `most`: the largest number of waiting frames.
   PacedCan(const schedules::model::Cluster& cluster, std::size_t can_bus, std::size_t most,
            std::function<recording::records::Stamp()> now);
 
-  // What there is no room for is dropped, and counted.
+  // Queues a frame; drops and counts it if there is no room.
   void send(const bus::ports::CanFrame& frame) override;
 
-  // When the first that waits has come through; far in the future where none waits.
+  // Returns the end of the first waiting frame; far in the future if no frame waits.
   TrueTime next() const;
   struct Departure {
     bus::ports::CanFrame frame;
     recording::records::CanFrameSent sent;  // as Executive::can_frame_sent() takes it
   };
-  // It leaves: to be put on the medium now. Precondition: one waits. Views are valid until the next call of anything
-  // here.
+  // Takes the first frame out; it must go to the medium now. Precondition: a frame waits. Views are valid until
+  // the next call of any function here.
   Departure leave();
   std::uint64_t dropped() const { return dropped_; }
 
@@ -50,7 +50,7 @@ class PacedCan final : public bus::ports::CanPort {
   const std::function<recording::records::Stamp()> now_;
   std::vector<Waiting> ring_;
   std::size_t first_ = 0, count_ = 0;
-  recording::records::Stamp began_;  // the first of them
+  recording::records::Stamp began_;  // start of the first waiting frame
   TrueTime through_{}, idle_from_{};
   std::uint64_t dropped_ = 0;
 };

@@ -14,11 +14,11 @@ namespace ttf::nodes::runner {
 namespace {
 
 constexpr Duration kHealthEvery = Duration::milliseconds(1000);
-constexpr Duration kRoomForHealth = Duration::microseconds(500);  // until the next thing is due
-constexpr std::uint64_t kDoneBetweenLooks = 1024;  // who has much to catch up with can be stopped all the same
+constexpr Duration kRoomForHealth = Duration::microseconds(500);  // until the next due instant
+constexpr std::uint64_t kDoneBetweenLooks = 1024;                 // a stop is seen even while catching up
 constexpr Duration kUntilTakenIn = Duration::milliseconds(1);
 constexpr std::int64_t kCyclesUntilAnew = 64;
-constexpr std::size_t kListsWaiting = 4;  // on a CAN, of the largest
+constexpr std::size_t kListsWaiting = 4;  // on a CAN, each of the largest size
 
 std::size_t frames_waiting(const schedules::model::Cluster& cluster, const schedules::model::CanBus& bus) {
   std::size_t most = 1;
@@ -119,7 +119,7 @@ void Runner::strobe(SensorId sensor, std::uint32_t sequence) {
     (void)medium_.send_can(*can, {schedules::model::strobe_identifier(sensor), false, data});
 }
 
-// ---- what arrives
+// ---- arrivals
 
 void Runner::arrived(Microticks behind) { account_.arrivals.add(in_real(behind)); }
 
@@ -134,7 +134,7 @@ void Runner::lost(std::int64_t cycle, int slot, schedules::model::Channel channe
 void Runner::take_in() {
   while (const auto arrival = medium_.receive()) {
     if (arrival->left) account_.transits.add(arrival->received - *arrival->left);
-    if (arrival->at < powered_on_) continue;  // who has no power yet hears nothing
+    if (arrival->at < powered_on_) continue;  // without power the node hears nothing
     std::optional<Microticks> late;
     if (arrival->late) late = ticks(config_.clock.in_drive(*arrival->late));
     arrival_window_.arrive(*arrival, ticks(config_.clock.drive_time(arrival->at)), late,
@@ -158,11 +158,11 @@ void Runner::hand_over(const ArrivalWindow::Due& due) {
       return;
     }
   }
-  // What has a line's identifier but not its form is refused there, as nobody's.
+  // A frame with a line's identifier in the wrong form is refused there as foreign.
   executive_->receive_can(due.can_bus, due.can, last_);
 }
 
-// ---- what is due
+// ---- due work
 
 void Runner::leave(std::size_t can_bus) {
   const PacedCan::Departure departure = cans_[can_bus]->leave();
@@ -217,7 +217,7 @@ void Runner::look_after_controller() {
   tries_again_ = kNever<Microticks>;
 }
 
-// A line is watched where something is to be done as soon as something comes.
+// A line is watched if an arrival on it needs an answer at once.
 void Runner::watch_lines() {
   const bool listens = executive_->promise().after_flexray != host::Promise::kNever;
   if (listens == listens_) return;
@@ -235,7 +235,7 @@ void Runner::watch_lines() {
   }
 }
 
-// The nodes take turns.
+// The nodes report in turn.
 bus::ports::MachineTime Runner::next_health(bus::ports::MachineTime now) const {
   const auto turn = static_cast<std::int64_t>(index_of(config_.node) + 1);
   const Duration phase{kHealthEvery.ns * turn / static_cast<std::int64_t>(cluster_.nodes.size() + 1)};
@@ -278,7 +278,7 @@ Health Runner::health() const {
 }
 
 RunnerEnd Runner::run() {
-  listens_ = true;  // so that watch_lines() does it
+  listens_ = true;  // forces watch_lines() to act
   if (executive_->promise().after_flexray != host::Promise::kNever) listens_ = false;
   watch_lines();
   const bus::ports::MachineTime end = config_.clock.machine_time(config_.end);
@@ -286,7 +286,7 @@ RunnerEnd Runner::run() {
   bool was_behind = false;
   while (true) {
     bus::ports::MachineTime now = machine_clock_.now();
-    // Who was stopped was so with the medium's threads: what they have to take in is to be there before it is missed.
+    // A stopped process stopped the medium's threads, too: they take in their frames before these count as missed.
     const bool behind =
         next_due() != kNever<Microticks> && now - machine_time(next_due()) > config_.clock.in_real(cluster_.cycle());
     if (behind && !was_behind) {

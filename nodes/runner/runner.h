@@ -1,20 +1,20 @@
-// The crank in real time: one node of a cluster, driven by the clock of its host, on a medium that carries its frames
-// to the other nodes' processes.
+// The crank in real time: drives one node of a cluster by the machine's clock, on a medium that carries its
+// frames to the processes of the other nodes.
 //
-// The node lives in its own microticks, as it does in virtual time: everything is done at the instant it is due, one
-// thing after the other, and what it tells the node's code and its controller are these instants. What the kernel is
-// late by comes on top: outputs and frames leave later than they are due. That is measured at every wake-up and
-// departure, counted where it is more than the arrival window allows, and never taken out of what is told. A process
-// that was stopped catches up: its node does all it missed, in order, but sends nothing that is too late. One that
-// has missed for too long what its clock goes by halts, as FlexRay has it (gMaxWithoutClockCorrectionFatal), and its
-// host starts it anew: it integrates. So it does with one that may only listen for others, and hears nobody.
+// The node lives in its own microticks, as in virtual time. Everything is done at the instant it is due, one
+// thing after the other, and the node's code and controller receive these instants. The kernel's lateness comes
+// on top: outputs and frames leave later than they are due. Lateness is measured at every wake-up and
+// departure, counted where it exceeds the arrival window, and never corrected in the records. A stopped process
+// catches up: its node does all it missed, in order, but sends nothing that is too late. A node without clock
+// corrections for too long halts (gMaxWithoutClockCorrectionFatal); its host starts it anew, and it integrates.
+// The host also starts a node anew that may only listen for others and hears no frame.
 //
-// Arrivals are known by the instants at which they reached the host, so that they need no wake-up of their own, but for
-// those that a task waits for. Steps run on the same thread: one that computes for longer than it is until the next
-// slot makes that late, which is counted like any lateness.
+// Arrivals have the instants at which they reached the machine. So they need no wake-up of their own, except
+// those that a task waits for. Steps run on the same thread. A step that computes beyond the start of the next
+// slot delays it, which is counted like any lateness.
 //
-// Times in records: true time is when something was done, by the host's clock (nodes/runner/drive_clock.h); local and
-// global time are when it was due. But for ClockCorrected, which tells what the clocks showed at one instant.
+// Times in records: true time is when something was done, by the machine's clock (nodes/runner/drive_clock.h); local
+// and global time are when it was due. ClockCorrected is the exception: it says what the clocks showed at one instant.
 #pragma once
 
 #include <cstdint>
@@ -46,41 +46,41 @@ struct RunnerConfig {
   DriveClock clock{{}, 1'000'000};
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
-  TrueTime first_cycle{};            // of who begins integrated; off FlexRay, of its power-on
-  std::optional<TrueTime> power_on;  // it begins cold, then or at once if that is over
+  TrueTime first_cycle{};            // of a node that begins integrated; off FlexRay, its power-on
+  std::optional<TrueTime> power_on;  // begins cold, then or at once if that time has passed
   host::NodeStart cold{};
-  TrueTime end{};            // what is due later is not done
-  int stop_descriptor = -1;  // readable: stop now
+  TrueTime end{};            // events due later are not done
+  int stop_descriptor = -1;  // stops as soon as it is readable
 };
 
-// How it goes, for people: in real time since the run began.
+// How a run goes, for people: in real time since its begin.
 struct Health {
   TimingCounts timing;
   bus::ports::LiveCounts medium;
-  std::uint64_t dropped = 0;  // frames that no room was for in this process, on their way in or out
+  std::uint64_t dropped = 0;  // frames without room in this process, inbound or outbound
   Duration wakeup_p50{}, wakeup_p99{}, wakeup_longest{};
-  Duration largest_offset{};  // that clock synchronisation corrected, either sign
-  std::string_view state;     // of the controller; empty off FlexRay
+  Duration largest_offset{};  // the largest correction by clock synchronisation, either sign
+  std::string_view state;     // the controller's; empty off FlexRay
 
-  // Frames that this process or its medium knows to have been lost, each once. Which of timing.frames_lost, known by
-  // their gaps, are among them cannot be told, nor which their senders withheld.
+  // Counts each frame once that this process or its medium knows to be lost. timing.frames_lost counts gaps:
+  // some of those may be the same frames, others were withheld by their senders.
   std::uint64_t drops() const { return medium.lost + medium.not_sent + dropped; }
 };
 
 enum class RunnerEnd : std::uint8_t {
   kDone,     // the drive is over
   kStopped,  // by the stop descriptor
-  kFailed,   // the medium is of no use any more: LiveMedium::failure()
+  kFailed,   // the medium has failed: LiveMedium::failure()
 };
 
 class Runner final : private host::SensorLines, private host::TrueClock, private ArrivalEvents {
  public:
-  // All must outlive it.
+  // The arguments outlive this.
   Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Step>> steps, bus::ports::LiveMedium& medium,
          MachineClock& machine_clock, recording::records::Sink& sink);
   ~Runner() override;
 
-  // About once a second of real time, where nothing is due at once.
+  // Calls `hear` about once a second of real time, in a moment when nothing is due at once.
   void on_health(std::function<void(const Health&)> hear) { on_health_ = std::move(hear); }
   RunnerEnd run();
 
@@ -108,8 +108,8 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
 
   void take_in();
   void do_due(Microticks now);
-  // What a host does: a controller that has halted is started anew, and one whose coldstart attempts are exhausted when
-  // it has listened for kCyclesUntilAnew: where all nodes only listen for others nobody would ever start the cluster.
+  // Does a host's work: restarts a halted controller. It also restarts one whose coldstart attempts are
+  // exhausted, after kCyclesUntilAnew of listening: if all nodes only listened, the cluster would never start.
   void look_after_controller();
   void hand_over(const ArrivalWindow::Due& due);
   void leave(std::size_t can_bus);
@@ -125,7 +125,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   const timebase::Oscillator oscillator_;
   bus::ports::LiveMedium& medium_;
   MachineClock& machine_clock_;
-  std::unique_ptr<Watch> watch_;  // the sink, with what is seen on the way to it
+  std::unique_ptr<Watch> watch_;  // the sink, with a view on its records
   TimingAccount account_;
   ArrivalWindow arrival_window_;
   LiveFlexRay flexray_;
@@ -133,7 +133,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   std::vector<std::optional<std::size_t>> sensor_can_;  // by sensor, the CAN of its lines
   std::unique_ptr<host::Executive> executive_;
   bus::ports::MachineTime powered_on_{std::numeric_limits<std::int64_t>::min()};
-  Microticks last_{};                                                 // what was done last
+  Microticks last_{};                                                 // the instant of the last thing done
   bool listens_ = false;                                              // FlexRay lines are watched
   Microticks tries_again_{std::numeric_limits<std::int64_t>::max()};  // at a coldstart, if it still may only listen
   bus::ports::MachineTime health_due_{};

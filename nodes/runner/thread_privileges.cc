@@ -16,8 +16,8 @@
 namespace ttf::nodes::runner {
 namespace {
 
-constexpr std::uint64_t kStackRoom = 8 << 20;  // as much as a stack grows to where nobody says otherwise
-constexpr int kPriority = 50;  // below the kernel's own threads that carry interrupts on real-time kernels
+constexpr std::uint64_t kStackRoom = 8 << 20;  // the usual limit of a stack's growth
+constexpr int kPriority = 50;                  // below the kernel threads that carry interrupts on real-time kernels
 
 std::string words_of(int error) { return std::system_category().message(error); }
 
@@ -28,7 +28,7 @@ std::string pin(std::size_t place, std::size_t processes) {
   const auto count = static_cast<std::size_t>(CPU_COUNT(&allowed));
   if (count <= processes)
     return fmt::format("not pinned to a processor: {} for {} processes, and one must be left", count, processes);
-  // The first is left to all others.
+  // The first processor is left to all other processes.
   std::size_t nth = 0;
   for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
     if (!CPU_ISSET(cpu, &allowed) || nth++ != place + 1) continue;
@@ -41,8 +41,8 @@ std::string pin(std::size_t place, std::size_t processes) {
   return "not pinned to a processor: there are fewer than nodes";
 }
 
-// Asked of the kernel, as in a container of one's own capabilities may be shown that count for nothing: under a limit
-// of nothing, only who is privileged locks a page.
+// Tries it, because a container may show capabilities that have no effect: under a limit of zero, only a
+// privileged process can lock a page.
 bool may_lock_beyond(const rlimit& limit) {
   const rlimit nothing{0, limit.rlim_max};
   if (setrlimit(RLIMIT_MEMLOCK, &nothing) != 0) return false;
@@ -52,7 +52,7 @@ bool may_lock_beyond(const rlimit& limit) {
   return may;
 }
 
-// Bytes of address space that the process has, all of which it would lock.
+// The process's address space in bytes, all of which would be locked.
 std::uint64_t size_now() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -61,8 +61,8 @@ std::uint64_t size_now() {
 
 constexpr const char* kLockHelp = "(allow it: ulimit -l unlimited, or CAP_IPC_LOCK)";
 
-// Under a limit, locking what is yet to come would let the kernel refuse memory that is asked for later, and end a
-// thread whose stack grows. Then only what is there is locked, where that and a stack to grow fit.
+// Under a limit, locking future memory would make later allocations fail, and end a thread whose stack grows.
+// Then only present memory is locked, if it fits together with a grown stack.
 std::string lock_memory() {
   rlimit limit{};
   if (getrlimit(RLIMIT_MEMLOCK, &limit) != 0) return "memory is not locked: " + words_of(errno);
@@ -70,7 +70,7 @@ std::string lock_memory() {
     if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
     return fmt::format("memory is not locked: {} {}", words_of(errno), kLockHelp);
   }
-  // No figures of this process: who collects the sentences of many tells each once.
+  // Without figures of this process: the same sentence from several processes is shown once.
   const std::string most = fmt::format("{} KiB, the limit", limit.rlim_cur / 1024);
   if (size_now() + kStackRoom > limit.rlim_cur)
     return fmt::format("memory is not locked: it is more than {} {}", most, kLockHelp);

@@ -1,4 +1,4 @@
-// What a process asks of an ordinary kernel to be woken up in time, and what it gets.
+// Asks an ordinary kernel for timely wake-ups of a process, and reports each refusal.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace ttf::nodes::runner {
 
-// For the calling thread, and the process' memory: SCHED_FIFO, no timer slack, memory locked, one processor of its own
-// where there are enough for `processes` and one besides, taken by `place` (0, 1, ...). What the process takes later is
-// locked, too, but where RLIMIT_MEMLOCK is a limit to it: there it would not get it. One sentence for each that was not
-// granted, with what would help; all of them are done without.
+// Asks for the calling thread and its process: SCHED_FIFO, no timer slack, locked memory, and a processor of
+// its own. The processor is taken by `place` (0, 1, ...) if there is one more than `processes`. Memory
+// allocated later is locked, too, unless RLIMIT_MEMLOCK limits it: there, allocation could fail. Returns one
+// sentence for each refusal, with advice; the process works without them.
 std::vector<std::string> ask_for_thread_privileges(std::size_t place, std::size_t processes);
 
 }  // namespace ttf::nodes::runner

@@ -1,5 +1,4 @@
-// The sensor devices: they look at the scene when they measure and send raw data over their private CAN, as the real
-// ones do.
+// The sensor devices: they measure the scene and send raw data over their private CAN, as real ones do.
 #pragma once
 
 #include <array>

@@ -1,11 +1,11 @@
-// The gateway between two buses: lists go on as they came.
+// The gateway between two buses passes lists on unchanged.
 #pragma once
 
 #include "nodes/host/step.h"
 
 namespace ttf::nodes::sensing {
 
-// Ports: `in` -> `out`, the list unchanged: fragments of the CAN are fragments of the FlexRay.
+// Ports: `in` -> `out`, the list unchanged. Fragments on the CAN are fragments on FlexRay.
 class Gateway final : public host::Step {
  public:
   void run(host::StepContext& context) override;

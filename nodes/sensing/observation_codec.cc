@@ -8,8 +8,8 @@
 namespace ttf::nodes::sensing {
 namespace {
 
-// Half the code's step: what fixed-point coding adds to the uncertainty is far below any sensor's, but a sigma of zero
-// would be a certainty nobody has.
+// At least half the code's step. Fixed-point coding adds far less uncertainty than any sensor, but a sigma of
+// zero would mean certainty.
 double at_least_resolution(double sigma, double resolution) { return std::max(sigma, 0.5 * resolution); }
 
 }  // namespace
@@ -58,7 +58,7 @@ void ObservationCodec::decode(const bus::cni::ListView& list,
     } else {
       observation.kind = ttf::fusion::sensors::ObservationKind::kPosition;
       const double sigma_x = sigma(2), sigma_y = sigma(3);
-      // The coded correlation saturates below one, so the covariance stays positive definite.
+      // The coded correlation stays below one, so the covariance stays positive definite.
       const double covariance = std::clamp(value(4), -0.99, 0.99) * sigma_x * sigma_y;
       observation.z(0) = value(0);
       observation.z(1) = value(1);

@@ -1,4 +1,4 @@
-// What the fusion node understands of an observation list: which signals make which observation.
+// Decodes observation lists for the fusion node: maps signals to observations.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,9 @@
 
 namespace ttf::nodes::sensing {
 
-// Bound once to a PDU: positions (x, y, their covariance, and either heading and extent or the angle the outline spans)
-// or radar detections (range, bearing, range_rate and their sigmas), told apart by the signals the layout has.
+// A codec is bound to a PDU once. A layout with x and y has positions: x, y, their covariance, and either
+// heading and extent or the angle that the outline spans. Otherwise it has radar detections: range, bearing,
+// range_rate and their sigmas.
 class ObservationCodec {
  public:
   ObservationCodec(const schedules::model::Cluster& cluster, PduId pdu);

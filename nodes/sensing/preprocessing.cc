@@ -14,7 +14,7 @@ const schedules::model::PduLayout& layout_of(const schedules::model::Cluster& cl
   return cluster.pdu(host::binding_of(bindings, port).pdu);
 }
 
-// Where there are more objects than the list holds, the nearest ones are kept, in a stable order.
+// Keeps the nearest objects, in a stable order, if there are more than the list holds.
 template <class Object> void keep_nearest(std::vector<Object>& objects, int limit) {
   if (static_cast<int>(objects.size()) <= limit) return;
   std::sort(objects.begin(), objects.end(), [](const Object& a, const Object& b) {

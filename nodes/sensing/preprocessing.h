@@ -1,5 +1,5 @@
-// Preprocessing: raw sensor data in, observation lists out, stamped with the global time the host latched at the
-// strobe.
+// Preprocessing: turns raw sensor data into observation lists, stamped with the global time that the host
+// latched at the strobe.
 #pragma once
 
 #include <array>

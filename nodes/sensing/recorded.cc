@@ -9,7 +9,7 @@
 namespace ttf::nodes::sensing {
 namespace {
 
-// The recording's tracked vehicle has no size of its own; a passenger car's (the paper's Touran: 4.39 m x 1.79 m).
+// The recording lacks the tracked vehicle's size. This is a passenger car's (the paper's Touran: 4.39 m x 1.79 m).
 constexpr double kCarLength = 4.39, kCarWidth = 1.79;
 
 bool is_radar(const schedules::model::PduLayout& layout) {
@@ -52,7 +52,7 @@ void RecordedScene::states_at(TrueTime at, std::vector<sim::world::ObjectState>&
     return time < static_cast<double>(row.time_us_from_start);
   });
   out.clear();
-  // The last row's own instant is the recording's, too; what is before the first and behind it nobody knows.
+  // The last row's own instant belongs to the recording; before the first row and after the last the truth is unknown.
   const std::int64_t ns = (at - start_).ns;
   const bool at_the_end = after == rows_.end() && ns % 1000 == 0 && ns / 1000 == rows_.back().time_us_from_start;
   if (after == rows_.begin() || (after == rows_.end() && !at_the_end)) return;
@@ -98,7 +98,7 @@ RecordedSource::RecordedSource(const schedules::model::Cluster& cluster, const s
 }
 
 void RecordedSource::run(host::StepContext& context) {
-  if (context.measurement >= track_.size()) return;  // the recording is over: the device falls silent
+  if (context.measurement >= track_.size()) return;  // after the recording's end the device is silent
   const recording::rows::RecordedObservation& row = track_.row(context.measurement);
   host::Output& raw = context.outputs[0];
   raw.begin(context.measurement, 1, GlobalTime{});
@@ -147,7 +147,7 @@ void RecordedPreprocessing::run(host::StepContext& context) {
     } else {
       set(2, noise_.position_m);
       set(3, noise_.position_m);
-      // Heading and extent were not recorded: their valid bits stay clear.
+      // The recording lacks heading and extent: their valid bits stay clear.
       for (const std::size_t s : {4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u}) set(s, 0.0);
     }
   }

@@ -1,6 +1,6 @@
-// Recorded observations in place of the sensor models: the rest of the cluster is the same.
+// Recorded observations replace the sensor models; the rest of the cluster is the same.
 //
-// A `recorded_source` device sends the n-th recorded row of its sensor at its n-th measurement; its host's
+// A `recorded_source` device sends the n-th recorded row of its sensor at its n-th measurement. The host's
 // `recorded_preprocessing` adds the documented noise of the recording as the observation's covariance.
 #pragma once
 
@@ -17,7 +17,8 @@
 
 namespace ttf::nodes::sensing {
 
-// Standard deviations of the recorded sensors. Defaults: the laser and radar of the public recording the loader knows.
+// Standard deviations of the recorded sensors. The defaults are those of the laser and the radar of the public
+// recording that the loader knows.
 struct RecordedNoise {
   double position_m = 0.15;
   double range_m = 0.3;
@@ -38,11 +39,10 @@ class RecordedTrack {
 };
 
 // The recording's ground truth as the scene: cubic Hermite interpolation between its rows (position and velocity).
-// Before its first row and after its last one there is no truth: the scene is empty then, and nothing is compared with
-// it.
+// Outside its first and last row the truth is unknown: the scene is empty, and measures skip these times.
 class RecordedScene final : public Scene {
  public:
-  // Recorded time 0 is at true time `start`.
+  // `start` is the true time of recorded time 0.
   RecordedScene(const recording::rows::RecordedInput& input, TrueTime start);
   void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const override;
   std::size_t objects() const override { return 1; }

@@ -1,5 +1,4 @@
-// What is really there: the port through which sensor emulators see the world at an instant. Nothing downstream of a
-// sensor has it.
+// The truth: the port through which sensor emulators see the world at an instant. Only the sensors have this port.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +12,13 @@ namespace ttf::nodes::sensing {
 class Scene {
  public:
   virtual ~Scene() = default;
-  // States of all objects at `at`, into `out` (which keeps its capacity).
+  // Writes the states of all objects at `at` into `out`, which keeps its capacity.
   virtual void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const = 0;
-  // How many there are.
+  // Returns the largest number of objects.
   virtual std::size_t objects() const = 0;
 };
 
-// The scenario's simulated world; drives start at `start`.
+// The scenario's simulated world; drives begin at `start`.
 class WorldScene final : public Scene {
  public:
   WorldScene(const sim::world::WorldConfig& config, std::uint64_t seed, std::uint32_t replication, TrueTime start)

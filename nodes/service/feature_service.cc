@@ -9,10 +9,10 @@
 namespace ttf::nodes::service {
 namespace {
 
-// From the origin to the outline of a rectangle, towards its centre; zero within it.
+// Returns the distance from the origin to the outline of a rectangle, towards its centre; zero within it.
 double clearance(const recording::records::ImageObject& object, double range) {
   const double aspect = object.heading - std::atan2(object.y, object.x);
-  // Half the chord along the line of sight: it leaves the rectangle through the sides or through the ends.
+  // Half the chord along the line of sight, which leaves the rectangle through the sides or through the ends.
   constexpr double kAlongTheSides = 1e-9;
   const double through_ends = 0.5 * object.length / std::max(kAlongTheSides, std::abs(std::cos(aspect)));
   const double through_sides = 0.5 * object.width / std::max(kAlongTheSides, std::abs(std::sin(aspect)));
@@ -33,7 +33,7 @@ FeatureConfig load_feature(YamlMap& yaml) {
 
 recording::records::FeatureObject judge(const recording::records::ImageObject& object, const FeatureConfig& config) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  // Closing slower than walking pace is no collision course: the sign of a speed near zero is noise.
+  // A slower approach than walking pace is no collision course: the sign of a speed near zero is noise.
   constexpr double kSlowestClosing_mps = 0.5;
   recording::records::FeatureObject result;
   result.image = object;
@@ -57,7 +57,7 @@ FeatureService::FeatureService(const schedules::model::Cluster& cluster, const s
 
 void FeatureService::run(host::StepContext& context) {
   const host::Input& image = context.inputs[0];
-  if (!image.list) return;  // no image has arrived yet: nothing is made up
+  if (!image.list) return;  // without an image the service does nothing
   if (image.fresh) valid_at_ = host::time_stamp(*image.layout, *image.list, context.stamp.global, round_);
   const Duration age = context.stamp.global - valid_at_;
   const bool stale = age > config_.max_image_age || -age > config_.max_image_age;

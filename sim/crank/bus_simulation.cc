@@ -6,7 +6,7 @@
 namespace ttf::sim::crank {
 namespace {
 
-// Of the first node that begins integrated; nothing where all are powered on.
+// Returns the first cycle of the first node that begins integrated; nothing if all are powered on.
 std::optional<Crank::FirstCycle> first_cycle(const schedules::model::Cluster& cluster,
                                              const std::vector<BusNode>& nodes) {
   for (std::size_t n = 0; n < nodes.size(); ++n) {

@@ -1,5 +1,5 @@
-// FlexRay controllers without hosts on the simulated bus: what start-up, clock synchronisation and faults do to a
-// cluster, thousands of times over. Single-threaded, and a pure function of its configuration.
+// FlexRay controllers without hosts on the simulated bus, for thousands of runs of start-up, clock
+// synchronisation and faults. Single-threaded, and a pure function of its configuration.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@
 
 namespace ttf::sim::crank {
 
-// One entry per node of the cluster; all must be on FlexRay.
+// One per node of the cluster; all must be on FlexRay.
 struct BusNode {
   timebase::Oscillator oscillator;
   TrueTime power_on{};
-  // A node that begins integrated, with its supply from the start; `power_on` is not read then.
+  // A node that begins integrated, with its supply from the start; it ignores `power_on`.
   std::optional<bus::controller::InitialClock> clock{};
   // The schedule that this node believes in, with the same nodes and PDUs; null: the cluster's.
   const schedules::model::Cluster* view = nullptr;
@@ -28,17 +28,17 @@ struct BusNode {
 
 class BusSimulation final : public CrankOf<bus::controller::FlexRayController> {
  public:
-  // `events`: one per node, told what its controller tells a host. `guardians`: the oscillators of a star's two, else
-  // without drift. They begin integrated if some node does.
+  // `events` has one entry per node, for the events of its controller. `guardians` are the oscillators of a
+  // star's two guardians; without them, these have no drift. The guardians begin integrated if some node does.
   BusSimulation(const schedules::model::Cluster& cluster, std::vector<BusNode> nodes,
                 std::vector<bus::controller::ControllerEvents*> events,
                 const std::vector<timebase::Oscillator>& guardians = {});
   ~BusSimulation() override;
 
-  // Of a node without supply: in default config.
+  // Returns a node's controller; without supply it is in default config.
   bus::controller::FlexRayController& controller(NodeId node) { return *nodes_[index_of(node)]; }
-  // The largest difference between the global times of the nodes that are synchronised, now, from node `first` on.
-  // Their cycle numbers may differ by whole rounds of the cycle counter; only the rest counts.
+  // Returns the largest difference between the global times of the synchronised nodes now, from node `first`
+  // on. Whole rounds of the cycle counter do not count: cycle numbers may differ by them.
   Duration precision(NodeId first = NodeId{0}) const;
 
  private:
@@ -47,7 +47,7 @@ class BusSimulation final : public CrankOf<bus::controller::FlexRayController> {
   void happen(const medium::MediumEvent& event) override;
   void make_controller(std::size_t node);
 
-  std::vector<const schedules::model::Cluster*> views_;  // these all by NodeId
+  std::vector<const schedules::model::Cluster*> views_;  // all of these by NodeId
   std::vector<bus::controller::ControllerEvents*> events_;
   std::vector<std::unique_ptr<CrankPort>> ports_;
 };

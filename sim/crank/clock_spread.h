@@ -1,4 +1,4 @@
-// How far the global times of several nodes are apart at one instant.
+// The spread of several nodes' global times at one instant.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace ttf::sim::crank {
 
-// A node that joined a running cluster knows its cycle only modulo gCycleCountMax + 1 and counts on from there, so two
-// clocks that agree may differ by whole rounds of the cycle counter; only the rest counts.
+// A node that joined a running cluster knows its cycle only modulo gCycleCountMax + 1, and counts on from
+// there. So two clocks that agree may differ by whole rounds of the cycle counter; only the rest counts.
 class ClockSpread {
  public:
   explicit ClockSpread(const schedules::model::Cluster& cluster)

@@ -78,8 +78,8 @@ struct ClusterSimulation::CanTap final : bus::ports::CanPort {
   }
 };
 
-// The medium says that a frame began; its sender reports it when it has left. Both instants are looked up on the
-// sender's clocks when they come: nobody knows beforehand what a clock will show after its next correction.
+// The medium reports the start of a frame; its sender reports the departure. Both instants are read from the
+// sender's clocks when they come: a clock's reading after its next correction is not known before.
 struct ClusterSimulation::CanLog final : recording::records::Sink {
   struct InFlight {
     recording::records::CanFrameSent frame;
@@ -151,7 +151,7 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::
 }
 
 void ClusterSimulation::make_guardians() {
-  // Their clocks are drawn behind the nodes'.
+  // Their clocks are drawn after the nodes'.
   const auto crystal = [this](schedules::model::Channel channel) {
     schedules::model::Node guardian;
     guardian.microtick_ps = medium::StarCoupler::microtick_ps(cluster_, channel);
@@ -191,7 +191,7 @@ void ClusterSimulation::start(std::size_t node, Microticks now) {
   if (others_ != nullptr) others_->outlook(node).begins(now);
   if (!is_here(node)) return;
   const auto id = static_cast<NodeId>(node);
-  // Whoever comes back finds the others awake.
+  // At a later power-on the other nodes are awake.
   const bool first = powered_since(node) < TrueTime{};
   const nodes::host::NodeStart cold = first && config_.cold ? config_.cold(id) : nodes::host::NodeStart{};
   if (cold.how != nodes::host::ColdStart::kSleeps) {
@@ -205,7 +205,7 @@ void ClusterSimulation::stop(std::size_t node) {
   if (others_ != nullptr) others_->outlook(node).ends();
   for (auto& can : cans_) can->power_off(static_cast<NodeId>(node));
   if (!is_here(node)) return;
-  // Nobody was told that a sleeper has its supply.
+  // A sleeping node's supply was not recorded.
   if (!nodes_[node]->asleep()) sink_.on(recording::records::PowerChanged{nodes_[node]->stamp(ticks(node)), false});
   add(gone_, nodes_[node]->counts());
   nodes_[node].reset();
@@ -251,7 +251,7 @@ const nodes::host::Executive& ClusterSimulation::node(NodeId id) const {
   return *nodes_[index_of(id)];
 }
 
-// Whether those it needs have been there all the time.
+// Returns whether the nodes of the event have had their supply all the time.
 bool ClusterSimulation::arrives(const medium::MediumEvent& event) const {
   const bool on_can =
       event.kind == medium::MediumEvent::Kind::kCanArrival || event.kind == medium::MediumEvent::Kind::kCanSent;
@@ -293,7 +293,7 @@ void ClusterSimulation::happen(const medium::MediumEvent& event) {
   refresh(node);
 }
 
-// Looks at all clocks at the corners of this node's: where its cycle starts, and where its correction starts.
+// Schedules observations of all clocks at the corners of this node's clock: its cycle start and its correction start.
 void ClusterSimulation::watch_cycle(std::size_t node, const timebase::CycleClock& clock) {
   Watch& watch = watches_[node];
   watch.cycle = clock.cycle();
@@ -322,7 +322,7 @@ void ClusterSimulation::observe() {
     oldest = std::min(oldest, clock->cycle());
   }
   if (newest == kNone) return;
-  // The oldest of the cycles that the nodes are in, as those count that have run the longest.
+  // The oldest of the nodes' present cycles, as counted by the nodes that have run the longest.
   const int round = cluster_.flexray.gCycleCountMax + 1;
   std::int64_t cycle = newest - oldest <= round / 2 ? oldest : newest;
   if (cycle != oldest)
@@ -333,7 +333,7 @@ void ClusterSimulation::observe() {
       }
   precision_of_pair_ = std::max(precision_of_pair_, spread.width());
   precision_ = std::max(precision_, precision_of_pair_);
-  // Once the cluster has been started anew, its cycles count from 0 again.
+  // After the cluster has started anew, its cycles count from 0 again.
   if (cycle / 2 == reported_pair_) return;
   sink_.on(recording::records::PrecisionSample{now(), cycle, precision_of_pair_});
   reported_pair_ = cycle / 2;

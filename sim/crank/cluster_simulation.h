@@ -1,12 +1,11 @@
-// The whole cluster in virtual time: one executive per node, the media between them, and true time, which only this
-// room knows. A run is a pure function of its configuration (sim/crank/crank.h).
+// The whole cluster in virtual time: one executive per node, the media between them, and true time, which only
+// this room knows. A drive is a pure function of its configuration (sim/crank/crank.h).
 //
-// A node that loses its supply loses everything: its executive is dropped, and at power-on a new one is made, with
-// steps made anew. A CAN frame whose sender or receiver was without supply at any time since it began does not arrive;
-// the bus is taken to its end all the same.
+// A node that loses its supply loses everything: its executive is dropped, and power-on makes a new one with
+// new steps. A CAN frame does not arrive if its sender or receiver lacked supply at any time since the frame
+// began; it still takes the bus until its end.
 //
-// Or one node of it, the others being simulated by processes of their own (sim/processes/turn_taking.h): then the
-// others' executives are not here, and of what they record nothing is.
+// With a process for each node (sim/processes/turn_taking.h), only the own node has its executive and its records here.
 #pragma once
 
 #include <algorithm>
@@ -29,27 +28,26 @@
 
 namespace ttf::sim::crank {
 
-// The instant at which cycle 0 starts, give or take the nodes' initial phases; where nodes start up, time zero of that.
+// The start of cycle 0, up to the nodes' initial phases; with a start-up, its time zero.
 inline constexpr TrueTime kFirstCycle{1'000'000};
 
 struct SimulationConfig {
   const schedules::model::Cluster* cluster = nullptr;
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
-  // The code of a node's tasks, in file order. Asked at the start, and again at every power-on.
+  // Makes the code of a node's tasks, in file order. Called at the start, and again at every power-on.
   std::function<std::vector<std::shared_ptr<nodes::host::Step>>(ttf::NodeId)> make_steps;
-  // When the node is powered on, cold. Nothing, or no function: it begins integrated, and off FlexRay as if powered on
-  // at kFirstCycle.
+  // Returns when the node is powered on, cold. No value, or no function: the node begins integrated; off
+  // FlexRay, as if powered on at kFirstCycle.
   std::function<std::optional<TrueTime>(ttf::NodeId)> power_on = {};
-  // How a node begins that is powered on for the first time. No function: it starts up at once, as it does every other
-  // time.
+  // Returns how a node begins at its first power-on. No function: it starts up at once, as at every later power-on.
   std::function<nodes::host::NodeStart(ttf::NodeId)> cold = {};
-  // The schedule that the node believes in, with the same nodes, tasks, PDUs and CANs. Null, or no function: the
-  // cluster's.
+  // Returns the schedule that the node believes in, with the same nodes, tasks, PDUs and CANs. Null, or no
+  // function: the cluster's.
   std::function<const schedules::model::Cluster*(ttf::NodeId)> view = {};
-  // Null: all nodes are simulated here. Else make_steps is asked for the own node only.
+  // Null: all nodes are simulated here. Otherwise make_steps is called for the own node only.
   processes::TurnTaking* others = nullptr;
-  // False: nobody wants to know precision(), nor to have it recorded. Everything else is as it is.
+  // False: precision() is neither computed nor recorded. All else stays the same.
   bool compares_clocks = true;
 };
 
@@ -58,30 +56,29 @@ class ClusterSimulation final : public CrankOf<nodes::host::Executive>, private 
   ClusterSimulation(const SimulationConfig& config, recording::records::Sink& sink);
   ~ClusterSimulation() override;
 
-  // The achieved precision so far: the largest difference between any two nodes' global times at one true instant, but
-  // for whole rounds of the cycle counter (sim/crank/clock_spread.h). The difference is piecewise linear with corners
-  // at the nodes' cycle starts and correction starts; it is taken there. Zero, and never recorded, where there is but
-  // one node.
+  // Returns the precision so far: the largest difference between two nodes' global times at one true instant, less
+  // whole rounds of the cycle counter (sim/crank/clock_spread.h). The difference is piecewise linear with corners at
+  // the nodes' cycle starts and correction starts, and is taken there. With one node it is zero, and never recorded.
   Duration precision() const { return precision_; }
-  // Of a node with supply, simulated here.
+  // Returns a node that has supply and is simulated here.
   const nodes::host::Executive& node(NodeId id) const;
-  // Summed over the nodes simulated here, those that have lost their supply included.
+  // Returns the sum over the nodes simulated here, with those that have lost their supply.
   nodes::host::ExecutiveCounts counts() const;
   Duration can_busy(std::size_t bus) const { return cans_[bus]->busy(); }
-  std::uint64_t frames_sent() const { return frames_sent_; }  // on FlexRay, each channel's
-  // How long the busier channel has been taken.
+  std::uint64_t frames_sent() const { return frames_sent_; }  // on FlexRay, counted per channel
+  // Returns how long the busier channel has been in use.
   Duration flexray_busy() const {
     return std::max(medium_.busy(schedules::model::Channel::kA), medium_.busy(schedules::model::Channel::kB));
   }
 
  private:
-  // What observations look at, of one node.
+  // The observed parts of one node.
   struct Watch {
-    const bus::controller::FlexRayController* controller = nullptr;  // null where the node is none, or off FlexRay
+    const bus::controller::FlexRayController* controller = nullptr;  // null without supply, or off FlexRay
     const timebase::Oscillator* crystal = nullptr;
-    std::int64_t cycle = -1;  // whose corners are being observed
+    std::int64_t cycle = -1;  // the cycle whose corners are observed
 
-    // Null while it has none.
+    // Returns null while it has none.
     const timebase::CycleClock* clock() const { return controller ? controller->synchronised_clock() : nullptr; }
   };
   struct FlexRayTap;
@@ -119,15 +116,15 @@ class ClusterSimulation final : public CrankOf<nodes::host::Executive>, private 
   const SimulationConfig config_;
   processes::TurnTaking* const others_;
   recording::records::Sink& sink_;
-  std::optional<medium::ChannelLog> channel_log_;  // where somebody wants frames
+  std::optional<medium::ChannelLog> channel_log_;  // if the sink wants frames
   std::vector<std::unique_ptr<medium::CanMedium>> cans_;
   std::vector<std::unique_ptr<FlexRayTap>> flexray_taps_;  // by NodeId, null off FlexRay
   std::vector<std::unique_ptr<CanTap>> can_taps_;
-  std::vector<std::vector<bus::ports::CanPort*>> can_ports_;  // by NodeId and CAN, null where it is not on it
+  std::vector<std::vector<bus::ports::CanPort*>> can_ports_;  // by NodeId and CAN, null where the node is not on it
   std::unique_ptr<CanLog> can_log_;
   std::vector<Watch> watches_;  // by NodeId
   const ClockSpread no_spread_;
-  nodes::host::ExecutiveCounts gone_;  // counted by executives that are no more
+  nodes::host::ExecutiveCounts gone_;  // counts of executives that are gone
   Duration precision_{};
   Duration precision_of_pair_{};
   std::int64_t reported_pair_ = 0;

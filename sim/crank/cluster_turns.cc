@@ -1,5 +1,4 @@
-// A cluster of which one node is simulated here, and what leaves the nodes beside the buses: the wires between sensors
-// and their hosts.
+// A cluster with one node simulated here, and the acts outside the buses: the wires between sensors and their hosts.
 #include <fmt/format.h>
 
 #include <stdexcept>
@@ -9,7 +8,7 @@
 
 namespace ttf::sim::crank {
 
-// The own node may have something to do before its turn; nobody else notices it.
+// The own node may work before its turn; the others do not notice it.
 void ClusterSimulation::take_turn(std::size_t node, Microticks now) {
   const auto id = static_cast<NodeId>(node);
   if (is_here(node)) {
@@ -32,8 +31,8 @@ void ClusterSimulation::act(std::size_t node, const processes::Act& act) {
     transmit(node, *sent);
   } else if (const auto* can = std::get_if<processes::CanAct>(&act)) {
     if (can_ports_[node][can->bus] == nullptr)
-      throw std::runtime_error(
-          fmt::format("{} sends on {}, which it is not on", cluster_.node(id).name, cluster_.can_buses[can->bus].name));
+      throw std::runtime_error(fmt::format("{} sends on {}, to which it is not connected", cluster_.node(id).name,
+                                           cluster_.can_buses[can->bus].name));
     send_can(can->bus, id, can->frame);
   } else if (const auto* trigger = std::get_if<processes::TriggerAct>(&act)) {
     pull_trigger(trigger->sensor);

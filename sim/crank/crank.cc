@@ -29,7 +29,7 @@ Crank::Crank(const schedules::model::Cluster& cluster, std::size_t others)
 }
 
 void Crank::seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on) {
-  TTF_CHECK(seats_.size() < cluster_.nodes.size(), "{} nodes are all", seats_.size());
+  TTF_CHECK(seats_.size() < cluster_.nodes.size(), "a clock for more than {} nodes", seats_.size());
   TTF_CHECK(!power_on || *power_on >= TrueTime{}, "power-on at {} ns", power_on->ns);
   seats_.push_back({Clock(oscillator), !power_on, TrueTime{} - Duration{1}, kUnknown});
   next_.push_back(kNever<TrueTime>);
@@ -93,7 +93,7 @@ TrueTime Crank::next_time(const Seat& seat) const {
                                          : std::max(now_, seat.clock.oscillator().time_of(seat.next));
 }
 
-// Keeps `earliest_` the first of those that are due first.
+// Keeps `earliest_` the node that is due first, the lowest of several.
 void Crank::set_next(std::size_t node, TrueTime time) {
   const TrueTime before = next_[node];
   next_[node] = time;
@@ -135,7 +135,7 @@ void Crank::run_until(TrueTime end) {
   now_ = std::max(now_, end);
 }
 
-// Everything that the node has to do before anything else happens: often frame after frame.
+// Does all work of the node until another event comes next: often frame after frame.
 void Crank::step(std::size_t node) {
   Seat& seat = seats_[node];
   Microticks at = ticks(node);
@@ -155,7 +155,7 @@ void Crank::step(std::size_t node) {
   }
 }
 
-// Whether the signal goes on from there.
+// Delivers a signal at its next receiver. Returns whether it goes on from there.
 inline bool Crank::make_stop(const medium::MediumEvent& event) {
   const auto [arrival, goes_on] = medium_.stop_over(event, now_);
   if (!arrival) return goes_on;
@@ -168,8 +168,8 @@ inline bool Crank::make_stop(const medium::MediumEvent& event) {
   return goes_on;
 }
 
-// What comes before everything else until its last stop on both channels, as nearly everything does, makes its stops on
-// both at once: all of them, unless a node then has something to do before. Whether the signal goes on from there.
+// Delivers a signal on both channels at once. Most signals reach their last receiver before any other event, so
+// this goes on to the last one, or until a node has to act first. Returns whether the signal goes on from there.
 bool Crank::make_stop_on_both(const medium::MediumEvent& event) {
   medium::ClearFlights& clear = medium_.clear_flights();
   const TrueTime earliest = next_[earliest_];
@@ -184,7 +184,7 @@ bool Crank::make_stop_on_both(const medium::MediumEvent& event) {
   }
 }
 
-// With a signal from receiver to receiver, as long as nothing else comes between.
+// Follows a signal from receiver to receiver, as long as no other event comes between.
 void Crank::go_along(medium::MediumEvent event) {
   const medium::ClearFlights& clear = medium_.clear_flights();
   while (true) {
@@ -199,20 +199,20 @@ void Crank::go_along(medium::MediumEvent event) {
 
 bus::ports::Reception Crank::reception_of(Seat& seat, const medium::Arrival& arrival) {
   const auto [start, end] = seat.clock.span(arrival.start, arrival.end);
-  // The rest of what was on its way at power-on.
+  // The rest of a signal that was on its way at power-on.
   if (arrival.start < seat.since)
     return {arrival.channel, bus::ports::Signal::kUndecodable, seat.clock.oscillator().ticks_at(seat.since), end, {}};
   const bool is_frame = arrival.signal == bus::ports::Signal::kFrame;
   return {arrival.channel, arrival.signal, start, end, is_frame ? medium_.frame(arrival) : bus::wire::DecodedFrame{}};
 }
 
-// It leaves now, and until it is there nobody sends and nothing else happens to those who hear it, but for tasks and
-// CANs. If there are any: the last leg is the longest.
+// Returns whether the signal leaves now and arrives before anything else on FlexRay happens to its receivers;
+// tasks and CANs do not matter. There must be a receiver. The last leg is the longest.
 inline bool Crank::arrives_alone(std::span<const medium::Leg> way, TrueTime start, TrueTime end) const {
   return start == now_ && medium_.is_clear() && !way.empty() && end + way.back().delay <= until_;
 }
 
-// What tells nobody anything new need not arrive.
+// A signal that every receiver already knows need not arrive.
 void Crank::transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start,
                              TrueTime end) {
   const std::span<const medium::Leg> way = medium_.way_from(sender);

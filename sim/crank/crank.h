@@ -1,12 +1,12 @@
-// The crank in virtual time: the nodes' oscillators and supplies, the queue of what is to happen, and FlexRay between
-// the nodes. What a node is made of is the business of who derives from it: controllers alone
-// (sim/crank/bus_simulation.h) or whole executives (sim/crank/cluster_simulation.h).
+// The crank in virtual time: the nodes' oscillators and supplies, the queue of events, and FlexRay between the
+// nodes. A derived class makes the nodes: controllers alone (sim/crank/bus_simulation.h) or whole executives
+// (sim/crank/cluster_simulation.h).
 //
-// Single-threaded; everything that happens is ordered by sim/medium/event_queue.h, a disturbance's own acts coming
-// after all else of their instant, so a run is a pure function of its configuration.
+// Single-threaded. All events are ordered by sim/medium/event_queue.h; a disturbance's own acts come after all
+// else of their instant. So a run is a pure function of its configuration.
 //
-// A node that is powered on while signals are on their way to it hears the rest of them as activity that it cannot make
-// out, from the instant of its power-on.
+// A node that is powered on while signals are on their way to it hears the rest of them as undecodable
+// activity, from the instant of its power-on.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ class Crank : public Plant {
     Duration length{};
   };
 
-  // Everything up to and including `end`.
+  // Runs everything up to and including `end`.
   void run_until(TrueTime end);
 
   TrueTime now() const final { return now_; }
@@ -48,47 +48,48 @@ class Crank : public Plant {
   bool powered(NodeId node) const final { return seats_[index_of(node)].powered; }
   const timebase::Oscillator& oscillator(NodeId node) const { return seats_[index_of(node)].clock.oscillator(); }
   medium::FlexRayMedium& medium() { return medium_; }
-  // What a node sends on both channels at once, without bytes: over the medium, unless it tells nobody anything new.
+  // Transmits a node's frame on both channels at once, without bytes. It bypasses the medium if all receivers know it.
   void transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start, TrueTime end);
-  // The guardian of a star's channel; null where the cluster has none.
+  // Returns the guardian of a star's channel; null if the cluster has none.
   medium::StarCoupler* coupler(schedules::model::Channel channel) { return couplers_[index_of(channel)].get(); }
-  // Null: nothing goes wrong.
+  // Null: no disturbance.
   void set_disturbance(medium::Disturbance* disturbance);
 
  protected:
-  // `others`: frames and events that are pending beside FlexRay's, at most.
+  // `others` is the largest number of frames and events that are pending beside FlexRay's.
   Crank(const schedules::model::Cluster& cluster, std::size_t others);
 
-  // The next node's clock, to be called once per node in the order of their ids. Nothing: it has its supply already,
-  // and start() has been or will be called by who derives; refresh() when it can say what is next.
+  // Adds the next node's clock; called once per node in the order of their ids. Without `power_on` the node
+  // already has its supply: the derived class starts it, and calls refresh() when its next event is known.
   void seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on);
-  // Of a cluster with guardians, one for each channel that somebody is on, with the oscillator that `crystal` gives it:
-  // powered on at once, to integrate like the nodes, or in the middle of `first`.
+  // Adds the guardians of a star, one for each channel in use, with the oscillator of `crystal`. Without `first`
+  // they are powered on at once and integrate like the nodes; otherwise they begin in the middle of `first`.
   void seat_guardians(const std::function<timebase::Oscillator(schedules::model::Channel)>& crystal,
                       const std::optional<FirstCycle>& first);
-  // The node's next event may be another one now; most arrivals change nothing about it.
+  // Updates the node's next event; most arrivals do not change it.
   void refresh(std::size_t node) {
     if (is_powered(node) && next_event(node) != seats_[node].next) set_next_event(node, next_event(node));
   }
   bool is_powered(std::size_t node) const { return seats_[node].powered; }
-  // What began to be sent before has not reached this node, nor was it sent by what is there now.
+  // Returns since when the node has or lacks supply. A signal that began earlier did not reach its present
+  // state, nor come from it.
   TrueTime powered_since(std::size_t node) const { return seats_[node].since; }
   Microticks ticks(std::size_t node) const { return seats_[node].clock.oscillator().ticks_at(now_); }
 
-  // What a node is made of. Never asked of a node without supply, but for start().
-  virtual void start(std::size_t node, Microticks now) = 0;  // a cold one
-  virtual void stop(std::size_t node) = 0;                   // nothing of it is left
+  // The node's own part. Without supply only start() is called.
+  virtual void start(std::size_t node, Microticks now) = 0;  // starts it cold
+  virtual void stop(std::size_t node) = 0;                   // drops all of it
   virtual Microticks next_event(std::size_t node) const = 0;
   virtual void advance(std::size_t node, Microticks now) = 0;
   virtual void receive(std::size_t node, const bus::ports::Reception& reception) = 0;
-  // The same on both channels at once; `reception` says channel A. False: the node's next event is what it was.
+  // Receives the same on both channels at once; `reception` says channel A. False: the node's next event is unchanged.
   virtual bool receive_on_both(std::size_t node, const bus::ports::Reception& reception) = 0;
-  // bus/controller/controller.h. The test compares whole drives with and without these two and receive_on_both()
-  // (tests/sim/processes/unwanted_frames_test.cc).
+  // As in bus/controller/controller.h. tests/sim/processes/unwanted_frames_test.cc compares whole drives with and
+  // without these two and receive_on_both().
   virtual bool knows(std::size_t node, const bus::ports::Reception& reception) = 0;
   virtual void hear_known(std::size_t node, const bus::ports::Reception& reception) = 0;
-  virtual void drifts(std::size_t node) { (void)node; }  // its oscillator is another one now
-  // What is no arrival on FlexRay.
+  virtual void drifts(std::size_t node) { (void)node; }  // its oscillator has changed
+  // Handles an event other than an arrival on FlexRay.
   virtual void happen(const medium::MediumEvent& event) = 0;
 
   const schedules::model::Cluster& cluster_;
@@ -101,7 +102,7 @@ class Crank : public Plant {
   struct Span {
     Microticks start{}, end{};
   };
-  // A node's oscillator. It remembers the signal that it was asked for last: the other channel's has the same instants.
+  // A node's oscillator. It remembers the last signal's instants: they are the same on the other channel.
   class Clock {
    public:
     explicit Clock(const timebase::Oscillator& oscillator) : oscillator_(oscillator) {}
@@ -121,14 +122,14 @@ class Crank : public Plant {
   struct Seat {
     Clock clock;
     bool powered = false;
-    TrueTime since{};   // it is with or without supply
-    Microticks next{};  // its next own event, when it was asked last
+    TrueTime since{};   // since when it has or lacks supply
+    Microticks next{};  // its own next event, at the last look
   };
   void set_next_event(std::size_t node, Microticks next);
   void set_next(std::size_t node, TrueTime time);
   TrueTime next_time(const Seat& seat) const;
   void step(std::size_t node);
-  // Whether what happens at that place is the next thing to happen, within the run that is going on.
+  // Returns whether an event at that place comes next, within the current run.
   bool comes_next(const medium::EventOrder& order) const {
     return order.time <= until_ && order < next_of_nodes() && queue_.is_first(order) &&
            (disturbance_ == nullptr || disturbance_->next() >= order.time);
@@ -144,10 +145,10 @@ class Crank : public Plant {
 
   std::array<std::unique_ptr<medium::StarCoupler>, 2> couplers_;  // by channel
   std::vector<Seat> seats_;                                       // by NodeId
-  std::vector<TrueTime> next_;  // by NodeId, its next own event; without supply its power-on
+  std::vector<TrueTime> next_;  // by NodeId, its own next event; its power-on while it lacks supply
   std::size_t earliest_ = 0;    // in next_
   medium::Disturbance* disturbance_ = nullptr;
-  TrueTime now_{}, until_{};  // until_: of the run_until() that is going on
+  TrueTime now_{}, until_{};  // until_: of the current run_until()
 };
 
 // The port of a node's controller on the simulated FlexRay.

@@ -1,4 +1,4 @@
-// The crank over nodes of one kind, which answer to what FlexRayController answers to: controllers alone
+// The crank over nodes of one kind with the functions of FlexRayController: controllers alone
 // (sim/crank/bus_simulation.h) or whole executives (sim/crank/cluster_simulation.h).
 #pragma once
 
@@ -26,7 +26,7 @@ template <class Node> class CrankOf : public Crank {
     nodes_[node]->hear_known(reception);
   }
 
-  std::vector<std::unique_ptr<Node>> nodes_;  // by NodeId; null where it is without supply or elsewhere
+  std::vector<std::unique_ptr<Node>> nodes_;  // by NodeId; null without supply or elsewhere
 };
 
 }  // namespace ttf::sim::crank

@@ -1,5 +1,5 @@
-// One fault of a plan at work: what it does to signals and to the machinery of a run. Every family of faults derives
-// its own from this (families.h); the injector asks them in the plan's order.
+// One fault of a plan at work: acts on signals and on the machinery of a run. Every family of faults derives
+// its own class from this (families.h); the injector asks the faults in the plan's order.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,18 +18,18 @@
 
 namespace ttf::sim::faults {
 
-// What a fault leads to, to be counted and recorded; and the signals that it makes.
+// Counts and records the effects of a fault, and emits its signals.
 class FaultLog {
  public:
   static constexpr std::size_t kMostText = 200;
 
   virtual ~FaultLog() = default;
-  // `at`: now. Of what befalls a signal once the fault has begun, it may be before that.
+  // `at` is now. It may precede the fault's begin: the fault befalls a signal that will still be under way then.
   virtual void acted(std::uint32_t fault, TrueTime at, std::string_view text) = 0;
   virtual void emit(const medium::Leaving& signal, std::optional<NodeId> source) = 0;
 };
 
-// What every fault is given; all of it outlives the fault.
+// The setting of a fault; all of it outlives the fault.
 struct FaultSetting {
   const ttf::faults::Fault& fault;  // resolved
   std::uint32_t index = 0;          // in the plan
@@ -48,7 +48,7 @@ class ActiveFault {
   ActiveFault(const ActiveFault&) = delete;
   ActiveFault& operator=(const ActiveFault&) = delete;
 
-  // As in Disturbance. `touches`: of what a controller sends; what faults emit has bytes anyway.
+  // As in Disturbance. touches() is about controllers' signals; emitted ones always have bytes.
   virtual bool touches(NodeId sender, schedules::model::Channel channel) const {
     return (void)sender, (void)channel, false;
   }
@@ -66,7 +66,7 @@ class ActiveFault {
   TrueTime until() const { return setting_.until; }
   bool active(TrueTime at) const { return at >= setting_.from && at < setting_.until; }
   bool on(schedules::model::Channel channel) const { return includes(setting_.fault.channels, channel); }
-  // Whether anything the node sends by this fault comes onto the channel: it has its supply and a wire to there.
+  // Returns whether the node's emitted signals reach the channel: it has its supply and a wire to there.
   bool can_send(schedules::model::Channel channel) const {
     const NodeId node = setting_.fault.node;
     return setting_.plant.powered(node) && includes(setting_.cluster.node(node).flexray->pChannels, channel);
@@ -74,13 +74,13 @@ class ActiveFault {
   std::string_view name(NodeId node) const { return setting_.cluster.node(node).name; }
   void emit(const medium::Leaving& signal, std::optional<NodeId> source) { setting_.log.emit(signal, source); }
 
-  // One of the fault's own streams, of the `index`-th draw; what one draws never depends on what another drew.
+  // Returns the stream of the fault's `index`-th draw; no draw depends on another.
   RandomStream draws(std::uint32_t index) const {
     return RandomStream(
         {setting_.seed, setting_.replication, Purpose::kFault, static_cast<std::uint16_t>(setting_.index), index});
   }
 
-  // Counts and records that the fault does something, now, with one sentence about it. Allocates nothing.
+  // Counts and records an effect of the fault, now, with one sentence about it. Allocates nothing.
   template <class... Args> void acted(fmt::format_string<Args...> sentence, Args&&... args) {
     std::array<char, FaultLog::kMostText> text;
     const auto end = fmt::format_to_n(text.begin(), text.size(), sentence, std::forward<Args>(args)...).out;

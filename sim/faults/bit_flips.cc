@@ -1,5 +1,4 @@
-// Bits of a frame that are inverted on its way: in the header, the payload or the trailer; for all receivers, or for
-// some.
+// Inverts bits of a frame on its way: in the header, the payload or the trailer; for all receivers, or for some.
 #include <array>
 
 #include "sim/faults/families.h"
@@ -43,7 +42,7 @@ class BitFlips final : public FrameFault {
     std::size_t size = 0;
     std::span<const std::byte> whole() const { return std::span<const std::byte>(bytes).first(size); }
   };
-  // Bits of a frame, the first on the bus 0.
+  // Bits of a frame; bit 0 is the first on the bus.
   struct Region {
     int first = 0, count = 0;
   };
@@ -59,7 +58,7 @@ class BitFlips final : public FrameFault {
     return {};
   }
 
-  // How many bits of the frame it has inverted.
+  // Inverts bits of the frame, and returns how many.
   int flip(Frame& frame, std::size_t channel) const {
     const Region where = region(frame.size);
     if (!fault().bits.empty()) {
@@ -69,7 +68,7 @@ class BitFlips final : public FrameFault {
       return flips;
     }
     const int flips = std::min(fault().flips, where.count);
-    // The k-th of those that are left, so that all are different: R. Floyd's way of drawing a set (Bentley, CACM 1987).
+    // The k-th of the remaining bits, so that all are different: R. Floyd's way of drawing a set (Bentley, CACM 1987).
     std::array<int, 24> drawn{};
     RandomStream stream = frame_draws(static_cast<std::uint32_t>(channel));
     for (int i = 0; i < flips; ++i) {
@@ -86,7 +85,7 @@ class BitFlips final : public FrameFault {
   }
 
   FramePart part_;
-  std::array<Frame, 2> frames_;  // by channel, the last one befallen, with its bits inverted
+  std::array<Frame, 2> frames_;  // by channel, the last frame befallen, with its bits inverted
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What appears on the channels out of nothing, again and again: noise that nobody sends, a node that babbles, a
-// coldstart node that never stops beginning.
+// Faults that emit signals again and again: noise without a sender, a node that babbles, a coldstart node that
+// never stops beginning.
 #include <algorithm>
 #include <array>
 
@@ -12,7 +12,7 @@ namespace {
 using bus::ports::Signal;
 using schedules::model::Channel;
 
-// Bursts of one kind, from the beginning of the fault to its end; none reaches into the next.
+// Bursts of one kind, from the begin of the fault to its end, without overlap.
 class Bursts : public ActiveFault {
  public:
   explicit Bursts(const FaultSetting& setting) : ActiveFault(setting), next_(setting.from) {}
@@ -25,13 +25,13 @@ class Bursts : public ActiveFault {
     Duration pause = fault().interval;
     if (fault().jitter > Duration{}) pause += Duration{draws(count_).integer(0, fault().jitter.ns)};
     ++count_;
-    // Time goes on, whatever there is to send.
+    // Time goes on, even after an empty burst.
     next_ = std::max({now + pause, end, now + Duration{1}});
     if (next_ >= until()) next_ = kNever<TrueTime>;
   }
 
  protected:
-  // Sends one, and says when it is over.
+  // Sends a burst and returns its end.
   virtual TrueTime burst(TrueTime now, Channel channel) = 0;
   // Noise ends with the fault. A frame or a symbol is sent whole: it may end after the fault.
   TrueTime noise_until(TrueTime now) const { return std::min(now + fault().length, until()); }
@@ -60,7 +60,7 @@ class NodeBursts : public Bursts {
 
  protected:
   const schedules::model::NodeParameters& parameters() const { return *cluster().node(fault().node).flexray; }
-  // It takes its time also where there is no wire, or no supply.
+  // Takes its time even without a wire or a supply.
   TrueTime send(TrueTime now, Channel channel, Signal signal, TrueTime end, std::span<const std::byte> bytes) {
     if (!can_send(channel)) return end;
     acted("{} sends {} on {}, outside its schedule", name(fault().node), text(signal), letter(channel));
@@ -80,7 +80,7 @@ class NodeBursts : public Bursts {
   }
 };
 
-// Noise, or the frame it sent last: before that, a null frame of its key slot.
+// Sends noise or the node's last frame; before its first frame, a null frame of its key slot.
 class BabblingIdiot final : public NodeBursts {
  public:
   explicit BabblingIdiot(const FaultSetting& setting) : NodeBursts(setting) {
@@ -96,7 +96,7 @@ class BabblingIdiot final : public NodeBursts {
     }
   }
 
-  // The frame it sent last.
+  // It repeats the node's last frame.
   bool touches(NodeId sender, Channel) const override { return sender == fault().node; }
   bool leaving(medium::Leaving& signal) override {
     if (signal.sender != fault().node || signal.signal != Signal::kFrame) return true;
@@ -134,7 +134,7 @@ class RepeatedCas final : public NodeBursts {
   }
 };
 
-// Startup frames once a nominal cycle, as from a cluster that began when the fault did; the counter counts on.
+// Sends startup frames once a nominal cycle, like a cluster that began with the fault; the cycle counter counts on.
 class RogueStartup final : public ActiveFault {
  public:
   explicit RogueStartup(const FaultSetting& setting) : ActiveFault(setting), next_(setting.from) {}

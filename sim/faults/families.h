@@ -1,5 +1,5 @@
-// The families of faults. One function for each makes what is at work of a fault of the plan; what it does, and how, is
-// in the source file of its name. docs/faults.md has the whole table.
+// The families of faults. Each function makes the working part of a fault of the plan; the family's source file
+// says what it does, and how. docs/faults.md has the whole table.
 #pragma once
 
 #include <memory>
@@ -25,15 +25,15 @@ std::unique_ptr<ActiveFault> make_byzantine_clock(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_masquerading(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_wrong_schedule(const FaultSetting& setting);
 
-// What comes out of nothing.
+// Signals out of nothing.
 std::unique_ptr<ActiveFault> make_babbling_idiot(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_noise(const FaultSetting& setting);
-std::unique_ptr<ActiveFault> make_duplicate_coldstart(const FaultSetting& setting);  // but for the same key slot
+std::unique_ptr<ActiveFault> make_duplicate_coldstart(const FaultSetting& setting);  // not by the same key slot
 
 // The medium.
 std::unique_ptr<ActiveFault> make_transient(const FaultSetting& setting);
 
-// The one of these that works as the fault's kind and mode say.
+// Makes the working part of a fault by its kind and mode.
 std::unique_ptr<ActiveFault> make_active_fault(const FaultSetting& setting);
 
 }  // namespace ttf::sim::faults

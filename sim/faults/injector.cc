@@ -16,7 +16,7 @@ Injector::Injector(ttf::faults::FaultPlan plan, const schedules::model::Cluster&
     const ttf::faults::Fault& fault = plan_.faults[i];
     TTF_CHECK(!ttf::faults::has_node(fault.kind) || fault.node != kNoNode, "{} of a node that was not looked up: {}",
               ttf::faults::name_of(fault.kind), fault.node_name);
-    const bool always = ttf::faults::changes_schedule(fault);  // what a node believes in, it always does
+    const bool always = ttf::faults::changes_schedule(fault);  // a node always acts by its belief
     const TrueTime from = always ? origin : origin + fault.from;
     const TrueTime until =
         always || fault.duration == ttf::faults::Fault::kToTheEnd ? kNever<TrueTime> : from + fault.duration;
@@ -71,14 +71,15 @@ void Injector::begin(std::size_t fault, TrueTime at) {
 void Injector::acted(std::uint32_t fault, TrueTime at, std::string_view text) {
   const TrueTime begins = entries_[fault].begins;
   if (begins != kNever<TrueTime> && at < begins) {
-    // What it will do to a signal that is still under way when it begins is known when that leaves. It is told then.
+    // An effect on a signal that is still under way at the fault's begin is known when the signal leaves. It is
+    // recorded at the begin.
     Foreseen& foreseen = foreseen_.emplace_back();
     foreseen.fault = fault;
     foreseen.size = std::min(text.size(), foreseen.text.size());
     std::copy_n(text.begin(), foreseen.size, foreseen.text.begin());
     return;
   }
-  if (begins != kNever<TrueTime>) begin(fault, at);  // what leaves at that very instant, before the faults act
+  if (begins != kNever<TrueTime>) begin(fault, at);  // a signal leaves at that very instant, before the faults act
   Activation& activation = activations_[fault];
   if (activation.times++ == 0) activation.first = at;
   activation.last = at;

@@ -1,13 +1,14 @@
-// A plan of faults at work in a simulation: injects each of them in the medium, the clock or the supply, never in a
-// node.
+// Puts a plan of faults to work in a simulation: each fault acts in the medium, the clock or the supply, never
+// in a node.
 //
 //   L1  the same plan, seed, replication and simulation give the same signals and the same records
-//   L2  what a fault draws does not depend on the other faults of the plan
-//   L3  without faults the simulation is bit for bit what it is without an injector
+//   L2  a fault's draws do not depend on the other faults of the plan
+//   L3  without faults the simulation is bit for bit the same as without an injector
 //   L4  nothing here allocates after construction, and nothing throws
-// Faults are asked in the plan's order; each sees what those before it have made of a signal. What a fault sends is not
-// changed by what befalls its sender's frames; a receiver that is deaf and a transient do not tell it from other
-// signals.
+//
+// Faults are asked in the plan's order; each gets a signal as the faults before it left it. Faults of a node's
+// own frames do not change the signals that faults emit in its name. A deaf receiver and a transient treat
+// emitted signals like all others.
 #pragma once
 
 #include <array>
@@ -27,18 +28,18 @@ namespace ttf::sim::faults {
 
 class Injector final : public medium::Disturbance, private FaultLog {
  public:
-  // `plan`: resolved for the cluster. `origin`: what its times count from. Everything but the plan must outlive the
-  // injector; the simulation is told of it by set_disturbance(), and gets the schedules its nodes believe in where it
-  // is made (faults/believed_schedule.h).
+  // `plan` is resolved for the cluster; its times count from `origin`. All arguments but the plan outlive the
+  // injector. The simulation gets the injector by set_disturbance(), and at its construction the schedules that
+  // its nodes believe in (faults/believed_schedule.h).
   Injector(ttf::faults::FaultPlan plan, const schedules::model::Cluster& cluster, crank::Plant& plant,
            std::uint64_t seed, std::uint32_t replication, recording::records::Sink& sink, TrueTime origin = {});
   ~Injector() override;
 
-  // How often a fault did something, by its index in the plan: a signal changed, made or withheld, a supply or a clock
-  // changed.
+  // The number of a fault's effects, by its index in the plan: a signal changed, made or withheld, a supply or
+  // a clock changed.
   struct Activation {
     std::uint64_t times = 0;
-    TrueTime first{}, last{};  // where times > 0
+    TrueTime first{}, last{};  // valid if times > 0
   };
   std::span<const Activation> activations() const { return activations_; }
 
@@ -49,18 +50,18 @@ class Injector final : public medium::Disturbance, private FaultLog {
   void act(TrueTime now) override;
 
  private:
-  // One fault with the times it begins and ends at, while they are to come.
+  // One fault, with its begin and its end while they are to come.
   struct Entry {
     std::unique_ptr<ActiveFault> fault;
     TrueTime begins, ends;
   };
-  // What a fault is told to have done when it begins.
+  // An effect that is recorded only when its fault begins.
   struct Foreseen {
     std::uint32_t fault = 0;
     std::array<char, kMostText> text{};
     std::size_t size = 0;
   };
-  static constexpr std::size_t kForeseen = 64;  // room for: some signals of one propagation delay
+  static constexpr std::size_t kForeseen = 64;  // room for some signals of one propagation delay
   void acted(std::uint32_t fault, TrueTime at, std::string_view text) override;
   void emit(const medium::Leaving& signal, std::optional<NodeId> source) override;
   void report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text);
@@ -71,7 +72,7 @@ class Injector final : public medium::Disturbance, private FaultLog {
   const schedules::model::Cluster& cluster_;
   crank::Plant& plant_;
   recording::records::Sink& sink_;
-  std::vector<Entry> entries_;  // by index in the plan, as what follows
+  std::vector<Entry> entries_;  // by index in the plan, like the vectors below
   std::vector<Activation> activations_;
   std::vector<Foreseen> foreseen_;
   TrueTime next_ = kNever<TrueTime>;

@@ -1,4 +1,4 @@
-// Frames that claim to be another's, with a right CRC, and the frames of a node that believes in another schedule.
+// Frames that claim to be another node's, with a right CRC, and the frames of a node that believes in another schedule.
 #include <array>
 
 #include "bus/controller/slot_table.h"
@@ -11,7 +11,7 @@ namespace {
 using schedules::model::Channel;
 using schedules::model::FrameSlot;
 
-// Its own static frames, with the other's frame id.
+// Changes the frame id of the node's own static frames to another node's.
 class WrongFrameId final : public FrameFault {
  public:
   using FrameFault::FrameFault;
@@ -36,7 +36,7 @@ class WrongFrameId final : public FrameFault {
   std::array<std::byte, bus::wire::kMaxFrameBytes> frame_{};
 };
 
-// A frame more, in the other's slot. The node knows when that is: its own key slot, and how long its cycles are.
+// Sends an additional frame in another node's slot. The node derives its instant from its own key slot and its cycles.
 class InAnothersSlot final : public FrameFault {
  public:
   explicit InAnothersSlot(const FaultSetting& setting) : FrameFault(setting) {}
@@ -89,7 +89,7 @@ class InAnothersSlot final : public FrameFault {
   }
 
  private:
-  // The key slot's frame stands for the cycle, also where it is on the other channel.
+  // The key slot's frame stands for the cycle, even if it is on the other channel.
   bool befalls_any_channel(const medium::Leaving& signal) {
     medium::Leaving any = signal;
     any.channel = on(signal.channel) ? signal.channel : (on(Channel::kA) ? Channel::kA : Channel::kB);
@@ -111,8 +111,7 @@ class InAnothersSlot final : public FrameFault {
   std::array<std::byte, bus::wire::kMaxFrameBytes> frame_{};
 };
 
-// The node's controller runs on the schedule that it believes in (faults/believed_schedule.h): what it sends is what
-// comes of it.
+// The node's controller runs on the schedule that it believes in (faults/believed_schedule.h), and its frames follow.
 class WrongBelief final : public ActiveFault {
  public:
   using ActiveFault::ActiveFault;

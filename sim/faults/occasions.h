@@ -1,5 +1,5 @@
-// Which frames a fault befalls: every n-th, with a probability. The signals that one node sends at one instant, on both
-// channels, are one occasion, and so are what all receivers make of them.
+// Chooses the frames that a fault befalls: every n-th, with a probability. The signals that one node sends at
+// one instant, on both channels, are one occasion, together with their arrivals at all receivers.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class Occasions {
  public:
   Occasions(int every, double probability) : every_(static_cast<std::uint32_t>(every)), probability_(probability) {}
 
-  // Whether what `sender` sends now is befallen; `draws(index)` makes the stream of that index.
+  // Returns whether the fault befalls the present signal of `sender`; `draws(index)` makes the stream of that index.
   template <class Draws> bool chosen(TrueTime now, NodeId sender, const Draws& draws) {
     if (now == now_ && sender == sender_) return chosen_;
     now_ = now;
@@ -23,7 +23,7 @@ class Occasions {
     chosen_ = number % every_ == 0 && (probability_ >= 1.0 || draws(2 * number).uniform() < probability_);
     return chosen_;
   }
-  // A stream's index for what else this occasion draws.
+  // Returns the index of a stream for this occasion's other draws.
   std::uint32_t content() const { return 2 * (count_ - 1) + 1; }
 
  private:

@@ -1,6 +1,6 @@
-// Slightly off the specification: what is early, late or misshapen by so little that receivers disagree about it (H.
-// Kopetz, "A comparison of TTP/C and FlexRay", TU Wien report 10/2001); and a sync node whose clock says another time
-// to everyone.
+// Faults slightly off the specification: signals so little early, late or misshapen that receivers disagree
+// about them (H. Kopetz, "A comparison of TTP/C and FlexRay", TU Wien report 10/2001). And a sync node whose
+// clock shows every receiver another time.
 #include <algorithm>
 
 #include "sim/faults/families.h"
@@ -11,7 +11,7 @@ namespace {
 
 using ttf::faults::ByzantinePattern;
 
-// Nothing ends before it is sent.
+// A signal never ends before it is sent.
 template <class Signal> void shift_by(Signal& signal, Duration shift, TrueTime now) {
   const Duration possible = std::max(shift, now - signal.end);
   signal.start += possible;
@@ -63,11 +63,11 @@ class ByzantineClock final : public FrameFault {
  public:
   using FrameFault::FrameFault;
 
-  // The cycle's counter.
+  // It reads the cycle counter.
   bool touches(NodeId sender, schedules::model::Channel) const override { return sender == fault().node; }
   bool leaving(medium::Leaving& signal) override {
     if (!befalls(signal)) return true;
-    // The cycle's counter is the frame's last six bits of header.
+    // The cycle counter is the last six bits of the header.
     other_way_ = (static_cast<unsigned>(signal.bytes[bus::wire::kHeaderBytes - 1]) & 1U) != 0;
     acted("a frame of {} on {} says another time to every receiver", name(signal.sender), letter(signal.channel));
     return true;

@@ -1,4 +1,4 @@
-// What a node sends does not leave it, or what others send does not reach it: symbols as well as frames.
+// A node's signals do not leave it, or other nodes' signals do not reach it: symbols as well as frames.
 #include "sim/faults/families.h"
 #include "sim/faults/occasions.h"
 

@@ -1,4 +1,4 @@
-// Nodes that lose their supply, and clocks that run at another rate.
+// Nodes that lose their supply, and clocks that change their rate.
 #include <vector>
 
 #include "sim/faults/families.h"
@@ -6,7 +6,7 @@
 namespace ttf::sim::faults {
 namespace {
 
-// Takes the supply of some nodes at `from`, and gives it back when the fault is over.
+// Takes the supply of some nodes at `from`, and gives it back at the fault's end.
 class Supply final : public ActiveFault {
  public:
   Supply(const FaultSetting& setting, std::vector<NodeId> off)

@@ -1,4 +1,4 @@
-// What the medium does: a node's lines changed over, and everything destroyed for a while.
+// Faults of the medium: a node's lines swapped, and all signals destroyed for a while.
 #include "sim/faults/families.h"
 #include "sim/faults/occasions.h"
 
@@ -7,8 +7,8 @@ namespace {
 
 using schedules::model::Channel;
 
-// What the node sends on A appears on B, and the other way round; the CRC says where it belongs. What it hears is in
-// order. Who has one wire only has nothing to swap.
+// A node's signals for A appear on B, and the other way round; their CRCs still say the right channel. The node
+// receives in order. A node with one wire has nothing to swap.
 class ChannelSwap final : public ActiveFault {
  public:
   explicit ChannelSwap(const FaultSetting& setting)
@@ -30,7 +30,7 @@ class ChannelSwap final : public ActiveFault {
   Occasions occasions_;
 };
 
-// Whatever is on the channels in that time, in part or in whole, nobody can make out. Nothing new appears on them.
+// All signals on the channels in that time, in part or in whole, become undecodable. It adds no signal.
 class Transient final : public ActiveFault {
  public:
   using ActiveFault::ActiveFault;
@@ -38,7 +38,7 @@ class Transient final : public ActiveFault {
   bool arriving(medium::Arriving& signal) override {
     if (!on(signal.channel) || signal.start >= until() || signal.end <= from()) return true;
     signal.signal = bus::ports::Signal::kUndecodable;
-    // Once for all its receivers.
+    // Counted once for all receivers.
     if (plant().now() == last_ && signal.sender == last_sender_ && signal.channel == last_channel_) return true;
     last_ = plant().now();
     last_sender_ = signal.sender;

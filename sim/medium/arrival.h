@@ -1,4 +1,4 @@
-// What arrives at a receiver on the simulated FlexRay, and what is the same of all flights that bring it there
+// An arrival at a receiver on the simulated FlexRay, and the parts common to both kinds of flights
 // (sim/medium/flights.h, sim/medium/clear_flights.h).
 #pragma once
 
@@ -16,35 +16,35 @@ namespace ttf::sim::medium {
 
 struct Arrival {
   TrueTime start{}, end{};
-  std::uint32_t frame = 0;  // in the pool, of a frame
+  std::uint32_t frame = 0;  // in the pool, if it is a frame
   schedules::model::Channel channel{};
   bus::ports::Signal signal{};
-  ChannelLog::Id logged = ChannelLog::kNone;  // while its receiver may still make it out
+  ChannelLog::Id logged = ChannelLog::kNone;  // while its receiver may still decode it
 
   bool operator==(const Arrival&) const = default;
   Arrival later_by(Duration delay) const { return {start + delay, end + delay, frame, channel, signal, logged}; }
 };
 
-// The arrival has been dealt with: its frame, if it is one, is used no more.
+// Ends the use of an arrival's frame, if it is one.
 inline void release(FramePool& pool, const Arrival& arrival) {
   if (arrival.signal == bus::ports::Signal::kFrame) pool.release(arrival.frame);
 }
 
-// What a signal that goes from receiver to receiver brings to one of them, and whether it goes on from there. It brings
-// nothing where it was drawn into another signal.
+// One stop of a signal that goes from receiver to receiver: its arrival there, and whether it goes on. The
+// arrival is absent if the signal was merged into another.
 struct Stopover {
   std::optional<Arrival> arrival;
   bool goes_on = false;
 };
 
-// By which the event in the queue knows its flight.
+// The number by which an event in the queue knows its flight.
 using FlightNumber = std::uint32_t;
 
-// What a flight's place in the queue comes from.
+// The parts of a flight's place in the queue.
 struct FlightPlace {
   NodeId sender{};
   schedules::model::Channel channel{};  // of the next stop
-  std::uint64_t sequence = 0;           // its order of being scheduled
+  std::uint64_t sequence = 0;           // its number in the order of scheduling
 };
 
 inline MediumEvent event_of(FlightNumber number) {
@@ -59,7 +59,7 @@ inline EventOrder order_of(const FlightPlace& place, NodeId receiver, TrueTime e
   return {end, Phase::kArrival, static_cast<std::uint8_t>(receiver), rank, place.sequence};
 }
 
-// The flight's event becomes that of its stop at `receiver`, where it ends at `end`.
+// Turns the flight's event into that of its stop at `receiver`, which ends at `end`.
 inline EventOrder next_stop(MediumEvent& event, const FlightPlace& place, NodeId receiver, TrueTime end) {
   event.node = static_cast<std::uint8_t>(receiver);
   event.channel_or_bus = static_cast<std::uint8_t>(place.channel);

@@ -25,7 +25,7 @@ CanMedium::CanMedium(const schedules::model::Cluster& cluster, std::size_t bus, 
   next_other_ = TrueTime{} + Duration{phase.integer(0, other_period_.ns - 1)};
 }
 
-// What others have sent while nobody here waited, up to now: the frame that is on the bus included.
+// Counts other traffic up to now while no frame here waited, with its frame that is on the bus.
 void CanMedium::pass_others(TrueTime now) {
   if (other_length_ == Duration{}) return;
   while (next_other_ <= now && idle_from_ <= now) {
@@ -47,7 +47,7 @@ void CanMedium::send(NodeId sender, TrueTime now, const bus::ports::CanFrame& fr
   TTF_CHECK(pending_.size() < pending_.capacity(), "{} frames wait on {}", pending_.size(),
             cluster_.can_buses[bus_].name);
   const int receivers = static_cast<int>(nodes_.size()) - 1;
-  // One use more than there are receivers: the medium itself, until the frame has been sent.
+  // One use more than there are receivers: the medium keeps the frame until it has been sent.
   pending_.push_back(
       {sender, next_order_++, frame.identifier, frame.flexible_data_rate, pool_.put(frame.data, receivers + 1)});
   if (arbitration_due_) return;

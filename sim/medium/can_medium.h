@@ -1,9 +1,9 @@
-// A simulated private CAN in virtual time: arbitration by identifier whenever the bus falls idle, durations with the
-// exact stuff bits of the data.
+// A simulated private CAN in virtual time: arbitration by identifier whenever the bus falls idle, durations
+// with the exact stuff bits of the data.
 //
-// Other traffic (CanBus::other_load) is as bad as the checker takes it to be: the longest frames there are, at equal
-// distances, so that they take that share, from a drawn instant on, each before all that the cluster sends. It is for
-// no node, and no record tells of its frames; they count as time in which the bus is busy.
+// Other traffic (CanBus::other_load) is as bad as the checker assumes: the longest frames, at equal distances,
+// which take that share of the bus. It begins at a drawn instant, and wins over all frames of the cluster. It
+// has no receiver and no records here; it counts as busy time.
 #pragma once
 
 #include <cstdint>
@@ -23,19 +23,19 @@ namespace ttf::sim::medium {
 
 class CanMedium {
  public:
-  // `sink` hears of each frame when it begins: what the wire carries, in true time. The rest its sender knows.
-  // Seed and replication are of the instant at which other traffic begins.
+  // `sink` gets each frame at its begin, as the wire carries it, in true time; the sender knows the rest. Seed
+  // and replication draw the instant at which other traffic begins.
   CanMedium(const schedules::model::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,
             MediumQueue& queue, FramePool& pool, recording::records::Sink& sink, std::uint64_t seed,
             std::uint32_t replication);
   void send(NodeId sender, TrueTime now, const bus::ports::CanFrame& frame);
-  // The node has lost its supply: what waits there is gone. A frame of its that is on the bus goes on to its end, and
-  // it is for whoever takes arrivals from the queue to drop it.
+  // Drops the waiting frames of a node that has lost its supply. Its frame on the bus goes on to its end; the
+  // reader of the queue drops that arrival.
   void power_off(NodeId node);
-  // The bus is idle: the pending frame that wins is sent.
+  // Decides the arbitration on an idle bus, and sends the winner.
   void arbitrate(TrueTime now);
-  // How long the bus has carried frames, the one on it included to its end; of other traffic what had begun when a
-  // frame here was last queued or begun.
+  // Returns how long the bus has carried frames, with the present one counted to its end. Other traffic counts
+  // up to the last instant at which a frame here was queued or begun.
   Duration busy() const { return busy_; }
 
  private:
@@ -59,8 +59,8 @@ class CanMedium {
   std::vector<Pending> pending_;
   std::uint64_t next_order_ = 0;
   TrueTime idle_from_{};
-  Duration other_length_{}, other_period_{};  // of other traffic's frames; zero: there is none
-  TrueTime next_other_{};                     // not on the bus yet
+  Duration other_length_{}, other_period_{};  // other traffic's frames; zero without them
+  TrueTime next_other_{};                     // the next of them, not on the bus yet
   bool arbitration_due_ = false;
   Duration busy_{};
 };

@@ -9,8 +9,8 @@ namespace {
 
 using bus::ports::Signal;
 
-// Every byte goes with the two bits of its byte start sequence, and the frame start sequence is one bit (FlexRay 2.1A,
-// 3.2.1.1).
+// Every byte is sent with the two bits of its byte start sequence, and the frame start sequence is one bit
+// (FlexRay 2.1A, 3.2.1.1).
 constexpr std::int64_t kBitsPerByte = 10;
 constexpr std::int64_t kFrameStartBits = 1;
 
@@ -108,7 +108,7 @@ void ChannelLog::regenerated(Id id, const Leaving& arrived, const Leaving& forwa
   Leaving at_sender = arrived;
   at_sender.start = arrived.start - branch;
   at_sender.end = arrived.end - branch;
-  // What its sender broke off arrives as one that nobody can make out.
+  // A frame that its sender broke off arrives undecodable.
   if (!broken_off) leaves(id, at_sender);
   if (arrived.signal == Signal::kFrame && forwarded.signal != Signal::kFrame)
     way.breaks_off = std::min(way.breaks_off, forwarded.end - branch);
@@ -141,7 +141,7 @@ void ChannelLog::withheld(Id id) {
   if (id == kNone) return;
   Way& way = ways_[id];
   way.record.state = recording::records::kChannelNothing;
-  // What no controller sent, and nobody heard, was nowhere.
+  // A signal without a controller and without receivers was nowhere.
   if (way.record.slot != 0) sink_.on(way.record);
   way.used = false;
   free_.push_back(id);
@@ -175,7 +175,7 @@ void ChannelLog::report(Way& way) {
     record.bytes = way.bytes.all().first(broken_off ? bytes_until_break(way) : way.bytes.size);
     bus::wire::FrameCrcs crcs =
         bus::wire::check_crcs(static_cast<schedules::model::Channel>(record.channel), record.bytes);
-    // A CRC that has not come is not wrong.
+    // A missing CRC is not wrong.
     crcs.header_holds |= broken_off && record.bytes.size() < bus::wire::kHeaderBytes;
     crcs.frame_holds |= broken_off && record.bytes.size() < way.bytes.size;
     record.state = crc_state(crcs);

@@ -1,12 +1,12 @@
-// What was on the channels of the simulated FlexRay, for the log: of every frame what a controller sent, what became of
-// it on its way, and what a decoder makes of what arrived. Where that is not the frame as it was sent, and where no
-// controller sent it, it becomes a records::ChannelFrame once it has arrived everywhere.
+// Logs the channels of the simulated FlexRay: each frame as a controller sent it, its fate on the way, and a
+// decoder's result at the arrival. A frame that differs from the one sent, or that no controller sent, becomes
+// a records::ChannelFrame once it has arrived everywhere.
 //
-// The medium tells it of each signal's way and asks nothing: a run is the same with and without it. Only frames and
-// activity that nobody can make out have a way here; symbols have none. A frame counts as what the best-placed
-// receiver had: as one that nobody can make out only if that befell it at all who hear it (who sends at the same time
-// does not make it out), as changed only if all who can make it out have the same other bytes. Nothing here allocates
-// after construction, while there is room.
+// The medium reports each signal's way and asks nothing: a run is the same with and without the log. Only
+// frames and undecodable activity have a way here, symbols do not. A frame counts as the best-placed receiver
+// had it. It is undecodable only if it was so for all its receivers (a node that sends at the same time cannot
+// decode it). It is changed only if all nodes that can decode it have the same other bytes. Nothing allocates
+// after construction while there is room.
 #pragma once
 
 #include <array>
@@ -29,29 +29,30 @@ namespace ttf::sim::medium {
 class ChannelLog {
  public:
   using Id = std::uint16_t;
-  static constexpr Id kNone = std::numeric_limits<Id>::max();  // of what has no way here: told of, it is ignored
+  static constexpr Id kNone = std::numeric_limits<Id>::max();  // a signal without a way here; it is ignored
 
-  // `room`: for signals on their way at once. Where there are more, it takes more; they are fewer than kNone.
+  // `room` is for signals on their way at once. It grows if there are more; they are fewer than kNone.
   ChannelLog(const schedules::model::GlobalParameters& flexray, std::size_t room, recording::records::Sink& sink);
 
-  // A way begins: with what a controller sends, and its true instants at the sender; or with no controller.
+  // Begin a way: with a controller's transmission and its true instants at the sender, or without a controller.
   Id sent(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start, TrueTime end);
   Id appears(const Leaving& signal);
 
-  // So it is on the channel, from its sender on; no bytes: they are as they were.
+  // The signal is like this on the channel, from its sender on. Without bytes here, its bytes are unchanged.
   void leaves(Id id, const Leaving& signal);
-  // What arrived at a star's coupler as `arrived` goes on as `forwarded`: later by `branch` than at its sender.
+  // A signal that arrived at a star's coupler as `arrived` goes on as `forwarded`, later by `branch` than at
+  // its sender.
   void regenerated(Id id, const Leaving& arrived, const Leaving& forwarded, Duration branch);
-  // What the node is sending breaks off at `at`, by the sender's instants.
+  // The node's signal breaks off at `at`, by the sender's instants.
   void breaks_off(NodeId sender, TrueTime at);
 
-  // One of `receivers` of it: cannot make it out; does not hear it at all; has other bytes.
+  // The signal spreads to `receivers`. One of them cannot decode it, does not hear it, or has other bytes.
   void spreads(Id id, int receivers);
   void lost(Id id);
   void unheard(Id id);
   void changed(Id id, std::span<const std::byte> bytes);
 
-  // A way ends: nowhere, or with the last receiver. The id is another's from now on.
+  // End a way: nowhere, or at its last receiver. The id is free from then on.
   void withheld(Id id);
   void arrived(Id id);
 
@@ -65,12 +66,12 @@ class ChannelLog {
   struct Way {
     recording::records::ChannelFrame record;  // without state and bytes
     Bytes bytes;                              // as it left
-    Bytes other;                              // as receivers had it, where `changed` > 0
-    TrueTime breaks_off{};                    // at or after its end: it does not
+    Bytes other;                              // as receivers had it, if `changed` > 0
+    TrueTime breaks_off{};                    // at or after its end: it does not break off
     int receivers = 0, lost = 0, changed = 0;
     bool used = false;
     bool frame = false;    // a decodable one, so far
-    bool altered = false;  // not as it was sent
+    bool altered = false;  // differs from the one sent
     bool unlike = false;   // receivers have different bytes
   };
   void add_ways(std::size_t count);

@@ -10,7 +10,7 @@ Channel other(Channel channel) { return channel == Channel::kA ? Channel::kB : C
 }  // namespace
 
 void ClearFlights::depart(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over) {
-  // The same has left on channel A, and has not reached anybody yet: they go together.
+  // The same frame has left on channel A, and has not reached a receiver yet: they go together.
   Flight* const on_a = left.channel == Channel::kB && ways_.same_on_both() ? on_[index_of(Channel::kA)] : nullptr;
   if (on_a != nullptr && on_a->ways == &ways && on_a->passed_over == passed_over && on_a->place.sender == sender &&
       on_a->left[0].start == left.start && on_a->left[0].end == left.end && on_a->leg == on_a->first_leg())
@@ -71,7 +71,7 @@ ClearFlights::StopOnBoth ClearFlights::stop_on_both(const MediumEvent& event) {
   return stop;
 }
 
-// On both channels: the log hears of the end of what is on A where that ends, one stop before what is on B.
+// On both channels, the log hears of the end on A where that is, one stop before the end on B.
 void ClearFlights::stopped_on_a(Flight& flight) {
   if (flight.receiving(flight.leg + 1) != flight.last) return;
   Arrival& left = flight.left[index_of(Channel::kA)];
@@ -79,7 +79,7 @@ void ClearFlights::stopped_on_a(Flight& flight) {
   left.logged = ChannelLog::kNone;
 }
 
-// From its last stop: on both channels, that was on B.
+// Lands after the last stop; on both channels, that was on B.
 void ClearFlights::land(Flight& flight) {
   const Channel last = flight.both_channels ? Channel::kB : flight.place.channel;
   if (flight.both_channels) on_[index_of(Channel::kA)] = nullptr;
@@ -89,7 +89,7 @@ void ClearFlights::land(Flight& flight) {
 
 bool ClearFlights::carrier(NodeId node, Channel channel, TrueTime now) const {
   const Flight& flight = *on_[index_of(channel)];
-  // On both channels, A has been where B stops next.
+  // On both channels, A has already been at B's next stop.
   const bool ahead = flight.both_channels && channel == Channel::kA && flight.place.channel == Channel::kB;
   for (const Leg* leg = flight.leg + (ahead ? 1 : 0); leg != flight.last; ++leg)
     if (leg->receiver == node)
@@ -107,7 +107,7 @@ void ClearFlights::crowd(Channel channel) {
   lay_out(was.number, was, was.leg, on_first);
   was.number = flights_.reserve();
   if (!was.both_channels) return;
-  // What it has still to do on the other channel becomes a flight of its own. B follows A from stop to stop.
+  // The rest on the other channel becomes a flight of its own. B follows A from stop to stop.
   on_[index_of(second)] = nullptr;
   const Arrival& on_second = was.left[index_of(second)];
   const FlightNumber number = flights_.reserve();
@@ -116,7 +116,7 @@ void ClearFlights::crowd(Channel channel) {
   flights_.go_on(number);
 }
 
-// What has left as `left` is noted wherever it arrives, from that leg on.
+// Notes the signal, which left as `left`, wherever it arrives from that leg on.
 void ClearFlights::lay_out(FlightNumber number, const Flight& was, const Leg* from, const Arrival& left) {
   for (const Leg* leg = from; leg != was.last; ++leg)
     if (leg->receiver != was.passed_over) flights_.put(number, leg->receiver, left.later_by(leg->delay));

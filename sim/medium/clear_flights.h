@@ -1,13 +1,13 @@
-// Clear flights: what has its channel to itself, as nearly everything has, takes no more per receiver than its arrival.
+// Clear flights: a signal alone on its channel, as most are, costs no more per receiver than its arrival.
 //
-// A flight is clear while its signal is as it left and is alone on its channel: then it stops wherever its way leads,
-// and is noted at no receiver. When something else comes onto the channel, what it has still to do becomes a flight of
-// the plain way (sim/medium/flights.h), whose laws it obeys, too; whoever meets it sees no difference.
+// A flight is clear while its signal is unchanged and alone on its channel. It stops along its whole way,
+// without a note at any receiver. When another signal comes onto the channel, the rest of the flight becomes
+// one of the plain way (sim/medium/flights.h). Both kinds obey the same laws, so a receiver sees no difference.
 //
-// What leaves on both channels at once and is clear on both, for the same receivers, is one flight, which stops on A
-// and then on B; or on both at once, where nothing else happens until its last stop. Tests compare
-// both with the plain way: single stops in tests/sim/medium/clear_flights_test.cc, stops on both channels in whole drives
-// in tests/sim/processes/unwanted_frames_test.cc.
+// A signal that leaves on both channels at once, and is clear on both for the same receivers, is one flight. It
+// stops on A and then on B; or on both at once, if nothing else happens until its last stop. Tests compare both with
+// the plain way: single stops in tests/sim/medium/clear_flights_test.cc, stops on both channels in whole drives in
+// tests/sim/processes/unwanted_frames_test.cc.
 #pragma once
 
 #include <array>
@@ -26,23 +26,24 @@ class ClearFlights {
   ClearFlights(const ClearFlights&) = delete;
   ClearFlights& operator=(const ClearFlights&) = delete;
 
-  // Null: nobody is told what becomes of frames on their way.
+  // Null: the fate of frames is not logged.
   void set_log(ChannelLog* log) { log_ = log; }
-  // Whether one is on the channel. There is never one beside a flight of the plain way.
+  // Returns whether a clear flight is on the channel. It never shares the channel with a flight of the plain way.
   bool any(schedules::model::Channel channel) const { return on_[index_of(channel)] != nullptr; }
-  // Whether the event is one.
+  // Returns whether the event is one of a clear flight.
   bool is_one(const MediumEvent& event) const {
     return event.frame == room_[0].number || event.frame == room_[1].number;
   }
 
-  // `left`: as it left, onto a channel without flights; `passed_over`: on its way, but no receiver.
+  // Starts a flight onto a channel without flights. `left` is the signal as it left. `passed_over` is on its
+  // way, but no receiver.
   void depart(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over);
-  // The same frame on both channels, which have no flights; `left` says channel A.
+  // Starts a flight of one frame on both channels, which have no flights; `left` says channel A.
   void depart_on_both(NodeId sender, const Arrival& left, const Ways& ways);
-  // Something else comes onto the channel: what is clear there is so no longer.
+  // Makes the channel's clear flight plain, because another signal comes onto the channel.
   void crowd(schedules::model::Channel channel);
 
-  // Of an event that is one.
+  // For an event of a clear flight.
   Stopover stop_over(const MediumEvent& event, TrueTime now);
   EventOrder next_arrival(MediumEvent& event) const {
     const Flight& flight = flight_of(event);
@@ -50,8 +51,9 @@ class ClearFlights {
   }
   bool carrier(NodeId node, schedules::model::Channel channel, TrueTime now) const;
 
-  // Whether it is one frame that stops on A and on B at once wherever it still goes; and when it will have done so.
-  // Then stop_on_both() is both stops at the receiver that is next, and the frame is to be released on both.
+  // Returns whether the event is of one frame that stops on A and B at once at all its remaining receivers;
+  // last_arrival() is its last stop. Then stop_on_both() makes both stops at the next receiver, and the frame
+  // is to be released on both.
   bool stops_on_both(const MediumEvent& event) const {
     if (!is_one(event)) return false;
     const Flight& flight = flight_of(event);
@@ -70,16 +72,16 @@ class ClearFlights {
  private:
   struct Flight {
     FlightPlace place;
-    FlightNumber number = 0;  // it stays until a flight takes it along into the plain way
+    FlightNumber number = 0;  // kept until the flight becomes plain
     const Ways* ways = nullptr;
-    const Leg* leg = nullptr;   // to the next stop; on both channels the legs are the same
-    const Leg* last = nullptr;  // behind the last one
+    const Leg* leg = nullptr;   // to the next stop; both channels have the same legs
+    const Leg* last = nullptr;  // one past the last leg
     NodeId passed_over = kNoNode;
     bool both_channels = false;
     std::array<Arrival, 2> left{};  // as it left, by channel
 
     TrueTime end_at(const Leg& on) const { return left[index_of(place.channel)].end + on.delay; }
-    // The first leg from `from` on that leads to a receiver.
+    // Returns the first leg from `from` on that leads to a receiver.
     const Leg* receiving(const Leg* from) const {
       while (from != last && from->receiver == passed_over) ++from;
       return from;
@@ -100,11 +102,11 @@ class ClearFlights {
   MediumQueue& queue_;
   FramePool& pool_;
   ChannelLog* log_ = nullptr;
-  std::array<Flight, 2> room_;   // by the channel that it took off on first
-  std::array<Flight*, 2> on_{};  // by channel; null where there is none
+  std::array<Flight, 2> room_;   // by the channel of the first take-off
+  std::array<Flight*, 2> on_{};  // by channel; null without one
 };
 
-// --- what is done for every receiver
+// --- the work for every receiver
 
 inline Stopover ClearFlights::stop_over(const MediumEvent& event, TrueTime now) {
   using schedules::model::Channel;

@@ -1,5 +1,5 @@
-// What is to happen in virtual time, in one total order: (true time, phase, node, rank, sequence). Never addresses,
-// hash order or thread arrival. The order is written here and nowhere else.
+// Events in virtual time, in one total order: (true time, phase, node, rank, sequence). The order never depends
+// on addresses, hash order or thread arrival. Only this file defines it.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace ttf::sim::medium {
 
-// At one instant arrivals come first, then the nodes' own events, then the CANs decide who sends next, then observers.
+// At one instant arrivals come first, then the nodes' own events, then the CANs' arbitration, then observers.
 enum class Phase : std::uint8_t { kArrival = 0, kNode = 1, kArbitration = 2, kObserver = 3 };
 
 struct EventOrder {
@@ -19,7 +19,7 @@ struct EventOrder {
   Phase phase{};
   std::uint8_t node = 0;       // receiver, or bus
   std::uint16_t rank = 0;      // among the arrivals at one receiver: channel, then sender
-  std::uint64_t sequence = 0;  // order of being scheduled
+  std::uint64_t sequence = 0;  // order of scheduling
   bool operator==(const EventOrder&) const = default;
   friend bool operator<(const EventOrder& a, const EventOrder& b) {
     if (a.time != b.time) return a.time < b.time;
@@ -35,18 +35,18 @@ struct EventOrder {
 
 template <class Payload> class EventQueue {
  public:
-  // The queue takes room for `capacity` pending events once.
+  // Reserves room for `capacity` pending events once.
   explicit EventQueue(std::size_t capacity) { pending_.reserve(capacity); }
-  // Returns the event's place in the order of being scheduled.
+  // Schedules an event. Returns its number in the order of scheduling.
   std::uint64_t schedule(TrueTime time, Phase phase, std::uint8_t node, const Payload& payload,
                          std::uint16_t rank = 0) {
     push({{time, phase, node, rank, next_sequence_}, payload});
     return next_sequence_++;
   }
-  // What goes on that was scheduled before, in `order.sequence` and not before it happened last.
+  // Continues an event that was scheduled before, with `order.sequence`, and not before its last instant.
   void go_on(const EventOrder& order, const Payload& payload) { push({order, payload}); }
   bool empty() const { return pending_.empty(); }
-  // Whether this comes before all that is pending.
+  // Returns whether this comes before all pending events.
   bool is_first(const EventOrder& order) const { return empty() || order < next(); }
   const EventOrder& next() const { return pending_.back().order; }
   Payload pop() {
@@ -60,7 +60,7 @@ template <class Payload> class EventQueue {
     EventOrder order;
     Payload payload;
   };
-  // Few are pending at a time, and most of what is scheduled is among the first of them.
+  // Few events are pending at a time, and most new ones are among the first of them.
   void push(const Event& event) {
     std::size_t at = pending_.size();
     pending_.push_back(event);

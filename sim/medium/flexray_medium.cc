@@ -89,8 +89,8 @@ void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) {
   spread(made, {source ? &ways_.from(*source) : &ways_.from_nowhere()}, logged);
 }
 
-// To all its receivers: a clear flight where the signal is alone and arrives everywhere as it left, else one that is
-// noted at each of them.
+// Spreads a signal to its receivers: as a clear flight if it is alone and arrives everywhere as it left,
+// otherwise as a flight that is noted at each of them.
 void FlexRayMedium::spread(const Leaving& signal, const Outset& outset, ChannelLog::Id logged,
                            const bus::wire::DecodedFrame* content) {
   const Way& way = (*outset.ways)[index_of(signal.channel)];
@@ -125,7 +125,7 @@ void FlexRayMedium::pass_last_metres(const Leaving& signal, const Outset& outset
   }
 }
 
-// Nothing: it does not arrive.
+// Returns nothing if the signal does not arrive.
 std::optional<Arrival> FlexRayMedium::pass_last_metre(const Leaving& signal, const Outset& outset, const Leg& leg,
                                                       const Arrival& left) {
   Arriving last = on_last_metre(signal, leg.receiver, leg.delay);
@@ -161,7 +161,7 @@ void FlexRayMedium::to_coupler(const Leaving& signal, TrueTime now, ChannelLog::
   event.at_coupler = true;
   event.node = static_cast<std::uint8_t>(signal.sender);
   event.channel_or_bus = static_cast<std::uint8_t>(signal.channel);
-  // Not in the past, wherever a disturbance has put it.
+  // Never in the past, even if a disturbance has put it there.
   queue_.schedule(std::max(now, last.start), Phase::kArrival, event.node, event,
                   static_cast<std::uint16_t>(index_of(signal.channel) << 8));
 }
@@ -187,7 +187,7 @@ void FlexRayMedium::at_coupler(FlightNumber number) {
   release(arrived);
 }
 
-// What a receiver makes of a signal's arrival: kNone if it will not make it out. Who sends at the same time does not.
+// Returns a receiver's log id of a signal: kNone if it cannot decode it. A node that sends at the same time cannot.
 ChannelLog::Id FlexRayMedium::witness(ChannelLog::Id logged, const Leaving& signal, const Arriving& last,
                                       bool arrives) {
   if (!arrives) {
@@ -229,7 +229,7 @@ void FlexRayMedium::power_off(NodeId node, TrueTime now) {
   }
 }
 
-// What has not begun at the coupler ends there when the sender's silence does arrive.
+// A signal that has not begun at the coupler ends there when the sender's silence arrives.
 void FlexRayMedium::break_off_to_coupler(NodeId sender, TrueTime now) {
   if (approaching_.empty()) return;
   const TrueTime silent = now + branch(sender);
@@ -247,7 +247,7 @@ void FlexRayMedium::break_off(NodeId sender, Channel channel, TrueTime now) {
   if (until > now) busy_[c] += now - until;
   until = std::min(until, now);
   if (coupler_[c] == nullptr) return flights_.break_off(sender, channel, ways_.from(sender)[c], now, now);
-  // Its part of what the coupler spreads ends before that itself does, where the coupler holds it.
+  // If the coupler holds the signal, the sender's part of it ends before the forwarded signal.
   const TrueTime silent = now + branch(sender);
   const TrueTime ends = coupler_[c]->fell_silent(sender, silent);
   flights_.break_off(sender, channel, ways_.from_coupler()[c], silent, ends);

@@ -1,14 +1,14 @@
-// The simulated FlexRay: two channels in virtual time, obeying the laws of bus/ports/flexray_port.h. It is a linear bus
-// or a star (sim/medium/ways.h); without a coupler in its middle a star forwards everything, and is a bus but for the
-// delays. What leaves reaches everybody who is attached to the channel; what overlaps at a receiver arrives there as
-// one signal that nobody can make out.
+// The simulated FlexRay: two channels in virtual time, with the laws of bus/ports/flexray_port.h. It is a
+// linear bus or a star (sim/medium/ways.h). A star without a coupler in its middle forwards everything, so it
+// differs from a bus only by its delays. A signal reaches all nodes attached to the channel. Signals that
+// overlap at a receiver arrive there as one undecodable signal.
 //
-// Bit-true, it carries frames as bytes, which every frame is encoded to and decoded from, CRCs and all. Transparent, it
-// carries what they say, and bytes only where a disturbance or a coupler may look at them: all that anybody receives is
-// the same.
+// A bit-true medium carries frames as bytes: every frame is encoded and decoded, with its CRCs. A transparent
+// medium carries the content of frames, and bytes only where a disturbance or a coupler may look at them.
+// Receivers get the same from both.
 //
-// How signals go from receiver to receiver is the business of flights, of which there are two kinds: the plain way
-// (sim/medium/flights.h), and a fast way for what has its channel to itself (sim/medium/clear_flights.h).
+// Flights carry signals from receiver to receiver. There are two kinds: the plain way (sim/medium/flights.h),
+// and a fast way for a signal alone on its channel (sim/medium/clear_flights.h).
 #pragma once
 
 #include <array>
@@ -36,67 +36,65 @@ namespace ttf::sim::medium {
 
 class FlexRayMedium {
  public:
-  // Signals on their way at once that there is room for from the beginning, beside those that have not reached a
-  // coupler yet. A signal is one until it has ended at its last receiver, and no longer: what it is drawn into, or
-  // what is drawn into it, arrives with the one of them that ends last. So there are, on either channel, at most one
-  // that a node sends, what is left of one that broke off, one that each fault makes of nothing, and what a fault
-  // makes late: a slot's frame for each slot in that time. Where a plan of faults makes more of it than this, there is
-  // more room.
+  // Room for signals on their way at once from the beginning, without those that have not reached a coupler yet. A
+  // signal counts until it has ended at its last receiver; merged signals arrive with the one that ends last. A channel
+  // has at most one signal of each sending node, the rest of one that broke off, and one emitted by each fault. The
+  // frames that a fault delays come on top: one per slot in that time. If a fault plan makes more, there is more room.
   static constexpr std::size_t kFlights = 512;
-  // The frames and the events of the queue that it may need.
+  // The frames and queue events that it may need.
   static constexpr std::size_t kMostPending = kFlights + 64;
-  // What a channel log has to have room for.
+  // The room that a channel log needs.
   static constexpr std::size_t kMostLogged = kFlights + 128;
 
   FlexRayMedium(const schedules::model::Cluster& cluster, MediumQueue& queue, FramePool& pool);
 
-  // Null: nothing goes wrong.
+  // Null: no disturbance.
   void set_disturbance(Disturbance* disturbance) { disturbance_ = disturbance; }
   void set_transparent(bool transparent) { transparent_ = transparent; }
-  // Null: nobody is told what becomes of frames on their way.
+  // Null: the fate of frames is not logged.
   void set_log(ChannelLog* log);
-  // In the middle of a star; null: it forwards everything.
+  // Sets the coupler in the middle of a star; null: the star forwards everything.
   void set_coupler(schedules::model::Channel channel, Coupler* coupler) { coupler_[index_of(channel)] = coupler; }
-  // False: all goes the plain way.
+  // False: all signals go the plain way.
   void set_fast(bool fast) { fast_ = fast; }
   bool wants_bytes(NodeId sender, schedules::model::Channel channel) const {
     return log_ != nullptr || carries_bytes(sender, channel);
   }
 
-  // What a node sends: `start`, `end`: true times of the first and last bit at the sender.
+  // Sends a node's signal. `start` and `end` are the true times of its first and last bit at the sender.
   void transmit(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start, TrueTime end);
-  // The same frame on both channels at once, without bytes; `transmission` says channel A.
+  // Sends one frame on both channels at once, without bytes; `transmission` says channel A.
   void transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start, TrueTime end);
-  // What comes out of nothing and reaches everybody on the channel at once; `source` is the sender where there is one.
+  // Emits a signal that no controller sends; it reaches all nodes on the channel at once. `source` is the
+  // sender, if there is one.
   void emit(const Leaving& signal, std::optional<NodeId> source);
-  // The node has lost its supply at `now`: what it is sending ends there and becomes undecodable (what was drawn into
-  // another signal stays in it), and what is on its way to it vanishes.
+  // The node has lost its supply at `now`: its present signal ends there and becomes undecodable; a part merged
+  // into another signal stays in it. Signals on their way to the node vanish.
   void power_off(NodeId node, TrueTime now);
 
-  // Whether something is arriving at the node at `now`.
+  // Returns whether something is arriving at the node at `now`.
   bool carrier(NodeId node, schedules::model::Channel channel, TrueTime now) const;
   Duration delay(NodeId from, NodeId to) const { return ways_.delay(from, to); }
-  // Of a star: from the node to the coupler, or back.
+  // Returns the delay of a star's branch: from the node to the coupler, or back.
   Duration branch(NodeId node) const { return ways_.branch(node); }
-  // How long the channel has been taken by what nodes sent so far.
+  // Returns how long the nodes' signals have taken the channel so far.
   Duration busy(schedules::model::Channel channel) const { return busy_[index_of(channel)]; }
 
-  // What an arrival of the queue brings: nothing where it was drawn into another signal, or where it is one at a
-  // coupler. The frame stays valid until release() is called with the same arrival.
+  // Returns the arrival of an event from the queue; nothing if the signal was merged into another, or arrives
+  // at a coupler. The frame stays valid until release() is called with the same arrival.
   std::optional<Arrival> arrive(const MediumEvent& event, TrueTime now);
-  // The same for who goes along with a signal from receiver to receiver: what it brings where it is, and whether it
-  // goes on from there. Then next_arrival() turns the event into its next one and says when that is; it is not in the
-  // queue.
+  // The same for a caller that follows a signal from receiver to receiver: returns its arrival, and whether it goes
+  // on. Then next_arrival() turns the event into the next one and returns its place; that event is not in the queue.
   Stopover stop_over(const MediumEvent& event, TrueTime now);
   EventOrder next_arrival(MediumEvent& event) const;
   const bus::wire::DecodedFrame& frame(const Arrival& arrival) const { return pool_.decoded(arrival.frame); }
   void release(const Arrival& arrival) { medium::release(pool_, arrival); }
 
-  // For who goes along with a signal on both channels at once.
+  // For a caller that follows a signal on both channels at once.
   ClearFlights& clear_flights() { return clear_flights_; }
-  // Whether what a node sends on both channels at once now reaches everybody else on FlexRay as it leaves, as long as
-  // nothing else is sent or changed until it is there; who they are and how far away; and that it was sent, when who
-  // asks has told them.
+  // For a caller that delivers a frame on both channels itself. Returns whether a frame sent now reaches all
+  // other nodes on FlexRay as it leaves, while nothing else is sent or changed. The receivers and their delays
+  // come from way_from(); told_on_both() reports the delivery to the medium.
   bool is_clear() const {
     return fast_ && ways_.same_on_both() && is_empty(schedules::model::Channel::kA) &&
            is_empty(schedules::model::Channel::kB) && transparent_ && is_undisturbed() && coupler_[0] == nullptr &&
@@ -106,13 +104,13 @@ class FlexRayMedium {
   void told_on_both(NodeId sender, TrueTime start, TrueTime end);
 
  private:
-  // Where a signal sets out to its receivers.
+  // The start of a signal's ways to its receivers.
   struct Outset {
     const Ways* ways = nullptr;
     bool at_coupler = false;
     NodeId passed_over = kNoNode;  // on its way, but no receiver
   };
-  // Of a star: on its way to the coupler, where it has not begun yet.
+  // In a star: on its way to the coupler, where it has not begun yet.
   struct Approaching {
     Arrival arrival;
     FlightNumber number = 0;
@@ -123,7 +121,7 @@ class FlexRayMedium {
     Leg leg;
     Arrival arrival;
   };
-  // When a node sent last, for the log.
+  // A node's last signal, for the log.
   struct Spoken {
     TrueTime start{}, end{};
   };
@@ -134,10 +132,10 @@ class FlexRayMedium {
   bool is_empty(schedules::model::Channel channel) const {
     return !clear_flights_.any(channel) && !flights_.any(channel);
   }
-  // Nobody looks at what is on its way.
+  // Returns whether nothing looks at signals on their way: no disturbance, no log.
   bool is_undisturbed() const { return disturbance_ == nullptr && log_ == nullptr; }
 
-  // `content`: of a frame without bytes.
+  // `content` is that of a frame without bytes.
   void spread(const Leaving& signal, const Outset& outset, ChannelLog::Id logged,
               const bus::wire::DecodedFrame* content = nullptr);
   void pass_last_metres(const Leaving& signal, const Outset& outset, const Arrival& left);
@@ -149,7 +147,7 @@ class FlexRayMedium {
   void break_off_to_coupler(NodeId sender, TrueTime now);
   void break_off(NodeId sender, schedules::model::Channel channel, TrueTime now);
   ChannelLog::Id witness(ChannelLog::Id logged, const Leaving& signal, const Arriving& last, bool arrives);
-  // Whether the receiver sends at the same time; for the log.
+  // Returns whether the receiver sends at the same time; for the log.
   bool talks_over(const Arriving& last, schedules::model::Channel channel) const {
     const Spoken& own = spoken_[lane_of(last.receiver, channel)];
     return last.start < own.end && own.start < last.end;
@@ -164,19 +162,19 @@ class FlexRayMedium {
   FramePool& pool_;
   Flights flights_;
   ClearFlights clear_flights_;
-  std::vector<Reached> reached_;          // whom, and how, the signal that is being spread
+  std::vector<Reached> reached_;          // the receivers and the arrivals of the signal being spread
   std::array<Duration, 2> busy_{};        // by channel
   std::vector<TrueTime> sent_until_;      // by NodeId and channel
   std::vector<Spoken> spoken_;            // by NodeId and channel
   std::array<Coupler*, 2> coupler_{};     // by channel
-  std::vector<Approaching> approaching_;  // a coupler
+  std::vector<Approaching> approaching_;  // on their way to a coupler
   Disturbance* disturbance_ = nullptr;
   ChannelLog* log_ = nullptr;
   bool transparent_ = false;
   bool fast_ = true;
 };
 
-// --- what is done for every receiver
+// --- the work for every receiver
 
 inline Stopover FlexRayMedium::stop_over(const MediumEvent& event, TrueTime now) {
   if (clear_flights_.is_one(event)) return clear_flights_.stop_over(event, now);

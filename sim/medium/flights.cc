@@ -12,7 +12,7 @@ using schedules::model::Channel;
 
 bool overlap(const Arrival& a, const Arrival& b) { return a.start < b.end && b.start < a.end; }
 
-// What two make of one another, but for their frames.
+// Merges two signals, without their frames.
 Arrival drawn_together(const Arrival& a, const Arrival& b) {
   const bool cas = a.signal == Signal::kCas && b.signal == Signal::kCas;
   Arrival one = a;
@@ -56,21 +56,21 @@ void Flights::take_over(FlightNumber number, const FlightPlace& place, ChannelLo
   flights_[number] = {place, logged, 0, 0, {}};
 }
 
-// What arrives there, together with what it overlaps with: a stop more, unless something that is on its way already
-// ends last and has one.
+// Adds an arrival, merged with all that it overlaps. It gets a stop, unless a signal already on its way ends
+// last and has one.
 void Flights::put(FlightNumber number, NodeId receiver, const Arrival& arrival) {
   Flight& flight = flights_[number];
   Lane& pending = lane(receiver, arrival.channel);
   Pending made{arrival, next_id_++, flight.place.sender, false};
   const Stop own{arrival.end, receiver, made.id};
   if (flight.last_heard.receiver == kNoNode || own.end > flight.last_heard.end) flight.last_heard = own;
-  // Grown, it may reach what it did not reach before.
+  // A merged signal may reach others that it did not reach before.
   const auto is_reached = [&](const Pending& other) { return overlap(other.arrival, made.arrival); };
   while (const std::optional<Pending> other = pending.take_out(is_reached)) {
     release(pool_, other->arrival);
     release(pool_, made.arrival);
     if (log_ != nullptr) log_->lost(made.arrival.logged), log_->lost(other->arrival.logged);
-    if (other->arrival.end >= made.arrival.end) made.id = other->id;  // else the other's stop will find nothing
+    if (other->arrival.end >= made.arrival.end) made.id = other->id;  // else the other's stop finds nothing
     made.arrival = drawn_together(made.arrival, other->arrival);
     made.merged = true;
   }
@@ -80,11 +80,12 @@ void Flights::put(FlightNumber number, NodeId receiver, const Arrival& arrival) 
 
 void Flights::depart(FlightNumber number) {
   Flight& flight = flights_[number];
-  // Drawn into others everywhere: it has no stop. The log hears of it when it is over, as of any: it may break off.
+  // Merged everywhere, it has no stop of its own. It lands at its end all the same, for the log: it may still
+  // break off.
   if (flight.size == 0 && flight.logged != ChannelLog::kNone && flight.last_heard.receiver != kNoNode)
     stops_of(number)[flight.size++] = flight.last_heard;
   if (flight.size == 0) return land(number);
-  // As the way is, unless something has changed a signal on its last metre.
+  // In the order of the way, unless a disturbance changed a signal on its last metre.
   const auto by_end = [](const Stop& a, const Stop& b) {
     return a.end != b.end ? a.end < b.end : a.receiver < b.receiver;
   };
@@ -149,7 +150,7 @@ void Flights::lose_receiver(NodeId node, Channel channel) {
 }
 
 void Flights::break_off(NodeId sender, Channel channel, const Way& way, TrueTime silent, TrueTime ends) {
-  std::optional<FlightNumber> rests;  // a flight of all that is left
+  std::optional<FlightNumber> rests;  // a flight for all the rests
   for (const Leg& leg : way) {
     const TrueTime falls_silent = silent + leg.delay, rest_ends = ends + leg.delay;
     const auto breaks_off = [&](const Pending& one) {

@@ -1,12 +1,12 @@
-// Flights: one signal on its way to all who hear it, from its departure to its last stop. It is a single event of the
-// queue, which goes on from one stop to the next.
+// Flights: each is one signal on its way to all its receivers, from its departure to its last stop. A flight is
+// a single event of the queue, which goes on from one stop to the next.
 //
-// This is the plain way: what is on its way is noted at each of its receivers, and what arrives at the same time
-// becomes one there. The fast way, for what is alone on its channel (sim/medium/clear_flights.h), obeys the same laws:
-//   L1  stop_over() of a flight's event, at its instant, is what arrives there; then next_arrival() is its next stop,
-//       as long as it goes on
+// This is the plain way: a signal on its way is noted at each of its receivers, and signals that overlap there
+// become one. The fast way, for a signal alone on its channel (sim/medium/clear_flights.h), obeys the same laws:
+//   L1  stop_over() of a flight's event, at its instant, returns the arrival there; then next_arrival() is its next
+//       stop, as long as it goes on
 //   L2  stops come in the order of (end, receiver)
-//   L3  carrier() is true from the start of an arrival until it is taken by stop_over()
+//   L3  carrier() is true from the start of an arrival until stop_over() takes it
 #pragma once
 
 #include <algorithm>
@@ -29,12 +29,12 @@ namespace ttf::sim::medium {
 
 class Flights {
  public:
-  // There is room for `room` flights from the beginning, and more where there are more.
+  // Has room for `room` flights from the beginning, and grows.
   Flights(const FlexRayWays& ways, MediumQueue& queue, FramePool& pool, std::size_t room);
   Flights(const Flights&) = delete;
   Flights& operator=(const Flights&) = delete;
 
-  // Null: nobody is told what becomes of frames on their way.
+  // Null: the fate of frames is not logged.
   void set_log(ChannelLog* log) { log_ = log; }
   bool any(schedules::model::Channel channel) const { return aloft_[index_of(channel)] > 0; }
 
@@ -43,9 +43,9 @@ class Flights {
   void put(FlightNumber number, NodeId receiver, const Arrival& arrival);
   void depart(FlightNumber number);
 
-  // The number of what is no flight here, but may become one: what is on its way to a coupler, and a flight of the fast
-  // way. When that is taken over, it keeps its place in the queue: its event is under way already, or goes on from
-  // there.
+  // Reserves a number for something that may become a flight here: a signal on its way to a coupler, or a
+  // flight of the fast way. A flight that is taken over keeps its place in the queue: its event is already
+  // under way, or goes on from there.
   FlightNumber reserve();
   void give_back(FlightNumber number) { free_.push_back(number); }
   void take_over(FlightNumber number, const FlightPlace& place, ChannelLog::Id logged);
@@ -55,25 +55,25 @@ class Flights {
   EventOrder next_arrival(MediumEvent& event) const;
   bool carrier(NodeId node, schedules::model::Channel channel, TrueTime now) const;
 
-  // The node speaks itself: what arrives there meanwhile it cannot make out. For the log.
+  // The node sends, so it cannot decode anything that arrives there meanwhile. For the log.
   void talk_over(NodeId node, schedules::model::Channel channel, TrueTime start, TrueTime end);
-  // What is on its way to the node vanishes.
+  // Drops the signals on their way to the node.
   void lose_receiver(NodeId node, schedules::model::Channel channel);
-  // The sender falls silent; both instants are where the way begins. Of its signals, what has not ended at a receiver
-  // when `silent` gets there ends when `ends` gets there, and nobody can make it out. What was drawn into another
-  // signal stays in it.
+  // The sender falls silent; both instants are those at the begin of the way. A signal of the sender that has
+  // not ended at a receiver when `silent` gets there ends when `ends` gets there, and is undecodable. A part
+  // merged into another signal stays in it.
   void break_off(NodeId sender, schedules::model::Channel channel, const Way& way, TrueTime silent, TrueTime ends);
 
  private:
-  // What is on its way to one node on one channel.
+  // A signal on its way to one node on one channel.
   struct Pending {
     Arrival arrival;
-    std::uint32_t id = 0;  // a stop of a flight has it
+    std::uint32_t id = 0;  // also the id of a flight's stop
     NodeId sender{};
-    bool merged = false;  // of several signals
+    bool merged = false;  // consists of several signals
   };
-  // Those on their way to one node on one channel, in no order, no two of them at once: hardly ever more than one, but
-  // for what a fault makes late.
+  // The signals on their way to one node on one channel, in no order, without overlap. There is hardly ever
+  // more than one, except for those that a fault delays.
   class Lane {
    public:
     Lane() { room_.reserve(kRoom); }
@@ -82,7 +82,7 @@ class Flights {
     auto begin() const { return room_.begin(); }
     auto end() const { return room_.end(); }
     void add(const Pending& pending) { room_.push_back(pending); }
-    // The first that `is_meant`.
+    // Takes out the first that `is_meant`.
     template <class IsMeant> std::optional<Pending> take_out(IsMeant is_meant) {
       const auto found = std::find_if(room_.begin(), room_.end(), is_meant);
       if (found == room_.end()) return std::nullopt;
@@ -105,8 +105,8 @@ class Flights {
   struct Flight {
     FlightPlace place;
     ChannelLog::Id logged = ChannelLog::kNone;
-    std::size_t size = 0, next = 0;  // stops, by (end, receiver) once it has departed
-    Stop last_heard;                 // the end of what it brings, wherever that is drawn into
+    std::size_t size = 0, next = 0;  // stops, by (end, receiver) after its departure
+    Stop last_heard;                 // the last end of its signal, wherever that is merged into another
   };
 
   void add_flights(std::size_t count);
@@ -121,11 +121,11 @@ class Flights {
   FramePool& pool_;
   ChannelLog* log_ = nullptr;
   std::vector<Lane> lanes_;  // by NodeId and channel
-  std::size_t most_stops_;   // a node each
+  std::size_t most_stops_;   // one per node on the bus
   std::vector<Stop> stops_;  // most_stops_ for each flight
   std::vector<Flight> flights_;
   std::vector<FlightNumber> free_;
-  std::array<int, 2> aloft_{};  // flights, by channel
+  std::array<int, 2> aloft_{};  // number of flights, by channel
   std::uint32_t next_id_ = 0;
 };
 

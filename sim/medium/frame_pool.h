@@ -1,4 +1,4 @@
-// Bytes of frames that are on their way. Slots are reused, so that a long run needs no more memory than a short one.
+// Bytes of frames that are on their way. Slots are reused, so a long run needs no more memory than a short one.
 #pragma once
 
 #include <algorithm>
@@ -18,19 +18,19 @@ class FramePool {
  public:
   static constexpr std::size_t kMaxBytes = 264;  // the longest FlexRay frame is 262
 
-  // Room for `capacity` frames, which is taken but not touched: most of it never is.
+  // Reserves room for `capacity` frames without touching it: most of it is never used.
   explicit FramePool(std::size_t capacity) {
     frames_.reserve(capacity);
     free_.reserve(capacity);
   }
 
-  // Stores a copy of a FlexRay frame for `uses` deliveries and makes out what it says, once for all receivers.
+  // Stores a copy of a FlexRay frame for `uses` deliveries, and decodes it once for all receivers.
   std::uint32_t put_frame(schedules::model::Channel channel, std::span<const std::byte> bytes, int uses) {
     const std::uint32_t index = put(bytes, uses);
     frames_[index].decoded = bus::wire::decode_frame(channel, this->bytes(index));
     return index;
   }
-  // Stores a copy of what a frame says, as if it had been encoded and decoded. It has no bytes.
+  // Stores a copy of a frame's content, as if it had been encoded and decoded. It has no bytes.
   std::uint32_t put_content(const bus::wire::DecodedFrame& content, int uses) {
     const std::uint32_t index = put(content.payload, uses);
     bus::wire::DecodedFrame& decoded = frames_[index].decoded;

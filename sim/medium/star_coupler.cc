@@ -12,7 +12,7 @@ using bus::guardian::GuardianReason;
 using bus::poc::PocKind;
 using bus::ports::Signal;
 
-// One signal is forwarded; what comes out of nothing may be many. What is more than this is worked off at once.
+// One signal is forwarded, but many may be emitted. Those beyond this room are handled at once.
 constexpr std::size_t kHearingRoom = 16;
 // A leading coldstart node is alone in its first cycles (bus/poc/poc.h).
 constexpr std::int64_t kLeaderAlone = 4;
@@ -23,7 +23,7 @@ NodeId guardian_of(const schedules::model::Cluster& with_guardian) {
 
 }  // namespace
 
-// What the controller says, and the port it has no use for.
+// Receives the controller's events, and is its port, which it never uses.
 struct StarCoupler::Watch final : bus::controller::ControllerEvents, bus::ports::FlexRayPort {
   StarCoupler& coupler;
   TrueTime now{};
@@ -80,7 +80,7 @@ void StarCoupler::power_on(Microticks now) {
 }
 
 void StarCoupler::start_integrated(TrueTime first, Duration cycle) {
-  constexpr int kCycles = 1000;  // so that rounding to one microtick per cycle is all that is lost
+  constexpr int kCycles = 1000;  // so that rounding to one microtick per cycle is the only error
   const Microticks begin = oscillator_.ticks_at(first);
   const std::int64_t ticks = (oscillator_.ticks_at(first + cycle * kCycles) - begin).value;
   const std::int64_t per_cycle = (ticks + kCycles / 2) / kCycles;
@@ -108,7 +108,7 @@ void StarCoupler::deliver(const Hearing& heard) {
     reception.frame = heard.frame;
     reception.frame.payload = std::span(heard.bytes).subspan(bus::wire::kHeaderBytes, heard.frame.payload.size());
   }
-  // What the controller does at that very instant, it does with the reception (sim/medium/event_queue.h).
+  // The controller's work at that very instant is done with the reception (sim/medium/event_queue.h).
   advance(reception.end - Microticks{1});
   watch_->now = heard.end;
   controller_->receive(reception);
@@ -129,7 +129,7 @@ void StarCoupler::catch_up(TrueTime now) {
   advance(oscillator_.ticks_at(now));
 }
 
-// Like any receiver, it cannot make out what overlaps.
+// Takes in a signal. Overlapping signals are undecodable, as for any receiver.
 void StarCoupler::hear(NodeId branch, const Leaving& signal, const bus::wire::DecodedFrame* frame) {
   Hearing heard{branch, signal.start, signal.end, signal.signal, {}, {}};
   if (frame != nullptr && signal.signal == Signal::kFrame) {
@@ -161,7 +161,7 @@ bus::guardian::GuardianAnswer StarCoupler::judge(const bus::guardian::GuardianSi
   return guardian_.judge(*clock, dynamic_, signal);
 }
 
-// To the instant where the guardian leaves it alone.
+// Returns the end of the forwarded signal.
 TrueTime StarCoupler::end_of(TrueTime start, TrueTime end, Microticks until) const {
   const auto& clock = controller_->clock();
   const Microticks sent = oscillator_.ticks_at(end - Duration{1}) + Microticks{1};  // the first at or after `end`
@@ -170,7 +170,7 @@ TrueTime StarCoupler::end_of(TrueTime start, TrueTime end, Microticks until) con
   return ends == sent ? end : oscillator_.time_of(ends);
 }
 
-// The controller may still wait for the second frame of somebody whose lead has failed.
+// The controller may still wait for the second frame of a node whose lead has failed.
 void StarCoupler::lead_begins() {
   if (controller_->state().kind != PocKind::kInitialiseSchedule) return;
   const Microticks now = oscillator_.ticks_at(watch_->now);
@@ -214,7 +214,7 @@ void StarCoupler::disturbed(const Leaving& signal) {
 }
 
 TrueTime StarCoupler::fell_silent(NodeId branch, TrueTime at) {
-  // What is forwarded is the only one with a branch.
+  // Only the forwarded signal has a branch.
   const auto heard = std::find_if(hearing_.begin(), hearing_.end(),
                                   [&](const Hearing& one) { return one.branch == branch && one.end > at; });
   if (failure_ != Failure::kNone || heard == hearing_.end()) return at;

@@ -1,10 +1,10 @@
-// The star coupler of one channel with its central guardian (bus/guardian/guardian.h): an own oscillator, an own
-// controller that integrates into the cluster like any node without a key slot, and what they make of every signal that
-// begins at the coupler. The couplers of two channels know nothing of one another: one that fails takes its channel
-// with it and nothing else.
+// The star coupler of one channel with its central guardian (bus/guardian/guardian.h). It has an oscillator of
+// its own, and a controller that integrates into the cluster like any node without a key slot. With these it
+// judges every signal that begins at the coupler. The couplers of two channels are independent: a failure
+// affects one channel only.
 //
-// It costs nothing between signals: the controller, which sends nothing, is brought up to date when a signal comes.
-// When it has lost the cluster (passive or halted), it begins anew, and start-up is open again.
+// Between signals it costs nothing: the controller, which never sends, is brought up to date when a signal comes.
+// When the controller has lost the cluster (passive or halted), it begins anew, and start-up is open again.
 #pragma once
 
 #include <array>
@@ -24,13 +24,13 @@ namespace ttf::sim::medium {
 
 class StarCoupler final : public Coupler {
  public:
-  // Faults of its own.
+  // Faults of the coupler itself.
   enum class Failure : std::uint8_t {
     kNone,
-    kSilent,     // nothing goes through
-    kStuckOpen,  // everything does: a star without a guardian
+    kSilent,     // forwards nothing
+    kStuckOpen,  // forwards everything: a star without a guardian
   };
-  // What the guardian kept from the others, wholly, or from `until` on.
+  // A signal that the guardian kept from the other nodes, wholly or from `until` on.
   struct Intervention {
     TrueTime at{};
     NodeId branch{};
@@ -47,21 +47,21 @@ class StarCoupler final : public Coupler {
   StarCoupler(const StarCoupler&) = delete;
   StarCoupler& operator=(const StarCoupler&) = delete;
 
-  // Whether anybody is on the channel.
+  // Returns whether the cluster has guardians and a node on the channel.
   static bool needed(const schedules::model::Cluster& cluster, schedules::model::Channel channel);
   static std::int64_t microtick_ps(const schedules::model::Cluster& cluster, schedules::model::Channel channel);
 
-  // As if start-up were over, and cycle 0 of `cycle` each began at `first`.
+  // Starts as if start-up were over: cycle 0 begins at `first`, and each cycle lasts `cycle`.
   void start_integrated(TrueTime first, Duration cycle);
   void fail(Failure failure) { failure_ = failure; }
-  // Null: nobody is told. Counted is always.
+  // Calls `told` for each intervention; null: no calls. Interventions are counted in any case.
   void on_intervention(std::function<void(const Intervention&)> told) { told_ = std::move(told); }
 
   bool pass(Leaving& signal, const bus::wire::DecodedFrame* frame) override;
   void disturbed(const Leaving& signal) override;
   TrueTime fell_silent(NodeId branch, TrueTime at) override;
 
-  std::uint64_t forwarded() const { return count_[0]; }  // also what was cut
+  std::uint64_t forwarded() const { return count_[0]; }  // with those that were cut
   std::uint64_t blocked(bus::guardian::GuardianReason reason) const { return count_[static_cast<std::size_t>(reason)]; }
   std::uint64_t blocked() const;  // for any reason
   std::uint64_t cut() const { return cut_; }
@@ -74,9 +74,9 @@ class StarCoupler final : public Coupler {
 
  private:
   struct Watch;
-  // On its way into the guardian's own controller.
+  // A signal on its way into the guardian's own controller.
   struct Hearing {
-    NodeId branch = kNoNode;  // kNoNode: of none, or of several
+    NodeId branch = kNoNode;  // kNoNode: from no branch, or from several
     TrueTime start{}, end{};
     bus::ports::Signal signal{};
     bus::wire::DecodedFrame frame;  // its payload in `bytes`
@@ -99,8 +99,8 @@ class StarCoupler final : public Coupler {
   std::unique_ptr<Watch> watch_;
   std::unique_ptr<bus::controller::FlexRayController> controller_;
   bus::controller::DynamicSlotCounter dynamic_;
-  std::int64_t counted_cycle_ = -1;  // dynamic_ is of
-  TrueTime taken_until_{};           // by what is being forwarded
+  std::int64_t counted_cycle_ = -1;  // the cycle of dynamic_
+  TrueTime taken_until_{};           // the channel is taken by the forwarded signal until then
   std::vector<Hearing> hearing_;
   Failure failure_ = Failure::kNone;
   std::array<std::uint64_t, bus::guardian::kAllGuardianReasons.size()> count_{};

@@ -8,7 +8,7 @@ namespace {
 
 using schedules::model::Channel;
 
-// The ways to those who are attached, at the delays that `delay_to` says.
+// Returns the ways to the attached nodes, with the delays of `delay_to`.
 template <class DelayTo> Ways ways_to(const std::array<std::vector<NodeId>, 2>& attached, DelayTo delay_to) {
   Ways ways;
   for (std::size_t c = 0; c < ways.size(); ++c) {
@@ -47,7 +47,7 @@ FlexRayWays::FlexRayWays(const schedules::model::Cluster& cluster)
 }
 
 std::int64_t FlexRayWays::branch_ps(NodeId node) const {
-  const int steps = ends_ - 1;  // to the two longest
+  const int steps = ends_ - 1;  // to the two longest branches
   const std::int64_t range = max_delay_ps_ - min_delay_ps_;
   const std::int64_t longer = steps <= 0 ? range : range * std::min(position_[index_of(node)], steps) / steps;
   return (min_delay_ps_ + longer) / 2;

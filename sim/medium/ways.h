@@ -1,8 +1,8 @@
-// How far it is from node to node on the simulated FlexRay, and which ways signals take there.
+// Distances between nodes on the simulated FlexRay, and the ways of signals.
 //
-// A linear bus has its nodes equally spaced along it; the propagation delay between two of them grows from
-// gdMinPropagationDelay (neighbours at no distance) to gdMaxPropagationDelay (the two ends). A star has every node on a
-// branch of its own, from half gdMinPropagationDelay for the first to half gdMaxPropagationDelay for the last two.
+// A linear bus has its nodes equally spaced along it. The propagation delay between two of them grows from
+// gdMinPropagationDelay (neighbours at no distance) to gdMaxPropagationDelay (the two ends). A star has every node on
+// a branch of its own, from half gdMinPropagationDelay for the first to half gdMaxPropagationDelay for the last two.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct Leg {
   NodeId receiver{};
   Duration delay{};
 };
-using Way = std::vector<Leg>;     // to all who are attached to a channel; by (delay, receiver)
+using Way = std::vector<Leg>;     // to all nodes attached to a channel; by (delay, receiver)
 using Ways = std::array<Way, 2>;  // by channel
 
 class FlexRayWays {
@@ -31,17 +31,17 @@ class FlexRayWays {
   std::size_t nodes() const { return position_.size(); }  // of the cluster
   std::size_t nodes_on_bus() const { return static_cast<std::size_t>(ends_ + 1); }
   bool is_on_bus(NodeId node) const { return position_[index_of(node)] >= 0; }
-  // Whether whoever is attached to one channel is so to both.
+  // Returns whether both channels have the same nodes.
   bool same_on_both() const { return same_on_both_; }
 
   Duration delay(NodeId from, NodeId to) const;
-  // Of a star: from the node to the coupler, or back.
+  // Returns the delay of a star's branch: from the node to the coupler, or back.
   Duration branch(NodeId node) const;
-  // To all others.
+  // Returns the ways to all other nodes.
   const Ways& from(NodeId sender) const { return from_node_[index_of(sender)]; }
-  // To all at once.
+  // Returns the ways to all nodes at once.
   const Ways& from_nowhere() const { return from_nowhere_; }
-  // Of a star: from its middle to all.
+  // Returns the ways from a star's middle to all nodes.
   const Ways& from_coupler() const { return from_coupler_; }
 
  private:

@@ -1,5 +1,5 @@
-// A node as the others see it: when its next turn is. All who see the same arrivals at it and hear the same promises
-// come to the same answer, the node itself included.
+// A node as the others see it: the instant of its next turn. All processes with the same arrivals and promises
+// come to the same answer, the node's own process included.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ class Outlook {
  public:
   using Promise = nodes::host::Promise;
 
-  // When its promise ends: then it has to say something, if only that it goes on being silent. Never: it is off.
+  // Returns the end of its promise: then it must take a turn, if only to go on being silent. Never: it is off.
   Microticks turn() const { return turn_; }
 
   void begins(Microticks now) { promises({now, Microticks{}, Microticks{}, Microticks{}}); }

@@ -1,7 +1,6 @@
-// What one process of several writes down, where each simulates one node and all of them the media: of what belongs to
-// no executive - signals' ways on the channels, guardians' interventions, faults - each process hears everything. It
-// keeps what is of its own node, and one of them, that of the first node, what is of none; together they keep each
-// once.
+// Filters records when each process simulates one node: each keeps its own node's records, the first also those
+// of no node. All processes see the records that belong to no executive: signals' ways on the channels,
+// guardians' interventions, faults. Together they keep each of these once.
 #pragma once
 
 #include <type_traits>

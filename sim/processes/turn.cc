@@ -18,8 +18,7 @@ enum class ActKind : std::uint8_t { kSignal = 1, kCanFrame = 2, kTrigger = 3, kS
 constexpr std::size_t kHeaderSize = 1 + 4 + 5 * 8 + 2;
 constexpr std::size_t kUsualSize = 4096;
 constexpr std::size_t kMostCanBytes = 64;
-constexpr std::int64_t kMostAhead = std::int64_t{1}
-                                    << 40;  // [uT] hours: nothing in a turn is about what is further off
+constexpr std::int64_t kMostAhead = std::int64_t{1} << 40;  // [uT] hours: the furthest instant in a turn
 constexpr std::int64_t kLastTick = std::int64_t{1} << 60;
 
 template <class Integer> void put(std::vector<std::byte>& bytes, Integer value) {
@@ -42,7 +41,7 @@ class TurnBytes {
       throw std::runtime_error(fmt::format("a turn with {} {}, which must be at most {}", what, value, most));
     return static_cast<Integer>(value);
   }
-  // Below zero, too: a node's first tick comes within a tick of the start of the run.
+  // May be below zero: a node's first tick comes within a tick of the start of the drive.
   Microticks instant(Microticks from, std::int64_t most, const char* what) {
     const auto value = static_cast<std::int64_t>(take<std::uint64_t>(~std::uint64_t{0}, what));
     if (value < from.value || value > from.value + most)
@@ -50,7 +49,7 @@ class TurnBytes {
           fmt::format("a turn with {} {}, which must be {}..{}", what, value, from.value, from.value + most));
     return {value};
   }
-  // Either may be never.
+  // Reads an instant that may be never.
   Microticks instant_or_never(Microticks from, std::int64_t most, const char* what) {
     TurnBytes ahead = *this;
     if (ahead.take<std::uint64_t>(~std::uint64_t{0}, what) == static_cast<std::uint64_t>(kNever<Microticks>.value)) {
@@ -84,14 +83,14 @@ bus::ports::Transmission read_signal(TurnBytes& in, const TurnHeader& turn) {
   sent.bytes = in.take_bytes(size, "frame");
   if (sent.signal != bus::ports::Signal::kFrame) return sent;
   sent.content = bus::wire::decode_frame(sent.channel, sent.bytes);
-  if (sent.content.error != bus::wire::FrameError::kNone) throw std::runtime_error("a turn with a frame that is none");
+  if (sent.content.error != bus::wire::FrameError::kNone) throw std::runtime_error("a turn with an undecodable frame");
   return sent;
 }
 
 CanAct read_can(TurnBytes& in, const schedules::model::Cluster& cluster) {
   CanAct act;
   const std::size_t buses = cluster.can_buses.size();
-  if (buses == 0) throw std::runtime_error("a turn with a frame on a CAN, of which there are none");
+  if (buses == 0) throw std::runtime_error("a turn with a CAN frame, in a cluster without a CAN");
   act.bus = in.take<std::uint8_t>(buses - 1, "CAN");
   act.frame.identifier = in.take<std::uint32_t>(0x7FF, "CAN identifier");
   act.frame.flexible_data_rate = in.take<std::uint8_t>(1, "flexible data rate") != 0;
@@ -100,11 +99,11 @@ CanAct read_can(TurnBytes& in, const schedules::model::Cluster& cluster) {
   return act;
 }
 
-// `end`: of the wire that the node must be at.
+// `end` is the end of the sensor's wires where the node must be.
 SensorId read_sensor(TurnBytes& in, const TurnHeader& turn, const schedules::model::Cluster& cluster,
                      NodeId schedules::model::Sensor::*end) {
   const std::size_t sensors = cluster.sensors.size();
-  if (sensors == 0) throw std::runtime_error("a turn with a sensor, of which there are none");
+  if (sensors == 0) throw std::runtime_error("a turn with a sensor, in a cluster without sensors");
   const auto sensor = static_cast<SensorId>(in.take<std::uint8_t>(sensors - 1, "sensor"));
   if (cluster.sensor(sensor).*end != turn.node) throw std::runtime_error("a turn with another node's sensor");
   return sensor;
@@ -120,7 +119,7 @@ Act read_act(TurnBytes& in, const TurnHeader& turn, const schedules::model::Clus
       return StrobeAct{sensor, in.take<std::uint32_t>(~std::uint32_t{0}, "sequence")};
     }
   }
-  throw std::runtime_error("a turn with an act of no known kind");
+  throw std::runtime_error("a turn with an act of unknown kind");
 }
 
 }  // namespace
@@ -163,7 +162,7 @@ void TurnWriter::add(const Act& act) {
   }
 }
 
-// The header is as long whatever it says, so that its place can be kept free.
+// The header always has the same length, so its place can be kept free.
 std::span<const std::byte> TurnWriter::finish(const TurnHeader& header) {
   const std::size_t size = bytes_.size();
   put(bytes_, static_cast<std::uint8_t>(header.node));
@@ -192,7 +191,7 @@ TurnHeader read_turn(const schedules::model::Cluster& cluster, std::span<const s
   acts.clear();
   for (auto left = in.take<std::uint16_t>(0xFFFF, "number of acts"); left > 0; --left)
     acts.push_back(read_act(in, header, cluster));
-  if (!in.done()) throw std::runtime_error("a turn that goes on behind its last act");
+  if (!in.done()) throw std::runtime_error("a turn that continues after its last act");
   return header;
 }
 

@@ -1,12 +1,12 @@
-// What a node tells the others in its turn, where each runs in a process of its own (sim/processes/turn_taking.h): what
-// it does that they can notice, in the order in which it does it, and what it promises from then on.
+// A node's message to the others in its turn, when each runs in a process of its own
+// (sim/processes/turn_taking.h): its acts, in their order, and its promise from then on.
 //
 // The message, everything little-endian:
 //   turn   u8 node, u32 number (counted from 0), i64 instant [uT of the node], i64 silent_until [uT],
 //          i64 after_flexray, i64 after_can, i64 after_trigger [uT], u16 number of acts, the acts
 //   act    u8 kind, then
-//     1 signal    u8 channel (0 A, 1 B), u8 bus::Signal, i64 start [uT], i64 end [uT], u16 slot, u16 size, the frame's
-//                 bytes
+//     1 signal    u8 channel (0 A, 1 B), u8 bus::ports::Signal, i64 start [uT], i64 end [uT], u16 slot, u16 size, the
+//                 frame's bytes
 //     2 CAN frame u8 bus, u32 identifier, u8 flexible data rate (0, 1), u8 size, the data
 //     3 trigger   u8 sensor
 //     4 strobe    u8 sensor, u32 sequence
@@ -49,13 +49,13 @@ struct TurnHeader {
   nodes::host::Promise promise;
 };
 
-// A turn in the making. Takes no more room than once what its longest turn needs.
+// A turn under construction. Its memory grows only to the size of its longest turn.
 class TurnWriter {
  public:
   TurnWriter();
   void add(const Act& act);
   bool empty() const { return acts_ == 0; }
-  // The whole message, valid until the next add() or clear().
+  // Returns the whole message, valid until the next add() or clear().
   std::span<const std::byte> finish(const TurnHeader& header);
   void clear();
 
@@ -64,8 +64,8 @@ class TurnWriter {
   std::uint16_t acts_ = 0;
 };
 
-// One turn of a node of `cluster`, checked as a whole: that the acts are its node's and none begins before the turn,
-// that the promise goes beyond it, that frames are sound. What is none throws std::runtime_error with a sentence.
+// Reads one turn of a node of `cluster` and checks it: the acts are the node's own, none begins before the
+// turn, the promise goes beyond it, and frames are sound. Otherwise throws std::runtime_error with a sentence.
 // `acts` refer into `bytes`.
 TurnHeader read_turn(const schedules::model::Cluster& cluster, std::span<const std::byte> bytes,
                      std::vector<Act>& acts);

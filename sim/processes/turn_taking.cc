@@ -41,7 +41,8 @@ std::optional<std::span<const Act>> TurnTaking::listen(NodeId node, Microticks n
 void TurnTaking::receive() {
   const bus::ports::Exchange::Heard heard = exchange_.receive();
   if (index_of(heard.from) >= members_.size() || heard.from == self_)
-    throw std::runtime_error(fmt::format("a message of node {}, which is none of the others", index_of(heard.from)));
+    throw std::runtime_error(
+        fmt::format("a message from node {}, which is no other node of the cluster", index_of(heard.from)));
   Member& member = members_[index_of(heard.from)];
   if (heard.gone) {
     member.gone = true;

@@ -1,20 +1,19 @@
-// How the processes of one cluster go through virtual time together, one node in each, with nothing but messages
-// between them: the schedule is the synchroniser.
+// The processes of one cluster go through virtual time together, one node in each. Only messages pass between
+// them: the schedule is the synchroniser.
 //
-// Every process simulates all media, and its own node. Of the others it knows what they do from what they say in their
-// turns, and when those are from what they promised: at each turn a node says what it does that others can notice,
-// until when it will be silent, and how soon an arrival may make it speak sooner (nodes/host/promise.h). As everybody
-// knows all arrivals, everybody knows when whose next turn is (sim/processes/outlook.h), and goes on until there
-// without waiting. So
+// Every process simulates all media and its own node. It learns the acts of other nodes from their turns, and
+// the instants of these turns from their promises. At each turn a node says its acts, until when it will be
+// silent, and how soon an arrival may make it speak (nodes/host/promise.h). All processes know all arrivals. So
+// each knows every node's next turn (sim/processes/outlook.h), and goes on until there without waiting:
 //
-//   T1  all processes see the same acts and turns in the same order, which is that of sim/medium/event_queue.h: what a
-//       node records is what it records where one process simulates them all
-//   T2  somebody can always go on: the node whose turn is first waits for nobody
-//   T3  a node that is gone (bus/ports/exchange.h) is without supply from the turn on that it did not take, for all
+//   T1  all processes see the same acts and turns in the same order, that of sim/medium/event_queue.h: a node's
+//       records are those of a simulation in one process
+//   T2  one process can always go on: the node whose turn is first waits for no other
+//   T3  a node that is gone (bus/ports/exchange.h) is without supply from the first turn that it did not take, for all
 //       others alike
 //
-// A static schedule makes turns rare: a frame in an own slot, the end of a task. Where nodes start up, or have frames
-// in the dynamic segment, every arrival may be answered, and there is a turn for each.
+// A static schedule makes turns rare: a frame in an own slot, the end of a task. In a start-up, and with frames
+// in the dynamic segment, every arrival may be answered, and each has a turn.
 #pragma once
 
 #include <cstddef>
@@ -36,22 +35,22 @@ namespace ttf::sim::processes {
 
 class TurnTaking {
  public:
-  // `self`: the node of this process.
+  // `self` is the node of this process.
   TurnTaking(const schedules::model::Cluster& cluster, NodeId self, bus::ports::Exchange& exchange);
 
   NodeId self() const { return self_; }
   Outlook& outlook(std::size_t node) { return members_[node].outlook; }
   const Outlook& outlook(std::size_t node) const { return members_[node].outlook; }
 
-  // What the own node does, within its turn.
+  // Adds an act of the own node, within its turn.
   void does(const Act& act) { own_.add(act); }
-  // The own turn is over: the others hear of it.
+  // Ends the own turn and sends it to the others.
   void speak(Microticks now, const nodes::host::Promise& promise);
-  // Nothing has been done that others would have to hear of.
+  // Returns whether the own node has no act to send.
   bool silent() const { return own_.empty(); }
 
-  // The acts of another node's turn, valid until the next call; waits for them. Nothing: the node is gone. Throws
-  // std::runtime_error where what came is not the turn that is due, or the exchange is lost.
+  // Waits for another node's turn and returns its acts, valid until the next call. Nothing: the node is gone.
+  // Throws std::runtime_error if a turn other than the due one comes, or the exchange is lost.
   std::optional<std::span<const Act>> listen(NodeId node, Microticks now);
 
  private:
@@ -67,7 +66,7 @@ class TurnTaking {
   NodeId self_;
   bus::ports::Exchange& exchange_;
   std::vector<Member> members_;                // by NodeId
-  std::vector<std::vector<std::byte>> spare_;  // rooms for turns, to be used again
+  std::vector<std::vector<std::byte>> spare_;  // buffers for turns, to be used again
   std::vector<std::byte> heard_;               // the turn that acts_ refers into
   std::vector<Act> acts_;
   TurnWriter own_;

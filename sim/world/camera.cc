@@ -10,7 +10,7 @@
 namespace ttf::sim::world {
 namespace {
 
-// What the pair matches of an object: the middle of its silhouette, at the mean depth of the outline that shows.
+// The matched part of an object: the middle of its silhouette, at the mean depth of the visible outline.
 struct Seen {
   double bearing = 0.0;
   double depth = 0.0;       // along the optical axis
@@ -80,7 +80,7 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
   RandomStream misses({seed, replication, Purpose::kSensorMisses, sensor, sequence});
   RandomStream clutter({seed, replication, Purpose::kClutter, sensor, sequence});
   for (const ObjectState& object : objects) {
-    // Draws are made for every object, seen or not, so that one object's visibility never shifts another's noise.
+    // Every object gets draws, seen or not, so one object's visibility never shifts another's noise.
     const bool missed = misses.uniform() < config.miss_probability;
     const double disparity_noise = noise.normal(), bearing_noise = noise.normal(), width_noise = noise.normal();
     const auto seen = see(object);
@@ -89,8 +89,7 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
     if (range > config.max_range_m) continue;
     const double c = std::cos(seen->bearing), s = std::sin(seen->bearing);
     const bool hidden = std::any_of(objects.begin(), objects.end(), [&](const ObjectState& other) {
-      // Cheap bound, no tighter than rounding: the line of sight passes further from the centre than the outline
-      // reaches.
+      // A cheap bound, no tighter than rounding: the line of sight passes the centre beyond the outline's reach.
       const double across = -s * other.x + c * other.y;
       if (other.id == object.id || std::abs(across) > 0.5 * (other.length + other.width) + 1e-6) return false;
       const auto distance = RayTarget(other).ray_to(seen->bearing);

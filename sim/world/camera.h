@@ -1,10 +1,10 @@
 // A stereo camera that lists vehicles by bearing, disparity and width.
 //
-// Rectified pinhole pair: a point at depth z has the disparity f b / z, so depth noise grows with the square of the
-// depth. Defaults are of the class of the paper's stereo system (automotive baseline of some decimetres, sub-pixel
-// matching). What is seen of an object is the middle of its silhouette, at the mean depth of the outline that shows; an
-// object whose middle is hidden by another (`shadow`) is missed, others are missed at random, and false detections
-// appear anywhere in the field.
+// Rectified pinhole pair: a point at depth z has the disparity f b / z, so depth noise grows with the square of
+// the depth. The defaults are of the class of the paper's stereo system (automotive baseline of some
+// decimetres, sub-pixel matching). The camera sees the middle of an object's silhouette, at the mean depth of
+// its visible outline. It misses an object whose middle is hidden by another (`shadow`), and other objects at
+// random. False detections appear anywhere in the field.
 #pragma once
 
 #include <cstdint>
@@ -27,17 +27,17 @@ struct CameraConfig {
   double half_field_rad = 0.45;  // 26 degrees to either side
   double max_range_m = 90.0;
   double miss_probability = 0.05;
-  // An object hides what is behind it up to this share of its own distance: t / (h - t) for objects of height t, seen
-  // from a mast of height h. A camera no higher than they are, on a car, never sees over them.
+  // An object hides all behind it up to this share of its own distance: t / (h - t) for objects of height t,
+  // seen from a mast of height h. A camera no higher than the objects, on a car, never sees over them.
   double shadow = std::numeric_limits<double>::infinity();
   double clutter_per_frame = 0.1;  // mean number of false detections
-  DriveError bearing_bias;         // systematic errors, none unless stated: [rad]
+  DriveError bearing_bias;         // systematic errors, zero by default: [rad]
   DriveError disparity_bias;       // [px]
   Device device;
-  int max_detections = 40;  // what one raw list carries; of more, the first are kept
+  int max_detections = 40;  // capacity of a raw list; the first ones are kept
 };
 CameraConfig load_camera(YamlMap& yaml);
-// With the systematic errors of one drive.
+// Returns the configuration with the systematic errors of one drive.
 CameraConfig in_drive(CameraConfig config, const DriveKey& key);
 
 struct CameraDetection {
@@ -46,7 +46,8 @@ struct CameraDetection {
   double width_px = 0;   // of the silhouette
 };
 
-// `objects`: in the sensor's axes. Replaces `detections`; `truth` has the object of each, 0xffff for a false one.
+// Replaces `detections` by those of `objects`, which are in the sensor's axes. `truth` has the object of each,
+// 0xffff for a false one.
 void measure_camera(const CameraConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
                     std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
                     std::vector<CameraDetection>& detections, std::vector<ObjectId>& truth);

@@ -18,17 +18,17 @@ constexpr std::uint32_t kWordsOfABeam = LaserConfig::kMostLayers * RandomStream:
 constexpr std::uint32_t kBlocksOfABeam =
     (kWordsOfABeam + RandomStream::kWordsOfABlock - 1) / RandomStream::kWordsOfABlock;
 
-// Of azimuth_step and half_field, as load_laser() takes them.
+// The largest half_field over the smallest azimuth_step of load_laser().
 constexpr int kMostBeamsOfASide = 1400;
 
-// What a beam meets first.
+// The first object that a beam meets.
 struct Echo {
   double range;
-  const ObjectState* object;  // null: nothing
+  const ObjectState* object;  // null: no echo
 };
 
-// The beams of -half..half that may meet the object, first and last: those that pass its centre no further than its
-// outline reaches, and a little more.
+// Returns the first and the last beam of -half..half that may meet the object. They pass its centre no further
+// than its outline reaches, and a little more.
 std::pair<int, int> beams_near(const ObjectState& object, double step, int half) {
   const double reach = 0.5 * std::hypot(object.length, object.width) * 1.001;
   const double distance = std::hypot(object.x, object.y);
@@ -72,7 +72,7 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
   truth.clear();
   const auto half = static_cast<int>(config.half_field_rad / config.azimuth_step_rad);
   TTF_CHECK(half >= 0 && half <= kMostBeamsOfASide, "{} beams to a side", half);
-  // By beam + half; filled from beam `begin` to before `end`, since objects leave most beams alone.
+  // By beam + half. Only beams from `begin` to before `end` are filled, since most beams meet no object.
   std::array<Echo, 2 * kMostBeamsOfASide + 1> echoes;
   int begin = 0, end = 0;
   const auto fill = [&](int from, int to) {

@@ -1,11 +1,11 @@
 // A four-layer automotive laser scanner.
 //
-// Defaults are of the class of the paper's Ibeo ALASCA XT as its maker's data sheet and papers that used it describe
-// it: 12.5 Hz, four layers within 3.2 degrees, 0.25 degree azimuth steps ahead, single-shot range noise of some
-// centimetres, range of dark targets far below the 200 m of bright ones. Rays are cast at the objects' outlines; the
-// nearest one is hit, so objects hide each other. Noise is keyed by the measurement's number and the beam's: a beam's
-// draws are the same whatever else the scan meets, so that paradigms which see the scene a little earlier or later see
-// the same noise.
+// The defaults are of the class of the paper's Ibeo ALASCA XT, by its maker's data sheet and by papers that
+// used it: 12.5 Hz, four layers within 3.2 degrees, 0.25 degree azimuth steps ahead, single-shot range noise of
+// some centimetres. The range for dark targets is far below the 200 m for bright ones. Rays are cast at the
+// objects' outlines; the nearest outline is hit, so objects hide each other. Noise is keyed by the numbers of the
+// measurement and of the beam: a beam's draws do not depend on the rest of the scan. So paradigms that see the
+// scene a little earlier or later see the same noise.
 #pragma once
 
 #include <cstdint>
@@ -19,20 +19,20 @@
 namespace ttf::sim::world {
 
 struct LaserConfig {
-  static constexpr int kMostLayers = 4;  // as many have draws of their own
+  static constexpr int kMostLayers = 4;  // layers with draws of their own
   int layers = kMostLayers;
   double azimuth_step_rad = 0.00436;  // 0.25 degrees
   double half_field_rad = 1.05;       // 60 degrees to either side
   double range_sigma_m = 0.06;
   double max_range_m = 120.0;
   double miss_at_100m = 0.3;  // probability that a ray's echo is lost at 100 m; grows with the range squared
-  DriveError range_bias;      // systematic errors, none unless stated: [m]
+  DriveError range_bias;      // systematic errors, zero by default: [m]
   DriveError azimuth_bias;    // [rad]
   Device device;
-  int max_hits = 1300;  // what one raw list carries; of more, the first are kept
+  int max_hits = 1300;  // capacity of a raw list; the first ones are kept
 };
 LaserConfig load_laser(YamlMap& yaml);
-// With the systematic errors of one drive.
+// Returns the configuration with the systematic errors of one drive.
 LaserConfig in_drive(LaserConfig config, const DriveKey& key);
 
 struct HitPoint {
@@ -41,8 +41,8 @@ struct HitPoint {
   double range = 0;    // [m]
 };
 
-// `objects`: in the sensor's axes. Replaces `hits` by the scan, by azimuth then layer, and `truth` by the object each
-// hit is of.
+// Replaces `hits` by the scan of `objects`, which are in the sensor's axes, by azimuth, then layer. Replaces
+// `truth` by the object of each hit.
 void measure_laser(const LaserConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence, std::vector<HitPoint>& hits,
                    std::vector<ObjectId>& truth);

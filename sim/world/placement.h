@@ -1,6 +1,6 @@
-// Where a sensor is on its vehicle, and by what it errs in the same way all through a drive: fixed, or drawn once for
-// each drive, or both. A draw depends on the seed, the replication, the sensor and the kind of error alone: drives
-// that are compared have the same.
+// A sensor's place on its vehicle, and its systematic errors: constant through a drive, fixed or drawn once for
+// each drive, or both. A draw depends only on the seed, the replication, the sensor and the kind of error:
+// compared drives have the same errors.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@ struct Placement {
   double x = 0.0, y = 0.0, heading = 0.0;
 };
 
-// The objects, given in the vehicle's axes, in the sensor's.
+// Moves the objects from the vehicle's axes to the sensor's.
 void see_from(const Placement& placement, std::vector<ObjectState>& objects);
 
-// An error of a whole drive: `fixed` and a draw from N(0, sigma^2).
+// The error of a whole drive: `fixed` plus a draw from N(0, sigma^2).
 struct DriveError {
   double fixed = 0.0, sigma = 0.0;
 };
 
-// What all sensors have. The stamp errs by `time` [s]: what is stamped t was measured at t + time.
+// The properties of every sensor. The stamp errs by `time` [s]: a measurement stamped t was made at t + time.
 struct Device {
   Placement placement;
   DriveError time;
@@ -41,10 +41,10 @@ struct DriveKey {
   std::uint32_t replication = 0;
   std::uint16_t sensor = 0;
 };
-// The error in this drive, all of it fixed.
+// Returns the error in this drive, all of it fixed.
 DriveError in_drive(const DriveError& error, ErrorOf what, const DriveKey& key);
 
-// A drive's instant of measuring, `true_time` being that of the stamp.
+// Returns the true instant of a measurement; `true_time` is that of its stamp.
 TrueTime measured_at(TrueTime true_time, const Device& device);
 
 }  // namespace ttf::sim::world

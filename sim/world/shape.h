@@ -1,4 +1,4 @@
-// An object's outline as a sensor at the origin sees it.
+// An object's outline, seen by a sensor at the origin.
 #pragma once
 
 #include <array>
@@ -11,24 +11,25 @@ namespace ttf::sim::world {
 struct Corner {
   double x = 0, y = 0;
 };
-// Counter-clockwise, from the front left.
+// Returns the corners counter-clockwise, from the front left.
 std::array<Corner, 4> corners(const ObjectState& state);
 
-// An outline made ready for many rays.
+// An outline prepared for many rays.
 class RayTarget {
  public:
   explicit RayTarget(const ObjectState& state);
-  // Distance from the origin along `azimuth` to the outline, if the ray meets it.
+  // Returns the distance from the origin along `azimuth` to the outline, if the ray meets it.
   std::optional<double> ray_to(double azimuth) const;
 
  private:
-  // In the object's frame the outline is a box: where the origin lies, and half of the size.
+  // In the object's frame the outline is a box: the place of the origin, and half of the size.
   double heading_;
   double origin_[2];
   double half_[2];
 };
 
-// Azimuths between which the outline lies (low <= high); nothing where it surrounds the origin or lies behind it.
+// The azimuths between which the outline lies (low <= high). Absent if the outline surrounds the origin or
+// comes so close that a corner is more than a quarter turn from the centre's direction.
 struct AzimuthSpan {
   double low = 0, high = 0;
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kStep_ns = 10'000'000;
 
-// Integrals of cos and sin of the heading weighed with speed: position after dt, speed v + a t, heading h + w t.
+// Integrates cos and sin of the heading, weighed with speed: position after dt, speed v + a t, heading h + w t.
 void advance_position(ObjectState& state, double dt) {
   const double v = state.speed, a = state.acceleration, w = state.yaw_rate, h = state.heading;
   const double turn = w * dt;
@@ -35,7 +35,7 @@ void advance_position(ObjectState& state, double dt) {
 
 ObjectState moved(const ObjectState& start, double dt) {
   ObjectState state = start;
-  // A braking car stops; it does not drive backwards, nor turn on the spot.
+  // A braking car stops; it neither drives backwards nor turns on the spot.
   double moving = dt;
   if (state.speed + state.acceleration * dt < 0.0)
     moving = state.acceleration < 0.0 ? std::clamp(-state.speed / state.acceleration, 0.0, dt) : 0.0;
@@ -98,7 +98,7 @@ namespace {
 
 constexpr Range<double> kPlace{-kFarthest_m, kFarthest_m};
 
-// How an object is, but for where.
+// Loads an object without its place.
 void load_kind(YamlMap& map, ObjectConfig& object) {
   object.heading = map.number_or("heading", 0.0, {-7.0, 7.0}, "rad");
   object.speed = map.number_or("speed", 0.0, {0.0, 100.0}, "m/s");
