@@ -71,7 +71,7 @@ const LiveMediumRow kSocketCan{
     .look_at = look_at_cans,
     .way_out =
         "without any CAN: --bus dds (the default); CANs on a kernel of one's own, without root: "
-        "tools/test_bed.sh (docs/socketcan.md)",
+        "tools/test_bed.sh (docs/socketcan_use.md)",
     .make = make_socketcan,
 };
 
