@@ -68,7 +68,7 @@ Ticks nice_ticks(const Extent& extent, int about) {
   Ticks ticks{decade * (m <= 1.0 ? 1 : m <= 2.0 ? 2 : m <= 5.0 ? 5 : 10), {}};
   const double first = std::ceil(extent.low / ticks.step - 1e-9);
   const double last = std::floor(extent.high / ticks.step + 1e-9);
-  // Where numbers are so large, or so close, that a step is lost in them, there is nothing to divide.
+  // The values are too large, or too close together, for a distinct step.
   if (!(ticks.step > 0) || !(std::abs(first) < 1e15) || !(std::abs(last) < 1e15)) return {1, {extent.low}};
   for (double k = first; k <= last; ++k) ticks.at.push_back(k * ticks.step);
   return ticks;
