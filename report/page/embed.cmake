@@ -1,4 +1,5 @@
-# cmake -DPAGE=report/page -DUPLOT=FOLDER -DOUT=FILE.cc -P embed.cmake: the page's parts as string literals.
+# cmake -DPAGE=report/page -DUPLOT=FOLDER -DOUT=FILE.cc -P embed.cmake: writes the page's parts as string
+# literals.
 set(text "#include \"report/page/assets.h\"\n\nnamespace ttf::report::page {\n")
 function(embed name file)
   if(NOT EXISTS ${file})
