@@ -37,7 +37,7 @@ FaultLanes::FaultLanes(const TimingData& data, const drawing::Names& names, True
                                        false,
                                        {}});
     const auto lane = lanes_.find(f.fault);
-    if (lane == lanes_.end()) continue;  // of a log that lost its begin
+    if (lane == lanes_.end()) continue;  // its begin is missing from the log
     if (f.what == recording::records::kFaultEnds) {
       lane->second.end = f.at;
       lane->second.ends = true;
