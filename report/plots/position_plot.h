@@ -23,9 +23,8 @@ namespace ttf::report::plots {
 struct PositionOptions {
   std::string title{};
   std::optional<TrueTime> from{}, to{};  // the whole drive if absent
-  // The object shown. Of each list the observation nearest to it is taken, of each image the nearest track,
-  // within the gate. The object's place at that time is its truth, or else its reference. Without truth and
-  // reference everything is shown.
+  // The object shown, by the observation of each list and the track of each image nearest to it within the gate.
+  // The object's place at that time is its truth, or else its reference. Without both, everything is shown.
   ObjectId object{0};
   double gate_m = 6.0;
 };

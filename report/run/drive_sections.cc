@@ -39,7 +39,7 @@ void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, cons
     if (!told.drive->log || ++logs > window.most) continue;
     const recording::log::LogManifest& manifest = told.drive->log->manifest();
     TrueTime from = window.from.value_or(scenario_in(*told.drive->log).judged_from);
-    // An end alone may lie before that: then it is the end that counts.
+    // The given end lies before the judged part: the window ends there.
     if (!window.from && window.to && *window.to <= from) from = std::max(TrueTime{}, *window.to - window.length);
     const TrueTime to = std::min(window.to.value_or(from + window.length), from + kLongestDiagram);
     timing::TimingDiagram diagram(drawing::names_of(manifest), {manifest.cycle_ns}, from, to);

@@ -9,7 +9,7 @@
 namespace ttf::report::run {
 namespace {
 
-constexpr std::size_t kMostPoints = 3000;  // of a curve; of a longer one the largest of neighbours
+constexpr std::size_t kMostPoints = 3000;  // of a curve; a longer curve keeps the largest of neighbours
 constexpr int kBins = 40;
 constexpr std::string_view kTimeAxis = "true time [s]";
 
@@ -41,7 +41,7 @@ std::string sensor_name(const std::vector<ToldDrive>& drives, SensorId sensor) {
 
 using Ages = std::map<SensorId, std::vector<double>> RunSeries::*;
 
-// Of all sensors together, and of each where there are several.
+// Adds one view of all sensors together, and one for each of several sensors.
 void add_age_views(page::Plot& plot, const std::vector<ToldDrive>& drives, Ages ages, const std::string& when) {
   std::set<SensorId> sensors;
   std::vector<NamedValues> all;
@@ -72,7 +72,7 @@ std::vector<page::Curve> histogram(const std::vector<NamedValues>& all, int bins
   if (extent.empty()) return {};
   const double step = nice_ticks(extent.padded(0.0, 1e-9 + 1e-6 * std::abs(extent.high)), bins).step;
   const double first = std::floor(extent.low / step) * step;
-  // A damaged log may hold values that are far from all others, even so far that their distance is infinite.
+  // A damaged log may hold values far from all others, even at an infinite distance.
   const double wanted = std::floor((extent.high - first) / step) + 1.0;
   const std::size_t count = wanted >= 1.0 && wanted < 1000.0 ? static_cast<std::size_t>(wanted) : 1000;
   const auto bin_of = [&](double value) {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kMostPictures = 6;  // drives
 
-// Its labels are words that tell the drives apart: strategies, or folders with them.
+// Labels the drives by distinct words: strategies, or folders with strategies.
 void label_drives(std::vector<ResultsFolder>& folders) {
   std::map<std::string, int> known;
   for (ResultsFolder& folder : folders) {

@@ -27,7 +27,7 @@ std::uint64_t count_at(const Json& object, const char* key) {
   return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
 
-// The folder may have been moved since: a log is where its summary is.
+// Looks for a log beside its summary, because the folder may have been moved.
 void find_logs(ResultsFolder& folder) {
   std::error_code none;
   for (Drive& drive : folder.drives) {
@@ -52,7 +52,7 @@ Json parse_json(std::string_view text, const std::string& file) {
     const std::string_view before = text.substr(0, error.byte > 0 ? error.byte - 1 : 0);
     const auto line = 1 + static_cast<int>(std::ranges::count(before, '\n'));
     throw InputError({file, line, "", "", "must be JSON: it is damaged here, or cut off"});
-  } catch (const Json::exception&) {  // 1e999
+  } catch (const Json::exception&) {  // for a number such as 1e999
     throw InputError({file, 0, "", "", "must be JSON: a number in it is none"});
   }
 }

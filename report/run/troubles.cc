@@ -1,4 +1,4 @@
-// What went wrong in a run, or was made to.
+// The tables of injected faults and of problems in a drive.
 #include <fmt/format.h>
 
 #include <utility>
