@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What answer.json must have, with the place in words where it has not.
+// Reads required entries of answer.json and names the place of a missing or wrong one.
 class AnswerReader {
  public:
   explicit AnswerReader(std::string path) : path_(std::move(path)) {}
@@ -31,7 +31,7 @@ class AnswerReader {
     if (!value.is_object() || value.empty()) refuse(place + key, "must be a mapping with an entry at least");
     return value;
   }
-  // Empty where there is none.
+  // Returns an empty list if the key is absent.
   const Json& list(const Json& in, const char* key) const {
     static const Json kNone = Json::array();
     const auto found = in.find(key);
@@ -54,7 +54,7 @@ class AnswerReader {
     if (!value.is_boolean()) refuse(place + key, "must be true or false");
     return value.get<bool>();
   }
-  // Not a number where it is null.
+  // Returns NaN for null.
   double number(const Json& in, const std::string& place, const char* key) const {
     const Json& value = at(in, place, key);
     if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
@@ -121,7 +121,7 @@ void read_store(const std::string& path, ExperimentFolder& folder) {
   std::error_code none;
   if (!std::filesystem::exists(path, none)) return;
   folder.store = experiments::results::Store::open(path);
-  // Damage behind its first rows shows only when they are read.
+  // Only reading shows damage behind the first rows.
   try {
     folder.store->for_each([](const experiments::results::Run&) {});
   } catch (const std::runtime_error& error) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostFailures = 50;
 
-// The first measure's paired difference of two paradigms at a point, by the runs themselves.
+// Returns the first measure's paired difference of two paradigms at a point, from the drives themselves.
 experiments::results::Interval paired(const std::vector<experiments::results::Run>& runs, std::size_t column,
                                       std::size_t paradigm, std::size_t against, double confidence) {
   std::map<std::uint32_t, std::pair<std::optional<double>, std::optional<double>>> by_replication;
@@ -32,7 +32,7 @@ experiments::results::Interval paired(const std::vector<experiments::results::Ru
   return interval_of(moments, confidence);
 }
 
-// Of the first measure at a point; nothing where nobody has a figure.
+// The paradigm with the least first measure at a point; without any finite mean there is no value.
 struct Least {
   std::size_t paradigm = 0;
   bool certain = false;
@@ -55,7 +55,7 @@ std::optional<Least> least_at(const ExperimentFolder& folder, const ExperimentPo
   return least;
 }
 
-// Begun with the axes' names, or their values at a point.
+// The first cells of a row: the axes' names, or their values at a point.
 std::vector<std::string> axes_of(const ExperimentFolder& folder) {
   return folder.axes.empty() ? std::vector<std::string>{"point"} : folder.axes;
 }
@@ -174,7 +174,7 @@ void how_made(page::Page& page, const ExperimentFolder& folder) {
   page.preformatted("The experiment's file", head.text);
 }
 
-// The sections of a run's page, of one run of every paradigm.
+// Adds the sections of a run's page for one drive of each paradigm.
 void one_of_each(page::Page& page, const ExperimentFolder& folder, const ExperimentDrives& drives,
                  const run::DiagramWindow& window) {
   if (drives.drives.empty() && drives.why_none.empty()) return;
