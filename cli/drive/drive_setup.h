@@ -21,8 +21,7 @@ namespace ttf::cli::drive {
 
 // Returns a checked cluster, ready for a drive. Throws InputError.
 schedules::model::Cluster checked_cluster(const std::string& file);
-// Returns the cluster of the scenario's strategy. An unreadable file counts as the scenario's error, with its
-// line.
+// Returns the cluster of the scenario's strategy. An unreadable file counts as the scenario's error, with its line.
 schedules::model::Cluster checked_cluster(const drives::Scenario& scenario, fusion::strategies::StrategyKind strategy);
 
 // The recording of --input: its observations, and the file's facts for the manifest. The name omits the

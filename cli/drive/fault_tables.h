@@ -17,8 +17,7 @@ namespace ttf::cli::drive {
 std::vector<NodeId> fault_free_nodes(const evaluation::faults::FaultFindings& findings, const faults::FaultPlan& plan,
                                      const schedules::model::Cluster& cluster);
 
-// `run` names the drive in the first line. Effects without a matching fault have lines of their own,
-// "unattributed".
+// `run` names the drive in the first line. Effects without a matching fault have lines of their own, "unattributed".
 std::string faults_text(std::string_view run, const evaluation::faults::FaultFindings& findings,
                         const std::vector<NodeId>& fault_free, const schedules::model::Cluster& cluster);
 // Returns the same as JSON, with times in seconds from the start of the drive; absent times are null.

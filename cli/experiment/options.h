@@ -39,8 +39,7 @@ int run_fault_campaign(const ExperimentOptions& options);
 int run_sweep_experiment(const ExperimentOptions& given, experiments::mpi::Ranks& alone);
 // Drives a sweep on more than one rank: every rank reads it, and only one reports errors.
 int run_on_ranks(const ExperimentOptions& given, experiments::mpi::Ranks& ranks);
-// Drives all rows missing from the store, then writes and prints the answer. With several ranks, it runs on
-// rank 0.
+// Drives all rows missing from the store, then writes and prints the answer. With several ranks, it runs on rank 0.
 int drive_and_answer(const ExperimentOptions& options, const experiments::sweep::SweepDrives& drives,
                      experiments::mpi::Ranks& ranks);
 

@@ -16,14 +16,12 @@ class VirtualLaunch {
  public:
   explicit VirtualLaunch(const node_set::NodeSet& set);
 
-  // Announces each ended process as gone, so that the others continue without it; adds up the nodes'
-  // outcomes.
+  // Announces each ended process as gone, so that the others continue without it; adds up the nodes' outcomes.
   supervision::Hooks hooks();
   // Merges the nodes' logs into STRATEGY.mcap in the folder and judges the drive. An unreadable log is left
   // out with a warning; without any readable log there is no value.
   std::optional<drive::StrategyResult> result(const std::vector<std::string>& logs) const;
-  // Returns the states of the nodes' controllers from the records alone; empty off FlexRay, and without
-  // records.
+  // Returns the states of the nodes' controllers from the records alone; empty off FlexRay, and without records.
   std::vector<std::string> states_at_end(const supervision::HealthTable&, const drive::StrategyResult* result) const;
   std::vector<std::string> warnings() const { return {}; }
 

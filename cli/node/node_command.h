@@ -19,8 +19,7 @@ struct NodeOptions {
 // exit code. Reports to a supervisor, if present, over supervision::ControlLine. Throws InputError and
 // std::runtime_error as commands do.
 int run_node_virtual(const NodeOptions& options);
-// Does the same in real time. A process signal or the loss of the supervisor ends it in order, with a
-// complete log.
+// Does the same in real time. A process signal or the loss of the supervisor ends it in order, with a complete log.
 int run_node_live(const NodeOptions& options);
 
 }  // namespace ttf::cli::node

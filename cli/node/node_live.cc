@@ -70,8 +70,7 @@ struct Start {
   bool rejoins = false;
 };
 
-// Without a supervisor, a node needs the common instant of the begin: otherwise its drive would have a time
-// of its own.
+// Without a supervisor, a node needs the common instant of the begin: otherwise its drive would have a time of its own.
 void check_told_start(const node_set::NodeSet& set) {
   if (!set.start_at_ns)
     throw InputError(

@@ -27,8 +27,7 @@ int run_node_virtual(const NodeOptions& options) {
     supervision::FolderLock::refuse_if_held(set.folder);
   }
   create_folder(set.folder);
-  // Without a supervisor, this process ensures that its log has one writer. A missing log is created after
-  // the wait.
+  // Without a supervisor, this process ensures that its log has one writer. A missing log is created after the wait.
   std::optional<supervision::FileLock> log;
   const auto take_log = [&] {
     if (!supervisor && !log && !(log = supervision::FileLock::take(options.log)))

@@ -33,8 +33,7 @@ drives::DriveOutcome run_node_drive(const NodeDrive& drive, bus::ports::Exchange
 nlohmann::ordered_json counts_json(const nodes::host::ExecutiveCounts& counts);
 void add_counts(nodes::host::ExecutiveCounts& sum, const nlohmann::json& one);
 
-// Converts an outcome on that way: the node's own part (its counts), and the part common to all (loads,
-// faults).
+// Converts an outcome on that way: the node's own part (its counts), and the part common to all (loads, faults).
 nlohmann::ordered_json outcome_json(const drives::DriveOutcome& outcome);
 // Adds `one` to the sum of the nodes. Throws std::runtime_error for JSON of another form.
 void add_outcome(drives::DriveOutcome& sum, const nlohmann::json& one);

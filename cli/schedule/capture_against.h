@@ -15,8 +15,7 @@ struct CaptureArguments {
 };
 void add_capture_arguments(CLI::App& command, CaptureArguments& arguments);
 
-// Prints every contradiction and a summary; returns the exit code. Throws InputError for an unreadable
-// capture.
+// Prints every contradiction and a summary; returns the exit code. Throws InputError for an unreadable capture.
 int check_against_capture(const schedules::model::Cluster& cluster, const CaptureArguments& arguments, bool json);
 
 }  // namespace ttf::cli::schedule

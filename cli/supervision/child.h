@@ -1,5 +1,4 @@
-// One child process of a launch, in a session and process group of its own, so that signals reach its
-// children, too.
+// One child process of a launch, in a session and process group of its own, so that signals reach its children, too.
 //
 //   standard output and error   a pseudo terminal in raw mode: the child's buffers hold no output back, no CR is added,
 //                               and the order of both is kept; standard input is /dev/null
@@ -40,8 +39,7 @@ struct Ending {
   std::string text() const;  // "exit 3", "signal 9 (Killed)"
 };
 
-// The program cannot run: what() has the reason; ending() is as a shell's, 127 not found or 126 not
-// executable.
+// The program cannot run: what() has the reason; ending() is as a shell's, 127 not found or 126 not executable.
 class StartFailure : public std::runtime_error {
  public:
   StartFailure(const std::string& what, Ending ending) : std::runtime_error(what), ending_(ending) {}
@@ -69,9 +67,8 @@ class Child {
   // Signals the process and its whole group; has no effect after the reaping.
   void signal_group(int signal);
 
-  // Returns up to `most` bytes of the child's output. Empty: no output now, or its end (see output_fd()). The
-  // terminal stays open until the end, because closing it would hang up on a child that has only redirected
-  // its output.
+  // Returns up to `most` bytes of the child's output. Empty: no output now, or its end (see output_fd()). The terminal
+  // stays open until the end, because closing it would hang up on a child that has only redirected its output.
   std::string read_output(std::size_t most);
   // Returns one message; no value: no message now, or their end (see control_fd()). A message longer than
   // kLongestMessage is cut and is no longer JSON.

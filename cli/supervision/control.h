@@ -1,5 +1,4 @@
-// The control line between a supervisor and a node's process: one JSON object per message, one message per
-// packet.
+// The control line between a supervisor and a node's process: one JSON object per message, one message per packet.
 //
 //   node -> supervisor   {"ready": true}       the node is set up and waits for the start
 //                        {"health": {...}}     its health, from time to time (cli/supervision/health_table.h)

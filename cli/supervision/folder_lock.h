@@ -1,8 +1,7 @@
 // A folder belongs to one launch at a time, because a launch removes and writes files there.
 //
-// The kernel's lock (flock) on launch.lock in the folder marks the owner; the file holds its process number.
-// The lock ends with the process in any case, so a left file has no meaning. Started processes do not inherit
-// the lock.
+// The kernel's lock (flock) on launch.lock in the folder marks the owner; the file holds its process number. The lock
+// ends with the process in any case, so a left file has no meaning. Started processes do not inherit the lock.
 #pragma once
 
 #include <optional>

@@ -11,9 +11,8 @@ namespace {
 constexpr unsigned char byte_of(char c) { return static_cast<unsigned char>(c); }
 constexpr bool is_continuation(char c) { return (byte_of(c) & 0xc0u) == 0x80u; }
 
-// Returns the length of the printable UTF-8 character that begins `text`; 0 otherwise. RFC 3629: no overlong
-// forms, no surrogates, at most U+10FFFF. C1 controls (U+0080..U+009F) are excluded, because terminals obey
-// them.
+// Returns the length of the printable UTF-8 character that begins `text`; 0 otherwise. RFC 3629: no overlong forms, no
+// surrogates, at most U+10FFFF. C1 controls (U+0080..U+009F) are excluded, because terminals obey them.
 std::size_t character(std::string_view text) {
   const unsigned char lead = byte_of(text[0]);
   if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;

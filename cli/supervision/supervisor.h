@@ -2,7 +2,7 @@
 // their own. The caller's Hooks give the facts for the start and react to ended processes.
 //
 //   start     all at once; each reports {"ready": true} on its control line (cli/supervision/control.h)
-//   barrier   when all are ready, on_all_ready() makes the facts for all: {"start": ...}. After ready_timeout the missing
+//   barrier   when all are ready, on_all_ready() makes the facts for all: {"start": ...}. After ready_timeout, missing
 //             nodes are named; if only optional nodes are missing, the others start without them
 //   running   output is merged line by line, messages go to the hooks, a node's policy judges its end
 //   stop      on SIGINT, SIGTERM or SIGHUP, when a required node fails, or on request_stop(): SIGINT to all groups,

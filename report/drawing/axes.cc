@@ -35,8 +35,7 @@ std::string tint(std::string_view colour, double amount) {
 }
 
 std::string_view text_colour_on(std::string_view colour) {
-  // Relative luminance weights of ITU-R BT.709; 140 separates blue, green and vermilion from the light
-  // colours.
+  // Relative luminance weights of ITU-R BT.709; 140 separates blue, green and vermilion from the light colours.
   const double y = 0.2126 * channel_of(colour, 0) + 0.7152 * channel_of(colour, 1) + 0.0722 * channel_of(colour, 2);
   return y < 140 ? "#ffffff" : "#000000";
 }

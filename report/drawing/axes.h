@@ -18,8 +18,7 @@ namespace ttf::report::drawing {
 inline constexpr std::string_view kBlack = "#000000", kOrange = "#e69f00", kSkyBlue = "#56b4e9", kGreen = "#009e73",
                                   kYellow = "#f0e442", kBlue = "#0072b2", kVermilion = "#d55e00", kPurple = "#cc79a7",
                                   kGrey = "#8c8c8c", kStatusFrame = "#a8a8a8";
-// Returns the i-th colour for things without a colour of their own; lighter tints follow at the palette's
-// end.
+// Returns the i-th colour for things without a colour of their own; lighter tints follow at the palette's end.
 std::string palette(std::size_t i);
 // Returns `colour` ("#rrggbb") mixed with white: amount 0 is the colour itself, 1 is white.
 std::string tint(std::string_view colour, double amount);
@@ -53,8 +52,7 @@ struct Scale {
   double operator()(double v) const { return from + (v - data.low) / data.size() * (to - from); }
 };
 
-// A rectangle with ticks, grid and axis labels. `area` is the inner rectangle; the labels are below and to
-// its left.
+// A rectangle with ticks, grid and axis labels. `area` is the inner rectangle; the labels are below and to its left.
 class PlotFrame {
  public:
   PlotFrame(const Area& area, const Extent& x, const Extent& y);

@@ -11,8 +11,7 @@
 namespace ttf::report::drawing {
 namespace {
 
-// Advance widths of DejaVu Sans in thousandths of the font size, U+0020 to U+007E (from the font's hmtx
-// table).
+// Advance widths of DejaVu Sans in thousandths of the font size, U+0020 to U+007E (from the font's hmtx table).
 constexpr std::array<std::uint16_t, 95> kAdvance{
     318, 401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361,  318, 337, 636, 636, 636,
     636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 531, 1000, 684, 686, 698, 770, 632,

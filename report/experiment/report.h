@@ -21,9 +21,8 @@ struct ExperimentDrives {
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
                                    const run::DiagramWindow& window);
 
-// Names the paradigms with the least first measure, with the number of points of each. A point is certain if
-// the paired differences from all other paradigms are, by the drives in the store; without a store no point
-// is certain.
+// Names the paradigms with the least first measure, with the number of points of each. A point is certain if the paired
+// differences from all other paradigms are, by the drives in the store; without a store no point is certain.
 std::string experiment_answer(const ExperimentFolder& folder);
 
 }  // namespace ttf::report::experiment

@@ -1,7 +1,6 @@
-// The lateness of wake-ups in a drive in real time, node by node, beside a plain periodic thread on the same
-// machine. Each curve gives the share of wake-ups that were later than a number of microseconds. Both axes
-// are logarithmic, so that one in ten thousand shows as well as the median. A curve ends at a mark on the
-// longest lateness.
+// The lateness of wake-ups in a drive in real time, node by node, beside a plain periodic thread on the same machine.
+// Each curve gives the share of wake-ups that were later than a number of microseconds. Both axes are logarithmic, so
+// that one in ten thousand shows as well as the median. A curve ends at a mark on the longest lateness.
 #pragma once
 
 #include <map>

@@ -92,8 +92,7 @@ class PositionPlots::Selector {
     return shown;
   }
 
-  // Chooses the nearest observation of each list. Id and time identify a list, because a restarted sensor
-  // numbers anew.
+  // Chooses the nearest observation of each list. Id and time identify a list, because a restarted sensor numbers anew.
   void choose_observations() {
     struct Nearest {
       double distance;
@@ -141,8 +140,7 @@ class PositionPlots::Selector {
     return newest;
   }
 
-  // Returns the place of the fused result at a fusion instant: the nearest track, else the image, else the
-  // observation.
+  // Returns the place of the fused result at a fusion instant: the nearest track, else the image, else the observation.
   std::optional<Sample> result_at(std::uint32_t step, double t, const Sample* observation) const {
     if (const auto tracks = tracks_.find(step); tracks != tracks_.end())
       if (const auto nearest = shown_of(tracks->second); !nearest.empty()) return nearest.front();

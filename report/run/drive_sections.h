@@ -1,5 +1,4 @@
-// Sections drawn from drives' logs, side by side; the page of a results folder and an experiment's share
-// them.
+// Sections drawn from drives' logs, side by side; the page of a results folder and an experiment's share them.
 #pragma once
 
 #include <cstddef>

@@ -23,9 +23,8 @@ double position_rmse(const ToldDrive& told);
 
 // Returns one column per drive; rows without a value in any drive are omitted.
 page::PageTable measure_table(const std::vector<ToldDrive>& drives);
-// Compares drives of one scenario with several seeds: each strategy's mean of each measure with its 95 %
-// interval, and its paired difference from the first strategy. Empty if fewer than two seeds have all
-// strategies.
+// Compares drives of one scenario with several seeds: each strategy's mean of each measure with its 95 % interval, and
+// its paired difference from the first strategy. Empty if fewer than two seeds have all strategies.
 std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drives);
 
 // The conclusion: first the answer, then further remarks.

@@ -43,9 +43,8 @@ class StartupDiagram : public recording::records::Sink {
   StartupData data_;
 };
 
-// The time of the start-up in a log: from its first record to the last node's first entry into normal active.
-// In a drive that began integrated, it starts with the first return of a node, or, without a return, with the
-// first loss.
+// The time of the start-up in a log: from its first record to the last node's first entry into normal active. In a
+// drive that began integrated, it starts with the first return of a node, or, without a return, with the first loss.
 struct StartupExtent final : recording::records::Sink {
   using recording::records::Sink::on;
   void on(const recording::records::StateChanged& r) override;

@@ -11,8 +11,7 @@ namespace {
 
 using LaneKind = LaneKey::Kind;
 
-// Returns the lanes of all records and of all ways. Ways lead to steps without a task if the log has no task
-// runs.
+// Returns the lanes of all records and of all ways. Ways lead to steps without a task if the log has no task runs.
 std::set<LaneKey> all_keys(const TimingData& data, const Ways& ways) {
   std::set<LaneKey> keys;
   for (const auto& m : data.measurements) keys.insert({LaneKind::kSensor, index_of(m.id.sensor), 0});

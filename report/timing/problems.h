@@ -1,6 +1,5 @@
-// The timing problems in a timing diagram of a drive in real time: one mark where each was noticed. A problem
-// of a slot is marked on its channel, any other in the first lane of the node's tasks. Without such a lane
-// there is no mark.
+// The timing problems in a timing diagram of a drive in real time: one mark where each was noticed. A problem of a slot
+// is marked on its channel, any other in the first lane of the node's tasks. Without such a lane there is no mark.
 #pragma once
 
 #include <functional>

@@ -25,8 +25,7 @@ std::vector<Transfer> transfers_of(const TimingData& data) {
     transfers.push_back(t);
   };
   for (const auto& f : data.can_frames) add({{LaneKey::Kind::kCan, f.bus, 0}, f.start, f.end, f.pdu, f.sequence});
-  // A state message is sent again in each of its slots. Only the first sending of each fragment is a
-  // transfer.
+  // A state message is sent again in each of its slots. Only the first sending of each fragment is a transfer.
   struct Sent {
     std::bitset<256> fragments;
     TrueTime last;

@@ -249,8 +249,7 @@ class Arrows {
     return way;
   }
 
-  // Leads the way to the step that fused or refused the list, or to the last that held it; null without such
-  // a step.
+  // Leads the way to the step that fused or refused the list, or to the last that held it; null without such a step.
   const MeasurementWays::Stop* lead_to_fusion(const MeasurementWays::Way& followed, Way& way) const {
     const MeasurementWays::Stop* last = nullptr;
     for (const MeasurementWays::Stop& stop : followed.stops) {

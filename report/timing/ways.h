@@ -1,6 +1,5 @@
-// The ways of measurements and images through a cluster, from the records of a time window, as arrows between
-// the lanes of a timing diagram. recording/exports/measurement_ways.h follows the stops; here they become
-// legs.
+// The ways of measurements and images through a cluster, from the records of a time window, as arrows between the lanes
+// of a timing diagram. recording/exports/measurement_ways.h follows the stops; here they become legs.
 #pragma once
 
 #include <compare>
