@@ -3,7 +3,7 @@
 "use strict";
 (() => {
   const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
-  const dash_of = (curve) => DASHES[((curve.colour >> 3) + curve.colour) % 4];   // 8 colours with 4 dashes distinguish 32 curves
+  const dash_of = (curve) => DASHES[((curve.colour >> 3) + curve.colour) % 4];   // 8 colours, 4 dashes: 32 curves
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const make = (tag, properties = {}, ...children) => {
     const element = Object.assign(document.createElement(tag), properties);

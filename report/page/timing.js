@@ -121,7 +121,7 @@
       if (event.button !== 0) return;
       const box = this.paper.getBoundingClientRect();
       if (event.clientY > box.top + this.paper.clientTop + this.paper.clientHeight) return;   // on its scroll bar
-      if (event.pointerType === "touch" && this.paper.classList.contains("wider")) return;    // touch scrolls a wide paper
+      if (event.pointerType === "touch" && this.paper.classList.contains("wider")) return;    // it scrolls
       const held = this.t(event.clientX);
       this.paper.classList.add("dragging");
       this.paper.setPointerCapture(event.pointerId);
