@@ -28,7 +28,7 @@ class AnswerReader {
   }
   const Json& object(const Json& in, const std::string& place, const char* key) const {
     const Json& value = at(in, place, key);
-    if (!value.is_object() || value.empty()) refuse(place + key, "must be a mapping with an entry at least");
+    if (!value.is_object() || value.empty()) refuse(place + key, "must be a mapping with at least one entry");
     return value;
   }
   // Returns an empty list if the key is absent.
@@ -83,7 +83,7 @@ std::vector<std::string> keys_of(const Json& object) {
 
 void read_points(const AnswerReader& reader, const Json& json, ExperimentFolder& folder) {
   const Json& points = reader.list(json, "points");
-  if (points.empty()) reader.refuse("points", "must have one at least");
+  if (points.empty()) reader.refuse("points", "must have at least one");
   for (std::size_t p = 0; p < points.size(); ++p) {
     const std::string place = fmt::format("points[{}].", p);
     const Json& paradigms = reader.object(points[p], place, "paradigms");
@@ -129,7 +129,8 @@ void read_store(const std::string& path, ExperimentFolder& folder) {
   }
   for (const ExperimentMeasure& measure : folder.measures)
     if (std::ranges::find(folder.store->head().measures, measure.name) == folder.store->head().measures.end())
-      throw InputError({path, 0, measure.name, "", "is no column of its runs: answer.json is of another experiment"});
+      throw InputError(
+          {path, 0, measure.name, "", "is no column of its runs: answer.json belongs to another experiment"});
 }
 
 ExperimentFolder parse_answer(std::string_view text, const std::string& file) {

@@ -122,7 +122,7 @@ page::Plot differences_plot(const ExperimentFolder& folder) { return plot_over_a
 
 page::Plot replications_plot(const ExperimentFolder& folder) {
   page::Plot plot{"Distributions over the replications",
-                  "Shares of a point's runs, a drive each.",
+                  "Shares of a point's drives.",
                   "value",
                   page::Plot::Kind::kSteps,
                   false,
@@ -132,7 +132,7 @@ page::Plot replications_plot(const ExperimentFolder& folder) {
   // Shows an even choice of many points.
   const std::size_t shown = std::clamp(kMostViews / folder.measures.size(), std::size_t{1}, folder.points.size());
   if (shown < folder.points.size())
-    plot.caption += fmt::format(" Of {} points {} are here.", folder.points.size(), shown);
+    plot.caption += fmt::format(" {} of {} points are shown.", shown, folder.points.size());
   const std::vector<std::string>& columns = folder.store->head().measures;
   std::vector<std::vector<experiments::results::Run>> runs;
   std::vector<const ExperimentPoint*> points;

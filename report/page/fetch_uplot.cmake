@@ -6,7 +6,7 @@ foreach(name package.json package-lock.json .npmrc)
 endforeach()
 find_program(npm npm)
 if(NOT npm)
-  message(FATAL_ERROR "npm, which fetches what the report's plots are drawn by, is not installed: tools/install_deps.sh")
+  message(FATAL_ERROR "npm is not installed, which fetches uPlot for the report's plots: tools/install_deps.sh")
 endif()
 # First uses the user's cache, then one in WORK if that cache cannot be written.
 foreach(cache "" "--cache=${WORK}/cache")
@@ -19,5 +19,5 @@ foreach(cache "" "--cache=${WORK}/cache")
     return()
   endif()
 endforeach()
-message(FATAL_ERROR "uPlot, which the report's plots are drawn by, could not be fetched with npm "
+message(FATAL_ERROR "npm could not fetch uPlot, which draws the report's plots "
                     "(${WORK}/npm.log says why): without a network, give the folder of its unpacked package, -DTTF_UPLOT=FOLDER")

@@ -59,7 +59,7 @@ std::string positions_panel(const PaperRun& run, const std::string& title, int x
 PaperFile positions(const PaperRun& run) {
   GnuplotFigure figure;
   figure.name = run.label + "_positions";
-  figure.about = {run.title + ": the tracked car as sensors, fusion and reference had it",
+  figure.about = {run.title + ": the tracked car by sensors, fusion and reference",
                   "axes follow ISO 8855: x forward, y left; from " + run.label + "_positions.csv"};
   figure.columns = 1;
   figure.panel_width_cm = 17;
@@ -114,9 +114,9 @@ PaperFile nees(const std::vector<PaperRun>& runs) {
   GnuplotFigure figure;
   figure.name = "nees";
   figure.about = {
-      "normalised estimation error squared of (x, y, vx, vy) over all objects, averaged over windows: 4 where the",
-      "filter knows how wrong it is. Grey is where 95 % of such averages lie around 4, if samples were",
-      "independent; they are not quite, so that more lie outside. From <run>_nees.csv"};
+      "normalised estimation error squared of (x, y, vx, vy) over all objects, averaged over windows: 4 if the",
+      "filter knows its own error. Grey is the band around 4 with 95 % of such averages, if samples were",
+      "independent. They are not quite, so more lie outside. From <run>_nees.csv"};
   figure.settings = "set yrange [0:*]\nset autoscale xfix\n";
   for (const PaperRun& run : runs) {
     Curves curves;

@@ -115,7 +115,7 @@ std::string lateness_svg(const std::map<NodeId, recording::exports::NodeLateness
   const std::string title = names.run.empty() ? "Lateness of wake-ups" : names.run + ": lateness of wake-ups";
   const std::vector<Curve> curves = curves_of(nodes, names);
   if (curves.empty())
-    return drawing::empty_picture(title, "No node told how late it was: this run was not in real time.");
+    return drawing::empty_picture(title, "No node recorded its lateness: this run was not in real time.");
   std::vector<drawing::LegendEntry> legend;
   for (const Curve& curve : curves) {
     const std::string never = curve.points().empty() ? ", never late by 1 us" : "";

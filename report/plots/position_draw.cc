@@ -90,7 +90,7 @@ std::vector<drawing::LegendEntry> legend_of(std::span<const Selection> selection
     legend.push_back(
         {K::kMarker, "fusion (image at its instant of use)", std::string(kFusion), drawing::Marker::kSquare});
   if (any(&Selection::unused))
-    legend.push_back({K::kMarker, "image that nobody used", std::string(kUnused), drawing::Marker::kSquare});
+    legend.push_back({K::kMarker, "unused image", std::string(kUnused), drawing::Marker::kSquare});
   if (any(&Selection::truth)) legend.push_back({K::kLine, "truth", std::string(kTruth)});
   if (any(&Selection::instants)) legend.push_back({K::kNumber, "fusion instant", std::string(drawing::kBlack)});
   const auto late = [](const auto& a) { return a.late; };
@@ -208,8 +208,8 @@ void draw_data(drawing::Svg& svg, const drawing::PlotFrame& frame, const Selecti
                  hover(fmt::format("{} #{}", name, v.id.sequence), v), "observation");
   }
   for (const Sample& v : s.unused)
-    svg.marker(drawing::Marker::kSquare, at(v), kMarker, {.stroke = kUnused, .width = 1.0},
-               hover("image that nobody used", v), "unused");
+    svg.marker(drawing::Marker::kSquare, at(v), kMarker, {.stroke = kUnused, .width = 1.0}, hover("unused image", v),
+               "unused");
   for (const Sample& v : s.fusion)
     svg.marker(drawing::Marker::kSquare, at(v), kMarker, {.stroke = kFusion, .width = 1.3}, hover("fusion", v),
                "fusion");

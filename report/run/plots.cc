@@ -100,14 +100,13 @@ std::vector<page::Curve> histogram(const std::vector<NamedValues>& all, int bins
 }
 
 page::Plot error_plot(const std::vector<ToldDrive>& drives) {
-  page::Plot plot{
-      "Error over time",
-      "At each use of an image, against the truth: the root mean square over the objects that were matched.",
-      std::string(kTimeAxis),
-      page::Plot::Kind::kLines,
-      false,
-      false,
-      {}};
+  page::Plot plot{"Error over time",
+                  "At each use of an image, against the truth: the root mean square over the matched objects.",
+                  std::string(kTimeAxis),
+                  page::Plot::Kind::kLines,
+                  false,
+                  false,
+                  {}};
   add_view(plot, "position", "position error [m]", curves_of(drives, &RunSeries::position_error));
   add_view(plot, "velocity", "velocity error [m/s]", curves_of(drives, &RunSeries::velocity_error));
   return plot;
@@ -115,7 +114,7 @@ page::Plot error_plot(const std::vector<ToldDrive>& drives) {
 
 page::Plot age_plot(const std::vector<ToldDrive>& drives) {
   page::Plot plot{"Age over time",
-                  "Of the newest measurement of each sensor in an image, at the instant the image is used.",
+                  "Age of each sensor's newest measurement in an image, at the image's use.",
                   std::string(kTimeAxis),
                   page::Plot::Kind::kLines,
                   false,
@@ -127,7 +126,7 @@ page::Plot age_plot(const std::vector<ToldDrive>& drives) {
 }
 
 page::Plot age_histogram(const std::vector<ToldDrive>& drives) {
-  page::Plot plot{"How old measurements are",
+  page::Plot plot{"Ages of measurements",
                   "Latency from the instant of measuring, as shares of all.",
                   "age [ms]",
                   page::Plot::Kind::kSteps,
@@ -153,7 +152,7 @@ page::Plot precision_plot(const std::vector<ToldDrive>& drives) {
 
 page::Plot corrections_plot(const ToldDrive& told, const drawing::Names& names) {
   page::Plot plot{told.drive->label + ": offset corrections",
-                  "What each node corrects its clock by in a double cycle.",
+                  "Each node's correction of its clock in a double cycle.",
                   std::string(kTimeAxis),
                   page::Plot::Kind::kLines,
                   false,

@@ -33,7 +33,7 @@ constexpr MeasureRow kMeasureRows[] = {
     {"velocity error against truth [m/s]", "/rmse_truth/velocity_mps", 3},
     {"position error against DGPS [m]", "/rmse_reference/position_m", 3},
     {"velocity error against DGPS [m/s]", "/rmse_reference/velocity_mps", 3},
-    {"NEES (4 where the filter knows its error)", "/nees/mean", 2},
+    {"NEES (4 for a consistent filter)", "/nees/mean", 2},
     {"  95 % band from", "/nees/band_95/0", 2},
     {"  to", "/nees/band_95/1", 2},
     {"age when fused, mean [ms]", "/age_when_fused/mean_ms", 1},
@@ -151,7 +151,7 @@ std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
     if (s == best) continue;
     const experiments::results::Interval more = interval(runs, pointer, s, best);
     if (!std::isfinite(more.mean)) {
-      text += fmt::format("; of {} there is no figure", runs.strategies[s]);
+      text += fmt::format("; {} has no value", runs.strategies[s]);
       continue;
     }
     text +=
@@ -272,7 +272,7 @@ RunAnswer run_answer(const std::vector<ToldDrive>& drives) {
   }
   if (single)
     answer.more.push_back(
-        "One drive is one draw of the noise, so none of its differences is certain by it: an interval takes "
+        "One drive is one draw of the noise, so its differences are not certain: an interval takes "
         "several runs with other seeds in one report, or an experiment.");
   for (const ToldDrive& told : drives) remark_on(told, drives.size() <= kMostRemarked, answer.more);
   return answer;

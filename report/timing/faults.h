@@ -54,6 +54,6 @@ struct ChannelMark {
 ChannelMark channel_mark(const TimingData::OnChannel& r, const drawing::Names& names);
 
 inline constexpr std::string_view kChangedFrameWords = "frame damaged, displaced or sent by no controller",
-                                  kMissingFrameWords = "frame that reached nobody";
+                                  kMissingFrameWords = "frame that reached no receiver";
 
 }  // namespace ttf::report::timing
