@@ -1,5 +1,5 @@
-// The commands of the one program. Each registers itself and runs when the command line names it; exit codes: 0 done,
-// 1 a stated condition does not hold, 2 bad usage or input.
+// The commands of the program. Each registers itself and runs when the command line names it. Exit codes: 0
+// done, 1 a stated condition does not hold, 2 bad usage or input.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,10 +8,10 @@
 
 namespace ttf::cli {
 
-// Set by the command that was chosen; run after parsing.
+// Set by the chosen command; run after parsing.
 using Action = std::function<int()>;
 
-// For names of files and folders: no name is not the default one, and an option behind `--out=` is none.
+// Checks names of files and folders: an empty name does not mean the default, and `--out=` does not swallow an option.
 inline const CLI::Validator kNamed(
     [](const std::string& text) {
       return text.empty() || text.front() == '-' ? "must not be empty or begin with a '-' (./- does)" : "";
@@ -20,7 +20,7 @@ inline const CLI::Validator kNamed(
 
 }  // namespace ttf::cli
 
-// Where each lies.
+// The folder of each command.
 namespace ttf::cli::drive {
 void add_run(CLI::App& app, Action& action);
 }  // namespace ttf::cli::drive

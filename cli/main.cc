@@ -14,7 +14,7 @@
 
 namespace {
 
-// Where the command line names a command that there is not: what to say of it; empty otherwise.
+// Returns an error for an unknown command on the command line, or "".
 std::string unknown_command(CLI::App& app, int argc, char** argv) {
   CLI::App* in = &app;
   for (int i = 1; i < argc && in->get_require_subcommand_min() > 0; ++i) {
@@ -34,7 +34,7 @@ std::string unknown_command(CLI::App& app, int argc, char** argv) {
   return "";
 }
 
-// A mistake in the command line, in one line.
+// Reports an error of the command line, in one line.
 int refuse(const std::string& words) {
   std::string line = words;
   std::replace(line.begin(), line.end(), '\n', ' ');
@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // --help and --version come this way too, with exit code 0.
+    // --help and --version also arrive here, with exit code 0.
     if (error.get_exit_code() == 0) return app.exit(error);
     return refuse(fmt::format("command line: {} (--help says more)", error.what()));
   }
@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
     ttf::cli::finish_standard_output();
     return code;
   } catch (const ttf::InputError& error) {
-    // A file of another kind is wrong in every line: nobody reads thousands of them.
+    // A file of another kind is wrong in every line: a few hundred errors are enough.
     constexpr std::size_t kShown = 200;
     const auto& findings = error.findings();
     for (std::size_t i = 0; i < findings.size() && i < kShown; ++i)

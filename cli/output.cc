@@ -27,7 +27,7 @@ namespace {
 void write_file(const std::string& path, std::string_view text) {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"), &std::fclose);
   if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) fail(path);
-  // What is still buffered may fail as well.
+  // Writing the buffered rest may fail as well.
   if (std::fclose(file.release()) != 0) fail(path);
 }
 
@@ -60,13 +60,13 @@ void create_folder(const std::string& path) {
 
 void try_folder(const std::string& path) {
   namespace fs = std::filesystem;
-  std::vector<fs::path> made;  // the innermost first
+  std::vector<fs::path> made;  // innermost first
   std::error_code none;
   for (fs::path folder = fs::absolute(path).lexically_normal(); !fs::exists(folder, none) && folder.has_relative_path();
        folder = folder.parent_path())
     made.push_back(folder);
   const auto unmake = [&] {
-    for (const fs::path& folder : made) fs::remove(folder, none);  // not what somebody has put something into
+    for (const fs::path& folder : made) fs::remove(folder, none);  // keeps folders that are no longer empty
   };
   try {
     create_folder(path);
@@ -89,7 +89,7 @@ void print_warnings(std::string_view text) {
 }
 
 void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag) {
-  std::error_code none;  // what does not exist yet is nobody's input
+  std::error_code none;  // a file that does not exist yet is not the input
   if (std::filesystem::equivalent(input, path, none))
     throw InputError({"command line", 0, flag, path, "must be another file than the input"});
 }
@@ -99,7 +99,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
 }
 
 void finish_standard_output() {
-  // An error of an earlier, implicit flush is kept in the stream.
+  // The stream keeps an error of an earlier, implicit flush.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail("standard output");
 }
 

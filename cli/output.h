@@ -1,5 +1,5 @@
-// Where results go: files and standard output. What cannot be written is no input of the user's: the run failed, exit
-// code 1.
+// Writes results to files and standard output. A failure to write is not the input's fault: the command fails
+// with exit code 1.
 #pragma once
 
 #include <cstdio>
@@ -9,11 +9,11 @@
 
 namespace ttf::cli {
 
-// Writes the whole file. Throws std::runtime_error with path and reason where it cannot.
+// Writes the whole file. Throws std::runtime_error with path and reason on failure.
 void write_file(const std::string& path, std::string_view text);
 
-// A file that is written piece by piece, and is there only if it was finished. An older one of its name is gone from
-// the beginning on. Throws as write_file().
+// A file written piece by piece, which exists only once it is finished. An older file of its name is gone
+// from the start. Throws as write_file().
 class OutputFile {
  public:
   explicit OutputFile(std::string path);
@@ -28,21 +28,20 @@ class OutputFile {
   std::FILE* file_;
 };
 
-// Throws InputError where `path`, given as `flag`, is the very file that is being read.
+// Throws InputError if `path`, given as `flag`, is the input file itself.
 void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag);
 
-// Creates the folder and those it is in, as far as they are not there. Throws std::runtime_error with path and reason.
+// Creates the folder and its missing parents. Throws std::runtime_error with path and reason.
 void create_folder(const std::string& path);
 
-// Throws what create_folder() and the first file in it would; leaves nothing behind.
+// Throws the errors of create_folder() and of a first file in it; leaves no trace.
 void try_folder(const std::string& path);
 
 // Prints each line of `text` on standard error as a warning of its own.
 void print_warnings(std::string_view text);
 void print_warnings(const std::vector<std::string>& warnings);
 
-// Hands what was printed to the system. Throws std::runtime_error with the reason where it is not taken (disk full,
-// closed).
+// Flushes standard output. Throws std::runtime_error with the reason on failure (disk full, closed).
 void finish_standard_output();
 
 }  // namespace ttf::cli

@@ -1,4 +1,4 @@
-// How much of long work is done, how fast it goes, and how long the rest will take; on a terminal only.
+// Shows the progress, the rate and the remaining time of long work; on a terminal only.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace ttf::cli {
 
 class Progress {
  public:
-  // "runs", "faults": of what.
+  // `of` names the units: "runs", "faults".
   explicit Progress(std::string of) : of_(std::move(of)), shown_(isatty(STDERR_FILENO) != 0) {}
   ~Progress() {
     if (shown_) fmt::print(stderr, "\r{:78}\r", "");
@@ -22,7 +22,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // `now`: of `done`, those done since this began. Where they are all, it is the same.
+  // `now` counts the part of `done` since the begin of this object; without earlier work both are equal.
   void operator()(std::uint64_t done, std::uint64_t all, std::uint64_t now) const {
     if (!shown_ || now == 0 || all < done) return;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began_;

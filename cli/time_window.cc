@@ -7,7 +7,7 @@
 namespace ttf::cli {
 namespace {
 
-constexpr double kLongest_s = 1e9;  // nanoseconds of it fit many times over
+constexpr double kLongest_s = 1e9;  // its nanoseconds fit the type with a wide margin
 
 TrueTime at_seconds(const char* option, double s) {
   if (!(s <= kLongest_s))

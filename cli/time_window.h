@@ -1,4 +1,4 @@
-// The window of a diagram or of a capture that is held against a schedule, as the command line gives it.
+// The time window of a diagram, or of a capture compared with a schedule, from the command line.
 #pragma once
 
 #include <optional>
@@ -7,14 +7,14 @@
 
 namespace ttf::cli {
 
-// True time; `to` is absent where the log's end, or a default length, is meant.
+// In true time; `to` is absent for the log's end or a default length.
 struct TimeWindow {
   TrueTime from{};
   std::optional<TrueTime> to;
 };
 
-// From seconds, negative where not given. Throws InputError for what is no time of a run (not a number, or beyond
-// 30 years) and for a window that ends before it begins.
+// Converts seconds, negative if not given. Throws InputError for an impossible time (not a number, or beyond
+// 30 years) and for a time window that ends before it begins.
 TimeWindow time_window(double from_s, double to_s);
 
 }  // namespace ttf::cli

@@ -1,4 +1,4 @@
-// What commands that run a drive have in common: reading what they are given, the log, and what is made of the records.
+// Shared parts of the commands that run a drive: their input, the log, and the findings from the records.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@
 
 namespace ttf::cli::drive {
 
-// A cluster that has passed its check, ready to run. Throws InputError.
+// Returns a checked cluster, ready for a drive. Throws InputError.
 schedules::model::Cluster checked_cluster(const std::string& file);
-// That of the scenario's strategy. One that cannot be read at all is told as the scenario's mistake, with its line.
+// Returns the cluster of the scenario's strategy. An unreadable file counts as the scenario's error, with its line.
 schedules::model::Cluster checked_cluster(const drives::Scenario& scenario, fusion::strategies::StrategyKind strategy);
 
-// What --input gives: the observations, and what the manifest says of the file they came from. Its name goes without
-// the folder, so that a log does not depend on where the file lay.
+// The recording of --input: its observations, and the file's facts for the manifest. The name omits the
+// folder, so that a log does not depend on the file's place.
 struct Recording {
   std::shared_ptr<const recording::rows::RecordedInput> rows;
   std::string name, hash;
@@ -35,30 +35,30 @@ Recording read_recording(const std::string& path);
 recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
                                         fusion::strategies::StrategyKind strategy, std::uint64_t seed,
                                         const Recording& recording);
-// A log that has its scenario and cluster attached.
+// Opens a log and attaches its scenario and cluster.
 std::unique_ptr<recording::log::LogWriter> begin_log(const std::string& path,
                                                      const recording::log::LogManifest& manifest,
                                                      const drives::Scenario& scenario,
                                                      const schedules::model::Cluster& cluster);
 
-// What --strategy may be.
+// Returns the values of --strategy.
 std::vector<std::string> strategy_names();
-// --strategy. Throws InputError where there is no strategy of this name.
+// Parses --strategy. Throws InputError for an unknown name.
 fusion::strategies::StrategyKind strategy_of(const std::string& name);
-// The same, and all strategies where none is named.
+// Does the same, but returns all strategies for an empty name.
 std::vector<fusion::strategies::StrategyKind> chosen(const std::string& name);
-// --seed: the same rule as for a scenario's seed, and decimal digits only.
+// Parses --seed: the rule of a scenario's seed, and decimal digits only.
 std::uint64_t seed_of(const std::string& text);
 
-// Where results go without --out; a name that leads elsewhere is no name. Throws InputError.
+// Returns the folder for results without --out. Throws InputError if the scenario's name leads elsewhere.
 std::string folder_of(const drives::Scenario& scenario);
 
-// Makes of a drive's records what tables and JSON tell of it.
+// Turns a drive's records into the findings for tables and JSON.
 class DriveJudge {
  public:
   DriveJudge(const drives::Scenario& scenario, const schedules::model::Cluster& cluster);
   std::vector<recording::records::Sink*> sinks();
-  // At the end of the drive, once. Fills in summary, startup and faults.
+  // Fills in summary, startup and faults. Called once, at the end of the drive.
   void finish(StrategyResult& result);
 
  private:

@@ -36,7 +36,7 @@ std::string node_names(const std::vector<NodeId>& nodes, const schedules::model:
 
 constexpr std::string_view kUnattributed = "unattributed";
 
-// Every fault's effects by what it is called in the tables, and last what belongs to none.
+// Calls `each` for every fault's effects with its name in the tables; unattributed effects come last.
 template <class Each> void for_each(const FaultFindings& findings, Each each) {
   for (const FaultSeen& fault : findings.faults)
     each(fmt::format("{}", fault.fault), fault, std::optional(fault.begins));
@@ -75,7 +75,7 @@ std::string checks_text(const FaultFindings& findings, const schedules::model::C
   return table.rows() == 0 ? "No check saw anything.\n" : table.text();
 }
 
-// Empty without guardians, or where they had nothing to do.
+// Returns "" without guardians, or if they did not intervene.
 std::string guardians_text(const FaultFindings& findings) {
   report::drawing::Table table({"#", "guardians", "signals", "first cycle", "first [s]", "why"});
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
@@ -96,14 +96,14 @@ std::string states_text(const FaultFindings& findings, const schedules::model::C
   return table.rows() == 0 ? "No node changed its state.\n" : table.text();
 }
 
-// What befell a node: how often, and where first.
+// Describes the harm to a node: its count and its first place.
 std::string harm_words(Harm harm, const HarmSeen& harmed, const schedules::model::Cluster& cluster) {
   const std::string node = harmed.node == kNoNode ? "" : node_name(harmed.node, cluster);
   const std::string where =
       harmed.sender == kNoNode ? "" : fmt::format("slot {} of {}", harmed.slot, node_name(harmed.sender, cluster));
   const bool often = harmed.times > 1;
   switch (harm) {
-    case Harm::kFrameLost:  // of whatever slots and senders
+    case Harm::kFrameLost:  // counts lost frames of all slots and senders
       return often
                  ? fmt::format("{}: {} lost, the first: {} on any channel", node, counted(harmed.times, "frame"), where)
                  : fmt::format("{}: a frame lost: {} on any channel", node, where);
@@ -162,7 +162,7 @@ nlohmann::ordered_json checks_json(const FaultEffects& effects, const schedules:
   return checks;
 }
 
-// What came of a fault, or of none, is added to `one`.
+// Adds the effects of one fault, or the unattributed ones, to `one`.
 void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const schedules::model::Cluster& cluster) {
   one["checks"] = checks_json(effects, cluster);
   one["guardians"] = nlohmann::ordered_json::array();

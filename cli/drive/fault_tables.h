@@ -1,5 +1,5 @@
-// What `ttfusion run` says of a fault plan: what was injected, which check saw it and in how many cycles, what
-// guardians kept from the others and why, which nodes changed state, and whether a node without a fault was harmed.
+// The tables of `ttfusion run` about a fault plan: injected faults, the checks that detected them and in how
+// many cycles, the guardians' interventions with reasons, changes of state, and harm to fault-free nodes.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,15 +13,14 @@
 
 namespace ttf::cli::drive {
 
-// The nodes on FlexRay that no fault that began names. `plan`: the run's, resolved.
+// Returns the nodes on FlexRay that no active fault names. `plan` is the drive's plan, resolved.
 std::vector<NodeId> fault_free_nodes(const evaluation::faults::FaultFindings& findings, const faults::FaultPlan& plan,
                                      const schedules::model::Cluster& cluster);
 
-// `run`: what the tables are of, in their first line. What fits none of the faults has lines of its own,
-// "unattributed".
+// `run` names the drive in the first line. Effects without a matching fault have lines of their own, "unattributed".
 std::string faults_text(std::string_view run, const evaluation::faults::FaultFindings& findings,
                         const std::vector<NodeId>& fault_free, const schedules::model::Cluster& cluster);
-// The same, times in seconds from the start of the run; null where there is none.
+// Returns the same as JSON, with times in seconds from the start of the drive; absent times are null.
 nlohmann::ordered_json faults_json(const std::vector<evaluation::faults::FaultSeen>& faults,
                                    const schedules::model::Cluster& cluster);
 nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::model::Cluster& cluster);

@@ -16,7 +16,7 @@ using evaluation::lateness::RealTimeFindings;
 using recording::exports::NodeLateness;
 using recording::records::BinnedDurations;
 
-// What is told of a distribution: its median, what one in a hundred and one in a thousand is beyond, and its end.
+// The quantiles in the tables, per thousand: median, 99 %, 99.9 %; the longest value is beside them.
 constexpr int kQuantiles[] = {500, 990, 999};
 
 void add_cells(std::vector<std::string>& cells, const BinnedDurations& late) {
@@ -31,7 +31,7 @@ struct Distribution {
   BinnedDurations NodeLateness::*of;
 };
 
-// Those of every node beside each other; empty where no node has any.
+// Returns the nodes' distributions side by side, or "" if all are empty.
 std::string distributions(const StrategyResult& result, const std::vector<Distribution>& all) {
   std::vector<std::string> head{"node"};
   for (const Distribution& one : all) head.insert(head.end(), {one.name, "p50", "p99", "p99.9", "longest"});
@@ -62,7 +62,7 @@ std::string problems(const StrategyResult& result) {
          "(docs/lateness.md).\n";
 }
 
-// Empty where no node told of its medium.
+// Returns "" if the nodes recorded no counts of a medium.
 std::string media(const StrategyResult& result) {
   report::drawing::Table table(
       {"medium of", "sent", "received", "no room to send", "lost", "dropped", "foreign", "malformed"});
@@ -76,7 +76,7 @@ std::string media(const StrategyResult& result) {
   return table.rows() == 0 ? "" : table.text() + "\n";
 }
 
-// Of the drive's time, as it was in real time.
+// Converts a duration of the drive's time to real time.
 double scaled_us(const StrategyResult& result, Duration d) {
   return in_us(evaluation::lateness::in_real_time(d, result.real_time->time_scale_ppm));
 }

@@ -1,4 +1,4 @@
-// What a launch by the wall clock leaves behind beside what every run does: how late processes and frames were.
+// The tables of a launch in real time, beside those of every drive: the lateness of processes and frames.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,11 +8,11 @@
 
 namespace ttf::cli::drive {
 
-// Tables in words: of each node how late its process was woken up, next to the machine's own floor; how late frames
-// left and came; what was not in its time, or never came; what its medium counted; and how well the clocks agreed and
-// how old used measurements were. Empty in virtual time.
+// Returns tables for people. They show the lateness of each node's wake-ups beside the machine's own floor,
+// the lateness of sent and received frames, timing problems and losses, the counts of each medium, the
+// clocks' agreement and the ages of used measurements. Empty in virtual time.
 std::string real_time_text(const StrategyResult& result);
-// The same, for `"real_time"` in summary.json; null in virtual time.
+// Returns the same for `"real_time"` in summary.json; null in virtual time.
 nlohmann::ordered_json real_time_json(const StrategyResult& result);
 
 }  // namespace ttf::cli::drive

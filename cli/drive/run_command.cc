@@ -62,7 +62,7 @@ int run_scenario(const RunOptions& options) {
   const std::uint64_t seed = options.seed ? seed_of(*options.seed) : scenario.seed;
   const Recording recording = read_recording(options.input);
   const std::string folder = options.out.empty() ? folder_of(scenario) : options.out;
-  // Before anything is simulated or an earlier run's log is written over.
+  // Checks the input before any simulation, and before an earlier log is overwritten.
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy))
     drives::check_fits(scenario, checked_cluster(scenario, strategy), strategy, recording.rows != nullptr);
   create_folder(folder);
@@ -84,7 +84,7 @@ int run_scenario(const RunOptions& options) {
       for (const StrategyResult& result : results)
         fmt::print("\n{}", faults_text(name_of(result.strategy), result.faults, result.fault_free, result.cluster));
   }
-  std::fflush(stdout);  // both may go to one file
+  std::fflush(stdout);  // both streams may share one file
   fmt::print(stderr, "written to {}\n", folder);
   return 0;
 }

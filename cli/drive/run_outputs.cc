@@ -29,11 +29,11 @@ using Value = std::string (*)(const ttf::cli::drive::StrategyResult&);
 struct Row {
   const char* name;
   Value value;
-  bool rare = false;  // what a sound drive has none of: shown where some strategy has some
+  bool rare = false;  // 0 in a sound drive: shown if it is not 0 for some strategy
 };
 
 std::string number(std::uint64_t n) { return fmt::format("{}", n); }
-// Of nothing there is no age, rather than one of zero.
+// An absent age is "-", not 0.
 std::string mean_cell(const evaluation::accuracy::AgeStatistics& ages) {
   return ages.count == 0 ? "-" : report::drawing::cell(in_ms(ages.mean()), 1);
 }
@@ -41,15 +41,15 @@ std::string worst_cell(const evaluation::accuracy::AgeStatistics& ages) {
   return ages.count == 0 ? "-" : report::drawing::cell(in_ms(ages.worst), 1);
 }
 
-// Times the feature service had an image and took it.
+// Returns how often the feature service had an image and used it.
 std::uint64_t uses(const StrategyResult& result) { return result.summary.uses - result.summary.stale_uses; }
 
-// Of one clock alone, or of clocks that never ran together, there is no precision, rather than a perfect one.
+// A single clock, or clocks that never ran together, have no precision instead of a perfect one.
 std::optional<double> precision_us(const StrategyResult& result) {
   return result.outcome.precision.ns == 0 ? std::nullopt : std::optional(us(result.outcome.precision));
 }
 
-// Lists that were made and never fused: too late for the strategy, or lost between a task's end and its reader's start.
+// Counts lists that were made and never fused: too late for the strategy, or lost between tasks.
 std::uint64_t lost_lists(const StrategyResult& result) {
   const nodes::host::ExecutiveCounts& counts = result.outcome.counts;
   return result.summary.dropped + counts.torn_lists + counts.overwritten_lists + counts.discarded_lists;
@@ -129,7 +129,7 @@ nlohmann::ordered_json ages(const evaluation::accuracy::AgeStatistics& statistic
 constexpr const char* kPictureFormats[] = {".svg", ".png", ".pdf"};
 constexpr const char* kIndex = "index.html";
 constexpr const char* kSchedule = "schedule";
-// Of each strategy: STRATEGY_timing and so on.
+// Files per strategy: STRATEGY_timing and so on.
 constexpr const char* kOfStrategy[] = {"startup", "lateness", "timing", "over_time", "plane"};
 
 report::plots::PositionOptions position_options(const drives::Scenario& scenario, const StrategyResult& result) {
@@ -168,7 +168,7 @@ std::string comparison_table(const std::vector<StrategyResult>& results) {
   return table.text();
 }
 
-// What is not a number becomes null.
+// Values that are not finite become null.
 nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t seed,
                                const std::vector<StrategyResult>& results) {
   nlohmann::ordered_json json;
@@ -268,7 +268,7 @@ void write_pictures(const drives::Scenario& scenario, const std::vector<Strategy
     report::drawing::Names names = report::drawing::names_of(result.cluster);
     names.run = fmt::format("{}, {}", scenario.name, name_of(result.strategy));
     const std::string strategy(name_of(result.strategy));
-    // The timing diagram shows 160 ms, four images, from where the drive is judged.
+    // The timing diagram shows 160 ms, four images, from the begin of the judged part.
     const TrueTime from = drives::evaluation_start(scenario);
     report::timing::TimingDiagram timing(names, result.cluster.cycle(), from, from + Duration::milliseconds(160));
     plots.push_back(std::make_unique<report::plots::PositionPlots>(names, position_options(scenario, result)));

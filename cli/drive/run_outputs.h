@@ -1,4 +1,4 @@
-// What `ttfusion run` leaves behind for people: tables, pictures, an index page; and its JSON.
+// The results of `ttfusion run` for people: tables, pictures, an index page; and its JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -25,19 +25,19 @@ struct StrategyResult {
   evaluation::accuracy::DriveSummary summary;
   std::vector<evaluation::cluster::NodeStartup> startup;  // nodes that started up or changed their state
   evaluation::faults::FaultFindings faults;
-  std::vector<NodeId> fault_free;                                   // to the end, of those on FlexRay
-  std::optional<evaluation::lateness::RealTimeFindings> real_time;  // of a run by the wall clock
+  std::vector<NodeId> fault_free;                                   // until the end; nodes on FlexRay only
+  std::optional<evaluation::lateness::RealTimeFindings> real_time;  // only for a drive in real time
   std::string log_path;
   std::string content_hash;
 };
 
-// The comparison table, a column a strategy.
+// Returns the comparison table, with one column per strategy.
 std::string comparison_table(const std::vector<StrategyResult>& results);
 nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t seed,
                                const std::vector<StrategyResult>& results);
-// All files that write_pictures() may make of this one strategy.
+// Returns all files that write_pictures() may write for this strategy.
 std::vector<std::string> picture_files(std::string_view strategy);
-// Timing diagrams, position plots and index.html in `folder`, from the logs alone.
+// Writes timing diagrams, position plots and index.html into `folder`, from the logs alone.
 void write_pictures(const drives::Scenario& scenario, const std::vector<StrategyResult>& results,
                     const std::string& folder);
 

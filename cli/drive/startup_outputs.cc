@@ -11,7 +11,7 @@
 namespace ttf::cli::drive {
 
 std::string startup_text(const std::vector<StrategyResult>& results, bool cold) {
-  std::vector<std::pair<std::string, std::string>> tables;  // with the strategies they are of
+  std::vector<std::pair<std::string, std::string>> tables;  // with the names of their strategies
   for (const StrategyResult& result : results) {
     if (result.startup.empty()) continue;
     report::drawing::Table table({"node", cold ? "powered on [ms]" : "powered on again [ms]",

@@ -1,4 +1,4 @@
-// What `ttfusion run` says of a drive whose nodes started up or changed their state on the way.
+// The tables of `ttfusion run` about nodes that started up or changed their state during a drive.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,11 +8,11 @@
 
 namespace ttf::cli::drive {
 
-// Which nodes became active in which cycle, when (true time), and why, a table a strategy, one for
-// those that do not differ in it; empty where no drive has any to tell. `cold`: the drives began with a start-up;
-// else it is of nodes that left the running cluster, and maybe came back.
+// Returns a table per strategy, one for all strategies with equal tables: the nodes that became active, with
+// cycle, instant (true time) and cause. Empty without changes of state. `cold` means that the drives began
+// with a start-up; otherwise the tables are about nodes that left the running cluster and maybe came back.
 std::string startup_text(const std::vector<StrategyResult>& results, bool cold);
-// The same of one drive: a list with an entry per node.
+// Returns the same for one drive: a list with an entry per node.
 nlohmann::ordered_json startup_json(const StrategyResult& result);
 
 }  // namespace ttf::cli::drive

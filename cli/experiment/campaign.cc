@@ -22,7 +22,7 @@ using experiments::campaign::CampaignFile;
 using experiments::campaign::Coverage;
 using experiments::campaign::FaultResult;
 
-constexpr std::size_t kShownHarms = 40;  // the others are in the results' table
+constexpr std::size_t kShownHarms = 40;  // further harms are only in the results' table
 
 std::uint32_t fault_of(const std::string& text, const CampaignFile& campaign) {
   std::uint32_t fault = 0;
@@ -83,7 +83,7 @@ nlohmann::ordered_json to_json(const Coverage& coverage, Duration cycle) {
   return json;
 }
 
-// What harmed a fault-free node although guardians and two channels were there.
+// Describes harm to fault-free nodes despite guardians and two channels.
 std::string harms_text(const ExperimentOptions& options, const CampaignFile& campaign, const CampaignClusters& clusters,
                        const std::vector<FaultResult>& results) {
   std::string out;

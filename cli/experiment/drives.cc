@@ -25,13 +25,13 @@ namespace fs = std::filesystem;
 using experiments::sweep::SweepDrives;
 using experiments::sweep::SweepFile;
 
-// Why there is nothing to show, in words for the page.
+// The reason for an empty section, in words for the page.
 class NoDrives : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Gone with everything in it.
+// A temporary folder, removed with its content.
 class ScratchFolder {
  public:
   ScratchFolder() : path_((fs::temp_directory_path() / "ttfusion_XXXXXX").string()) {
@@ -51,7 +51,7 @@ class ScratchFolder {
   std::string path_;
 };
 
-// By paradigm, of one replication; empty where not all of them have one.
+// Returns the drives of one replication by paradigm; empty if no replication has them all.
 std::vector<experiments::results::Run> first_done_by_all(const experiments::results::Store& store, std::uint32_t point,
                                                          std::size_t paradigms) {
   std::vector<experiments::results::Run> runs;
@@ -70,7 +70,7 @@ bool same(const experiments::results::Run& a, const experiments::results::Run& b
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
-// Of the folder's experiment, or NoDrives.
+// Throws NoDrives if the folder belongs to another experiment.
 void check_same_experiment(const SweepDrives& drives, const report::experiment::ExperimentFolder& folder) {
   const SweepFile& sweep = drives.sweep();
   const experiments::results::StoreHead& head = folder.store->head();
@@ -92,7 +92,7 @@ report::run::Drive driven(const SweepDrives& drives, const experiments::results:
   const ScratchFolder scratch;
   if (!same(drive_again(drives, known.key, scratch.path()), known))
     throw NoDrives(fmt::format("{}, driven again, came to other figures than in results.sqlite", paradigm));
-  report::run::ResultsFolder folder = report::run::read_results_folder(scratch.path());  // whose logs are in memory now
+  report::run::ResultsFolder folder = report::run::read_results_folder(scratch.path());  // its logs are in memory now
   report::run::Drive drive = std::move(folder.drives.front());
   drive.folder.clear();
   drive.label = paradigm;

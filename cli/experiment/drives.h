@@ -1,4 +1,4 @@
-// Runs of an experiment driven again, each with a log.
+// Drives an experiment's rows again, each with a log.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace ttf::cli::experiment {
 
-// Leaves the run's log, called as its paradigm, in the folder. Throws InputError where it cannot be driven, and
-// std::runtime_error where the log cannot be written.
+// Leaves the drive's log in the folder, under its paradigm's name. Throws InputError if the drive is
+// impossible, and std::runtime_error if the log cannot be written.
 experiments::results::Run drive_again(const experiments::sweep::SweepDrives& drives,
                                       const experiments::results::RunKey& key, const std::string& folder);
 
-// One run of every paradigm of the experiment that the folder is of, at one point (the folder's first unless told) and
-// with the first replication that all of them have done. They are compared with the store's rows: what is another
-// experiment by now, or another program, is not shown as if it were the one that was driven.
+// Drives each paradigm of the folder's experiment again, at one point (by default the folder's first) and
+// with the first replication that all paradigms have done. The results must equal the store's rows: a changed
+// experiment or program is not shown as the original.
 //
-// `file`: the experiment's, if not where it was then. Throws InputError where it or the point is not the folder's.
-// Progress goes to standard error.
+// `file` is the experiment's file, if it has moved. Throws InputError if the file or the point does not fit
+// the folder. Progress goes to standard error.
 report::experiment::ExperimentDrives drives_of(const report::experiment::ExperimentFolder& folder,
                                                const std::optional<std::string>& file,
                                                std::optional<std::uint32_t> point);

@@ -39,8 +39,8 @@ ExperimentKind kind_of(const ExperimentOptions& options) {
 
 namespace {
 
-// What a drive gives back the next one takes. The C library would return it to the system every time, which interrupts
-// all workers.
+// The next drive takes the memory that a drive frees. By default the C library returns that memory to the
+// system each time, which interrupts all workers.
 void keep_freed_memory() {
   constexpr int kMegabyte = 1 << 20;
   mallopt(M_MMAP_THRESHOLD, 16 * kMegabyte);

@@ -1,4 +1,4 @@
-// What `ttfusion experiment` is asked for, and who does it: one file a kind of experiment.
+// The options of `ttfusion experiment`, and its functions: one file per kind of experiment.
 #pragma once
 
 #include <cstdint>
@@ -19,28 +19,27 @@ struct ExperimentOptions {
   std::vector<std::string> merge;
   std::optional<std::string> replay;
   unsigned jobs = 0;
-  std::uint32_t replications = 0;  // none: as many as the file says
+  std::uint32_t replications = 0;  // 0: as many as in the file
   bool resume = false;
   bool json = false;
 };
 
-// All of it where nothing is asked for. Throws InputError.
+// Returns the whole experiment for empty text. Throws InputError.
 experiments::results::Shard shard_of(const std::string& text);
 
 enum class ExperimentKind : std::uint8_t { kSweep, kFaultCampaign };
 // Throws InputError.
 ExperimentKind kind_of(const ExperimentOptions& options);
 
-// How many replications are asked for: as many as the option says; without it as many as the folders have been made for
-// that are gone on with or put together, or else as many as the file says. Then `options` says so only where the file
-// does not. Throws InputError.
+// Decides the number of replications: the option's, else that of the existing or merged folders, else the
+// file's. Then sets it in `options` only if it differs from the file's. Throws InputError.
 void settle_replications(ExperimentOptions& options, experiments::sweep::SweepFile& sweep);
 
 int run_fault_campaign(const ExperimentOptions& options);
 int run_sweep_experiment(const ExperimentOptions& given, experiments::mpi::Ranks& alone);
-// A sweep, on more ranks than one: every rank reads it, and what is wrong is told once.
+// Drives a sweep on more than one rank: every rank reads it, and only one reports errors.
 int run_on_ranks(const ExperimentOptions& given, experiments::mpi::Ranks& ranks);
-// Drives what the store does not have yet, and writes and prints the answer. Of more ranks than one: on rank 0.
+// Drives all rows missing from the store, then writes and prints the answer. With several ranks, it runs on rank 0.
 int drive_and_answer(const ExperimentOptions& options, const experiments::sweep::SweepDrives& drives,
                      experiments::mpi::Ranks& ranks);
 

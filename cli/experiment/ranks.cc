@@ -28,7 +28,7 @@ int run_on_ranks(const ExperimentOptions& given, experiments::mpi::Ranks& ranks)
       throw InputError(
           {options.file, 0, "kind", "fault_campaign", "must be sweep under mpirun: a campaign has --shard"});
     sweep.emplace(experiments::sweep::load_sweep(options.file));
-    if (ranks.rank() == 0) settle_replications(options, *sweep);  // the others are told which runs
+    if (ranks.rank() == 0) settle_replications(options, *sweep);  // rank 0 tells the others their drives
     drives.emplace(*sweep);
   } catch (const InputError& error) {
     mine = std::current_exception();
@@ -44,7 +44,7 @@ int run_on_ranks(const ExperimentOptions& given, experiments::mpi::Ranks& ranks)
     first = ranks.first_problem(same ? "" : words);
   }
   if (!first.empty()) {
-    // mpirun ends all ranks as soon as one fails, maybe before rank 0 has spoken: rank 0 alone fails.
+    // mpirun ends all ranks as soon as one fails, perhaps before rank 0 has reported: only rank 0 fails.
     if (ranks.rank() != 0) return 0;
     if (mine) std::rethrow_exception(mine);
     throw InputError({options.file, 0, "", "", first});

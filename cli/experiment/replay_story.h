@@ -1,5 +1,5 @@
-// One fault of a campaign in words: what the fault does, what the guardians keep from the others, and which nodes
-// change their state and why, in the order of time.
+// Tells one fault of a campaign in words, in the order of time: the fault's acts, the guardians'
+// interventions, and the nodes' changes of state with their causes.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,11 @@ class ReplayStory final : public experiments::campaign::TrialStory {
   void fault_acts(const recording::records::FaultActivity& activity) override;
   void guardian_intervened(const sim::medium::StarCoupler::Intervention& intervention) override;
   void judged(const evaluation::faults::Judgement& judgement) override;
-  // Prints it: what happened at one instant in the order in which it was told.
+  // Prints the story; events of one instant keep the order of their arrival.
   void finish();
 
  private:
-  static constexpr std::uint64_t kShown = 12;  // acts of the fault, and as many of the guardians
+  static constexpr std::uint64_t kShown = 12;  // of the fault's acts, and of the guardians'
   enum class Of : std::uint8_t { kOthers, kFault, kGuardians };
   struct Line {
     TrueTime at;
@@ -34,7 +34,7 @@ class ReplayStory final : public experiments::campaign::TrialStory {
   void say(TrueTime at, std::string text, Of of = Of::kOthers) { lines_.push_back({at, of, std::move(text)}); }
 
   const schedules::model::Cluster& cluster_;
-  std::vector<Line> lines_;  // in the order they were told: a guardian's doing, and who noticed what, long afterwards
+  std::vector<Line> lines_;  // in order of arrival: guardians' acts and detections come long afterwards
 };
 
 }  // namespace ttf::cli::experiment

@@ -26,7 +26,7 @@ using experiments::results::Store;
 using experiments::sweep::SweepDrives;
 using experiments::sweep::SweepFile;
 
-constexpr std::size_t kShownFailures = 10;  // the others are in runs.csv
+constexpr std::size_t kShownFailures = 10;  // further failures are only in runs.csv
 
 std::string folder_of(const ExperimentOptions& options, const SweepFile& sweep) {
   return options.out.empty() ? "out/" + sweep.name : options.out;
@@ -80,7 +80,7 @@ int replay(const ExperimentOptions& options, const SweepDrives& drives) {
   return run.status == experiments::results::kDone ? 0 : 1;
 }
 
-// Of this experiment, every run of it. Throws InputError.
+// Opens a store and checks that all of its drives belong to this experiment. Throws InputError.
 Store opened(const SweepDrives& drives, const std::string& path) {
   Store store = Store::open(path);
   if (store.head().identity != drives.identity() || store.head().measures != drives.columns() ||
@@ -107,7 +107,7 @@ Store store_of(const ExperimentOptions& options, const SweepDrives& drives, cons
   return store;
 }
 
-// Whether all of it is there.
+// Returns whether the merged store is complete.
 bool merge(const std::vector<Store>& shards, const SweepFile& sweep, Store& store) {
   for (const Store& shard : shards) {
     std::vector<experiments::results::Run> some;
@@ -123,7 +123,7 @@ bool merge(const std::vector<Store>& shards, const SweepFile& sweep, Store& stor
   return false;
 }
 
-// `ranks`: of more than one, every rank is a worker.
+// With more than one rank in `ranks`, every rank is a worker.
 void drive(const ExperimentOptions& options, const SweepDrives& drives, experiments::results::Shard shard, Store& store,
            experiments::mpi::Ranks& ranks) {
   const SweepFile& sweep = drives.sweep();
@@ -185,7 +185,7 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::sweep:
   return json;
 }
 
-// Failed runs, each with what drives it again.
+// Lists failed drives, each with the command that drives it again.
 std::string failures_text(const ExperimentOptions& options, const SweepFile& sweep, const Store& store) {
   std::string text;
   std::size_t shown = 0;
@@ -203,7 +203,7 @@ std::string failures_text(const ExperimentOptions& options, const SweepFile& swe
 
 int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives, experiments::mpi::Ranks& ranks) {
   const SweepFile& sweep = drives.sweep();
-  // All that can be wrong with what is asked for, before anything is written.
+  // Checks all options before anything is written.
   const experiments::results::Shard shard = shard_of(options.shard);
   if (!options.shard.empty() && sweep.stop)
     throw InputError(

@@ -11,7 +11,7 @@
 namespace ttf::cli::launch {
 namespace {
 
-// Of those that were not in operation: nothing where it was.
+// Returns why a node was not in operation, or no value if it was.
 std::optional<std::string> why_absent(const NodeAtEnd& node) {
   if (!node.ending) return "never started";
   if (!node.ending->success()) return node.ending->text();

@@ -1,5 +1,5 @@
-// Who was in operation when a launched drive ended, and who was not: a drive may go to its end, every process ending
-// well, with nodes that never got into the cluster, or fell out of it and have not come back.
+// The nodes in and out of operation at the end of a launched drive. Every process may end well although a
+// node never joined the cluster, or left it for good.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -16,36 +16,37 @@ namespace ttf::cli::launch {
 struct NodeAtEnd {
   std::string name;
   bool on_flexray = false;
-  std::optional<supervision::Ending> ending;  // of its last process; nothing: it had none
-  std::string state;                          // of its controller, the last that is known; off FlexRay nobody asks
+  std::optional<supervision::Ending> ending;  // its last process's; no value without a process
+  std::string state;                          // its controller's last known state; empty off FlexRay
 };
 
 struct DriveEnd {
   struct Absent {
-    std::string name, state;  // or how its process ended, where that was not well
+    std::string name, state;  // state: the controller's, or the failed process's ending
   };
-  // Those whose process did not end well, and those on FlexRay that were not normal active. In the order given.
+  // Nodes whose process failed, and nodes on FlexRay that were not normal active; in the given order.
   std::vector<Absent> absent;
-  bool nobody = false;  // of those on FlexRay was in operation
+  bool nobody = false;  // true if no node on FlexRay was in operation
 
-  // "a, b were not in operation at the end: integration listen"; empty where all were.
+  // Returns "a, b were not in operation at the end: integration listen", or "" if all were.
   std::string sentence() const;
   nlohmann::ordered_json json() const;
 };
 DriveEnd drive_end(const std::vector<NodeAtEnd>& nodes);
 
-// What a virtual drive's records say, by node: who never changed its state is as it began. Empty off FlexRay.
+// Returns each node's last state by a virtual drive's records. A node without a change keeps its first state;
+// a node off FlexRay has "".
 std::vector<std::string> states_at_end(const schedules::model::Cluster& cluster, bool cold,
                                        const std::vector<evaluation::cluster::NodeStartup>& changes);
 
-// Listens to what becomes of the processes.
+// Records the endings of the processes.
 class EndWatch {
  public:
   explicit EndWatch(std::size_t nodes) : endings_(nodes) {}
 
-  supervision::Hooks around(supervision::Hooks hooks);  // which are called as ever; outlives them
-  bool begun() const { return begun_; }                 // all were ready, or all that had to be
-  // With the states of their controllers.
+  supervision::Hooks around(supervision::Hooks hooks);  // calls the given hooks as well; must outlive the result
+  bool begun() const { return begun_; }                 // whether the start barrier was passed
+  // Returns the nodes with the states of their controllers.
   std::vector<NodeAtEnd> nodes(const schedules::model::Cluster& cluster, const std::vector<std::string>& states) const;
 
  private:

@@ -30,9 +30,9 @@ namespace ttf::cli::launch {
 namespace {
 
 constexpr const char* kSummary = "summary.json";
-constexpr const char* kNotInOperation = "not_in_operation_at_end";  // in there, and in the manifest
+constexpr const char* kNotInOperation = "not_in_operation_at_end";  // a key of the summary and of the manifest
 
-// As it was given.
+// Returns the arguments of this process, as given.
 std::vector<std::string> command_line() {
   std::vector<std::string> arguments;
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
@@ -40,7 +40,7 @@ std::vector<std::string> command_line() {
   return arguments;
 }
 
-// What came of the drive, from the logs of those who got to its end.
+// Prints and writes the drive's results, from the logs of the nodes that reached its end.
 void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& result, const std::optional<DriveEnd>& end,
                  const LaunchArguments& arguments) {
   const std::vector<drive::StrategyResult> results{result};
@@ -58,8 +58,8 @@ void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& resu
     fmt::print("\n{}", drive::faults_text(name_of(set.strategy), result.faults, result.fault_free, set.cluster));
 }
 
-// Who was not in operation at the end, and what there is nothing of to compare, in a sentence each. The exit code: a
-// drive at whose end nobody is left in the cluster has failed, however well its processes ended.
+// Reports nodes out of operation at the end and an empty comparison, in a sentence each. Returns the exit
+// code: a drive fails if no node is left in the cluster at its end, even if all processes ended well.
 int tell_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::StrategyResult* result, int exit_code,
              supervision::LaunchFolder& folder) {
   const std::string absent = end.sentence();
@@ -76,7 +76,7 @@ int tell_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::Str
   return failed ? 1 : exit_code;
 }
 
-// What an earlier launch left, so that nobody takes it for this one's; and nothing else that is in the folder.
+// Removes only the files of an earlier launch, which might pass for this launch's.
 void remove_earlier(const std::optional<supervision::EarlierLaunch>& earlier, const LaunchPlan& plan,
                     const supervision::LaunchFolder& folder) {
   for (const supervision::NodeSpec& node : plan.nodes) folder.remove_logs(node.name);
@@ -91,14 +91,14 @@ void remove_earlier(const std::optional<supervision::EarlierLaunch>& earlier, co
   for (const std::string& name : drive::picture_files(earlier->strategy)) folder.remove(name);
 }
 
-// `Launch`: LiveLaunch or VirtualLaunch.
+// `Launch` is LiveLaunch or VirtualLaunch.
 template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
   nlohmann::ordered_json facts{{"command", command_line()}};
   facts.update(facts_of(plan.set));
   const auto earlier = supervision::earlier_launch(plan.set.folder);
   supervision::LaunchFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
   remove_earlier(earlier, plan, folder);
-  // Before the exchange begins a thread, which would take signals else.
+  // Blocks the signals before the exchange begins a thread, which would otherwise take them.
   std::optional<supervision::SignalWatch> held_back(std::in_place);
   Launch drive(plan.set);
   EndWatch watch(plan.nodes.size());
@@ -110,20 +110,20 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   const int exit_code = supervisor->run().exit_code;
   const supervision::HealthTable health = supervisor->health();
   supervisor.reset();
-  held_back.reset();  // what comes now may be interrupted as ever
+  held_back.reset();  // from here on, signals interrupt again
   print_warnings(drive.warnings());
   const std::optional<drive::StrategyResult> result = drive.result(folder.logs());
   const drive::StrategyResult* const told = result ? &*result : nullptr;
   std::optional<DriveEnd> end;
   if (watch.begun()) end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, told)));
   if (result) tell_result(plan.set, *result, end, arguments);
-  std::fflush(stdout);  // both may go to one file
+  std::fflush(stdout);  // both streams may share one file
   const int code = end ? tell_end(plan.set, *end, told, exit_code, folder) : exit_code;
   fmt::print(stderr, "written to {}\n", plan.set.folder);
   return code;
 }
 
-// The exit code of a dry run is what the launch's would be if all went well with it.
+// A dry run has the exit code of a launch that goes well.
 int run_launch(const LaunchArguments& arguments) {
   LaunchPlan plan = plan_of(arguments);
   const bool ready = supervision::all_good(plan.preflight);

@@ -17,13 +17,13 @@
 namespace ttf::cli::launch {
 namespace {
 
-// From when all are ready to the begin: until every process has heard of it, and has had its memory locked.
+// From the last readiness to the begin: time for every process to receive the start and lock its memory.
 constexpr Duration kUntilStart = Duration::milliseconds(500);
-// The begin is a round instant of this host's clock, so that the drive's cycles are where the kernel's own ticks are,
-// whenever it begins.
+// The begin is a round instant of the machine's clock. So the drive's cycles have a fixed place among the
+// kernel's own ticks in every launch.
 constexpr std::int64_t kRound_ns = 100'000'000;
 
-// Nobody in the cluster knows the truth: it is looked up at the instants that the nodes' records are of.
+// Nodes do not know the truth: it is computed at the instants of the nodes' records.
 void write_truth(const node_set::NodeSet& set, const recording::merge::MergedLogs& nodes, const std::string& path) {
   const drives::Surroundings around = drives::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
   recording::log::LogWriter log(path, nodes.manifest());

@@ -1,4 +1,4 @@
-// A launch in real time: the instant at which all begin, and what becomes of their logs.
+// A launch in real time: the common instant of the begin, and the merge of the logs.
 #pragma once
 
 #include <map>
@@ -18,19 +18,19 @@ class LiveLaunch {
  public:
   explicit LiveLaunch(const node_set::NodeSet& set) : set_(set) {}
 
-  // All are told one instant, some hundred milliseconds ahead. Who comes later joins a drive that is under way.
+  // Gives all processes one instant, some hundred milliseconds ahead. A later process joins a running drive.
   supervision::Hooks hooks();
-  // The nodes' logs and the truth as one, STRATEGY.mcap in the folder, and what is made of it. A log that cannot be
-  // read at all is left out, with a warning; nothing where none can.
+  // Merges the nodes' logs and the truth into STRATEGY.mcap in the folder and judges the drive. An unreadable
+  // log is left out with a warning; without any readable log there is no value.
   std::optional<drive::StrategyResult> result(const std::vector<std::string>& logs) const;
-  // Of the nodes' controllers, as they said it last; empty off FlexRay.
+  // Returns the last reported states of the nodes' controllers; empty off FlexRay.
   std::vector<std::string> states_at_end(const supervision::HealthTable& health, const drive::StrategyResult*) const;
-  // What the kernel did not grant the nodes' processes, each sentence once, with how many it is of.
+  // Returns the privileges that the kernel refused, each sentence once with the number of processes.
   std::vector<std::string> warnings() const;
 
  private:
   const node_set::NodeSet& set_;
-  std::map<std::string, std::set<std::size_t>> not_granted_;  // by sentence, whom
+  std::map<std::string, std::set<std::size_t>> not_granted_;  // nodes by sentence
   std::optional<bus::ports::MachineTime> origin_;
   drives::DriveOutcome outcome_;
 };

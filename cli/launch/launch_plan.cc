@@ -29,7 +29,7 @@ std::string this_program() {
   return path.string();
 }
 
-// --policy NODE=POLICY
+// Parses --policy NODE=POLICY.
 void set_policies(const std::vector<std::string>& texts, const schedules::model::Cluster& cluster,
                   std::vector<supervision::NodeSpec>& nodes) {
   std::map<std::string, std::string> given;
@@ -45,7 +45,7 @@ void set_policies(const std::vector<std::string>& texts, const schedules::model:
   }
 }
 
-// Of this launch alone, whatever else is launched on this machine or in this folder.
+// Returns a session unique to this launch, among all launches on this machine or in this folder.
 std::string new_session() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return fmt::format("launch-{}-{}", getpid(), std::chrono::duration_cast<std::chrono::microseconds>(now).count());

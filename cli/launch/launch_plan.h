@@ -1,4 +1,4 @@
-// What a launch is going to do, as the command line says it: which processes, and whether what they need is there.
+// The plan of a launch, from the command line: its processes, and the state of their prerequisites.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -20,21 +20,21 @@ struct LaunchArguments {
   bool session_given = false;
 };
 
-// What is going to be started: one process per node of the cluster, in its order.
+// The processes to start: one per node of the cluster, in its order.
 struct LaunchPlan {
   node_set::NodeSet set;
   std::vector<supervision::NodeSpec> nodes;
   std::vector<supervision::PreflightItem> preflight;
 };
-// Throws InputError for what is refused; what is only not there is in the preflight.
+// Throws InputError for an invalid command line; a missing prerequisite is only in the preflight.
 LaunchPlan plan_of(const LaunchArguments& arguments);
 
-// For the manifest, and the plan as JSON.
+// Returns the facts for the manifest and for the plan as JSON.
 nlohmann::ordered_json facts_of(const node_set::NodeSet& set);
 
-// --dry-run: commands alone on standard output, so that a shell can take them; words on standard error.
+// Shows --dry-run: only commands on standard output, for a shell; words on standard error.
 void show_plan(const LaunchPlan& plan, bool as_json);
-// What is not ready, and how it is made so.
+// Shows missing prerequisites and their remedies.
 void show_preflight(const LaunchPlan& plan);
 
 }  // namespace ttf::cli::launch

@@ -1,4 +1,4 @@
-// A launch in virtual time: who watches over the exchange between the nodes, and what becomes of their logs.
+// A launch in virtual time: the exchange supervisor, and the merge of the logs.
 #pragma once
 
 #include <optional>
@@ -16,12 +16,12 @@ class VirtualLaunch {
  public:
   explicit VirtualLaunch(const node_set::NodeSet& set);
 
-  // A process that ends is announced gone, so that the others go on without it; what a node says it did is added up.
+  // Announces each ended process as gone, so that the others continue without it; adds up the nodes' outcomes.
   supervision::Hooks hooks();
-  // The nodes' logs as one, STRATEGY.mcap in the folder, and what is made of it. A log that cannot be read at all is
-  // left out, with a warning; nothing where none can.
+  // Merges the nodes' logs into STRATEGY.mcap in the folder and judges the drive. An unreadable log is left
+  // out with a warning; without any readable log there is no value.
   std::optional<drive::StrategyResult> result(const std::vector<std::string>& logs) const;
-  // Of the nodes' controllers, from the records, which are all that tells; empty off FlexRay, and without records.
+  // Returns the states of the nodes' controllers from the records alone; empty off FlexRay, and without records.
   std::vector<std::string> states_at_end(const supervision::HealthTable&, const drive::StrategyResult* result) const;
   std::vector<std::string> warnings() const { return {}; }
 

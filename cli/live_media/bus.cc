@@ -18,7 +18,7 @@ InputError refused(const std::string& text) {
                      fmt::format("must be {} (each {})", fmt::join(expectations, ", or "), kInterfaceNames)});
 }
 
-// What stands between commas; an empty text is one, which is empty.
+// Returns the parts between commas; an empty text has one part, which is empty.
 std::vector<std::string> parts_of(std::string_view list) {
   std::vector<std::string> parts;
   for (std::size_t comma = 0; comma != std::string_view::npos; list.remove_prefix(comma + 1)) {

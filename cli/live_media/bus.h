@@ -1,4 +1,4 @@
-// --bus: a live medium, and the interfaces that it runs over.
+// --bus: a live medium and its interfaces.
 #pragma once
 
 #include <string>
@@ -15,24 +15,24 @@ struct Bus {
   const LiveMediumRow* medium = kLiveMedia.front();
   std::vector<std::string> interfaces;  // of channel A, and of channel B
 
-  // Throws InputError naming --bus.
+  // Throws InputError with --bus.
   static Bus parse(const std::string& text);
   std::string text() const;
-  // A medium that has interfaces has none for a channel that --bus names none for.
+  // Returns whether the bus carries the channel: a medium with interfaces needs one for it.
   bool carries(schedules::model::Channel channel) const;
 };
 
-// As the kernel takes it (dev_valid_name), and without the commas that --bus puts between two: 1..15 bytes, no '/', ':'
-// or white space, and neither "." nor "..".
+// Checks a name by the kernel's rule (dev_valid_name), and for --bus without commas: 1..15 bytes, no '/', ':'
+// or white space, neither "." nor "..".
 bool is_interface_name(std::string_view name);
 inline constexpr const char* kInterfaceNames = "1..15 characters without white space, '/', ':' and ','";  // in words
 
-// What --help says of --bus.
+// Returns the help text of --bus.
 std::string bus_help();
-// What --bus is where private CANs have interfaces: "socketcan:IF[,IF]".
+// Returns the forms of --bus with interfaces for private CANs: "socketcan:IF[,IF]".
 std::string forms_with_interfaces();
 
-// The interfaces that a bus runs over, and the private CANs' where it has some, as the kernel has them now.
+// Checks the interfaces of a bus, and of the private CANs if they have any, in the kernel's present state.
 std::vector<supervision::PreflightItem> look_at(const Bus& bus, const std::vector<PrivateCan>& cans);
 
 }  // namespace ttf::cli::live_media

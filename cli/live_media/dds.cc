@@ -23,7 +23,7 @@ bool is_on(const schedules::model::Cluster& cluster, NodeId node, schedules::mod
   return flexray && includes(flexray->pChannels, channel);
 }
 
-// Who is missing when patience has ended is warned of.
+// Makes the medium; warns of nodes that are missing after the patience.
 std::unique_ptr<bus::ports::LiveMedium> make_dds(const MediumSetting& setting) {
   const schedules::model::Cluster& cluster = setting.cluster;
   std::vector<bus::dds::live::LiveLinePlan> lines;

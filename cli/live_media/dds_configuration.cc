@@ -25,7 +25,7 @@ namespace {
   throw std::runtime_error(fmt::format("DDS: cannot be tried: {}: {}", what, std::strerror(errno)));
 }
 
-// Its exit code is 0 where it can join.
+// Tries to join and exits: code 0 on success.
 [[noreturn]] void try_to_join(int words) {
   dup2(words, STDERR_FILENO);
   try {
@@ -36,8 +36,8 @@ namespace {
   _exit(0);
 }
 
-// "1795322955.674948 [0]   ttfusion: can't open configuration file x" without what comes before the words. The first
-// line tells why, what follows is of no more help.
+// Strips the prefix of "1795322955.674948 [0]   ttfusion: can't open configuration file x". The first line
+// has the cause; later lines add no help.
 std::string words_of(std::string text) {
   text.resize(std::min(text.find('\n'), text.size()));
   const std::size_t program = text.find("]");

@@ -1,11 +1,11 @@
-// Whether Cyclone DDS takes what CYCLONEDDS_URI says, asked before anything is started.
+// Checks that Cyclone DDS accepts the content of CYCLONEDDS_URI, before any process starts.
 #pragma once
 
 namespace ttf::cli::live_media {
 
-// Only Cyclone DDS knows, and it says why not on standard error: so a process of its own joins a domain and ends. To be
-// called where this one has no other threads yet. Nothing happens where the variable is not set. Throws InputError
-// with DDS' own words where it cannot join.
+// Lets a child process join a domain and end: only Cyclone DDS can judge its configuration, and it reports
+// the cause on standard error. Call it while this process has no other threads. Returns at once if the
+// variable is unset. Throws InputError with DDS' own words on failure.
 void check_dds_configuration();
 
 }  // namespace ttf::cli::live_media

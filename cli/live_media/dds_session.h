@@ -1,4 +1,4 @@
-// The session on DDS of all nodes of a cluster.
+// The DDS session of all nodes of a cluster.
 #pragma once
 
 #include <string>

@@ -9,11 +9,11 @@
 namespace ttf::cli::live_media {
 namespace {
 
-// An interface, and who it is for.
+// An interface and its user.
 struct User {
   std::string interface, who;  // "vcan0", "channel A"
   bool flexible_data_rate = false;
-  bool by_own_name = false;  // a CAN's: no name that hardware has, so that a virtual one is meant
+  bool by_own_name = false;  // a CAN's own name, which no hardware has: the virtual interface is meant
 };
 
 std::vector<User> users_of(const std::vector<std::string>& channel_interfaces, const std::vector<PrivateCan>& cans) {
@@ -25,7 +25,7 @@ std::vector<User> users_of(const std::vector<std::string>& channel_interfaces, c
   return users;
 }
 
-// What the kernel and the interfaces lack, and what helps, the medium itself knows.
+// The medium itself knows the errors of kernel and interfaces, and their remedies.
 std::vector<supervision::PreflightItem> look_at_cans(const std::vector<std::string>& channel_interfaces,
                                                      const std::vector<PrivateCan>& cans) {
   std::vector<supervision::PreflightItem> items;

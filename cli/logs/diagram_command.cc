@@ -33,14 +33,14 @@ struct DiagramOptions {
   std::optional<int> frame;
 };
 
-// When the last task ended.
+// Finds the end of the last task.
 struct Extent final : recording::records::Sink {
   TrueTime last{};
   using recording::records::Sink::on;
   void on(const recording::records::TaskRun& run) override { last = std::max(last, run.end.true_time); }
 };
 
-// The logs of each run as one.
+// Merges the logs of each drive into one.
 std::vector<recording::merge::MergedLogs> runs_in(const std::vector<std::string>& paths) {
   std::vector<recording::merge::StoredLog> logs;
   for (const std::string& path : paths) logs.emplace_back(path);
@@ -55,7 +55,7 @@ recording::merge::MergedLogs one_run(const std::vector<std::string>& paths) {
   return run;
 }
 
-// A recorded laser scan and the vehicles that preprocessing sees in it.
+// Draws a recorded laser scan and the vehicles that preprocessing finds in it.
 std::string boxes(const DiagramOptions& options) {
   if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "boxes", "takes one recording"});
   const auto scans = recording::rows::read_lidar_scans(options.logs[0]);
@@ -81,7 +81,7 @@ std::string boxes(const DiagramOptions& options) {
                                               objects.size(), objects.size() == 1 ? "" : "es"));
 }
 
-// The whole start-up and two cycles after it, unless told.
+// Without options, shows the whole start-up and two cycles after it.
 std::string startup(const DiagramOptions& options) {
   const TimeWindow window = time_window(options.from_s, options.to_s);
   const recording::merge::MergedLogs run = one_run(options.logs);
@@ -96,7 +96,7 @@ std::string startup(const DiagramOptions& options) {
   return diagram.svg();
 }
 
-// Of the whole run: a histogram has no window.
+// Shows the whole drive: a histogram has no time window.
 std::string lateness(const DiagramOptions& options) {
   for (const auto& [name, seconds] : {std::pair("--from", options.from_s), std::pair("--to", options.to_s)})
     if (seconds >= 0.0)
@@ -116,7 +116,7 @@ std::string timing(const recording::merge::MergedLogs& run, TrueTime from, TrueT
   return diagram.svg();
 }
 
-// Several runs side by side.
+// Draws several drives side by side.
 std::string positions(const std::vector<recording::merge::MergedLogs>& runs, TrueTime from, TrueTime to, bool plane) {
   std::vector<std::unique_ptr<report::plots::PositionPlots>> plots;
   std::vector<const report::plots::PositionPlots*> panels;
@@ -168,7 +168,7 @@ int run_diagram(const DiagramOptions& options) {
   if (from > extent.last)
     throw InputError({"command line", 0, "--from", fmt::format("{:g} s", options.from_s),
                       fmt::format("must be before the end of the log, {:g} s", (extent.last - TrueTime{}).seconds())});
-  // A timing diagram of a whole drive is unreadable: 160 ms unless told.
+  // A timing diagram of a whole drive is unreadable: the default is 160 ms.
   const TrueTime to = window.to ? *window.to : as_timing ? from + Duration::milliseconds(160) : extent.last;
   const std::string svg = as_timing ? timing(runs[0], from, to) : positions(runs, from, to, options.kind == "plane");
   report::drawing::write_picture(svg, options.out);

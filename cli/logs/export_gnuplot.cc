@@ -40,7 +40,7 @@ std::string as_file_name(const std::string& text) {
   return name.empty() ? "run" : name;
 }
 
-// The tables of one run; what they have is noted in `has`.
+// Writes the tables of one drive and notes their content in `has`.
 class RunTables {
  public:
   RunTables(const recording::merge::MergedLogs& run, report::paper::PaperRun& has) : names_(run.manifest()), has_(has) {

@@ -32,8 +32,8 @@ struct ReportOptions {
   std::string out;
 };
 
-constexpr std::size_t kMostDrives = 10;                   // timing diagrams of an experiment's page
-constexpr Duration kDrawn = Duration::milliseconds(960);  // in all of them together, 160 ms each at most
+constexpr std::size_t kMostDrives = 10;                   // of an experiment that have timing diagrams
+constexpr Duration kDrawn = Duration::milliseconds(960);  // of all of them together, at most 160 ms each
 
 std::string experiment_html(const ReportOptions& options, report::run::DiagramWindow window) {
   const report::experiment::ExperimentFolder folder = report::experiment::read_experiment_folder(options.folders[0]);
@@ -73,7 +73,7 @@ std::string html(const ReportOptions& options) {
   return experiment_html(options, window);
 }
 
-// A folder's files are what the page is of, but for a page that was written there before.
+// The page must not overwrite its own input; an older page may be overwritten.
 void refuse_input(const ReportOptions& options) {
   namespace fs = std::filesystem;
   std::error_code none;

@@ -1,4 +1,4 @@
-// How a node's run in real time ended, told to whoever started it.
+// Reports the end of a node's drive in real time to its supervisor or its user.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,12 +11,12 @@ namespace ttf::cli::node {
 
 struct NodeEnding {
   nlohmann::ordered_json counts;  // counts_json()
-  nlohmann::ordered_json health;  // the last
-  std::string failure;            // why the run failed; empty: it did not
+  nlohmann::ordered_json health;  // the last one
+  std::string failure;            // the reason of a failure; empty after success
 };
 
-// A supervisor is told the last health; that the node is done, only if it is. With `as_json` what came of it, failed
-// or not, is printed on standard output. Throws std::runtime_error with the failure.
+// Sends a supervisor the last health, and "done" only after success. With `as_json` prints the result, failed
+// or not, on standard output. Throws std::runtime_error with the failure.
 void tell_ending(const NodeEnding& ending, std::optional<supervision::ControlLine>& supervisor, bool as_json);
 
 }  // namespace ttf::cli::node

@@ -35,7 +35,7 @@ namespace {
 
 using nodes::runner::Health;
 
-// Less than a supervisor waits for who is to say that it is ready.
+// Shorter than a supervisor's wait for readiness.
 constexpr std::chrono::milliseconds kLivePatience{10'000};
 
 nlohmann::ordered_json health_json(const Health& health) {
@@ -64,13 +64,13 @@ bus::ports::MachineTime from_utc(std::int64_t utc_ns) {
   return bus::ports::host_now() + Duration{utc_ns - std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()};
 }
 
-// When the drive's time 0 is, and whether the others are under way already.
+// The instant of the drive's time 0, and whether the node joins a running cluster.
 struct Start {
   bus::ports::MachineTime origin;
   bool rejoins = false;
 };
 
-// Without a supervisor a node is told the instant from which all count: else its drive would have a time of its own.
+// Without a supervisor, a node needs the common instant of the begin: otherwise its drive would have a time of its own.
 void check_told_start(const node_set::NodeSet& set) {
   if (!set.start_at_ns)
     throw InputError(
@@ -87,7 +87,7 @@ Start told_start(const node_set::NodeSet& set) {
   return {origin, set.rejoin};
 }
 
-// Who waits says for what.
+// Explains the wait to the user.
 void tell_wait(const Start& start) {
   const Duration ahead = start.origin - bus::ports::host_now();
   if (ahead.ns > 0)
@@ -95,7 +95,7 @@ void tell_wait(const Start& start) {
                start.rejoins ? ": until then there is no cluster to rejoin" : "");
 }
 
-// Waits for it.
+// Waits for the supervisor's start.
 Start start_of(supervision::ControlLine& supervisor) {
   supervisor.ready();
   const auto facts = supervisor.wait_for_start();
@@ -107,8 +107,8 @@ Start start_of(supervision::ControlLine& supervisor) {
   }
 }
 
-// A process that takes the place of another leaves that one's log alone, as does one that is started by hand where a
-// launch or another one by hand has been.
+// Returns a free name for the log: a restarted process keeps its predecessor's log, and a node started by
+// hand keeps the log of an earlier launch or node.
 std::string free_log(const NodeOptions& options) {
   const std::filesystem::path path(options.log);
   std::string free = options.log;
@@ -150,7 +150,7 @@ recording::log::LogManifest wall_manifest(const node_set::NodeSet& set) {
 
 int run_node_live(const NodeOptions& options) {
   const node_set::NodeSet& set = options.set;
-  supervision::SignalWatch signals;  // before there are threads
+  supervision::SignalWatch signals;  // must precede all threads
   auto supervisor = supervision::ControlLine::from_environment();
   if (!supervisor) {
     check_told_start(set);
@@ -177,12 +177,12 @@ int run_node_live(const NodeOptions& options) {
     for (recording::records::Sink* sink : topics->sinks()) sinks.push_back(sink);
   }
   recording::records::Tee tee(std::move(sinks));
-  // To a supervisor, and to whoever listens on ROS 2's topics.
+  // Sends health to the supervisor and to ROS 2's topics.
   nodes::runner::HealthTeller teller([&](const Health& health, bus::ports::MachineTime at) {
     if (supervisor) supervisor->health(health_json(health));
     if (topics) topics->health(health, config.clock.drive_time(at));
   });
-  // Behind the making of all other threads, which are not to have it.
+  // All other threads exist already: they must not inherit the privileges.
   const auto not_granted = nodes::runner::ask_for_thread_privileges(index_of(options.node), set.cluster.nodes.size());
   if (supervisor)
     supervisor->health({{"not_granted", not_granted}});

@@ -18,7 +18,7 @@
 
 namespace ttf::cli::node {
 
-// The others are waited for first, so that who is ready hears everybody.
+// Waits for the others first, so that a ready node hears all of them.
 int run_node_virtual(const NodeOptions& options) {
   const node_set::NodeSet& set = options.set;
   auto supervisor = supervision::ControlLine::from_environment();
@@ -27,7 +27,7 @@ int run_node_virtual(const NodeOptions& options) {
     supervision::FolderLock::refuse_if_held(set.folder);
   }
   create_folder(set.folder);
-  // By hand nobody else sees to it that a log has one writer. One that is not there yet is made when all are there.
+  // Without a supervisor, this process ensures that its log has one writer. A missing log is created after the wait.
   std::optional<supervision::FileLock> log;
   const auto take_log = [&] {
     if (!supervisor && !log && !(log = supervision::FileLock::take(options.log)))

@@ -14,7 +14,7 @@ InputError refused(const std::string& option, std::string expected) {
   return InputError({"command line", 0, "--can", option, std::move(expected)});
 }
 
-// Interface by CAN.
+// Returns the interface of each CAN.
 std::map<std::string, std::string> interfaces_by_name(const schedules::model::Cluster& cluster,
                                                       const std::vector<std::string>& given) {
   std::map<std::string, std::string> named;
@@ -47,7 +47,7 @@ std::vector<std::string> can_interfaces(const schedules::model::Cluster& cluster
     return {};
   }
   const auto named = interfaces_by_name(cluster, given);
-  std::map<std::string, std::string> users;  // of an interface
+  std::map<std::string, std::string> users;  // by interface
   for (std::size_t channel = 0; channel < bus.interfaces.size(); ++channel)
     users[bus.interfaces[channel]] = fmt::format("channel {}", "AB"[channel]);
   std::vector<std::string> interfaces;

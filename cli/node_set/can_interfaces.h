@@ -1,4 +1,4 @@
-// Which interface each private CAN of a cluster is on, where the live medium has interfaces.
+// Chooses the interface of each private CAN of a cluster, if the live medium has interfaces.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace ttf::cli::node_set {
 
-// By Cluster::can_buses: what --can NAME=IF says of it, or else an interface of the CAN's own name. Each CAN has an
-// interface of its own, and none of the bus', as identifiers would get mixed up. Throws InputError for what is no
-// interface's name, for interfaces that meet, for a CAN that is not in the cluster or is given twice, and for anything
-// given where the medium has none; there the list is empty.
+// Returns the interfaces by Cluster::can_buses: from --can NAME=IF, or else the interface of the CAN's own
+// name. Each CAN has an interface of its own, apart from the bus, so that identifiers stay distinct. For a
+// medium without interfaces the list is empty. Throws InputError for an invalid interface name, a shared
+// interface, a CAN that is unknown or given twice, and any --can for a medium without interfaces.
 std::vector<std::string> can_interfaces(const schedules::model::Cluster& cluster, const live_media::Bus& bus,
                                         const std::vector<std::string>& given);
 
-// --can options that give these interfaces again.
+// Returns --can options for these interfaces.
 std::vector<std::string> can_options(const schedules::model::Cluster& cluster,
                                      const std::vector<std::string>& interfaces);
 
-// What the preflight looks at.
+// Returns the private CANs for the preflight.
 std::vector<live_media::PrivateCan> private_cans(const schedules::model::Cluster& cluster,
                                                  const std::vector<std::string>& interfaces);
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Duration kHealthPeriod = Duration::milliseconds(1000);
 
-// Of the first task with that step, in real time; zero where it is not the schedule that says when it runs.
+// Returns the period of the first task with that step, in real time; zero if the task has no time-triggered activation.
 Duration period_of(const NodeSet& set, std::string_view step, const nodes::runner::DriveClock& clock) {
   for (const schedules::model::Node& node : set.cluster.nodes)
     for (const schedules::model::Task& task : node.tasks)

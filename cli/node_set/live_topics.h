@@ -1,5 +1,5 @@
-// What a node in real time publishes under ROS 2's names (docs/ros.md): the fusion node its images and tracks, the
-// device of the first sensor the truth, as it is when that measures, and every node its health.
+// The topics of a node in real time under ROS 2's names (docs/ros.md). The fusion node publishes images and
+// tracks, the first sensor's device the truth at its measurements, every node its health.
 #pragma once
 
 #include <optional>
@@ -15,18 +15,18 @@
 
 namespace ttf::cli::node_set {
 
-// Whether topics can be published as the set and the environment say; throws InputError else.
+// Throws InputError if the set or the environment rule out topics.
 void check_topics(const NodeSet& set);
-// Whether DDS lets us, here and now; throws std::runtime_error else.
+// Throws std::runtime_error if DDS cannot publish here and now.
 void try_topics(const NodeSet& set);
 
 class LiveTopics {
  public:
-  // `around` must outlive it. Throws std::runtime_error where DDS does not start.
+  // `around` must outlive the object. Throws std::runtime_error if DDS does not start.
   LiveTopics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
              const drives::Surroundings& around);
 
-  // Who is to hear the node's records.
+  // Returns the sinks for the node's records.
   std::vector<recording::records::Sink*> sinks();
   void health(const nodes::runner::Health& health, TrueTime at);
 

@@ -1,5 +1,4 @@
-// One node of a drive in virtual time, in a process of its own among others: its drive, its log, and what it tells of
-// it.
+// One node of a drive in virtual time as one process among others: its drive, its log and its results.
 #pragma once
 
 #include <cstdint>
@@ -26,18 +25,17 @@ struct NodeDrive {
   std::string log_path;
 };
 
-// Runs it to its end. Throws std::runtime_error where the exchange fails or the log cannot be written.
+// Runs the drive to its end. Throws std::runtime_error if the exchange fails or the log cannot be written.
 drives::DriveOutcome run_node_drive(const NodeDrive& drive, bus::ports::Exchange& exchange);
 
-// What a node has counted, on its way from its process to whoever started it; added up there. Throws
-// std::runtime_error on what no counts_json() made.
+// Convert a node's counts on the way from its process to the launch, which adds them up. add_counts() throws
+// std::runtime_error for JSON of another form.
 nlohmann::ordered_json counts_json(const nodes::host::ExecutiveCounts& counts);
 void add_counts(nodes::host::ExecutiveCounts& sum, const nlohmann::json& one);
 
-// An outcome on its way from a node's process to whoever started it: what is the node's alone (its counts), and what
-// all of them see alike (loads, faults).
+// Converts an outcome on that way: the node's own part (its counts), and the part common to all (loads, faults).
 nlohmann::ordered_json outcome_json(const drives::DriveOutcome& outcome);
-// Adds up what the nodes say, of which `one` is the next. Throws std::runtime_error on what no outcome_json() made.
+// Adds `one` to the sum of the nodes. Throws std::runtime_error for JSON of another form.
 void add_outcome(drives::DriveOutcome& sum, const nlohmann::json& one);
 
 }  // namespace ttf::cli::node_set

@@ -23,11 +23,11 @@ namespace ttf::cli::node_set {
 namespace {
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-constexpr Range<std::int64_t> kDurations_ns{kNsPerSecond / 10, 3600 * kNsPerSecond};  // as a scenario's
+constexpr Range<std::int64_t> kDurations_ns{kNsPerSecond / 10, 3600 * kNsPerSecond};  // same as in a scenario
 constexpr std::size_t kLongestHost = 255;
 constexpr Range<std::int64_t> kStarts_ns{0, 4'102'444'800 * kNsPerSecond};  // to the end of 2099
 
-// The drive of a cluster that is given without one: the paper's first, on this cluster whatever the strategy.
+// The drive of a cluster without a scenario: the paper's first, with this cluster for every strategy.
 drives::Scenario default_scene(const schedules::model::Cluster& cluster) {
   const auto quoted = [](const std::string& text) { return nlohmann::json(text).dump(); };
   const std::string file = quoted(std::filesystem::absolute(cluster.file).string());
@@ -55,7 +55,7 @@ reference: {{}}
                                 "default_scene.yaml");
 }
 
-// A cluster file has FlexRay parameters, a scenario names clusters.
+// A cluster file has FlexRay parameters; a scenario names clusters.
 bool is_cluster_file(const std::string& file) {
   const StrictYaml yaml = StrictYaml::load(file);
   Findings ignored;
@@ -71,7 +71,7 @@ void set_duration(drives::Scenario& scenario, const std::string& name, const std
       Duration{decimal_option("--duration", text, kNsPerSecond, allowed, unit)};
 }
 
-// As a session on DDS is named, whatever the bus.
+// Checks the name as a session on DDS, whatever the bus.
 std::string session_option(const std::string& name) {
   bus::dds::common::Session session;
   session.name = name;
@@ -83,7 +83,7 @@ std::string session_option(const std::string& name) {
   }
 }
 
-// As its name is known to the system.
+// Returns the system's name of this machine.
 std::string this_host() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 && name[0] != '\0' ? name.data() : "unknown";
@@ -97,7 +97,7 @@ std::string host_option(const std::string& host) {
   return host;
 }
 
-// What is for virtual time only, or for real time only.
+// Refuses options of real time in virtual time.
 void refuse_other_time(const NodeSetArguments& arguments, const live_media::Bus& bus) {
   const auto refuse = [](const char* option, const std::string& value, std::string_view why) {
     throw InputError({"command line", 0, option, value, fmt::format("must {}", why)});
@@ -168,7 +168,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   set.rejoin = arguments.rejoin;
   set.host = arguments.host ? host_option(*arguments.host) : this_host();
 
-  std::string drive = set.file;  // as messages call it
+  std::string drive = set.file;  // the name in messages
   if (is_cluster_file(set.file)) {
     set.cluster = drive::checked_cluster(set.file);
     set.scenario = default_scene(set.cluster);

@@ -1,5 +1,4 @@
-// The node set of a launch: what `launch` and `node` are both told on the command line, read and checked once, and told
-// on.
+// The node set of a launch: the common options of `launch` and `node`, read and checked once, and passed on.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,7 +15,7 @@
 
 namespace ttf::cli::node_set {
 
-// As written.
+// The options as written.
 struct NodeSetArguments {
   std::string scenario;
   std::string strategy = "tt";
@@ -27,7 +26,7 @@ struct NodeSetArguments {
   std::string out;
   bool virtual_time = false;
   bool no_topics = false;
-  // Of a node that is started by hand.
+  // For a node started by hand.
   std::optional<std::string> start_at;
   bool rejoin = false;
   std::optional<std::string> host;
@@ -37,34 +36,34 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments);
 
 struct NodeSet {
   std::string file;                   // scenario or cluster, as given
-  drives::Scenario scenario;          // with the duration asked for
-  schedules::model::Cluster cluster;  // of the strategy, checked
+  drives::Scenario scenario;          // with the given duration
+  schedules::model::Cluster cluster;  // the strategy's, checked
   fusion::strategies::StrategyKind strategy{};
   std::uint64_t seed = 0;
   live_media::Bus bus;
-  std::vector<std::string> can_interfaces;  // by Cluster::can_buses, where the medium has any; else empty
-  std::string session;                      // who is in another one is not heard
+  std::vector<std::string> can_interfaces;  // by Cluster::can_buses, if the medium has interfaces; else empty
+  std::string session;                      // keeps out messages of other sessions
   bool virtual_time = false;
-  std::int64_t time_scale_ppm = 1'000'000;  // the schedule lasts so much longer in real time; in virtual time always 1
-  // The start that all nodes without a supervisor have in common, by CLOCK_REALTIME; in real time only.
+  std::int64_t time_scale_ppm = 1'000'000;  // the factor from schedule to real time; always 1 in virtual time
+  // The common start of all nodes without a supervisor, by CLOCK_REALTIME; in real time only.
   std::optional<std::int64_t> start_at_ns;
-  std::string host;     // whose clock the node's log goes by, for the merge of several hosts' logs
-  bool rejoin = false;  // begins cold and integrates into the cluster that runs; in real time only
-  bool topics = true;   // in real time: what goes on is published for ROS 2
-  std::string folder;   // where the nodes' logs go: NAME.mcap (launch::file_stem)
+  std::string host;     // names the machine's clock in the node's log, for merging logs of several machines
+  bool rejoin = false;  // begins cold and integrates into the running cluster; in real time only
+  bool topics = true;   // publishes the drive for ROS 2; in real time only
+  std::string folder;   // receives the nodes' logs: NAME.mcap (supervision::file_stem)
 
-  // Its medium or its topics are DDS'.
+  // Returns whether its medium or its topics use DDS.
   bool needs_dds() const { return topics || bus.medium->needs_dds; }
-  // The options that make another process read this very node set.
+  // Returns the options that give another process this very node set.
   std::vector<std::string> options() const;
 };
 
-// In real time the cluster must be fit for it at the time scale (schedules/check/real_time_rules.h), and faults are
-// refused. Given a cluster file instead of a scenario, the drive is the default scene: a car ahead that accelerates.
-// Throws InputError.
+// Reads a node set from a scenario or a cluster file. A cluster file drives the default scene: an
+// accelerating car ahead. In real time the cluster must be fit for it at the time scale
+// (schedules/check/real_time_rules.h), and faults are refused. Throws InputError.
 NodeSet read_node_set(const NodeSetArguments& arguments);
 
-// The node of this name, or InputError that lists the names.
+// Returns the node of this name. Throws InputError with all names otherwise.
 NodeId node_of(const schedules::model::Cluster& cluster, const std::string& name);
 
 }  // namespace ttf::cli::node_set

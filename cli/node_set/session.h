@@ -1,4 +1,4 @@
-// The exchange that a launch's processes talk over in virtual time: the same for the supervisor and all nodes.
+// The exchange between a launch's processes in virtual time: the same for the supervisor and all nodes.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace ttf::cli::node_set {
 
-// Everybody is started at about the same time, by a supervisor or by hand on several hosts.
+// All processes start at about the same time, by a supervisor or by hand on several machines.
 inline constexpr std::chrono::milliseconds kOthersPatience{30'000};
 
 inline bus::dds::common::Session session_of(const NodeSet& set, bool supervised) {

@@ -1,4 +1,4 @@
-// `schedule check --against CAPTURE`: does what was captured on the bus obey the schedule?
+// `schedule check --against CAPTURE`: checks whether captured frames obey the schedule.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,13 +9,13 @@
 namespace ttf::cli::schedule {
 
 struct CaptureArguments {
-  std::string file;  // empty: not asked for
+  std::string file;  // empty: not given
   std::string channels = "AB";
   double from_s = -1.0, to_s = -1.0;
 };
 void add_capture_arguments(CLI::App& command, CaptureArguments& arguments);
 
-// Prints every contradiction and a summary; returns the exit code. Throws InputError for a capture that cannot be read.
+// Prints every contradiction and a summary; returns the exit code. Throws InputError for an unreadable capture.
 int check_against_capture(const schedules::model::Cluster& cluster, const CaptureArguments& arguments, bool json);
 
 }  // namespace ttf::cli::schedule

@@ -21,7 +21,7 @@ using bus::socketcan::SlotOnCan;
 using schedules::check::kLargestTimeScale;
 using schedules::check::kTimeScaleOne;
 
-// "500k", "1M", "1000000": in bit/s, nothing where it is none.
+// Parses "500k", "1M" or "1000000" into bit/s; no value for other text.
 std::optional<std::int64_t> bit_rate(std::string_view text) {
   std::int64_t scale = 1;
   if (text.ends_with('k')) scale = 1'000;
@@ -55,9 +55,10 @@ bus::socketcan::BitRates bit_rates(const std::string& medium) {
 struct Verdict {
   std::string medium;
   bus::socketcan::BitRates rates;
-  std::int64_t time_scale = kTimeScaleOne, smallest = kTimeScaleOne;  // ppm
+  std::int64_t time_scale = kTimeScaleOne,
+               smallest = kTimeScaleOne;  // ppm; `smallest` is the least at which every slot holds
   std::vector<SlotOnCan> slots, not_holding;
-  Duration longest{};  // frame
+  Duration longest{};  // of all frames
   std::optional<schedules::model::ArrivalWindow> window;
 
   bool window_holds() const { return !window || longest <= window->late; }
@@ -110,7 +111,7 @@ bool alike(const SlotOnCan& a, const SlotOnCan& b) {
          a.needs == b.needs && a.has == b.has;
 }
 
-// Slots of a kind in a row share a line.
+// Writes the table; consecutive slots with equal values share a line.
 std::string table(const Verdict& verdict) {
   std::string text =
       fmt::format("{:>11}  {:<2}  {:>10}  {:>10}  {:>10}\n", "slots", "ch", "CAN frames", "needs [us]", "has [us]");

@@ -1,4 +1,4 @@
-// `schedule check --medium can-fd:1M/5M`: does the schedule hold where its frames travel on such a CAN?
+// `schedule check --medium can-fd:1M/5M`: checks whether the schedule holds with its frames on such a CAN.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,13 +10,13 @@
 namespace ttf::cli::schedule {
 
 struct MediumArguments {
-  std::optional<std::string> medium;  // nothing: not asked for
+  std::optional<std::string> medium;  // no value: not given
   std::optional<std::string> time_scale;
 };
 void add_medium_arguments(CLI::App& command, MediumArguments& arguments);
 
-// Of a medium that was asked for: prints what does not hold, and the time scale at which all does; returns the exit
-// code. Throws InputError for what is no medium.
+// Prints the slots that do not hold on the given medium, and the time scale at which all hold; returns the
+// exit code. Throws InputError for an invalid medium.
 int check_on_medium(const schedules::model::Cluster& cluster, const MediumArguments& arguments, bool json);
 
 }  // namespace ttf::cli::schedule

@@ -35,7 +35,7 @@ struct ScheduleOptions {
   MediumArguments medium;
 };
 
-// Null where nothing is sent in the dynamic segment.
+// Returns null without frames in the dynamic segment.
 nlohmann::ordered_json dynamic_json(const schedules::model::Cluster& cluster) {
   nlohmann::ordered_json json;
   for (const schedules::analysis::DynamicList& list : schedules::analysis::dynamic_lists(cluster))
@@ -53,7 +53,7 @@ nlohmann::ordered_json dynamic_json(const schedules::model::Cluster& cluster) {
   return json;
 }
 
-// What is wrong with a cluster goes to standard output, too, where a script reads it.
+// Prints a cluster's errors to standard output as well, for scripts.
 void print_findings(const InputError& error) {
   nlohmann::ordered_json json{{"consistent", false}, {"findings", nlohmann::ordered_json::array()}};
   for (const Finding& finding : error.findings())
@@ -141,8 +141,9 @@ int export_cluster(const ScheduleOptions& options) {
   const schedules::exchange::fibex::FibexImport import = schedules::exchange::fibex::import_fibex(options.file);
   for (const Finding& finding : import.left_out) fmt::print(stderr, "note: {}\n", finding.sentence());
   const std::string yaml = schedules::exchange::fibex::skeleton_yaml(import);
-  schedules::file::parse_cluster(yaml,
-                                 options.out.empty() ? "cluster.yaml" : options.out);  // what is written can be read
+  schedules::file::parse_cluster(
+      yaml,
+      options.out.empty() ? "cluster.yaml" : options.out);  // checks that the output can be read back
   write_text(yaml, options.out);
   return 0;
 }

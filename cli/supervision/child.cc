@@ -34,7 +34,7 @@ struct Pair {
   Descriptor ours, childs;
 };
 
-// With one of 0..2 closed, what is opened next would be taken for standard output.
+// If one of 0..2 is closed, the next opened file would become standard input, output or error.
 void fill_standard_descriptors() {
   for (;;) {
     Descriptor filler(open("/dev/null", O_RDWR));
@@ -43,7 +43,7 @@ void fill_standard_descriptors() {
   }
 }
 
-// The slave is opened through the master, not by its path: that is the right one in any mount namespace.
+// Opening the slave through its master, not by its path, is right in any mount namespace.
 Pair raw_terminal() {
   Pair pair;
   pair.ours = Descriptor(checked(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK), "no pseudo terminal"));
@@ -65,12 +65,11 @@ Pair control_line() {
   return pair;
 }
 
-// What exec wants, put together before the fork: after it, in a process that may have threads, nothing may be
-// allocated.
+// Arguments for exec, built before the fork: after it, a process with threads must not allocate memory.
 class Strings {
  public:
   void add(std::string text) { texts_.push_back(std::move(text)); }
-  // Entries "NAME=..." give way to a later one of the same name.
+  // Replaces earlier entries "NAME=..." of the same name.
   void set(const std::string& name, const std::string& value) {
     std::erase_if(texts_, [&](const std::string& text) { return text.starts_with(name + "="); });
     texts_.push_back(name + "=" + value);
@@ -87,7 +86,7 @@ class Strings {
   std::vector<char*> pointers_;
 };
 
-// All that the child does before it is another program: system calls only. Ends by exec, or with errno to `report`.
+// The child's work before exec, in system calls only. It ends by exec, or by writing errno to `report`.
 struct Launchpad {
   char** arguments = nullptr;
   char** environment = nullptr;
@@ -95,16 +94,16 @@ struct Launchpad {
   pid_t parent = -1;
 
   [[noreturn]] void run() const {
-    // The parent may have died before the kernel was told what to do then.
+    // The parent may have died before this call.
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) _exit(127);
     setsid();
-    ioctl(terminal, TIOCSCTTY, 0);  // its end hangs up on the group, so that nobody outlives a killed supervisor
+    ioctl(terminal, TIOCSCTTY, 0);  // its hang-up ends the group, even after the supervisor is killed
     dup2(nothing, STDIN_FILENO);
     dup2(terminal, STDOUT_FILENO);
     dup2(terminal, STDERR_FILENO);
     close_range(3, ~0u, CLOSE_RANGE_CLOEXEC);
     fcntl(control, F_SETFD, 0);
-    // What is ignored stays so over exec, and so does the mask: a child that cannot be interrupted would be the result.
+    // Ignored signals and the mask survive exec: without this, the program could not be interrupted.
     for (const int signal :
          {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGCHLD, SIGUSR1, SIGUSR2, SIGTSTP, SIGTTIN, SIGTTOU})
       ::signal(signal, SIG_DFL);
@@ -118,7 +117,7 @@ struct Launchpad {
   }
 };
 
-// The child's number of exec's failure; 0 where exec closed the pipe.
+// Returns errno of a failed exec; 0 if exec closed the pipe.
 int start_error(int report) {
   int reason = 0;
   ssize_t got = 0;
@@ -146,7 +145,7 @@ Child::Child(const ChildCommand& command) {
   Strings arguments, environment;
   for (const std::string& argument : command.arguments) arguments.add(argument);
   for (char** entry = environ; *entry != nullptr; ++entry) environment.add(*entry);
-  environment.set("NO_COLOR", "1");  // escape sequences would be shown as such
+  environment.set("NO_COLOR", "1");  // escape sequences would appear as text
   for (const auto& [name, value] : command.environment) environment.set(name, value);
   environment.set(std::string(kControlVariable), fmt::to_string(control.childs.get()));
 
@@ -160,7 +159,7 @@ Child::Child(const ChildCommand& command) {
   pid_ = checked(fork(), "no further process");
   if (pid_ == 0) pad.run();
   report_in.close();
-  // By its number: the header of glibc 2.36 declares the function without C linkage.
+  // By its number, because the header of glibc 2.36 declares the function without C linkage.
   process_ = Descriptor(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
   output_ = std::move(terminal.ours);
   control_ = std::move(control.ours);
@@ -177,7 +176,7 @@ Child::Child(const ChildCommand& command) {
 Child::~Child() {
   if (reaped_) return;
   signal_group(SIGKILL);
-  // Killed for certain; and the group's other members before the number is free again.
+  // Waits for the death, then kills the group's other members before the number is free again.
   siginfo_t info{};
   while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
   }
@@ -185,14 +184,14 @@ Child::~Child() {
 }
 
 void Child::signal_group(int signal) {
-  // Between fork and setsid there is no such group; but exec, which comes after, has been waited for.
+  // Between fork and setsid the group does not exist, but start_error() has waited for the later exec.
   if (!reaped_) kill(-pid_, signal);
 }
 
 std::string Child::read_output(std::size_t most) {
   std::string bytes(most, '\0');
   const ssize_t got = read(output_.get(), bytes.data(), bytes.size());
-  // EIO: nobody has the other end open any more, and what was written has been read.
+  // EIO: the other end is closed everywhere, and all output has been read.
   if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) output_over_ = true;
   bytes.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
   return bytes;
@@ -202,7 +201,7 @@ std::optional<std::string> Child::read_control() {
   if (!control_.open()) return std::nullopt;
   std::string message(kLongestMessage, '\0');
   const ssize_t got = recv(control_.get(), message.data(), message.size(), MSG_DONTWAIT);
-  // An empty packet looks like the end; nobody has a reason to send one.
+  // An empty packet looks like the end, but has no meaning here.
   if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) control_.close();
   if (got <= 0) return std::nullopt;
   message.resize(static_cast<std::size_t>(got));

@@ -1,15 +1,13 @@
-// One child process of a launch, in a session and process group of its own: what it starts in turn can be signalled
-// with it.
+// One child process of a launch, in a session and process group of its own, so that signals reach its children, too.
 //
-//   standard output and error   a pseudo terminal in raw mode, so that nothing is held back in the child's buffers, no
-//                               CR is added, and the order of both is kept; standard input is /dev/null
+//   standard output and error   a pseudo terminal in raw mode: the child's buffers hold no output back, no CR is added,
+//                               and the order of both is kept; standard input is /dev/null
 //   control                     a socket pair (SOCK_SEQPACKET, one message per packet); its number in the child is in
 //                               the environment variable TTF_CONTROL_FD (cli/supervision/control.h)
-//   death                       the kernel kills the child when the launching thread ends, however that happens, and
-//                               hangs up on its process group; so start children from a thread that lives on, as the
-//                               main thread does
+//   death                       the kernel kills the child when the launching thread ends, for any reason, and hangs up
+//                               on its process group; so start children from a lasting thread, such as the main thread
 //
-// All descriptors are non-blocking; none but these three is inherited.
+// All descriptors are non-blocking; the child inherits only these three.
 #pragma once
 
 #include <sys/types.h>
@@ -26,22 +24,22 @@
 namespace ttf::cli::supervision {
 
 struct ChildCommand {
-  std::vector<std::string> arguments;  // [0] is the program, looked for in PATH if it has no slash
-  std::vector<std::pair<std::string, std::string>> environment;  // added to our own, or instead of ours
+  std::vector<std::string> arguments;                            // [0] is the program, found in PATH if it has no slash
+  std::vector<std::pair<std::string, std::string>> environment;  // added to our own; replaces equal names
 };
 
-// How a process ended.
+// The end of a process.
 struct Ending {
   bool by_signal = false;
-  int value = 0;  // exit code, or number of the signal
+  int value = 0;  // exit code, or the signal's number
 
   bool success() const { return !by_signal && value == 0; }
-  // What a shell would say: the code, or 128 + signal.
+  // Returns a shell's code: the exit code, or 128 + signal.
   int exit_code() const { return by_signal ? 128 + value : value; }
   std::string text() const;  // "exit 3", "signal 9 (Killed)"
 };
 
-// The program does not run at all: what() says why; ending() is a shell's, 127 not found or 126 not to be run.
+// The program cannot run: what() has the reason; ending() is as a shell's, 127 not found or 126 not executable.
 class StartFailure : public std::runtime_error {
  public:
   StartFailure(const std::string& what, Ending ending) : std::runtime_error(what), ending_(ending) {}
@@ -53,34 +51,33 @@ class StartFailure : public std::runtime_error {
 
 class Child {
  public:
-  // Starts it. Throws StartFailure where the program cannot be run, std::runtime_error where the system lacks what is
-  // needed (descriptors, processes, pseudo terminals).
+  // Starts the program. Throws StartFailure if it cannot run, std::runtime_error if the system lacks
+  // descriptors, processes or pseudo terminals.
   explicit Child(const ChildCommand& command);
-  // Whoever still lives is killed, with the whole group, and reaped.
+  // Kills and reaps the whole group, if it still runs.
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
   pid_t pid() const { return pid_; }
   int process_fd() const { return process_.get(); }                    // readable when the process has ended
-  int output_fd() const { return output_over_ ? -1 : output_.get(); }  // -1 when nobody has it open any more
+  int output_fd() const { return output_over_ ? -1 : output_.get(); }  // -1 when all holders have closed it
   int control_fd() const { return control_.get(); }                    // -1 when the child has closed its end
 
-  // To the process and all of its group; nothing once it has been reaped.
+  // Signals the process and its whole group; has no effect after the reaping.
   void signal_group(int signal);
 
-  // Up to `most` bytes of what it prints. Empty: nothing there now, or no more to come (output_fd() tells). The
-  // terminal itself stays until the end, because closing it would hang up on a child that has only redirected its
-  // output.
+  // Returns up to `most` bytes of the child's output. Empty: no output now, or its end (see output_fd()). The terminal
+  // stays open until the end, because closing it would hang up on a child that has only redirected its output.
   std::string read_output(std::size_t most);
-  // One message; nothing: none there now, or no more to come (control_fd() tells). One that is longer than
-  // kLongestMessage is cut, and no JSON any more.
+  // Returns one message; no value: no message now, or their end (see control_fd()). A message longer than
+  // kLongestMessage is cut and is no longer JSON.
   std::optional<std::string> read_control();
-  // False where the child does not take it: closed, or too many waiting.
+  // Returns false if the child does not take it: closed, or too many messages wait.
   bool send_control(const std::string& message);
 
-  // If it has ended: kills what is left of its group, then gives its number back to the system. Output and control can
-  // still be read until they are empty.
+  // After the process' end, kills the rest of its group and releases its number. Output and control remain
+  // readable until they are empty.
   std::optional<Ending> reap();
 
  private:

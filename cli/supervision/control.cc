@@ -33,7 +33,7 @@ void ControlLine::send(std::string_view key, const nlohmann::json& value, bool w
   ssize_t sent = 0;
   do sent = ::send(line_.get(), message.data(), message.size(), MSG_NOSIGNAL | (wait ? 0 : MSG_DONTWAIT));
   while (sent < 0 && errno == EINTR);
-  // A supervisor that is gone is noticed by who waits for it.
+  // The wait for the start notices a lost supervisor.
   if (sent < 0) ++dropped_;
 }
 
@@ -49,7 +49,7 @@ std::optional<nlohmann::json> ControlLine::wait_for_start() {
     if (got <= 0) return std::nullopt;
     const auto json =
         nlohmann::json::parse(std::string_view(message).substr(0, static_cast<std::size_t>(got)), nullptr, false);
-    // Whoever is older than the supervisor does not know all that it says.
+    // An older node does not know every message of the supervisor.
     if (json.is_object() && json.contains("start")) return json["start"];
   }
 }

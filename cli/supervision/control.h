@@ -1,9 +1,9 @@
 // The control line between a supervisor and a node's process: one JSON object per message, one message per packet.
 //
-//   node -> supervisor   {"ready": true}       everything is set up; waiting for the start
-//                        {"health": {...}}     how it goes, now and then (cli/supervision/health_table.h)
-//                        {"done": {...}}       the drive is over, and nothing failed; what came of it
-//   supervisor -> node   {"start": {...}}      all are ready: begin, as it says
+//   node -> supervisor   {"ready": true}       the node is set up and waits for the start
+//                        {"health": {...}}     its health, from time to time (cli/supervision/health_table.h)
+//                        {"done": {...}}       the drive is over without a failure, with its result
+//   supervisor -> node   {"start": {...}}      all nodes are ready: begin, with these facts
 #pragma once
 
 #include <cstddef>
@@ -20,21 +20,21 @@ namespace ttf::cli::supervision {
 inline constexpr std::string_view kControlVariable = "TTF_CONTROL_FD";
 inline constexpr std::size_t kLongestMessage = 65'536;  // bytes
 
-// The node's end. A process that nobody supervises has none.
+// The node's end. A process without a supervisor has no line.
 class ControlLine {
  public:
-  // The descriptor that the environment names, if it is one of a control line. It is taken out of the environment and
-  // is not inherited further. Throws std::runtime_error where the variable is set but is no such descriptor.
+  // Takes the descriptor from the environment and removes the variable; child processes do not inherit the
+  // descriptor. Throws std::runtime_error if the variable names no descriptor of a control line.
   static std::optional<ControlLine> from_environment();
   explicit ControlLine(Descriptor line) : line_(std::move(line)) {}
 
   void ready();
-  // Never waits: what the supervisor has no room for is dropped, and counted.
+  // Never waits: drops and counts messages that the supervisor has no room for.
   void health(const nlohmann::json& facts);
   void done(const nlohmann::json& facts);
   std::uint64_t dropped() const { return dropped_; }
 
-  // Sleeps until the supervisor says start; what it says. Nothing: the supervisor is gone.
+  // Sleeps until the supervisor's start and returns its facts. No value: the supervisor is gone.
   std::optional<nlohmann::json> wait_for_start();
 
  private:

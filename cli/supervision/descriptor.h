@@ -21,7 +21,7 @@ class Descriptor {
   }
   ~Descriptor() { close(); }
 
-  int get() const { return fd_; }  // -1: none, as poll() skips it
+  int get() const { return fd_; }  // -1 if closed, which poll() skips
   bool open() const { return fd_ >= 0; }
   int release() { return std::exchange(fd_, -1); }
   void close() {

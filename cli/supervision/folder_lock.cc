@@ -17,7 +17,7 @@ namespace {
 
 std::string lock_file(const std::string& folder) { return folder + "/launch.lock"; }
 
-// Whether it is ours now. `how`: who only looks takes LOCK_SH, and is in nobody's way but a writer's.
+// Returns whether the lock is taken. `how` is LOCK_SH for a mere look, which blocks only writers.
 bool locked(int file, const std::string& path, int how) {
   int failed = 0;
   do failed = flock(file, how | LOCK_NB);
@@ -35,7 +35,7 @@ std::string number_in(const std::string& path) {
 }
 
 [[noreturn]] void refuse(const std::string& folder) {
-  const std::string holder = number_in(lock_file(folder));  // one that has not written it yet has none
+  const std::string holder = number_in(lock_file(folder));  // empty if the holder has not written it yet
   throw InputError({"command line", 0, "--out", folder,
                     fmt::format("must be another folder: it is of a launch that still runs{}",
                                 holder.empty() ? "" : ", process " + holder)});

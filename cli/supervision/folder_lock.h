@@ -1,7 +1,7 @@
-// A folder is of one launch at a time: what another one would remove and write there is its own.
+// A folder belongs to one launch at a time, because a launch removes and writes files there.
 //
-// Held by a lock of the kernel's (flock) on launch.lock in the folder, which holds the number of the process. It goes
-// with the process, however that ends: a file that is left means nothing. None of what the launch starts inherits it.
+// The kernel's lock (flock) on launch.lock in the folder marks the owner; the file holds its process number. The lock
+// ends with the process in any case, so a left file has no meaning. Started processes do not inherit the lock.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@
 
 namespace ttf::cli::supervision {
 
-// Whose file it is: the kernel's lock on a file that is made where it is not there, and left as it is.
+// The kernel's lock on a file, which is created if missing and otherwise left unchanged.
 class FileLock {
  public:
-  // Nothing: somebody else has it. Throws std::runtime_error where it cannot be opened for writing, or cannot be
-  // locked; on a file system that has no locks everybody has it.
+  // Returns no value if another process holds the lock. Throws std::runtime_error if the file cannot be
+  // opened for writing or locked. On a file system without locks every process gets it.
   static std::optional<FileLock> take(const std::string& path);
   int get() const { return file_.get(); }
 
@@ -27,11 +27,11 @@ class FileLock {
 
 class FolderLock {
  public:
-  // Of a folder that is there. Throws InputError that names folder and process where another launch has it,
-  // std::runtime_error where the file cannot be written.
+  // Locks an existing folder. Throws InputError with folder and process if another launch holds it,
+  // std::runtime_error if the file cannot be written.
   explicit FolderLock(const std::string& folder);
 
-  // Throws the same InputError where a launch has it; leaves nothing. A folder that is not there is nobody's.
+  // Throws the same InputError if a launch holds the folder; leaves no trace. A missing folder is free.
   static void refuse_if_held(const std::string& folder);
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The first thing that is wrong with a message, in words.
+// Reads a message's values and keeps its first error, in words.
 class Reader {
  public:
   explicit Reader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {

@@ -1,5 +1,5 @@
-// How the nodes of a launch are, as they say it themselves on their control lines, beside what the supervisor knows of
-// their processes. One row per node, in the order of the cluster; every fact may be unknown ("-").
+// The health of a launch's nodes, from their messages on the control lines, beside the supervisor's view of
+// their processes. One row per node, in the order of the cluster; unknown facts are "-".
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,16 @@
 
 namespace ttf::cli::supervision {
 
-// What a node says of itself, since it began.
+// A node's own report since its begin.
 struct NodeHealth {
   std::optional<std::uint64_t> missed_slots;  // own slots without a frame
-  std::optional<std::uint64_t> late_wakeups;  // the task began after its instant by more than its allowance
+  std::optional<std::uint64_t> late_wakeups;  // the task began too late, beyond its allowance
   std::optional<double> lateness_p50_us;      // of all wake-ups
   std::optional<double> lateness_p99_us;
   std::optional<double> lateness_max_us;
-  std::optional<double> sync_precision_us;  // largest deviation that clock synchronisation has seen
-  // Frames that its medium lost on their way in or had no room to send, and those that had no room in its process: each
-  // once. What is known by its gap alone is not among them: its sender may have withheld it.
+  std::optional<double> sync_precision_us;  // the largest deviation in clock synchronisation
+  // Frames lost or without room in its medium, and frames without room in its process; each counts once. A
+  // mere gap does not count: its sender may have withheld the frame.
   std::optional<std::uint64_t> drops;
   std::string state;  // in the node's own words: "normal active"
 };
@@ -29,14 +29,14 @@ class HealthTable {
  public:
   explicit HealthTable(const std::vector<std::string>& nodes);
 
-  // Takes what {"health": {...}} carries: any of missed_slots, late_wakeups, lateness_us {p50, p99, max},
-  // sync_precision_us, drops, state; what is not given stays as it was. Nothing of the message is taken where anything
-  // is wrong with it: then the answer says what. Keys that are not known are kept for the JSON form only.
+  // Takes the facts of {"health": {...}}: any of missed_slots, late_wakeups, lateness_us {p50, p99, max},
+  // sync_precision_us, drops, state. Missing facts keep their values. A message with an error is rejected
+  // whole, and the error returned. Unknown keys appear only in the JSON form.
   std::optional<std::string> update(std::size_t node, const nlohmann::json& health);
 
-  // What the supervisor knows: "running", "exit 3", "restart 2 of 5 in 1 s".
+  // Sets the supervisor's view: "running", "exit 3", "restart 2 of 5 in 1 s".
   void set_process(std::size_t node, std::string state);
-  // A new process has said nothing yet.
+  // Clears a node's facts for a new process.
   void forget(std::size_t node);
 
   const NodeHealth& of(std::size_t node) const { return rows_[node].health; }

@@ -58,7 +58,7 @@ std::optional<EarlierLaunch> earlier_launch(const std::string& folder) {
     return of.is_object() && of.contains(key) && of[key].is_string() ? of[key].get<std::string>() : std::string();
   };
   EarlierLaunch earlier{text(json, "strategy"), {}};
-  // Names of files are made of it: no such name leads elsewhere.
+  // The strategy becomes part of file names, so it must not lead elsewhere.
   if (file_stem(earlier.strategy) != earlier.strategy) earlier.strategy.clear();
   for (const nlohmann::json& node : json["nodes"])
     if (std::string name = text(node, "name"); !name.empty()) earlier.nodes.push_back(std::move(name));
@@ -176,7 +176,7 @@ nlohmann::ordered_json LaunchFolder::json() const {
 
 void LaunchFolder::write() const {
   const std::string path = folder_ + "/manifest.json", next = path + ".new";
-  // Names and arguments may be any bytes: what is no UTF-8 is replaced, not refused.
+  // Names and arguments may hold any bytes: invalid UTF-8 is replaced, not refused.
   cli::write_file(next, json().dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
   std::error_code failure;
   std::filesystem::rename(next, path, failure);

@@ -11,8 +11,8 @@ namespace {
 constexpr unsigned char byte_of(char c) { return static_cast<unsigned char>(c); }
 constexpr bool is_continuation(char c) { return (byte_of(c) & 0xc0u) == 0x80u; }
 
-// Length of the printable UTF-8 character that `text` begins with; 0 where there is none. RFC 3629: no overlong forms,
-// no surrogates, nothing above U+10FFFF; and no C1 control (U+0080..U+009F), which terminals obey.
+// Returns the length of the printable UTF-8 character that begins `text`; 0 otherwise. RFC 3629: no overlong forms, no
+// surrogates, at most U+10FFFF. C1 controls (U+0080..U+009F) are excluded, because terminals obey them.
 std::size_t character(std::string_view text) {
   const unsigned char lead = byte_of(text[0]);
   if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
@@ -29,7 +29,7 @@ std::size_t character(std::string_view text) {
   return length;
 }
 
-// Where to cut the first piece of a line that is too long: not within a character, if it is one.
+// Returns the length of the first piece of a long line, without splitting a character.
 std::size_t cut_of(std::string_view text) {
   std::size_t cut = kLongestLine;
   while (cut > kLongestLine - 4 && is_continuation(text[cut])) --cut;
@@ -48,7 +48,7 @@ std::vector<std::string> LineCutter::feed(std::string_view bytes) {
     }
   };
   while (!bytes.empty()) {
-    // No more than a piece at a time, so that what is erased in front is short.
+    // Takes one piece at a time, so that erasing at the front stays cheap.
     const std::string_view part = bytes.substr(0, kLongestLine);
     const std::size_t end = part.find('\n');
     held_ += part.substr(0, end);
@@ -90,7 +90,7 @@ std::size_t shown_width(std::string_view text) {
 
 std::string prefixed(Duration since_launch, const Speaker& speaker, std::size_t width, bool colour,
                      std::string_view text) {
-  // Cyan, green, yellow, blue, magenta, and their bright ones; red is left to what fails.
+  // Cyan, green, yellow, blue, magenta, and their bright variants; red is for failures.
   constexpr std::array<int, 10> kColours{36, 32, 33, 34, 35, 96, 92, 93, 94, 95};
   const std::size_t shown = shown_width(speaker.name);
   const std::string front = fmt::format("{:8.3f} {}{} |", since_launch.seconds(), speaker.name,

@@ -1,5 +1,5 @@
-// What a child prints, made fit for a screen that many share: whole lines, nothing that moves the cursor, and in front
-// of each who said it and when. Pure; the child's own bytes go to its text file unchanged.
+// Makes a child's output fit for a shared screen: whole lines without cursor movement, each prefixed by
+// speaker and time. The functions are pure; the text file keeps the child's original bytes.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,16 @@
 
 namespace ttf::cli::supervision {
 
-// A line that grows beyond this is shown in pieces, so that a flood without a newline costs no more than this.
+// A longer line is shown in pieces, so that a flood without a newline needs bounded memory.
 inline constexpr std::size_t kLongestLine = 4096;  // bytes
 
-// Cuts a stream into lines. Partial lines are held back until they are complete, too long, or the stream ends.
+// Cuts a stream into lines. A partial line waits until it is complete, too long, or the stream ends.
 class LineCutter {
  public:
-  // The lines that `bytes` complete, without their ends ("\n" or "\r\n"). A piece of too long a line ends in kGoesOn.
+  // Returns the lines that `bytes` complete, without their ends ("\n" or "\r\n"). A piece of a long line ends
+  // in kGoesOn.
   std::vector<std::string> feed(std::string_view bytes);
-  // What is held back, once; nothing where the stream ended with a newline.
+  // Returns the waiting rest, once; empty if the stream ended with a newline.
   std::vector<std::string> finish();
 
   static constexpr std::string_view kGoesOn = " [...]";
@@ -28,21 +29,21 @@ class LineCutter {
   std::string held_;
 };
 
-// Control characters (but tabs) and bytes that are no UTF-8 are written as \xNN. Everything else stays as it is.
+// Writes control characters (except tabs) and bytes that are no UTF-8 as \xNN; the rest is unchanged.
 std::string printable(std::string_view line);
 
-// How lines are told apart on a screen.
+// Distinguishes a speaker's lines on a screen.
 struct Speaker {
   std::string name;
   std::size_t index = 0;  // chooses the colour
 };
 
-// "   1.234 fusion      | text": seconds since the launch began, the name filled up to `width` characters (UTF-8), the
-// text. With colour, all but the text is in the speaker's.
+// Returns "   1.234 fusion      | text": seconds since the launch began, the name padded to `width`
+// characters (UTF-8), the text. With colour, everything except the text has the speaker's.
 std::string prefixed(Duration since_launch, const Speaker& speaker, std::size_t width, bool colour,
                      std::string_view text);
 
-// Characters (not bytes) of UTF-8.
+// Counts characters of UTF-8, not bytes.
 std::size_t shown_width(std::string_view text);
 
 }  // namespace ttf::cli::supervision

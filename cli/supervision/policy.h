@@ -1,4 +1,4 @@
-// What becomes of a launch when one of its nodes ends, and how a launch is stopped: pure steps over time.
+// The effect of a node's end on its launch, and the steps of a stop: pure functions of time.
 //
 // Times are durations since the launch began.
 #pragma once
@@ -12,15 +12,15 @@
 namespace ttf::cli::supervision {
 
 enum class Policy : std::uint8_t {
-  kRequired,  // its failure stops all
-  kRestart,   // it is started again, after a back-off; when that has been tried often enough, it is as kRequired
-  kOptional,  // its failure is said, and the others go on; nobody waits for it longer than the ready barrier lasts
+  kRequired,  // its failure stops all nodes
+  kRestart,   // it starts again after a back-off; after the last attempt it counts as kRequired
+  kOptional,  // its failure is reported, and the others continue; only the ready barrier waits for it
 };
 std::string_view name_of(Policy policy);  // "required", "restart", "optional"
 std::optional<Policy> policy_of(std::string_view name);
 
-// How long to wait before each restart of one node: doubling, capped, limited in number. Both begin anew once a process
-// has kept going for `settled`.
+// The wait before each restart of one node: it doubles up to a limit, a limited number of times. Both start
+// anew after a process has run for `settled`.
 class Backoff {
  public:
   struct Limits {
@@ -31,7 +31,7 @@ class Backoff {
   };
   explicit Backoff(const Limits& limits) : limits_(limits) {}
 
-  // After a process that lasted `lasted`; nothing: it has been tried often enough.
+  // Returns the wait after a process that lasted `lasted`; no value after the last attempt.
   std::optional<Duration> next(Duration lasted);
   int tried() const { return tried_; }
 
@@ -40,7 +40,7 @@ class Backoff {
   int tried_ = 0;
 };
 
-// The signals of an ordered stop: SIGINT, after a grace SIGTERM, after another SIGKILL, which needs none.
+// The signals of an ordered stop: SIGINT, SIGTERM after a grace, SIGKILL after another.
 class StopOrder {
  public:
   struct Grace {
@@ -50,13 +50,13 @@ class StopOrder {
   explicit StopOrder(const Grace& grace) : grace_(grace) {}
 
   bool begun() const { return signal_ != 0; }
-  // The last signal that was due; 0 before the stop.
+  // Returns the last signal due; 0 before the stop.
   int signal() const { return signal_; }
-  // SIGINT, if the stop has not begun.
+  // Returns SIGINT if the stop has not begun.
   std::optional<int> begin(Duration now);
-  // The next signal at once: somebody is impatient. Nothing after SIGKILL.
+  // Returns the next signal at once, for an impatient user; no value after SIGKILL.
   std::optional<int> hurry(Duration now);
-  // The next signal, if its instant has come.
+  // Returns the next signal if its instant has come.
   std::optional<int> due(Duration now);
   std::optional<Duration> next_instant() const { return next_; }
 

@@ -10,7 +10,7 @@
 namespace ttf::cli::supervision {
 namespace {
 
-// What is left of a full disk's copy is no reason to stop a drive.
+// A failure to write the copy (a full disk) is no reason to stop a drive.
 void write_whole(int fd, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = write(fd, text.data(), text.size());
@@ -43,13 +43,13 @@ void Screen::admit_gap() {
 
 void Screen::write_some() {
   if (queue_.empty() && gap_ == 0) return;
-  // As much as a pipe takes at once when it is ready at all.
+  // PIPE_BUF is what a ready pipe surely takes.
   const ssize_t written = write(fd_, queue_.data(), std::min<std::size_t>(queue_.size(), PIPE_BUF));
   if (written > 0) {
     queue_.erase(0, static_cast<std::size_t>(written));
     if (queue_.empty()) admit_gap();
   } else if (written < 0 && errno != EAGAIN && errno != EINTR) {
-    fd_ = -1;  // nobody reads this any more: the nodes go on
+    fd_ = -1;  // the reader is gone; the nodes continue
     queue_.clear();
   }
 }

@@ -1,4 +1,4 @@
-// A command as one types it.
+// A command as a user types it.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace ttf::cli::supervision {
 
-// The arguments, each quoted where a POSIX shell would read it otherwise, with blanks between.
+// Joins the arguments by blanks and quotes them for a POSIX shell where necessary.
 std::string shell_text(const std::vector<std::string>& arguments);
 
 }  // namespace ttf::cli::supervision

@@ -26,7 +26,7 @@ SignalWatch::SignalWatch() {
 
 SignalWatch::~SignalWatch() {
   while (next()) {
-  }  // what came after the end has had its effect
+  }  // discards signals that came after the end
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   sigaction(SIGPIPE, &pipe_before_, nullptr);
 }

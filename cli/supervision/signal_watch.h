@@ -1,7 +1,7 @@
-// Signals as something to poll: while it lives, SIGINT, SIGTERM and SIGHUP are blocked and readable from a descriptor,
-// and a write to whom nobody reads is an error, not a signal. Make it before other threads begin, so that they inherit
-// the mask: a signal goes to any thread that takes it. One may live within another's life. SIGHUP stays ignored where
-// it is (nohup).
+// Process signals for polling: during its life, SIGINT, SIGTERM and SIGHUP are blocked and readable from a
+// descriptor. A write without a reader fails instead of raising SIGPIPE. Make it before other threads begin,
+// so that they inherit the mask: a signal goes to any thread that takes it. Objects may nest. An ignored
+// SIGHUP stays ignored (nohup).
 #pragma once
 
 #include <signal.h>
@@ -14,14 +14,14 @@ namespace ttf::cli::supervision {
 
 class SignalWatch {
  public:
-  // Throws std::runtime_error where the system does not give the descriptor.
+  // Throws std::runtime_error if the system refuses the descriptor.
   SignalWatch();
   ~SignalWatch();
   SignalWatch(const SignalWatch&) = delete;
   SignalWatch& operator=(const SignalWatch&) = delete;
 
   int fd() const { return fd_.get(); }
-  // The next one that came; nothing: none there now.
+  // Returns the next pending signal; no value without one.
   std::optional<int> next();
 
  private:

@@ -12,9 +12,9 @@
 namespace ttf::cli::supervision {
 namespace {
 
-constexpr std::size_t kReadAtOnce = 65'536;     // bytes of one child, before the others have their turn
+constexpr std::size_t kReadAtOnce = 65'536;     // bytes of one child, before the others' turn
 constexpr std::size_t kMessagesAtOnce = 1'000;  // more than a socket holds
-constexpr std::size_t kReadAtEnd = 16 << 20;    // bytes; somebody who left the group could go on printing for ever
+constexpr std::size_t kReadAtEnd = 16 << 20;    // bytes; a process outside the group could print for ever
 
 std::vector<std::string> names_of(const std::vector<NodeSpec>& nodes) {
   std::vector<std::string> names;
@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const std::vector<NodeSpec>& nodes) {
   return names;
 }
 
-// Never too early: whoever wakes up before the instant would only poll again.
+// Rounds up: an early wake-up would only poll again.
 int milliseconds_until(std::optional<Duration> instant, Duration now) {
   if (!instant) return -1;
   const std::int64_t ms = (std::max<std::int64_t>((*instant - now).ns, 0) + 999'999) / 1'000'000;
@@ -101,7 +101,7 @@ void Supervisor::wait() {
 void Supervisor::take_signals() {
   while (const auto signal = signals_.next()) {
     if (stop_order_.begun()) {
-      // A terminal's hangup may come with others; only who asks again is impatient.
+      // A terminal's hang-up may come with other signals; only a repeated request means impatience.
       if (*signal != SIGHUP)
         if (const auto next = stop_order_.hurry(now())) signal_all(*next);
       continue;
@@ -132,7 +132,7 @@ void Supervisor::take_messages(Node& node) {
 void Supervisor::take_ending(Node& node) {
   const auto ending = node.child->reap();
   if (!ending) return;
-  // All that it had said before comes first.
+  // The process' earlier output comes first.
   for (std::size_t taken = 0; taken < kReadAtEnd && node.child->output_fd() >= 0; taken += kReadAtOnce) {
     pollfd there{node.child->output_fd(), POLLIN, 0};
     if (poll(&there, 1, 0) <= 0) break;
@@ -174,7 +174,7 @@ std::optional<Duration> Supervisor::next_instant() const {
 }
 
 void Supervisor::flush_screen() {
-  // As every program at its end, as long as it takes, unless somebody is impatient.
+  // Waits for the output as long as needed, unless a signal arrives.
   while (screen_.fd_to_write() >= 0) {
     pollfd watched[] = {{screen_.fd_to_write(), POLLOUT, 0}, {signals_.fd(), POLLIN, 0}};
     poll(watched, 2, -1);

@@ -1,24 +1,23 @@
-// Starts a set of nodes as processes, and looks after them until the last one has ended. What the processes do is their
-// own business; what is said to them at the start, and what follows for others when one is gone, is the caller's
-// (Hooks).
+// Starts a set of nodes as processes and watches them until the last one has ended. The processes' work is
+// their own. The caller's Hooks give the facts for the start and react to ended processes.
 //
-//   start     all at once; each says {"ready": true} on its control line (cli/supervision/control.h)
-//   barrier   when everybody is ready, on_all_ready() makes what all are told: {"start": ...}. Who is missing after
-//             ready_timeout is named; if only optional nodes are, the others start without them
-//   running   output is merged line by line, messages go to the hooks, ends are judged by the node's policy
+//   start     all at once; each reports {"ready": true} on its control line (cli/supervision/control.h)
+//   barrier   when all are ready, on_all_ready() makes the facts for all: {"start": ...}. After ready_timeout, missing
+//             nodes are named; if only optional nodes are missing, the others start without them
+//   running   output is merged line by line, messages go to the hooks, a node's policy judges its end
 //   stop      on SIGINT, SIGTERM or SIGHUP, when a required node fails, or on request_stop(): SIGINT to all groups,
 //             after a grace SIGTERM, then SIGKILL; SIGCONT goes with each, so that stopped processes end too. Another
 //             SIGINT hurries
 //   end       when no process is left: the health table, the manifest, the exit code
 //
-// A node fails by a code other than 0, by a signal, or by ending before it was ready; while all are being stopped,
-// neither the signals of the stop nor their codes (130, 143) count. When all nodes but optional ones have ended well,
-// those have optional_grace to end too, before they are stopped.
+// A node fails by a code other than 0, by a signal, or by ending before it was ready. During a stop, neither
+// the stop's signals nor their codes (130, 143) count. After the last other node has ended well, optional
+// nodes have optional_grace to end, before they are stopped.
 //
-// Exit code: of the first required node that failed (128 + n by signal n); 1 where the barrier was not passed, or a
-// hook threw; else 128 + n where signal n stopped it all; else 0.
+// The exit code is that of the first required node that failed (128 + n for signal n); 1 if the barrier was
+// not passed or a hook threw; else 128 + n if signal n stopped the launch; else 0.
 //
-// One thread, one poll loop that sleeps until something happens. Words and manifest are the real clock's.
+// One thread runs one poll loop that sleeps until an event. Words and manifest use the real clock.
 #pragma once
 
 #include <chrono>
@@ -54,19 +53,20 @@ struct SupervisorConfig {
   Duration optional_grace = Duration::milliseconds(10'000);
   Backoff::Limits restart;
   StopOrder::Grace grace;
-  Duration health_every = Duration::milliseconds(10'000);  // while it runs, on a terminal only; 0: never
-  int screen = 2;                                          // where words go; -1: nowhere
-  LaunchFolder* folder = nullptr;                          // outlives the supervisor; nothing: leaves no files
+  Duration health_every = Duration::milliseconds(10'000);  // while running, on a terminal only; 0: never
+  int screen = 2;                                          // descriptor for the words; -1: without output
+  LaunchFolder* folder = nullptr;                          // outlives the supervisor; null: leaves no files
 };
 
-// Called from run(), on its thread; they may use say() and request_stop(). `node` counts as in SupervisorConfig::nodes.
+// Called from run(), on its thread; may use say() and request_stop(). `node` counts as in
+// SupervisorConfig::nodes.
 struct Hooks {
-  // Everybody is ready: what all are told. Without it: {}.
+  // All are ready; returns the facts for all. Without it: {}.
   std::function<nlohmann::json()> on_all_ready;
-  // One that became ready after the start, because it was restarted or is late and optional. Without it: what all were
-  // told.
+  // A node became ready after the start: it was restarted, or is optional and late. Without it, the node gets
+  // the common facts.
   std::function<nlohmann::json(std::size_t node)> on_late_ready;
-  // A process has ended, and all that it said has been passed on before.
+  // A process has ended; its output has been passed on already.
   std::function<void(std::size_t node, const ttf::cli::supervision::Ending& ending, bool comes_back)> on_gone;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_health;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_done;
@@ -74,20 +74,20 @@ struct Hooks {
 
 struct Outcome {
   int exit_code = 0;
-  std::string why;  // in words, "" where all went well
+  std::string why;  // in words; "" if all went well
 };
 
 class Supervisor {
  public:
-  // Signals are held back from here on. Throws std::runtime_error where the system lacks what is needed.
+  // Holds signals back from here on. Throws std::runtime_error if the system lacks a resource.
   Supervisor(SupervisorConfig config, Hooks hooks);
   ~Supervisor();
 
-  // Starts everybody, returns when nobody is left. Once.
+  // Starts all nodes and returns when the last has ended. Call once.
   Outcome run();
 
   void say(std::string_view text);
-  // All are stopped in order; counts as a failure with this exit code, unless there was one before.
+  // Stops all in order. Counts as a failure with this exit code, unless an earlier one exists.
   void request_stop(std::string_view why, int exit_code);
   const HealthTable& health() const { return health_; }
 
@@ -106,7 +106,7 @@ class Supervisor {
   std::optional<Duration> next_instant() const;
   void flush_screen();
 
-  // supervisor_rules.cc: what follows
+  // supervisor_rules.cc: the consequences of events
   void start(Node& node);
   void ended(Node& node, const Ending& ending, const std::string& why);
   bool failed(const Node& node, const Ending& ending) const;
@@ -136,7 +136,7 @@ class Supervisor {
   std::size_t name_width_ = 0;
   HealthTable health_;
 
-  bool started_ = false;  // the barrier is behind us
+  bool started_ = false;  // the barrier has been passed
   nlohmann::json start_facts_;
   StopOrder stop_order_;
   std::optional<Duration> barrier_at_, optional_at_, health_at_;

@@ -1,4 +1,4 @@
-// One node of a launch, as the supervisor keeps it. For the supervisor's own files.
+// One node of a launch in the supervisor. Only for the supervisor's own files.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ struct Supervisor::Node {
   Node(std::size_t number, NodeSpec given, const Backoff::Limits& limits)
       : index(number), spec(std::move(given)), speaker{printable(spec.name), number + 1}, backoff(limits) {}
 
-  // Whether there is a process, or will be one.
+  // Returns whether a process exists or will be started.
   bool expected() const { return child != nullptr || restart_at.has_value(); }
 
   std::size_t index;
@@ -20,10 +20,10 @@ struct Supervisor::Node {
   Speaker speaker;
   Backoff backoff;
   std::unique_ptr<Child> child;
-  LineCutter lines;  // of the present process, as is `ready`
+  LineCutter lines;  // belongs to the present process, as `ready`
   Duration began{};
   bool ready = false;
-  bool failed = false;  // and does not come back
+  bool failed = false;  // and is not restarted
   std::optional<Duration> restart_at;
 };
 

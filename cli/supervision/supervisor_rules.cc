@@ -1,4 +1,4 @@
-// What follows from what happens: starts, barrier, ends, stop.
+// The consequences of events: starts, barrier, ends, stop.
 #include <fmt/format.h>
 #include <signal.h>
 
@@ -21,7 +21,7 @@ std::string_view signal_name(int signal) {
 
 }  // namespace
 
-// What the caller's code throws ends the launch, in order.
+// An exception from the caller's code ends the launch in order.
 void Supervisor::guarded(const std::function<void()>& hook) {
   try {
     hook();
@@ -30,7 +30,7 @@ void Supervisor::guarded(const std::function<void()>& hook) {
   }
 }
 
-// A folder that cannot be written any more (a full disk) is said once; the nodes go on.
+// An unwritable folder (a full disk) is reported once; the nodes continue.
 void Supervisor::record(const std::function<void()>& write) {
   if (config_.folder == nullptr || folder_fails_) return;
   try {
@@ -132,7 +132,7 @@ void Supervisor::became_ready(Node& node) {
 }
 
 void Supervisor::tell_start(Node& node, const nlohmann::json& facts) {
-  // One that has closed its line, most likely because it is just ending, is told nothing any more.
+  // A node that has closed its line is probably just ending.
   const bool told = node.child->send_control(nlohmann::json{{"start", facts}}.dump());
   health_.set_process(node.index, told ? "running" : "not told to start");
 }
@@ -220,7 +220,7 @@ void Supervisor::signal_all(int signal) {
     if (node->child != nullptr) {
       there.push_back(node->spec.name);
       node->child->signal_group(signal);
-      node->child->signal_group(SIGCONT);  // a stopped process takes no other signal but SIGKILL
+      node->child->signal_group(SIGCONT);  // a stopped process takes only SIGKILL otherwise
     }
   if (signal != SIGINT && !there.empty()) say(fmt::format("still there: {}: {}", joined(there), signal_name(signal)));
 }

@@ -24,7 +24,7 @@
 namespace ttf::cli::track {
 namespace {
 
-// Findings are all told; rows that have none go on. Where none has, there is nothing to go on with.
+// Reports all findings; sound rows are kept. Without any sound row, the findings are an error.
 void tell_damage(const Findings& findings, bool skip, std::size_t rows_left) {
   if (!skip || rows_left == 0) findings.throw_if_any();
   for (const Finding& finding : findings.list()) print_warnings(finding.sentence());
@@ -65,7 +65,7 @@ int run_track(const TrackOptions& options) {
     apply_sensor_options(options, config);
     simulated = simulated_arrivals(options, config);
   } catch (const InputError&) {
-    // A sensor that is missed may be missing for its rows are damaged: that is told first.
+    // A sensor may be missing because its rows are damaged, so the damage is reported first.
     if (!options.skip_damaged) findings.throw_if_any();
     throw;
   }
@@ -85,7 +85,7 @@ int run_track(const TrackOptions& options) {
 
   if (options.out.empty()) {
     fmt::print("{}", tracks);
-    std::fflush(stdout);  // both may go to one file
+    std::fflush(stdout);  // both streams may share one file
     fmt::print(stderr, "{}", track_table(result));
     return 0;
   }

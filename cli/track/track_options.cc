@@ -24,7 +24,7 @@ using replay::ReplayConfig;
   throw InputError({"command line", 0, option, text, std::move(expected)});
 }
 
-// SENSOR=VALUE, and the number of the sensor.
+// A parsed SENSOR=VALUE: the sensor's number, and the value.
 struct OfSensor {
   std::size_t sensor;
   std::string value;

@@ -20,9 +20,9 @@ struct TrackOptions {
   bool predict = false, skip_damaged = false, json = false;
 };
 
-// What the options say of sensors, over what the configuration says. Throws InputError that names the option, the value
-// and what is allowed; so for a sensor that is not in the configuration. Of --worst-delay, --period and --noise the
-// last counts.
+// Applies the options about sensors to the configuration. Throws InputError with the option, the value and
+// the allowed values; also for a sensor that is not in the configuration. The last of several --worst-delay,
+// --period or --noise counts.
 void apply_sensor_options(const TrackOptions& options, replay::ReplayConfig& config);
 replay::SimulatedArrivals simulated_arrivals(const TrackOptions& options, const replay::ReplayConfig& config);
 

@@ -1,4 +1,4 @@
-// What `track` tells of a replay: a table for people, JSON for scripts. Nothing in it differs from run to run.
+// The results of `track`: a table for people, JSON for scripts. Equal input gives equal output.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ struct TrackResult {
   std::string strategy;
   std::vector<std::string> sensors;
   replay::ReplayAccount account;
-  std::size_t damaged = 0;  // rows left out
+  std::size_t damaged = 0;  // number of damaged rows, which are left out
 };
 
 std::string track_table(const TrackResult& result);

@@ -35,8 +35,7 @@ std::string tint(std::string_view colour, double amount) {
 }
 
 std::string_view text_colour_on(std::string_view colour) {
-  // Relative luminance weights of ITU-R BT.709; 140 separates blue, green and vermilion from the light
-  // colours.
+  // Relative luminance weights of ITU-R BT.709; 140 separates blue, green and vermilion from the light colours.
   const double y = 0.2126 * channel_of(colour, 0) + 0.7152 * channel_of(colour, 1) + 0.0722 * channel_of(colour, 2);
   return y < 140 ? "#ffffff" : "#000000";
 }
@@ -68,7 +67,7 @@ Ticks nice_ticks(const Extent& extent, int about) {
   Ticks ticks{decade * (m <= 1.0 ? 1 : m <= 2.0 ? 2 : m <= 5.0 ? 5 : 10), {}};
   const double first = std::ceil(extent.low / ticks.step - 1e-9);
   const double last = std::floor(extent.high / ticks.step + 1e-9);
-  // Where numbers are so large, or so close, that a step is lost in them, there is nothing to divide.
+  // The values are too large, or too close together, for a distinct step.
   if (!(ticks.step > 0) || !(std::abs(first) < 1e15) || !(std::abs(last) < 1e15)) return {1, {extent.low}};
   for (double k = first; k <= last; ++k) ticks.at.push_back(k * ticks.step);
   return ticks;

@@ -1,4 +1,4 @@
-// Figures as people read them.
+// Numbers as people read them.
 #pragma once
 
 #include <string>
@@ -6,11 +6,12 @@
 
 namespace ttf::report::drawing {
 
-// Three significant digits, "-" for what is not finite.
+// Returns three significant digits, or "-" for a value that is not finite.
 std::string brief(double value);
-// "0.0123 ± 0.0004": as many digits as the interval has two of; without one, brief(). `sign`: of a difference.
+// Returns "0.0123 ± 0.0004", with two digits for the interval; without an interval, as brief(). `sign` marks
+// a difference.
 std::string with_interval(double mean, double half_width, bool sign = false);
-// How a difference with an interval stands to 0: "less", "more" or "undecided".
+// Compares a difference with 0 by its interval: "less", "more" or "undecided".
 std::string_view verdict(double mean, double half_width);
 
 }  // namespace ttf::report::drawing

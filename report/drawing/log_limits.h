@@ -1,5 +1,5 @@
-// A damaged or foreign log may say anything. What no run can have is left out before it is computed with: up to these
-// limits, differences of times and products with a cycle fit their type.
+// A damaged or foreign log may hold any number. Values impossible in a drive are dropped before any
+// computation. Within these limits differences of times and products with a cycle fit their type.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace ttf::report::drawing {
 
-inline constexpr std::int64_t kMostCycleLines = 2000;                  // in a picture: more are no grid any more
+inline constexpr std::int64_t kMostCycleLines = 2000;                  // in a picture; more lines would hide it
 inline constexpr Duration kLongestCycle = Duration::milliseconds(16);  // cCycleMax
 
-// Within 36 years of the run's start.
+// Checks that a time is within 36 years of the drive's start.
 constexpr bool possible(std::int64_t ns) {
   constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 60;
   return ns >= -kFarthest_ns && ns <= kFarthest_ns;
 }
 constexpr bool possible(TrueTime time) { return possible(time.ns); }
 
-// As many cycles of the longest as go into that time.
+// Checks that the cycle, at the longest length, starts within that time.
 constexpr bool possible_cycle(std::int64_t cycle) {
   constexpr std::int64_t kMostCycles = std::int64_t{1} << 36;
   return cycle >= -kMostCycles && cycle <= kMostCycles;

@@ -87,7 +87,7 @@ std::string sensor_colour(const Names& names, SensorId sensor) {
   return others[index_of(sensor) % 3];
 }
 
-// A PDU that descends from no sensor takes one of the colours that the sensors leave over.
+// A PDU without a sensor gets a colour that the sensors leave free.
 std::string pdu_colour(const Names& names, PduId pdu) {
   if (pdu == kNoPdu) return std::string(kStatusFrame);
   if (const SensorId sensor = names.sensor_of(pdu); sensor != kNoSensor) return sensor_colour(names, sensor);

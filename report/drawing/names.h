@@ -1,4 +1,4 @@
-// The names that a log's numbers stand for, as pictures show them.
+// The names for a log's numbers, as pictures show them.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace ttf::report::drawing {
 
-// Index = the id's value (tasks: node, then task). Pictures of ids beyond a list show the number.
+// The index is the id's value (for tasks: node, then task). Ids beyond a list appear as numbers.
 struct Names {
-  std::string run;  // which drive, for titles: "paper_scenario1, tt"
+  std::string run;  // the drive, for titles: "paper_scenario1, tt"
   std::vector<std::string> nodes, pdus, sensors, can_buses;
   std::vector<std::vector<std::string>> tasks;
-  // Per PDU the sensor whose measurement the list descends from, kNoSensor for none. May be left empty: then
-  // a PDU belongs to the sensor whose name its own name contains.
+  // The sensor whose measurement each PDU's list descends from, kNoSensor if absent. If the vector is empty,
+  // a PDU belongs to the sensor named within its own name.
   std::vector<SensorId> pdu_sensors;
 
   std::string node(NodeId id) const;
@@ -30,13 +30,13 @@ struct Names {
 Names names_of(const schedules::model::Cluster& cluster);
 Names names_of(const recording::log::LogManifest& manifest);
 
-// What a sensor's name says about its kind, for colours and markers that stay the same in every picture.
+// The kind of a sensor by its name, so that colours and markers stay the same in every picture.
 enum class SensorLook : std::uint8_t { kLaser, kCamera, kRadar, kOther };
 SensorLook look_of(const std::string& sensor_name);
-// Laser vermilion, camera blue, radar green; others from the rest of the palette by index.
+// Lasers are vermilion, cameras blue, radars green; other sensors take the rest of the palette by index.
 std::string sensor_colour(const Names& names, SensorId sensor);
 
-// Of a PDU: its sensor's colour if it descends from one; grey for status frames.
+// Returns the PDU's colour: its sensor's if it descends from one, grey for status frames.
 std::string pdu_colour(const Names& names, PduId pdu);
 
 }  // namespace ttf::report::drawing

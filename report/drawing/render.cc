@@ -13,7 +13,7 @@
 namespace ttf::report::drawing {
 namespace {
 
-constexpr double kPngSharpWidth = 2600;   // SVG units up to which a PNG gets two pixels per unit
+constexpr double kPngSharpWidth = 2600;   // up to this many SVG units a PNG has two pixels a unit
 constexpr double kPointsPerPixel = 0.75;  // 72 / 96
 
 struct SurfaceFree {
@@ -35,7 +35,7 @@ enum class Format { kSvg, kPng, kPdf };
   throw InputError(Finding{path, 0, std::move(key), std::move(value), std::move(expected)});
 }
 
-// Not the user's input is at fault here.
+// Reports a failure that is not the input's fault.
 [[noreturn]] void fail_to_write(const std::string& path, const std::string& reason = "") {
   throw std::runtime_error(path + ": cannot be written" + (reason.empty() ? "" : ": " + reason));
 }
@@ -67,7 +67,7 @@ void draw(RsvgHandle* handle, cairo_surface_t* surface, double scale, double wid
     fail(path, "picture", "", "could not be drawn: " + take(error));
   cairo_show_page(cairo.get());
   cairo_surface_finish(surface);
-  // What remains at this point is the disk: the drawing itself succeeded.
+  // The drawing succeeded; only writing to disk can have failed.
   if (const cairo_status_t status = cairo_surface_status(surface); status != CAIRO_STATUS_SUCCESS)
     fail_to_write(path, cairo_status_to_string(status));
 }
@@ -112,7 +112,7 @@ void write_picture(const std::string& svg, const std::string& path) {
   const Surface surface(cairo_pdf_surface_create(path.c_str(), width * kPointsPerPixel, height * kPointsPerPixel));
   if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
     fail_to_write(path, cairo_status_to_string(status));
-  // cairo would write today's date: a fixed one keeps equal pictures equal bytes.
+  // A fixed date instead of cairo's today: equal pictures stay equal bytes.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
   draw(handle.get(), surface.get(), kPointsPerPixel, width, height, path);
 }

@@ -11,16 +11,15 @@
 namespace ttf::report::drawing {
 namespace {
 
-// Advance widths of DejaVu Sans in thousandths of the font size, U+0020 to U+007E (from the font's hmtx
-// table).
+// Advance widths of DejaVu Sans in thousandths of the font size, U+0020 to U+007E (from the font's hmtx table).
 constexpr std::array<std::uint16_t, 95> kAdvance{
     318, 401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361,  318, 337, 636, 636, 636,
     636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 531, 1000, 684, 686, 698, 770, 632,
     575, 775, 752, 295, 295, 656, 557, 863, 748, 787, 603, 787, 695, 635,  611, 732, 684, 989, 685,
     611, 685, 390, 337, 390, 838, 500, 500, 613, 635, 550, 635, 615, 352,  635, 634, 278, 278, 579,
     278, 974, 634, 612, 635, 635, 411, 521, 392, 634, 592, 818, 592, 592,  525, 636, 337, 636, 838};
-constexpr double kOtherAdvance = 838;  // most symbols beyond ASCII are at most this wide
-constexpr double kBoldFactor = 1.12;   // DejaVu Sans Bold against the regular face
+constexpr double kOtherAdvance = 838;  // covers most symbols beyond ASCII
+constexpr double kBoldFactor = 1.12;   // DejaVu Sans Bold, relative to the regular face
 constexpr double kHeadLength = 6.0;
 
 void add_paint(std::string& out, const Paint& p) {

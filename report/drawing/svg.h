@@ -1,8 +1,8 @@
-// A small SVG writer: shapes, text, groups and arrows in the order they are to be painted.
+// A small SVG writer: shapes, text, groups and arrows in painting order.
 //
-// Coordinates are SVG user units (y down), sizes in the same unit. Numbers are written with at most two
-// decimals, so equal input gives equal bytes. Text is measured with the advance widths of DejaVu Sans, the
-// font the pictures ask for, so that layout can avoid overlaps without a renderer.
+// Coordinates and sizes are SVG user units, y down. Numbers have at most two decimals, so equal input gives
+// equal bytes. The advance widths of DejaVu Sans, the pictures' font, measure text: layout avoids overlaps
+// without a renderer.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,11 @@ struct Area {
   }
 };
 
-// Two decimals at most, no trailing zeros, no "-0".
+// Returns at most two decimals, without trailing zeros or "-0".
 std::string number(double value);
-// & < > " and control characters as XML needs them.
+// Escapes & < > " and control characters for XML.
 std::string escape(std::string_view text);
-// Width of one line of UTF-8 in DejaVu Sans at `size`.
+// Returns the width of one line of UTF-8 in DejaVu Sans at `size`.
 double text_width(std::string_view text, double size, bool bold = false);
 
 struct Paint {
@@ -51,7 +51,7 @@ struct TextStyle {
   bool halo = false;  // white outline, for text over lines
 };
 
-// Area a text covers when drawn unrotated at `at` (the baseline).
+// Returns the area of a text drawn unrotated at `at`, which lies on the baseline.
 Area text_area(Point at, std::string_view text, const TextStyle& style);
 
 enum class Marker : std::uint8_t { kCircle, kCross, kTriangle, kSquare, kDiamond, kDownTriangle };
@@ -64,7 +64,7 @@ class Svg {
   double height() const { return height_; }
 
   void open_group(std::string_view css_class);
-  // A group of which only the part inside `clip` is shown.
+  // Opens a group that is visible only inside `clip`.
   void open_group(std::string_view css_class, const Area& clip);
   void close_group();
 
@@ -78,7 +78,7 @@ class Svg {
               std::string_view css_class = {});
   void text(Point at, std::string_view text, const TextStyle& style = {});
 
-  // Further attributes of the next element, as they are to stand there (" data-a=\"12\""): for scripts.
+  // Adds attributes to the next element, verbatim (" data-a=\"12\""): for scripts.
   void tag_next(std::string attributes) { tags_ = std::move(attributes); }
 
   std::string str() const;
@@ -90,7 +90,7 @@ class Svg {
   std::string title_;
   std::string defs_;
   std::string body_, tags_;
-  std::set<std::string, std::less<>> heads_;  // colours that have an arrow head defined
+  std::set<std::string, std::less<>> heads_;  // colours with a defined arrow head
   int clips_ = 0;
 };
 

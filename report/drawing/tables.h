@@ -7,8 +7,8 @@
 
 namespace ttf::report::drawing {
 
-// Columns whose cells are all numbers (or empty or "-") are aligned right, others left. Widths count UTF-8
-// characters. A row with fewer cells than the header is filled with empty ones; one with more is our bug.
+// Numeric columns are aligned right, others left; empty cells and "-" count as numeric. Widths count UTF-8
+// characters. A short row is filled with empty cells; a row longer than the header is our bug.
 class Table {
  public:
   explicit Table(std::vector<std::string> header) : header_(std::move(header)) {}
@@ -24,7 +24,7 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-// A value with `decimals` decimals, "-" for what is not finite.
+// Returns a value with `decimals` decimals, or "-" if it is not finite.
 std::string cell(double value, int decimals);
 
 }  // namespace ttf::report::drawing

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What answer.json must have, with the place in words where it has not.
+// Reads required entries of answer.json and names the place of a missing or wrong one.
 class AnswerReader {
  public:
   explicit AnswerReader(std::string path) : path_(std::move(path)) {}
@@ -28,10 +28,10 @@ class AnswerReader {
   }
   const Json& object(const Json& in, const std::string& place, const char* key) const {
     const Json& value = at(in, place, key);
-    if (!value.is_object() || value.empty()) refuse(place + key, "must be a mapping with an entry at least");
+    if (!value.is_object() || value.empty()) refuse(place + key, "must be a mapping with at least one entry");
     return value;
   }
-  // Empty where there is none.
+  // Returns an empty list if the key is absent.
   const Json& list(const Json& in, const char* key) const {
     static const Json kNone = Json::array();
     const auto found = in.find(key);
@@ -54,7 +54,7 @@ class AnswerReader {
     if (!value.is_boolean()) refuse(place + key, "must be true or false");
     return value.get<bool>();
   }
-  // Not a number where it is null.
+  // Returns NaN for null.
   double number(const Json& in, const std::string& place, const char* key) const {
     const Json& value = at(in, place, key);
     if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
@@ -83,7 +83,7 @@ std::vector<std::string> keys_of(const Json& object) {
 
 void read_points(const AnswerReader& reader, const Json& json, ExperimentFolder& folder) {
   const Json& points = reader.list(json, "points");
-  if (points.empty()) reader.refuse("points", "must have one at least");
+  if (points.empty()) reader.refuse("points", "must have at least one");
   for (std::size_t p = 0; p < points.size(); ++p) {
     const std::string place = fmt::format("points[{}].", p);
     const Json& paradigms = reader.object(points[p], place, "paradigms");
@@ -121,7 +121,7 @@ void read_store(const std::string& path, ExperimentFolder& folder) {
   std::error_code none;
   if (!std::filesystem::exists(path, none)) return;
   folder.store = experiments::results::Store::open(path);
-  // Damage behind its first rows shows only when they are read.
+  // Only reading shows damage behind the first rows.
   try {
     folder.store->for_each([](const experiments::results::Run&) {});
   } catch (const std::runtime_error& error) {
@@ -129,7 +129,8 @@ void read_store(const std::string& path, ExperimentFolder& folder) {
   }
   for (const ExperimentMeasure& measure : folder.measures)
     if (std::ranges::find(folder.store->head().measures, measure.name) == folder.store->head().measures.end())
-      throw InputError({path, 0, measure.name, "", "is no column of its runs: answer.json is of another experiment"});
+      throw InputError(
+          {path, 0, measure.name, "", "is no column of its runs: answer.json belongs to another experiment"});
 }
 
 ExperimentFolder parse_answer(std::string_view text, const std::string& file) {

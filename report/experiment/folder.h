@@ -1,4 +1,4 @@
-// An experiment's results: what answer.json says, and the runs in results.sqlite.
+// An experiment's results: the content of answer.json, and the drives in results.sqlite.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace ttf::report::experiment {
 
-// Of one paradigm and measure at one point; without a difference: the baseline.
+// The estimate for one paradigm and measure at one point; the baseline has no difference.
 struct Estimate {
   experiments::results::Interval mean;
   std::optional<experiments::results::Interval> difference;
@@ -38,29 +38,29 @@ struct ExperimentExpectation {
 };
 
 struct ExperimentMeasure {
-  std::string name, unit, meaning;  // of an older answer.json the name alone
+  std::string name, unit, meaning;  // an older answer.json has only the name
   std::string with_unit() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 
 struct ExperimentFolder {
   std::string path, name, question, answer, baseline;
-  std::string file;  // the experiment's, as it was named then; "" in older ones
+  std::string file;  // the experiment's file, by its name then; "" in an older answer.json
   std::uint64_t seed = 0, runs = 0, failed = 0;
   double confidence = 0.95;
   std::vector<std::string> axes, paradigms;  // in the file's order
-  std::vector<ExperimentMeasure> measures;   // the first is what is asked for
+  std::vector<ExperimentMeasure> measures;   // the first is the measure in question
   std::vector<ExperimentPoint> points;
   std::vector<ExperimentCrossing> crossings;
   std::vector<ExperimentExpectation> expectations;
-  std::optional<experiments::results::Store> store;  // none where there is no results.sqlite
+  std::optional<experiments::results::Store> store;  // no value without results.sqlite
 };
 
-// Throws InputError: the file, the key and what it must be.
+// Throws InputError with the file, the key and the requirement.
 ExperimentFolder read_experiment_folder(const std::string& path);
 
-// What answer.json says by itself; `file` is for messages. Throws InputError.
+// Reads answer.json alone; `file` is for messages. Throws InputError.
 ExperimentFolder parse_answer(std::string_view text, const std::string& file);
-// The runs that the answer is of, where there is such a file. Throws InputError.
+// Opens the answer's drives if the file exists. Throws InputError.
 void read_store(const std::string& path, ExperimentFolder& folder);
 
 }  // namespace ttf::report::experiment

@@ -15,10 +15,10 @@
 namespace ttf::report::experiment {
 namespace {
 
-constexpr std::size_t kMostViews = 150;  // of a plot
-constexpr double kLogarithmic = 50.0;    // an axis that spans more than this factor
+constexpr std::size_t kMostViews = 150;  // per plot
+constexpr double kLogarithmic = 50.0;    // a larger factor between an axis' ends makes it logarithmic
 
-// "42 ms" is 42 and "ms".
+// A number and its unit: "42 ms" is 42 and "ms".
 struct Quantity {
   double value = 0.0;
   std::string unit;
@@ -32,7 +32,7 @@ std::optional<Quantity> quantity_of(const std::string& label) {
 }
 
 struct XAxis {
-  std::optional<std::size_t> axis;  // none: points by their number
+  std::optional<std::size_t> axis;  // no value: points by their number
   std::string name;
   bool logarithmic = false;
 };
@@ -51,7 +51,7 @@ XAxis x_axis(const ExperimentFolder& folder) {
       values.insert(quantity->value);
       units.insert(quantity->unit);
     }
-    // "500 us" and "1 ms" are words here: nobody says how one unit comes to the other.
+    // "500 us" and "1 ms" count as words: no table converts units.
     if (!numeric || units.size() != 1 || values.size() <= most) continue;
     most = values.size();
     const std::string& unit = *units.begin();
@@ -122,17 +122,17 @@ page::Plot differences_plot(const ExperimentFolder& folder) { return plot_over_a
 
 page::Plot replications_plot(const ExperimentFolder& folder) {
   page::Plot plot{"Distributions over the replications",
-                  "Shares of a point's runs, a drive each.",
+                  "Shares of a point's drives.",
                   "value",
                   page::Plot::Kind::kSteps,
                   false,
                   false,
                   {}};
   if (!folder.store) return plot;
-  // Of many points some, evenly.
+  // Shows an even choice of many points.
   const std::size_t shown = std::clamp(kMostViews / folder.measures.size(), std::size_t{1}, folder.points.size());
   if (shown < folder.points.size())
-    plot.caption += fmt::format(" Of {} points {} are here.", folder.points.size(), shown);
+    plot.caption += fmt::format(" {} of {} points are shown.", shown, folder.points.size());
   const std::vector<std::string>& columns = folder.store->head().measures;
   std::vector<std::vector<experiments::results::Run>> runs;
   std::vector<const ExperimentPoint*> points;

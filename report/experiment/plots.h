@@ -1,4 +1,4 @@
-// The plots of an experiment's report, a curve a paradigm.
+// The plots of an experiment's report, with one curve per paradigm.
 #pragma once
 
 #include "report/experiment/folder.h"
@@ -6,10 +6,10 @@
 
 namespace ttf::report::experiment {
 
-// Over the numeric axis with most values; a view a measure and combination of the other axes' values.
+// Plots over the numeric axis with most values. Each measure and each combination of the other axes' values has a view.
 page::Plot means_plot(const ExperimentFolder& folder);
 page::Plot differences_plot(const ExperimentFolder& folder);
-// Distributions over the replications, a view a measure and point.
+// Plots distributions over the replications, with one view per measure and point.
 page::Plot replications_plot(const ExperimentFolder& folder);
 
 }  // namespace ttf::report::experiment

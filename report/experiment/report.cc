@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostFailures = 50;
 
-// The first measure's paired difference of two paradigms at a point, by the runs themselves.
+// Returns the first measure's paired difference of two paradigms at a point, from the drives themselves.
 experiments::results::Interval paired(const std::vector<experiments::results::Run>& runs, std::size_t column,
                                       std::size_t paradigm, std::size_t against, double confidence) {
   std::map<std::uint32_t, std::pair<std::optional<double>, std::optional<double>>> by_replication;
@@ -32,7 +32,7 @@ experiments::results::Interval paired(const std::vector<experiments::results::Ru
   return interval_of(moments, confidence);
 }
 
-// Of the first measure at a point; nothing where nobody has a figure.
+// The paradigm with the least first measure at a point; without any finite mean there is no value.
 struct Least {
   std::size_t paradigm = 0;
   bool certain = false;
@@ -55,7 +55,7 @@ std::optional<Least> least_at(const ExperimentFolder& folder, const ExperimentPo
   return least;
 }
 
-// Begun with the axes' names, or their values at a point.
+// The first cells of a row: the axes' names, or their values at a point.
 std::vector<std::string> axes_of(const ExperimentFolder& folder) {
   return folder.axes.empty() ? std::vector<std::string>{"point"} : folder.axes;
 }
@@ -84,10 +84,11 @@ page::PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
 }
 
 page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m) {
-  page::PageTable table{fmt::format("{} less that of {}, paired by replication: whether it is less or more for certain",
-                                    folder.measures[m].with_unit(), folder.baseline),
-                        axes_of(folder),
-                        {}};
+  page::PageTable table{
+      fmt::format("{} minus that of {}, paired by replication, and whether it is less or more for certain",
+                  folder.measures[m].with_unit(), folder.baseline),
+      axes_of(folder),
+      {}};
   for (const std::string& paradigm : folder.paradigms)
     if (paradigm != folder.baseline) table.header.push_back(fmt::format("{} − {}", paradigm, folder.baseline));
   for (const ExperimentPoint& point : folder.points) {
@@ -116,12 +117,12 @@ std::vector<std::string> sentences(const ExperimentFolder& folder) {
   for (const ExperimentCrossing& crossing : folder.crossings) {
     certain = certain || crossing.certain;
     if (!crossing.certain)
-      all.push_back(fmt::format("{} and {} may cross at {} {}{}: that is not certain.", crossing.paradigm,
+      all.push_back(fmt::format("{} and {} may cross at {} {}{}, but not for certain.", crossing.paradigm,
                                 folder.baseline, crossing.axis, drawing::brief(crossing.at),
                                 crossing.others.empty() ? "" : ", with " + crossing.others));
   }
   if (!certain && !folder.axes.empty() && folder.paradigms.size() > 1)
-    all.push_back("Along no axis a paradigm crosses " + folder.baseline + " for certain.");
+    all.push_back("No paradigm crosses " + folder.baseline + " for certain along an axis.");
   for (const ExperimentExpectation& one : folder.expectations)
     all.push_back(fmt::format("Expected: {}. It {}{}.", one.expected, one.holds ? "holds" : "does not hold for certain",
                               one.holds || one.where_not.empty() ? "" : " at " + joined(one.where_not)));
@@ -131,10 +132,9 @@ std::vector<std::string> sentences(const ExperimentFolder& folder) {
 
 void failures(page::Page& page, const ExperimentFolder& folder) {
   if (!folder.store || folder.failed == 0) return;
-  page::PageTable table{
-      "Each is driven again, alone, by `ttfusion experiment FILE --replay` with what stands in the first column",
-      {"point/paradigm/replication", "what went wrong"},
-      {}};
+  page::PageTable table{"`ttfusion experiment FILE --replay` with the first column drives one of them again",
+                        {"point/paradigm/replication", "error"},
+                        {}};
   std::uint64_t more = 0;
   folder.store->for_each([&](const experiments::results::Run& run) {
     if (run.status == experiments::results::kDone) return;
@@ -146,16 +146,16 @@ void failures(page::Page& page, const ExperimentFolder& folder) {
                                                                             : std::to_string(run.key.paradigm);
     table.rows.push_back({fmt::format("{}/{}/{}", run.key.point, paradigm, run.key.replication), run.status});
   });
-  page.section("Runs that failed");
+  page.section("Failed runs");
   page.table(table);
   if (more > 0) page.paragraph(fmt::format("And {} more, in runs.csv.", more));
 }
 
 void how_made(page::Page& page, const ExperimentFolder& folder) {
-  page.section("How it was made");
+  page.section("How to repeat it");
   const std::string file = page::shell_word(folder.file.empty() ? "experiments/" + folder.name + ".yaml" : folder.file);
   if (!folder.store) {
-    page.paragraph("There is no results.sqlite: what the runs are of is not known.");
+    page.paragraph("There is no results.sqlite: the inputs of the runs are unknown.");
     return;
   }
   const experiments::results::StoreHead& head = folder.store->head();
@@ -164,7 +164,7 @@ void how_made(page::Page& page, const ExperimentFolder& folder) {
               {"seed", std::to_string(folder.seed)},
               {"rows in results.sqlite", std::to_string(folder.store->count())}});
   page.paragraph(
-      std::string("The whole of it again, and one run with its log and a report of its own. The experiment's "
+      std::string("These commands repeat the experiment, and one run with its log and a report. The experiment's "
                   "file is below") +
       (folder.file.empty() ? "; it may be in another folder than experiments/:" : ":"));
   page.command(
@@ -174,7 +174,7 @@ void how_made(page::Page& page, const ExperimentFolder& folder) {
   page.preformatted("The experiment's file", head.text);
 }
 
-// The sections of a run's page, of one run of every paradigm.
+// Adds the sections of a run's page for one drive of each paradigm.
 void one_of_each(page::Page& page, const ExperimentFolder& folder, const ExperimentDrives& drives,
                  const run::DiagramWindow& window) {
   if (drives.drives.empty() && drives.why_none.empty()) return;
@@ -188,8 +188,8 @@ void one_of_each(page::Page& page, const ExperimentFolder& folder, const Experim
   for (std::size_t a = 0; point != folder.points.end() && a < folder.axes.size(); ++a)
     settings.push_back(folder.axes[a] + " " + point->settings[a]);
   page.paragraph(fmt::format(
-      "The runs of point {}{}, replication {}, driven again for their logs: they came to the very figures in "
-      "results.sqlite. All paradigms had the same draws; it is one replication of many, and nothing is certain by it.",
+      "The runs of point {}{}, replication {}, driven again for their logs, with the very numbers in "
+      "results.sqlite. All paradigms had the same draws. One replication of many makes no difference certain.",
       drives.point, settings.empty() ? "" : " (" + joined(settings) + ")", drives.replication));
   std::vector<run::ToldDrive> all;
   for (const run::Drive& drive : drives.drives) all.push_back(told_of(drive));
@@ -212,12 +212,13 @@ std::string experiment_answer(const ExperimentFolder& folder) {
   for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
     if (least[p] > 0) order.push_back(p);
   std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t p) { return least[p]; });
-  if (order.empty()) return fmt::format("Nobody has a figure of {}.", folder.measures[0].name);
+  if (order.empty()) return fmt::format("No paradigm has a value of {}.", folder.measures[0].name);
   const bool alone = folder.paradigms.size() == 1;
   std::string text;
   for (const std::size_t p : order) {
     if (alone) {
-      text = fmt::format("There is nobody to compare {} of {} with", folder.measures[0].name, folder.paradigms[p]);
+      text = fmt::format("There is no other paradigm to compare {} of {} with", folder.measures[0].name,
+                         folder.paradigms[p]);
       break;
     }
     const std::string points = folder.points.size() == 1 ? ""
@@ -243,7 +244,7 @@ std::string experiment_answer(const ExperimentFolder& folder) {
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
                                    const run::DiagramWindow& window) {
   page::Page page(folder.name, "Report of an experiment");
-  page.section("What was asked");
+  page.section("Question");
   page.lead(folder.question);
   std::vector<std::string> axes;
   for (std::size_t a = 0; a < folder.axes.size(); ++a)
@@ -254,8 +255,8 @@ std::string experiment_report_html(const ExperimentFolder& folder, const Experim
               {"axes", axes.empty() ? "none" : joined(axes)},
               {"points", std::to_string(folder.points.size())},
               {"runs", fmt::format("{}, of which {} failed", folder.runs, folder.failed)},
-              {"measure that is asked for", folder.measures[0].with_unit()}});
-  page.section("What came out");
+              {"measure in question", folder.measures[0].with_unit()}});
+  page.section("Answer");
   page.lead(experiment_answer(folder));
   page.points(sentences(folder));
   page.table(means_table(folder, 0));

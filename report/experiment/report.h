@@ -11,18 +11,18 @@
 
 namespace ttf::report::experiment {
 
-// One run of every paradigm, driven again for its log.
+// One drive of each paradigm, driven again for its log.
 struct ExperimentDrives {
   std::uint32_t point = 0, replication = 0;
-  std::vector<run::Drive> drives;  // with logs, in the order of the folder's paradigms; or none
-  std::string why_none;            // a sentence; empty where they were not asked for
+  std::vector<run::Drive> drives;  // with logs, in the order of the folder's paradigms; or empty
+  std::string why_none;            // a sentence; empty if no drives were requested
 };
 
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
                                    const run::DiagramWindow& window);
 
-// Who has the least of the first measure, at how many points, and where for certain: against each of the others, paired
-// by replication, by the runs in the store (without one nothing is certain).
+// Names the paradigms with the least first measure, with the number of points of each. A point is certain if the paired
+// differences from all other paradigms are, by the drives in the store; without a store no point is certain.
 std::string experiment_answer(const ExperimentFolder& folder);
 
 }  // namespace ttf::report::experiment

@@ -1,4 +1,4 @@
-// An experiment's summary.csv as it is drawn: its grid of points, and of each what the measures came to.
+// An experiment's summary.csv for drawing: its grid of points, with the estimates of each point's measures.
 #pragma once
 
 #include <cstddef>
@@ -22,20 +22,20 @@ struct SummaryPoint {
   std::vector<std::vector<SummaryCell>> cells;  // by measure, then paradigm
 };
 struct ExperimentSummary {
-  std::vector<std::string> axes, paradigms, measures;  // in the order of the file; measures are fit for a file's name
+  std::vector<std::string> axes, paradigms, measures;  // in the order of the file; a measure can name a file
   std::vector<SummaryPoint> points;
 };
 
-// Throws InputError where the text is none; `file` is for messages.
+// Throws InputError if the text is no summary; `file` is for messages.
 ExperimentSummary read_summary(std::string_view text, const std::string& file);
 
-// "42 ms": the number, and what is behind it.
+// Splits "42 ms" into the number and the text behind it.
 std::optional<std::pair<double, std::string>> number_with_unit(const std::string& label);
 
-// Names in the order in which they came first, each once.
+// Unique names in the order of their first occurrence.
 class NameList {
  public:
-  // Where it is in the list; added where it is new.
+  // Returns the name's place in the list; adds a new name.
   std::size_t place_of(const std::string& name);
   const std::vector<std::string>& names() const { return names_; }
   std::size_t size() const { return names_.size(); }

@@ -1,4 +1,4 @@
-// What a page has in it besides its content. Compiled in from report/page/ and from uPlot's package.
+// A page's style, scripts and uPlot, compiled in from report/page/ and uPlot's package.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@ namespace ttf::report::page {
 
 extern const std::string_view kStyle;
 extern const std::string_view kPlotsScript;                         // plots, with uPlot
-extern const std::string_view kTimingDrawingScript, kTimingScript;  // timing diagrams, in this order
+extern const std::string_view kTimingDrawingScript, kTimingScript;  // for timing diagrams, in this order
 extern const std::string_view kUplot, kUplotStyle, kUplotLicence;
 
 }  // namespace ttf::report::page

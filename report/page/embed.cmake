@@ -1,14 +1,15 @@
-# cmake -DPAGE=report/page -DUPLOT=FOLDER -DOUT=FILE.cc -P embed.cmake: the page's parts as string literals.
+# cmake -DPAGE=report/page -DUPLOT=FOLDER -DOUT=FILE.cc -P embed.cmake: writes the page's parts as string
+# literals.
 set(text "#include \"report/page/assets.h\"\n\nnamespace ttf::report::page {\n")
 function(embed name file)
   if(NOT EXISTS ${file})
-    message(FATAL_ERROR "${file}, which is a part of the report, is not there")
+    message(FATAL_ERROR "${file}, a part of the report, is missing")
   endif()
   file(READ ${file} content)
   string(FIND "${content}" ")ttf\"" end)
   string(FIND "${content}" "</script" script)
   if(NOT end EQUAL -1 OR NOT script EQUAL -1)
-    message(FATAL_ERROR "${file} has something in it that ends a literal or a script")
+    message(FATAL_ERROR "${file} contains the end of a literal or of a script")
   endif()
   string(APPEND text "const std::string_view ${name} = R\"ttf(${content})ttf\";\n")
   set(text "${text}" PARENT_SCOPE)

@@ -16,7 +16,7 @@ constexpr std::string_view kStyle =
     "Mono',monospace;font-size:.85em}"
     "p.caption{color:#333;max-width:70em}";
 
-// A file name as a relative URL.
+// Returns a file name as a relative URL.
 std::string url(std::string_view name) {
   std::string out;
   for (const char c : name) {

@@ -1,4 +1,4 @@
-// A page that lists the pictures and tables of a folder; it needs nothing but the files beside it.
+// A page that lists the pictures and tables of a folder. It refers only to the files beside it.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace ttf::report::page {
 
-// One section. Every part may be empty. `picture` and `more` are file names inside the folder (more: the same
-// picture in other formats, the log, ...).
+// One section; every part may be empty. `picture` and `more` are file names inside the folder. `more` holds
+// the same picture in other formats, the log, and so on.
 struct IndexEntry {
   std::string heading;
   std::string picture;
@@ -20,7 +20,7 @@ struct IndexEntry {
 
 // Writes `dir`/index.html. Throws std::runtime_error if it cannot.
 void write_index(const std::string& dir, std::string_view title, std::span<const IndexEntry> entries);
-// The same page as a string.
+// Returns the same page as a string.
 std::string index_html(std::string_view title, std::span<const IndexEntry> entries);
 
 }  // namespace ttf::report::page

@@ -14,13 +14,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// "12.5", "-", "0.11 ± 0.02", "+3 less", "36 / 0 / 0": to be aligned right.
+// Cells to align right: "12.5", "-", "0.11 ± 0.02", "+3 less", "36 / 0 / 0".
 bool is_figure(std::string_view cell) {
   return cell.empty() || cell == "-" ||
          (cell.find_first_of("0123456789") <= 1 && cell.find_first_of("_:") == cell.npos);
 }
 
-// Seven digits are more than anybody sees in a plot.
+// Seven digits are finer than a plot shows.
 Json numbers(const std::vector<double>& values) {
   Json out = Json::array();
   for (const double value : values)
@@ -38,7 +38,7 @@ Json curve_json(const Curve& curve) {
   return json;
 }
 
-// As data inside a script element: nothing in it may end that, or begin a comment.
+// Returns data for a script element, without any text that could end the element or begin a comment.
 std::string script_data(const Json& json) {
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string out;
@@ -47,12 +47,12 @@ std::string script_data(const Json& json) {
   return out;
 }
 
-// Its ids made its own, so that several may stand in one page.
+// Makes the picture's ids unique by a prefix, so that one page can hold several pictures.
 std::string inlined(std::string_view svg, const std::string& prefix) {
   svg.remove_prefix(std::min(svg.find("<svg"), svg.size()));
   struct Mark {
     std::string_view text;
-    std::size_t at;  // the next
+    std::size_t at;  // position of its next occurrence
   };
   Mark marks[] = {{" id=\"", 0}, {"url(#", 0}};
   for (Mark& mark : marks) mark.at = svg.find(mark.text);
@@ -124,7 +124,7 @@ void Page::table(const PageTable& table) {
     body_ += "<tr>";
     for (std::size_t c = 0; c < table.header.size(); ++c) {
       const std::string text = c < row.size() ? drawing::escape(row[c]) : "";
-      // What is set in is a part of what stands above it.
+      // An indented row is a part of the row above it.
       if (c == 0)
         body_ += fmt::format("<th scope=\"row\"{}>{}</th>", text.starts_with("  ") ? " class=\"part\"" : "", text);
       else

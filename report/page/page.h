@@ -1,7 +1,7 @@
-// One HTML page that needs nothing beside it: text, tables, pictures, plots and timing diagrams, with their style and
-// script (report/page/). Sections come in the order they are added, and make the contents at its top.
+// One HTML page that needs no other file: text, tables, pictures, plots and timing diagrams, with their style
+// and scripts (report/page/). Sections keep the order of their addition; the contents at the top list them.
 //
-// All text is escaped here: names come from files.
+// The page escapes all text, because names come from files.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@ namespace ttf::report::page {
 struct PageTable {
   std::string caption;
   std::vector<std::string> header;             // the first column names the rows
-  std::vector<std::vector<std::string>> rows;  // cells missing at the end are empty
+  std::vector<std::vector<std::string>> rows;  // missing cells at the end are empty
 };
 
-// One curve. `low` and `high`, if any, are its interval; what is not finite is a gap.
+// One curve. `low` and `high`, if present, are its interval; values that are not finite are gaps.
 struct Curve {
   std::string label;
-  int colour = 0;  // the same number is the same colour all over the page
+  int colour = 0;  // the same number has the same colour all over the page
   std::vector<double> x, y, low, high;
 };
 
-// What a plot shows; several of them in one plot are chosen from a list above it.
+// One view of a plot. With several views, the reader chooses from a list above the plot.
 struct PlotView {
   std::string label;  // in that list
   std::string y;      // axis, with its unit
@@ -36,9 +36,9 @@ struct PlotView {
 struct Plot {
   std::string heading, caption;
   std::string x;                                                                   // axis, with its unit
-  enum class Kind : std::uint8_t { kLines, kPoints, kSteps } kind = Kind::kLines;  // steps: of histograms
+  enum class Kind : std::uint8_t { kLines, kPoints, kSteps } kind = Kind::kLines;  // steps are for histograms
   bool logarithmic_x = false;
-  bool zero = false;  // a line at 0: differences
+  bool zero = false;  // draws a line at 0, for differences
   std::vector<PlotView> views;
 };
 
@@ -48,21 +48,21 @@ struct PageDiagram {
 
 class Page {
  public:
-  // `title`: of the document and its heading; `kind`: what it is, in a word or two above it.
+  // `title` names the document and is its heading; `kind` stands above it, in a word or two.
   Page(std::string title, std::string kind);
 
   void section(std::string_view heading);
-  void lead(std::string_view text);  // what it comes to, set large
+  void lead(std::string_view text);  // the conclusion, set large
   void paragraph(std::string_view text);
   void points(const std::vector<std::string>& sentences);
   void facts(const std::vector<std::pair<std::string, std::string>>& facts);
   void table(const PageTable& table);
   void plot(const Plot& plot);
-  // A picture as it is: an SVG document of ours.
+  // Adds an SVG document of ours unchanged.
   void picture(std::string_view svg, std::string_view caption);
   void diagrams(const std::vector<PageDiagram>& diagrams, std::string_view caption);
-  void command(std::string_view words);                                // to be copied into a shell
-  void preformatted(std::string_view summary, std::string_view text);  // behind a line that opens it
+  void command(std::string_view words);                                // to copy into a shell
+  void preformatted(std::string_view summary, std::string_view text);  // folded behind a line
   void open_details(std::string_view summary);
   void close_details();
 
@@ -78,7 +78,7 @@ class Page {
   int pictures_ = 0, diagrams_ = 0;
 };
 
-// The word as a shell takes it back.
+// Returns the word quoted for a shell.
 std::string shell_word(const std::string& word);
 
 }  // namespace ttf::report::page

@@ -1,9 +1,9 @@
-// The page's plots, drawn by uPlot. Each zooms by dragging, by buttons, by keys when it has the focus, and by the wheel
-// with Ctrl or Shift; what is seen stands in data-from and data-to.
+// The page's plots, drawn by uPlot. Dragging, buttons, keys (with the focus) and the wheel (with Ctrl or
+// Shift) zoom. data-from and data-to hold the visible range.
 "use strict";
 (() => {
   const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
-  const dash_of = (curve) => DASHES[((curve.colour >> 3) + curve.colour) % 4];   // 32 curves differ, of 8 colours
+  const dash_of = (curve) => DASHES[((curve.colour >> 3) + curve.colour) % 4];   // 8 colours, 4 dashes: 32 curves
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const make = (tag, properties = {}, ...children) => {
     const element = Object.assign(document.createElement(tag), properties);
@@ -12,7 +12,7 @@
   };
   const figures = (value) => (value == null ? "–" : Number(value.toPrecision(4)).toString());
 
-  // As many as an axis' step has: 2.5 has one.
+  // Returns the number of decimals of an axis' step: 2.5 has one.
   const decimals = (step) => {
     let d = 0;
     while (d < 12 && Math.abs(step * 10 ** d - Math.round(step * 10 ** d)) > 1e-6 * step * 10 ** d) ++d;
@@ -23,7 +23,7 @@
           u.scales.x.distr === 3 && axis === 0 ? figures(value) :
                                                  value.toFixed(decimals(step)));
 
-  // Where a curve is nearest to x.
+  // Returns the index at which a curve is nearest to x.
   const nearest = (curve, x) => {
     let low = 0, high = curve.x.length - 1;
     while (high - low > 1) {
@@ -73,7 +73,7 @@
       figure.append(bar, this.canvas, this.legend, this.heard);
       this.canvas.addEventListener("keydown", (event) => this.key(event));
       this.canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
-      // Inside closed details there is no width; nothing is drawn until there is.
+      // Inside closed details the width is 0; drawing waits for a width.
       new ResizeObserver(() => this.fit()).observe(this.canvas);
     }
 
@@ -88,7 +88,7 @@
       for (const curve of this.view.curves)
         for (const x of curve.x) { low = Math.min(low, x); high = Math.max(high, x); }
       if (low < high) return [low, high];
-      if (low > high) return this.spec.log ? [1, 10] : [0, 1];   // no point
+      if (low > high) return this.spec.log ? [1, 10] : [0, 1];   // without points
       return this.spec.log ? [low / 1.5, low * 1.5] : [low - 0.5, low + 0.5];
     }
     get seen() { return [this.uplot.scales.x.min, this.uplot.scales.x.max]; }
@@ -101,7 +101,7 @@
       if (to - from > least) this.uplot.setScale("x", { min: from, max: to });
     }
     reset() { this.show(...this.all); }
-    // On a logarithmic axis in its logarithm.
+    // Converts x to the axis' own scale: on a logarithmic axis, its logarithm.
     warp(x) { return this.spec.log ? Math.log(x) : x; }
     unwarp(x) { return this.spec.log ? Math.exp(x) : x; }
     zoom(factor, at) {
@@ -148,7 +148,7 @@
       this.zoom(turn > 0 ? 1.25 : 0.8, this.uplot.posToVal(left, "x"));
     }
 
-    // What all curves are at the cursor.
+    // Shows the values of all curves at the cursor.
     tell(x) {
       this.at = x;
       this.view.curves.forEach((curve, i) => {
@@ -226,7 +226,7 @@
           }],
         },
       }, uPlot.join(tables), this.canvas);
-      if (this.uplot.data[0].length === 1) this.reset();   // uPlot shows something else around one point
+      if (this.uplot.data[0].length === 1) this.reset();   // uPlot picks another range around a single point
       this.key_to_curves();
     }
 

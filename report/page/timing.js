@@ -1,4 +1,4 @@
-// Timing diagrams: moving and zooming what timing_drawing.js draws, and telling what a slot, a task or an arrow is.
+// Moves and zooms the timing diagrams that timing_drawing.js draws, and describes a slot, a task or an arrow.
 "use strict";
 (() => {
   const make = (tag, properties = {}, ...children) => {
@@ -75,7 +75,7 @@
         lines.push(`age ${lasting(item.a - item.since)} to ${lasting(item.b - item.since)} since ${ms(item.since)} ms`);
       return lines.join("\n");
     }
-    // Everything of one list stands out with it.
+    // Highlights everything of one list.
     choose(item) {
       for (const element of this.svg.querySelectorAll(".hot")) element.classList.remove("hot");
       this.chosen = item;
@@ -120,8 +120,8 @@
     grab(event) {
       if (event.button !== 0) return;
       const box = this.paper.getBoundingClientRect();
-      if (event.clientY > box.top + this.paper.clientTop + this.paper.clientHeight) return;   // its scroll bar
-      if (event.pointerType === "touch" && this.paper.classList.contains("wider")) return;    // scrolls
+      if (event.clientY > box.top + this.paper.clientTop + this.paper.clientHeight) return;   // on its scroll bar
+      if (event.pointerType === "touch" && this.paper.classList.contains("wider")) return;    // it scrolls
       const held = this.t(event.clientX);
       this.paper.classList.add("dragging");
       this.paper.setPointerCapture(event.pointerId);
@@ -137,7 +137,7 @@
       this.paper.addEventListener("pointerup", drop, { once: true });
       this.paper.addEventListener("pointercancel", drop, { once: true });
     }
-    // An arrow is thin: what is three pixels away is meant, too.
+    // An arrow is thin: a distance of up to three pixels counts as a hit.
     under(event) {
       for (const [dx, dy] of [[0, 0], [0, 3], [0, -3], [3, 0], [-3, 0]]) {
         const element = document.elementFromPoint(event.clientX + dx, event.clientY + dy);

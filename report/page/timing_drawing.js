@@ -1,13 +1,14 @@
-// Of timing diagrams: what stands in time is put anew for the window that is seen, so that texts, arrow heads and line
-// widths stay as they are. What the attributes mean: report/timing/tags.h. The window stands in data-from and data-to.
+// Places the timed parts of a timing diagram anew for the visible time window, so that texts, arrow heads and
+// line widths keep their size. report/timing/tags.h explains the attributes; data-from and data-to hold the
+// time window.
 "use strict";
 const TimingDrawing = (() => {
   const SVG = "http://www.w3.org/2000/svg";
-  const LEAST = 0.05;   // ms that are seen at least
+  const LEAST = 0.05;   // the shortest visible time, in ms
   const number = (element, name) => Number(element.getAttribute(name));
 
   return class {
-    // Of an element div.diagram; without a plot where its picture says why it shows nothing.
+    // Takes an element div.diagram. The diagram has no plot if its picture says why it is empty.
     constructor(box) {
       this.box = box;
       this.paper = box.querySelector(".paper");
@@ -23,10 +24,10 @@ const TimingDrawing = (() => {
           [...this.svg.querySelectorAll("[data-a]")].filter((one) => one !== this.plot).map((one) => this.item(one));
       this.frame();
     }
-    // Called when another window is drawn.
+    // Called after each change of the time window.
     drawn() {}
 
-    // What is known of an element before it is moved for the first time.
+    // Reads an element's attributes before its first move.
     item(element) {
       const title = element.querySelector("title");
       const { a, b, id, since, label, beyond } = element.dataset;
@@ -61,7 +62,7 @@ const TimingDrawing = (() => {
       return item;
     }
 
-    // What is as wide as the plot.
+    // Collects the lines that are as wide as the plot.
     frame() {
       const right = this.left + this.width;
       this.lines =
@@ -90,7 +91,7 @@ const TimingDrawing = (() => {
     fit() {
       const room = this.paper.clientWidth;
       if (room < 50) return;
-      const wide = Math.max(room, this.least);   // what is wider than its room is scrolled to
+      const wide = Math.max(room, this.least);   // a drawing wider than its room scrolls
       this.paper.classList.toggle("wider", wide > room);
       this.svg.setAttribute("width", wide);
       this.svg.setAttribute("viewBox", `0 0 ${wide} ${this.tall}`);
@@ -146,8 +147,8 @@ const TimingDrawing = (() => {
       this.drawn();
     }
 
-    // A text: in its box if that is wide enough, or beside what it names if its neighbours leave room; a cycle's number
-    // is above it.
+    // Places a text in its box if the box is wide enough, or beside the thing it names if the neighbours
+    // leave room. A cycle's number stands above its cycle.
     place(item, right, rows) {
       let x, begin;
       if (item.b !== undefined) {

@@ -15,9 +15,9 @@
 namespace ttf::report::paper {
 namespace {
 
-constexpr double kWideRange = 20.0;  // from here on an axis that is above 0 is drawn by its logarithm
+constexpr double kWideRange = 20.0;  // a positive axis with a larger ratio of its ends is logarithmic
 
-// What goes along the pictures' x: an axis by its numbers, all of one unit, or else one point after the other.
+// The quantity along the pictures' x: an axis by its numbers, all of one unit, or else point after point.
 struct AcrossAxis {
   std::optional<std::size_t> axis;
   bool by_number = false, logarithmic = false;
@@ -58,7 +58,7 @@ std::string unit_text(std::string unit) {
   return unit.empty() ? "" : " [" + unit + "]";
 }
 
-// One picture's worth of one measure.
+// The figure of one measure.
 class MeasureFigure {
  public:
   MeasureFigure(const experiment::ExperimentSummary& summary, std::size_t measure)
@@ -66,7 +66,7 @@ class MeasureFigure {
     for (const experiment::SummaryPoint& point : summary_.points) cases_.place_of(others(point));
   }
 
-  // Whether a measure has any value: some runs have none of it.
+  // Checks that the measure has a value at all: some drives have no value.
   bool any(int column = 0) const {
     for (std::size_t k = 0; k < cases_.size(); ++k)
       for (std::size_t p = 0; p < summary_.paradigms.size(); ++p)
@@ -120,7 +120,7 @@ class MeasureFigure {
   }
 
  private:
-  // What the other axes say of a point: those that go along x alone are one case.
+  // Names a point's settings except along x: points that differ only along x are one case.
   std::string others(const experiment::SummaryPoint& point) const {
     std::string text;
     for (std::size_t a = 0; a < summary_.axes.size(); ++a)
@@ -131,14 +131,14 @@ class MeasureFigure {
   static double value_of(const experiment::SummaryCell& cell, int column) {
     return column == 0 ? cell.mean : cell.difference;
   }
-  // Whether there is something to draw of a paradigm in a case.
+  // Checks that the paradigm has a finite value in the case.
   bool any(std::size_t k, std::size_t paradigm, int column) const {
     return std::any_of(summary_.points.begin(), summary_.points.end(), [&](const experiment::SummaryPoint& point) {
       return others(point) == cases_.names()[k] && std::isfinite(value_of(point.cells[measure_][paradigm], column));
     });
   }
 
-  // It has values and no difference from itself.
+  // The baseline has values and no difference from itself.
   bool may_be_baseline(std::size_t paradigm) const {
     bool values = false, differences = false;
     for (const experiment::SummaryPoint& point : summary_.points) {
@@ -148,7 +148,7 @@ class MeasureFigure {
     }
     return values && !differences;
   }
-  // Not by name where two may be.
+  // Returns the baseline's name, or a general word if several paradigms qualify.
   std::string baseline() const {
     std::string name;
     for (std::size_t p = 0; p < summary_.paradigms.size(); ++p)
@@ -176,7 +176,7 @@ class MeasureFigure {
     return most;
   }
 
-  // Means that lie further apart than a picture can show are drawn by their logarithm, where they have one.
+  // Means of a range too wide for a linear picture are drawn logarithmically, if they are positive.
   bool logarithmic_means() const {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const experiment::SummaryPoint& point : summary_.points)
@@ -185,7 +185,7 @@ class MeasureFigure {
     return least > 0.0 && most > kWideRange * least;
   }
 
-  // What lies in one line has no range of its own.
+  // Sets the y range by hand if all values are equal.
   std::string range_of(std::size_t k, int column) const {
     double least = column == 2 ? 0.0 : std::numeric_limits<double>::infinity(), most = column == 2 ? 0.0 : -least;
     for (const experiment::SummaryPoint& point : summary_.points)
@@ -200,7 +200,7 @@ class MeasureFigure {
     return fmt::format("set yrange [{}:{}]\n", middle - room, middle + room);
   }
 
-  // Where points stand one beside the other: what they are called.
+  // If x has no numbers, the points get their labels.
   std::string label_tics(std::size_t k) const {
     std::string names;
     std::size_t nth = 0;
@@ -210,7 +210,7 @@ class MeasureFigure {
     return names.empty() ? "unset xtics\n" : "set xtics (" + names + ")\n";
   }
 
-  // `column`: 0 means, 2 differences.
+  // `column` is 0 for means, 2 for differences.
   std::string panel(std::size_t k, const std::string& label, int column) const {
     std::string text =
         fmt::format("set title {}\nset ylabel {}\n", gnuplot_text(cases_.names()[k]), gnuplot_text(label));
@@ -230,7 +230,7 @@ class MeasureFigure {
               : fmt::format("${}+{:.6g}", first,
                             (x_.by_number ? 0.006 * (x_.most - x_.least) : 0.6 / static_cast<double>(all)) * beside);
       const std::size_t value = first + 1 + 4 * p + static_cast<std::size_t>(column);
-      // An interval that is not there, as of a single run, is none.
+      // A missing interval, as after a single drive, has width 0.
       curves += fmt::format(
           "{}{} skip 1 using ($1=={}?{}:NaN):{}:(valid({})?column({}):0) with {} title {}{} "
           "pointsize 0.5",

@@ -1,5 +1,5 @@
-// An experiment's numbers for a paper: of each measure a table and the script of its picture, means over the first
-// numeric axis with their intervals beside the paired differences from the baseline.
+// An experiment's results for a paper: for each measure a table and the script of its picture. The picture
+// shows means over the first numeric axis with intervals, beside the paired differences from the baseline.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,12 @@
 
 namespace ttf::report::paper {
 
-// What is known of a measure: its unit (empty: none) and what it means.
+// A measure's unit (may be empty) and meaning.
 struct MeasureWords {
   std::string unit, meaning;
 };
 
-// `summary`: an experiment's summary.csv, `file` for messages. Throws InputError where it is none.
+// `summary` is an experiment's summary.csv, `file` is for messages. Throws InputError if it is no summary.
 std::vector<PaperFile> paper_of_experiment(std::string_view summary, const std::string& file, const std::string& name,
                                            const std::function<MeasureWords(std::string_view measure)>& words);
 

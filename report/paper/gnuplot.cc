@@ -11,7 +11,7 @@
 namespace ttf::report::paper {
 namespace {
 
-// A line that ends in a backslash would go on in the next one.
+// Makes a comment line. A backslash at its end would continue it in the next line.
 std::string comment(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');

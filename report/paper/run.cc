@@ -9,12 +9,12 @@
 namespace ttf::report::paper {
 namespace {
 
-// One curve after the other, as a plot command has them.
+// Collects the curves of a plot command.
 class Curves {
  public:
   void add(const std::string& curve) { text_ += (text_.empty() ? "plot " : ", \\\n  ") + curve; }
   bool empty() const { return text_.empty(); }
-  // Nothing there is an empty panel.
+  // An empty panel needs a curve, too: it draws a white one.
   std::string command() const {
     return (text_.empty() ? "plot 0 with lines linecolor rgb \"#ffffff\" notitle" : text_) + "\n";
   }
@@ -43,7 +43,7 @@ std::string style_of(const std::string& kind, std::size_t nth_sensor) {
   return fmt::format("with points pointtype {} pointsize 0.4 linecolor rgb \"{}\"", point, colour);
 }
 
-// `x`, `y`: columns of the table; 2 time, 3 and 4 the plane.
+// `x` and `y` are columns of the table: 2 is time, 3 and 4 are the plane.
 std::string positions_panel(const PaperRun& run, const std::string& title, int x, int y) {
   constexpr const char* kAxes[] = {"", "", "time [s]", "x [m]", "y [m]"};
   Curves curves;
@@ -59,7 +59,7 @@ std::string positions_panel(const PaperRun& run, const std::string& title, int x
 PaperFile positions(const PaperRun& run) {
   GnuplotFigure figure;
   figure.name = run.label + "_positions";
-  figure.about = {run.title + ": the tracked car as sensors, fusion and reference had it",
+  figure.about = {run.title + ": the tracked car by sensors, fusion and reference",
                   "axes follow ISO 8855: x forward, y left; from " + run.label + "_positions.csv"};
   figure.columns = 1;
   figure.panel_width_cm = 17;
@@ -68,7 +68,7 @@ PaperFile positions(const PaperRun& run) {
   return gnuplot_script(figure);
 }
 
-// An error with the band that the filter believed it to be in: two standard deviations.
+// Draws an error with the filter's own band of two standard deviations.
 std::string error_panel(const PaperRun& run, const std::string& axis, int error, int sigma) {
   const std::string of_object = fmt::format("$2=={}", run.object), table = table_of(run, "errors");
   Curves curves;
@@ -86,7 +86,7 @@ std::string error_panel(const PaperRun& run, const std::string& axis, int error,
   return labels(run.title, "time [s]", axis) + curves.command();
 }
 
-// Of one instant gnuplot finds no range to draw, and complains. Whoever follows has its own.
+// For a single instant gnuplot has no range and complains. Each later panel sets its own range.
 std::string range_of_errors(const PaperRun& run, bool any_of_one) {
   if (!any_of_one) return "";
   if (!run.errors || run.first_error_s < run.last_error_s) return "set xrange [*:*]\n";
@@ -114,9 +114,9 @@ PaperFile nees(const std::vector<PaperRun>& runs) {
   GnuplotFigure figure;
   figure.name = "nees";
   figure.about = {
-      "normalised estimation error squared of (x, y, vx, vy) over all objects, averaged over windows: 4 where the",
-      "filter knows how wrong it is. Grey is where 95 % of such averages lie around 4, if samples were",
-      "independent; they are not quite, so that more lie outside. From <run>_nees.csv"};
+      "normalised estimation error squared of (x, y, vx, vy) over all objects, averaged over windows: 4 if the",
+      "filter knows its own error. Grey is the band around 4 with 95 % of such averages, if samples were",
+      "independent. They are not quite, so more lie outside. From <run>_nees.csv"};
   figure.settings = "set yrange [0:*]\nset autoscale xfix\n";
   for (const PaperRun& run : runs) {
     Curves curves;
@@ -172,7 +172,7 @@ PaperFile ages(const std::vector<PaperRun>& runs) {
 }  // namespace
 
 std::string sensor_kind(const std::string& name) {
-  std::string_view last = name;  // and `sensor truth` itself is `sensor sensor truth`
+  std::string_view last = name;  // `sensor truth` itself becomes `sensor sensor truth`
   while (last.starts_with("sensor ")) last.remove_prefix(std::string_view("sensor ").size());
   return is_sensor(last) ? name : "sensor " + name;
 }

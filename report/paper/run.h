@@ -1,5 +1,5 @@
-// A run's, or several runs', scripts for a paper: positions, errors with what the filter believed of them, consistency
-// and ages, from the tables of whoever exports them.
+// Scripts for a paper from one or several drives: positions, errors with the filter's own bands, consistency
+// and ages. The exporter writes the tables:
 //
 //   <run>_positions.csv   kind,time_s,x_m,y_m                 kinds: truth, reference, image, and a sensor's (below)
 //   <run>_errors.csv      time_s,object,x_error_m,y_error_m,vx_error_mps,vy_error_mps,x_sigma_m,...,nees
@@ -21,19 +21,19 @@ inline constexpr const char kErrorsHead[] =
 inline constexpr const char kNeesHead[] = "from_s,to_s,samples,mean,low_95,high_95\n";
 inline constexpr const char kAgesHead[] = "of,sensor,from_ms,to_ms,count\n";
 
-// A sensor's name, or `sensor truth` where it would be another kind.
+// Returns a sensor's name, or `sensor truth` if the name would be another kind.
 std::string sensor_kind(const std::string& name);
 
-// What a run's tables have. Nothing is drawn of what they have not.
+// The content of a drive's tables; absent content is not drawn.
 struct PaperRun {
-  std::string label;  // of its files
+  std::string label;  // names its files
   std::string title;
   std::vector<std::string> kinds;                         // of positions
   int object = 0;                                         // whose errors are drawn
   bool errors = false, sigmas = false, nees = false;      // of that object; of all
   double first_error_s = 0, last_error_s = 0;             // of that object
   std::vector<std::pair<std::string, std::string>> ages;  // (of, sensor)
-  double least_age_ms = 0, most_age_ms = 0;               // 0 among them
+  double least_age_ms = 0, most_age_ms = 0;               // 0 is within this range
 };
 
 std::vector<PaperFile> scripts_of_runs(const std::vector<PaperRun>& runs);

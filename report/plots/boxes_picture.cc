@@ -31,7 +31,7 @@ std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Bo
     for (const drawing::Point& p : corners(b)) x.add(p.x), y.add(p.y);
   x = x.padded(0.04, 4);
   y = y.padded(0.06, 4);
-  // One scale for both axes: the wider extent fills its side of at most 1100 x 760.
+  // Both axes share one scale: the wider extent fills its side of at most 1100 x 760.
   const double scale = std::min(1100 / x.size(), 760 / y.size());
   const double width = std::max(420.0, x.size() * scale), height = std::max(200.0, y.size() * scale);
   x = x.padded(0, width / scale);

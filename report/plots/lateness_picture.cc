@@ -16,7 +16,7 @@ using recording::records::BinnedDurations;
 constexpr drawing::Area kPlot{112, 0, 860, 420};  // its top is below the legend
 constexpr std::string_view kFloorDash = "6 3";
 
-// One distribution of wake-ups.
+// The distribution of the wake-ups of one node, or of the floor.
 struct Curve {
   std::string name, colour, dash;
   double width = 1.4;
@@ -25,8 +25,8 @@ struct Curve {
   double share_from(std::size_t bin) const {
     return static_cast<double>(late.count_from(bin)) / static_cast<double>(late.count());
   }
-  // Microseconds, and the share of wake-ups that were as late: logarithms of base 10. Where the share changes; none
-  // where nothing was late by a microsecond.
+  // Returns points (microseconds, share of wake-ups at least so late), both as logarithms of base 10,
+  // wherever the share changes. Empty if every wake-up was less than a microsecond late.
   std::vector<drawing::Point> points() const {
     std::vector<drawing::Point> points;
     const auto counts = late.counts();
@@ -63,7 +63,7 @@ std::string power_of_ten(int exponent) {
   return exponent <= 6 ? fmt::format("{:.0f}", std::pow(10.0, exponent)) : fmt::format("1e{}", exponent);
 }
 
-// Decades: of microseconds from 1 to the right, of shares from all downwards.
+// The axes in decades: microseconds from 1 to the right, shares from 1 downwards.
 struct LogFrame {
   drawing::Area area;
   int decades_x = 3, decades_y = 3;
@@ -115,7 +115,7 @@ std::string lateness_svg(const std::map<NodeId, recording::exports::NodeLateness
   const std::string title = names.run.empty() ? "Lateness of wake-ups" : names.run + ": lateness of wake-ups";
   const std::vector<Curve> curves = curves_of(nodes, names);
   if (curves.empty())
-    return drawing::empty_picture(title, "No node told how late it was: this run was not in real time.");
+    return drawing::empty_picture(title, "No node recorded its lateness: this run was not in real time.");
   std::vector<drawing::LegendEntry> legend;
   for (const Curve& curve : curves) {
     const std::string never = curve.points().empty() ? ", never late by 1 us" : "";

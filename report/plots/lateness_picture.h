@@ -1,6 +1,6 @@
-// How late the processes of a run in real time were woken up, node by node, next to a plain periodic thread on the same
-// machine: how many of the wake-ups were later than so many microseconds, both axes logarithmic, so that the one in ten
-// thousand shows as well as the median. A curve ends at the longest of all, marked.
+// The lateness of wake-ups in a drive in real time, node by node, beside a plain periodic thread on the same machine.
+// Each curve gives the share of wake-ups that were later than a number of microseconds. Both axes are logarithmic, so
+// that one in ten thousand shows as well as the median. A curve ends at a mark on the longest lateness.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace ttf::report::plots {
 
-// The floors of all nodes are one curve. A picture that says so where no node told of any wake-up.
+// Draws the floors of all nodes as one curve. Without any recorded wake-up, the picture says so.
 std::string lateness_svg(const std::map<NodeId, recording::exports::NodeLateness>& nodes, const drawing::Names& names);
 
 }  // namespace ttf::report::plots

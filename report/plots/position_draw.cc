@@ -1,4 +1,4 @@
-// Drawing of report/plots/position_plot.h: panels, markers, numbered instants and arrows.
+// Draws report/plots/position_plot.h: panels, markers, numbered instants and arrows.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -90,7 +90,7 @@ std::vector<drawing::LegendEntry> legend_of(std::span<const Selection> selection
     legend.push_back(
         {K::kMarker, "fusion (image at its instant of use)", std::string(kFusion), drawing::Marker::kSquare});
   if (any(&Selection::unused))
-    legend.push_back({K::kMarker, "image that nobody used", std::string(kUnused), drawing::Marker::kSquare});
+    legend.push_back({K::kMarker, "unused image", std::string(kUnused), drawing::Marker::kSquare});
   if (any(&Selection::truth)) legend.push_back({K::kLine, "truth", std::string(kTruth)});
   if (any(&Selection::instants)) legend.push_back({K::kNumber, "fusion instant", std::string(drawing::kBlack)});
   const auto late = [](const auto& a) { return a.late; };
@@ -109,7 +109,7 @@ void boxed_number(drawing::Svg& svg, drawing::Point centre, const std::string& t
   svg.text({centre.x, centre.y + 0.36 * size}, text, {.size = size, .anchor = drawing::Anchor::kMiddle});
 }
 
-// Instants that fused a laser measurement first: their numbers matter most where not all have room.
+// Returns instants with a laser measurement first: their numbers matter most if space is short.
 std::vector<const PositionPlots::Instant*> by_importance(const Selection& s) {
   std::vector<const PositionPlots::Instant*> order;
   for (const auto& i : s.instants) order.push_back(&i);
@@ -117,10 +117,10 @@ std::vector<const PositionPlots::Instant*> by_importance(const Selection& s) {
   return order;
 }
 
-constexpr double kStrip = 20;  // above a panel over time: the row of numbered instants
+constexpr double kStrip = 20;  // the row of numbered instants above a panel over time
 
-// Over time the numbers stand in a row above the panel, each with a thin line through it; in the plane beside
-// the fused position, with a leader.
+// Over time, the numbers stand in a row above the panel, each with a thin line through it. In the plane, they
+// stand beside the fused position, with a leader.
 void draw_instants(drawing::Svg& svg, const drawing::PlotFrame& frame, const Selection& s, PositionView view,
                    bool numbers) {
   const drawing::Area& area = frame.area();
@@ -158,7 +158,7 @@ void draw_instants(drawing::Svg& svg, const drawing::PlotFrame& frame, const Sel
     const drawing::Point p = frame.at(i->at.x, i->at.y);
     const std::string text = fmt::format("{}", i->step);
     for (const double reach : {26.0, 40.0, 56.0, 74.0}) {
-      if (!i->laser && reach > 40) break;  // in a crowd only the instants the arrows lead to
+      if (!i->laser && reach > 40) break;  // in a crowd, only the arrows' instants get numbers
       bool done = false;
       for (const drawing::Point d : {drawing::Point{0, -1}, drawing::Point{0, 1}, drawing::Point{0.7, -0.7},
                                      drawing::Point{-0.7, -0.7}, drawing::Point{0.7, 0.7}, drawing::Point{-0.7, 0.7}}) {
@@ -208,8 +208,8 @@ void draw_data(drawing::Svg& svg, const drawing::PlotFrame& frame, const Selecti
                  hover(fmt::format("{} #{}", name, v.id.sequence), v), "observation");
   }
   for (const Sample& v : s.unused)
-    svg.marker(drawing::Marker::kSquare, at(v), kMarker, {.stroke = kUnused, .width = 1.0},
-               hover("image that nobody used", v), "unused");
+    svg.marker(drawing::Marker::kSquare, at(v), kMarker, {.stroke = kUnused, .width = 1.0}, hover("unused image", v),
+               "unused");
   for (const Sample& v : s.fusion)
     svg.marker(drawing::Marker::kSquare, at(v), kMarker, {.stroke = kFusion, .width = 1.3}, hover("fusion", v),
                "fusion");
@@ -224,7 +224,7 @@ std::string_view x_label(PositionView view) { return over_time(view) ? "true tim
 void draw_panel(drawing::Svg& svg, const drawing::PlotFrame& frame, const Selection& s, const drawing::Names& names,
                 PositionView view, bool with_x, bool numbers) {
   frame.draw(svg, with_x ? x_label(view) : "", y_label(view));
-  // In the plane the data lie above the leaders, over time above the thin lines.
+  // In the plane, the data lie above the leaders; over time, above the thin lines.
   draw_instants(svg, frame, s, view, numbers);
   draw_data(svg, frame, s, names, view);
 }
@@ -277,7 +277,7 @@ std::string comparison_svg(std::span<const PositionPlots* const> plots, std::spa
   const double width = plots.size() == 1 ? 1120 : std::max(460.0, 1320 / n - 40);
   double height = plots.size() == 1 ? 560 : 430;
   if (!over_time(view)) {
-    // The same scale for both axes where that leaves room for the narrower one.
+    // Both axes have the same scale if that leaves room for the narrower one.
     const double equal = width * e.y.size() / e.x.size();
     if (equal >= 0.3 * width && equal <= 1.3 * width) height = equal;
   }

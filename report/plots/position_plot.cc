@@ -6,10 +6,10 @@
 namespace ttf::report::plots {
 namespace {
 
-// True time of a global instant, as the clock that stamped the record shows. A recording without true time
-// (all zero) keeps global time.
+// Returns the true time of a global instant by the clock that stamped the record. A recording without true
+// time (all zero) keeps global time.
 double true_seconds(GlobalTime t, const recording::records::Stamp& stamp) {
-  // In doubles: exact for runs of up to 100 days, and without overflow for whatever a damaged log says.
+  // Doubles are exact for drives of up to 100 days, and do not overflow for any number in a damaged log.
   const auto ns = [](std::int64_t count) { return static_cast<double>(count); };
   const double offset = stamp.true_time.ns != 0 ? ns(stamp.true_time.ns) - ns(stamp.global.ns) : 0.0;
   return (ns(t.ns) + offset) * 1e-9;
@@ -50,7 +50,7 @@ void PositionPlots::on(const recording::records::ReferenceFix& r) {
         {r.measured_true.ns != 0 ? seconds(r.measured_true) : static_cast<double>(r.measured.ns) * 1e-9, r.x, r.y, {}});
 }
 void PositionPlots::on(const recording::records::TruthState& r) {
-  // Several nodes may have recorded it at one instant.
+  // Several nodes may have recorded the same instant.
   if (r.object != options_.object || (!truth_.empty() && truth_.back().t == seconds(r.at))) return;
   truth_.push_back({seconds(r.at), r.x, r.y, {}});
 }

@@ -1,10 +1,10 @@
-// The paper's figures 5 to 8 from the records of a drive: the reference object's x and y over time and y over
-// x, with DGPS fixes (circles), laser (crosses), camera (triangles) and radar (diamonds) observations, the
-// fused real-time image (squares; grey where nobody used it), the truth (thin line), numbered fusion instants (boxed),
-// and arrows from each laser measurement to the fusion instant that integrated it.
+// The paper's figures 5 to 8 from the records of a drive: the object's x and y over time, and y over x. They show DGPS
+// fixes of the reference (circles), the observations of laser (crosses), camera (triangles) and radar (diamonds), and
+// the fused image (squares; grey if unused). They also show the truth (thin line), numbered fusion instants (boxed),
+// and arrows from each laser measurement to the fusion instant that fused it.
 //
-// Axes follow ISO 8855 (x forward, y left, metres) and the pictures say so. Times are true times in seconds;
-// an instant known in global time is moved by the difference its record's stamp shows.
+// Axes follow ISO 8855 (x forward, y left, metres), and the pictures say so. Times are true times in seconds.
+// The stamp of its record converts a global time.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,8 @@ namespace ttf::report::plots {
 struct PositionOptions {
   std::string title{};
   std::optional<TrueTime> from{}, to{};  // the whole drive if absent
-  // The object shown: of each list the observation, and of each image the object, nearest to the truth (or,
-  // without truth, the reference) of this object at that time, and no farther away than the gate. Without
-  // truth and reference everything is shown.
+  // The object shown, by the observation of each list and the track of each image nearest to it within the gate.
+  // The object's place at that time is its truth, or else its reference. Without both, everything is shown.
   ObjectId object{0};
   double gate_m = 6.0;
 };
@@ -35,7 +34,7 @@ class PositionPlots : public recording::records::Sink {
  public:
   PositionPlots(drawing::Names names, PositionOptions options);
 
-  using recording::records::Sink::on;  // the kinds of record that are not shown
+  using recording::records::Sink::on;  // kinds of record that are not shown
   void on(const recording::records::ObservationSeen& r) override;
   void on(const recording::records::ListFused& r) override;
   void on(const recording::records::FusionStep& r) override;
@@ -48,24 +47,24 @@ class PositionPlots : public recording::records::Sink {
   std::string over_time_svg() const;  // x above y over a common time axis
   std::string plane_svg() const;      // y over x
 
-  // What a panel shows, selected and in the window. Also for tests and tables.
+  // The data of a panel, selected and in the time window; also for tests and tables.
   struct Sample {
     double t = 0, x = 0, y = 0;  // s, m, m
-    MeasurementId id{};          // of an observation
+    MeasurementId id{};          // the observation's
   };
-  struct Integration {  // a measurement and the fusion instant that integrated it
+  struct Integration {  // a measurement and the fusion instant that fused it
     Sample measured, fused;
     bool late = false;  // out of sequence
   };
-  struct Instant {  // a fusion step that fused something
+  struct Instant {  // a fusion instant that fused at least one list
     std::uint32_t step = 0;
     Sample at;
-    bool laser = false;  // among the fused: a laser measurement
+    bool laser = false;  // at least one fused list is a laser's
   };
   struct Selection {
     std::vector<Sample> truth, reference;
-    std::vector<Sample> fusion;                     // of images that were used, at the instant they were predicted to
-    std::vector<Sample> unused;                     // of those that nobody used, or that were refused as too old
+    std::vector<Sample> fusion;                     // of used images, at the instants they were predicted to
+    std::vector<Sample> unused;                     // of unused images, or of images refused as too old
     std::vector<std::vector<Sample>> observations;  // per sensor
     std::vector<Integration> laser_arrows;
     std::vector<Instant> instants;
@@ -104,7 +103,7 @@ class PositionPlots : public recording::records::Sink {
 
   drawing::Names names_;
   PositionOptions options_;
-  std::vector<Sample> truth_, fixes_, observations_;  // truth and fixes of the chosen object
+  std::vector<Sample> truth_, fixes_, observations_;  // truth and fixes only of the chosen object
   std::vector<Image> images_;
   std::vector<Use> uses_;
   std::vector<Positioned> tracks_;
@@ -112,7 +111,7 @@ class PositionPlots : public recording::records::Sink {
   std::vector<FusedList> fused_;
 };
 
-// One view of several drives as panels side by side over the same axes. `titles` has one entry per panel.
+// Draws one view of several drives as panels side by side with the same axes. `titles` has one entry per panel.
 std::string comparison_svg(std::span<const PositionPlots* const> plots, std::span<const std::string> titles,
                            PositionView view = PositionView::kPlane, std::string_view title = {});
 

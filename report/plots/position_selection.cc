@@ -1,4 +1,4 @@
-// What a position plot shows of all that was recorded: the chosen object's, in the window.
+// Selects the data of a position plot: the chosen object's, in the time window.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,17 +13,17 @@
 namespace ttf::report::plots {
 namespace {
 
-constexpr double kLongestUse = 1.0;  // s from an image to its last use; older ones are refused
+constexpr double kLongestUse = 1.0;  // s from an image to its last use; older images are refused
 
 bool earlier(const PositionPlots::Sample& a, const PositionPlots::Sample& b) { return a.t < b.t; }
 
-// Records arrive in the order of a log, which may be by process.
+// Sorts samples by time: the records of a log may be ordered by process.
 std::vector<PositionPlots::Sample> by_time(std::vector<PositionPlots::Sample> samples) {
   std::ranges::stable_sort(samples, earlier);
   return samples;
 }
 
-// Linear interpolation in samples ordered by time; nothing outside them (by more than `slack`).
+// Interpolates linearly in samples ordered by time; no value outside them (by more than `slack`).
 std::optional<PositionPlots::Sample> interpolate(const std::vector<PositionPlots::Sample>& samples, double t,
                                                  double slack) {
   if (samples.empty() || t < samples.front().t - slack || t > samples.back().t + slack) return std::nullopt;
@@ -60,14 +60,14 @@ class PositionPlots::Selector {
     return (!window.from || t >= seconds(*window.from)) && (!window.to || t <= seconds(*window.to));
   }
 
-  // Where the chosen object was is known from the truth, else from the reference, else not at all: then everything in
-  // the window is shown.
+  // The truth gives the chosen object's place, or else the reference. Without both, everything in the time
+  // window is shown.
   bool shows_all() const { return truth_.empty() && fixes_.empty(); }
   std::optional<Sample> object_at(double t) const {
     return truth_.empty() ? interpolate(fixes_, t, 0.5) : interpolate(truth_, t, 0.1);
   }
 
-  // To the chosen object; none of another object, or out of the window.
+  // Returns the distance to the chosen object; no value outside the gate or the time window.
   std::optional<double> distance(const Sample& s) const {
     if (!inside(s.t) || !std::isfinite(s.x) || !std::isfinite(s.y)) return std::nullopt;
     if (shows_all()) return 0.0;
@@ -77,7 +77,7 @@ class PositionPlots::Selector {
     return d <= plots_.options_.gate_m ? std::optional(d) : std::nullopt;
   }
 
-  // Of candidates for the object at one instant the nearest, or all where all are shown.
+  // Returns the candidate nearest to the object at one instant, or all candidates if everything is shown.
   std::vector<Sample> shown_of(const std::vector<Sample>& candidates) const {
     std::vector<Sample> shown;
     double least = 0;
@@ -92,11 +92,11 @@ class PositionPlots::Selector {
     return shown;
   }
 
-  // Of each list the nearest. A list is one measurement: id and time, because a sensor that starts anew counts anew.
+  // Chooses the nearest observation of each list. Id and time identify a list, because a restarted sensor numbers anew.
   void choose_observations() {
     struct Nearest {
       double distance;
-      std::size_t at;  // in chosen_
+      std::size_t at;  // index in chosen_
     };
     std::map<std::pair<MeasurementId, std::int64_t>, Nearest> lists;
     for (const Sample& s : plots_.observations_) {
@@ -115,7 +115,7 @@ class PositionPlots::Selector {
     }
   }
 
-  // A fusion node that restarts counts its images anew: a use belongs to an image of just before.
+  // A restarted fusion node numbers its images anew, so a use belongs to an image from shortly before it.
   bool is_used(const Image& image) const {
     return std::ranges::any_of(plots_.uses_, [&](const Use& use) {
       return use.image == image.sequence && use.t >= image.written && use.t < image.written + kLongestUse;
@@ -140,7 +140,7 @@ class PositionPlots::Selector {
     return newest;
   }
 
-  // Where the fused result was at a step: the nearest track, else the image, else the observation itself.
+  // Returns the place of the fused result at a fusion instant: the nearest track, else the image, else the observation.
   std::optional<Sample> result_at(std::uint32_t step, double t, const Sample* observation) const {
     if (const auto tracks = tracks_.find(step); tracks != tracks_.end())
       if (const auto nearest = shown_of(tracks->second); !nearest.empty()) return nearest.front();

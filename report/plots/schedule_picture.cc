@@ -80,10 +80,10 @@ class SchedulePainter {
     return static_cast<double>(d.ns) * 1000.0 / static_cast<double>(c_.flexray.gdMacrotick_ps);
   }
   double x(double macrotick) const { return left_ + macrotick / c_.flexray.gMacroPerCycle * kPlot; }
-  // Rows of the matrix: cycles until everything repeats, at most the 64 the counter knows.
+  // Rows of the matrix: the cycles until the pattern repeats, at most the counter's 64.
   int rows() const { return std::min(repetition_, c_.flexray.gCycleCountMax + 1); }
 
-  // Pale, for the text in the boxes.
+  // A pale colour, for text in the boxes.
   std::string colour(PduId pdu) const { return drawing::tint(pdu_colour(names_, pdu), pdu == kNoPdu ? 0.55 : 0.35); }
 
   std::vector<drawing::LegendEntry> make_legend() const {
@@ -103,7 +103,7 @@ class SchedulePainter {
     }
     if (status) legend.push_back({drawing::LegendEntry::Kind::kBox, "status frame", colour(kNoPdu), {}, true});
     legend.push_back({drawing::LegendEntry::Kind::kBox, "slot without owner", "#bbbbbb", {}, false});
-    // Mostly too narrow for its name.
+    // The symbol window is mostly too narrow for its name.
     if (c_.flexray.gdSymbolWindow > 0)
       legend.push_back({drawing::LegendEntry::Kind::kBox, "symbol window", std::string(kSymbolWindowFill), {}, true});
     return legend;
@@ -115,7 +115,7 @@ class SchedulePainter {
                                          c_.pdu(f.pdu).max_fragments());
   }
 
-  // The longest beginning of a text that fits.
+  // Returns the longest beginning of the text that fits.
   static std::string fitted(const std::string& text, double size, double room) {
     if (drawing::text_width(text, size) <= room) return text;
     std::string cut = text;
@@ -151,7 +151,7 @@ class SchedulePainter {
         svg_->text({left + width / 2, top + kSlotLane - 4}, fmt::format("{}", slot),
                    {.size = 7, .anchor = drawing::Anchor::kMiddle});
       if (width >= 10 && !here.empty()) {
-        // The owner above the PDU where two lines have room, else the PDU; the hover text has it all.
+        // Shows the owner above the PDU if two lines fit, otherwise the PDU; the hover text has everything.
         const FrameSlot& f = *here.front();
         std::string text =
             f.pdu == kNoPdu ? "status"
@@ -167,7 +167,7 @@ class SchedulePainter {
       }
     }
     double at = g.gNumberOfStaticSlots * static_cast<double>(g.gdStaticSlot);
-    // Its name stands in the middle of what is free of it.
+    // The name stands in the middle of the segment's free part.
     const auto segment = [&](double length, const char* name, std::string_view fill, double taken = 0) {
       if (length <= 0) return;
       const double left = x(at), width = x(at + length) - left;
@@ -194,7 +194,7 @@ class SchedulePainter {
     return 0;
   }
 
-  // One row per dynamic frame: from its turn at the earliest to its end at the latest.
+  // Draws one row per dynamic frame: from its slot's earliest turn to its latest end.
   void draw_dynamic(Channel channel, double top) {
     const auto& g = c_.flexray;
     std::vector<const FrameSlot*> here;
@@ -257,7 +257,7 @@ class SchedulePainter {
                        box.text, "instant");
           continue;
         }
-        // What runs on into the next cycle ends in an arrow at the cycle's end.
+        // A task that runs on into the next cycle ends in an arrow at the cycle's end.
         const double end = std::min(cycle, box.offset_mt + box.length_mt);
         svg_->rect({x(box.offset_mt), centre - 8, std::max(2.0, x(end) - x(box.offset_mt)), 16},
                    {.fill = "#c9d7e6", .stroke = "#5b7083", .width = 0.7}, box.text, "task");
@@ -293,7 +293,7 @@ class SchedulePainter {
     return "a list at " + task.activation.port;
   }
 
-  // Tasks without a place in the cycle, in words.
+  // Describes tasks without a place in the cycle in words.
   std::vector<std::string> other_tasks() const {
     using schedules::model::ActivationKind;
     std::vector<std::string> lines;
@@ -313,7 +313,7 @@ class SchedulePainter {
     return lines;
   }
 
-  // Slot by cycle: both channels in one cell, A above B.
+  // Draws slots by cycles: both channels in one cell, A above B.
   void draw_matrix(double top, double cell, double row) {
     if (used_.empty()) return;
     svg_->text({left_, top - 26},
@@ -353,7 +353,7 @@ class SchedulePainter {
 
   const Cluster& c_;
   drawing::Names names_;
-  double left_ = 110;  // of the plot: what the lane labels need
+  double left_ = 110;  // start of the plot, right of the lane labels
   int repetition_ = 1;
   std::map<int, std::vector<const FrameSlot*>> frames_;
   std::vector<int> used_;

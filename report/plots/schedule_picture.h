@@ -1,6 +1,6 @@
-// A cluster's schedule as a picture: one communication cycle with the static slots of both channels (who
-// sends what), the dynamic segment, the symbol window and the network idle time, the nodes' time-activated
-// tasks below it, and the multiplexing of slots over cycles as a matrix.
+// A cluster's schedule as a picture of one communication cycle: the static slots of both channels with
+// senders and contents, the dynamic segment, the symbol window and the network idle time. Below are the
+// nodes' time-activated tasks and a matrix of the multiplexing of slots over cycles.
 #pragma once
 
 #include <string>

@@ -39,7 +39,7 @@ void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, cons
     if (!told.drive->log || ++logs > window.most) continue;
     const recording::log::LogManifest& manifest = told.drive->log->manifest();
     TrueTime from = window.from.value_or(scenario_in(*told.drive->log).judged_from);
-    // An end alone may lie before that: then it is the end that counts.
+    // The given end lies before the judged part: the window ends there.
     if (!window.from && window.to && *window.to <= from) from = std::max(TrueTime{}, *window.to - window.length);
     const TrueTime to = std::min(window.to.value_or(from + window.length), from + kLongestDiagram);
     timing::TimingDiagram diagram(drawing::names_of(manifest), {manifest.cycle_ns}, from, to);
@@ -52,14 +52,14 @@ void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, cons
   if (diagrams.empty()) return;
   std::string caption = fmt::format("Of {:.3f} s only {}", longest_s, windows.front());
   if (std::ranges::count(windows, windows.front()) != std::ssize(windows)) {
-    caption = "Of each drive a part is drawn";
+    caption = "A part of each drive is drawn";
     for (std::size_t d = 0; d < diagrams.size(); ++d) diagrams[d].label += ", of which " + windows[d];
   }
   caption += " (--from and --to choose others). ";
   page.section("Timing: slots, tasks and every measurement's way");
-  if (logs > window.most) caption += fmt::format("Of {} drives the first {} are drawn. ", logs, window.most);
+  if (logs > window.most) caption += fmt::format("The first {} of {} drives are drawn. ", window.most, logs);
   page.diagrams(diagrams, caption +
-                              "Arrows follow each measurement; point at a slot, a task or an arrow to see whose it is, "
+                              "Arrows follow each measurement; point at a slot, a task or an arrow to see its source, "
                               "its times and ages.");
 }
 
@@ -72,7 +72,8 @@ void time_base_section(page::Page& page, const std::vector<ToldDrive>& drives, s
   if (precision.views.empty() && corrections.empty()) return;
   page.section("The time base");
   if (precision.views.empty())
-    page.paragraph("Processes of their own: nobody sees all clocks, and the log has no precision over time.");
+    page.paragraph(
+        "Each node was a process of its own: no process saw all clocks, so the log has no precision over time.");
   page.plot(precision);
   if (corrections.empty()) return;
   page.open_details("Clock corrections, node by node");
@@ -99,8 +100,8 @@ void troubles_section(page::Page& page, const std::vector<ToldDrive>& drives) {
     }
   if (!any)
     page.paragraph(fmt::format("No fault was injected, no slot had a problem, no deadline was missed{}.",
-                               without.empty() ? "" : " in what was logged"));
-  if (!without.empty()) page.paragraph(fmt::format("Of {} there is no log: {}", joined(without), elsewhere));
+                               without.empty() ? "" : " in the logs"));
+  if (!without.empty()) page.paragraph(fmt::format("There is no log of {}: {}", joined(without), elsewhere));
 }
 
 }  // namespace ttf::report::run

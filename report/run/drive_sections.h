@@ -1,4 +1,4 @@
-// Sections of a page that are drawn from drives' logs, side by side: the same in a run's page and in an experiment's.
+// Sections drawn from drives' logs, side by side; the page of a results folder and an experiment's share them.
 #pragma once
 
 #include <cstddef>
@@ -12,22 +12,22 @@
 
 namespace ttf::report::run {
 
-// What is drawn as timing diagrams, half a megabyte for 160 ms of a drive.
+// The part of each drive that is drawn as a timing diagram; 160 ms take half a megabyte.
 struct DiagramWindow {
-  // From where the drive is judged unless given; 2 s at most.
+  // By default, it begins with the judged part of the drive; 2 s at most.
   std::optional<TrueTime> from, to;
-  Duration length = Duration::milliseconds(160);  // where it is not given
+  Duration length = Duration::milliseconds(160);  // if an end is missing
   std::size_t most = 6;                           // drives
 };
 
-// The drive with what its log comes to.
+// Returns the drive with the series of its log.
 ToldDrive told_of(const Drive& drive);
 
-// Each is left out where there is nothing to show, but for the faults: that there were none is worth a sentence.
+// Each section is omitted if it is empty, except the faults: their absence deserves a sentence.
 void errors_section(page::Page& page, const std::vector<ToldDrive>& drives);
 void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, const DiagramWindow& window);
 void time_base_section(page::Page& page, const std::vector<ToldDrive>& drives,
-                       std::size_t most);  // corrections of so many
+                       std::size_t most);  // the most drives with a plot of corrections
 void troubles_section(page::Page& page, const std::vector<ToldDrive>& drives);
 
 }  // namespace ttf::report::run

@@ -9,7 +9,7 @@
 namespace ttf::report::run {
 namespace {
 
-constexpr std::size_t kMostPoints = 3000;  // of a curve; of a longer one the largest of neighbours
+constexpr std::size_t kMostPoints = 3000;  // of a curve; a longer curve keeps the largest of neighbours
 constexpr int kBins = 40;
 constexpr std::string_view kTimeAxis = "true time [s]";
 
@@ -41,7 +41,7 @@ std::string sensor_name(const std::vector<ToldDrive>& drives, SensorId sensor) {
 
 using Ages = std::map<SensorId, std::vector<double>> RunSeries::*;
 
-// Of all sensors together, and of each where there are several.
+// Adds one view of all sensors together, and one for each of several sensors.
 void add_age_views(page::Plot& plot, const std::vector<ToldDrive>& drives, Ages ages, const std::string& when) {
   std::set<SensorId> sensors;
   std::vector<NamedValues> all;
@@ -72,7 +72,7 @@ std::vector<page::Curve> histogram(const std::vector<NamedValues>& all, int bins
   if (extent.empty()) return {};
   const double step = nice_ticks(extent.padded(0.0, 1e-9 + 1e-6 * std::abs(extent.high)), bins).step;
   const double first = std::floor(extent.low / step) * step;
-  // A damaged log may hold values that are far from all others, even so far that their distance is infinite.
+  // A damaged log may hold values far from all others, even at an infinite distance.
   const double wanted = std::floor((extent.high - first) / step) + 1.0;
   const std::size_t count = wanted >= 1.0 && wanted < 1000.0 ? static_cast<std::size_t>(wanted) : 1000;
   const auto bin_of = [&](double value) {
@@ -100,14 +100,13 @@ std::vector<page::Curve> histogram(const std::vector<NamedValues>& all, int bins
 }
 
 page::Plot error_plot(const std::vector<ToldDrive>& drives) {
-  page::Plot plot{
-      "Error over time",
-      "At each use of an image, against the truth: the root mean square over the objects that were matched.",
-      std::string(kTimeAxis),
-      page::Plot::Kind::kLines,
-      false,
-      false,
-      {}};
+  page::Plot plot{"Error over time",
+                  "At each use of an image, against the truth: the root mean square over the matched objects.",
+                  std::string(kTimeAxis),
+                  page::Plot::Kind::kLines,
+                  false,
+                  false,
+                  {}};
   add_view(plot, "position", "position error [m]", curves_of(drives, &RunSeries::position_error));
   add_view(plot, "velocity", "velocity error [m/s]", curves_of(drives, &RunSeries::velocity_error));
   return plot;
@@ -115,7 +114,7 @@ page::Plot error_plot(const std::vector<ToldDrive>& drives) {
 
 page::Plot age_plot(const std::vector<ToldDrive>& drives) {
   page::Plot plot{"Age over time",
-                  "Of the newest measurement of each sensor in an image, at the instant the image is used.",
+                  "Age of each sensor's newest measurement in an image, at the image's use.",
                   std::string(kTimeAxis),
                   page::Plot::Kind::kLines,
                   false,
@@ -127,7 +126,7 @@ page::Plot age_plot(const std::vector<ToldDrive>& drives) {
 }
 
 page::Plot age_histogram(const std::vector<ToldDrive>& drives) {
-  page::Plot plot{"How old measurements are",
+  page::Plot plot{"Ages of measurements",
                   "Latency from the instant of measuring, as shares of all.",
                   "age [ms]",
                   page::Plot::Kind::kSteps,
@@ -153,7 +152,7 @@ page::Plot precision_plot(const std::vector<ToldDrive>& drives) {
 
 page::Plot corrections_plot(const ToldDrive& told, const drawing::Names& names) {
   page::Plot plot{told.drive->label + ": offset corrections",
-                  "What each node corrects its clock by in a double cycle.",
+                  "Each node's correction of its clock in a double cycle.",
                   std::string(kTimeAxis),
                   page::Plot::Kind::kLines,
                   false,

@@ -1,4 +1,4 @@
-// The plots of a run's report, a curve a drive.
+// The plots of a run's report, with one curve per drive.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ page::Plot error_plot(const std::vector<ToldDrive>& drives);
 page::Plot age_plot(const std::vector<ToldDrive>& drives);  // over time
 page::Plot age_histogram(const std::vector<ToldDrive>& drives);
 page::Plot precision_plot(const std::vector<ToldDrive>& drives);
-page::Plot corrections_plot(const ToldDrive& drive, const drawing::Names& names);  // a curve a node
+page::Plot corrections_plot(const ToldDrive& drive, const drawing::Names& names);  // one curve per node
 
-// Shares of the values in bins of one width over all of them, as curves of Plot::Kind::kSteps: x is where a bin begins,
-// with one more of height 0 behind the last.
+// Returns the shares of the values in bins of one common width, as curves of Plot::Kind::kSteps. x is the
+// begin of a bin; one more bin of height 0 follows the last.
 struct NamedValues {
   std::string label;
   int colour = 0;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kMostPictures = 6;  // drives
 
-// Its labels are words that tell the drives apart: strategies, or folders with them.
+// Labels the drives by distinct words: strategies, or folders with strategies.
 void label_drives(std::vector<ResultsFolder>& folders) {
   std::map<std::string, int> known;
   for (ResultsFolder& folder : folders) {
@@ -36,7 +36,7 @@ void label_drives(std::vector<ResultsFolder>& folders) {
 }
 
 void asked(page::Page& page, const std::vector<ResultsFolder>& folders, const std::vector<ToldDrive>& drives) {
-  page.section("What was asked");
+  page.section("Question");
   std::set<std::string> described;
   for (const ToldDrive& told : drives)
     if (told.drive->log)
@@ -60,7 +60,7 @@ void asked(page::Page& page, const std::vector<ResultsFolder>& folders, const st
 
 void answered(page::Page& page, const std::vector<ResultsFolder>& folders, const std::vector<ToldDrive>& drives) {
   const RunAnswer answer = run_answer(drives);
-  page.section("What came out");
+  page.section("Answer");
   page.lead(answer.answer);
   page.points(answer.more);
   for (const page::PageTable& table : repeated_tables(drives)) page.table(table);
@@ -75,7 +75,7 @@ void pictures(page::Page& page, const std::vector<ToldDrive>& drives) {
   std::size_t shown = 0;
   bool any = false;
   const auto add = [&](std::string_view svg, const std::string& caption) {
-    if (!any) page.section("Where the car was");
+    if (!any) page.section("Positions");
     any = true;
     page.picture(svg, caption);
   };
@@ -93,21 +93,21 @@ void pictures(page::Page& page, const std::vector<ToldDrive>& drives) {
     recording::records::Tee tee({&plots, &extent, &lateness});
     told.drive->log->read(tee);
     if (!plots.select().empty())
-      add(plots.plane_svg(), told.drive->label + ": y over x, as truth, sensors, DGPS and the image have it");
+      add(plots.plane_svg(), told.drive->label + ": y over x by truth, sensors, DGPS and the image");
     if (const auto window = extent.window({manifest.cycle_ns})) {
       startup::StartupDiagram startup(names, {manifest.cycle_ns}, window->first, window->second);
       told.drive->log->read(startup);
-      add(startup.svg(), told.drive->label + ": start-up, every node's states and what it sent");
+      add(startup.svg(), told.drive->label + ": start-up, every node's states and transmissions");
     }
     if (const auto nodes = lateness.nodes(); !nodes.empty())
-      add(plots::lateness_svg(nodes, names), told.drive->label + ": how late processes were woken up, in real time");
+      add(plots::lateness_svg(nodes, names), told.drive->label + ": lateness of wake-ups, in real time");
   }
 }
 
 void made(page::Page& page, const std::vector<ToldDrive>& drives) {
   if (std::ranges::none_of(drives, [](const ToldDrive& told) { return told.drive->log != nullptr; })) return;
-  page.section("How it was made");
-  page::PageTable table{"What each log says of itself",
+  page.section("How to repeat it");
+  page::PageTable table{"Facts from each log",
                         {"", "version", "seed", "strategy", "cluster", "content hash", "hashes of its inputs"},
                         {}};
   std::set<std::string> commands, texts;
@@ -132,8 +132,8 @@ void made(page::Page& page, const std::vector<ToldDrive>& drives) {
   if (!table.rows.empty()) page.table(table);
   if (!order.empty()) {
     page.paragraph(
-        "In virtual time the same version, inputs and seed give the same content hash. Where the scenario is in "
-        "another folder than scenarios/, say so:");
+        "In virtual time the same version, inputs and seed give the same content hash. If the scenario is in "
+        "another folder than scenarios/, name it:");
     std::string all;
     for (const std::string& command : order) all += command + '\n';
     page.command(all);

@@ -1,4 +1,4 @@
-// The page of one run, or of several side by side.
+// The page of one results folder, or of several side by side.
 #pragma once
 
 #include <string>

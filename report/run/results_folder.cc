@@ -27,17 +27,17 @@ std::uint64_t count_at(const Json& object, const char* key) {
   return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
 
-// The folder may have been moved since: a log is where its summary is.
+// Looks for a log beside its summary, because the folder may have been moved.
 void find_logs(ResultsFolder& folder) {
   std::error_code none;
   for (Drive& drive : folder.drives) {
     drive.folder = folder.path;
     const std::string log = folder.path + "/" + drive.log_name;
     if (drive.log_name.empty())
-      folder.remarks.push_back(fmt::format("{} kept no log: what is drawn from one is not here.", drive.strategy));
+      folder.remarks.push_back(fmt::format("{} kept no log: everything drawn from one is missing.", drive.strategy));
     else if (!fs::exists(log, none))
-      folder.remarks.push_back(fmt::format("The log of {}, {}, is not there: what is drawn from it is not here.",
-                                           drive.strategy, drive.log_name));
+      folder.remarks.push_back(
+          fmt::format("The log of {}, {}, is missing, and everything drawn from it.", drive.strategy, drive.log_name));
     else
       drive.log = std::make_shared<const recording::merge::MergedLogs>(std::vector<std::string>{log});
   }
@@ -52,8 +52,8 @@ Json parse_json(std::string_view text, const std::string& file) {
     const std::string_view before = text.substr(0, error.byte > 0 ? error.byte - 1 : 0);
     const auto line = 1 + static_cast<int>(std::ranges::count(before, '\n'));
     throw InputError({file, line, "", "", "must be JSON: it is damaged here, or cut off"});
-  } catch (const Json::exception&) {  // 1e999
-    throw InputError({file, 0, "", "", "must be JSON: a number in it is none"});
+  } catch (const Json::exception&) {  // for a number such as 1e999
+    throw InputError({file, 0, "", "", "must be JSON: it has an invalid number"});
   }
 }
 
@@ -68,7 +68,7 @@ ResultsFolder parse_run_summary(std::string_view text, const std::string& file) 
   if (strategies == folder.summary.end() || !strategies->is_array() || strategies->empty())
     bad("strategies", "must be the run's strategies, at least one");
   for (const Json& one : *strategies) {
-    if (!one.is_object() || word_at(one, "strategy").empty()) bad("strategies", "must name a strategy each");
+    if (!one.is_object() || word_at(one, "strategy").empty()) bad("strategies", "must each name a strategy");
     Drive drive;
     drive.scenario = word_at(folder.summary, "scenario");
     drive.strategy = word_at(one, "strategy");
@@ -110,7 +110,7 @@ ResultsFolder read_results_folder(const std::string& path) {
       drive.log = std::make_shared<const recording::merge::MergedLogs>(std::move(run));
       folder.drives.push_back(std::move(drive));
     }
-    folder.remarks.push_back("There is no summary.json: figures are the log's, over the whole drive.");
+    folder.remarks.push_back("There is no summary.json: the numbers come from the log, over the whole drive.");
   }
   for (const Drive& drive : folder.drives)
     if (drive.log)

@@ -1,4 +1,4 @@
-// What a folder of results is, and the runs in it: as `ttfusion run` and `ttfusion launch` leave them, or logs alone.
+// The kind of a folder and its drives: from `ttfusion run` or `ttfusion launch`, or logs without a summary.
 #pragma once
 
 #include <cstdint>
@@ -13,31 +13,31 @@
 namespace ttf::report::run {
 
 enum class FolderKind : std::uint8_t { kRun, kExperiment };
-// Throws InputError where the folder is neither.
+// Throws InputError if the folder is of neither kind.
 FolderKind kind_of_folder(const std::string& path);
 
 // One strategy's drive.
 struct Drive {
   std::string folder, scenario, strategy;
-  std::string log_name;  // the log's in the folder; "" where none was kept
-  std::string label;     // tells it from the others of the page
+  std::string log_name;  // the log's name in the folder; "" without a log
+  std::string label;     // distinguishes it from other drives on the page
   std::uint64_t seed = 0;
   nlohmann::ordered_json summary;                           // its part of summary.json; null without one
-  std::shared_ptr<const recording::merge::MergedLogs> log;  // none: the run kept none
+  std::shared_ptr<const recording::merge::MergedLogs> log;  // null if no log was kept
 };
 
 struct ResultsFolder {
   std::string path;
-  nlohmann::ordered_json summary;    // of all; null where there are logs alone
+  nlohmann::ordered_json summary;    // of the folder; null if it has only logs
   std::vector<Drive> drives;         // at least one
-  std::vector<std::string> remarks;  // sentences: what is missing or damaged
+  std::vector<std::string> remarks;  // sentences about missing or damaged files
 };
-// Throws InputError: a summary that is none, a log that cannot be read.
+// Throws InputError for an invalid summary or an unreadable log.
 ResultsFolder read_results_folder(const std::string& path);
 
-// What summary.json says by itself, drives without their logs. `file` is for messages. Throws InputError.
+// Reads summary.json alone, into drives without logs. `file` is for messages. Throws InputError.
 ResultsFolder parse_run_summary(std::string_view text, const std::string& file);
-// Throws InputError with the file and what is wrong.
+// Throws InputError with the file and the error.
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& file);
 
 }  // namespace ttf::report::run

@@ -21,7 +21,7 @@ ScenarioWords scenario_in(const recording::merge::MergedLogs& log) {
       words.text = attachment.bytes;
       return words;
     } catch (const InputError&) {
-      // A damaged attachment says nothing.
+      // A damaged attachment counts as absent.
     }
   }
   return words;

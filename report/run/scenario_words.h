@@ -1,4 +1,4 @@
-// What the scenario that is attached to a log says of itself.
+// Words from the scenario that is attached to a log.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct ScenarioWords {
   TrueTime judged_from{};
 };
 
-// Empty where the log has none, or a damaged one.
+// Returns empty words if the log has no scenario, or a damaged one.
 ScenarioWords scenario_in(const recording::merge::MergedLogs& log);
 
 }  // namespace ttf::report::run

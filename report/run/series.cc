@@ -72,7 +72,7 @@ void RunSeriesSink::on(const recording::records::TruthState& r) {
     }
     truth_.clear();
   }
-  if (!truth_.empty() && truth_node_ != r.node) return;  // another node recorded the same
+  if (!truth_.empty() && truth_node_ != r.node) return;  // another node recorded the same truth
   truth_at_ = r.at;
   truth_node_ = r.node;
   truth_.push_back({r.x, r.y, r.speed * std::cos(r.heading), r.speed * std::sin(r.heading)});

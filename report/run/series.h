@@ -1,8 +1,8 @@
-// What a drive's records come to over time and as distributions, for the report's plots and tables: errors where the
-// feature service used an image, ages of measurements, precision, corrections, problems, faults.
+// Series and distributions of a drive's records, for the report's plots and tables: errors at each use of an
+// image, ages of measurements, precision, corrections, problems and faults.
 //
-// A sink; uses and truths are put together as evaluation/accuracy/drive_measures.h does it: an image's objects and true
-// ones no further apart than the gate, the closest pair first.
+// The class is a sink. It pairs objects as evaluation/accuracy/drive_measures.h does: an image's and true
+// objects within the gate, the closest pair first.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct TimedValue {
 };
 
 struct FaultTold {
-  std::string kind, text;  // text: of its first act, or of its begin where it has not acted
+  std::string kind, text;  // text: of its first act, or of its begin if it never acted
   NodeId node = kNoNode;
   std::optional<double> begins_s, first_act_s, ends_s;
   std::uint64_t acts = 0;
@@ -32,16 +32,16 @@ struct RunSeries {
   std::vector<TimedValue> position_error;  // [m] at each use of an image: root mean square over the objects matched
   std::vector<TimedValue> velocity_error;  // [m/s]
   std::vector<TimedValue> newest_age;      // [ms] of the newest measurement in an image, at its use
-  std::vector<TimedValue> oldest_age;      // [ms] of the sensor that was heard longest ago
+  std::vector<TimedValue> oldest_age;      // [ms] of the sensor with the oldest list in the image
   std::map<SensorId, std::vector<double>> age_fused, age_used;                // [ms]
   std::vector<TimedValue> precision;                                          // [us]
   std::map<NodeId, std::vector<TimedValue>> offset_corrections;               // microticks
-  std::map<NodeId, std::map<std::uint8_t, std::uint64_t>> slot_problems;      // by the bits of their status: how many
+  std::map<NodeId, std::map<std::uint8_t, std::uint64_t>> slot_problems;      // count by the bits of their status
   std::map<std::pair<NodeId, std::uint8_t>, std::uint64_t> deadlines_missed;  // by task
   std::map<std::uint32_t, FaultTold> faults;
-  std::map<std::string, std::uint64_t> guardian;  // what central guardians kept back, by the reason in words
+  std::map<std::string, std::uint64_t> guardian;  // interventions of central guardians by reason
   std::uint64_t missed = 0, spurious = 0, matched = 0;
-  double end_s = 0.0;  // of the last task
+  double end_s = 0.0;  // the end of the last task
 };
 
 class RunSeriesSink final : public recording::records::Sink {
@@ -83,14 +83,14 @@ class RunSeriesSink final : public recording::records::Sink {
   double gate_m_;
   RunSeries series_;
   std::map<SensorId, Fused> newest_fused_;
-  std::deque<Image> images_;    // the last few
+  std::deque<Image> images_;    // the newest few
   std::optional<Use> pending_;  // waits for its truth
   std::vector<State> truth_;
   TrueTime truth_at_{};
   NodeId truth_node_{};
 };
 
-// Of every so many neighbours the largest, where there are more than `most`: extremes stay.
+// Thins to at most `most` values: keeps the largest magnitude of each group of neighbours, so that extremes stay.
 std::vector<TimedValue> thinned(const std::vector<TimedValue>& all, std::size_t most);
 
 }  // namespace ttf::report::run

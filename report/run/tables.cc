@@ -18,14 +18,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
-constexpr std::size_t kMostRemarked = 6;  // drives; of more of them only what went wrong is told
+constexpr std::size_t kMostRemarked = 6;  // more drives than these get remarks only on troubles
 
 struct MeasureRow {
   const char* name;
   const char* pointer;
   int decimals;
   double factor = 1.0;
-  bool rare = false;  // not shown where it is 0 in all
+  bool rare = false;  // omitted if it is 0 in every drive
 };
 
 constexpr MeasureRow kMeasureRows[] = {
@@ -33,7 +33,7 @@ constexpr MeasureRow kMeasureRows[] = {
     {"velocity error against truth [m/s]", "/rmse_truth/velocity_mps", 3},
     {"position error against DGPS [m]", "/rmse_reference/position_m", 3},
     {"velocity error against DGPS [m/s]", "/rmse_reference/velocity_mps", 3},
-    {"NEES (4 where the filter knows its error)", "/nees/mean", 2},
+    {"NEES (4 for a consistent filter)", "/nees/mean", 2},
     {"  95 % band from", "/nees/band_95/0", 2},
     {"  to", "/nees/band_95/1", 2},
     {"age when fused, mean [ms]", "/age_when_fused/mean_ms", 1},
@@ -58,16 +58,16 @@ constexpr MeasureRow kMeasureRows[] = {
     {"CAN frames refused", "/refused_can_frames", 0, 1.0, true},
     {"FlexRay load per channel [%]", "/flexray_load", 1, 100.0},
 };
-// Of these the intervals over several runs are worth knowing.
+// Measures with intervals over repeated drives.
 constexpr std::size_t kRepeatedRows[] = {0, 1, 2, 3, 4, 7, 9};
 
-// What a sound drive has none of.
+// Counts that are 0 in a sound drive.
 constexpr std::pair<const char*, const char*> kTroubles[] = {{"/deadlines_missed", "missed deadline"},
                                                              {"/observations/lost", "lost observation list"},
                                                              {"/slot_problems", "slot problem"},
                                                              {"/objects/missed", "missed object"}};
 
-// The drives of every seed that all of the strategies drove, strategy by strategy.
+// The drives of every seed that all strategies share, strategy by strategy.
 struct Repeated {
   std::vector<std::string> strategies;
   std::vector<std::vector<const Drive*>> runs;  // by seed, then strategy
@@ -106,7 +106,7 @@ std::string percent_more(double value, double least) {
   return least > 0.0 ? fmt::format(" ({:+.1f} %)", 100.0 * (value / least - 1.0)) : "";
 }
 
-// The answer of one draw: no interval can be had from it.
+// Returns the answer for a single draw, which has no interval.
 std::string single_answer(const std::vector<ToldDrive>& drives) {
   struct Ranked {
     double error;
@@ -139,7 +139,7 @@ std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
   std::vector<double> means;
   for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
     means.push_back(interval(runs, pointer, s, std::nullopt).mean);
-    if (!(means[best] <= means[s]) && std::isfinite(means[s])) best = s;  // the first may have none
+    if (!(means[best] <= means[s]) && std::isfinite(means[s])) best = s;  // the first may have no value
   }
   if (!std::isfinite(means[best]))
     return fmt::format("Over {} runs of {}: No position was compared with the truth.", runs.runs.size(), scenario);
@@ -151,7 +151,7 @@ std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
     if (s == best) continue;
     const experiments::results::Interval more = interval(runs, pointer, s, best);
     if (!std::isfinite(more.mean)) {
-      text += fmt::format("; of {} there is no figure", runs.strategies[s]);
+      text += fmt::format("; {} has no value", runs.strategies[s]);
       continue;
     }
     text +=
@@ -161,7 +161,7 @@ std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
   return text + ".";
 }
 
-// 0 where there is no count.
+// Returns 0 without a count.
 std::uint64_t count_at(const Drive& drive, const char* pointer) {
   if (!drive.summary.is_object()) return 0;
   const Json::json_pointer at(pointer);
@@ -169,7 +169,7 @@ std::uint64_t count_at(const Drive& drive, const char* pointer) {
   return drive.summary.at(at).get<std::uint64_t>();
 }
 
-// `ordinary`: what is worth knowing of a sound drive, too.
+// `ordinary` adds remarks that a sound drive deserves, too.
 void remark_on(const ToldDrive& told, bool ordinary, std::vector<std::string>& more) {
   const Drive& drive = *told.drive;
   const auto at = [&](const char* pointer) { return measure_at(drive, pointer); };
@@ -272,7 +272,7 @@ RunAnswer run_answer(const std::vector<ToldDrive>& drives) {
   }
   if (single)
     answer.more.push_back(
-        "One drive is one draw of the noise, so none of its differences is certain by it: an interval takes "
+        "One drive is one draw of the noise, so its differences are not certain: an interval takes "
         "several runs with other seeds in one report, or an experiment.");
   for (const ToldDrive& told : drives) remark_on(told, drives.size() <= kMostRemarked, answer.more);
   return answer;

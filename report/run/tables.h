@@ -1,4 +1,4 @@
-// A run's measures, from summary.json: tables of them, and what they come to in sentences.
+// The measures of drives, from summary.json: in tables, and summed up in sentences.
 #pragma once
 
 #include <optional>
@@ -16,25 +16,25 @@ struct ToldDrive {
   RunSeries series;  // empty without a log
 };
 
-// The number at the pointer ("/rmse_truth/position_m") of a drive's summary.
+// Returns the number at the pointer ("/rmse_truth/position_m") of a drive's summary.
 std::optional<double> measure_at(const Drive& drive, const char* pointer);
-// Of the log, over the whole drive, where there is no summary.
+// Without a summary, the log gives the error over the whole drive.
 double position_rmse(const ToldDrive& told);
 
-// A column a drive; rows that say nothing in any of them are left out.
+// Returns one column per drive; rows without a value in any drive are omitted.
 page::PageTable measure_table(const std::vector<ToldDrive>& drives);
-// Several runs of one scenario with other seeds: by strategy the mean of each measure with its 95 % interval, and the
-// paired difference from the first strategy's. Nothing where no two runs have the same strategies.
+// Compares drives of one scenario with several seeds: each strategy's mean of each measure with its 95 % interval, and
+// its paired difference from the first strategy. Empty if fewer than two seeds have all strategies.
 std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drives);
 
-// What came out: first the answer, then what else is worth knowing.
+// The conclusion: first the answer, then further remarks.
 struct RunAnswer {
   std::string answer;
   std::vector<std::string> more;
 };
 RunAnswer run_answer(const std::vector<ToldDrive>& drives);
 
-// Faults, what receivers saw, deadlines: tables with a row at least.
+// Returns tables of faults, slot problems and deadlines, each with at least one row.
 std::vector<page::PageTable> trouble_tables(const ToldDrive& told);
 
 }  // namespace ttf::report::run

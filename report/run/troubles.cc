@@ -1,4 +1,4 @@
-// What went wrong in a run, or was made to.
+// The tables of injected faults and of problems in a drive.
 #include <fmt/format.h>
 
 #include <utility>
@@ -18,8 +18,8 @@ std::vector<page::PageTable> trouble_tables(const ToldDrive& told) {
   const drawing::Names names = told.drive->log ? drawing::names_of(told.drive->log->manifest()) : drawing::Names{};
   const std::string& label = told.drive->label;
   const RunSeries& series = told.series;
-  page::PageTable faults{label + ": faults that were injected",
-                         {"fault", "node", "begins [s]", "first acts [s]", "acts", "ends [s]", "what it did first"},
+  page::PageTable faults{label + ": injected faults",
+                         {"fault", "node", "begins [s]", "first acts [s]", "acts", "ends [s]", "its first act"},
                          {}};
   for (const auto& [index, fault] : series.faults)
     faults.rows.push_back({fmt::format("{} {}", index, fault.kind),
@@ -27,11 +27,11 @@ std::vector<page::PageTable> trouble_tables(const ToldDrive& told) {
                            seconds_cell(fault.first_act_s), std::to_string(fault.acts), seconds_cell(fault.ends_s),
                            fault.text});
   page::PageTable slots{
-      label + ": slots that did not bring one valid frame, as receivers saw them", {"receiver", "status", "times"}, {}};
+      label + ": slots without exactly one valid frame, by receiver", {"receiver", "status", "times"}, {}};
   for (const auto& [node, by_status] : series.slot_problems)
     for (const auto& [status, times] : by_status)
       slots.rows.push_back({names.node(node), recording::exports::slot_status_words(status), std::to_string(times)});
-  page::PageTable guardian{label + ": what central guardians kept from the others", {"why", "times"}, {}};
+  page::PageTable guardian{label + ": interventions of central guardians", {"why", "times"}, {}};
   for (const auto& [why, times] : series.guardian) guardian.rows.push_back({why, std::to_string(times)});
   page::PageTable deadlines{label + ": deadlines missed", {"task", "times"}, {}};
   for (const auto& [task, times] : series.deadlines_missed)

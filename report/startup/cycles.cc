@@ -8,7 +8,7 @@
 namespace ttf::report::startup {
 namespace {
 
-// The node's last symbol that ended before it led anybody.
+// Returns the end of the node's last symbol that ended before `before`.
 std::optional<TrueTime> last_cas(const StartupData& data, std::optional<NodeId> node, TrueTime before) {
   std::optional<TrueTime> end;
   for (const auto& s : data.symbols)
@@ -33,7 +33,7 @@ std::map<std::int64_t, TrueTime> cycles_of(const StartupData& data, const Leadin
                                            TrueTime end) {
   std::map<std::int64_t, TrueTime> starts;
   if (cycle.ns <= 0 || end < leader.cas || (end - leader.cas).ns / cycle.ns > drawing::kMostCycleLines) return starts;
-  // Its frames in the slot of the first one: the key slot.
+  // The leader's frames in the slot of its first frame, the key slot.
   std::map<std::int64_t, TrueTime> sent;
   std::optional<std::uint16_t> key_slot;
   for (const auto& f : data.frames) {
@@ -48,7 +48,7 @@ std::map<std::int64_t, TrueTime> cycles_of(const StartupData& data, const Leadin
   const Duration half{cycle.ns / 2};
   TrueTime at = leader.cas;
   for (std::int64_t c = 0; at <= end; ++c, at += cycle) {
-    // A frame half a cycle off its place is of another schedule: the node began anew.
+    // A frame half a cycle off its place belongs to another schedule: the node began anew.
     if (const auto k = sent.find(c); k != sent.end()) {
       const TrueTime by_frame = k->second - place;
       if (by_frame - at < half && at - by_frame < half) at = by_frame;

@@ -1,4 +1,4 @@
-// Who led the start-up, and when its communication cycles began: what a start-up diagram's grid shows.
+// The leader of a start-up and its communication cycles, for the grid of a start-up diagram.
 #pragma once
 
 #include <map>
@@ -11,16 +11,16 @@ namespace ttf::report::startup {
 
 struct LeadingNode {
   NodeId node{};
-  TrueTime cas{};  // end of the collision avoidance symbol its cycles count from
+  TrueTime cas{};  // end of the collision avoidance symbol from which its cycles count
 };
 
-// The node that first went from coldstart consistency check to normal active, else the one that sent the last collision
-// avoidance symbol; nothing where there was none.
+// Returns the node that first went from coldstart consistency check to normal active. Otherwise returns the
+// sender of the last collision avoidance symbol, or no value without a symbol.
 std::optional<LeadingNode> leading_node(const StartupData& data);
 
-// Start of the leading node's cycles from 0 on and up to `end`. Cycle 0 starts with the end of the CAS (a macrotick
-// later, to be exact). A later cycle is where the node's first frame of it says, which always has the same place in the
-// cycle; where it sent none, a nominal cycle after the one before.
+// Returns the starts of the leading node's cycles from 0 on, up to `end`. Cycle 0 starts at the end of the
+// CAS (exactly, a macrotick later). The node's first frame of a later cycle gives its start, as its place in
+// the cycle is fixed. Without a frame a cycle starts one nominal cycle after the one before.
 std::map<std::int64_t, TrueTime> cycles_of(const StartupData& data, const LeadingNode& leader, Duration cycle,
                                            TrueTime end);
 

@@ -1,4 +1,4 @@
-// What the start-up diagram keeps of the records: plain values without views, in the order they came.
+// The records that the start-up diagram keeps: plain values without views, in the order of arrival.
 #pragma once
 
 #include <cstdint>
@@ -43,14 +43,14 @@ struct StartupData {
     std::string kind, text;
   };
 
-  std::vector<Change> changes;  // of the whole log: a state lasts until it is left
+  std::vector<Change> changes;  // from the whole log: a state lasts until it is left
   std::vector<Power> power;     // likewise
   std::vector<Fault> faults;    // likewise
-  std::vector<Symbol> symbols;  // up to the end of the window: the cycles count from one
+  std::vector<Symbol> symbols;  // up to the window's end: the cycles count from one of them
   std::vector<Frame> frames;    // likewise
 };
 
-// States that the picture and the leading node's cycles go by.
+// States that the picture and the leading node's cycles depend on.
 inline constexpr std::uint8_t kStateDefaultConfig = 0x00, kStateReady = 0x01, kStateNormalActive = 0x02,
                               kStateNormalPassive = 0x03, kStateHalt = 0x04, kStateConfig = 0x0F,
                               kStateWakeupListen = 0x11, kStateWakeupSend = 0x12, kStateWakeupDetect = 0x13,

@@ -39,8 +39,8 @@ void StartupDiagram::on(const recording::records::FaultActivity& r) {
 
 std::string StartupDiagram::svg() const {
   if (data_.changes.empty() && data_.power.empty())
-    return drawing::empty_picture(
-        "Start-up", "No node changed its state: the run began with all nodes integrated, and so they stayed.");
+    return drawing::empty_picture("Start-up",
+                                  "No node changed its state: all nodes were integrated from begin to end.");
   if (from_ >= to_) return drawing::empty_picture("Start-up", "The window is empty.");
   return paint_startup(names_, data_, cycle_, from_, to_);
 }

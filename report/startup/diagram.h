@@ -1,11 +1,12 @@
-// The start-up diagram of a time window: what every node's protocol operation control was in and what it sent, so that
-// one can see who led, who followed and who integrated. Of a run that began integrated it shows who left and came back.
+// The start-up diagram of a time window: each node's states of protocol operation control and its
+// transmissions. It shows the leading, following and integrating nodes. For a drive that began integrated it
+// shows the nodes that left and came back.
 //
-// One lane per node that changed its state, was powered on or off or sent something: its states as labelled bars
-// (hovering over one tells why it was entered), below them what it sent on channel A and on channel B: startup frames,
-// null frames, other frames, symbols. Faults of the run's plan that are there in the window have lanes of their own,
-// above. The grid shows the communication cycles of the leading coldstart node, counted from its collision avoidance
-// symbol. Time is TrueTime.
+// A node that changed its state, was powered on or off, or sent has one lane. Labelled bars show its states;
+// hovering over a bar tells its cause. Below them are its transmissions on channel A and on channel B:
+// startup frames, null frames, other frames, symbols. Planned faults within the window have lanes of their
+// own, above. The grid shows the communication cycles of the leading coldstart node, counted from its
+// collision avoidance symbol. Time is TrueTime.
 #pragma once
 
 #include <optional>
@@ -21,18 +22,18 @@ namespace ttf::report::startup {
 
 class StartupDiagram : public recording::records::Sink {
  public:
-  // `cycle`: nominal length of the communication cycle, 0 for no grid. Frames and symbols after the window are passed
-  // over.
+  // `cycle` is the nominal length of the communication cycle, 0 for no grid. Frames and symbols after the
+  // window are skipped.
   StartupDiagram(drawing::Names names, Duration cycle, TrueTime from, TrueTime to);
 
-  using recording::records::Sink::on;  // the kinds of record that are not shown
+  using recording::records::Sink::on;  // kinds of record that are not shown
   void on(const recording::records::StateChanged& r) override;
   void on(const recording::records::PowerChanged& r) override;
   void on(const recording::records::SymbolSent& r) override;
   void on(const recording::records::SlotFrameSent& r) override;
   void on(const recording::records::FaultActivity& r) override;
 
-  // The picture; one that says so if no node changed its state or lost its supply.
+  // Returns the picture; without a change of state or a loss of supply, it says so.
   std::string svg() const;
 
  private:
@@ -42,15 +43,15 @@ class StartupDiagram : public recording::records::Sink {
   StartupData data_;
 };
 
-// When the start-up in a log happened: from the first record of it to the last of the nodes' first entries into normal
-// active. Of a run that began integrated: from the first return of a node, or, if none came back, from the first loss
-// on.
+// The time of the start-up in a log: from its first record to the last node's first entry into normal active. In a
+// drive that began integrated, it starts with the first return of a node, or, without a return, with the first loss.
 struct StartupExtent final : recording::records::Sink {
   using recording::records::Sink::on;
   void on(const recording::records::StateChanged& r) override;
   void on(const recording::records::PowerChanged& r) override;
 
-  // All of it: a little before, and two cycles after. Nothing where no node was powered on or changed its state.
+  // Returns the start-up with a short margin before and two cycles after; no value if no node was powered on
+  // or changed its state.
   std::optional<std::pair<TrueTime, TrueTime>> window(Duration cycle) const;
 
  private:

@@ -22,10 +22,10 @@ std::string_view symbol_name(std::uint8_t kind) {
 
 // Everything needed to draw one picture; lives for one call of svg().
 class StartupPainter {
-  // A double cycle holds the longest name of a state that lasts one.
+  // The longest name of a state of one double cycle fits into that double cycle.
   static constexpr double kPixelsPerCycle = 78, kPixelsPerMs = 14, kLeastPlot = 900, kMostPlot = 5600;
   static constexpr double kTop = 74, kNodeLane = 62, kLaneOffFlexRay = 34, kFaultLane = 22, kText = 9.5;
-  // Within a node's lane, from its top.
+  // Places within a node's lane, from its top.
   static constexpr double kNotes = 10, kBar = 14, kBarHeight = 16, kChannels[] = {38, 49}, kRowHeight = 8;
 
  public:
@@ -61,7 +61,7 @@ class StartupPainter {
   std::string picture() {
     const double legend_width = plot_.width + plot_.x - 24;
     const double legend_top = plot_.y + plot_.height + 46;
-    // Nobody starts a cluster up that began integrated.
+    // A cluster that began integrated has no leader.
     const bool integrated = !leader_ && !active_from_the_start(data_).empty();
     const std::string title = fmt::format("{}: {}, {} ms to {} ms", names_.run.empty() ? "Run" : names_.run,
                                           integrated ? "changes of state" : "start-up", drawing::number(in_ms(from_)),
@@ -101,7 +101,7 @@ class StartupPainter {
     return f.node == kNoNode ? f.kind : fmt::format("{}, {}", f.kind, names_.node(f.node));
   }
 
-  // A cycle's number stands in its middle, where there is room.
+  // A cycle's number stands in its middle, if it fits.
   void grid() {
     svg_->open_group("grid");
     drawing::LabelSpace above;
@@ -152,7 +152,7 @@ class StartupPainter {
     svg_->close_group();
   }
 
-  // From its begin to its end, or to the end of the window.
+  // Draws each fault from its begin to its end, or to the end of the window.
   void faults() {
     const auto bar = [&](const StartupData::Fault& f, TrueTime start, TrueTime end) {
       const double left = stay_inside(x(start)), right = stay_inside(x(end));
@@ -206,7 +206,7 @@ class StartupPainter {
     }
   }
 
-  // Wider than it lasts to the left: the frame of cycle 0 follows at once.
+  // A symbol is widened to its left, because the frame of cycle 0 follows at once.
   void symbols() {
     for (const auto& s : data_.symbols) {
       if (!visible(s.start, s.end)) continue;
@@ -228,7 +228,7 @@ class StartupPainter {
                      "power");
   }
 
-  // In bars where they fit, in full or short; notes only where nothing is in the way.
+  // Labels bars in full or short, as they fit; notes appear only where space is free.
   void labels() {
     svg_->open_group("labels");
     for (const StateSpan& s : spans_) {
@@ -242,7 +242,7 @@ class StartupPainter {
         break;
       }
     }
-    for (const auto& p : data_.power)  // no note on a marker
+    for (const auto& p : data_.power)  // keeps notes off the markers
       if (visible(p.at, p.at)) space_.take({x(p.at) - 5, top(p.node) + kNotes - 8, 10, 11});
     std::optional<std::pair<NodeId, TrueTime>> noted;
     for (const auto& s : data_.symbols) {

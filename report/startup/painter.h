@@ -1,4 +1,4 @@
-// Draws what a start-up diagram has collected (report/startup/diagram.h says what it shows).
+// Draws the collected data of a start-up diagram (report/startup/diagram.h describes the picture).
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ inline constexpr std::string_view kStartupFrameFill = drawing::kBlue, kOtherFram
 std::string paint_startup(const drawing::Names& names, const StartupData& data, Duration cycle, TrueTime from,
                           TrueTime to);
 
-// What the picture explains: only what occurs in the window.
+// Returns legend entries only for things that occur in the window.
 std::vector<drawing::LegendEntry> startup_legend(const StartupData& data, const std::vector<StateSpan>& spans,
                                                  TrueTime from, TrueTime to);
 

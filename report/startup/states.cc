@@ -22,7 +22,7 @@ std::set<NodeId> active_from_the_start(const StartupData& data) {
     TrueTime at{};
     bool active = false;
   };
-  std::map<NodeId, Sign> first;  // of the node's states
+  std::map<NodeId, Sign> first;  // each node's first sign of state
   for (const StartupData::Power& p : data.power) first.try_emplace(p.node, Sign{p.at, !p.on});
   for (const StartupData::Change& c : data.changes)
     if (const auto [sign, is_first] = first.try_emplace(c.node, Sign{c.at, false}); !is_first && c.at < sign->second.at)
@@ -46,7 +46,7 @@ std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, True
     if (found->second.start < found->second.end) spans.push_back(found->second);
     now.erase(found);
   };
-  // Both lists are in the order of the log; the supply goes before the state of an instant.
+  // Both lists have the log's order; at one instant, the supply goes before the state.
   auto power = data.power.begin();
   const auto supply_until = [&](TrueTime at) {
     for (; power != data.power.end() && power->at <= at; ++power)

@@ -1,4 +1,4 @@
-// From changes of state to how long each state lasted, and how a state looks.
+// Turns changes of state into the duration of each state, and gives states their colours and short names.
 #pragma once
 
 #include <set>
@@ -15,30 +15,30 @@ struct StateSpan {
   NodeId node{};
   std::uint8_t state = 0;
   TrueTime start{}, end{};
-  std::string name;  // as the log has it
-  std::string why;   // it was entered; empty where the log does not say
+  std::string name;  // as in the log
+  std::string why;   // the cause of its entry; empty if the log has no cause
 };
 
-// The nodes that were normal active before the log says anything of their state: a run that begins integrated does not
-// tell. They lose their supply without having been given one, or do nothing but send.
+// Returns the nodes that were normal active before the log mentions their state: a drive that begins
+// integrated does not record it. Such a node loses its supply without having gained it, or only sends.
 std::set<NodeId> active_from_the_start(const StartupData& data);
 
-// The states of all nodes in the order they were entered, each until it was left, its node lost its supply, or `end`.
-// What a node was in before its first change is a state since `begin`, as is normal active of those above, but for a
-// node whose first change is out of default config: that was powered on with it. States that lasted no time are left
-// out.
+// Returns the states of all nodes in the order of entry. Each lasts until it was left, its node lost its
+// supply, or `end`. A node's state before its first change lasts since `begin`, as does normal active of the
+// nodes above. A first change out of default config is an exception: the node was powered on with it. States
+// without a duration are left out.
 std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, TrueTime end);
 
-// What a node is about in a state: states of one phase have one colour.
+// The phase of a state; states of one phase have one colour.
 struct StatePhase {
   std::string_view words;  // for the legend
   std::string colour;
 };
 StatePhase phase_of(std::uint8_t state);
-// A name for narrow bars; empty where there is none.
+// Returns a name for narrow bars, or "" if the state has no short name.
 std::string_view short_name(std::uint8_t state);
 
-// The faults that are there in a window, with all that is known of them.
+// Returns all records of the faults that are present in a window.
 std::vector<StartupData::Fault> faults_within(const std::vector<StartupData::Fault>& faults, TrueTime from,
                                               TrueTime to);
 

@@ -1,4 +1,4 @@
-// Where things are in a timing diagram that is being drawn: lanes from top to bottom, time along them.
+// The layout of a timing diagram while it is drawn: lanes from top to bottom, time from left to right.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct TimingCanvas {
   drawing::Area plot;
   std::map<LaneKey, double> centres;
 
-  static constexpr double kBox = 14, kText = 9.5;  // height of slots and tasks, size of what is written in them
+  static constexpr double kBox = 14, kText = 9.5;  // height of slots and tasks, size of their text
 
   double x(TrueTime t) const {
     return plot.x + static_cast<double>((t - from).ns) / static_cast<double>((to - from).ns) * plot.width;
@@ -31,13 +31,13 @@ struct TimingCanvas {
   double y(const LaneKey& lane) const { return centres.at(lane); }
   bool visible(TrueTime start, TrueTime end) const { return start < to && end >= from; }
   double inside(double px) const { return std::clamp(px, plot.x, plot.x + plot.width); }
-  // In a hover's words, which a page's script adds itself.
+  // Returns the hover text's times; empty in a page, whose script adds them.
   std::string times(TrueTime start, TrueTime end) const;
 };
 
 double lane_height(const Lane& lane);
 
-// A measurement's arrows, or an image's.
+// Draws the arrows of one measurement or one image.
 void draw_way(drawing::Svg& svg, const TimingCanvas& canvas, const Way& way);
 
 }  // namespace ttf::report::timing

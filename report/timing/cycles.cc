@@ -17,15 +17,15 @@ std::int64_t rounded(std::int64_t a, std::int64_t b) {
   return shifted / b - (shifted % b < 0 ? 1 : 0);
 }
 
-// What a frame says: that a cycle of its sender's count began then.
+// The statement of one frame: a cycle of its sender's count began at `start`.
 struct Told {
   std::int64_t cycle;
   TrueTime start;
-  std::int64_t count;       // what the sender counts at the window's begin
-  std::int64_t rounds = 0;  // how far that is ahead of what most frames say
+  std::int64_t count;       // the sender's count at the window's begin
+  std::int64_t rounds = 0;  // how far `count` is ahead of the count of most frames
 };
 
-// In the order of the records.
+// Returns the statements in the order of the records.
 std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, TrueTime from) {
   std::vector<Told> all;
   std::map<std::int64_t, std::size_t> frames;  // by count
@@ -38,12 +38,12 @@ std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, TrueT
   if (all.empty()) return all;
   const auto usual =
       std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  // In a window clocks drift from true time by far less than a cycle, and by nothing like a round.
+  // Within a window clocks drift from true time by far less than a cycle, so a difference of a round is a count's.
   for (Told& told : all) told.rounds = rounded(told.count - usual->first, schedules::model::kCycles);
   return all;
 }
 
-// Of the counts that most cycles speak for, or at least two, the one that is ahead of all.
+// Returns the oldest count that has the most cycles, or at least two.
 std::int64_t oldest_count(const std::vector<Told>& all) {
   std::map<std::int64_t, std::set<std::int64_t>> cycles;
   std::size_t most = 0;
@@ -66,7 +66,7 @@ std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration c
   const std::vector<Told> told = what_frames_tell(data, cycle, from);
   if (!told.empty()) {
     const std::int64_t oldest = oldest_count(told);
-    // Those of the count itself come first: a frame of another may be a mistake.
+    // Frames of the same count come first: a frame of another count may be a mistake.
     for (const bool same : {true, false})
       for (const Told& one : told)
         if ((one.rounds == oldest) == same)
@@ -78,7 +78,7 @@ std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration c
   const std::int64_t before = (start - from).ns / cycle.ns + 1;
   TrueTime at = start - cycle * before;
   for (std::int64_t c = number - before; at <= to + cycle; ++c, at += cycle) {
-    // A frame that is half a cycle off its place says nothing of where the cycle began.
+    // A frame half a cycle off its place does not show where the cycle began.
     if (const auto k = known.find(c); k != known.end() && (k->second - at < half && at - k->second < half))
       at = k->second;
     all[c] = at;

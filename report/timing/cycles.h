@@ -1,8 +1,8 @@
 // The communication cycles of a timing diagram: number -> start, in true time.
 //
-// Nodes agree on the cycle counter, not on how often it has wrapped: one that came back into a running cluster counts
-// whole rounds less than the others. The numbers are those of the oldest count that the window's frames tell of, and
-// every frame says when a cycle began, whichever count its sender has.
+// Nodes agree on the cycle counter, not on the number of its wraps: a node that came back into a running
+// cluster counts whole rounds fewer than the others. The numbers follow the oldest count among the window's
+// frames. Every frame shows when a cycle began, whatever its sender's count.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace ttf::report::timing {
 
-// All cycles that touch the window and one on either side; those before cycle 0 have negative numbers. Empty without a
-// cycle length or where there are too many lines to be a grid. A count that a single cycle's frames tell of, where
-// others have more, is a mistake of the log.
+// Returns all cycles that touch the window and one on either side; cycles before cycle 0 have negative
+// numbers. Returns an empty map without a cycle length or if the lines are too many for a grid. A count with
+// frames of a single cycle, while others have more, is a mistake of the log.
 std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration cycle, TrueTime from, TrueTime to);
 
 }  // namespace ttf::report::timing

@@ -1,4 +1,4 @@
-// What the timing diagram keeps of the records: plain values without spans, in the order they came.
+// The records that the timing diagram keeps: plain values without spans, in the order of arrival.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct TimingData {
     std::uint32_t sequence;
     std::uint8_t fragment;
     SensorId sensor;
-    bool by_the_cluster = true;  // else its sender had no global time yet (recording::records::Stamp)
+    bool by_the_cluster = true;  // otherwise its sender had no global time yet (recording::records::Stamp)
   };
   struct HopAt {
     TrueTime at;
@@ -75,7 +75,7 @@ struct TimingData {
     NodeId node;
     std::uint32_t image;
     bool fresh;
-    bool stale = false;  // it came too late to be of use
+    bool stale = false;  // too late to be of use
   };
   struct Fault {
     TrueTime at;
@@ -112,7 +112,7 @@ struct TimingData {
   std::vector<Step> steps;
   std::vector<Image> images;
   std::vector<Use> uses;
-  std::vector<Fault> faults;  // begins and ends of the whole log up to the window, acts in it
+  std::vector<Fault> faults;  // begins and ends of the log up to the window's end; acts only in the window
   std::vector<OnChannel> on_channel;
   std::vector<Problem> problems;
 };

@@ -13,7 +13,7 @@
 namespace ttf::report::timing {
 namespace {
 
-constexpr Duration kMargin = Duration::milliseconds(300);  // ways of at most this length are followed into the window
+constexpr Duration kMargin = Duration::milliseconds(300);  // the longest way that is followed into the window
 
 }  // namespace
 
@@ -65,7 +65,7 @@ void TimingDiagram::on(const recording::records::FeatureUsed& r) {
 }
 
 void TimingDiagram::on(const recording::records::FaultActivity& r) {
-  // What began long ago may still last.
+  // An old fault may still last.
   if (drawing::possible(r.at) && r.at <= to_ && (r.what != recording::records::kFaultActs || r.at >= from_))
     data_.faults.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
 }
@@ -80,14 +80,14 @@ void TimingDiagram::on(const recording::records::TimingProblem& r) {
 }
 
 std::string TimingDiagram::svg(TimingUse use) const {
-  // These make the lanes; what was fused or used is drawn between them.
+  // These records make the lanes; fusion and use are drawn between them.
   const bool nothing =
       data_.measurements.empty() && data_.can_frames.empty() && data_.slot_frames.empty() && data_.runs.empty();
   if (from_ >= to_ || nothing)
     return drawing::empty_picture(
         "Timing diagram", fmt::format("There are no records between {} ms and {} ms.", drawing::number(in_ms(from_)),
                                       drawing::number(in_ms(to_))));
-  // Told of when it ended or, in a merged log, where it began: the picture is the same.
+  // A log records an execution at its end, a merged log at its start: sorting gives the same picture.
   TimingData data = data_;
   std::ranges::stable_sort(data.runs, {}, [](const TimingData::Run& run) { return std::tuple(run.start, run.node); });
   return paint_timing(names_, data, cycle_, from_, to_, use);

@@ -16,8 +16,8 @@ std::string state_words(std::uint8_t state) {
   };
   static constexpr Word kWords[] = {{recording::records::kChannelHeaderCrc, "header CRC wrong"},
                                     {recording::records::kChannelFrameCrc, "frame CRC wrong"},
-                                    {recording::records::kChannelCoding, "nobody can make it out"},
-                                    {recording::records::kChannelCut, "it breaks off"}};
+                                    {recording::records::kChannelCoding, "undecodable"},
+                                    {recording::records::kChannelCut, "cut off"}};
   std::string text;
   for (const Word& one : kWords)
     if ((state & one.bit) != 0) text += fmt::format("{}{}", text.empty() ? "" : ", ", one.words);
@@ -37,7 +37,7 @@ FaultLanes::FaultLanes(const TimingData& data, const drawing::Names& names, True
                                        false,
                                        {}});
     const auto lane = lanes_.find(f.fault);
-    if (lane == lanes_.end()) continue;  // of a log that lost its begin
+    if (lane == lanes_.end()) continue;  // its begin is missing from the log
     if (f.what == recording::records::kFaultEnds) {
       lane->second.end = f.at;
       lane->second.ends = true;
@@ -97,12 +97,12 @@ ChannelMark channel_mark(const TimingData::OnChannel& r, const drawing::Names& n
     mark.end = r.sent + std::max(r.end - r.start, Duration{});
     mark.channel = r.sent_channel;
   }
-  std::string whose = "nobody sent it";
+  std::string whose = "sent by no node";
   if (r.slot != 0)
     whose = fmt::format("slot {} of {}", r.slot, names.node(r.sender));
   else if (r.sender != kNoNode)
     whose = fmt::format("{}, but its controller did not send it", names.node(r.sender));
-  mark.words = mark.missing ? fmt::format("{}: nothing of it reached anybody", whose)
+  mark.words = mark.missing ? fmt::format("{}: it reached no receiver", whose)
                             : fmt::format("{}: {}", whose, state_words(r.state));
   return mark;
 }

@@ -47,7 +47,7 @@ class LabelPainter {
           in_box(brief, t.start, t.end, canvas_.y(t.lane), behind);
         continue;
       }
-      // Where channel A carries the same list, B needs no label of its own.
+      // If channel A carries the same list, B needs no label.
       if (t.lane.index == 1 && std::ranges::any_of(transfers, [&](const Transfer& o) {
             return o.lane.kind == t.lane.kind && o.lane.index == 0 && o.pdu == t.pdu && o.sequence == t.sequence &&
                    o.start == t.start;

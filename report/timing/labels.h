@@ -1,4 +1,4 @@
-// What is written in a timing diagram.
+// The texts of a timing diagram.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace ttf::report::timing {
 
-// Last, and only where nothing is in the way.
+// Draws labels where space is free; called last.
 void draw_labels(drawing::Svg& svg, const TimingCanvas& canvas, const std::vector<Transfer>& transfers);
 
 }  // namespace ttf::report::timing

@@ -11,8 +11,7 @@ namespace {
 
 using LaneKind = LaneKey::Kind;
 
-// All that a record is of, and all that a way leads to: steps are reported without a task where the log holds no task
-// runs.
+// Returns the lanes of all records and of all ways. Ways lead to steps without a task if the log has no task runs.
 std::set<LaneKey> all_keys(const TimingData& data, const Ways& ways) {
   std::set<LaneKey> keys;
   for (const auto& m : data.measurements) keys.insert({LaneKind::kSensor, index_of(m.id.sensor), 0});
@@ -25,7 +24,7 @@ std::set<LaneKey> all_keys(const TimingData& data, const Ways& ways) {
   return keys;
 }
 
-// Mean position along the ways, for whole nodes so that their tasks stay together.
+// The mean position along the ways, per node, so that a node's tasks stay together.
 class Positions {
  public:
   explicit Positions(const Ways& ways) {
@@ -39,7 +38,7 @@ class Positions {
         }
       }
   }
-  // Last what no way leads to.
+  // Lanes without a way come last.
   double of(const LaneKey& key) const {
     const auto mean = means_.find({key.kind, key.index});
     return mean != means_.end() ? mean->second.sum / mean->second.n : 1e9;

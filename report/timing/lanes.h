@@ -15,7 +15,7 @@ struct Lane {
   std::string label;
   int section = 0;  // 0 sensors, 1 up to the gateway, 2 FlexRay, 3 fusion, 4 features
 };
-// From top to bottom; section 1 in the order in which measurements pass.
+// Returns the lanes from top to bottom; section 1 in the order in which measurements pass.
 std::vector<Lane> lanes_of(const TimingData& data, const drawing::Names& names, const Ways& ways);
 
 }  // namespace ttf::report::timing

@@ -33,7 +33,7 @@ class TimingPainter : TimingCanvas {
     const double ms = (to - from).seconds() * 1e3;
     plot.x = faults_.label_width() > 0 ? faults_.label_width() + 24 : 24;
     for (const Lane& lane : lanes_) plot.x = std::max(plot.x, drawing::text_width(lane.label, 11) + 24);
-    // A page's script makes it as wide as there is room.
+    // A page's script widens it to the available space.
     plot.width = tags.on() ? kLeastPlot : std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot);
     plot.y = tags.on() ? kTopInPage : kTop;
     double y = plot.y + faults_.height();
@@ -132,7 +132,7 @@ class TimingPainter : TimingCanvas {
       svg_->line({plot.x, centre}, {plot.x + plot.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
       svg_->text({plot.x - 10, centre + 4}, lane.label, {.size = 11, .anchor = drawing::Anchor::kEnd});
     }
-    if (tags.on()) {  // of its own: the script draws another
+    if (tags.on()) {  // a group of its own: the script draws another axis
       svg_->close_group();
       svg_->open_group("time");
     }
@@ -156,7 +156,7 @@ class TimingPainter : TimingCanvas {
       } else if (f.null_frame && width > 3) {
         svg_->rect(area, {.fill = "#ffffff", .stroke = drawing::kGrey, .width = 0.5}, hover, "null");
       } else if (f.null_frame) {
-        // Side walls of neighbours would fill a narrow box: only its top and bottom then.
+        // The side walls of neighbours would fill a narrow box, so it has only top and bottom.
         svg_->rect(area, {.fill = "#ffffff"}, hover, "null");
         for (const double edge : {area.y, area.y + kBox})
           svg_->line({area.x, edge}, {area.x + width, edge}, {.stroke = drawing::kGrey, .width = 0.6});
@@ -167,7 +167,7 @@ class TimingPainter : TimingCanvas {
     }
   }
 
-  // Over the frames: what came of them.
+  // Draws the frames' fates over them.
   void channel_marks() {
     for (const ChannelMark& mark : marks_) {
       const double centre = y({LaneKey::Kind::kChannel, mark.channel, 0}) + 4;
@@ -252,7 +252,7 @@ class TimingPainter : TimingCanvas {
   Ways ways_;
   FaultLanes faults_;
   std::vector<ChannelMark> marks_;
-  std::optional<ProblemMarks> problems_;  // when the lanes are known
+  std::optional<ProblemMarks> problems_;  // set once the lanes are known
   std::vector<Lane> lanes_;
   std::vector<drawing::LegendEntry> legend_;
   drawing::Svg* svg_ = nullptr;

@@ -1,4 +1,4 @@
-// Draws what a timing diagram has collected (report/timing/diagram.h says what it shows).
+// Draws the collected data of a timing diagram (report/timing/diagram.h describes the picture).
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ inline constexpr std::string_view kDeadlineMissed = drawing::kYellow, kTaskFill 
 std::string paint_timing(const drawing::Names& names, const TimingData& data, Duration cycle, TrueTime from,
                          TrueTime to, TimingUse use);
 
-// What the picture explains: only what occurs in the window.
+// Returns legend entries only for things that occur in the window.
 std::vector<drawing::LegendEntry> timing_legend(const TimingData& data, const drawing::Names& names,
                                                 const std::vector<Way>& ways, bool images, TrueTime from, TrueTime to);
 

@@ -1,6 +1,5 @@
-// What a timing diagram shows of what was not in its time, in runs in real time: a mark where it was noticed, on the
-// channel where it is about a slot, else in the first lane of the node's tasks. Where there is no such lane there is no
-// mark.
+// The timing problems in a timing diagram of a drive in real time: one mark where each was noticed. A problem of a slot
+// is marked on its channel, any other in the first lane of the node's tasks. Without such a lane there is no mark.
 #pragma once
 
 #include <functional>
@@ -17,7 +16,7 @@ namespace ttf::report::timing {
 
 class ProblemMarks {
  public:
-  // Those in the window.
+  // Takes the problems in the window.
   ProblemMarks(const TimingData& data, const drawing::Names& names, const std::vector<Lane>& lanes, TrueTime from,
                TrueTime to);
 

@@ -1,13 +1,13 @@
-// What a timing diagram in a page tells the page's script (report/page/timing_drawing.js) with each thing that stands
-// in time:
+// The attributes by which a timing diagram informs its page's script (report/page/timing_drawing.js) about
+// each timed part:
 //
-//   data-a, data-b   from when to when it is, true time in ms; without data-b it is an instant, and only moves
-//   data-id          the list it is of: things of one list belong together
-//   data-since       when that list was measured, ms: from then on it ages
+//   data-a, data-b   its begin and end, true time in ms; a part without data-b is an instant, and only moves
+//   data-id          its list: parts of one list belong together
+//   data-since       when that list was measured, ms: it ages from then on
 //   data-beyond      it lasts longer than the diagram: data-b is not its end
-//   data-label       a text: its width; shown where there is room for it (between a and b, or beside its neighbours)
+//   data-label       the width of a text, which is shown if it has room (between a and b, or beside its neighbours)
 //
-// In pictures there are none: each is empty.
+// Pictures outside a page have no attributes: every function returns "".
 #pragma once
 
 #include <fmt/format.h>
@@ -35,13 +35,13 @@ class TimingTags {
   }
   std::string since(TrueTime measured) const { return on_ ? fmt::format(" data-since=\"{}\"", ms(measured)) : ""; }
   std::string beyond() const { return on_ ? " data-beyond=\"\"" : ""; }
-  // A text that there is no room for as yet is there all the same.
+  // A text that has no room yet is present but hidden.
   std::string label(double width, bool shown) const {
     return on_ ? fmt::format(" data-label=\"{}\"{}", drawing::number(width), shown ? "" : " display=\"none\"") : "";
   }
 
  private:
-  // To 0.1 us, without what follows from it.
+  // Returns ms rounded to 0.1 us, without trailing zeros.
   static std::string ms(TrueTime t) {
     std::string text = fmt::format("{:.4f}", in_ms(t));
     while (text.back() == '0') text.pop_back();

@@ -8,7 +8,7 @@
 namespace ttf::report::timing {
 namespace {
 
-constexpr Duration kSameList = Duration::milliseconds(100);  // largest gap between two frames of one list
+constexpr Duration kSameList = Duration::milliseconds(100);  // the largest gap between two frames of one list
 
 }  // namespace
 
@@ -25,8 +25,7 @@ std::vector<Transfer> transfers_of(const TimingData& data) {
     transfers.push_back(t);
   };
   for (const auto& f : data.can_frames) add({{LaneKey::Kind::kCan, f.bus, 0}, f.start, f.end, f.pdu, f.sequence});
-  // A state message is sent again whenever its slots come round: what travels is the first time of each
-  // fragment.
+  // A state message is sent again in each of its slots. Only the first sending of each fragment is a transfer.
   struct Sent {
     std::bitset<256> fragments;
     TrueTime last;
@@ -35,7 +34,7 @@ std::vector<Transfer> transfers_of(const TimingData& data) {
   for (const auto& f : data.slot_frames) {
     if (f.null_frame || f.pdu == kNoPdu) continue;
     const auto [entry, first] = sent.try_emplace({f.channel, f.pdu, f.sequence}, Sent{{}, f.end});
-    if (f.start - entry->second.last >= kSameList) entry->second.fragments.reset();  // the counter has come round
+    if (f.start - entry->second.last >= kSameList) entry->second.fragments.reset();  // the counter has wrapped
     entry->second.last = f.end;
     if (entry->second.fragments[f.fragment]) continue;
     entry->second.fragments.set(f.fragment);

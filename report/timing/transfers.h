@@ -1,5 +1,5 @@
-// Frames of one list on one medium as one box. A list is told from others by its PDU, its number, and a gap in time
-// where the same numbers come round again.
+// The frames of one list on one medium, as one box. A list differs from others by its PDU, its number, and a
+// gap in time after which numbers repeat.
 #pragma once
 
 #include <cstdint>

@@ -17,13 +17,13 @@ using recording::exports::MeasurementWays;
 using recording::exports::WayMark;
 using Deed = MeasurementWays::Deed;
 
-// A stay of a list in one lane.
+// The stay of a list in one lane.
 struct Stay {
   LaneKey lane;
   TrueTime in, out;
 };
 
-// Tells the follower what the window holds, in the order of time. A mark's serial is the place of its stay.
+// Feeds the window's records to the follower in the order of time. A mark's serial is the index of its stay.
 class Followed {
  public:
   explicit Followed(const TimingData& data) : data_(data) {
@@ -37,7 +37,7 @@ class Followed {
   }
 
   const Stay& stay(const WayMark& mark) const { return stays_[mark.serial]; }
-  // In the order of the records.
+  // Returns the ways in the order of the records.
   const std::vector<MeasurementWays::Way>& ways() const { return ways_; }
   const std::vector<MeasurementWays::Image>& images() const { return images_; }
 
@@ -46,7 +46,7 @@ class Followed {
   struct Event {
     TrueTime at;
     What what;          // causes before effects, as in merged logs (recording/merge/record_place.h)
-    std::size_t about;  // the node; of frames on FlexRay the channel
+    std::size_t about;  // the node; for frames on FlexRay the channel
     std::size_t index;
     auto operator<=>(const Event&) const = default;
   };
@@ -156,14 +156,14 @@ class Followed {
                              [this](const MeasurementWays::Image& image) { images_.push_back(image); }}};
 };
 
-// Ids of the lists that arrived at the fusion node after one that had been measured later.
+// Returns the lists that reached the fusion node after a younger one.
 std::set<std::pair<MeasurementId, TrueTime>> out_of_sequence(const TimingData& data) {
   std::set<std::pair<MeasurementId, TrueTime>> late;
   std::map<MeasurementId, TrueTime> seen;
   std::optional<GlobalTime> newest;
   std::size_t i = 0;
   while (i < data.fused.size()) {
-    // Lists of one step arrive together: they are compared with earlier steps only.
+    // Lists of one fusion instant arrive together: they are compared with earlier instants only.
     std::optional<GlobalTime> newest_here = newest;
     const TrueTime at = data.fused[i].at;
     for (; i < data.fused.size() && data.fused[i].at == at; ++i) {
@@ -182,7 +182,7 @@ std::set<std::pair<MeasurementId, TrueTime>> out_of_sequence(const TimingData& d
   return late;
 }
 
-// The ways as arrows.
+// Turns the ways into arrows.
 class Arrows {
  public:
   Arrows(const TimingData& data, const Followed& followed)
@@ -206,7 +206,7 @@ class Arrows {
     for (const MeasurementWays::Stop& stop : image.stops) {
       if (stop.deed != Deed::kUsed) continue;
       const Stop use = start_of(stop);
-      // Down to the reader's lane when the last frame has arrived, then along it until it is read.
+      // The way goes down to the reader's lane when the last frame has arrived, then along it until the read.
       const Stop received{use.lane, std::min(way.last.at, use.at)};
       way.legs.push_back({way.last, received, Leg::Kind::kMoves});
       way.legs.push_back({received, use, Leg::Kind::kStored});
@@ -226,7 +226,7 @@ class Arrows {
     return stop.mark ? followed_.stay(*stop.mark).out : stop.at;
   }
 
-  // A list stays on a medium from its first frame to its last, and with a task the first time.
+  // A list stays on a medium from its first frame to its last; in a task, only its first stay counts.
   static void add(const Stay& stay, std::vector<Stay>& stays) {
     const auto there = std::ranges::find(stays, stay.lane, &Stay::lane);
     if (there == stays.end())
@@ -253,13 +253,13 @@ class Arrows {
     return way;
   }
 
-  // To the step that had done with it, or the last that held it back; null where none had it.
+  // Leads the way to the step that fused or refused the list, or to the last that held it; null without such a step.
   const MeasurementWays::Stop* lead_to_fusion(const MeasurementWays::Way& followed, Way& way) const {
     const MeasurementWays::Stop* last = nullptr;
     for (const MeasurementWays::Stop& stop : followed.stops) {
       if (stop.deed != Deed::kHeld && stop.deed != Deed::kFused && stop.deed != Deed::kRefused) continue;
       const Stop step = start_of(stop);
-      // However many steps hold a list back, it waits once.
+      // Several holds in a row are one wait.
       if (last != nullptr && way.legs.back().kind == Leg::Kind::kHeld)
         way.legs.back().to = step;
       else
@@ -273,7 +273,7 @@ class Arrows {
     return last;
   }
 
-  // From there to the first image that has it as its sensor's newest.
+  // Leads from there to the first image in which it is its sensor's newest list.
   void lead_to_image(const MeasurementWays::Way& followed, const MeasurementWays::Stop& fused, Way& way) const {
     const auto image = std::ranges::find(followed.stops, Deed::kImage, &MeasurementWays::Stop::deed);
     if (image == followed.stops.end()) return;

@@ -1,5 +1,5 @@
 // The ways of measurements and images through a cluster, from the records of a time window, as arrows between the lanes
-// of a timing diagram. What is passed is what recording/exports/measurement_ways.h says; here it becomes legs.
+// of a timing diagram. recording/exports/measurement_ways.h follows the stops; here they become legs.
 #pragma once
 
 #include <compare>
@@ -11,7 +11,7 @@
 
 namespace ttf::report::timing {
 
-// Where something happens: index is a sensor, a CAN bus, a node (with its task) or a channel.
+// The place of an event: index is a sensor, a CAN bus, a node (with its task) or a channel.
 struct LaneKey {
   enum class Kind : std::uint8_t { kSensor, kCan, kTask, kChannel };
   Kind kind = Kind::kSensor;
@@ -34,7 +34,7 @@ struct Leg {
   Kind kind = Kind::kMoves;
 };
 struct Way {
-  MeasurementId id;  // of an image: sensor kNoSensor and the image's sequence number
+  MeasurementId id;  // for an image: sensor kNoSensor and the image's sequence number
   std::vector<Leg> legs;
   bool out_of_sequence = false;  // reached the fusion node after a newer measurement
   bool dropped = false;          // ends without being fused: too old, duplicate, torn or overwritten
@@ -43,11 +43,11 @@ struct Way {
 
 struct Ways {
   std::vector<Way> measurements;  // in the order of the records: from the instant to the step that fused it
-  std::vector<Way> images;        // in that of time: from the task that wrote it to the use by the feature service
+  std::vector<Way> images;        // in the order of time: from the task that wrote it to the use by the feature service
 };
 Ways ways_of(const TimingData& data);
 
-// Those that told of steps or images.
+// Returns the nodes that reported steps or images.
 std::set<NodeId> fusion_nodes(const TimingData& data);
 
 }  // namespace ttf::report::timing

@@ -46,7 +46,7 @@ END
 expect 0 'written to' report seed1 seed2 seed3 -o runs.html
 has runs.html 'Over 3 runs of paper_scenario1,'
 has runs.html 'means of 3 runs, 95 % intervals'
-has runs.html 'Of 9 drives the first 6 are drawn.'
+has runs.html 'The first 6 of 9 drives are drawn.'
 
 # ---- two scenarios: an answer each
 expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --no-pictures --out other
@@ -63,12 +63,12 @@ expect 0 '' run "$source/scenarios/paper_scenario1.yaml" --strategy tt --no-log 
 expect 0 'written to' report without -o without.html
 has without.html 'tt kept no log'
 has without.html 'There is no log: slot problems and missed deadlines are in the table above only'
-for heading in 'Errors and ages' 'Where the car was' 'How it was made' 'No fault was injected'; do
+for heading in 'Errors and ages' 'Positions' 'How to repeat it' 'No fault was injected'; do
   lacks without.html "$heading"
 done
 expect 0 'written to' report seed1 without -o some.html
-has some.html 'Of without tt there is no log: slot problems'
-has some.html 'no deadline was missed in what was logged.'
+has some.html 'There is no log of without tt: slot problems'
+has some.html 'no deadline was missed in the logs.'
 
 # ---- faults, and another window
 expect 0 '' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-pictures --out faulty
@@ -96,7 +96,7 @@ export TMPDIR=$PWD/scratch
 expect 0 '^small: 2 runs of point 0, replication 0, again' report small -o small.html
 has small.html 'The runs of point 0 (noise 1), replication 0, driven again'
 has small.html '160 ms are drawn, from 0.4 s on'
-for words in 'data-label="adva"' 'data-label="tt"' 'How old measurements are' '"heading":"Precision"' \
+for words in 'data-label="adva"' 'data-label="tt"' 'Ages of measurements' '"heading":"Precision"' \
   'No fault was injected, no slot had a problem'; do
   has small.html "$words"
 done
@@ -163,7 +163,7 @@ expect 0 'written to one' experiment small.yaml --replay 0/adva/0 --out one
 expect 0 'written to' report one -o one.html
 # Drives that are judged from other instants on: each timing diagram says what it shows.
 expect 0 'written to' report seed1 one -o windows.html
-has windows.html 'Of each drive a part is drawn'
+has windows.html 'A part of each drive is drawn'
 has windows.html 'data-label="one adva, of which 160 ms are drawn, from 0.4 s on"'
 has windows.html 'data-label="seed1 tt, of which 160 ms are drawn, from 1.5 s on"'
 

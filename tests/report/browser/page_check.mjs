@@ -213,7 +213,7 @@ async function side_by_side(name, page) {
   const frames = figure.locator(".diagram:visible rect.frame:not([display])");
   check(`${name}: the other diagram is drawn`, await frames.count() > 10);
   await select.selectOption("0");
-  for (const heading of ["How old measurements are", "Precision", "Error over time"]) {
+  for (const heading of ["Ages of measurements", "Precision", "Error over time"]) {
     const plot = page.locator("figure.plot").filter({ has: page.locator("strong", { hasText: heading }) }).first();
     const names = await plot.locator(".legend").innerText();
     check(`${name}: "${heading}" has a curve each: ${names}`, /adva/.test(names) && /tt/.test(names));

@@ -103,8 +103,9 @@ TEST_F(ExperimentReport, WhoIsAloneIsComparedWithNobody) {
     "tt": {"error": {"count": 3, "mean": 1.0, "half_width": 0.5}}}})";
   const auto at = [&](int number) { return std::string(alone).replace(alone.find('%'), 1, std::to_string(number)); };
   write(answer_of(at(0) + "," + at(1)));
-  EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)), "There is nobody to compare error of tt with.");
-  EXPECT_EQ(page().find("Along no axis"), std::string::npos);
+  EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)),
+            "There is no other paradigm to compare error of tt with.");
+  EXPECT_EQ(page().find("No paradigm crosses"), std::string::npos);
 }
 
 TEST_F(ExperimentReport, AnExpectationMayFailNowhereInParticular) {
@@ -144,17 +145,17 @@ TEST_F(ExperimentReport, PlotsGoOverTheNumericAxis) {
 
 TEST_F(ExperimentReport, WhatIsWrongIsNamed) {
   write(answer_of(""));
-  EXPECT_EQ(refusal(), "answer.json: points: must have one at least");
+  EXPECT_EQ(refusal(), "answer.json: points: must have at least one");
   write(answer_of(point(0, "1", "\"much\"")));
   EXPECT_EQ(refusal(), "answer.json: points[0].paradigms.tt.error.mean: must be a number or null");
   write(answer_of(point(0, "1", "1") + R"(,{"point": 1, "axes": {"road": "dry"}, "paradigms": {}})"));
-  EXPECT_EQ(refusal(), "answer.json: points[1].paradigms: must be a mapping with an entry at least");
+  EXPECT_EQ(refusal(), "answer.json: points[1].paradigms: must be a mapping with at least one entry");
   write(answer_of(point(-1, "1", "1")));
   EXPECT_EQ(refusal(), "answer.json: points[0].point: must be a whole number from 0 on");
   write(answer_of(point(1, "1", "1").replace(10, 1, "4294967296")));
   EXPECT_EQ(refusal(), "answer.json: points[0].point: must be below 2^32");
   write(answer_of(point(0, "1", "1e999")));
-  EXPECT_EQ(refusal(), "answer.json: must be JSON: a number in it is none");
+  EXPECT_EQ(refusal(), "answer.json: must be JSON: it has an invalid number");
   write("{\n\"experiment\": ");
   EXPECT_EQ(refusal(), "answer.json:2: must be JSON: it is damaged here, or cut off");
   write("[1]");

@@ -173,7 +173,7 @@ TEST(RunAnswer, AStrategyWithoutAFigureWinsNothing) {
   for (const Drive& drive : drives) told.push_back({&drive, {}});
   const RunAnswer answer = run_answer(told);
   EXPECT_NE(answer.answer.find(", tt has the smallest position error"), std::string::npos) << answer.answer;
-  EXPECT_NE(answer.answer.find("; of adva there is no figure; buff +0.1"), std::string::npos) << answer.answer;
+  EXPECT_NE(answer.answer.find("; adva has no value; buff +0.1"), std::string::npos) << answer.answer;
   EXPECT_TRUE(answer.more.empty());
   EXPECT_EQ(run_answer({told[0], told[3]}).answer, "Over 2 runs of bend: No position was compared with the truth.");
 }

@@ -147,11 +147,11 @@ TEST(TimingDiagram, FaultsHaveLanesAndWhatBecameOfFramesIsMarked) {
   EXPECT_EQ(count_class(svg, "changed"), 3u);
   EXPECT_EQ(count_class(svg, "missing"), 1u);
   for (const char* words :
-       {"bit 7 is inverted", "slot 1 of gateway: frame CRC wrong", "nobody sent it: nobody can make it out",
-        "feature, but its controller did not send it: sound", "slot 1 of gateway: nothing of it reached anybody"})
+       {"bit 7 is inverted", "slot 1 of gateway: frame CRC wrong", "sent by no node: undecodable",
+        "feature, but its controller did not send it: sound", "slot 1 of gateway: it reached no receiver"})
     EXPECT_EQ(count(svg, words), 1u) << words;
   for (const char* entry : {"fault, from its begin to its end", "the fault acts",
-                            "frame damaged, displaced or sent by no controller", "frame that reached nobody"})
+                            "frame damaged, displaced or sent by no controller", "frame that reached no receiver"})
     EXPECT_EQ(count(svg, std::string(">") + entry + "</text>"), 1u) << entry;
   expect_no_overlaps(svg);
   expect_renders(svg);
