@@ -58,8 +58,8 @@ struct Told {
 const linear::Vector<4> kExtendedLimits{0.11, 0.11, 0.52, 0.52}, kUnscentedLimits{0.09, 0.10, 0.40, 0.30};
 
 // 5 m/s and up to 0.55 rad/s: accelerations of 2.8 m/s^2, reached within seconds, last for seconds. On bends
-// the densities give the likeliest innovations (tests/fusion/filters/laser_radar_test.cc). Of the interacting
-// models, one drives straight on.
+// the densities give the likeliest innovations (tests/fusion/filters/laser_radar_test.cc). One of
+// the interacting models drives straight on.
 const Told kTold[] = {
     {"ConstantVelocity", config::MotionModel::kConstantVelocity, config::FilterKind::kExtended, 4.0, kExtendedLimits},
     {"ConstantAcceleration", config::MotionModel::kConstantAcceleration, config::FilterKind::kExtended, 2.0,

@@ -15,7 +15,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// The state at k after the measurement at k, and what the update keeps.
+// The state at k after the measurement at k, with the values that the update keeps.
 struct AtK {
   Vector x, nu;
   Matrix p, prior_p, h, s;

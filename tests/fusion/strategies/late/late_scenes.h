@@ -49,7 +49,7 @@ inline std::vector<std::size_t> drawn_order(RandomStream& stream, std::size_t li
   for (const auto& arrival : arrivals) order.push_back(arrival.second);
   return order;
 }
-// Of every `lag` + 1 lists after the first `in_time`, the first comes last.
+// The first of every `lag` + 1 lists after the first `in_time` comes last.
 inline std::vector<std::size_t> one_late_order(std::size_t lists, std::size_t in_time, std::size_t lag) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < lists; ++i) order.push_back(i);
