@@ -56,7 +56,7 @@ TEST(Startup, AllPoweredOnInTimeLeaderInSixFollowersInSevenIntegratorsInEight) {
     }
 }
 
-// In real time, the partner of the first startup frame is handed over on arrival. That may be longer after
+// In real time, the partner of the first startup frame is handed over on arrival. This may be longer after
 // its end than rates can differ.
 TEST(Startup, APartnerHandedOverWithinTheMediumsTimeMakesASchedule) {
   struct LatePort final : ports::FlexRayPort {

@@ -417,7 +417,7 @@ TEST(GuardianStartupTurns, S4_WhoLedAsItShouldWaitsForTheSilentCycleOnly) {
     EXPECT_EQ(s.reason(s.symbol(kFirst, 6.5)), GuardianReason::kLeadFailed);
     EXPECT_EQ(s.reason(s.symbol(kFirst, 7.0)), as_it_should ? GuardianReason::kForwarded : GuardianReason::kLeadFailed);
   }
-  // Not without the symbol, nor with a frame that is missing or of another cycle.
+  // Refused without the symbol, and with a frame that is missing or of another cycle.
   Startup middle;
   for (int cycle = 0; cycle < 5; ++cycle) middle.pass(middle.startup_frame(kFirst, 1.0 + cycle, cycle), cycle >= 2);
   middle.turns[0].schedule_dropped(Startup::cycles(6.0));

@@ -41,7 +41,7 @@ TEST_F(Fragments, OneThatIsMissingCostsTheFrame) {
   EXPECT_EQ(receiver_.abandoned(), 1u);
 }
 
-// . 1 2 3: no frame has begun, so none is abandoned.
+// . 1 2 3: without a begun frame, no frame is abandoned.
 TEST_F(Fragments, WithoutTheFirstAreDisplaced) {
   for (std::size_t i = 1; i < can_.count; ++i) EXPECT_EQ(arrive(i), Outcome::kDisplaced) << i;
   EXPECT_EQ(receiver_.abandoned(), 0u);

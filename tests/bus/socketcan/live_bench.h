@@ -37,7 +37,7 @@ class InItsSlot final : public ports::LiveMedium {
   std::mutex& slot_;
 };
 
-// Two channels, a CAN and a CAN FD. Of more than two members the last is not on the first CAN.
+// Two channels, a CAN and a CAN FD. The last of more than two members is not on the first CAN.
 template <std::size_t kMembers> class VcanBench : public laws::LiveBench {
  public:
   VcanBench() {
