@@ -193,8 +193,8 @@ TEST(Ages, AFrameOfLowerPriorityOnTheCanIsWaitedFor) {
   EXPECT_EQ(delayed[0].fusion_worst.ns - plain[0].fusion_worst.ns, 135'000);
 }
 
-// Fused at 6 ms, ended at 8 ms, published at 8.1 ms, in slot 4 of the next cycle. That is 10.252 to 10.336
-// ms, used on arrival.
+// Fused at 6 ms, ended at 8 ms, published at 8.1 ms, in slot 4 of the next cycle: 10.252 to 10.336 ms, used
+// on arrival.
 TEST(Ages, PublishedWhenTheFusionEndsAndUsedWhenTheImageArrives) {
   const auto ages = measurement_ages(over_can(true));
   ASSERT_TRUE(ages[0].reaches_use);
