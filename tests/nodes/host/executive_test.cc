@@ -67,7 +67,7 @@ TEST(Executive, TheFileDecidesTiesOnly) {
 }
 
 TEST(Executive, AnActivationThatMeetsAWaitingOneIsAnOverrun) {
-  // Busy for 2.5 cycles from 100 on. Of the activations at 200, 1200, 2200 two meet the first, still waiting.
+  // Busy for 2.5 cycles from 100 on. Two of the activations at 200, 1200, 2200 meet the first, still waiting.
   OneNode node({at(100, task("busy", 2500), 4), at(200, task("short", 10))});
   node.run_to(3, 0);
   EXPECT_EQ(node.executive->counts().overruns, 2u);

@@ -21,7 +21,7 @@
 namespace ttf::nodes::runner {
 namespace {
 
-constexpr std::size_t kPlace = 1'000'000;  // beyond all processors: none is taken
+constexpr std::size_t kPlace = 1'000'000;  // beyond all processors: it takes no processor
 constexpr std::size_t kLater = 64 << 20;
 
 // g++ says it by macros, clang by features.
