@@ -11,7 +11,7 @@ namespace ttf::fuzz {
 // gaps or assumptions.
 void check_fibex_round_trip(const schedules::model::Cluster& cluster);
 
-// Any text as FIBEX is refused properly, or becomes a cluster file. That file loads as the imported cluster,
+// Any text as FIBEX is refused properly, or becomes a cluster file. The file loads as the imported cluster,
 // and survives another pass through FIBEX.
 void check_fibex(const std::string& text);
 
