@@ -1,6 +1,6 @@
-// Predictions and updates of many constant-velocity filters at once, four to a register, against one filter at a time.
-// `pairs` counts prediction + update: of 100 filters, and of 1,000 with their measurements, which the second-level
-// cache holds.
+// Predictions and updates of many constant-velocity filters at once, four to a register, against one filter
+// at a time. `pairs` counts prediction + update, for 100 filters and for 1,000. The latter's measurements fit
+// the second-level cache.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace {
 const motion::ConstantVelocity kModel(2.0);
 constexpr double kDt = 0.05;
 
-// Objects that go to and fro, so that no velocity ever dies away to what has no normal form.
+// Objects go to and fro, so that no velocity decays to a denormal number.
 sensors::Measurement<2> seen(std::size_t i, int turn) {
   const double to_and_fro = turn == 0 ? 0.2 : -0.3;
   return {{0.1 * static_cast<double>(i % 50) + to_and_fro, 0.05 * static_cast<double>(i % 31) - to_and_fro},

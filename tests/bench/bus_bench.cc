@@ -1,8 +1,8 @@
-// How fast the simulated FlexRay goes: controllers without hosts, every static slot owned and sent on both channels.
+// The speed of the simulated FlexRay: controllers without hosts, every static slot owned and sent on both
+// channels.
 //
-// A slot here is one static slot of the schedule with all that belongs to it: one frame on channel A and one on channel
-// B, each encoded, put on its way, and received, judged and stored by every other node. Items per second are such
-// slots.
+// Items per second are static slots of the schedule. A slot has one frame on channel A and one on channel B.
+// Each is encoded, put on its way, and received, judged and stored by every other node.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -73,7 +73,7 @@ BENCHMARK(StaticSlots)
     ->ArgNames({"nodes", "transparent"})
     ->Unit(benchmark::kMicrosecond);
 
-// One slot per node, as in start-up tests and fault campaigns: what nobody owns costs nothing.
+// One slot per node, as in start-up tests and fault campaigns: unassigned slots cost nothing.
 void OneSlotPerNode(benchmark::State& state) {
   const int nodes = static_cast<int>(state.range(0));
   const schedules::model::Cluster cluster = crank::bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);

@@ -1,6 +1,7 @@
-// What the exchange over DDS costs: there and back between two processes and between two threads, and rounds of six
-// processes in which each says one message and hears one of each other. Against a pipe's round trip between two
-// processes in the same run: what the machine's own scheduler takes to pass the turn on twice.
+// The cost of the exchange over DDS: round trips between two processes and between two threads, and rounds of
+// six processes. In a round each process sends one message and hears one of each other. A pipe's round trip
+// between two processes in the same run gives the cost of the machine's scheduler, which passes the turn on
+// twice.
 #include <benchmark/benchmark.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -28,7 +29,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kBytes = 100;
-constexpr std::uint32_t kDomain = 18;  // nobody else's
+constexpr std::uint32_t kDomain = 18;  // used by no other test
 using Message = std::array<std::byte, kBytes>;
 
 bus::dds::common::Session session_of(const std::string& name, std::size_t members) {
@@ -58,7 +59,7 @@ class RoundMember {
   }
 
  private:
-  // Who is ahead is ahead by one message at most.
+  // A member is ahead by at most one message.
   bool hear() {
     ++round_;
     for (std::size_t left = others_ - ahead_, ahead = 0;;) {
@@ -77,7 +78,7 @@ class RoundMember {
 
   bus::dds::exchange::Exchange exchange_;
   std::size_t others_;
-  std::size_t ahead_ = 0;  // whose message of the next round has been heard
+  std::size_t ahead_ = 0;  // the member whose message of the next round has been heard
   std::uint64_t round_ = 0;
   std::map<NodeId, std::uint64_t> count_;
   Message message_{};
@@ -108,7 +109,7 @@ pid_t start_member(const bus::dds::common::Session& session, std::size_t self) {
   return process;
 }
 
-// Rounds with the others in processes of their own; two members pass a message there and back.
+// Rounds with the others in separate processes; two members pass a message to and fro.
 void DdsRounds(benchmark::State& state) {
   static int made = 0;
   const auto members = static_cast<std::size_t>(state.range(0));
@@ -180,7 +181,7 @@ int main(int count, char** arguments) {
     try {
       return ttf::bench::be_member(arguments);
     } catch (const std::exception&) {
-      return 1;  // whoever measures notices that it has gone
+      return 1;  // the measuring process notices its end
     }
   }
   benchmark::Initialize(&count, arguments);

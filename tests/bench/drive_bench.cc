@@ -1,4 +1,4 @@
-// What a simulated drive costs, with and without its log, against a yardstick measured in the same run.
+// The cost of a simulated drive, with and without its log, against a yardstick measured in the same run.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>

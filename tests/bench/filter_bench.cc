@@ -1,6 +1,6 @@
-// One prediction and one update with a position, constant velocity (n = 4) and constant acceleration (n = 6): through
-// the vocabulary of fusion/filters, and written out in plain fixed-size Eigen as one would for one model. The interface
-// shall cost nothing: level or ahead. `pairs` counts prediction + update.
+// One prediction and one update with a position, constant velocity (n = 4) and constant acceleration (n = 6).
+// One way uses the vocabulary of fusion/filters, the other plain fixed-size Eigen written for one model. The
+// interface shall cost nothing: level or ahead. `pairs` counts prediction + update.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Cholesky>
@@ -78,7 +78,7 @@ template <int N> linear::LinearStep<N> written_out(double dt) {
 
 enum class Form { kJoseph, kShort };
 
-// Short: P - K H P and the inverse of S in closed form, the fastest that is usually written.
+// Short: P - K H P and the inverse of S in closed form, the fastest usual way.
 template <int N, Form form> void PlainEigen(benchmark::State& state) {
   const Seen seen;
   linear::Gaussian<N> estimate;

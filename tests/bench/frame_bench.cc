@@ -1,4 +1,4 @@
-// What a frame costs: both CRCs, encoding and decoding, by payload length; against a bitwise CRC in the same
+// The cost of a frame: both CRCs, encoding and decoding, by payload length; against a bitwise CRC in the same
 // run.
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
-// What one fusion cycle costs with 25 objects, and with 1,000. The paper's budget is 10 ms; the aims here are 50
-// microseconds and 5 ms.
+// The cost of one fusion cycle with 25 objects, and with 1,000. The paper's budget is 10 ms; the aims here
+// are 50 microseconds and 5 ms.
 //
 // Each measured step starts from a strategy that has tracked the 25 objects for as long as its history
-// reaches. Every benchmark also counts the allocations of its measured part: with any it is an error, not a result.
+// reaches. Every benchmark also counts the allocations of its measured part: any allocation is an error.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -21,7 +21,7 @@ void report_allocations(benchmark::State& state, std::int64_t allocations) {
   if (allocations != 0) state.SkipWithError("the measured part allocates");
 }
 
-// Two lists of all objects in, image out; where the laser's is late, it comes after the camera's, which is younger.
+// Two lists of all objects in, image out. A late laser list comes after the camera's, which is younger.
 void cycle(benchmark::State& state, const Crowd& crowd, strategies::StrategyKind kind,
            const config::TrackerConfig& config, bool laser_is_late = false) {
   const auto objects = static_cast<std::size_t>(config.max_objects);

@@ -1,5 +1,5 @@
-// The hot paths, one at a time, for counting their instructions (tools/instruction_counts.sh): what is inside counted()
-// is counted, what prepares it is not.
+// The hot paths, one at a time, to count their instructions (tools/instruction_counts.sh). Only instructions
+// inside counted() are counted.
 //   ttf_hot_paths --list     their names
 //   ttf_hot_paths NAME
 #include <cstdio>
@@ -26,7 +26,7 @@
 namespace ttf {
 namespace {
 
-// Known by its name to who counts.
+// The counting tool knows it by name.
 extern "C" [[gnu::noinline]] void counted(const std::function<void()>& path) { path(); }
 
 // ---- one object

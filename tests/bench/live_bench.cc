@@ -1,7 +1,7 @@
-// The medium in real time over DDS under the load of a big cluster: five processes that each send 840 frames a second
-// on either channel, at instants of their own, and hear those of the four others. What is lost, what it costs, how long
-// a frame takes from its sender's stamp until its receiver's thread has it, and how long send() takes; also while a
-// sixth one, who hears it all, is stopped. One iteration is a second of it.
+// The real-time medium over DDS under the load of a big cluster. Five processes each send 840 frames a second
+// on either channel, at their own instants, and hear those of the four others. The benchmark counts losses
+// and costs. It measures a frame's way from its sender's stamp to its receiver's thread, and the duration of
+// send(); also while a sixth process, which hears everything, is stopped. One iteration is a second of it.
 //
 //   ttf_bench_live --benchmark_counters_tabular=true
 #include <benchmark/benchmark.h>
@@ -41,7 +41,7 @@ constexpr std::size_t kSenders = 5;
 constexpr std::int64_t kFramesPerSecond = 4200;  // on each channel, of all together
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kPeriod = kSecond * kSenders / kFramesPerSecond;
-constexpr std::uint32_t kLiveDomain = 19;  // nobody else's
+constexpr std::uint32_t kLiveDomain = 19;  // used by no other test
 constexpr std::size_t kPayload = 32;
 
 struct Totals {
@@ -82,7 +82,7 @@ void put(const std::vector<std::int64_t>& values) {
   put(values.data(), count * sizeof values[0]);
 }
 
-// What put() wrote, in the same order; false where there is not so much.
+// Reads values in the order of put(); returns false when too few are left.
 class Told {
  public:
   explicit Told(std::string bytes) : bytes_(std::move(bytes)) {}
@@ -171,7 +171,7 @@ class Member {
   std::vector<std::int64_t> ways_, sends_;  // ns
 };
 
-// Told the instant at which to begin once it is ready, in nanoseconds.
+// Starts at the instant it gets once it is ready, in nanoseconds.
 int be_member(char** words) {
   Member member(job_of(words));
   fmt::print("ready\n");

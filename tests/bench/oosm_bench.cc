@@ -1,9 +1,9 @@
-// What one late measurement costs, n = 4, m = 2, constant velocity in the plane, at 1, 3, 5 and 10 lags; and one in
-// order. The aim is 0.3 microseconds at lag 3, and a clone that costs the same at every lag.
+// The cost of one late measurement, n = 4, m = 2, constant velocity in the plane, at 1, 3, 5 and 10 lags; and
+// of one in order. The aim is 0.3 microseconds at lag 3, and a clone that costs the same at every lag.
 //
-// To be read against `Plain`: one prediction and update in order, written out with fixed-size Eigen and nothing
-// else. What is timed is one take(); a copy of the method, made outside of it, takes each. The clock itself costs
-// some 20 ns a time, so a batch of copies takes at once.
+// `Plain` is the comparison: one prediction and update in order, written with fixed-size Eigen only. The
+// timed part is one take(), each by a copy of the method made outside of it. The clock costs some 20 ns a
+// time, so a batch of copies takes at once.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/LU>
@@ -31,7 +31,8 @@ Measurement position(double x, double y) {
   return measurement;
 }
 
-// A method that took kLists lists, 40 ms apart, and knows that one from between will come `lag` late (0: in order).
+// A method that took kLists lists, 40 ms apart, and expects one from between to come `lag` late (0: in
+// order).
 template <class X> X prepared(X method, const Stamp& awaited) {
   method.start(GlobalTime{}, {linear::Vector<4>::Zero(), linear::Matrix<4>::Identity()});
   for (int i = 1; i <= kLists; ++i) {

@@ -1,4 +1,4 @@
-// One controller by itself, and frames made for it.
+// A single controller, and frames made for it.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ inline ports::Reception received(Channel channel, Microticks start, Microticks e
   return {channel, ports::Signal::kFrame, start, end, wire::decode_frame(channel, bytes)};
 }
 
-// Cycle 0 starts at its microtick 1000, so macrotick m of cycle c is at 1000 + 40 * (1000 c + m).
+// Cycle 0 starts at microtick 1000, so macrotick m of cycle c is at 1000 + 40 * (1000 c + m).
 struct Alone {
   schedules::model::Cluster cluster;
   NoPort port;
@@ -57,7 +57,7 @@ struct Alone {
   }
 };
 
-// A frame as another node would send it, arriving in cycle 0 or later of an Alone.
+// A frame from another node, arriving in cycle 0 or later of an Alone.
 struct Frame {
   wire::FrameHeader header;
   Channel channel = Channel::kA;
@@ -80,7 +80,7 @@ struct Frame {
       made.resize(wire::encode_frame(header, channel, payload, made));
       return made;
     }
-    // A startup frame that is no sync frame: encode_frame refuses it, so the two CRCs are put in by hand.
+    // A startup frame that is no sync frame. encode_frame refuses it, so the two CRCs are put in by hand.
     wire::FrameHeader sync = header;
     sync.sync = true;
     made.resize(wire::encode_frame(sync, channel, payload, made));

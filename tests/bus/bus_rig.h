@@ -3,7 +3,7 @@
 //   slots 1..4   key slots of nodes 0..3: sync status frames on A and B
 //   slots 5..8   list "list", four fragments, node 0, A and B
 //   slot 9       list "odd", one fragment, node 1, channel A, odd cycles
-//   slot 10      nobody's
+//   slot 10      unassigned
 #pragma once
 
 #include <algorithm>
@@ -160,7 +160,7 @@ class TestMedium {
   }
   ports::FlexRayPort& port(std::size_t node) { return *ports_[node]; }
   const timebase::Oscillator& oscillator(std::size_t node) const { return oscillators_[node]; }
-  void set_now(TrueTime now) { now_ = now; }  // what carrier() goes by
+  void set_now(TrueTime now) { now_ = now; }  // the time of carrier()
 
   std::optional<TrueTime> next() const {
     if (pending_.empty()) return std::nullopt;
@@ -179,7 +179,7 @@ class TestMedium {
     if (arrival.signal == ports::Signal::kFrame) made.frame = wire::decode_frame(arrival.channel, arrival.bytes);
     return made;
   }
-  // What arrives at one receiver, or everywhere but at its sender.
+  // An arrival at one receiver, or at all except its sender.
   void put(Arrival arrival) {
     for (auto other = pending_.begin(); other != pending_.end();) {
       if (other->receiver != arrival.receiver || other->channel != arrival.channel || other->end <= arrival.start ||
@@ -230,8 +230,8 @@ class TestMedium {
   std::vector<Arrival> pending_;
 };
 
-// Controllers on a test medium in virtual time: integrated, all cycles 0 starting within a microtick of 1 ms and rates
-// uncorrected; or powered on one after the other.
+// Controllers on a test medium in virtual time. They are integrated: all cycles 0 start within a microtick of
+// 1 ms, with uncorrected rates. Or they are powered on one after the other.
 class Rig {
  public:
   Rig(schedules::model::Cluster cluster, const std::vector<std::int64_t>& drifts_ppb, Duration delay = {})

@@ -39,7 +39,7 @@ inline std::vector<Heard::Sent> dynamic_frames(Rig& rig, std::size_t node, Chann
   return frames;
 }
 
-// Of an arrived list, at receiver `node`.
+// The numbers of the lists that arrived at receiver `node`.
 inline std::vector<std::uint32_t> arrived(Rig& rig, std::size_t node, PduId pdu) {
   std::vector<std::uint32_t> sequences;
   for (const auto& one : rig.heard(node).arrived)

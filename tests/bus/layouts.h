@@ -1,4 +1,4 @@
-// PDU layouts for tests, with what the loader derives, and lists of them.
+// PDU layouts for tests, with the loader's derived fields, and lists of them.
 #pragma once
 
 #include <cstddef>

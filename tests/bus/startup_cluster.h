@@ -1,12 +1,12 @@
-// A small cluster that starts by itself, for tests that begin with power-on.
+// A small cluster that starts up, for tests that begin with power-on.
 #pragma once
 
 #include "tests/bus/bus_rig.h"
 
 namespace ttf::bus {
 
-// small_cluster with `coldstart` coldstart nodes and `others` that only integrate, parameters as a designer would
-// choose.
+// small_cluster with `coldstart` coldstart nodes and `others` that only integrate, with sensible design
+// parameters.
 inline schedules::model::Cluster startup_cluster(int coldstart, int others = 0) {
   schedules::model::Cluster cluster = small_cluster(coldstart + others);
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {

@@ -1,4 +1,4 @@
-// A CAN without time for tests of what is on it: frames go one after the other, whoever wins by the port's laws first.
+// A CAN without time, for tests of its contents: frames go one after the other, in order of the port's laws.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class TestCan {
   std::size_t controllers() const { return ports_.size(); }
   ports::CanPort& port(std::size_t controller) { return *ports_[controller]; }
 
-  // Where the bus is idle, the next frame begins; nothing can displace it any more.
+  // On an idle bus the next frame begins; it can no longer be displaced.
   void begin() {
     if (sending_ || waiting_.empty()) return;
     // The oldest of equals, which is the order they were handed over in.
@@ -38,7 +38,7 @@ class TestCan {
     if (!sending_) return;
     const Frame frame = std::move(*sending_);
     sending_
-        .reset();  // the bus is idle before anybody hears the frame, so an answer takes part in the next arbitration
+        .reset();  // the bus is idle before any node hears the frame, so an answer takes part in the next arbitration
     for (std::size_t c = 0; c < ports_.size(); ++c)
       if (c != frame.sender) hear_(c, {frame.identifier, frame.flexible_data_rate, frame.data});
   }

@@ -136,7 +136,7 @@ done
   python3 -c 'import json,sys; s=json.load(sys.stdin)["strategies"][0]; assert s["rmse_truth"]["position_m"] < 0.5, s; assert s["precision_us"] > 0' ||
   fail "--json is not the documented JSON"
 
-# A drive with faults says what they did, in words and as JSON; one without says nothing of faults.
+# A drive with faults reports their effects, in words and as JSON; one without does not mention faults.
 expect 0 'byzantine_clock +laser_pre' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
 expect 0 '^1 fault-free node to the end: fusion$' run "$source/scenarios/faulty_bus.yaml" --strategy tt \
   --no-log --out "$work/f"
@@ -153,7 +153,7 @@ assert json.load(open(sys.argv[1]))["strategies"][0]["fault_free_nodes"] == ["fu
 assert "faults" not in json.load(open(sys.argv[2]))["strategies"][0]
 PY
 
-# Where nothing was compared (nothing is judged before the end) there is a dash and a null, and no perfect zero.
+# Without a comparison (judgement starts after the end) there is a dash and a null, instead of a perfect zero.
 sed -e 's/^evaluate_from: .*/evaluate_from: 3 s/' \
   "$source/scenarios/paper_scenario1.yaml" >"$work/scenarios/unjudged.yaml"
 expect 0 'position RMSE against truth \[m\] +-$' run "$work/scenarios/unjudged.yaml" --strategy tt \
@@ -169,7 +169,7 @@ assert s["nees"]["mean"] is None and s["nees"]["band_95"] == [None, None], s
 assert s["age_when_used"] == {"count": 0, "mean_ms": None, "worst_ms": None}, s
 PY
 
-# What cannot be written is said, and the run has failed.
+# A failure to write is reported, and the run has failed.
 : >"$work/file"
 expect 1 'error: .*/file/x: cannot be created: Not a directory' run "$source/scenarios/paper_scenario2.yaml" \
   --out "$work/file/x"
@@ -234,7 +234,7 @@ head -c 200000 "$work/a/tt.mcap" >"$work/cut.mcap"
 expect 0 'warning: .*cut.mcap' diagram "$work/cut.mcap" -o "$work/cut.svg"
 expect 2 'scenario|MCAP|mcap' diagram "$source/README.md" -o "$work/none.svg"
 
-# Frames for other programs, and what was captured held against the schedule.
+# Frames for other programs, and a capture compared with the schedule.
 expect 0 'Example: ttfusion export' export --help
 expect 2 'pcapng' export "$work/a/tt.mcap" --format asc -o "$work/drive.asc"
 expect 2 'README.md' export "$source/README.md" --format csv -o "$work/drive.csv"
@@ -248,7 +248,7 @@ expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format perfetto -o "$wo
 protoc --decode=ttfusion.perfetto.Trace -I "$source/recording/exports" "$source/recording/exports/perfetto.proto" \
   <"$work/drive.pftrace" |
   grep -q 'name: "age of the newest measurement when used \[ms\]"' || fail "export --format perfetto leaves no trace"
-# As others read it, by Perfetto's own numbers: sound, and with all that the export says it wrote.
+# As other programs read it, by Perfetto's own numbers: valid, and complete by the export's own count.
 said=$(python3 "$source/tests/cli/perfetto_reader.py" "$work/drive.pftrace") || fail "drive.pftrace: $said"
 told=$("$program" export "$work/a/tt.mcap" --format perfetto --json -o "$work/drive.pftrace" 2>/dev/null |
   python3 -c 'import json, sys; t = json.load(sys.stdin); print("%d slices, %d instants, %d counts, %d flows" %
@@ -286,7 +286,7 @@ expect 2 'absent.pcapng: cannot be read' schedule check "$schedule" --against "$
 expect 2 'no FlexRay frame' schedule check "$schedule" --against "$work/drive.pcapng" --from 1000
 expect 2 '--against' schedule check "$schedule" --channels A
 
-# On real CAN FD: what does not hold, and the time scale at which all does.
+# On real CAN FD: the failing rules, and the time scale at which all hold.
 expect 1 'paper_synchronised on can-fd:1M/5M at time scale 1: 34 of 34 slots do not hold' schedule check "$schedule" \
   --medium can-fd:1M/5M
 expect 1 '^ +1-5  AB +2 +232.2 +84.0$' schedule check "$schedule" --medium can-fd:1M/5M
@@ -330,7 +330,7 @@ expect 2 '--medium excludes --against|--against excludes --medium' \
   schedule check "$schedule" --medium can-fd:1M/5M --against "$work/drive.pcapng"
 expect 0 'schedule check .* --medium can-fd:1M/5M --time-scale 3' schedule check --help
 
-# The logs of a run's processes are merged: what is made of them is what is made of the one log of the run.
+# The logs of a run's processes are merged: their results equal those of the run's single log.
 mkdir "$work/nodes"
 "$split_log" "$work/a/tt.mcap" 5 "$work/nodes" || fail "split_log fails"
 expect 0 'are merged' diagram --help
@@ -365,14 +365,14 @@ LC_ALL=C comm -13 <(LC_ALL=C sort "$work/of_one") <(LC_ALL=C sort "$work/of_many
 [[ ! -s "$work/added" ]] || fail "a damaged log adds frames"
 [[ $(wc -l <"$work/of_many") -lt $(wc -l <"$work/of_one") ]] || fail "a damaged chunk costs no frame"
 
-# In a cold drive nobody is active at first: that is no harm. Who never becomes active is harmed.
+# In a cold drive no node is active at first, which is no harm. A node that never becomes active is harmed.
 sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/cold_start.yaml" >"$work/cold_faulty.yaml"
 printf 'faults:\n  - {kind: noise, channels: A, length: 1 us, interval: 500 ms}\n' >>"$work/cold_faulty.yaml"
 expect 0 'No fault-free node was harmed' run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
 sed -i 's/channels: A, length: 1 us, interval: 500 ms/length: 1 ms, interval: 0 ms/' "$work/cold_faulty.yaml"
 expect 0 'HARMED by fault 0, .*never became normal active' \
   run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
-# Of a cluster that never started the table shows that nothing worked, and nothing as perfect.
+# For a cluster that never started, the table shows failure, and no perfect values.
 for row in 'uses of an image +0' 'objects compared / missed / spurious +-' 'precision of the time base \[us\] +-'; do
   expect 0 "^$row$" run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
 done
@@ -383,7 +383,7 @@ expect 0 \
   'HARMED by fault 0, 1\.0[0-9]+ s: fusion: [0-9]+ frames lost, the first: slot [0-9]+ of [a-z_]+ on any channel$' \
   run "$work/drowned.yaml" --strategy tt --no-log --out "$work/drowned"
 
-# What the pages show of a scenario loads as it stands there, and so do the keys they name.
+# The pages' examples of a scenario load as they stand, and so do their keys.
 page_example() \
   { awk -v key="    $2:" '$0 == key { on = 1 } on && !/^    / { exit } on { print substr($0, 5) }' "$source/docs/$1"; }
 for example in faults startup; do
@@ -402,7 +402,7 @@ for keys in 'feature_service: {max_image_age: 100 ms}' 'tracker: {coast_after: 3
   expect 0 'precision of the time base' run "$work/scenarios/page.yaml" --strategy tt --no-log --out "$work/page"
 done
 
-# What guardians keep from the others is told, and is a check.
+# The guardians' interventions are reported, and are a check.
 sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/cold_start.yaml" >"$work/guarded.yaml"
 printf 'faults:\n  - {kind: babbling_idiot, node: feature, channels: B, interval: 1 ms, from: 2 s, duration: 50 ms}\n' >>"$work/guarded.yaml"
 expect 0 '^0 +guardian +26 .*guardian B' run "$work/guarded.yaml" --strategy tt --no-log --out "$work/guarded"
@@ -415,14 +415,14 @@ assert sum(k["signals"] for k in kept) == 50 and all(k["what"] == "blocked" and 
 assert run["unattributed"] == {"checks": [], "guardians": [], "states": [], "harmed": False, "harms": []}, run["unattributed"]
 PY
 
-# What is wrong with a scenario is found before an earlier run's log is written over.
+# Errors in a scenario are found before an earlier run's log is overwritten.
 mkdir "$work/kept" && echo "an earlier log" >"$work/kept/tt.mcap"
 sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_per/" \
   "$source/scenarios/faulty_bus.yaml" >"$work/typo.yaml"
 expect 2 'camera_per: must be a node' run "$work/typo.yaml" --strategy tt --out "$work/kept"
 [[ $(cat "$work/kept/tt.mcap") == "an earlier log" ]] || fail "a run that was refused has written over a log"
 
-# A fault campaign: the table, the same from shards put together; a replay in words; what is refused.
+# A fault campaign: the table, the same from merged shards; a replay in words; refused input.
 campaign=$work/schedules/campaign.yaml
 sed -e 's#^cluster: .*#cluster: flexray_demo.yaml#' -e 's/^faults: .*/faults: 24/' \
   "$source/experiments/fault_campaign.yaml" >"$campaign"

@@ -1,5 +1,5 @@
-# What the scripts that try the program share; to be sourced where $program is set. $work is a folder of their own, gone
-# when they end; $failures counts what fail() told.
+# Shared by the scripts that try the program; to be sourced with $program set. $work is their own folder,
+# removed at their end. $failures counts the calls of fail().
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 failures=0
@@ -9,7 +9,7 @@ fail() {
   failures=$((failures + 1))
 }
 
-# expect CODE PATTERN ARGS...: exit code, and a pattern in what is printed on either stream.
+# expect CODE PATTERN ARGS...: checks the exit code, and a pattern in the output on either stream.
 expect() {
   local code=$1 pattern=$2 output actual
   shift 2

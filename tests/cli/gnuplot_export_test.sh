@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# `ttfusion export --format gnuplot`: gnuplot draws every script's picture and has nothing to say.
-#   gnuplot_export_test.sh PROGRAM SOURCE_DIR      exit 77 where there is no gnuplot
+# `ttfusion export --format gnuplot`: gnuplot draws every script's picture without a message.
+#   gnuplot_export_test.sh PROGRAM SOURCE_DIR      exit 77 without gnuplot
 set -u
 program=$1
 source=$2
 source "$(dirname "$0")/expect.sh"
 command -v gnuplot >/dev/null || { echo "skipped: no gnuplot"; exit 77; }
 
-# drawn FOLDER: every script there, by itself.
+# drawn FOLDER: draws every script there, one by one.
 drawn() {
   local script name said
   for script in "$1"/*.gp; do
@@ -74,7 +74,7 @@ for name in small single; do
 done
 [[ $(wc -l <"$work/small_figures/position_rmse_truth.csv") -eq 7 ]] || fail "not six points"
 
-# ---- what is refused
+# ---- refused input
 head -c 20000 "$work/run/tt.mcap" >"$work/begun.mcap"
 expect 2 'begun.mcap: tells of no position, no use of an image' export "$work/begun.mcap" --format gnuplot \
   -o "$work/none"

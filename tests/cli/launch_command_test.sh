@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# `ttfusion launch` and `ttfusion node` as a user meets them: plans, exit codes, and one clear sentence for bad input.
+# `ttfusion launch` and `ttfusion node` as a user meets them: plans, exit codes, and one clear sentence for
+# bad input.
 #   launch_command_test.sh PROGRAM SOURCE_DIR
 set -u
 program=$1
@@ -54,7 +55,7 @@ for command in launch "node fusion"; do
     expect 2 'a recording is played by `ttfusion run --input`' $command "$source/scenarios/laser_radar_recorded.yaml"
   }
 done
-# In real time: what the cluster must be fit for, at the time scale; no faults.
+# In real time: the cluster's requirements at the time scale; no faults.
 edited() \
   { sed "$1" "$cluster" >"$work/edited.yaml"; cmp -s "$cluster" "$work/edited.yaml" && fail "'$1' changes nothing"; }
 expect 2 'flexray_demo.yaml:[0-9]+: topology = star: must be bus in real time' launch \
@@ -105,7 +106,7 @@ expect 2 '--start-at = 1: must be ahead' node fusion "$drive" --start-at 1 --no-
 expect 2 'not expected: --rejoin' launch "$drive" --rejoin
 expect 2 'not expected: .*--start-at' launch "$drive" --start-at 1
 
-# What ROS 2's topics need is looked at before anything is started.
+# The requirements of ROS 2's topics are checked before anything starts.
 for domain in 232 -1 0.5 one; do
   export ROS_DOMAIN_ID=$domain
   expect 2 "environment: ROS_DOMAIN_ID = $domain: must be a whole number 0..231" launch "$drive" --out "$work/real"
@@ -129,7 +130,7 @@ sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_pe
   "$source/scenarios/faulty_bus.yaml" >"$work/typo.yaml"
 expect 2 'camera_per: must be a node' launch "$work/typo.yaml" --dry-run
 
-# What cannot run says so, and starts nothing.
+# A drive that cannot run reports why, and starts nothing.
 for dry in '' --dry-run; do
   # shellcheck disable=SC2086
   {
@@ -144,7 +145,7 @@ expect 2 '--policy = fusion=restart: must not be given with --virtual-time' \
   launch "$drive" --virtual-time --policy fusion=restart --out "$work/real"
 [[ -e $work/real ]] && fail "a launch that is refused leaves a folder"
 
-# What cannot be written is no mistake of the command line's, also not in a dry run, which leaves nothing.
+# A failure to write is no error of the command line, not even in a dry run, which leaves no files.
 touch "$work/file"
 for dry in '' --dry-run; do
   for time in '' --virtual-time; do
@@ -171,7 +172,7 @@ expect 2 '--out = .*/written: must be another folder: .*/written/fusion.mcap is 
   node fusion "$drive" --virtual-time --session "written-$$" --out "$work/written"
 exec 9>&-
 
-# What DDS is told is tried before anything is started.
+# The configuration of DDS is tried before anything starts.
 export CYCLONEDDS_URI=file://$work/absent.xml
 for arguments in "launch $drive" \
   "launch $drive --virtual-time" "launch $drive --dry-run" "node fusion $drive --virtual-time" \
@@ -187,7 +188,8 @@ CYCLONEDDS_URI=file://$source/bus/dds/loopback.xml
 expect 0 'node fusion' launch "$drive" --dry-run
 unset CYCLONEDDS_URI
 
-# A cluster that cannot be read: who wants it, and where. A duration that is none limits nothing else.
+# An unreadable cluster: the sentence names the reference and its place. An invalid duration limits nothing
+# else.
 sed 's#\.\./schedules/paper_sync#absent/paper_sync#' "$drive" >"$work/wanting.yaml"
 line=$(grep -n '^ *tt:' "$drive" | cut -d: -f1)
 for command in launch run; do
@@ -199,14 +201,14 @@ for command in launch run; do
 done
 expect 2 '--out: must not be empty' run "$drive" --out ''
 
-# Who rejoins a drive that has not begun says that it waits.
+# A node that rejoins a drive before its start reports that it waits.
 timeout 3 "$program" node fusion "$drive" --no-topics --session "early-$$" --rejoin --start-at $(($(date +%s) + 100)) \
   --out "$work/early" >"$work/early.words" 2>&1
 grep -Eq '^the drive begins in (9[0-9]|100)\.[0-9] s \(--start-at\): until then there is no cluster to rejoin$' \
   "$work/early.words" ||
   fail "nobody says what is waited for: $(cat "$work/early.words")"
 
-# The dry run: one command per node on standard output, words on the other; each command is taken as it stands.
+# The dry run: one command per node on standard output, words on the other. Each command works as printed.
 "$program" launch "$drive" --virtual-time --seed 5 --duration 2.50 --out "$work/it's dry" \
   --dry-run >"$work/commands" 2>"$work/words" ||
   fail "the dry run fails"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# `ttfusion launch` and `ttfusion node` in real time over DDS, on any kernel under any load: nothing about lateness is
-# asserted. Drives are stretched, so that a cluster outlives what an ordinary kernel does to its processes.
+# `ttfusion launch` and `ttfusion node` in real time over DDS, on any kernel under any load: lateness is not
+# asserted. Drives are stretched, so that a cluster survives an ordinary kernel's delays.
 #   launch_live_test.sh PROGRAM SOURCE_DIR LOG_FACTS
 set -u
 program=$1
@@ -12,7 +12,7 @@ launch_options=(--no-topics)
 drive=$source/scenarios/paper_scenario1.yaml
 nodes="laser camera laser_pre camera_pre gateway fusion feature"
 
-# check WHAT SCRIPT ARGS...: a Python script that asserts things of JSON files.
+# check WHAT SCRIPT ARGS...: a Python script with assertions about JSON files.
 check() {
   local what=$1 script=$2
   shift 2
@@ -56,20 +56,20 @@ for node in real_time["nodes"]:
     assert all((node["lateness_us"][of]["count"] > 0) == sends for of in ("departures", "arrivals")), node
     assert (node["largest_offset_correction_us"] is not None) == sends, node
     assert node["withheld_by_the_sender"] + node["sender_away"] + node["lost_on_the_way"] == node["frames_lost"], node
-    # What the log tells of the medium is what the node said last; all came from this host.
+    # The log has the last report of the node about the medium; all frames came from this host.
     said = next(one["said"] for one in read(folder + "/manifest.json")["health"] if one["node"] == node["node"])
     assert all(node["medium"][key] == said["medium"][key] for key in ("sent", "received")), (node, said)
     assert node["lateness_us"]["transits"]["count"] == node["medium"]["received"], node
     assert node["medium"]["received"] > 0 or not sends, node
     assert said["drops"] == sum(said["medium"][key] for key in ("lost", "not_sent", "dropped")), said
 assert len(real_time["precision_us"]) == 1 and real_time["precision_us"][0]["count"] > 50, real_time["precision_us"]
-# Whatever the processes were late by, their clocks are synchronised: the drive of 1.6 s drifts them apart by 2 ms else.
+# At any lateness, clocks are synchronised: otherwise the drive of 1.6 s would drift them apart by 2 ms.
 assert real_time["precision_us"][0]["p50"] < 200, real_time["precision_us"]
 manifest = read(folder + "/manifest.json")
 assert manifest["exit_code"] == 0 and manifest["virtual_time"] is False and manifest["time_scale"] == 5, manifest' \
     "$folder" "$strategy"
 done
-# What --help has as an example: all that is in the folder, the merged log among its parts.
+# The example of --help: all logs in the folder, the merged one among its parts.
 expect 0 'warning: .*/tt.mcap: is ignored: it holds the records of the other 8 logs' \
   diagram "$work"/tt/*.mcap --from 1 --to 1.04 -o "$work/all.svg"
 expect 0 '' diagram "$work/tt/tt.mcap" --from 1 --to 1.04 -o "$work/merged.svg"
@@ -96,12 +96,12 @@ for format in pcapng candump csv; do
   cmp "$work/frames.$format" "$work/merged.$format" || fail "the nodes' logs as $format are not the launch's"
 done
 
-# ---- stopped and going on, one after the other, in an order that is drawn: whoever it is, it is back, and nobody else noticed
+# ---- stopped and resumed, one after the other, in a drawn order: each is back, and the others did not notice
 begin "$work/stopped" "$drive" --time-scale 10 --duration 1.7
 stopped=$!
 wait_begun "$work/stopped"
 pids_of "$work/stopped"
-sleep 1   # until the cluster is under way, and what is locked in memory is there
+sleep 1   # until the cluster is under way, with its memory locked
 seed=${TTF_TEST_SEED:-4}
 for node in $(python3 -c 'import random, sys; names = sys.argv[2:]; random.Random(sys.argv[1]).shuffle(names); print(*names)' \
     "$seed" $nodes); do
@@ -137,7 +137,7 @@ wait "$required"
 code=$?
 [[ $code -eq 137 ]] || fail "a launch whose fusion is killed exits with $code: $(cat "$work/required.err")"
 grep -q 'fusion: signal 9 (Killed)' "$work/required.err" || fail "nobody says that fusion was killed"
-# ---- one whose nodes are powered on when it is all but over
+# ---- one whose nodes are powered on shortly before its end
 sed "s#\.\./schedules#$source/schedules#" "$drive" >"$work/nobody.yaml"
 {
   echo "startup:"
@@ -146,7 +146,8 @@ sed "s#\.\./schedules#$source/schedules#" "$drive" >"$work/nobody.yaml"
 } >>"$work/nobody.yaml"
 begin "$work/nobody" "$work/nobody.yaml" --time-scale 2 --duration 1.6
 nobody=$!
-# ---- and a launch that can do without one, and nodes by hand: no supervisor but one instant, and one of them comes later
+# ---- a launch with an optional node, and nodes by hand: no supervisor but one instant, and one of them comes
+# later
 begin "$work/optional" "$drive" --time-scale 4 --duration 1.5 --policy feature=optional
 optional=$!
 start=$(python3 -c 'import time; print(f"{time.time() + 4:.3f}")')
@@ -204,7 +205,7 @@ assert all(log["whole"] for log in facts["logs"]) and min(facts["last_s"].values
 for node in ("laser_pre", "camera_pre", "gateway", "fusion", "feature"):
     assert reached(facts, node)[-1:] in ([], ["normal active"]), (node, facts["states"])
 late = {node["node"]: node["lateness_us"]["wake_ups"]["longest"] for node in summary["strategies"][0]["real_time"]["nodes"]}
-# Stopped for a second; who was integrating anew just then had nothing due for some of it.
+# Stopped for a second; a node that was integrating just then had no due acts for part of it.
 assert all(late[node] > 500_000 for node in ("laser_pre", "camera_pre", "gateway", "fusion", "feature")), late' \
   "$work/stopped"
 

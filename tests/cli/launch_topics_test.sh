@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What a launch in real time publishes for ROS 2, as the shipped example of a listener hears it.
+# A real-time launch's topics for ROS 2, as the shipped example listener hears them.
 #   launch_topics_test.sh PROGRAM SOURCE_DIR ROS_LISTEN
 set -u
 program=$1
@@ -8,9 +8,9 @@ listen=$3
 source "$(dirname "$0")/expect.sh"
 drive=$source/scenarios/paper_scenario1.yaml
 export CYCLONEDDS_URI=file://$source/bus/dds/loopback.xml
-export ROS_DOMAIN_ID=$((100 + $$ % 100))   # none that others on this machine may be in
+export ROS_DOMAIN_ID=$((100 + $$ % 100))   # unlikely to be used by others on this machine
 
-# hear NAME LAUNCH_ARGS...: what is heard beside a launch.
+# hear NAME LAUNCH_ARGS...: listens beside a launch.
 hear() {
   local name=$1 listener
   shift

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# `ttfusion launch --virtual-time`: processes leave the records of a single one, stopped or not, side by side or not; and
-# who is killed takes nobody's records along.
+# `ttfusion launch --virtual-time`: processes leave the records of a single one, stopped or not, side by side
+# or not. A killed process takes only its own records along.
 #   launch_virtual_test.sh PROGRAM SOURCE_DIR
 set -u
 program=$1
@@ -60,7 +60,7 @@ for folder in beside stopped; do
   [[ $(hash_of "$work/$folder") == "$(hash_of "$work/run_paper_scenario1")" ]] || fail "$folder: other records"
 done
 
-# A cold start that takes longer than the drive: of one node, a warning; of all, a failure.
+# A cold start that takes longer than the drive: for one node a warning, for all a failure.
 absent() {   # FOLDER WORD SENTENCE CODE WHO...: in words, in the summary and in the manifest
   local folder=$1
   grep -qx "$2: $3" "$folder.err" || fail "$folder does not say '$3': $(cat "$folder.err")"
@@ -102,7 +102,7 @@ grep -qx 'warning: camera was not in operation at the end: signal 9 (Killed)' "$
   fail "nobody says that camera was gone at the end: $(cat "$work/killed.err")"
 "$program" diagram "$work/killed/camera.mcap" --kind timing --from 0 --to 0.05 -o "$work/killed.svg" >/dev/null 2>&1 ||
   "$program" export "$work/killed/camera.mcap" --format csv -o "$work/killed.csv" 2>/dev/null || fail "a killed node's log is not readable"
-# Into a folder that another launch has left, of another strategy with another node, and that the user has put files into.
+# Into the folder of another launch, with another strategy and node, and with files of the user.
 mkdir "$work/required"
 echo '{"strategy": "adva", "nodes": [{"name": "old one"}]}' >"$work/required/manifest.json"
 left="adva.mcap adva_timing.svg adva_lateness.png adva_startup.pdf adva_plane.svg adva_over_time.svg schedule.svg index.html
@@ -112,7 +112,7 @@ for file in $left $users; do echo old >"$work/required/$file"; done
 begin "$work/required" "$drive" --duration 60
 required=$!
 wait_begun "$work/required"
-# While it runs the folder is its own, for whoever else comes.
+# While it runs, the folder is its own, and others are refused.
 before=$(md5sum "$work/required/launch.log" "$work/required/laser.txt")
 for arguments in "launch" "launch --dry-run" "node fusion"; do
   # shellcheck disable=SC2086

@@ -1,13 +1,13 @@
 # For the scripts that launch node sets; sourced behind expect.sh. $launch_options are those of all launches.
 
-# launch FOLDER SCENARIO ARGS...: a whole one; what it prints is in FOLDER.out and FOLDER.err.
+# launch FOLDER SCENARIO ARGS...: runs a whole one, with its output in FOLDER.out and FOLDER.err.
 launch() {
   local folder=$1
   shift
   "$program" launch "$@" "${launch_options[@]}" --no-pictures --out "$folder" >"$folder.out" 2>"$folder.err"
 }
 
-# begin FOLDER SCENARIO ARGS...: in the background; $! is the launch itself, so that signals reach it.
+# begin FOLDER SCENARIO ARGS...: in the background. $! is the launch itself, so that signals reach it.
 begin() {
   local folder=$1
   shift

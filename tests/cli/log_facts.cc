@@ -1,13 +1,12 @@
-// log_facts LOG...: what the scripts want to know of the logs of one run, merged as every command does it.
+// log_facts LOG...: prints facts for the scripts about one run's logs, merged as in every command.
 // JSON:
 //   clock                 of the merged records: "wall" or "common"; warnings: sentences
 //   logs                  {name, host, whole: closed and sound}
 //   states                {node, at_s, to, why}: changes of protocol operation control
-//   corrections           {node, at_ns, global_ns, offset_microticks}: when a clock was corrected, what it showed, and
-//                         by how much
+//   corrections           {node, at_ns, global_ns, offset_microticks}: a clock's corrections, with its reading and offset
 //   features              at_s of each first use of an image that was not stale
 //   last_s                by node, its last task's end
-//   truths                how many records of the truth
+//   truths                the number of truth records
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# An experiment on several ranks of mpirun: the rows of one process alone; a rank that dies; what is refused, said once.
-#   ranks_test.sh PROGRAM SOURCE_DIR        exit code 77 where there is no mpirun
+# An experiment on several ranks of mpirun: the rows of one process alone; a rank that dies; refusals,
+# reported once.
+#   ranks_test.sh PROGRAM SOURCE_DIR        exit code 77 without mpirun
 set -u
 program=$1
 source=$2
@@ -23,7 +24,7 @@ for ranks in 2 3; do
   done
 done
 
-# ---- a rank that dies ends them all; what is there stays, and the rest is driven
+# ---- a rank that dies ends them all; earlier rows stay, and the rest is driven
 mpirun -n 3 "$alone" experiment "$file" --out "$work/killed" >"$work/words" 2>&1 &
 all=$!
 for _ in $(seq 400); do
@@ -41,7 +42,7 @@ wait "$all" && fail "a rank that died leaves exit code 0"
 expect 0 '' -n 2 "$alone" experiment "$file" --out "$work/killed" --resume
 cmp "$work/alone/runs.csv" "$work/killed/runs.csv" || fail "after a rank's death and --resume there are other rows"
 
-# ---- what is refused is said by one rank
+# ---- one rank reports a refusal
 refused() {
   local pattern=$1 words code
   shift

@@ -1,5 +1,5 @@
-# small_sweep REPLICATIONS DURATION FROM: a sweep of two points and two paradigms, for what is said of sweeps; to be sourced where
-# $source is set. It drives for DURATION and is judged FROM there on.
+# small_sweep REPLICATIONS DURATION FROM: a sweep of two points and two paradigms for the tests of sweeps; to
+# be sourced with $source set. It drives for DURATION and is judged from FROM on.
 small_sweep() {
   cat <<END
 kind: sweep

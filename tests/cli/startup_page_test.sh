@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# docs/startup.md keeps its word: its two commands make its picture, byte for byte, and the log says what it quotes.
+# docs/startup.md is correct: its two commands make its picture, byte for byte, and the log contains its
+# quotations.
 #   startup_page_test.sh PROGRAM SOURCE_DIR
-# When the picture has changed for a reason: startup_page_test.sh PROGRAM SOURCE_DIR --update
+# When the picture has changed on purpose: startup_page_test.sh PROGRAM SOURCE_DIR --update
 set -euo pipefail
 program=$1
 source=$2
@@ -34,7 +35,7 @@ while IFS= read -r sentence; do
 done < <(grep '^|' "$page" | grep -o '"[^"]*"' | tr -d '"')
 [[ $quoted -ge 11 ]] || { echo "FAILED: only $quoted sentences are quoted"; exit 1; }
 
-# And `run` tells who was active when.
+# And `run` prints when each node became active.
 for line in 'fusion .* 6 .*normal active: another coldstart node' 'feature .* 7 .*along with others for three cycles' \
   'camera .* 8 .*two pairs of startup frames'; do
   grep -Eq -- "^$line" words || { echo "FAILED: run does not say '$line'"; cat words; exit 1; }

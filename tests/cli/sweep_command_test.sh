@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `ttfusion experiment` of a sweep: killed and resumed, in shards, one run again, and what is refused.
+# `ttfusion experiment` of a sweep: killed and resumed, in shards, one run again, and refused input.
 #   sweep_command_test.sh PROGRAM SOURCE_DIR
 set -u
 program=$1
@@ -17,8 +17,8 @@ done
 [[ $(wc -l <"$work/whole/runs.csv") -eq 161 ]] || fail "not 160 runs: $(wc -l <"$work/whole/runs.csv")"
 expect 2 'results.sqlite: is there already: --resume goes on with it' experiment "$file" --out "$work/whole"
 
-# ---- killed twice, wherever it is, and resumed: as if nothing had been. Long enough to be met by the killer: what is
-# driven is written down twice a second.
+# ---- killed twice at any point, and resumed with the same result; long enough to be killed, since finished
+# runs are written twice a second
 small_sweep 200 "2 s" "400 ms" >"$work/long.yaml"
 expect 0 '' experiment "$work/long.yaml" --out "$work/undisturbed"
 for round in 1 2; do
@@ -45,7 +45,7 @@ expect 0 '' experiment "$file" --shard 2/2 --out "$work/second"
 expect 0 '' experiment "$file" --merge "$work/second" "$work/first" --out "$work/both"
 cmp "$work/whole/runs.csv" "$work/both/runs.csv" || fail "two shards put together are not the whole"
 
-# ---- fewer for a quick look, and what is missing later; in shards, too
+# ---- fewer for a quick look, and the missing ones later; in shards, too
 expect 0 '' experiment "$file" --replications 10 --out "$work/quick"
 [[ $(wc -l <"$work/quick/runs.csv") -eq 41 ]] || fail "10 replications are not 40 runs"
 cp "$work/quick/runs.csv" "$work/ten.csv"
@@ -81,7 +81,7 @@ expect 2 '--replay = 1/tt: must be point/paradigm/replication, of points 0..1 an
 expect 2 'must be point/paradigm/replication' experiment "$file" --replay 2/tt/0
 expect 2 'must be point/paradigm/replication' experiment "$file" --replay 1/buff/0
 
-# ---- what is refused, and what does not come out as expected
+# ---- refused input, and unexpected results
 sed 's/seed: 3/seed: 4/' "$file" >"$work/other.yaml"
 expect 2 'must be of this experiment: the file, a file that it names or the program was another then' \
   experiment "$work/other.yaml" --out "$work/whole" --resume

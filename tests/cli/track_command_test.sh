@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# ttfusion track as docs/track.md has it: the example there, the same bytes for the same seed, the same tracks in the end for
-# every order of arrival, and one clear sentence for each kind of bad input.
+# ttfusion track as in docs/track.md: the example there, the same bytes for the same seed, and the same final
+# tracks for every order of arrival. Each kind of bad input gives one clear sentence.
 #   track_command_test.sh PROGRAM SOURCE_DIR
 set -u
 program=$1
@@ -80,7 +80,7 @@ done
 expect 0 '' track "$work/windows.csv" "${cars[@]:2}" -o "$work/windows_tracks.csv"
 cmp -s "$work/in_order.csv" "$work/windows_tracks.csv" || fail "a byte order mark, quotes or Windows' line ends count"
 
-# Damaged rows: all are told, or left out and counted.
+# Damaged rows: all are reported, or left out and counted.
 awk -F, -v OFS=, 'NR == 5 { $3 = "nan" } NR == 9 { $2 = "sonar" } NR == 12 { $0 = "0.07,radar" } 1' \
   "$work/cars.csv" >"$work/damaged.csv"
 printf 'sensors: {lidar: {}, radar: {}}\n' >"$work/two.yaml"
@@ -92,7 +92,7 @@ expect 2 '^error: .*damaged.csv:9: sensor = sonar: must be a sensor of .*two.yam
 expect 0 '^3 damaged rows left out$' track "$work/damaged.csv" --config "$work/two.yaml" --skip-damaged -o "$work/damaged_tracks.csv"
 expect 0 '^warning: .*damaged.csv:12: columns' track "$work/damaged.csv" --config "$work/two.yaml" --skip-damaged
 
-# What is wrong with a file, the configuration, or an option.
+# Errors in a file, the configuration, or an option.
 : >"$work/empty.csv"
 expect 2 'empty.csv: holds no heading' track "$work/empty.csv"
 expect 2 'missing' track "$work/empty.csv" --config=

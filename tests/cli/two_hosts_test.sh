@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A node set split over two hosts, on DDS: two network namespaces with a veth pair between them. Their kernel's clock is one,
-# but the second host's CLOCK_MONOTONIC has another origin, where time namespaces are, and what it takes for UTC is 1.5 ms
-# ahead: it is told another --start-at. The cluster's clocks overcome that, and logs are merged by what they show.
-# Exits with 77 and the reason where namespaces are not permitted.
+# A node set split over two hosts, on DDS: two network namespaces with a veth pair between them. They share a
+# kernel clock. With time namespaces, the second host's CLOCK_MONOTONIC has another origin. Its UTC is 1.5 ms
+# ahead, by another --start-at. The cluster's clocks overcome that, and logs are merged by those clocks. Exits
+# with 77 and the reason where namespaces are not permitted.
 #   two_hosts_test.sh PROGRAM SOURCE_DIR LOG_FACTS [TIME_SCALE]
 set -u
 program=$1
@@ -44,8 +44,8 @@ for host in first second; do
     -e 's#<Peer Address="127.0.0.1"/>#<Peer Address="10.77.0.1"/><Peer Address="10.77.0.2"/>#' \
     "$source/bus/dds/loopback.xml" >"$work/$host.xml"
 done
-# A window that begins with the hosts' clocks apart; wide, as who is outside it is not followed any more: stretched so much,
-# what a loaded kernel wakes senders up late by stays within it.
+# A window that covers the hosts' initial clock distance. It is wide, because nodes outside it are no longer
+# followed. With this stretching, a loaded kernel's late wake-ups stay within it.
 sed -e "s/^real_time:.*/real_time: {early: $((400 * scale)) us, late: $((500 * scale)) us}/" \
   "$source/schedules/paper_synchronised.yaml" >"$work/cluster.yaml"
 sed -e "s#\.\./schedules/paper_unsynchronised#$source/schedules/paper_unsynchronised#" \

@@ -1,6 +1,6 @@
-// Nothing in the house allocates on its cyclic path: neither controllers, tasks and strategies nor the media between
-// them, and not the world they look at. What a run needs it takes at its start, sized by schedule and scenario, so
-// there is no warming up: what the first cycle needs is all that is ever needed.
+// No cyclic path allocates: controllers, tasks, strategies, the media between them, and the world. A run
+// allocates at its start, sized by schedule and scenario. There is no warm-up: the first cycle's memory is
+// enough for all.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,8 +56,8 @@ TEST_P(Allocations, NoneInThePapersDrives) {
 
 TEST_P(Allocations, NoneWithACrowd) { expect_none(Drive("scenarios/crowd_25.yaml", GetParam()), 5'990); }
 
-// Lists as long as they get: each of the laser's beams hits one of two fences, whose gaps cut the scan into many
-// segments, and more is seen than the observation lists and the image carry.
+// The longest lists. Each of the laser's beams hits one of two fences, whose gaps cut the scan into many
+// segments. More is seen than the observation lists and the image carry.
 TEST_P(Allocations, NoneWithFullLists) {
   Drive drive("scenarios/paper_scenario1.yaml", GetParam());
   drive.scenario.world.objects.clear();

@@ -1,4 +1,4 @@
-// Sensors that are wrong all through a drive, and sensors that look elsewhere, in whole clusters.
+// Sensors with constant errors throughout a drive, and sensors that look elsewhere, in whole clusters.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ namespace {
 
 using fusion::strategies::StrategyKind;
 
-// What the laser's lists say of the objects, as the fusion node takes them.
+// The laser's sightings of objects, as the fusion node takes them.
 struct LaserSightings final : recording::records::Sink {
   using recording::records::Sink::on;
   std::map<std::uint32_t, std::vector<double>> x, y;  // by list
@@ -83,7 +83,8 @@ TEST(BiasedDrive, AStampsErrorMovesWhatMoves) {
   EXPECT_NEAR(early.mean_x() - exact.mean_x(), 0.5, 0.05);
 }
 
-// The last of a drive's predictions for its images, of the car at (30, 0) m; the nearest one, for a camera sees ghosts.
+// The drive's last prediction for its images, of the car at (30, 0) m. The nearest one counts, since a camera
+// sees ghosts.
 struct LastPrediction final : recording::records::Sink {
   using recording::records::Sink::on;
   GlobalTime at{};
@@ -100,8 +101,8 @@ struct LastPrediction final : recording::records::Sink {
   }
 };
 
-// Of the position alone: the car stands, which is more than the tracker counts on, so that of the velocity it knows
-// more than it believes. Each drive is judged once, at its end.
+// Judges only the position. The car stands still, which the tracker does not assume, so it knows the velocity
+// better than stated. Each drive is judged once, at its end.
 TEST(BiasedDrive, ConsideredItIsConsistentIgnoredItIsNot) {
   constexpr std::uint64_t kDrives = 150;
   Drive drive = standing_car(StrategyKind::kTt);
@@ -135,7 +136,7 @@ TEST(BiasedDrive, ConsideredItIsConsistentIgnoredItIsNot) {
   EXPECT_LT(rmse[1], rmse[0]) << "the camera knows better how far it is";
 }
 
-// A scene behind the vehicle, seen by sensors that look backwards, is the scene ahead, turned.
+// A scene behind the vehicle, seen by backward sensors, is the scene ahead, rotated.
 TEST(MountedDrive, BackwardsIsForwardsTurned) {
   for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     const Drive ahead("scenarios/paper_scenario1.yaml", strategy);
@@ -173,8 +174,8 @@ TEST(MountedDrive, BackwardsIsForwardsTurned) {
   }
 }
 
-// A recording without noise, of a laser on the roof that looks to the left and a radar at the back that looks
-// backwards: what the log says was seen, and the images, are where the car is.
+// A recording without noise, of a laser on the roof that looks left and a radar at the back that looks
+// backwards. The log's sightings and the images are at the car's place.
 TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
   Drive drive("scenarios/laser_radar_recorded.yaml", StrategyKind::kTt);
   drive.scenario.duration = drive.scenario.world.duration = Duration::milliseconds(5'000);
@@ -212,7 +213,7 @@ TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
     void on(const recording::records::ObservationSeen& seen) override {
       const double x = -40.0 + 5.0 * (seen.measured - GlobalTime{}).seconds();
       ++sightings;
-      // The instant of row 0 and the clocks' distance are not known here: some tens of milliseconds.
+      // The instant of row 0 and the clocks' distance are unknown here: some tens of milliseconds.
       EXPECT_NEAR(seen.x, x, 0.5) << index_of(seen.id.sensor);
       EXPECT_NEAR(seen.y, 3.0, 0.01) << index_of(seen.id.sensor);
     }

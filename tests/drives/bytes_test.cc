@@ -1,4 +1,4 @@
-// Only bytes travel: what a receiver knows is what the frame says.
+// Only bytes travel: a receiver knows only the frame's content.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace ttf::drives {
 namespace {
 
-// A forger in the medium: changes one signal of an image frame and makes both CRCs right again, so that no check can
+// A forger in the medium: changes one signal of an image frame and corrects both CRCs, so that no check can
 // see it.
 std::vector<std::byte> forged(std::span<const std::byte> frame, schedules::model::Channel channel,
                               const schedules::model::PduLayout& layout, std::size_t signal, double value) {
@@ -29,7 +29,7 @@ std::vector<std::byte> forged(std::span<const std::byte> frame, schedules::model
   return bytes;
 }
 
-// A controller of the feature node that hears the fusion node's image frames, as they are or forged.
+// A controller of the feature node that hears the fusion node's image frames, original or forged.
 struct Receiver final : bus::controller::ControllerEvents, bus::ports::FlexRayPort {
   const schedules::model::Cluster& cluster;
   bus::controller::FlexRayController controller;
@@ -88,7 +88,7 @@ TEST(Bytes, ChangedPayloadWithValidCrcChangesTheImage) {
   EXPECT_NEAR(nodes::fusion::decode_image_object(layout, *heard, 0, signals).x, 31.0, 0.003);
   EXPECT_NEAR(nodes::fusion::decode_image_object(layout, *forgery, 0, signals).x, 17.5, 0.003);
 
-  // The same change without the right CRC is not heard at all.
+  // The same change without a correct CRC is not received.
   std::vector<std::byte> broken(honest.begin(), honest.end());
   broken[bus::wire::kHeaderBytes + 10] ^= std::byte{0x10};
   Receiver careful(cluster);

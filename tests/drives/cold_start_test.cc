@@ -76,8 +76,8 @@ TEST(ColdStart, OneLeadsFromCycle6OthersFollowIn7AndIntegrateIn8) {
   }
 }
 
-// Whatever the order in which they come: every node is active within two listen timeouts, the spread, and the cycles of
-// an attempt or two.
+// In any order of power-on, every node is active within two listen timeouts, the spread, and an attempt's or
+// two's cycles.
 TEST(ColdStart, EveryNodeBecomesActiveWhateverThePowerOnTimes) {
   Drive drive(kScenario, StrategyKind::kAdva);
   drive.scenario.startup.power_on.clear();
@@ -91,9 +91,9 @@ TEST(ColdStart, EveryNodeBecomesActiveWhateverThePowerOnTimes) {
   }
 }
 
-// The tracker warms up for 1.5 s, start-up takes some 60 ms: what a cold drive is worth is what an integrated one is,
-// up to the noise of one drive, which differs as measurements are made some milliseconds later. Pooled over ten drives
-// of either kind, errors agree within a quarter.
+// The tracker warms up for 1.5 s, start-up takes some 60 ms. So a cold drive matches an integrated one, up to
+// one drive's noise, which differs as measurements are some milliseconds later. Pooled over ten drives of
+// either kind, errors agree within a quarter.
 TEST(ColdStart, IsWorthWhatAnIntegratedDriveIs) {
   for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     Drive drive("scenarios/paper_scenario2.yaml", strategy);
@@ -125,9 +125,9 @@ TEST(ColdStart, IsWorthWhatAnIntegratedDriveIs) {
   }
 }
 
-// The stamp of a list is its strobe's on the host's clock, to the microsecond; the precision and a macrotick come on
-// top. True times are had from global ones by the reader's clock, whose rate is off by less than 1500 ppm over less
-// than 130 ms.
+// A list's stamp is its strobe's on the host's clock, to the microsecond; the precision and a macrotick add
+// to that. The reader's clock converts global times to true ones. Its rate is off by less than 1500 ppm over
+// less than 130 ms.
 constexpr Duration kStampsAgree = Duration::microseconds(200);
 
 void expect_stamps_mean_what_was_measured(const Told& told, std::size_t at_least) {
@@ -150,8 +150,7 @@ TEST(ColdStart, ListsSayWhenTheyWereMeasured) {
   expect_stamps_mean_what_was_measured(told, 80);
 }
 
-// GPS time is put on the time scale that the cluster happens to have: a fix lies there where the fusion node's clock
-// was.
+// GPS time is converted to the cluster's time scale: a fix has the fusion node's clock reading.
 TEST(ColdStart, FixesAreOnTheClustersTimeScale) {
   Told told;
   struct Scale final : recording::records::Sink {
@@ -177,8 +176,8 @@ TEST(ColdStart, FixesAreOnTheClustersTimeScale) {
   }
 }
 
-// Fusion wakes the others, on channel A. They are powered on a millisecond after the end of the pattern, the camera's
-// host two.
+// Fusion wakes the others, on channel A. They are powered on a millisecond after the end of the pattern, the
+// camera's host two.
 TEST(ColdStart, AWakeupPatternPowersTheOthersOn) {
   Drive drive(kScenario, StrategyKind::kTt);
   drive.scenario.startup.wake_up = "fusion";
@@ -215,8 +214,7 @@ TEST(ColdStart, AWakeupPatternPowersTheOthersOn) {
     EXPECT_TRUE(node.active.has_value()) << drive.cluster.node(node.node).name;
 }
 
-// Two lose their supply before anybody wakes them. One gets it back, when nobody is woken any more: it starts up at
-// once.
+// Two lose their supply before wake-up. One gets it back after all wake-ups: it starts up at once.
 TEST(ColdStart, OfASleepersSupplyNobodyIsToldBeforeItIsAwake) {
   struct Supplies final : recording::records::Sink {
     using recording::records::Sink::on;
@@ -281,8 +279,8 @@ Restarted restarted(std::string_view name) {
   return result;
 }
 
-// Cycles of 2 ms: a round is 128 ms. After a second and more the restarted node counts less by whole rounds; all the
-// same, what was measured when is understood by everybody.
+// Cycles of 2 ms: a round is 128 ms. After more than a second the restarted node counts whole rounds less.
+// All nodes still understand the instants of measurement.
 TEST(ColdStart, ARestartedNodesStampsAreUnderstoodModuloARound) {
   for (const char* name : {"laser_pre", "camera_pre", "fusion", "feature"}) {
     SCOPED_TRACE(name);

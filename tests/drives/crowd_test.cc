@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kGate_m = 1.5;  // an image object further from a true object is not of it
 
-// By then an object that is visible from the start is confirmed in every image that is used: a window of the slowest
-// sensor's lists, after its first period, and the greatest age at use.
+// From then on, an object visible from the start is confirmed in every used image. The time is a window of
+// the slowest sensor's lists, after its first period, and the greatest age at use.
 TrueTime confirmation_time(const Drive& drive) {
   Duration period{}, age{};
   for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(drive.cluster)) {
@@ -29,7 +29,7 @@ TrueTime confirmation_time(const Drive& drive) {
   return sim::crank::kFirstCycle + period * (1 + drive.scenario.tracker.confirm_window) + age;
 }
 
-// Which track shows which true object at every use: one to one, within the gate.
+// The track of each true object at every use: one to one, within the gate.
 class Coverage final : public recording::records::Sink {
  public:
   struct Object {
@@ -117,7 +117,7 @@ TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
   ASSERT_EQ(coverage.objects.size(), 25u);
   for (const auto& [id, object] : coverage.objects) {
     EXPECT_GT(object.uses, 1450);
-    // Visible all the time: at every use it is there, under the name it was born with.
+    // Visible all the time: present at every use, under its first name.
     EXPECT_EQ(object.shown, object.uses) << "object " << index_of(id) << ", first missed at "
                                          << (object.first_missed - sim::crank::kFirstCycle).seconds() << " s";
     EXPECT_EQ(object.tracks.size(), 1u) << "object " << index_of(id) << " has that many tracks";
@@ -126,8 +126,8 @@ TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
   EXPECT_EQ(outcome.counts.deadlines_missed, 0u);
   EXPECT_EQ(outcome.counts.torn_lists, 0u);
   EXPECT_EQ(outcome.counts.overwritten_lists, 0u);
-  // Flat memory, the measures' included: what the first ten seconds needed is enough for the minute. Ends of buffers
-  // may lie elsewhere; 1250 uses of 25 objects would be megabytes.
+  // Flat memory, including the measures': the first ten seconds' memory is enough for the minute. Ends of
+  // buffers may shift; 1250 uses of 25 objects would be megabytes.
   ASSERT_GT(memory.after_warm_up, 0);
   EXPECT_LT(memory.largest - memory.after_warm_up, 4096);
 }

@@ -1,5 +1,5 @@
-// Lists as long on a CAN as their layout allows: every element there, and every bit that is free chosen so that as many
-// stuff bits as possible are needed - or lists as short as they get.
+// Lists as long on a CAN as their layout allows: every element present, and every free bit chosen for the
+// most stuff bits. Or lists as short as possible.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class Wire {
   void put(std::uint32_t value, int bits) {
     for (int b = bits - 1; b >= 0; --b) put(((value >> b) & 1u) != 0);
   }
-  // What the next bit must be for the most or the fewest stuff bits.
+  // The next bit for the most or the fewest stuff bits.
   bool next(Filling filling) const { return filling == Filling::kDense ? last_ : !last_; }
 
  private:
@@ -65,7 +65,7 @@ inline void fill(std::span<std::byte> fragment, const schedules::model::PduLayou
   }
 }
 
-// Rewrites what `output` holds.
+// Rewrites the content of `output`.
 inline void fill(nodes::host::Output& output, std::uint32_t identifier, Filling filling) {
   const bus::cni::ListView list = output.view();
   std::vector<std::byte> bytes(list.bytes.begin(), list.bytes.end());
@@ -75,7 +75,7 @@ inline void fill(nodes::host::Output& output, std::uint32_t identifier, Filling 
   output.copy({list.sequence, list.fragments, bytes});
 }
 
-// A sensor device whose every measurement is such a list, and a preprocessing that makes such a list of it.
+// A sensor device whose every measurement is such a list, and a preprocessing that turns it into such a list.
 class FilledStep final : public nodes::host::Step {
  public:
   // The first list has the number `first`.
@@ -105,7 +105,7 @@ class FilledStep final : public nodes::host::Step {
   SensorId sensor_{};
 };
 
-// A device that measures nothing.
+// A device without measurements.
 class SilentStep final : public nodes::host::Step {
  public:
   void run(nodes::host::StepContext&) override {}

@@ -1,4 +1,4 @@
-// Whole drives: determinism, order of arrival, and that what is used is what the bus carried.
+// Whole drives: determinism, order of arrival, and the use of the bus' content.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -88,8 +88,8 @@ TEST(Drive, EveryListIsFusedExactlyOnce) {
   }
 }
 
-// What the feature service uses is the very image that was written under its sequence number, in every field, decoded
-// from the bus and not handed over.
+// The feature service uses the image written under its sequence number, equal in every field, decoded from
+// the bus.
 TEST(Drive, TheFeatureServiceUsesWhatTheBusCarried) {
   for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     const Drive drive("scenarios/paper_scenario1.yaml", strategy);

@@ -1,4 +1,4 @@
-// Images as they were written and used, kept whole and compared in every field, bit for bit.
+// Written and used images, kept whole and compared in every field, bit for bit.
 #pragma once
 
 #include <bit>
@@ -14,7 +14,7 @@ inline bool same(const recording::records::Stamp& a, const recording::records::S
   return a.true_time == b.true_time && a.local == b.local && a.global == b.global && a.node == b.node;
 }
 
-// Every field by name: one that is added later does not compile until it is compared, too.
+// Every field by name: a new field does not compile until it is compared, too.
 inline auto bits(const recording::records::ImageObject& object) {
   const auto& [track, x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy,
                sigma_heading, sigma_speed, sigma_acceleration, sigma_length, sigma_width, status] = object;
@@ -57,7 +57,7 @@ inline bool same(const ImageCopy& a, const ImageCopy& b) {
          a.newest_measurement == b.newest_measurement && a.newest == b.newest && same(a.objects, b.objects);
 }
 
-// Of a whole drive.
+// The images of a whole drive.
 struct Images final : recording::records::Sink {
   using recording::records::Sink::on;
   struct Use {

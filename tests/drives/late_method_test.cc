@@ -19,7 +19,7 @@ evaluation::accuracy::DriveSummary summary_of(const Drive& drive) {
   return measures.finish();
 }
 
-// Errors within two in a hundred, objects and lists alike.
+// Errors agree within two per cent, objects and lists exactly.
 void expect_nearly(const evaluation::accuracy::DriveSummary& other,
                    const evaluation::accuracy::DriveSummary& rewinding) {
   EXPECT_NEAR(other.position_rmse_truth / rewinding.position_rmse_truth, 1.0, 0.02);
@@ -29,12 +29,12 @@ void expect_nearly(const evaluation::accuracy::DriveSummary& other,
   EXPECT_EQ(other.matched, rewinding.matched);
   EXPECT_EQ(other.received, rewinding.received);
   EXPECT_EQ(other.out_of_sequence, rewinding.out_of_sequence);
-  // Before there is a track, a late list has nobody to belong to.
+  // Before the first track, a late list is dropped.
   EXPECT_EQ(other.fused_late + other.dropped, rewinding.fused_late + rewinding.dropped);
   EXPECT_LE(other.dropped, 2u);
 }
 
-// Few lists are late with one object, many with 25, of which more lists come later.
+// Few lists are late with one object. With 25, later lists are frequent.
 TEST(LateMethod, AdvaWithOthersIsNearlyRewinding) {
   for (const char* scenario : {kScenario, "scenarios/crowd_25.yaml"}) {
     Drive drive(scenario, StrategyKind::kAdva);
@@ -48,8 +48,8 @@ TEST(LateMethod, AdvaWithOthersIsNearlyRewinding) {
   }
 }
 
-// Where the schedule knows the sensors' instants: the camera measures 25 ms later than in the shipped cluster, so that
-// its lists overtake the laser's.
+// The schedule knows the sensors' instants. The camera measures 25 ms later than in the shipped cluster, so
+// that its lists overtake the laser's.
 TEST(LateMethod, AdvaWithClonesIsNearlyRewinding) {
   Drive drive(kScenario, StrategyKind::kTt);
   drive.strategy = StrategyKind::kAdva;
@@ -61,8 +61,8 @@ TEST(LateMethod, AdvaWithClonesIsNearlyRewinding) {
   expect_nearly(summary_of(drive), rewinding);
 }
 
-// Sensors that follow their hosts: each list is fused as it comes, one in six late. When they measure next nobody
-// knows.
+// Sensors that follow their hosts: each list is fused on arrival, one in six late. Their next measurement is
+// unknown.
 TEST(LateMethod, WhereSensorsFollowTheirHostsAllButClonesAreNearlyRewinding) {
   for (const char* cluster : {"schedules/paper_free_running.yaml", "schedules/paper_free_flexray.yaml"}) {
     Drive drive(kScenario, StrategyKind::kAdva);

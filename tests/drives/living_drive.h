@@ -1,4 +1,4 @@
-// A drive in which nodes lose their supply, and what the fusion and the feature service made of it.
+// A drive in which nodes lose their supply, with the results of the fusion and the feature service.
 #pragma once
 
 #include <algorithm>
@@ -78,7 +78,7 @@ struct LivingRecords final : recording::records::Sink {
 
 constexpr TrueTime at_s(double s) { return TrueTime{static_cast<std::int64_t>(s * 1e9)}; }
 
-// The paper's first drive: one car ahead that both sensors see, as long as it is run.
+// The paper's first drive: one car ahead that both sensors see throughout.
 struct LivingDrive {
   Drive drive;
   LivingRecords seen;

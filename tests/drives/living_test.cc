@@ -1,5 +1,5 @@
-// Sensors, hosts and the gateway die, for good or for a while: the fusion goes on with what there is, the ages are
-// those of the measurements, and what nobody sees any more coasts and ends by the rule.
+// Sensors, hosts and the gateway die, for good or for a while. The fusion goes on with the rest, the ages are
+// the measurements' own, and unseen objects coast and end by the rule.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -18,8 +18,8 @@ class Living : public testing::TestWithParam<StrategyKind> {};
 INSTANTIATE_TEST_SUITE_P(All, Living, testing::ValuesIn(fusion::strategies::kAllStrategies),
                          [](const auto& kind) { return std::string(name_of(kind.param)); });
 
-// No list fused twice, none but of what was measured, none older than the schedule says: BUFF and TT may wait for what
-// never comes, ADVA waits for nobody. `besides`: how long a list may have waited in a node that was starting up.
+// Each fused list was measured, is fused once, and is no older than the schedule says. BUFF and TT may wait
+// for lists that never come, ADVA never waits. `besides`: a list's longest wait in a node that starts up.
 void expect_nothing_invented(const LivingDrive& drive, Duration besides = {}) {
   std::map<SensorId, Duration> most;
   for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(drive.drive.cluster))
@@ -32,7 +32,7 @@ void expect_nothing_invented(const LivingDrive& drive, Duration besides = {}) {
                 list.disposition == recording::records::Disposition::kFusedLate);
     ASSERT_TRUE(once.emplace(list.id, list.measured).second) << "twice";
     ASSERT_LE(list.fused - list.measured, most[list.id.sensor] + besides) << "sensor " << index_of(list.id.sensor);
-    // The age is true: the device measured as long ago, on any clock, give or take clocks and stamps.
+    // The age is true: the device measured that long ago on any clock, up to clocks and stamps.
     const Duration age = list.fused - list.measured;
     const auto& instants = measured[list.id];
     ASSERT_TRUE(std::any_of(instants.begin(), instants.end(),
@@ -85,7 +85,7 @@ TEST_P(Living, ASensorThatRestartsIsFusedAgain) {
     drive.run_to(4.0);
     expect_nothing_invented(drive);
     const SensorId sensor = drive.sensor(name);
-    // Every receiver on its way believes in numbers that begin again with the third list: host, gateway, fusion node.
+    // Every receiver on its way accepts restarted numbers with the third list: host, gateway, fusion node.
     std::size_t again = 0;
     for (const FusedList& list : drive.seen.fused) again += list.id.sensor == sensor && list.at > at_s(2.6);
     EXPECT_GT(again, 15u) << name;
@@ -100,7 +100,7 @@ TEST_P(Living, ASensorThatRestartsIsFusedAgain) {
   }
 }
 
-// Both die. The image goes on: an object less and less certain, called coasting, then none.
+// Both die. The image goes on: the object becomes less certain, is marked as coasting, and ends.
 void expect_coasting_from(const LivingDrive& drive, double silent_s) {
   const fusion::config::TrackerConfig& rule = drive.drive.scenario.tracker;
   double trace = 0.0;
@@ -175,7 +175,7 @@ TEST_P(Living, WithoutTheFusionNodeTheLastImageIsRefusedWhenItIsTooOld) {
       << "its age is what it is";
 }
 
-// It comes back empty, counting other rounds of the cycle counter than the rest, its images from 0.
+// It comes back empty, counts other rounds of the cycle counter than the rest, and numbers its images from 0.
 TEST_P(Living, AFusionNodeThatRestartsBeginsWithNothingAndIsBelievedAgain) {
   LivingDrive drive(GetParam());
   drive.off("fusion", 1.5);
@@ -197,8 +197,8 @@ TEST_P(Living, AFusionNodeThatRestartsBeginsWithNothingAndIsBelievedAgain) {
   EXPECT_GT(again, 30);
 }
 
-// The gateway goes on sending the last list of a laser that is dead. For a fusion node that starts anew it is the first
-// it hears, of an age it cannot know: whole rounds of the cycle counter look alike.
+// The gateway goes on sending the last list of a dead laser. For a restarted fusion node this is the first
+// list, of unknown age: whole rounds of the cycle counter look equal.
 TEST_P(Living, AFusionNodeThatRestartsTakesNoOldListForANewOne) {
   for (const char* dead : {"laser", "camera"}) {
     LivingDrive drive(GetParam());

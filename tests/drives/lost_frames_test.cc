@@ -1,5 +1,5 @@
-// Lists get lost on FlexRay, whole or in part: what is fused is what was sent, and the images are those of a fusion
-// node that was never sent the others.
+// FlexRay loses lists, whole or in part. Fused lists equal the sent ones. The images are those of a fusion
+// node whose senders never sent the others.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -17,7 +17,7 @@ namespace {
 
 using fusion::strategies::StrategyKind;
 
-// Keeps frames of observation lists from the bus: a share of the lists altogether, and of the others a share of the
+// Keeps frames of observation lists from the bus: a share of whole lists, and of the others a share of the
 // frames.
 class Losses final : public sim::medium::Disturbance {
  public:
@@ -54,7 +54,7 @@ struct List {
 };
 using Lists = std::map<MeasurementId, List>;
 
-// What a fusion node that receives all lists was sent.
+// The inputs of a fusion node that receives all lists.
 struct Everything final : recording::records::Sink {
   using recording::records::Sink::on;
   Lists lists;
@@ -63,7 +63,7 @@ struct Everything final : recording::records::Sink {
   }
 };
 
-// A strategy beside the drive that is handed, of the lists that arrived, those of the faultless drive.
+// A strategy beside the drive. It gets the arrived lists with the faultless drive's content.
 class Beside final : public recording::records::Sink {
  public:
   Beside(const schedules::model::Cluster& cluster, const fusion::config::TrackerConfig& tracker, StrategyKind kind,

@@ -1,4 +1,4 @@
-// Lists that are lost on their way, as a node counts and records them: each by its own number, none hidden.
+// Lost lists, as a node counts and records them: each by its number, with every loss recorded.
 #include <gtest/gtest.h>
 
 #include <memory>

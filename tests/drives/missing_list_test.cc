@@ -1,5 +1,5 @@
-// A list is missing, and the fusion node of the shipped clusters goes on: at the first fusion instant at which the
-// schedule has the list arrived, not at the one before and not at the one after. Fusion at 1.8 ms + n 10 ms.
+// A list is missing, and the fusion node of the shipped clusters goes on. It does so exactly at the first
+// fusion instant by which the schedule has the list arrived. Fusion at 1.8 ms + n 10 ms.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -26,7 +26,7 @@ struct FusionNode {
         strategy(fusion::strategies::make_strategy(kind, {}, nodes::fusion::sensor_timings(cluster))) {}
   SensorId sensor(const char* name) const { return *cluster.find_sensor(name); }
 
-  // The instant at which a list alone is fused, with none of any other sensor.
+  // The instant at which a single list is fused while all other sensors are silent.
   GlobalTime goes_on(const char* name, GlobalTime measured) {
     strategy->accept({{sensor(name), 0}, measured, {}});
     for (GlobalTime now = at_us(1'800);; now += Duration::milliseconds(10)) {
@@ -41,8 +41,8 @@ struct FusionNode {
   }
 };
 
-// The camera measures at 5.9 ms and its slots end at 41.764 ms, 36 us before the fusion. That is less than the worst
-// delay allows for the clocks of a whole way, but more than two clocks can differ by.
+// The camera measures at 5.9 ms and its slots end at 41.764 ms, 36 us before the fusion. That distance is
+// less than the worst delay allows for the clocks of a whole way, but more than two clocks can differ.
 TEST(MissingList, TimeTriggeredGoesOnAtTheCamerasDueInstant) {
   FusionNode node("schedules/paper_synchronised.yaml", StrategyKind::kTt);
   EXPECT_EQ(node.goes_on("laser", at_us(27'700)), at_us(41'800));
@@ -55,9 +55,9 @@ TEST(MissingList, TimeTriggeredGoesOnAtTheLasersDueInstant) {
   EXPECT_EQ(node.goes_on("camera", at_us(45'900)), at_us(81'800));
 }
 
-// BUFF waits for whatever may have been measured before. The camera's latest way to the gateway takes 34.935 ms, clocks
-// and stamp 9 us, and slot 15 begins at 51.176 ms: what is stamped 16.232 ms is fused at 51.8 ms, what is younger may
-// come too late for that.
+// BUFF waits for anything that may have been measured before. The camera's latest way to the gateway takes
+// 34.935 ms, clocks and stamp 9 us, and slot 15 begins at 51.176 ms. So a list stamped 16.232 ms is fused at
+// 51.8 ms; a younger one may come too late for that.
 TEST(MissingList, BuffGoesOnAtTheLastSlotsTheCameraCanReach) {
   for (const auto& [measured_us, fused_us] : {std::pair{16'225, 51'800}, {16'240, 61'800}, {26'225, 61'800}}) {
     FusionNode node("schedules/paper_synchronised.yaml", StrategyKind::kBuff);

@@ -1,4 +1,4 @@
-// What is recorded beside a drive.
+// The records made beside a drive.
 #include "drives/observer.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ recording::records::Stamp stamp(std::int64_t ns, NodeId node) {
   return {TrueTime{ns}, LocalTime{ns + static_cast<std::int64_t>(index_of(node))}, GlobalTime{}, node};
 }
 
-// Whatever the order in which several nodes measure, or use images, at one instant: each records the truth once.
+// Nodes measure, or use images, at one instant in any order: each records the truth once.
 TEST(Observer, EveryNodeRecordsTheTruthOfItsInstantOnce) {
   constexpr NodeId kLaser{1}, kFeature{2};
   const TwoObjects scene;

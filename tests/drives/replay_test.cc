@@ -1,4 +1,5 @@
-// The logged inputs of the fusion node, through the steps of a fresh one, give every image again, bit for bit.
+// The logged inputs of the fusion node, through the steps of a fresh one, give every image again, bit for
+// bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace {
 
 using fusion::strategies::StrategyKind;
 
-// What a fusion node says about its images: the image itself and the predictions behind it.
+// A fusion node's records of its images: the image and the predictions behind it.
 struct FusionRecords final : recording::records::Sink {
   using recording::records::Sink::on;
   struct Prediction {

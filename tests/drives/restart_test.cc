@@ -55,8 +55,8 @@ struct Cluster {
 
 TrueTime seconds(double s) { return TrueTime{static_cast<std::int64_t>(s * 1e9)}; }
 
-// Away for longer than a round of the cycle counter: it comes back with another cycle number, and the precision is
-// measured on.
+// Away for longer than a round of the cycle counter: it comes back with another cycle number, and the
+// precision is still measured.
 TEST(Restart, TheFusionNodeComesBackWithNothing) {
   for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     Cluster cluster(strategy);
@@ -109,7 +109,7 @@ TEST(Restart, AColdStartedClusterFuses) {
   }
 }
 
-// Nodes of all kinds, hosts, sensor devices, gateways, lose their supply at any instant, again and again.
+// Nodes of all kinds (hosts, sensor devices, gateways) lose their supply at any instant, again and again.
 class Blackouts final : public sim::medium::Disturbance {
  public:
   Blackouts(sim::crank::Plant& plant, std::size_t nodes, std::uint64_t seed)

@@ -1,4 +1,4 @@
-// Every shipped drive is loaded; what is wrong with one is said in sentences.
+// Every shipped drive loads; errors are reported in sentences.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,15 +34,15 @@ TEST(ScenarioFiles, EveryShippedOneLoadsAndItsClustersAreThere) {
     EXPECT_EQ(scenario.world.duration, scenario.duration);
     for (const std::string& cluster : scenario.cluster_files) EXPECT_TRUE(std::filesystem::exists(cluster)) << cluster;
     EXPECT_EQ(scenario.cluster_files[0], scenario.cluster_files[1]) << "BUFF and ADVA share their configuration";
-    // Drives that compare the strategies give TT a schedule of its own; what starts up, or compares phases of a
-    // schedule, is one cluster.
+    // Drives that compare the strategies have a separate schedule for TT. Those that start up, or compare
+    // phases of a schedule, have one cluster.
     const bool one_cluster = scenario.startup.cold || scenario.name == "twin_cameras";
     EXPECT_EQ(scenario.cluster_files[0] == scenario.cluster_files[2], one_cluster);
   }
 }
 
 TEST(ScenarioFiles, SensorAndCalibrationDefaultsAgree) {
-  // What preprocessing believes of the sensors is what they are, unless a drive says otherwise.
+  // Preprocessing assumes the sensors' real parameters, unless a drive says otherwise.
   const Scenario s;
   EXPECT_EQ(s.camera_calibration.baseline_m, s.camera.baseline_m);
   EXPECT_EQ(s.camera_calibration.focal_px, s.camera.focal_px);

@@ -1,4 +1,4 @@
-// What a scenario may say of how its drive begins.
+// A scenario's options for the start of its drive.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The records tell a measurement's whole way: every arrow carries its id, on every clock.
+// The records give a measurement's whole way: every arrow carries its id, on every clock.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -76,8 +76,8 @@ struct Ways final : recording::records::Sink {
   void on(const recording::records::ImageWritten& r) override { in_images.insert(r.newest.begin(), r.newest.end()); }
   void on(const recording::records::TruthState& r) override {
     ++truths;
-    // The cluster's time runs as fast as its oscillators do on average; a device off the bus has its own, from
-    // power-on.
+    // The cluster's time runs as fast as its oscillators on average. A device off the bus has its own time,
+    // from power-on.
     const std::int64_t elapsed = (r.at - sim::crank::kFirstCycle).ns;
     EXPECT_NEAR(static_cast<double>((r.global - GlobalTime{}).ns), static_cast<double>(elapsed),
                 (cluster.node(r.node).flexray ? 3e3 : 2e6) + 1e-4 * static_cast<double>(elapsed));
@@ -88,8 +88,8 @@ struct Ways final : recording::records::Sink {
   }
 };
 
-// The arrows every list of this sensor takes: both devices' and hosts' CANs, the gateway, both channels, the fusion
-// node.
+// The arrows of every list of this sensor: both devices' and hosts' CANs, the gateway, both channels, the
+// fusion node.
 std::set<Arrow> expected_arrows(const schedules::model::Cluster& cluster, SensorId sensor) {
   std::set<Arrow> arrows;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
@@ -134,7 +134,7 @@ TEST_P(WaysOfMeasurements, EveryArrowCarriesTheMeasurementsId) {
   EXPECT_GT(ways.fixes, 5);
 }
 
-// With counters of four bits on the buses everything is recognised all the same: what is recorded counts on.
+// With counters of four bits on the buses every number is still recognised: the recorded one counts on.
 TEST_P(WaysOfMeasurements, SequenceNumbersCountOnWhereTheFieldWraps) {
   const Drive shipped("scenarios/paper_scenario1.yaml", GetParam());
   Drive wrapping = shipped;

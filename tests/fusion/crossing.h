@@ -1,4 +1,4 @@
-// Two objects that cross at a small angle in clutter, and how well a tracker follows them.
+// Two objects cross at a small angle in clutter; a tracker follows them.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace ttf::fusion {
 
-// 60 m by 20 m, lists every 100 ms: each object with detection_probability, position with 0.3 m, and clutter_density
-// observations of nothing to the square metre. The first 1.5 s are without clutter and misses, and the objects apart,
-// so that both are known.
+// 60 m by 20 m, lists every 100 ms. Each object is seen with detection_probability, its position with 0.3 m.
+// Each square metre has clutter_density false observations. The first 1.5 s have neither clutter nor misses,
+// and the objects start apart: so both tracks are established.
 //
 //   y [m]  4 o------____
 //                      ____X____
@@ -32,7 +32,7 @@ struct Crossing {
 };
 
 struct Followed {
-  double nees = 0.0;   // mean of (x, y, vx, vy) over all objects and lists with a track within 5 m
+  double nees = 0.0;   // mean of (x, y, vx, vy) over objects and lists with a track within 5 m
   double gospa = 0.0;  // mean [m], cut-off 5 m, order 2
   std::uint64_t switches = 0, misses = 0, false_tracks = 0;  // CLEAR-MOT, gate 3 m
 };

@@ -1,5 +1,5 @@
-// Linear algebra of matrices of any size, for oracles. A decomposition of a fixed size, each with its own solver, takes
-// a compiler a second or more; these it reads once (dense.cc).
+// Linear algebra of matrices of any size, for oracles. Each fixed-size decomposition with a solver costs a
+// second or more to compile. These are compiled once (dense.cc).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// Drives in milliseconds for the tests of the strategies: what arrives when, and what was fused when.
+// Drives in milliseconds for the strategies' tests: arrivals, and when each list was fused.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,25 +21,24 @@ inline std::string name_of_strategy(const testing::TestParamInfo<strategies::Str
   return name;
 }
 
-// What the schedule promises of a sensor: measurements at unknown instants, or every `period_ms` from
-// `first_ms`.
+// A sensor's timing in the schedule: measurements at unknown instants, or every `period_ms` from `first_ms`.
 strategies::SensorTiming free_running(std::uint8_t sensor, std::int64_t worst_ms);
 strategies::SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms,
                                    std::int64_t period_ms);
 
-// Laser and camera, both on a schedule: from 0 every 80 ms, there after 60 ms at worst; from 20 every 40 ms,
-// after 35.
+// A laser and a camera on a schedule. The laser measures every 80 ms from 0 and takes 60 ms at worst. The
+// camera measures every 40 ms from 20 and takes 35 ms at worst.
 std::vector<strategies::SensorTiming> laser_and_camera();
 
 struct Arrival {
   std::int64_t ms = 0;
   OwnedList list;
 };
-// In the order of their arrival; what arrives together stays as it is.
+// Sorts by arrival; lists that arrive together keep their order.
 void sort_by_arrival(std::vector<Arrival>& arrivals);
 
-// Lists of laser_and_camera() with delays up to their worst, so that many arrive out of order: `laser_scans`
-// of the laser, twice as many of the camera.
+// Draws lists of laser_and_camera() with delays up to the worst, so that many arrive out of order. The drive
+// has `laser_scans` lists of the laser and twice as many of the camera.
 std::vector<Arrival> drawn_drive(std::uint64_t seed, std::uint32_t laser_scans);
 
 struct Fused {
@@ -52,7 +51,7 @@ std::ostream& operator<<(std::ostream& out, const Fused& f);
 Fused fused(std::int64_t ms, std::uint8_t sensor, std::uint32_t sequence,
             strategies::Disposition d = strategies::Disposition::kFused);
 
-// Fusion every 10 ms from 0 to `until`; what was reported, held lists left out.
+// Fuses every 10 ms from 0 to `until`. Returns all reports except those of held lists.
 std::vector<Fused> run(strategies::Strategy& strategy, std::vector<Arrival> arrivals, std::int64_t until);
 
 // Lists that the last fusion instant left waiting.

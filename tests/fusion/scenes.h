@@ -33,12 +33,12 @@ inline OwnedList list_of(std::uint8_t sensor, std::uint32_t sequence, GlobalTime
   return {{static_cast<SensorId>(sensor), sequence}, measured, std::move(observations)};
 }
 
-// What a test varies of the default configuration.
+// The default configuration with a test's variations.
 config::TrackerConfig config_of(config::MotionModel motion, double process_noise = 3.0,
                                 config::FilterKind filter = config::FilterKind::kExtended);
 
-// An estimate of a constant-velocity or constant-acceleration estimator, and what it is seen as; of tracks, under the
-// default configuration.
+// An estimate of a constant-velocity or constant-acceleration estimator, and its observation; of tracks,
+// under the default configuration.
 estimators::Estimate estimate_of(config::MotionModel motion, const estimators::State& x,
                                  const estimators::Covariance& p);
 estimators::Cartesian seen_as(const estimators::Estimate& estimate);
@@ -48,8 +48,8 @@ inline estimators::State state_of(const tracks::Track& track) { return seen_as(t
 tracks::TrackView shown(const tracks::Track& track, GlobalTime time, GlobalTime at,
                         const config::TrackerConfig& config = {});
 
-// F(dt) over the whole state, and the covariance of the driving noise over dt, by numerical integration of
-// F(t) G q G' F(t)' with Gauss-Legendre nodes (exact for these polynomials): independent of the filter's
+// F(dt) over the whole state, and the covariance of the driving noise over dt. The latter integrates F(t) G q
+// G' F(t)' numerically with Gauss-Legendre nodes (exact for these polynomials), independently of the filter's
 // formulas.
 estimators::Covariance transition(config::MotionModel motion, double dt);
 estimators::Covariance driving_noise(config::MotionModel motion, double q, double dt);
@@ -57,14 +57,13 @@ estimators::Covariance driving_noise(config::MotionModel motion, double q, doubl
 // A draw from N(mean, covariance), covariance positive semi-definite.
 estimators::State draw(const estimators::State& mean, const estimators::Covariance& covariance, RandomStream& stream);
 
-// Estimates, the states of two sets of tracks, images are the same to the last bit. Sets: whatever their tracks
-// are called.
+// Estimates, the states of two track sets, or images are bitwise equal. Track sets: regardless of names.
 bool same_bits(const estimators::Estimate& a, const estimators::Estimate& b);
 bool same_bits(const tracks::TrackSet& a, const tracks::TrackSet& b);
 bool same_bits(const std::vector<tracks::TrackView>& a, const std::vector<tracks::TrackView>& b);
 
-// Objects on a grid of lanes that drive at their own constant velocity, seen with noise and in shuffled order
-// by one of two sensors in turn. A pure function of its arguments.
+// Objects on a grid of lanes, each with its own constant velocity. Two sensors in turn see them with noise,
+// in shuffled order. A pure function of its arguments.
 struct Lanes {
   int objects = 25;
   int across = 5;  // lanes

@@ -1,4 +1,4 @@
-// The update as the textbook has it, the oracle of those that are fast (filters/correct.h, oosm/correction.h):
+// The textbook's update, the oracle of the fast ones (filters/correct.h, oosm/correction.h):
 //   nu = z - H x,  S = H P H' + R,  K = P H' S^-1 by an LDLT solve,  x <- x + K nu,
 //   P <- (I - K H) P (I - K H)' + K R K'  (Bar-Shalom, Li, Kirubarajan 2001, 5.2.3-18).
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace ttf::fusion {
 
-// What an update did; nu and S are those before it.
+// An update's gain and innovation; nu and S are those before it.
 template <int N, int M> struct Correction {
   linear::Vector<M> nu;
   linear::Matrix<M> s;

@@ -1,5 +1,5 @@
-// Any text as an experiment's answer.json. Laws: it is refused in a line, or makes a page, the same each time, in which
-// no name is markup.
+// Any text as an experiment's answer.json. Laws: it is refused in a line, or makes a page. The page is the
+// same each time, and no name in it is markup.
 #include "report/experiment/report.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/page_laws.h"

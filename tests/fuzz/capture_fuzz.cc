@@ -1,6 +1,6 @@
-// Any bytes as a capture, and any capture against a schedule. Laws: only InputError ends the reading, with one
-// sentence; packets lie within the file and are numbered from 1; packets written again are read the same; and the
-// verdict on a capture counts what it lists.
+// Any bytes as a capture, and any capture against a schedule. Laws: only InputError ends the reading, with
+// one sentence. Packets lie within the file and are numbered from 1. Packets written again are read the same.
+// The verdict on a capture counts its own list.
 #include "core/check.h"
 #include "recording/capture/check.h"
 #include "recording/capture/packet.h"

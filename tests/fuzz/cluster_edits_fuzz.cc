@@ -1,4 +1,5 @@
-// Edits of the shipped clusters (tests/fuzz/edits.h): past the parser, into the checker, the ages and the nodes' code.
+// Edits of the shipped clusters (tests/fuzz/edits.h) that pass the parser and reach the checker, the ages and
+// the nodes' code.
 #include <array>
 
 #include "tests/fuzz/cluster_laws.h"

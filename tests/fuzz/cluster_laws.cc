@@ -42,7 +42,7 @@ void check_ages(const schedules::model::Cluster& cluster) {
   schedules::analysis::ages_text(cluster);
 }
 
-// The time scale that is named makes room for the arrival window, the next smaller one does not.
+// The named time scale makes room for the arrival window, the next smaller one does not.
 void check_time_scale(const schedules::model::Cluster& cluster) {
   if (!cluster.arrival_window) return;
   const auto window_fits = [&](std::int64_t time_scale) {

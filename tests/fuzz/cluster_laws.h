@@ -1,4 +1,4 @@
-// What must hold for any text that claims to be a cluster, up to the code of its nodes.
+// Laws for any text as a cluster file, up to the code of its nodes.
 #pragma once
 
 #include <string>

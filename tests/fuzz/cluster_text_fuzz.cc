@@ -1,4 +1,4 @@
-// Any text as a cluster file. Law: a file is one document; what follows its end is refused, never passed over.
+// Any text as a cluster file. Law: a file is one document; text behind its end is refused, never skipped.
 #include "core/check.h"
 #include "schedules/file/loader.h"
 #include "tests/fuzz/cluster_laws.h"

@@ -1,8 +1,8 @@
-// Any records as the pictures of a log. Laws: a picture comes out, whatever the log says; it is text without control
-// characters; and the same log gives the same picture.
+// Any records as the pictures of a log. Laws: every log gives a picture; it is text without control
+// characters; the same log gives the same picture.
 //
-// Input: start of the window (8 bytes, ns), its length and the cycle (4 bytes each, us), which names are known (1
-// byte), then messages: kind (1 byte), length (2 bytes), payload.
+// Input: start of the window (8 bytes, ns), its length and the cycle (4 bytes each, us), the set of known
+// names (1 byte). Then messages: kind (1 byte), length (2 bytes), payload.
 #include <algorithm>
 
 #include "core/check.h"
@@ -43,7 +43,7 @@ struct Pictures {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Source source(data, size);
   Pictures pictures;
-  // What cli/time_window.h lets through.
+  // The range that cli/time_window.h accepts.
   pictures.from = {static_cast<std::int64_t>(source.take<std::uint64_t>() % 1'000'000'000'000'000'000u)};
   pictures.to = pictures.from + Duration::microseconds(source.take<std::uint32_t>());
   pictures.cycle = Duration::microseconds(source.take<std::uint32_t>());

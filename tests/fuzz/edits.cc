@@ -30,7 +30,7 @@ bool of_a_name(char c) {
   return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
 }
 
-// Where the value after the occurrence-th "key:" begins; npos if there is none.
+// Returns the beginning of the value after the occurrence-th "key:", or npos.
 std::size_t value_of(std::string_view text, std::string_view key, std::size_t occurrence) {
   const std::string wanted = std::string(key) + ":";
   for (std::size_t at = text.find(wanted); at != std::string_view::npos; at = text.find(wanted, at + 1)) {
@@ -40,7 +40,7 @@ std::size_t value_of(std::string_view text, std::string_view key, std::size_t oc
   return std::string_view::npos;
 }
 
-// The end of a value on its line: lists and mappings in brackets are values too.
+// Returns the end of a value on its line: lists and mappings in brackets are values, too.
 std::size_t end_of_value(std::string_view text, std::size_t at) {
   int depth = 0;
   for (; at < text.size() && text[at] != '\n'; ++at) {

@@ -1,5 +1,5 @@
-// Edits of a shipped YAML file: inputs that are nearly right and get past the parser, in a form that is short,
-// readable, and survives changes of the file.
+// Edits of a shipped YAML file: nearly correct inputs that pass the parser. Their form is short, readable,
+// and survives changes of the file.
 //
 //   paper_synchronised          first line: which of the shipped files, by its name (the first one, if unknown)
 //   gdStaticSlot 0 12           the value after the first "gdStaticSlot:" is 12

@@ -18,8 +18,8 @@ using schedules::model::Cluster;
 
 constexpr char kFibexFile[] = "cluster.xml";
 
-// Names that FIBEX holds as they are: XML knows no control characters, space around text means nothing there,
-// and a SHORT-NAME has at most 128 bytes, also that of a frame, which is made of its list and slot.
+// Names that FIBEX keeps unchanged. XML has no control characters, and space around text means nothing there.
+// A SHORT-NAME has at most 128 bytes, including a frame's, made of its list and slot.
 bool is_fibex_name(const std::string& name) {
   const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   return !name.empty() && name.size() <= 90 && name.front() != ' ' && name.back() != ' ' &&

@@ -1,4 +1,4 @@
-// What must hold between clusters and FIBEX files.
+// Laws between clusters and FIBEX files.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace ttf::fuzz {
 
-// A consistent cluster is the same after export and import, in what FIBEX can say, and nothing of it is left
-// out or assumed.
+// A consistent cluster is the same after export and import, in everything that FIBEX can express, without
+// gaps or assumptions.
 void check_fibex_round_trip(const schedules::model::Cluster& cluster);
 
-// Any text that claims to be FIBEX: refused as it should, or it becomes a cluster file that loads as what was
-// imported, and stays the same on another way through FIBEX.
+// Any text as FIBEX is refused properly, or becomes a cluster file. The file loads as the imported cluster,
+// and survives another pass through FIBEX.
 void check_fibex(const std::string& text);
 
 }  // namespace ttf::fuzz

@@ -1,10 +1,10 @@
-// Any CAN frames, in any order, to a channel's receiver. Laws: an outcome is a value, and counted; what is complete
-// is what sending it makes of it, CAN frame by CAN frame, each of which arrived in this order; nothing is abandoned
-// that was not begun.
+// Any CAN frames, in any order, to a channel's receiver. Laws: an outcome is a value, and counted. A complete
+// frame equals its sent form, CAN frame by CAN frame, each of which arrived in this order. Only begun frames
+// are abandoned.
 //
-// First byte: channel (bit 0). Then frames, each begun by a byte: bits 0 and 1, where it comes from (any bytes as a
-// CAN frame; any bytes as a FlexRay frame that is sent; the same with right CRCs; a CAN frame sent before), bit 2,
-// one of its bytes is changed, bit 3, with the first of these: a follow-up that is sent.
+// First byte: channel (bit 0). Then frames, each begun by a byte. Bits 0 and 1 give its source: any bytes as
+// a CAN frame; any bytes as a FlexRay frame to send; the same with correct CRCs; an earlier CAN frame. Bit 2
+// changes one of its bytes. Bit 3, with the first source, makes a follow-up to send.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -82,7 +82,7 @@ class Laws {
 
  private:
   void complete(const canfd_frame& can, const bus::socketcan::Arrival& arrival) {
-    if (arrival.follow_up) {  // what is begun goes on
+    if (arrival.follow_up) {  // a begun frame goes on
       TTF_CHECK(same(bus::socketcan::follow_up_to_can(channel_, *arrival.follow_up), can), "another follow-up");
       TTF_CHECK(!arrival.abandoned, "a follow-up ended a frame");
       return;

@@ -1,7 +1,8 @@
-// Any bytes as a FlexRay frame. Laws: an error is a value, never anything else; a frame that is accepted is the one
-// that encoding its header and payload makes; and no frame of one channel passes on the other.
+// Any bytes as a FlexRay frame. Laws: every error is a value. An accepted frame equals the encoding of its
+// header and payload. No frame of one channel passes on the other.
 //
-// First byte: channel (bit 0), whether both CRCs are made right first (bit 1), for they would stop nearly everything.
+// First byte: channel (bit 0), and whether both CRCs are corrected first (bit 1), since they would stop
+// nearly every input.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -47,14 +48,14 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   TTF_CHECK(frame.size() <= bus::wire::kMaxFrameBytes && decoded.payload.size() == 2u * decoded.header.payload_words,
             "{} bytes, {} words", frame.size(), decoded.header.payload_words);
   TTF_CHECK(bus::wire::decode_frame(other, frame).error == bus::wire::FrameError::kFrameCrc, "passes on both channels");
-  // Startup without sync is well-formed; the controller refuses it as content, and nobody encodes it.
+  // Startup without sync is well-formed. The controller refuses it as content, and it cannot be encoded.
   if (decoded.header.startup && !decoded.header.sync) return 0;
   std::array<std::byte, bus::wire::kMaxFrameBytes> encoded{};
   const std::size_t length = bus::wire::encode_frame(decoded.header, channel, decoded.payload, encoded);
   TTF_CHECK(length == frame.size(), "{} bytes of {}", length, frame.size());
   const auto payload = std::span(frame).subspan(kHeaderBytes, decoded.payload.size());
   TTF_CHECK(std::equal(payload.begin(), payload.end(), encoded.begin() + kHeaderBytes), "another payload");
-  // The reserved bit is sent as 0 and ignored by receivers: it and what covers it may differ.
+  // The reserved bit is sent as 0 and ignored by receivers: it and the CRCs over it may differ.
   const bool reserved = (frame[0] & std::byte{0x80}) != std::byte{0};
   if (!reserved) TTF_CHECK(std::equal(frame.begin(), frame.end(), encoded.begin()), "other bytes");
   const bus::wire::DecodedFrame again = bus::wire::decode_frame(channel, std::span(encoded).first(length));

@@ -1,7 +1,7 @@
-// What the fuzz targets share: taking values out of bytes, and what a refusal must look like.
+// Shared by the fuzz targets: values taken from bytes, and the form of a refusal.
 //
-// A target is one function of bytes, LLVMFuzzerTestOneInput, driven by libFuzzer (TTF_FUZZ, tools/fuzz.sh), which
-// begins with the seeds and the committed regressions. A law that does not hold fails a check.
+// A target is one function of bytes, LLVMFuzzerTestOneInput, driven by libFuzzer (TTF_FUZZ, tools/fuzz.sh).
+// It begins with the seeds and the committed regressions. A broken law fails a check.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace ttf::fuzz {
 
-// Takes values off the front of the input; zeros once it is used up, so that every input means something.
+// Takes values off the front of the input. Gives zeros once it is used up, so that every input is valid.
 class Source {
  public:
   Source(const std::uint8_t* data, std::size_t size) : rest_(reinterpret_cast<const std::byte*>(data), size) {}
@@ -47,9 +47,9 @@ inline std::string text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-// A refusal has findings, and its words are one printable line for each, which begins with the file's name.
+// A refusal has findings, each in one printable line that begins with the file's name.
 void check_refusal(const InputError& error, std::string_view file);
-// The same of warnings, which may be none.
+// The same for warnings, of which there may be zero.
 void check_lines(std::string_view text, std::string_view file);
 
 // Whether `read` took its input. InputError is the only other way out, and it must look as it should.

@@ -1,9 +1,10 @@
-// Any fragments, in any order, to a list buffer. Laws: what is handed out is one list under one sequence number, whole;
-// its bytes are those that arrived; a copy sent on is the same; and every signal read can be written back in place.
+// Any fragments, in any order, to a list buffer. Laws: a list handed out is whole and has one sequence
+// number. Its bytes are the arrived ones. A copy sent on is the same. Every signal can be written back in
+// place.
 //
-// Input: which PDU of a shipped cluster (2 bytes), then fragments. Each begins with a byte: bit 0, the header is made
-// plausible (sequence, fragment and count taken into range, which random bytes seldom are); bit 1, it repeats the one
-// before.
+// Input: a PDU of a shipped cluster (2 bytes), then fragments. Each begins with a byte. Bit 0 makes the
+// header plausible (sequence, fragment and count taken into range, as random bytes seldom are). Bit 1 repeats
+// the previous one.
 #include <algorithm>
 #include <map>
 #include <vector>

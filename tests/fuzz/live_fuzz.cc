@@ -1,9 +1,9 @@
-// Anything that may arrive in real time, at any instant and in any order, at a node that is at work
-// (nodes/runner/arrival_window.h): frames of any slot and cycle, sound or broken, sync frames with and without
-// follow-ups, symbols of any length, CAN frames and strobes. Laws: arrivals are handed over in the order in which they
-// are due, none before it; the node stops for none of them, and its clock goes on.
+// Any arrivals in real time, at any instant and in any order, at a working node
+// (nodes/runner/arrival_window.h): frames of any slot and cycle, sound or broken, sync frames with and
+// without follow-ups, symbols of any length, CAN frames and strobes. Laws: arrivals are handed over in order
+// of their due instants, never earlier. They never stop the node, and its clock goes on.
 //
-// Input: how the node begins (a byte), then acts: what (a byte), and what it takes.
+// Input: the node's initial state (a byte), then acts: kind (a byte) and arguments.
 #include <algorithm>
 #include <array>
 #include <memory>

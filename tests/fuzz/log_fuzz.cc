@@ -1,6 +1,6 @@
-// Any bytes as a log. Laws: only InputError ends the reading; every warning is a line that names the file; counts are
-// those of the records handed on; what was read, written again, is read the same, without a warning; and merging the
-// log with nothing else brings the same records, in an order that merging once more does not change.
+// Any bytes as a log. Laws: only InputError ends the reading. Every warning is a line that names the file.
+// Counts are those of the records handed on. Records written again are read the same, without a warning.
+// Merging the log alone gives the same records, in an order that merging again keeps.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -67,7 +67,7 @@ void check_merged(std::string_view bytes, recording::TextSink read) {
   logs.emplace_back(std::string(bytes), kFile);
   const recording::merge::MergedLogs merged(std::move(logs));
   std::vector<std::string> lines = lines_of(merged);
-  // Only what was written by us is compared by its bytes: others may write the same number in different ways.
+  // Only logs written by us are compared bytewise: other writers may encode the same number differently.
   const recording::merge::MergedLogs once(written(merged));
   const recording::merge::MergedLogs twice(written(once));
   TTF_CHECK(lines_of(once) == lines_of(twice), "{} records are in another order", lines.size());

@@ -1,5 +1,5 @@
-// A log around given payloads: one chunk without compression and checksum, which is allowed, and which lets a fuzzer
-// through to the records.
+// A log around given payloads: one chunk without compression and checksum. This is allowed, and lets a fuzzer
+// reach the records.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A scene with nothing in it, for the steps of a cluster whose sensors need one to look at.
+// An empty scene, for steps of a cluster whose sensors need a scene.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
-// Any text as recorded observations. Laws: one finding per broken line, which names the file; rows that are taken are
-// within their bounds, in the order of their sensor's time, and the same when they are written and read again; every
-// list that is made of them has a covariance and arrives no sooner than it is measured; and the tracks that follow are
-// finite.
+// Any text as recorded observations. Laws: each broken line gives one finding with the file's name. Accepted
+// rows are within their bounds, in order of their sensor's time, and the same when written and read again.
+// Every list made of them has a covariance and arrives no sooner than it is measured. The resulting tracks
+// are finite.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ std::string written(const std::vector<ObservationRow>& rows) {
     text += position ? fmt::format("{},{},,,", row.z[0], row.z[1]) : fmt::format(",,{},{},", row.z[0], row.z[1]);
     text += three ? fmt::to_string(row.z[2]) : "";
     for (std::size_t i = 0; i < 6; ++i) {
-      // Where range and bearing alone were measured, what is off the diagonal is not given.
+      // With only range and bearing measured, the off-diagonal is absent.
       const bool given = row.covariance && (three || i == 0 || i == 2 || (i == 1 && position));
       text += ',' + (given ? fmt::to_string((*row.covariance)[i]) : "");
     }

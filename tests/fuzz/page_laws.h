@@ -1,4 +1,4 @@
-// What holds of a report's page, whatever the files say that it is of.
+// Laws of a report's page, for any input files.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline std::size_t count_of(std::string_view text, std::string_view word) {
   return count;
 }
 
-// What stands between the first `begin` and the next `end`.
+// The text between the first `begin` and the next `end`.
 inline std::string_view between(std::string_view text, std::string_view begin, std::string_view end) {
   const std::size_t from = text.find(begin);
   TTF_CHECK(from != text.npos, "no {}", begin);
@@ -25,7 +25,7 @@ inline std::string_view between(std::string_view text, std::string_view begin, s
   return text.substr(from + begin.size(), to - from - begin.size());
 }
 
-// It is whole; nothing of a name is markup or ends a script; its plots are data.
+// It is complete; no name contains markup or ends a script; its plots are data.
 inline void check_page(std::string_view html) {
   TTF_CHECK(html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>\n"), "no whole page");
   TTF_CHECK(count_of(html, "</script") == 5, "{} scripts end", count_of(html, "</script"));

@@ -1,5 +1,5 @@
-// Any text as an experiment's summary.csv. Laws: it is refused in a line; or every table and script has a name that is
-// a file's, and no name in a script or table is a command, a line or a row of its own.
+// Any text as an experiment's summary.csv. Laws: it is refused in a line, or every table and script gets a
+// valid file name. No name in a script or table becomes a command, a line or a row.
 #include <algorithm>
 
 #include "core/check.h"
@@ -22,8 +22,7 @@ void check_table(const std::string& text) {
   }
 }
 
-// Outside of texts between double quotes there are our words alone, all of them printable; a back quote would run a
-// program there.
+// Outside double quotes there are only our own words, all printable; a back quote would run a program there.
 void check_script(const std::string& text) {
   bool quoted = false, comment = false;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,5 +1,5 @@
-// Any text as a recording. Laws: one finding per broken line, which names file and column; times never decrease; rows
-// written again are read the same; and a scan goes through laser preprocessing without losing finiteness.
+// Any text as a recording. Laws: each broken line gives one finding with file and column. Times never
+// decrease. Rows written again are read the same. A scan stays finite through laser preprocessing.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Any text as a run's summary.json, of a run without logs. Laws: it is refused in a line, or makes a page, the same
-// each time, in which no name is markup; and so it does beside another run of it.
+// Any text as the summary.json of a run without logs. Laws: it is refused in a line, or makes a page. The
+// page is the same each time, and no name in it is markup. The same holds beside another run of it.
 #include "report/run/report.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/page_laws.h"

@@ -1,4 +1,4 @@
-// What must hold for any text that claims to be a scenario, up to the world it describes.
+// Laws for any text as a scenario file, up to the world it describes.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Any text as a scenario file. Law: a file is one document; what follows its end is refused, never passed over.
+// Any text as a scenario file. Law: a file is one document; text behind its end is refused, never skipped.
 #include "core/check.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/scenario_laws.h"

@@ -1,4 +1,5 @@
-// Makes the seeds of every fuzz target: from shipped files and by our own encoders, so that none need be kept.
+// Makes the seeds of every fuzz target, from shipped files and by our encoders, so that they need not be
+// stored.
 //   fuzz_seeds FOLDER       FOLDER/<target>/<seed>, and FOLDER/<target>.dict where words help
 #include <array>
 #include <filesystem>
@@ -65,8 +66,8 @@ void write_dictionary(const fs::path& path, const std::set<std::string>& words) 
   write(path, text);
 }
 
-// The files themselves for the targets of text; for the targets of edits one seed for each key, which sets it to
-// something that looks like a value, and one which drops it.
+// Text targets get the files themselves. Edit targets get two seeds for each key: one sets it to a plausible
+// value, one drops it.
 void yaml_seeds(const fs::path& folder, const std::string& what, const fs::path& shipped_in,
                 const std::vector<std::string>& names) {
   const std::array<std::string, 8> values{"0", "1", "-1", "1023", "5 ms", "1e300", "true", "[1, 2]"};
@@ -159,7 +160,8 @@ void frame_seeds(const fs::path& folder) {
   }
 }
 
-// Frames whole and in fragments, right and wrong, and follow-ups; some with a byte changed, some CAN frames twice.
+// Frames whole and in fragments, right and wrong, and follow-ups; some with a byte changed, some CAN frames
+// twice.
 void flexray_on_can_seeds(const fs::path& folder) {
   for (std::uint32_t i = 0; i < 24; ++i) {
     std::string input(1, static_cast<char>(i & 1));
@@ -185,14 +187,14 @@ void flexray_on_can_seeds(const fs::path& folder) {
   }
 }
 
-// Drawn arrivals at a node that is at work: every byte an act or what it takes.
+// Drawn arrivals at a working node: every byte is an act or its argument.
 void live_seeds(const fs::path& folder) {
   for (std::uint32_t i = 0; i < 16; ++i)
     write(folder / "live" / ("drawn_" + std::to_string(i)), drawn_bytes(800 + i, 200 + 150 * i));
 }
 
-// A schedule's frames as pcapng and, from the same packets, as pcap; short enough to be edited.
-// A turn of every act, and one without.
+// A schedule's frames as pcapng and, from the same packets, as pcap; short enough to edit. A turn with every
+// act, and an empty one.
 void turn_seeds(const fs::path& folder) {
   const schedules::model::Cluster cluster =
       schedules::file::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
@@ -349,7 +351,7 @@ void log_seeds(const fs::path& folder) {
   add("drawn", Values::kDrawn, 1, kKinds, 3);
 }
 
-// What a run and an experiment leave for the report, small.
+// A small run's and a small experiment's results for the report.
 void result_seeds(const fs::path& folder) {
   const auto interval = [](const std::string& mean, const std::string& more) {
     return R"({"count": 3, "mean": )" + mean + R"(, "half_width": 0.5)" + more + "}";

@@ -1,9 +1,9 @@
-// Any bytes in the messages of sensors and nodes, all the way: CAN frames and fragments to the buffers, through
-// preprocessing, gateway, fusion and feature service, each of which hands on what it made. Laws: no step stops the
-// process, whatever the bytes say, and every number in a record is finite where it may not be infinite.
+// Any bytes in the messages of sensors and nodes, all the way. CAN frames and fragments reach the buffers,
+// preprocessing, gateway, fusion and feature service, each of which passes its output on. Laws: no bytes make
+// a step stop the process. Every number in a record is finite unless it may be infinite.
 //
-// Input: cluster and strategy (a byte each), then acts (a byte each): 0 a CAN frame as the bytes are, 1 a whole list
-// with a sound header, 2 and 3 a task runs.
+// Input: cluster and strategy (a byte each), then acts (a byte each): 0 a CAN frame with these bytes, 1 a
+// whole list with a sound header, 2 and 3 a task runs.
 #include <algorithm>
 #include <cmath>
 #include <memory>

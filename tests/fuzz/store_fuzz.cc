@@ -1,5 +1,5 @@
-// Any bytes as an experiment's results.sqlite, beside an answer of its own. Laws: it is refused in a line that names
-// the file, or makes a page whose tables are as whole as ever; what it is asked for, it answers.
+// Any bytes as an experiment's results.sqlite, beside its own answer. Laws: it is refused in a line with the
+// file's name, or makes a page with complete tables. It answers every query.
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -54,7 +54,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     fuzz::check_page(report::experiment::experiment_report_html(folder, {}, {}));
   } catch (const std::runtime_error& error) {
-    // What only another order of reading comes upon (an index that is not as its table).
+    // Only a different order of reading finds this (an index that differs from its table).
     TTF_CHECK(std::string_view(error.what()).starts_with(file.path()), "{}", error.what());
   }
   return 0;

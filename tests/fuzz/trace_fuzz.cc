@@ -1,6 +1,7 @@
-// Any records as a Perfetto trace. Laws: the trace is sound, whatever the log says
-// (tests/recording/exports/perfetto_trace.h: tracks described once and before they are used, times that never go back,
-// slices that end, flows with two ends), what it says it wrote is there, and the same log gives the same bytes.
+// Any records as a Perfetto trace. Laws: every log gives a sound trace
+// (tests/recording/exports/perfetto_trace.h). In it, tracks are described once and before their use, times
+// never go back, slices end, flows have two ends. It contains everything that it reports as written. The same
+// log gives the same bytes.
 //
 // Input: messages: kind (1 byte), length (2 bytes), payload.
 #include "core/check.h"

@@ -1,5 +1,5 @@
-// Any bytes as a turn (sim/processes/turn.h). Laws: what is none is refused, with a sentence; what is one is the same
-// after writing and reading it again, and says nothing that could not be simulated.
+// Any bytes as a turn (sim/processes/turn.h). Laws: an invalid turn is refused with a sentence. A valid one
+// is the same after writing and reading, and can be simulated.
 #include <algorithm>
 #include <span>
 #include <stdexcept>

@@ -1,9 +1,9 @@
-// The laws of bus/ports/can_port.h as a suite that every medium is put through:
+// The laws of bus/ports/can_port.h as a suite for every medium:
 //
 //   class MyBench : public laws::CanBench { ... };
 //   INSTANTIATE_TYPED_TEST_SUITE_P(MyMedium, CanPortLaws, MyBench);     // in namespace ttf::laws
 //
-// A bench is a CAN with at least three controllers, idle at the start. Nothing but the test sends.
+// A bench is a CAN with at least three controllers, idle at the start. Only the test sends.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ class CanBench {
   virtual bool flexible_data_rate() const = 0;
   virtual std::size_t controllers() const = 0;
   virtual bus::ports::CanPort& port(std::size_t controller) = 0;
-  // Lets the bus decide who sends next among what has been handed over so far, and no frame end yet.
+  // Lets the bus decide the next sender among the frames handed over so far, without ending a frame.
   virtual void begin() = 0;
   // Delivers everything that was handed over.
   virtual void run_until_idle() = 0;
@@ -51,7 +51,7 @@ template <class Bench> class CanPortLaws : public testing::Test {
     if (bench_.flexible_data_rate()) all.insert(all.end(), {12, 16, 20, 24, 32, 48, 64});
     return all;
   }
-  // Data that say who sent them and which they are.
+  // Data that identify their sender and number.
   static std::vector<std::byte> data(std::size_t sender, std::size_t number, std::size_t length = 8) {
     std::vector<std::byte> bytes(length);
     for (std::size_t i = 0; i < length; ++i) bytes[i] = static_cast<std::byte>(number * 37 + i);
@@ -116,8 +116,8 @@ TYPED_TEST_P(CanPortLaws, L2_AControllerDoesNotHearItself) {
     EXPECT_NE(static_cast<std::size_t>(reached.data.at(0)), reached.controller);
 }
 
-// While the first frame is on the bus, the others are handed over, the highest identifier first. Whoever has begun is
-// not interrupted.
+// While the first frame is on the bus, the others are handed over, the highest identifier first. A begun
+// frame is not interrupted.
 TYPED_TEST_P(CanPortLaws, L3_TheLowestIdentifierWinsWheneverTheBusFallsIdle) {
   this->send(0, 0x700, this->data(0, 0));
   this->bench_.begin();

@@ -1,10 +1,10 @@
-// The laws of bus/ports/exchange.h as a suite that every exchange is put through:
+// The laws of bus/ports/exchange.h as a suite for every exchange:
 //
 //   class MyBench : public laws::ExchangeBench { ... };
 //   INSTANTIATE_TYPED_TEST_SUITE_P(MyExchange, ExchangeLaws, MyBench);     // in namespace ttf::laws
 //
-// A bench is at least two members, NodeId 0 and up, who all hear each other and have said nothing yet. Each law
-// runs every member in a thread of its own.
+// A bench is at least two members, NodeId 0 and up, who all hear each other and have sent no message yet.
+// Each law runs every member in its own thread.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ class ExchangeBench {
   virtual ~ExchangeBench() = default;
   virtual std::size_t members() const = 0;
   virtual bus::ports::Exchange& member(std::size_t index) = 0;
-  // Makes it gone for the others, in whatever way; its own thread uses it no more.
+  // Makes it gone for the others, in any way; its own thread no longer uses it.
   virtual void end(std::size_t index) = 0;
 };
 
@@ -49,8 +49,8 @@ template <class Bench> class ExchangeLaws : public testing::Test {
   void send(std::size_t member, std::uint64_t number, test::Sizes sizes) {
     bench_.member(member).send(test::message(node(member), number, sizes));
   }
-  // Receives until `count` messages of every other member have been heard, each the next of its sender, and nothing
-  // else.
+  // Receives until it has heard `count` messages of every other member. Each must be its sender's next,
+  // without others in between.
   void hear(std::size_t member, std::uint64_t count, test::Sizes sizes) {
     std::map<std::size_t, std::uint64_t> next;
     std::uint64_t left = count * (bench_.members() - 1);
@@ -85,7 +85,7 @@ TYPED_TEST_P(ExchangeLaws, L1_EveryMessageReachesEveryOtherMemberOnceUnchanged) 
     for (std::uint64_t i = 0; i < kCount; ++i) this->send(member, i, test::Sizes::kAll);
     this->hear(member, kCount, test::Sizes::kAll);
   });
-  this->bench_.end(0);  // what comes next is this, so nothing came twice
+  this->bench_.end(0);  // this comes next, so no message came twice
   this->all([this](std::size_t member) {
     if (member != 0) this->expect_gone(member, 0);
   });
@@ -142,7 +142,7 @@ TYPED_TEST_P(ExchangeLaws, L4_ReceiveSleepsUntilThereIsSomething) {
 TYPED_TEST_P(ExchangeLaws, L5_WhoIsGoneIsHeardNoMoreAndAllItSaidBeforeHasBeen) {
   static constexpr std::uint64_t kCount = 500;
   for (std::uint64_t i = 0; i < kCount; ++i) this->send(0, i, test::Sizes::kAll);
-  for (std::size_t member = 1; member < this->bench_.members(); ++member)  // who stays is not disturbed
+  for (std::size_t member = 1; member < this->bench_.members(); ++member)  // remaining members are not disturbed
     for (std::uint64_t i = 0; i < kCount; ++i) this->send(member, i, test::Sizes::kSmall);
   std::thread ending([this] { this->bench_.end(0); });
   this->all([this](std::size_t member) {

@@ -1,10 +1,10 @@
-// The laws of bus/ports/flexray_port.h as a suite that every medium is put through:
+// The laws of bus/ports/flexray_port.h as a suite for every medium:
 //
 //   class MyBench : public laws::FlexRayBench { ... };
 //   INSTANTIATE_TYPED_TEST_SUITE_P(MyMedium, FlexRayPortLaws, MyBench);     // in namespace ttf::laws
 //
-// A bench is a medium with at least three controllers in a row, controller 1 as far from 0 as from 2, whose clocks all
-// run at the nominal rate with tick 0 at the start of the run. Nothing but the test transmits.
+// A bench is a medium with at least three controllers in a row, controller 1 as far from 0 as from 2. All
+// clocks run at the nominal rate with tick 0 at the start of the run. Only the test transmits.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ class FlexRayBench {
   virtual std::int64_t microtick_ps() const = 0;
   virtual std::size_t controllers() const = 0;
   virtual bus::ports::FlexRayPort& port(std::size_t controller) = 0;
-  // Delivers what is due up to and including microtick `now`; never called with less than before.
+  // Delivers all receptions due up to and including microtick `now`, which never decreases.
   virtual void run_until(Microticks now) = 0;
   // All receptions so far, in the order in which they were delivered.
   virtual const std::vector<Reached>& reached() const = 0;
@@ -46,7 +46,7 @@ class FlexRayBench {
 
 template <class Bench> class FlexRayPortLaws : public testing::Test {
  protected:
-  // A frame that says who sent it and which it is.
+  // A frame that identifies its sender and number.
   std::vector<std::byte> frame(std::size_t sender, int number, int words, Channel channel) const {
     std::vector<std::byte> payload(static_cast<std::size_t>(2 * words));
     for (std::size_t i = 0; i < payload.size(); ++i)
@@ -193,7 +193,7 @@ TYPED_TEST_P(FlexRayPortLaws, L6_SignalsThatOverlapArriveAsOneUndecodable) {
   EXPECT_EQ(mine[1].signal, bus::ports::Signal::kFrame);
   EXPECT_NEAR(static_cast<double>((mine[0].end - mine[0].start).value),
               static_cast<double>(second - this->kFirst + this->length(8)), 1.0);
-  // Those who sent hear the other, and only the other: whether they could make it out is their controller's business.
+  // The senders hear the other's signal only. Whether they can decode it is their controllers' business.
   EXPECT_EQ(this->at(0).size(), 2u);
   EXPECT_EQ(this->at(0)[0].signal, bus::ports::Signal::kFrame);
 }

@@ -1,5 +1,5 @@
-// A member that says and hears utterances (tests/laws/live_traffic.h) on a live medium, and notices what is wrong with
-// what it hears.
+// A member that sends and hears utterances (tests/laws/live_traffic.h) on a live medium, and notices errors
+// in the received ones.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,23 +26,24 @@ class LiveBench {
   virtual ~LiveBench() = default;
   // Why there is no such medium on this machine; empty: there is.
   virtual std::string missing() const { return {}; }
-  // 2..16 members, who all hear each other already and have said nothing yet. Each may have a thread of its own.
+  // 2..16 members, who all hear each other already and have sent nothing yet. Each may have its own thread.
   virtual std::size_t members() const = 0;
   virtual bus::ports::LiveMedium& member(std::size_t index) = 0;
   // For each CAN whether it carries CAN FD.
   virtual std::vector<bool> can_buses() const = 0;
-  // Everybody is on both channels; at least two members are on every CAN.
+  // Every member is on both channels; at least two members are on every CAN.
   virtual bool on(std::size_t member, bus::ports::Line line) const = 0;
 
   enum class Intruder { kForeign, kMalformed };
-  // Puts what is nobody's, or is in our form but wrong, on a line. False where there is no such thing.
+  // Puts a foreign frame, or a malformed one in our form, on a line. Returns false if the medium has no such
+  // frame.
   virtual bool intrude(bus::ports::Line line, Intruder what) = 0;
-  // More signals than anybody keeps who does not listen.
+  // More signals than a member keeps without listening.
   virtual std::size_t flood() const = 0;
-  // lost counts pieces of signals, so that it may be more than signals are missing.
+  // lost counts pieces of signals, so it may exceed the number of missing signals.
   virtual bool loses_pieces() const { return false; }
 
-  // How long anything may take to arrive, on a busy machine; and after how long nothing more is under way.
+  // The longest way on a busy machine, and the time after which no signal is under way.
   virtual std::chrono::milliseconds patience() const { return std::chrono::seconds(10); }
   virtual std::chrono::milliseconds quiet() const { return std::chrono::milliseconds(200); }
 
@@ -69,7 +70,7 @@ class LiveListener {
 
   bus::ports::LiveMedium& medium() const { return bench_.member(self_); }
   std::size_t self() const { return self_; }
-  // What was wrong first; empty: nothing.
+  // The first error; empty: no error.
   const std::string& wrong() const { return wrong_; }
   std::size_t said(bus::ports::Line line) const { return said_[line]; }
   std::size_t heard(bus::ports::Line line, std::size_t from) const { return next_[line][from]; }
@@ -96,12 +97,12 @@ class LiveListener {
     return status == bus::ports::LiveStatus::kDone;
   }
 
-  // Hears what is there. `gaps`: something may be missing.
+  // Hears the pending signals. `gaps`: some may be missing.
   void hear(bool gaps = false) {
     while (const auto arrival = medium().receive()) take(*arrival, gaps);
   }
-  // Hears until `count` things of this member on this line have been heard, and how late they were. `meanwhile`: what
-  // members do that have no thread; some media follow up as their sender hears that its frame has left.
+  // Hears until `count` utterances of this member on this line have arrived with their lateness. `meanwhile`
+  // runs members without a thread; some media follow up when their sender hears that its frame has left.
   void hear_until(
       bus::ports::Line line, std::size_t from, std::size_t count, bool gaps = false,
       const std::function<void()>& meanwhile = [] {}) {
@@ -114,7 +115,7 @@ class LiveListener {
       std::this_thread::sleep_for(kGlance);
     }
   }
-  // Hears until nothing comes any more.
+  // Hears until no signal comes any more.
   void hear_out(bool gaps = false) {
     for (std::uint64_t before = ~std::uint64_t{0}; before != received_;) {
       before = received_;

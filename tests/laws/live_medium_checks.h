@@ -1,5 +1,6 @@
-// Each law of bus/ports/live_medium.h as a function that tries it and returns what is wrong, in words; empty: nothing
-// is. So they can be tried on media that break them (tests/bus/ports/live_medium_test.cc), and are known to notice.
+// Each law of bus/ports/live_medium.h as a function that tries it and returns the error in words; empty: no
+// error. So they can be tried on media that break them (tests/bus/ports/live_medium_test.cc), and are known
+// to notice.
 #pragma once
 
 #include <fmt/format.h>
@@ -35,7 +36,7 @@ inline std::string first_wrong(const std::vector<LiveListener>& members) {
   return {};
 }
 
-// What this member hears next, if it is there in time.
+// Returns the next signal this member hears in time.
 inline std::optional<bus::ports::LiveArrival> await(
     LiveBench& bench, std::size_t member, const std::function<void()>& meanwhile = [] {}) {
   const auto begin = std::chrono::steady_clock::now();
@@ -52,7 +53,7 @@ inline bool readable(bus::ports::LiveMedium& medium, bus::ports::Line line, std:
   return poll(&poller, 1, static_cast<int>(patience.count())) == 1 && (poller.revents & POLLIN) != 0;
 }
 
-// What everybody said and heard is what the medium counted, and nothing was lost.
+// Checks that the medium counted all utterances sent and heard, without losses.
 inline std::string check_counts(LiveBench& bench, const LiveListener& member) {
   std::uint64_t said = 0;
   for (bus::ports::Line line = 0; line < bench.lines(); ++line) said += member.said(line);
@@ -79,8 +80,8 @@ inline void hear_all_of(
       if (bench.on(member.self(), line)) member.hear_until(line, other, count, false, meanwhile);
 }
 
-// L1 and what the port says of departures: everybody talks on all lines, in rounds, each member in a thread of its own
-// or one after the other.
+// L1, and the port's promise about departures. Every member talks on all lines, in rounds, each member in its
+// own thread or one after the other.
 inline std::string once_and_unchanged(LiveBench& bench, bool in_threads) {
   static constexpr std::size_t kRounds = 200, kEach = 2;
   auto members = listeners(bench, Traffic::kAll);
@@ -107,14 +108,15 @@ inline std::string once_and_unchanged(LiveBench& bench, bool in_threads) {
       for (LiveListener& member : members) hear(member, round);
     }
   }
-  for (LiveListener& member : members) member.hear_out();  // nothing comes twice
+  for (LiveListener& member : members) member.hear_out();  // no signal comes twice
   std::string wrong = first_wrong(members);
   for (const LiveListener& member : members)
     if (wrong.empty()) wrong = check_counts(bench, member);
   return wrong;
 }
 
-// L1 where nobody listens: what is missing is counted, what arrives is whole and in order, and others hear everything.
+// L1 without listeners: missing signals are counted, arriving ones are whole and in order, and others hear
+// everything.
 inline std::string missing_is_counted(LiveBench& bench) {
   auto members = listeners(bench, Traffic::kFrames);
   LiveListener& speaker = members[0];
@@ -127,7 +129,7 @@ inline std::string missing_is_counted(LiveBench& bench) {
   }
   LiveListener& sleeper = members[1];
   sleeper.hear_out(true);
-  speaker.say(line);  // so that it can be known that something before it is missing
+  speaker.say(line);  // shows that an earlier one is missing
   sleeper.hear_until(line, 0, speaker.said(line), true);
   if (!sleeper.wrong().empty()) return sleeper.wrong();
   const std::uint64_t lost = sleeper.medium().counts().lost, missing = sleeper.missed(line, 0);
@@ -139,7 +141,7 @@ inline std::string missing_is_counted(LiveBench& bench) {
   return {};
 }
 
-// L2: who speaks alone hears nothing, on no line.
+// L2: a lone speaker hears nothing, on any line.
 inline std::string does_not_hear_itself(LiveBench& bench) {
   auto members = listeners(bench, Traffic::kAll);
   for (LiveListener& speaker : members) {
@@ -153,7 +155,7 @@ inline std::string does_not_hear_itself(LiveBench& bench) {
   return first_wrong(members);
 }
 
-// L3: in the order in which they were sent, though nobody listened in between.
+// L3: in the order of sending, without listening in between.
 inline std::string keeps_the_order(LiveBench& bench) {
   auto members = listeners(bench, Traffic::kAll);
   for (LiveListener& member : members) say_on_all_lines(bench, member, 24);
@@ -215,7 +217,7 @@ inline std::string keeps_what_is_its_own(LiveBench& bench) {
   return {};
 }
 
-// L6. The first round is not counted: who has not sent yet may have something left to do.
+// L6. The first round is not counted: a first send may have work left to do.
 inline std::string never_blocks_nor_allocates(LiveBench& bench) {
   static constexpr std::size_t kCount = 32;
   static constexpr auto kAtOnce = std::chrono::seconds(1);  // on a machine that has other things to do
@@ -260,7 +262,7 @@ inline std::string never_blocks_nor_allocates(LiveBench& bench) {
   return {};
 }
 
-// L7: on every line, and what is ours is heard all the same.
+// L7: on every line, and our own frames are still heard.
 inline std::string strangers_are_counted(LiveBench& bench, LiveBench::Intruder what) {
   auto members = listeners(bench, Traffic::kAll);
   for (bus::ports::Line line = 0; line < bench.lines(); ++line) {
@@ -284,7 +286,7 @@ inline std::string strangers_are_counted(LiveBench& bench, LiveBench::Intruder w
   return first_wrong(members);
 }
 
-// L8, for every line by itself.
+// L8, for each line separately.
 inline std::string what_is_watched_is_readable(LiveBench& bench) {
   using namespace std::chrono_literals;
   for (bus::ports::Line line = 0; line < bench.lines(); ++line) {
@@ -322,7 +324,7 @@ inline std::string what_is_watched_is_readable(LiveBench& bench) {
   return {};
 }
 
-// A sync frame says how late it left: no less than when send() began, no more than when it returned.
+// A sync frame gives its lateness: no less than at the begin of send(), no more than at its return.
 inline std::string says_how_late_it_left(LiveBench& bench) {
   for (std::size_t i = 0; i < 20; ++i) {
     const Utterance utterance(i % 2, {0, bench.members()}, 1 + 8 * i, Traffic::kAll);

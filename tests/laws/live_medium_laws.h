@@ -1,9 +1,9 @@
-// The laws of bus/ports/live_medium.h as a suite that every live medium is put through:
+// The laws of bus/ports/live_medium.h as a suite for every live medium:
 //
 //   class MyBench : public laws::LiveBench { ... };                          // tests/laws/live_listener.h
 //   INSTANTIATE_TYPED_TEST_SUITE_P(MyMedium, LiveMediumLaws, MyBench);       // in namespace ttf::laws
 //
-// Whoever uses it links tests/support/allocation_counter.cc.
+// Its users link tests/support/allocation_counter.cc.
 #pragma once
 
 #include <gtest/gtest.h>

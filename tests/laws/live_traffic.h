@@ -1,5 +1,5 @@
-// What members say while the laws of bus/ports/live_medium.h are tried: the number-th thing that a member says on a
-// line. Who hears it can tell from the thing itself whose it is, and holds it against what it should be.
+// Members' utterances for the laws of bus/ports/live_medium.h: the number-th utterance of a member on a line.
+// A hearer identifies it from its content, and compares it with the expected one.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@
 namespace ttf::laws {
 
 enum class Traffic {
-  kAll,     // frames of all lengths, null frames, sync frames that say how late they are, broken frames, all symbols
+  kAll,     // frames of all lengths, null frames, sync frames with their lateness, broken frames, all symbols
   kFrames,  // frames of 24 bytes, and that is all
 };
 
-// Who says it, and to how many (1..16, the speaker included).
+// The speaker, and the number of members (1..16, the speaker included).
 struct Speaker {
   std::size_t index = 0;
   std::size_t members = 0;
@@ -54,17 +54,17 @@ class Utterance {
   }
   std::uint8_t cycle() const { return static_cast<std::uint8_t>(number_ % 64); }
   int slot() const { return static_cast<int>(1 + number_ % 50 * speaker_.members + speaker_.index); }
-  // Of a sync frame that tells it: how late it is when it is handed over.
+  // The lateness of a sync frame that carries it, when it is handed over.
   std::optional<Duration> late() const { return late_; }
 
   bus::ports::LiveStatus send(bus::ports::LiveMedium& medium) const {
     return is_can() ? medium.send_can(line_ - bus::ports::line_of_can(0), can())
                     : medium.send(signal(), bus::ports::host_now() - late_.value_or(Duration{}));
   }
-  // Nobody may look at the bytes any more.
+  // Invalidates the bytes.
   void scribble() { bytes_.fill(std::byte{0xEE}); }
 
-  // Whether this is what has arrived; of sync frames without how late they are.
+  // Returns whether this has arrived; ignores sync frames' lateness.
   bool is(const bus::ports::LiveArrival& heard) const {
     if (is_can())
       return heard.kind == bus::ports::LiveArrival::Kind::kCan && bus::ports::line_of_can(heard.can_bus) == line_ &&
@@ -127,7 +127,7 @@ inline bus::ports::Line line_of(const bus::ports::LiveArrival& heard) {
                                                            : bus::ports::line_of(heard.signal.channel);
 }
 
-// Whose utterance it is, if it is one of those above.
+// The speaker of an utterance above.
 inline std::size_t speaker_of(const bus::ports::LiveArrival& heard, std::size_t members) {
   if (heard.kind == bus::ports::LiveArrival::Kind::kCan) return heard.can.identifier % members;
   if (heard.kind == bus::ports::LiveArrival::Kind::kFollowUp || heard.signal.signal == bus::ports::Signal::kFrame)

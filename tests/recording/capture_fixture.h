@@ -1,4 +1,4 @@
-// Captures of a bus that does what its schedule says, to test with and to break.
+// Captures of a bus that follows its schedule, for tests and for damage.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ inline schedules::model::Cluster shipped_cluster(const std::string& name = "pape
   return schedules::check::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
 }
 
-// One frame on the bus; `packet()` is what a capture has of it.
+// One frame on the bus; `packet()` is its form in a capture.
 struct BusFrame {
   std::int64_t time_ns = 0;
   Channel channel = Channel::kA;
@@ -44,7 +44,7 @@ inline std::vector<std::byte> scheduled_payload(const schedules::model::Cluster&
   return std::vector<std::byte>(static_cast<std::size_t>(2 * cluster.flexray.gPayloadLengthStatic));
 }
 
-// What the cluster sends in `cycles` cycles from counter `first_counter` on, by a clock that is `ppm` fast.
+// The cluster's frames in `cycles` cycles from counter `first_counter` on, by a clock that is `ppm` fast.
 inline std::vector<BusFrame> scheduled_frames(const schedules::model::Cluster& cluster, int cycles,
                                               int first_counter = 0, std::int64_t ppm = 0) {
   constexpr std::int64_t kStart = 1'700'000'000'000'000'000;

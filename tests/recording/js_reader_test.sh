@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Opens a log with the official JavaScript reader and compares what it finds with what was written.
+# Opens a log with the official JavaScript reader and compares the result with the written records.
 #   js_reader_test.sh SAMPLE_LOG_PROGRAM TOOLS_JS WORK_DIR      exit 77: skipped, with the reason
 set -euo pipefail
 sample=$1 tools=$2 work=$3

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A kind of record that stands in the list alone is refused by the compiler wherever every kind has to be known:
+# The compiler refuses a kind of record that is only in the list, at every place that must know all kinds:
 #   new_kind_test.sh COMPILER SOURCES GENERATED [FLAGS...]
 set -euo pipefail
 compiler=$1 sources=$2 generated=$3
@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/recording/records" "$work/recording/log"
 
-# The list with one more row, and a payload for it, without which nothing of the log compiles at all.
+# The list with one more row, and a payload for it; without the payload, no part of the log compiles.
 sed -e 's|^template <class Record> struct Kind {|struct Unheard {\n  Stamp stamp;\n};\n\n&|' \
     -e 's|^    Kind<MediumCounts>.*|&\n    Kind<Unheard>{"/unheard"},|' \
     "$sources/recording/records/records.h" > "$work/recording/records/records.h"

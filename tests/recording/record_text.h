@@ -1,6 +1,5 @@
-// A sink that turns every record into one line of text, exact to the last bit of every number, so that what
-// was written and what was read can be compared. And records to write: drawn at random, with extreme values
-// among them.
+// A sink that turns every record into one line of text, exact to the last bit of every number, to compare
+// written and read records. Also draws records at random, with extreme values among them.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +20,8 @@ class TextSink final : public records::Every<TextSink> {
   template <class Record> void each(const Record& record) { text_into(lines)->on(record); }
 };
 
-// What the drawn fields look like. kSmallest and kLargest: every field at that end of its type, lists empty
-// and long; kDrawn: anything, with times near `at`.
+// The drawn fields' values. kSmallest and kLargest: every field at that end of its type, lists empty and
+// long. kDrawn: any values, with times near `at`.
 enum class Values { kSmallest, kLargest, kZero, kDrawn };
 
 // One record of `kind` (1 to records::kKindCount), a pure function of the arguments, to `sink`.

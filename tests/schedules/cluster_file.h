@@ -1,4 +1,4 @@
-// The shipped cluster files, and what is found when one of them is changed.
+// The shipped cluster files, and the findings after a change to one of them.
 #pragma once
 
 #include <fstream>
@@ -30,7 +30,7 @@ inline std::string shipped_text(const std::string& name) {
   return text.str();
 }
 
-// Of the loader, or of the checker where loading goes well.
+// Findings of the loader, or of the checker after successful loading.
 inline std::vector<Finding> findings_of(const std::string& text) {
   try {
     return check::check(file::parse_cluster(text, "cluster.yaml"));

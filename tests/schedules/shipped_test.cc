@@ -69,7 +69,7 @@ TEST(ShippedPaper, HoldsThePapersFigures) {
   EXPECT_EQ(cluster.node(*cluster.find_node("feature")).tasks[0].activation.at.repetition, 8);
 }
 
-// What synchronising the sensors is for: a smaller and far more even age when used.
+// The purpose of synchronised sensors: a smaller and far more even age when used.
 TEST(ShippedPaper, SynchronisedMeasurementsAreYoungerAtWorst) {
   const auto loose = analysis::measurement_ages(file::load_cluster(shipped_path("paper_unsynchronised")));
   const auto tight = analysis::measurement_ages(file::load_cluster(shipped_path("paper_synchronised")));

@@ -1,5 +1,6 @@
-// A cluster small enough to work out by hand. One cycle is 5 ms, slots last 84 us, oscillators are exact; clocks differ
-// by at most 6.85 us (assumed precision) and a macrotick, which with rounding makes 7851 ns on every bound.
+// A cluster small enough to work out by hand. One cycle is 5 ms, slots last 84 us, oscillators are exact.
+// Clocks differ by at most 6.85 us (assumed precision) and a macrotick. With rounding, this makes 7851 ns on
+// every bound.
 //
 //   device: measure 1 ms -> list in slot 3 of every cycle (168..252 us)
 //   fusion: fuse 2 ms at 1 ms of odd cycles; publish 0.1 ms at the start of even cycles -> image in slot 4 there

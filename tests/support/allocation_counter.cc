@@ -46,7 +46,7 @@ void* operator new(std::size_t size, std::align_val_t align) { return counted(si
 void* operator new[](std::size_t size, std::align_val_t align) {
   return counted(size, static_cast<std::size_t>(align));
 }
-// The nothrow forms too (std::stable_sort uses them): memory of another allocator must not reach the free() below.
+// The nothrow forms, too (std::stable_sort uses them): free() below must not get another allocator's memory.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted_or_null(size, 1); }
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted_or_null(size, 1); }
 void* operator new(std::size_t size, std::align_val_t align, const std::nothrow_t&) noexcept {

@@ -1,5 +1,5 @@
-// Counts what the whole test program allocates: allocation_counter.cc, linked in, replaces every form of
-// operator new (over-aligned ones too: containers of fixed-size Eigen types use them).
+// Counts the whole test program's allocations. allocation_counter.cc, linked in, replaces every form of
+// operator new (also over-aligned ones: containers of fixed-size Eigen types use them).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,4 @@
-// A program that tests start, stop and kill: it says "ready" on a line of its own, and what it found out before it
-// ends.
+// A program that tests start, stop and kill. It prints a line "ready", and its results before it ends.
 #pragma once
 
 #include <fcntl.h>

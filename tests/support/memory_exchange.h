@@ -1,12 +1,12 @@
-// The exchange (bus/ports/exchange.h) between threads of one process: the plainest thing that keeps its laws.
+// The exchange (bus/ports/exchange.h) between threads of one process: the simplest lawful implementation.
 //
 //   MemoryExchange hub;
-//   auto a = hub.join(NodeId{0}), b = hub.join(NodeId{1});    // all before anybody sends
+//   auto a = hub.join(NodeId{0}), b = hub.join(NodeId{1});    // all before the first send
 //   std::thread([&] { a->send(...); });  b->receive();
 //   hub.leave(NodeId{0});                                     // as a supervisor announces the dead
 //
-// An endpoint belongs to one thread at a time, and may outlive the hub. Its queue has room for everything: send() never
-// blocks. What is tested with it never hangs for want of somebody to hear: receive() throws where nobody is left.
+// An endpoint belongs to one thread at a time, and may outlive the hub. Its queue has unlimited room: send()
+// never blocks. Tests never hang without a partner: receive() then throws.
 #pragma once
 
 #include <algorithm>
@@ -29,19 +29,20 @@ namespace ttf::test {
 
 class MemoryExchange {
  public:
-  // One more member. Destroying an endpoint is not leaving: all that it said is heard, and only leave() announces it.
+  // Adds a member. Destroying an endpoint is not leaving: all its messages are heard, and only leave()
+  // announces it.
   std::unique_ptr<bus::ports::Exchange> join(NodeId node) { return std::make_unique<Endpoint>(hub_, node); }
 
-  // Tells everybody, after all that `node` said, that it is gone. From then on it is cut off: what it sends is heard by
-  // nobody, and its receive() throws, also where it is asleep already.
+  // Announces to all, after `node`'s messages, that it is gone. From then on it is cut off: its messages
+  // reach no member, and its receive() throws, also when already asleep.
   void leave(NodeId node) { hub_->leave(node); }
 
  private:
-  using Bytes = std::shared_ptr<const std::vector<std::byte>>;  // one copy for all who hear it
+  using Bytes = std::shared_ptr<const std::vector<std::byte>>;  // one copy for all hearers
 
   struct Item {
     NodeId from{};
-    Bytes bytes;  // none: it is gone
+    Bytes bytes;  // empty: it is gone
   };
   struct Member {
     std::deque<Item> waiting;
@@ -64,7 +65,7 @@ class MemoryExchange {
       Member& member = members.at(node);
       if (std::exchange(member.gone, true)) return;
       tell_others({node, nullptr});
-      for (auto& other : members) other.second.something.notify_one();  // who now has nobody left to hear, too
+      for (auto& other : members) other.second.something.notify_one();  // also members that have no partner left
     }
     void send(NodeId from, std::span<const std::byte> message) {
       auto bytes = std::make_shared<const std::vector<std::byte>>(message.begin(), message.end());
@@ -111,7 +112,7 @@ class MemoryExchange {
    private:
     std::shared_ptr<Hub> hub_;
     NodeId node_;
-    Item last_;  // what was heard last stays until the next call
+    Item last_;  // the last message, valid until the next call
   };
 
   std::shared_ptr<Hub> hub_ = std::make_shared<Hub>();

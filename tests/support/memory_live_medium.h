@@ -1,12 +1,13 @@
-// The live medium (bus/ports/live_medium.h) between members of one process, each in a thread of its own or all in one:
-// the plainest thing that keeps its laws.
+// The live medium (bus/ports/live_medium.h) between members of one process, each in its own thread or all in
+// one: the simplest lawful implementation.
 //
 //   MemoryLiveBus bus({.can_buses = {false, true}});
-//   auto a = bus.join(), b = bus.join({0, 1, line_of_can(0)});       // all before anybody sends
+//   auto a = bus.join(), b = bus.join({0, 1, line_of_can(0)});       // all before the first send
 //   a->send(...);  b->receive();
 //
-// A frame has arrived with send(). Each member has room for some signals on each line; what comes then is lost, and
-// counted by who lost it. Who does not receive does not disturb others. A member may outlive the bus.
+// A frame has arrived when send() returns. Each member has room for some signals on each line; further ones
+// are lost, and counted by that member. A member that does not receive does not disturb others. A member may
+// outlive the bus.
 #pragma once
 
 #include <sys/eventfd.h>
@@ -33,7 +34,7 @@ namespace ttf::test {
 enum class Told { kWithTheFrame, kInAFollowUp };  // how late a sync frame left
 
 struct MemoryLiveBusOptions {
-  std::vector<bool> can_buses;  // whether each carries CAN FD: nobody looks at it, but for the laws
+  std::vector<bool> can_buses;  // whether each carries CAN FD: only the laws use it
   Told told = Told::kWithTheFrame;
   std::size_t room = 1024;  // signals and follow-ups on each line of each member
   std::function<bus::ports::MachineTime()> now = bus::ports::host_now;
@@ -59,7 +60,7 @@ class MemoryLiveBus {
   }
   std::size_t lines() const { return bus::ports::line_of_can(hub_->options.can_buses.size()); }
 
-  // Something on a line that is nobody's, or in our form but wrong: everybody there counts it.
+  // Puts a foreign frame, or a malformed one in our form, on a line: all members there count it.
   void intrude(bus::ports::Line line, std::uint64_t bus::ports::LiveCounts::*counted) {
     const std::scoped_lock lock(hub_->mutex);
     for (const auto& member : hub_->members)
@@ -72,7 +73,7 @@ class MemoryLiveBus {
     std::size_t size = 0;
     std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
   };
-  // What waits on one line for one member: a ring, whose size never changes.
+  // The signals that wait on one line for one member: a ring of fixed size.
   struct Queue {
     std::vector<Kept> ring;
     std::size_t first = 0, count = 0;
@@ -109,7 +110,7 @@ class MemoryLiveBus {
   struct Hub {
     MemoryLiveBusOptions options;
     std::mutex mutex;
-    std::vector<std::shared_ptr<Member>> members;  // guarded by mutex, what they hold too
+    std::vector<std::shared_ptr<Member>> members;  // guarded by mutex, including their contents
   };
 
   class Endpoint final : public bus::ports::LiveMedium {

@@ -1,5 +1,5 @@
-// Messages for an exchange: which bytes the n-th message of a node is, for whoever sends it and whoever checks it,
-// in whatever process.
+// Messages for an exchange: the bytes of a node's n-th message, for its sender and its checker, in any
+// process.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@ namespace ttf::test {
 
 enum class Sizes {
   kSmall,  // 1 to 256 bytes
-  kAll,    // also none, and now and then up to 64 KiB
+  kAll,    // also empty ones, and now and then up to 64 KiB
 };
 
-// SplitMix64's output function (Steele, Lea, Flood 2014): scatters what is alike.
+// SplitMix64's output function (Steele, Lea, Flood 2014): scatters similar inputs.
 constexpr std::uint64_t scattered(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -14,7 +14,7 @@ namespace {
 
 using enum ArrivalEffect;
 
-// What a reader sees must be exactly one written list.
+// A reader must see exactly one written list.
 void expect_latest(const IncomingList& incoming, const MadeList& list) {
   const auto latest = incoming.latest();
   ASSERT_TRUE(latest.has_value());
@@ -190,7 +190,7 @@ TEST(IncomingList, SequenceCountsOnWhereTheFieldWraps) {
   }
 }
 
-// Lists may be lost: a number up to half the circle ahead is that of a newer list.
+// Lists may be lost: a number up to half the circle ahead belongs to a newer list.
 TEST(IncomingList, ListsMayBeLost) {
   const auto layout = list_layout(4);
   IncomingList incoming(layout);
@@ -301,7 +301,7 @@ TEST(IncomingList, ReadOnce) {
   EXPECT_TRUE(incoming.mark_read());
 }
 
-// The layout's `high` is code 1000: what lies above no sender writes. Only elements there are count.
+// The layout's `high` is code 1000; senders write no higher code. Only existing elements count.
 TEST(IncomingList, L4_CodesAboveTheRangeAreRefused) {
   auto layout = list_layout();
   layout.element[0].high = 1000.0;
@@ -334,7 +334,8 @@ TEST(IncomingList, L4_AFragmentInAnotherOnesSlotIsRefused) {
   expect_latest(incoming, list);
 }
 
-// Fragments of a sender that moves on, lost and repeated at random on two channels: whatever is handed out was sent so.
+// Fragments of a running sender, lost and repeated at random on two channels. Every list handed out was sent
+// as such.
 TEST(IncomingList, WhateverTheNetworkDoesAListIsWholeOrNotThere) {
   RandomStream stream({7, 0, Purpose::kTest, 1, 0});
   const auto layout = list_layout(8);
@@ -349,7 +350,7 @@ TEST(IncomingList, WhateverTheNetworkDoesAListIsWholeOrNotThere) {
       // Mostly the newest list, now and then one before.
       MadeList& from = stream.integer(0, 9) == 0 ? sent.front() : sent.back();
       const auto fragment = static_cast<int>(stream.integer(0, from.fragments - 1));
-      // What a slot brings is the same, and what is known is neither stored nor counted anew.
+      // Each slot brings the same, and a known fragment is neither stored nor counted anew.
       const bool known = incoming.knows(from.fragment(fragment), fragment);
       const IncomingList before = incoming;
       IncomingList in_slot = incoming;
@@ -393,7 +394,7 @@ TEST(OutgoingList, OffersTheFragmentsOfTheNewestWrite) {
     const auto offered = outgoing.fragment(f);
     EXPECT_TRUE(std::equal(offered.begin(), offered.end(), expected.begin(), expected.end()));
   }
-  EXPECT_TRUE(outgoing.fragment(2).empty());  // nothing of the longer list is left
+  EXPECT_TRUE(outgoing.fragment(2).empty());  // the rest of the longer list is gone
   EXPECT_TRUE(outgoing.fragment(-1).empty());
 }
 

@@ -124,7 +124,8 @@ TEST(ControllerSends, LastIsSaidOncePerListWithItsLastFragmentOnItsLastChannel) 
   EXPECT_EQ(finished, (std::vector<std::uint32_t>{1, 2, 3}));
 }
 
-// Base cycle and repetition go by the cycle counter, which here wraps after 5: cycles 5 and 6 are counter 5 and 0.
+// Base cycle and repetition refer to the cycle counter. It wraps after 5 here: cycles 5 and 6 have counters 5
+// and 0.
 TEST(ControllerSends, MultiplexingGoesByTheCycleCounter) {
   schedules::model::Cluster cluster = small_cluster(4);
   cluster.flexray.gCycleCountMax = 5;
@@ -148,7 +149,7 @@ TEST(Controller, L1_NextEventIsNeverInThePast) {
     const std::int64_t cycle = node.controller.clock()->cycle();
     node.controller.advance(now);
     ASSERT_GE(node.controller.clock()->cycle(), cycle);
-    ASSERT_LE(node.controller.clock()->cycle(), cycle + 1);  // none is passed over
+    ASSERT_LE(node.controller.clock()->cycle(), cycle + 1);  // no cycle is skipped
   }
   EXPECT_GT(node.controller.clock()->cycle(), 100);
 }

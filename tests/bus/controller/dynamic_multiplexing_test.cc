@@ -1,4 +1,4 @@
-// Who sends in a dynamic slot: by cycle, by channel, by message id, and not in key slot only mode.
+// The sender in a dynamic slot: by cycle, by channel, by message id. In key slot only mode there is none.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void expect_no_problems(Rig& rig, std::size_t nodes) {
   for (std::size_t n = 0; n < nodes; ++n) EXPECT_TRUE(rig.heard(n).problems.empty()) << n;
 }
 
-// Slot 11 is node 0's in cycles 1, 5, 9.., node 1's in even ones; both have something new in every cycle.
+// Slot 11 is node 0's in cycles 1, 5, 9.. and node 1's in even ones. Both have new data in every cycle.
 TEST(DynamicMultiplexing, ASlotIsSharedByBaseCycleAndRepetition) {
   schedules::model::Cluster cluster = dynamic_cluster(3);
   dynamic_slot(cluster, 0).base_cycle = 1;
@@ -47,7 +47,7 @@ TEST(DynamicMultiplexing, ASlotIsSharedByBaseCycleAndRepetition) {
   expect_no_problems(rig, 3);
 }
 
-// A frame with the right id in a cycle that is not its own: nobody's.
+// A frame with the right id in a cycle that is not its own belongs to no node.
 TEST(DynamicMultiplexing, TheWrongCycleIsAContentError) {
   schedules::model::Cluster cluster = dynamic_cluster(2);
   dynamic_slot(cluster, 1).base_cycle = 1;
@@ -95,7 +95,7 @@ TEST(DynamicMultiplexing, TheChannelsBelongToDifferentNodes) {
   expect_no_problems(rig, 3);
 }
 
-// Slot 5 belongs to node 0 on A and to node 1 on B, and slot 9 to two nodes by cycle.
+// Slot 5 belongs to node 0 on A and to node 1 on B; slot 9 belongs to two nodes by cycle.
 TEST(StaticMultiplexing, ChannelsAndCyclesOfASlotBelongToDifferentNodes) {
   schedules::model::Cluster cluster = small_cluster(3);
   std::erase_if(cluster.frames, [](const auto& frame) { return frame.slot > 4; });
@@ -126,7 +126,7 @@ TEST(StaticMultiplexing, ChannelsAndCyclesOfASlotBelongToDifferentNodes) {
   expect_no_problems(rig, 3);
 }
 
-// Only the key slot, in neither segment anything else, until ALL_SLOTS has taken effect at a cycle start.
+// Only the key slot is sent, in both segments, until ALL_SLOTS takes effect at a cycle start.
 TEST(KeySlotOnlyMode, HoldsInBothSegments) {
   schedules::model::Cluster cluster = dynamic_cluster(3);
   cluster.nodes[0].flexray->pKeySlotOnlyEnabled = true;
@@ -152,7 +152,7 @@ TEST(KeySlotOnlyMode, HoldsInBothSegments) {
   EXPECT_EQ(arrived(rig, 1, PduId{2}), std::vector<std::uint32_t>{1});
 }
 
-// Two lists of node 1 share slot 12, told apart by message id; node 0's slot 11 has none.
+// Two lists of node 1 share slot 12 and are distinguished by message id; node 0's slot 11 has no id.
 schedules::model::Cluster with_message_ids() {
   schedules::model::Cluster cluster = dynamic_cluster(3);
   dynamic_slot(cluster, 1).message_id = 0x1234;

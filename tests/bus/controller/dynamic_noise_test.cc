@@ -1,5 +1,5 @@
-// The dynamic segment of a channel on which something goes on already when it begins: who waits for its end counts on
-// from there, and everybody counts alike.
+// The dynamic segment of a channel with an activity that is already under way when the segment begins. Nodes
+// wait for its end and count on from there, all of them the same.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Noisy {
     }
     rig.run_cycles(kCycle + 2);
   }
-  // The minislots in which the nodes began to send on A in the noisy cycle; 0: not in it.
+  // The minislots in which the nodes began to send on A in the noisy cycle; 0: not in that cycle.
   std::vector<int> turns() {
     std::vector<int> minislots;
     for (std::size_t node = 0; node < 3; ++node) {
@@ -44,7 +44,7 @@ struct Noisy {
     }
     return minislots;
   }
-  // Every list reached everybody, and nothing in the dynamic segment was wrong.
+  // Every node received every list, and the dynamic segment had no errors.
   void expect_all_there() {
     for (std::size_t node = 0; node < 3; ++node) {
       for (const auto& problem : rig.heard(node).problems) EXPECT_LE(problem.slot, 10) << "node " << node;

@@ -29,8 +29,8 @@ timebase::CycleClock clock_at(std::int64_t start, int rate) {
                               Microticks{start}, rate);
 }
 
-// The specification's own way of counting: minislot after minislot. taken[m]: a transmission begins in m and
-// its DTS ends in it.
+// Counts as the specification does, minislot after minislot. A transmission that begins in m has its DTS end
+// in last_of[m]; 0: none begins there.
 std::vector<int> slots_one_by_one(const schedules::model::GlobalParameters& g, const std::vector<int>& last_of) {
   std::vector<int> slots(static_cast<std::size_t>(g.gNumberOfMinislots) + 1, 0);
   int slot = g.gNumberOfStaticSlots + 1;
@@ -64,7 +64,7 @@ TEST(DynamicSlotCounter, ATransmissionTakesWholeMinislotsAndTheIdlePhase) {
 
 TEST(DynamicSlotCounter, StopsAtTheHighestFrameId) {
   schedules::model::GlobalParameters g = parameters();
-  g.gNumberOfStaticSlots = 2040;  // beyond what a schedule may have; only the counter is looked at
+  g.gNumberOfStaticSlots = 2040;  // more than a schedule may have; only the counter is checked
   const DynamicSlotCounter counter(g);
   EXPECT_EQ(counter.slot_in(7), 2047);
   EXPECT_EQ(counter.slot_in(8), 0);

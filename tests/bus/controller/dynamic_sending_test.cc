@@ -1,5 +1,5 @@
-// The dynamic segment as whole clusters play it: priority by frame id, what does not fit waits, channels count on their
-// own.
+// The dynamic segment in whole clusters. Priority goes by frame id, a frame that does not fit waits, and each
+// channel counts separately.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,9 +28,9 @@ TEST(DynamicSegment, AListIsSentOnceAndArrives) {
   for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(rig.heard(n).problems.empty());
 }
 
-// A frame of 8 bytes lasts 172 bits = 17.2 us: begun at the action point of minislot 1 (3 MT in) it would end at 20.2
-// MT of the segment, so its DTS goes to the action point of minislot 5 (23 MT); 6 is idle, and the next slot begins
-// in 7.
+// A frame of 8 bytes lasts 172 bits = 17.2 us. It begins at the action point of minislot 1 (3 MT in) and
+// would end at 20.2 MT of the segment. So its DTS lasts until the action point of minislot 5 (23 MT).
+// Minislot 6 is idle, and the next slot begins in 7.
 TEST(DynamicSegment, TheLowerIdentifierGoesFirstAndTheOthersWaitForItsEnd) {
   Rig rig(dynamic_cluster(3), {0, 0, 0});
   rig.run_cycles(2);
@@ -48,7 +48,7 @@ TEST(DynamicSegment, TheLowerIdentifierGoesFirstAndTheOthersWaitForItsEnd) {
     minislots.push_back((macrotick - kSegment) / 5 + 1);
   }
   EXPECT_EQ(minislots, (std::vector<std::int64_t>{1, 7, 13}));
-  // As the schedule's analysis has it, whose bound this reaches.
+  // The same as the schedule's analysis; this case reaches its bound.
   const auto& frames = rig.cluster().frames;
   for (std::size_t node = 0; node < 3; ++node)
     EXPECT_EQ(schedules::analysis::latest_turn(rig.cluster(), frames[frames.size() - 3 + node]), minislots[node]);
@@ -77,12 +77,12 @@ TEST(DynamicSegment, TheChannelsCountOnTheirOwn) {
   rig.run_cycles(4);
   ASSERT_EQ(dynamic_frames(rig, 1, Channel::kA).size(), 1u);
   ASSERT_EQ(dynamic_frames(rig, 1, Channel::kB).size(), 1u);
-  // On B nobody used slot 11: slot 12 comes after one minislot.
+  // On B slot 11 is unused: slot 12 comes one minislot later.
   EXPECT_GT(dynamic_frames(rig, 1, Channel::kA)[0].start, dynamic_frames(rig, 1, Channel::kB)[0].start);
   for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(rig.heard(n).problems.empty());
 }
 
-// Any load, any clocks: nothing collides, nothing is lost, every list arrives once at everybody, in order.
+// Any load, any clocks: no collision, no loss. Every list reaches every node once, in order.
 TEST(DynamicSegment, RandomLoadOnDriftingClocks) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     RandomStream draw({seed, 0, Purpose::kTest, 0, 0});

@@ -1,4 +1,4 @@
-// External clock correction: which terms a host may add when, and that a cluster follows a time that is not its own.
+// External clock correction: the allowed terms and their instants. A cluster follows a foreign time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ TEST(ExternalCorrection, ANodeThatAllowsNoneIsGivenNone) {
   for (const std::int64_t length : lengths(node.heard)) EXPECT_EQ(length, 40'000);
 }
 
-// Until the static segment of the odd cycle is over, and then for every double cycle until taken back.
+// It starts after the static segment of the odd cycle and recurs every double cycle until withdrawn.
 TEST(ExternalCorrection, TakesEffectWithTheNextComputation) {
   Alone node(0, correctable(small_cluster(4)));
   node.run_to(1, 839);
@@ -61,7 +61,8 @@ TEST(ExternalCorrection, TakesEffectWithTheNextComputation) {
   EXPECT_EQ(lengths(node.heard), (std::vector<std::int64_t>{40'001, 40'000, 40'002, 40'000, 40'000, 40'000, 40'000}));
 }
 
-// Three sync frames far too late: the computed offset is cut off at 400, the external term comes on top of it.
+// Three sync frames come far too late. The computed offset is limited to 400; the external term is added to
+// that.
 TEST(ExternalCorrection, TheSumIsNotLimitedAndWhatIsReportedIsWithoutIt) {
   Alone node(0, correctable(small_cluster(4)));
   node.controller.set_external_correction(7, 0);
@@ -133,8 +134,8 @@ TEST(ExternalCorrection, IsNotForStartup) {
   EXPECT_TRUE(later);
 }
 
-// +1 microtick of 25 ns per double cycle in every node: after 200 of them all are 5 us behind the same cluster left
-// alone.
+// +1 microtick of 25 ns per double cycle in every node. After 200 of them, all nodes are 5 us behind an
+// uncorrected cluster.
 TEST(ExternalCorrection, ClustersShiftTogether) {
   constexpr std::int64_t kCycles = 400;
   const TrueTime end = Rig::kStart + Duration::milliseconds(kCycles);
@@ -151,8 +152,8 @@ TEST(ExternalCorrection, ClustersShiftTogether) {
   }
 }
 
-// A host compares the cluster's time with a reference that runs 20 ppm fast, once per double cycle, and tells all
-// controllers the sign of what to do: 7 microticks are 175 ns, the reference gains 40 ns.
+// A host compares the cluster's time with a reference that runs 20 ppm fast, once per double cycle. It gives
+// all controllers the sign of the correction: 7 microticks are 175 ns, the reference gains 40 ns.
 TEST(ExternalCorrection, AClusterFollowsAnExternalTime) {
   const auto furthest = [](bool followed) {
     Rig rig(correctable(small_cluster(4)), {50'000, 20'000, -20'000, -50'000});

@@ -1,4 +1,4 @@
-// How a controller judges what it receives (slot status).
+// A controller's judgement of received frames (slot status).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace ttf::bus::controller {
 namespace {
 
-// One frame each, wrong in one way each; what the controller reports for its slot in cycle 0.
+// One frame each, with one error each. Returns the controller's status of its slot in cycle 0.
 int status_of(const Frame& frame, int slot, std::int64_t cycle = 0) {
   Alone node;
   frame.arrive(node);
@@ -34,7 +34,7 @@ TEST(ControllerJudges, SilenceInAnOwnedSlotPerChannel) {
     EXPECT_EQ(problem.status, kNoFrame);
     silent.emplace_back(problem.slot, problem.channel);
   }
-  // Slots 1 and 5..8 are its own, 9 is sent in odd cycles, 10 is nobody's.
+  // Slots 1 and 5..8 are its own, 9 is sent in odd cycles, 10 is unassigned.
   EXPECT_EQ(silent, (std::vector<std::pair<int, Channel>>{
                         {2, Channel::kB}, {3, Channel::kA}, {3, Channel::kB}, {4, Channel::kA}, {4, Channel::kB}}));
   node.run_to(2);
@@ -84,7 +84,7 @@ TEST(ControllerJudges, ContentErrors) {
   startup_only.header.sync = false;
   EXPECT_EQ(wire::decode_frame(Channel::kA, startup_only.bytes()).error, wire::FrameError::kNone);
   EXPECT_EQ(status_of(startup_only, 2), kContentError);
-  EXPECT_EQ(status_of(Frame::status(10, 0), 10), kContentError);  // nobody's slot
+  EXPECT_EQ(status_of(Frame::status(10, 0), 10), kContentError);  // an unassigned slot
   // The receiver's own: it is sending itself, and cannot make out anything.
   EXPECT_EQ(status_of(Frame::status(5, 0), 5), kTransmissionConflict | kSyntaxError);
   EXPECT_EQ(status_of(Frame::status(9, 0), 9), kContentError);                  // not in even cycles
@@ -102,7 +102,7 @@ TEST(ControllerJudges, BoundaryViolations) {
   EXPECT_EQ(status_of(frame, 2), kValidFrame);
   frame.start = end - frame.length + 1;
   EXPECT_EQ(status_of(frame, 2), kBoundaryViolation);
-  // One microtick early it begins in slot 1 and ends in slot 2: the boundary of both is violated.
+  // One microtick early it begins in slot 1 and ends in slot 2: it violates the boundary of both.
   frame.start = begin - 1;
   EXPECT_EQ(status_of(frame, 1), kBoundaryViolation);
   EXPECT_EQ(status_of(frame, 2), kBoundaryViolation);

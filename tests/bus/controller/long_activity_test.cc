@@ -12,11 +12,11 @@ namespace {
 constexpr int kFound = kSyntaxError | kBoundaryViolation;  // where it began; elsewhere the boundary alone
 using Statuses = std::map<int, int>;
 
-// Node 1 hears slots 1 and 3..8, sends in slot 2 and, in odd cycles, in slot 9; slot 10 is nobody's.
+// Node 1 hears slots 1 and 3..8, sends in slot 2 and, in odd cycles, in slot 9. Slot 10 is unassigned.
 struct Listener : Alone {
   Listener() : Alone(1) {}
 
-  // The channel is taken by something that nobody can make out; it begins and ends between two slots' boundaries.
+  // An undecodable activity takes the channel. It begins and ends between two slots' boundaries.
   void noise(std::int64_t from_cycle, int from_slot, std::int64_t to_cycle, int to_slot,
              Channel channel = Channel::kA) {
     const Microticks start = middle(from_cycle, from_slot), end = middle(to_cycle, to_slot);
@@ -40,7 +40,7 @@ struct Listener : Alone {
       if (problem.cycle == cycle && problem.channel == channel) slots[problem.slot] |= problem.status;
     return slots;
   }
-  // What the host reads, of the segment that ended last.
+  // The host's view of the segment that ended last.
   Statuses read(Channel channel = Channel::kA) const {
     Statuses slots;
     for (int slot = 1; slot <= 10; ++slot) {
@@ -65,7 +65,7 @@ TEST(LongActivity, ViolatesTheBoundariesOfEverySlotItTouches) {
   EXPECT_EQ(node.told(0, Channel::kB).size(), 7u);
 }
 
-// Its own slot and nobody's are touched like any other.
+// Its own slot and unassigned ones are affected like any other.
 TEST(LongActivity, OfWhoeverTheSlotIs) {
   Listener node;
   node.frames(1, {1, 3, 4, 5, 6});
@@ -88,7 +88,7 @@ TEST(LongActivity, AFrameBehindItInItsLastSlotIsValidAllTheSame) {
   EXPECT_EQ(node.controller.slot_status(5, Channel::kA), (SlotSeen{.valid_frame = true, .boundary_violation = true}));
 }
 
-// It ends where it ends: a slot that only begins then is as silent as it is.
+// The activity covers no slot that begins at its end: that slot is silent.
 TEST(LongActivity, EndsWithTheSlotThatItEndsIn) {
   Listener node;
   node.frames(0, {1});
@@ -101,7 +101,7 @@ TEST(LongActivity, EndsWithTheSlotThatItEndsIn) {
   EXPECT_EQ(told.at(5), kNoFrame);
 }
 
-// From the cycle before: reported outside every slot, as it began there, and in all that it reaches.
+// From the cycle before: reported outside every slot, since it began there, and in all slots it reaches.
 TEST(LongActivity, AcrossACycleStart) {
   Listener node;
   node.frames(0, {1, 3, 4, 5, 6, 7, 8});
@@ -121,7 +121,7 @@ TEST(LongActivity, AcrossACycleStart) {
   EXPECT_EQ(node.told(1), with_outside);
 }
 
-// Which frames are missing is not known while it goes on, but that the channel is not silent.
+// While it lasts, missing frames are unknown, but the channel is known not to be silent.
 TEST(LongActivity, OverWholeCycles) {
   Listener node;
   std::vector<Statuses> read;
@@ -132,7 +132,8 @@ TEST(LongActivity, OverWholeCycles) {
   node.run_to(4);
   Statuses every;
   for (int slot = 1; slot <= 10; ++slot) every[slot] = kBoundaryViolation;
-  // It is taken to have begun behind slot 3; slots 9 and 10 are not due in cycle 0, but for the boundary where it ends.
+  // It is taken to have begun behind slot 3. Slots 9 and 10 are not due in cycle 0, except for the boundary
+  // where it ends.
   const Statuses first{{4, kBoundaryViolation}, {5, kBoundaryViolation}, {6, kBoundaryViolation},
                        {7, kBoundaryViolation}, {8, kBoundaryViolation}, {10, kBoundaryViolation}};
   const Statuses last{
@@ -149,7 +150,7 @@ TEST(LongActivity, OverWholeCycles) {
     for (const auto& [slot, status] : node.told(cycle, Channel::kB)) EXPECT_EQ(status, kNoFrame) << slot;
 }
 
-// What was silent before somebody was heard is silence.
+// A slot that was silent before the activity stays silent.
 TEST(LongActivity, IsNoExcuseForWhoWasSilentBefore) {
   Listener node;
   node.frames(0, {4, 5, 6, 7, 8});
@@ -158,7 +159,7 @@ TEST(LongActivity, IsNoExcuseForWhoWasSilentBefore) {
   EXPECT_EQ(node.told(0), (Statuses{{1, kNoFrame}, {3, kNoFrame}, {10, kBoundaryViolation}}));
 }
 
-// Two signals with silence between them: the second one alone is under way when the segment ends.
+// Two signals with silence between them: only the second is under way when the segment ends.
 TEST(LongActivity, OneThatEndedAfterTheCycleBeganDoesNotCoverTheCycle) {
   Listener node;
   node.noise(0, 10, 1, 1);

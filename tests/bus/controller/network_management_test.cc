@@ -1,4 +1,4 @@
-// The network management vector: how it is combined, what carries it, and that all nodes of a cluster read the same.
+// The network management vector: its combination, its carriers, and its equality at all nodes of a cluster.
 #include "bus/controller/network_management.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ schedules::model::Cluster managed(schedules::model::Cluster cluster) {
 TEST(NetworkManagementVector, IsTheOrOfACycleShownWhenItIsOver) {
   NetworkManagement vector(2);
   EXPECT_EQ(copy(vector.combined()), bytes({0, 0}));
-  vector.combine(bytes({0x01, 0x80, 0xFF}));  // what follows the vector is no part of it
+  vector.combine(bytes({0x01, 0x80, 0xFF}));  // bytes behind the vector do not count
   vector.combine(bytes({0x02}));              // cut off
   EXPECT_EQ(copy(vector.combined()), bytes({0, 0}));
   vector.end_cycle(true);
@@ -89,7 +89,7 @@ TEST(NetworkManagement, ANullFrameCarriesNone) {
   EXPECT_EQ(copy(decoded.payload), Bytes(16));
 }
 
-// Each node says one bit; one of them changes its mind between cycles 5 and 6.
+// Each node sets one bit; one of them changes its bit between cycles 5 and 6.
 TEST(NetworkManagement, AllNodesReadTheSameOneCycleLater) {
   Rig rig(managed(small_cluster(4)), {300'000, -300'000, 0, 100'000}, Duration{500});
   for (std::size_t n = 0; n < 4; ++n) rig.controller(n).set_network_management_vector(bytes({1 << n, 0, 0x80 >> n}));
@@ -154,7 +154,7 @@ TEST(NetworkManagement, OnlyValidFramesWithTheIndicatorCount) {
   EXPECT_EQ(copy(node.controller.network_management_vector()), said);
 }
 
-// During start-up nothing is shown; a node that stops keeps what it knew; a new schedule begins with nothing.
+// The vector is hidden during start-up. A stopped node keeps it; a new schedule starts with an empty one.
 TEST(NetworkManagement, IsOfNormalOperation) {
   Rig rig(managed(startup_cluster(3, 1)), {0, 0, 0, 0}, {}, std::vector<TrueTime>(4, Rig::kStart));
   for (std::size_t n = 0; n < 4; ++n) rig.controller(n).set_network_management_vector(bytes({1 << n, 0, 0}));

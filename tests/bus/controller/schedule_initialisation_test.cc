@@ -19,8 +19,8 @@ class ScheduleInitialisationTest : public ::testing::Test {
     node.pDelayCompensationA = 50;
     node.pDelayCompensationB = 30;
   }
-  // When a frame of `slot` in cycle `cycle` arrives at a node whose cycles last `length` microticks from
-  // `origin` on.
+  // The arrival of a frame of `slot` in `cycle` at a node whose cycles last `length` microticks from `origin`
+  // on.
   static Microticks arrival(int slot, int cycle, std::int64_t origin, std::int64_t length, int delay) {
     const std::int64_t into = ((slot - 1) * 84 + 7) * length;
     return Microticks{origin + cycle * length + (into + 4999) / 5000 + delay};

@@ -1,5 +1,5 @@
-// Start-up of whole clusters: who leads, who follows, who integrates, in which cycle each is active, and what happens
-// when that cannot be.
+// Start-up of whole clusters: the leading, following and integrating nodes, the cycle in which each becomes
+// active, and failed start-ups.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ TEST(Startup, AllPoweredOnInTimeLeaderInSixFollowersInSevenIntegratorsInEight) {
   EXPECT_EQ(path(rig, 3), (std::vector<K>{K::kConfig, K::kReady, K::kIntegrationListen, K::kInitialiseSchedule,
                                           K::kIntegrationConsistencyCheck, K::kNormalActive}));
   EXPECT_LT(rig.precision(at_ms(40)), Duration{2'000});
-  // Nothing is wrong but that the others are not there yet.
+  // The absence of the others is the only problem.
   for (std::size_t n = 0; n < 4; ++n)
     for (const auto& problem : rig.heard(n).problems) {
       EXPECT_EQ(problem.status, kNoFrame) << "node " << n;
@@ -56,8 +56,8 @@ TEST(Startup, AllPoweredOnInTimeLeaderInSixFollowersInSevenIntegratorsInEight) {
     }
 }
 
-// In real time the partner of the first startup frame is handed over when it has come, which may be longer after its
-// end than rates can differ by.
+// In real time, the partner of the first startup frame is handed over on arrival. This may be longer after
+// its end than rates can differ.
 TEST(Startup, APartnerHandedOverWithinTheMediumsTimeMakesASchedule) {
   struct LatePort final : ports::FlexRayPort {
     void transmit(const ports::Transmission&) override {}
@@ -133,7 +133,7 @@ TEST(Startup, ARestartedNodeComesBack) {
 
 TEST(Startup, NoiseDelaysTheColdstartUntilTheNoiseTimerExpires) {
   Rig rig(startup_cluster(2), {0, 0}, Duration{500}, {at_ms(1.0), at_ms(1.0)});
-  // Noise on channel A, again and again before a listen time-out of 2 ms is over, until 9 ms.
+  // Noise on channel A until 9 ms, always repeated before a listen time-out of 2 ms is over.
   for (int i = 0; i < 9; ++i)
     for (const std::size_t node : {0u, 1u})
       rig.medium().put({at_ms(1.5 + i * 0.9),
@@ -150,12 +150,12 @@ TEST(Startup, NoiseDelaysTheColdstartUntilTheNoiseTimerExpires) {
   });
   ASSERT_NE(lead, rig.heard(0).changed.end());
   EXPECT_EQ(lead->reason, poc::PocReason::kColdstartAfterNoise);
-  // gListenNoise 2 times 2 ms after 1 ms, without the noise it would have been 3 ms.
+  // gListenNoise 2 times 2 ms after 1 ms; without the noise, 3 ms.
   EXPECT_NEAR(static_cast<double>(lead->at.value) * 25e-6, 5.0, 0.1);
 }
 
 TEST(Startup, TheLoserOfACollisionFollowsTheWinner) {
-  // Node 1 sends its CAS while that of node 0 is already under way to it.
+  // Node 1 sends its CAS while node 0's is already on its way.
   int collisions = 0;
   for (int tick = 0; tick < 40; ++tick) {
     Rig rig(startup_cluster(3), {0, 0, 0}, Duration{700}, {at_ms(1.0), at_ms(1.0) + Duration{tick * 25}, at_ms(1.0)});

@@ -1,4 +1,4 @@
-// What a host reads of its controller: what was seen slot by slot, and how clock synchronisation fares.
+// The controller's status for its host: each slot's, and clock synchronisation's.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ TEST(SlotSeen, AValidFrameIsSeenOnItsChannelOnly) {
   EXPECT_EQ(node.controller.slot_status(1, Channel::kA), kNothing);  // the own slot: a controller does not hear itself
 }
 
-// The very instants at which it is told, and until when it is kept.
+// The exact instants of publication, and of replacement.
 TEST(SlotSeen, StandsFromTheEndOfOneStaticSegmentToTheEndOfTheNext) {
   Alone node;
   std::vector<std::pair<std::int64_t, bool>> told;
@@ -82,7 +82,8 @@ TEST(SlotSeen, AValidFrameWithAnElementBehindItIsBoth) {
   EXPECT_EQ(node.controller.slot_status(2, Channel::kA), (SlotSeen{.valid_frame = true, .syntax_error = true}));
 }
 
-// The last slot's frame goes on beyond the segment: what is read at its end is without it, what is read later with it.
+// The last slot's frame goes on beyond the segment. The status at the segment's end lacks it, a later one has
+// it.
 TEST(SlotSeen, AFrameThatOutlastsTheSegmentIsAddedWhenItIsOver) {
   Alone node;
   Frame late = Frame::status(10, 0);
@@ -98,7 +99,7 @@ TEST(SlotSeen, AFrameThatOutlastsTheSegmentIsAddedWhenItIsOver) {
   EXPECT_EQ(node.controller.slot_status(10, Channel::kA), kNothing);
 }
 
-// Four nodes from power-on: the segments are told from the first cycle of whoever leads, without a gap.
+// Four nodes from power-on: segments are reported from the leading node's first cycle on, without a gap.
 TEST(SlotSeen, IsToldInEveryCycleAlsoDuringStartup) {
   Rig rig(startup_cluster(4), {0, 0, 0, 0}, {}, std::vector<TrueTime>(4, Rig::kStart));
   rig.run_cycles(60);
@@ -136,7 +137,7 @@ TEST(SyncStatus, CountsValidSyncFramesByChannelAndCycle) {
   EXPECT_EQ(node.controller.sync_status(), (SyncStatus{.VSAE = 1, .VSAO = 1, .VSBE = 1, .VSBO = 2}));
 }
 
-// gSyncNodeMax bounds what is used, not what is counted; the count itself ends at 15.
+// gSyncNodeMax bounds the frames used, not the frames counted; the count itself ends at 15.
 TEST(SyncStatus, CountsBeyondWhatIsUsedUpTo15) {
   SyncCollector collector(2);
   collector.start_cycle(0);
@@ -154,7 +155,7 @@ TEST(SyncStatus, CountsBeyondWhatIsUsedUpTo15) {
   EXPECT_EQ(collector.valid(Channel::kB), 1);
 }
 
-// A node without a sync frame of its own, which hears one other in one cycle of two.
+// A node without a sync frame of its own hears one other node in every second cycle.
 TEST(SyncStatus, MissingTermsAndTheirCount) {
   schedules::model::Cluster cluster = small_cluster(4);
   cluster.nodes[0].flexray->pKeySlotUsedForSync = cluster.nodes[0].flexray->pKeySlotUsedForStartup = false;
@@ -193,7 +194,7 @@ TEST(SyncStatus, LimitsReached) {
   EXPECT_FALSE(offset.MOCS || rate.MRCS);
 }
 
-// Back at power-on: a new schedule knows nothing of the old one.
+// Back at power-on: a new schedule starts without the old one's status.
 TEST(SyncStatus, BeginsAnewWithTheSchedule) {
   Alone node;
   Frame::status(2, 0).arrive(node);

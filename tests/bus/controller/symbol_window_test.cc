@@ -1,4 +1,4 @@
-// The symbol window: media access test symbols, when they leave, and what is made of what is heard there.
+// The symbol window: media access test symbols, their instants, and the status of received signals.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -114,7 +114,7 @@ TEST(MediaTestSymbol, IsRefusedWithoutWindowAndInKeySlotOnlyMode) {
   EXPECT_EQ(node.symbols().size(), 2u);
 }
 
-// A node that hears no sync frames and has none of its own is passive from cycle 2 on.
+// A node without received sync frames and without its own is passive from cycle 2 on.
 TEST(MediaTestSymbol, WhatWasAskedForInTimeIsDroppedInNormalPassive) {
   schedules::model::Cluster cluster = windowed(small_cluster(4));
   cluster.nodes[0].flexray->pKeySlotUsedForSync = cluster.nodes[0].flexray->pKeySlotUsedForStartup = false;
@@ -217,8 +217,8 @@ TEST(SymbolWindow, StandsFromTheEndOfOneWindowToTheEndOfTheNext) {
   EXPECT_EQ(node.controller.symbol_window_status(Channel::kA), SymbolWindowSeen{});
 }
 
-// Three nodes run and test the medium in every cycle; a fourth integrates: it says nothing of what it hears until it is
-// normal active, and the symbols do not keep it from that.
+// Three nodes run and test the medium in every cycle. A fourth integrates. It reports no symbols until it is
+// normal active, and the symbols do not delay that.
 TEST(SymbolWindow, SaysNothingDuringStartup) {
   Rig rig(windowed(startup_cluster(3, 1)), {0, 0, 0, 0}, {}, {at_ms(1.0), at_ms(1.2), at_ms(1.4), at_ms(40.0)});
   bool silent = true;

@@ -1,4 +1,5 @@
-// Clock synchronisation as the controllers do it: what they measure, when they correct, and that clusters converge.
+// Clock synchronisation in the controllers: measurement, the instants of correction, and the convergence of
+// clusters.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +13,7 @@ namespace {
 
 using schedules::model::Channel;
 
-// Node 3 by itself; sync frames of nodes 0..2 arrive as the test says, late by so many microticks.
+// A single node 3. Sync frames of nodes 0..2 arrive as the test says, late by so many microticks.
 struct Listener {
   schedules::model::Cluster cluster = small_cluster(4);
   NoPort port;
@@ -44,7 +45,7 @@ struct Listener {
   void end_static_segment() { controller.advance(controller.clock()->start_of({840})); }
 };
 
-// Own frame 0 and those late by 10, 20 and 300: one dropped at each end, (10 + 20) / 2.
+// The own frame's 0, and those late by 10, 20 and 300: one dropped at each end, (10 + 20) / 2.
 TEST(Deviations, OffsetIsTheMidpointWithTheOwnFrameAsZero) {
   Listener node;
   node.next_cycle();
@@ -57,7 +58,7 @@ TEST(Deviations, OffsetIsTheMidpointWithTheOwnFrameAsZero) {
   ASSERT_EQ(node.heard.corrected.size(), 1u);
   EXPECT_EQ(node.heard.corrected[0].cycle, 1);
   EXPECT_EQ(node.heard.corrected[0].offset.value, 15);
-  // Applied in the odd cycle's end: before the correction phase nothing moves.
+  // Applied at the odd cycle's end: before the correction phase the clock is unchanged.
   EXPECT_EQ(node.controller.clock()->start_of({900}), correction_phase);
   EXPECT_EQ(node.controller.clock()->cycle_end(), start + Microticks{kMicroPerCycle + 15});
 }
@@ -77,7 +78,7 @@ TEST(Deviations, EvenCyclesDoNotCorrectTheOffset) {
   node.end_static_segment();
   EXPECT_TRUE(node.heard.corrected.empty());
   EXPECT_EQ(node.controller.clock()->offset_correction(), 0);
-  node.next_cycle();  // an odd cycle in which nothing arrives: its own frame only
+  node.next_cycle();  // an odd cycle without arrivals: only its own frame
   node.end_static_segment();
   EXPECT_EQ(node.heard.corrected[0].offset.value, 0);
 }
@@ -125,7 +126,7 @@ TEST(Rates, ComeFromOddMinusEvenAndHoldFromTheNextEvenCycle) {
   node.next_cycle();
   EXPECT_EQ(node.controller.clock()->rate_correction(), 38);  // both cycles of the pair
   node.next_cycle();
-  // Nobody was heard in the pair; its own frame alone says no change, damping takes two.
+  // The pair had no other frames. The own frame alone gives zero, and damping takes two.
   EXPECT_EQ(node.controller.clock()->rate_correction(), 36);
 }
 
@@ -133,7 +134,7 @@ TEST(Rates, DeviationsOfAnEarlierPairAreForgotten) {
   Listener node;
   node.both(1, 5);
   for (int cycle = 0; cycle < 3; ++cycle) node.next_cycle();
-  node.both(1, 45);  // odd cycle 3; nothing was heard in even cycle 2
+  node.both(1, 45);  // odd cycle 3; even cycle 2 had no arrivals
   node.end_static_segment();
   EXPECT_EQ(node.heard.corrected.back().rate.value, 0);
 }
@@ -168,8 +169,9 @@ INSTANTIATE_TEST_SUITE_P(Drifts, Convergence,
                                          Drifts{{1'500'000, -1'500'000, 1'500'000, -1'500'000}},
                                          Drifts{{1'500'000, 500'000, -500'000, -1'500'000}}, Drifts{{1, 0, 2, -3}}));
 
-// A delay of 100 microticks that is not compensated lengthens every double cycle by as much, 1250 ppm; one that is,
-// does not: then the cluster keeps the mean of its clocks, 0 ppm, but for what damping leaves to the offset correction.
+// An uncompensated delay of 100 microticks lengthens every double cycle by as much, 1250 ppm. A compensated
+// one does not. The cluster then keeps the mean of its clocks, 0 ppm, except for the part that damping leaves
+// to the offset correction.
 TEST(Convergence, ACompensatedDelayDoesNotSlowTheClusterDown) {
   constexpr std::int64_t kCycles = 400;
   const TrueTime end = Rig::kStart + Duration::milliseconds(kCycles);
@@ -189,7 +191,7 @@ TEST(Convergence, ACompensatedDelayDoesNotSlowTheClusterDown) {
   }
 }
 
-// One of four sync nodes sends its frames early to some and late to others: the others hold together.
+// One of four sync nodes sends its frames early to some and late to others: the others stay together.
 TEST(Convergence, OneTwoFacedClockOfFourDoesNotTearTheOthersApart) {
   Rig rig(small_cluster(4), {1'000'000, -1'000'000, 200'000, -300'000});
   rig.run_cycles(40);

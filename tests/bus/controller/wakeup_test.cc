@@ -1,4 +1,4 @@
-// Wake-up as a controller goes through it: when its timers run, and that it always ends.
+// A controller's wake-up: its timers run as specified, and it always ends.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -9,8 +9,8 @@
 namespace ttf::bus::controller {
 namespace {
 
-// A coldstart node whose host has commanded WAKEUP at 0. Its listen time-out is over after two cycles of silence; then
-// it sends its pattern on channel A.
+// A coldstart node whose host commanded WAKEUP at 0. Its listen time-out ends after two cycles of silence.
+// Then it sends its pattern on channel A.
 struct Waking {
   schedules::model::Cluster cluster = patient_cluster();
   NoPort port;
@@ -22,7 +22,7 @@ struct Waking {
          {poc::PocEventKind::kConfig, poc::PocEventKind::kConfigComplete, poc::PocEventKind::kWakeup})
       controller.command(command, {});
   }
-  // The noise timer is not what ends things here.
+  // The noise timer ends no phase here.
   static schedules::model::Cluster patient_cluster() {
     schedules::model::Cluster cluster = startup_cluster(2);
     cluster.flexray.gListenNoise = 16;
@@ -58,7 +58,7 @@ TEST(Wakeup, AfterSilenceThePatternIsSentAndTheNodeIsReady) {
   EXPECT_EQ(node.status(), poc::WakeupStatus::kTransmitted);
 }
 
-// What keeps a channel busy when the timer expires has stopped it: the node listens anew behind it.
+// A channel that is busy at the timer's end has stopped the timer. The node listens anew afterwards.
 TEST(Wakeup, WhileListeningTheTimerFollowsTheChannels) {
   Waking node;
   node.port.busy[0] = true;
@@ -83,7 +83,7 @@ TEST(Wakeup, ACollisionThatNothingExplainsEndsWithTheListenTimer) {
   EXPECT_EQ(node.status(), poc::WakeupStatus::kCollisionUnknown);
 }
 
-// Whoever looks for what collided with the pattern has no other bound than that timer: it runs whatever is heard.
+// In search of the collision's cause, that timer is the only bound: it runs regardless of the channel.
 TEST(Wakeup, ABusyChannelDoesNotKeepTheCollisionUnexplainedForEver) {
   Waking node;
   const Microticks collision = node.collide();

@@ -1,5 +1,5 @@
-// Where a guardian ends what it forwards in the dynamic segment (bus/guardian/guardian.h G9), as a pure rule; in a
-// running cluster: tests/sim/crank/guardian_ends_test.cc.
+// A guardian ends forwarded frames in the dynamic segment (bus/guardian/guardian.h G9). Here it is a pure
+// rule; running clusters: tests/sim/crank/guardian_ends_test.cc.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,8 +85,8 @@ TEST(GuardianEnds, G9_WhatEndsNearAnActionPointIsLeftAloneWhatEndsElsewhereGoesO
   EXPECT_GT(held, 10'000);
 }
 
-// Of the minislot's 3 macroticks before its action point, and of its 4 behind it, G9 takes 1.5; the rest is the
-// receivers'.
+// The minislot has 3 macroticks before its action point and 4 behind it. G9 takes 1.5; the rest is for the
+// receivers.
 TEST(GuardianEnds, G9_ReceiversThatAreOffByTheRestOfAMinislotCountAlike) {
   const Ends ends;
   const int room = 3 * kMicroPerMacro - static_cast<int>(ends.tolerance.value);
@@ -114,7 +114,7 @@ TEST(GuardianEnds, G9_NoFrameOfAFaultFreeNodeIsTouched) {
     if (sender > 0 && draw.integer(0, 1) == 1) counter.occupied(1, static_cast<int>(draw.integer(1, 8)));
     const int minislot = counter.minislot_of(static_cast<int>(11 + sender));
     if (minislot < 1 || minislot > 12) continue;
-    // By the sender's clock, which is off in its offset, in the rest of its rate and in its crystal.
+    // By the sender's clock, with errors in its offset, in the rest of its rate and in its crystal.
     const auto clock = ends.at_cycle(draw.integer(-close.value, close.value), static_cast<int>(draw.integer(-3, 3)));
     const auto frame = Ends::frame(sender, static_cast<int>(draw.integer(0, kWords)));
     const Microticks begin = clock.start_of(ends.grid.action_point(minislot));

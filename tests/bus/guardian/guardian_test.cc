@@ -1,6 +1,6 @@
-// The laws of the central guardian's pure part (bus/guardian/guardian.h G1 to G8, bus/guardian/startup_turns.h S1 to
-// S6), over every node, slot, channel and cycle of a schedule, at the edges of every window. G9 is
-// guardian_ends_test.cc's.
+// The laws of the central guardian's pure part (bus/guardian/guardian.h G1 to G8,
+// bus/guardian/startup_turns.h S1 to S6). They cover every node, slot, channel and cycle of a schedule, at
+// the edges of every window. G9 is in guardian_ends_test.cc.
 #include "bus/guardian/guardian.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ using schedules::model::FrameSlot;
 constexpr std::array kBoth = {Channel::kA, Channel::kB};
 constexpr NodeId kFirst{0}, kSecond{1}, kThird{2}, kFourth{3};
 
-// Four nodes in eight static slots of 43 us, twenty minislots, a symbol window; cycle multiplexing, and slots of one
-// channel.
+// Four nodes in eight static slots of 43 us, twenty minislots, a symbol window; cycle multiplexing, and slots
+// of one channel.
 schedules::model::Cluster small() {
   schedules::model::Cluster cluster;
   schedules::model::GlobalParameters& g = cluster.flexray;
@@ -186,7 +186,7 @@ TEST(Guardian, G3_DynamicSlotsAreCountedAndBelongToTheirNodes) {
       for (int minislot = 1; minislot <= 20; ++minislot)
         for (std::size_t n = 0; n < 4; ++n) {
           const auto node = static_cast<NodeId>(n);
-          const int slot = 8 + minislot;  // nothing was sent before
+          const int slot = 8 + minislot;  // no transmission before it
           const auto frame = bench.frame(slot, cycle, node);
           const GuardianReason reason =
               bench.reason(channel, cycle, node, Bench::at(cycle, grid.action_point(minislot).value), frame);
@@ -194,7 +194,7 @@ TEST(Guardian, G3_DynamicSlotsAreCountedAndBelongToTheirNodes) {
                     bench.owns(node, slot, cycle, channel) ? GuardianReason::kForwarded : GuardianReason::kNotItsSlot)
               << "minislot " << minislot << " node " << n;
         }
-  // After slot 9 took minislots 1 to 4 and an idle one, slot 11 comes in minislot 7.
+  // Slot 9 took minislots 1 to 4 and an idle one, so slot 11 comes in minislot 7.
   controller::DynamicSlotCounter counter(bench.g());
   const auto clock = Bench::clock(0);
   bench.guardian[0]->count(clock, counter, Bench::at(0, grid.action_point(1).value),
@@ -210,7 +210,7 @@ TEST(Guardian, G3_DynamicSlotsAreCountedAndBelongToTheirNodes) {
         << minislot;
 }
 
-// What went on when the segment began has slot 9; whatever began before it and ended before it has none.
+// An activity under way when the segment begins has slot 9. One that began and ended before has no slot.
 TEST(Guardian, G3_CountsWhatBeganBeforeTheSegmentAsNodesDo) {
   const Bench bench;
   const controller::MinislotGrid grid(bench.g());
@@ -227,7 +227,7 @@ TEST(Guardian, G3_CountsWhatBeganBeforeTheSegmentAsNodesDo) {
     EXPECT_EQ(count(1, start, in(5)).slot_in(6), 0) << start.value;
     EXPECT_EQ(count(1, start, Bench::at(1, static_end + 2)).slot_in(1), 9) << start.value;
   }
-  // From the cycle before, and over before this one's segment; and behind the segment.
+  // From the cycle before, ended before this one's segment; and behind the segment.
   EXPECT_EQ(count(1, Bench::at(0, 990), Bench::at(1, 10)).slot_in(1), 9);
   EXPECT_EQ(count(1, in(20) + Microticks{400}, in(20) + Microticks{800}).slot_in(20), 28);
 }
@@ -333,7 +333,7 @@ struct Startup : Bench {
   GuardianReason reason(const GuardianSignal& signal, Channel channel = Channel::kA) const {
     return turns[index_of(channel)].judge(signal).reason;
   }
-  // Asks, and lets through what may pass.
+  // Asks, and forwards if allowed.
   GuardianReason pass(const GuardianSignal& signal, bool has_schedule = false) {
     const GuardianReason answer = has_schedule ? GuardianReason::kForwarded : reason(signal);
     if (answer == GuardianReason::kForwarded) turns[0].forwarded(signal, has_schedule);
@@ -393,7 +393,7 @@ TEST(GuardianStartupTurns, S3_ALeadThatCameToNothingIsNotSoonRepeated) {
   EXPECT_EQ(s.pass(s.symbol(kSecond, 3.0)), GuardianReason::kForwarded);  // others may
   EXPECT_EQ(s.pass(s.symbol(kFirst, 13.9)), GuardianReason::kLeadFailed);
   EXPECT_EQ(s.pass(s.symbol(kFirst, 14.2)), GuardianReason::kForwarded);
-  // Frames without end that nobody can derive a schedule from.
+  // Endless frames without a derivable schedule.
   Startup endless;
   int passed = 0;
   for (int n = 0; n < 10; ++n)
@@ -417,7 +417,7 @@ TEST(GuardianStartupTurns, S4_WhoLedAsItShouldWaitsForTheSilentCycleOnly) {
     EXPECT_EQ(s.reason(s.symbol(kFirst, 6.5)), GuardianReason::kLeadFailed);
     EXPECT_EQ(s.reason(s.symbol(kFirst, 7.0)), as_it_should ? GuardianReason::kForwarded : GuardianReason::kLeadFailed);
   }
-  // Not without the symbol, nor with a frame that is missing or of another cycle.
+  // Refused without the symbol, and with a frame that is missing or of another cycle.
   Startup middle;
   for (int cycle = 0; cycle < 5; ++cycle) middle.pass(middle.startup_frame(kFirst, 1.0 + cycle, cycle), cycle >= 2);
   middle.turns[0].schedule_dropped(Startup::cycles(6.0));

@@ -1,6 +1,7 @@
-// Whole clusters of protocol operation controls on a perfect bus: start-up as it emerges when nobody is told what the
-// others do. Time is counted in static slots, oscillators are perfect, one channel, propagation takes no time; the last
-// slot of a cycle is the NIT. So only the POC is under test, driven the way a controller drives it.
+// Whole clusters of protocol operation controls on a perfect bus: start-up emerges without knowledge of the
+// other nodes. Time is counted in static slots. Oscillators are perfect, there is one channel, propagation
+// takes no time. The last slot of a cycle is the NIT. So only the POC is under test, driven as by a
+// controller.
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -22,7 +23,7 @@ class Node {
   Node(const PocParameters& parameters, int key_slot, int power_on, int cycle_slots)
       : power_on_(power_on), poc_(parameters), key_slot_(key_slot), cycle_slots_(cycle_slots) {}
 
-  // The beginning of slot `now`: timers and cycle starts. What it sends in the slot then.
+  // The beginning of slot `now`: timers and cycle starts. Returns the signal sent in the slot.
   void begin(int now) {
     if (now < power_on_) return;
     if (now == power_on_) {
@@ -44,7 +45,7 @@ class Node {
     return Frame{key_slot_, cycle_ % 64, poc_.parameters.pKeySlotUsedForStartup};
   }
 
-  // The end of the slot, for who did not send in it.
+  // The end of the slot, for nodes that did not send in it.
   void hear_cas(int now) {
     if (now < power_on_) return;
     tell({Event::kChannelActive}, now);
@@ -108,7 +109,7 @@ class Node {
     if (actions.has(PocAction::kStopTimers)) listen_until_ = noise_until_ = -1;
     if (actions.has(PocAction::kDropSchedule)) has_clock_ = false;
     if (actions.has(PocAction::kStopListenTimer)) listen_until_ = -1;
-    // Two cycles as pdListenTimeout; timers begin with the next slot when restarted at the end of one.
+    // Two cycles as pdListenTimeout; timers restarted at the end of a slot begin with the next one.
     if (actions.has(PocAction::kRestartListenTimer)) listen_until_ = now + 2 * cycle_slots_ + 1;
     if (actions.has(PocAction::kRestartNoiseTimer)) noise_until_ = now + 4 * cycle_slots_ + 1;
     if (actions.has(PocAction::kSendCas)) {  // in this slot; cycle 0 begins with the next
@@ -138,7 +139,8 @@ class Node {
 
 class Bus {
  public:
-  // `power_on` by node; the first `coldstart_nodes` of them may start the cluster, the node i has the key slot i + 1.
+  // `power_on` by node; the first `coldstart_nodes` of them may start the cluster. Node i has the key slot i
+  // + 1.
   Bus(const std::vector<int>& power_on, int coldstart_nodes, int attempts = 4)
       : cycle_slots(static_cast<int>(power_on.size()) + 2) {
     for (int i = 0; i < static_cast<int>(power_on.size()); ++i) {
@@ -187,7 +189,7 @@ void expect_one_schedule(const Bus& bus) {
 }
 
 TEST(PocCluster, PoweredOnInTimeLeaderIn6FollowersIn7OthersIn8) {
-  // Whoever listens first leads; all others are on before its cycle 0.
+  // The first listening node leads; all others are on before its cycle 0.
   Bus bus({9, 0, 14, 3, 5, 11}, 3);
   bus.run(12);
   ASSERT_TRUE(bus.all_active());
@@ -238,14 +240,15 @@ TEST(PocCluster, RandomPowerOnInTimeGivesTheSameNumbers) {
   }
 }
 
-// A second coldstart node that comes within the attempts' window starts the cluster with the first one.
-// Beyond it the first one's attempts are exhausted; it then follows the second one's attempt.
+// A second coldstart node within the window of attempts starts the cluster with the first one. Beyond it, the
+// first one's attempts are exhausted; it then follows the second one's attempt.
 TEST(PocCluster, ASecondColdstartNodeWithinAndBeyondTheAttemptsWindow) {
   constexpr int kSlots = 6;  // 4 nodes, one free, the NIT
   constexpr int kListen = 2 * kSlots + 1;
   constexpr int kAttempt = 1 + 6 * kSlots;  // CAS, four cycles of resolution, one of check, one of gap
   constexpr int kLastSymbol = kListen + 3 * kAttempt;
-  // To send in cycle 4 of an attempt its startup frame of cycle 0 must be heard: the leader's slot is the first one.
+  // To send in cycle 4 of an attempt, a node must hear the startup frame of cycle 0: the leader's slot is the
+  // first one.
   constexpr int kLastFrame = kLastSymbol + 1;
   for (int late = 0; late <= kLastFrame + 2 * kAttempt; ++late) {
     Bus bus({0, late, late + 3, late + 40}, 2);

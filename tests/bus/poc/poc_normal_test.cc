@@ -1,4 +1,4 @@
-// Normal operation: how clock errors degrade a node and how it recovers, deferred commands, key slot only mode.
+// Normal operation: degradation by clock errors and recovery, deferred commands, key slot only mode.
 #include "tests/bus/poc/poc_script.h"
 
 namespace ttf::bus::poc {

@@ -1,5 +1,5 @@
-// Protocol operation control under random events: what holds whatever happens. Half the events are drawn from what a
-// controller would report in the state, so that every state is visited; the others from everything.
+// Protocol operation control under random events: its invariants. Half the events are drawn from a
+// controller's possible reports in the state, so that every state is visited. The others are drawn from all.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -51,7 +51,7 @@ class Draws {
       }
       case Event::kPowerOn:
       case Event::kFreeze:
-      case Event::kFatalError: return chance(0.1) ? event : PocEvent{Event::kChannelsIdle};  // else nothing lasts
+      case Event::kFatalError: return chance(0.1) ? event : PocEvent{Event::kChannelsIdle};  // else no state lasts
       default: return event;
     }
   }

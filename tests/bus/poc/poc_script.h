@@ -1,4 +1,4 @@
-// A protocol operation control on a string: told event by event, or led to a state as a controller would lead it there.
+// A scripted protocol operation control: it takes single events, or is led to a state as by a controller.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ class PocScript {
   }
   PocScript& tell(Event kind) { return tell(PocEvent{kind}); }
 
-  // The next cycle begins; `ended` is what was heard in the one before.
+  // The next cycle begins; `ended` lists the startup frames of the cycle before.
   PocScript& cycle(const StartupFramesSeen& ended = kNobody) {
     if (last_cycle % 2 != 0 && last_cycle >= 0) correct_clock();
     ++last_cycle;
@@ -81,7 +81,7 @@ class PocScript {
   PocScript& to_active() {
     return parameters.pKeySlotUsedForStartup ? to_join().cycles(3, kTwoNodes) : to_check().cycle().cycles(4, kTwoNodes);
   }
-  // Double cycles with this outcome of clock correction, from an odd cycle that has begun to the next such one.
+  // Double cycles with this outcome of clock correction, from one running odd cycle to the next.
   PocScript& double_cycles(int count, bool missing, bool limit_exceeded = false) {
     for (int i = 0; i < count; ++i) {
       tell(PocEvent::clock_corrected(missing, limit_exceeded));
@@ -102,7 +102,7 @@ class PocScript {
   PocState state;
   PocStep last;
   int last_cycle = -1;         // that began
-  bool clock_missing = false;  // what cycle() reports of odd cycles
+  bool clock_missing = false;  // the outcome that cycle() reports in odd cycles
   bool clock_limit = false;
 };
 

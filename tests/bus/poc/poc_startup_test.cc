@@ -1,10 +1,11 @@
-// Start-up and wake-up, one node at a time: what its controller would report is told in order.
+// Start-up and wake-up, one node at a time. Its controller's reports are given in order.
 #include "tests/bus/poc/poc_script.h"
 
 namespace ttf::bus::poc {
 namespace {
 
-// Tells cycle after cycle until the node is normal active; gives the number of the cycle that began with it, -1: never.
+// Feeds cycle after cycle until the node is normal active. Returns the number of the cycle that began with
+// it, -1: never.
 int active_in(PocScript& script, const std::vector<StartupFramesSeen>& ended_cycles) {
   for (const StartupFramesSeen& ended : ended_cycles) {
     script.cycle(ended);
@@ -33,7 +34,7 @@ TEST(PocStartup, FollowingColdstartNodeIsActiveInCycle7) {
   EXPECT_EQ(node.state.kind, Kind::kIntegrationColdstartCheck);
   EXPECT_EQ(active_in(node, {kNobody, kLeaderOnly, kLeaderOnly, kLeaderOnly, kLeaderOnly, kLeaderOnly}), 7);
   EXPECT_EQ(node.last.reason, PocReason::kJoined);
-  EXPECT_EQ(node.state.vRemainingColdstartAttempts, 4);  // following costs none
+  EXPECT_EQ(node.state.vRemainingColdstartAttempts, 4);  // following costs no attempt
 }
 
 TEST(PocStartup, FollowerSendsFromCycle4On) {
@@ -175,7 +176,7 @@ TEST(PocStartup, WhatMakesAFollowerGiveUp) {
   node.clock_limit = true;
   EXPECT_EQ(node.cycles(2, kLeaderOnly).last.reason, PocReason::kStartupClockLimitExceeded);
   EXPECT_EQ(node.state.kind, Kind::kColdstartListen);
-  // Join: somebody else in every even cycle, a pair in every double cycle, the clock in order.
+  // Join: another node in every even cycle, a pair in every double cycle, the clock in order.
   PocScript join(coldstart_node());
   join.to_join();
   node = join;

@@ -182,7 +182,7 @@ const std::vector<Row>& rows() {
   return all;
 }
 
-// The actions that go with a change of state, told from the two states alone.
+// The actions due at a change of state, derived from the two states alone.
 PocActions due(const PocState& before, const PocState& after) {
   const auto listens = [](Kind kind) {
     return kind == Kind::kColdstartListen || kind == Kind::kWakeupListen || kind == Kind::kWakeupDetect;

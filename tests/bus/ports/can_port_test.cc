@@ -1,4 +1,5 @@
-// The test CAN obeys the laws of the port, and controllers on it have their lists out and in, whoever else sends.
+// The test CAN obeys the laws of the port. Controllers on it exchange complete lists, regardless of other
+// senders.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -40,7 +41,8 @@ INSTANTIATE_TYPED_TEST_SUITE_P(TestMedium, CanPortLaws, CanBenches);
 namespace ttf::bus::ports {
 namespace {
 
-// Two nodes' lists interleave on the bus: the urgent one overtakes frame by frame, and the third node has both whole.
+// Two nodes' lists interleave on the bus. The urgent one overtakes frame by frame, and the third node gets
+// both whole.
 TEST(CanControllers, ListsThatInterleaveArriveWhole) {
   schedules::model::Cluster cluster;
   cluster.nodes.resize(3);

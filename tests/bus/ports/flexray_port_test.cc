@@ -1,4 +1,4 @@
-// The test medium obeys the laws of the port too: what is shown with it holds for any medium.
+// The test medium obeys the laws of the port, too: its results hold for any medium.
 #include "tests/laws/flexray_port_laws.h"
 
 #include "tests/bus/bus_rig.h"

@@ -1,5 +1,5 @@
-// The live medium between threads, which other tests rely on, keeps the port's laws; and each law notices a medium that
-// breaks it.
+// The memory live medium, used by other tests, keeps the port's laws between threads. Each law notices a
+// medium that breaks it.
 #include "bus/ports/live_medium.h"
 
 #include <algorithm>
@@ -78,11 +78,11 @@ enum class Defect {
   kOtherLine,
 };
 
-// A medium that keeps the laws but for one thing.
+// A medium with one defect, otherwise lawful.
 class DefectiveMedium final : public bus::ports::LiveMedium {
  public:
   using Bytes = std::array<std::byte, bus::wire::kMaxFrameBytes>;
-  // `common`: the one place for what arrives at any member.
+  // `common`: the single place for arrivals at any member.
   DefectiveMedium(std::unique_ptr<bus::ports::LiveMedium> sound, Defect defect, std::shared_ptr<Bytes> common)
       : sound_(std::move(sound)), defect_(defect), common_(std::move(common)) {}
 

@@ -1,4 +1,4 @@
-// What is told of sync frames that have left, and what a kernel's stamp means: pure.
+// Reports of departed sync frames, and the meaning of a kernel's stamp: pure.
 #include "bus/socketcan/departures.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(Departures, OfOtherFramesAreNot) {
   shorter.len = 20;
   EXPECT_FALSE(departures.left(shorter, MachineTime{0}));
   EXPECT_FALSE(departures.none());
-  // Of a frame in fragments the last one says it.
+  // The last fragment of a frame gives its departure.
   const CanFrames can = frame_to_can(5, drawn_frame(Channel::kA, 5, 1, 60));
   ASSERT_EQ(can.count, 3u);
   departures.expect(can.all().back(), 5, 1, MachineTime{0});
@@ -78,7 +78,7 @@ TEST(Departures, TooLateToBeToldAreNot) {
   Departures departures;
   departures.expect(last_of(3, 17, 8), 3, 17, MachineTime{0});
   EXPECT_FALSE(departures.left(last_of(3, 17, 8), MachineTime{0x8000'0000LL}));
-  EXPECT_TRUE(departures.none());  // nor ever after
+  EXPECT_TRUE(departures.none());  // and stays so
 }
 
 constexpr ClockPair kPair{.host = {5'000}, .realtime_ns = 1'700'000'000'000'000'000, .now = {5'200}};
@@ -104,7 +104,7 @@ TEST(Stamps, ClocksAreReadTogether) {
   const ClockPair pair = clock_pair();
   const MachineTime after = ports::host_now();
   EXPECT_TRUE(before <= pair.host && pair.host <= pair.now && pair.now <= after);
-  // Two pairs agree on what a stamp means, unless somebody sets the clock or keeps both readings waiting.
+  // Two pairs of clock readings agree on a stamp, unless the clock is set or both readings are delayed.
   const ClockPair later = clock_pair();
   EXPECT_LT(std::abs((on_host(pair.realtime_ns, later) - pair.host).ns), 1'000'000);
 }

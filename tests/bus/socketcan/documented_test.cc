@@ -1,4 +1,4 @@
-// The examples of docs/socketcan.md, as candump shows them: what the page says by hand is what the code finds.
+// The examples of docs/socketcan.md, as candump shows them: the page's hand-made decoding equals the code's.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -115,7 +115,7 @@ TEST(DocumentedExamples, AreWhatIsSent) {
   }
 }
 
-// Other people's tools read what has identifier 0 by the shipped DBC files.
+// Third-party tools read identifier 0 by the shipped DBC files.
 TEST(ShippedDbc, ReadsSymbolsAndFollowUpsAsTheyAreSent) {
   for (const char* name : {"paper_synchronised", "laser_radar"}) {
     std::ifstream file(TTF_SOURCE_DIR "/schedules/" + std::string(name) + ".dbc");

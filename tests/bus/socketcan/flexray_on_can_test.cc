@@ -62,7 +62,7 @@ TEST(FlexRayOnCan, EveryLengthArrivesUnchanged) {
   EXPECT_EQ(a.abandoned() + b.abandoned(), 0u);
 }
 
-// A frame of 28 words is, byte for byte, a CAN FD frame; nothing is put in front of it.
+// A frame of 28 words is, byte for byte, a CAN FD frame, without a prefix.
 TEST(FlexRayOnCan, WhatFitsIsTheFrameItself) {
   const Bytes frame = drawn_frame(Channel::kA, 3, 7, 28);
   const CanFrames can = frame_to_can(3, frame);
@@ -70,8 +70,8 @@ TEST(FlexRayOnCan, WhatFitsIsTheFrameItself) {
   EXPECT_EQ(bytes_of(data_of(can.frames[0])), frame);
 }
 
-// What a fault made of a frame at its sender arrives as that, however long it is, and is told from a sound one by its
-// receiver.
+// A frame broken at its sender arrives as it was sent, at any length. Its receiver distinguishes it from a
+// sound one.
 TEST(FlexRayOnCan, BrokenFramesArriveAsTheyWereSent) {
   RandomStream draw({.seed = 7});
   for (std::size_t size = 8; size <= wire::kMaxFrameBytes; ++size)
@@ -90,7 +90,7 @@ TEST(FlexRayOnCan, BrokenFramesArriveAsTheyWereSent) {
     }
 }
 
-// Sent in another slot than its header says: the receiver is told both.
+// Sent in another slot than its header says: the receiver gets both.
 TEST(FlexRayOnCan, AFrameInAnotherSlotKeepsItsHeader) {
   const Bytes frame = drawn_frame(Channel::kB, 12, 3, 8);
   const CanFrames can = frame_to_can(13, frame);
@@ -144,8 +144,8 @@ TEST(FlexRayOnCan, ForeignFramesAreToldAndDoNoHarm) {
   EXPECT_EQ(receiver.abandoned(), 0u);
 }
 
-// Every byte of every CAN frame, zeros behind the end included, every value it could have: what comes of it is
-// refused here, or by the FlexRay decoder, or is what was sent. Never another frame.
+// Tries every value of every byte of every CAN frame, including zeros behind the end. The result is refused
+// here or by the FlexRay decoder, or equals the sent frame. It is never another frame.
 TEST(FlexRayOnCan, NoCorruptedByteMakesAnotherFrame) {
   std::uint64_t refused = 0, broken = 0;
   for (const int words : {0, 1, 2, 9, 27, 28, 29, 30, 57, 58, 60, 127}) {
@@ -156,7 +156,7 @@ TEST(FlexRayOnCan, NoCorruptedByteMakesAnotherFrame) {
         for (unsigned flip = 1; flip < 256; ++flip) {
           Reassembly receiver(Channel::kA);
           Arrival last;
-          canfd_frame one{};  // `last` refers to what arrived
+          canfd_frame one{};  // `last` refers to the arrived frame
           for (std::size_t k = 0; k < can.count; ++k) {
             one = can.frames[k];
             if (k == i) one.data[at] = static_cast<std::uint8_t>(one.data[at] ^ flip);
@@ -262,7 +262,7 @@ TEST(FlexRayOnCan, AFollowUpWithACorruptedByteIsNone) {
     }
 }
 
-// Its CRC holds, and it says what no sender of ours says.
+// Its CRC holds, but no sender of ours sends its content.
 TEST(FlexRayOnCan, AFollowUpOfNoSlotOrNoCycleIsNone) {
   const auto says = [](unsigned slot, unsigned cycle) {
     canfd_frame can = follow_up_to_can(Channel::kA, {.slot = 1, .cycle_counter = 0, .late = {}});

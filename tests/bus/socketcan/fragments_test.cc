@@ -1,4 +1,4 @@
-// Fragments that come in another order than they were sent, twice, not at all, or with others between them.
+// Fragments out of order, duplicated, missing, or interleaved with others.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -41,7 +41,7 @@ TEST_F(Fragments, OneThatIsMissingCostsTheFrame) {
   EXPECT_EQ(receiver_.abandoned(), 1u);
 }
 
-// . 1 2 3: nothing was begun, so nothing is abandoned.
+// . 1 2 3: without a begun frame, no frame is abandoned.
 TEST_F(Fragments, WithoutTheFirstAreDisplaced) {
   for (std::size_t i = 1; i < can_.count; ++i) EXPECT_EQ(arrive(i), Outcome::kDisplaced) << i;
   EXPECT_EQ(receiver_.abandoned(), 0u);
@@ -121,7 +121,7 @@ TEST_F(Fragments, GoOnOverWhatIsMalformed) {
   EXPECT_EQ(receiver_.abandoned(), 0u);
 }
 
-// It comes from another node, when that got to know, in nobody's slot. One whose CRC is wrong changes nothing either.
+// It comes from another node at any time, outside the slots. One with a wrong CRC changes nothing either.
 TEST_F(Fragments, GoOnOverAFollowUp) {
   const canfd_frame told = follow_up_to_can(Channel::kA, {.slot = 3, .cycle_counter = kCycle, .late = {1'000}});
   canfd_frame broken = told;
@@ -136,7 +136,7 @@ TEST_F(Fragments, GoOnOverAFollowUp) {
   EXPECT_EQ(receiver_.abandoned(), 0u);
 }
 
-// One form only: what fits in one CAN FD frame is not taken in fragments, one or two.
+// One form only: a frame that fits one CAN FD frame is not accepted in one or two fragments.
 TEST_F(Fragments, AreNotForFramesThatGoWhole) {
   for (const int words : {4, 28}) {
     const Bytes frame = drawn_frame(Channel::kA, kSlot, kCycle, words);
@@ -153,8 +153,8 @@ TEST_F(Fragments, AreNotForFramesThatGoWhole) {
   }
 }
 
-// Drawn sequences of two frames' fragments, some lost, some twice, some swapped. Laws: what is complete is one of the
-// frames as it was sent, and every frame whose fragments came in order with nothing in between is complete.
+// Drawn sequences of two frames' fragments, some lost, duplicated or swapped. Laws: a complete frame is one
+// of the sent frames. Every frame whose fragments came in order without interruption is complete.
 TEST_F(Fragments, InAnyOrderMakeNoOtherFrame) {
   RandomStream draw({.seed = 3});
   const auto below = [&](std::size_t n) {

@@ -1,4 +1,4 @@
-// FlexRay frames with drawn contents, and what the tests of their mapping onto CAN look at.
+// FlexRay frames with drawn contents, and accessors for the tests of their mapping onto CAN.
 #pragma once
 
 #include <linux/can.h>

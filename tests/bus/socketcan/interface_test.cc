@@ -37,7 +37,7 @@ TEST(InterfaceProblem, NamesWhatTheKernelLacks) {
             "the kernel gives no CAN socket: Permission denied");
 }
 
-// Each side is judged by itself: which commands are needed is known before the kernel has its modules.
+// Each side is judged separately: the needed commands are known before the kernel has its modules.
 TEST(InterfaceProblem, OfTheLinkIsKnownWithoutCanSockets) {
   const auto nothing = but([](auto& s) { s.refused = EAFNOSUPPORT, s.there = false; });
   EXPECT_TRUE(kernel_problem(nothing));
@@ -82,7 +82,7 @@ TEST(InterfaceProblem, ComesWithTheCommandThatHelps) {
             "ip link set can1 up type can bitrate 1000000 dbitrate 5000000 fd on");
 }
 
-// On any machine: what cannot be used is refused with that sentence, the interface in front of it.
+// On any machine: an unusable interface is refused with that sentence, preceded by its name.
 TEST(InterfaceProblem, EndsSetUp) {
   for (const char* name : {"vcan98", "lo", "", "a_name_of_20_bytes__"}) {
     const std::string problem = interface_problem(name, interface_state(name), true);
@@ -98,7 +98,7 @@ TEST(InterfaceProblem, EndsSetUp) {
   }
 }
 
-// The commands are run as they stand in the sentence, until there is nothing to say any more.
+// The commands are run as the sentence gives them, until no problem remains.
 TEST_F(OwnVcan, IsMendedByTheCommands) {
   run(std::string("ip link del dev ") + kName);
   const auto problem = [] { return interface_problem(kName, interface_state(kName), true); };

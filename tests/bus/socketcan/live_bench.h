@@ -1,4 +1,4 @@
-// Members of one process on vcans of their own: what the laws of bus/ports/live_medium.h are tried on.
+// Members of one process on separate vcans: the bench for the laws of bus/ports/live_medium.h.
 #pragma once
 
 #include <cstring>
@@ -14,7 +14,7 @@
 
 namespace ttf::bus::socketcan {
 
-// Nobody sends while another does, as the schedule has it: the fragments of one frame follow one another.
+// Senders take turns, as in the schedule: the fragments of one frame follow one another.
 class InItsSlot final : public ports::LiveMedium {
  public:
   InItsSlot(const LiveOptions& options, std::mutex& slot) : medium_(options), slot_(slot) {}
@@ -37,7 +37,7 @@ class InItsSlot final : public ports::LiveMedium {
   std::mutex& slot_;
 };
 
-// Two channels, a CAN and a CAN FD; of more than two members the last is not on the first CAN.
+// Two channels, a CAN and a CAN FD. The last of more than two members is not on the first CAN.
 template <std::size_t kMembers> class VcanBench : public laws::LiveBench {
  public:
   VcanBench() {

@@ -1,5 +1,5 @@
-// What is particular to the real-time medium on SocketCAN: what it counts as what, when it says how late a frame left,
-// and interfaces that go away. Its laws: live_laws_test.cc.
+// Particulars of the real-time medium on SocketCAN: its counts, its reports of late departures, and
+// interfaces that go away. Its laws: live_laws_test.cc.
 #include "bus/socketcan/medium.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ class LiveOnVcan : public ::testing::Test {
   static ports::LiveSignal signal(const Bytes& frame, int slot, bool tells_late = false) {
     return {.channel = Channel::kA, .slot = slot, .bytes = frame, .tells_late = tells_late};
   }
-  // What comes within a second.
+  // The next arrival within a second.
   static std::optional<LiveArrival> next(SocketCanMedium& medium) {
     for (int i = 0; i < 1000; ++i) {
       if (auto arrival = medium.receive()) return arrival;
@@ -67,14 +67,14 @@ canfd_frame can_of(canid_t identifier, std::uint8_t length, std::uint8_t flags) 
   return can;
 }
 
-// Where nothing takes time but sleeping (tools/test_bed.sh).
+// Only sleeping takes time there (tools/test_bed.sh).
 bool in_virtual_time() {
   std::ifstream stream("/proc/cmdline");
   const std::string words{std::istreambuf_iterator<char>(stream), {}};
   return words.find("time-travel=inf-cpu") != std::string::npos;
 }
 
-// Due when its sender did not send it yet: to the nanosecond, where instants can be told that well.
+// The sender had not sent it when it was due: to the nanosecond, where instants are that precise.
 TEST_F(LiveOnVcan, AFollowUpSaysHowLateTheFrameLeft) {
   SocketCanMedium sender(options()), receiver(options());
   for (const std::int64_t late_ns : {0, 1'000'000, 123'456'789, -5'000'000, 2'000'000'000}) {
@@ -101,10 +101,10 @@ TEST_F(LiveOnVcan, AFollowUpSaysHowLateTheFrameLeft) {
     }
   }
   EXPECT_EQ(sender.counts().sent, 5u);
-  EXPECT_EQ(receiver.counts().received, 5u);  // follow-ups are none of them
+  EXPECT_EQ(receiver.counts().received, 5u);  // follow-ups do not count
 }
 
-// It goes with the frame, without the sender doing anything more, if nothing stands before the echo.
+// It follows the frame without further calls by the sender if the echo comes next.
 TEST_F(LiveOnVcan, AFollowUpIsSentAtOnce) {
   if (!in_virtual_time()) GTEST_SKIP() << "on a busy machine the kernel may take its time for the echo";
   SocketCanMedium sender(options()), receiver(options());
@@ -118,7 +118,7 @@ TEST_F(LiveOnVcan, AFollowUpIsSentAtOnce) {
   EXPECT_EQ(told, 20u);
 }
 
-// What another has sent stands before the echo: it is handed over first, and stays readable until then (L8).
+// Another member's frame is ahead of the echo: it is handed over first, and stays readable until then (L8).
 TEST_F(LiveOnVcan, AFollowUpWaitsForWhatIsStillToBeReceived) {
   SocketCanMedium sender(options()), receiver(options());
   const Bytes others = drawn_frame(Channel::kA, 2, 33, 20), own = drawn_frame(Channel::kA, 9, 33, 20);
@@ -212,7 +212,7 @@ TEST_F(LiveOnVcan, ForeignFramesAreCountedAndNotHandedOver) {
   EXPECT_EQ(medium.failure(), "");
 }
 
-// Whether a CAN FD frame is all right on that CAN is for the controller to say; it has to know of it.
+// The controller judges CAN FD frames on that CAN, so it has to get them.
 TEST_F(LiveOnVcan, EveryDataFrameOfAPrivateCanIsHandedOver) {
   SocketCanMedium medium(options());
   Socket socket = stranger(2);
@@ -250,7 +250,7 @@ TEST_F(LiveOnVcan, WhatHasNoRoomIsCountedAsLost) {
   EXPECT_EQ(sender.counts().lost, 0u);
 }
 
-// A frame that was begun is lost, a fragment that continues nothing is malformed.
+// A begun frame is lost, a fragment without a frame is malformed.
 TEST_F(LiveOnVcan, FragmentsThatMakeNoFrameAreCounted) {
   SocketCanMedium medium(options());
   Socket socket = stranger(0);
@@ -292,7 +292,7 @@ TEST_F(LiveOnVcan, ANodeIsOnlyOnItsOwnLines) {
   EXPECT_DEATH(on_b.send_can(0, {}), "this node is not on it");
 }
 
-// Those of the other lines go on; what had come before is handed over.
+// Frames of the other lines still arrive; earlier ones are handed over.
 TEST_F(LiveOnVcan, AnInterfaceThatGoesDownIsAFailure) {
   SocketCanMedium sender(options()), receiver(options());
   const Bytes frame = drawn_frame(Channel::kA, 9, 33, 4);
@@ -314,7 +314,7 @@ TEST_F(LiveOnVcan, AnInterfaceThatGoesDownIsAFailure) {
   ASSERT_EQ(sender.send_can(0, {.identifier = 5, .flexible_data_rate = false, .data = {}}), LiveStatus::kDone);
   const auto other = next(receiver);
   ASSERT_TRUE(other && other->kind == LiveArrival::Kind::kCan);
-  // Frames may have gone by unseen: it stays at that.
+  // Frames may have passed unseen, so the failure remains.
   ASSERT_TRUE(run("ip link set " + vcans_[0] + " up"));
   EXPECT_EQ(sender.send(signal(frame, 9), {}), LiveStatus::kFailed);
   EXPECT_EQ(receiver.failure(), said);

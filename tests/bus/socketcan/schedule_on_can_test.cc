@@ -1,5 +1,5 @@
-// Schedules on real CAN FD, held against bits that are counted here field by field, stuff bits by going
-// through all ways to choose bits; and against frames of drawn contents, which never last longer.
+// Schedules on real CAN FD, against bits counted here field by field. Stuff bits are maximised over all
+// choices of bits. Also against frames of drawn contents, which never last longer.
 #include "bus/socketcan/schedule_on_can.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,7 @@ using schedules::model::Cluster;
 constexpr BitRates kFast{1'000'000, 5'000'000};
 constexpr std::int64_t kOne = schedules::check::kTimeScaleOne;
 
-// The most stuff bits that n bits of anybody's choice can need: after five equal ones, stuff bits included,
-// another follows.
+// The most stuff bits that n free bits can need: a stuff bit follows five equal ones, stuff bits included.
 int most_stuff_bits(int n) {
   constexpr int kNever = -1000;
   std::array<int, 6> best{};  // by the run's length so far; which value it has does not matter
@@ -44,7 +43,7 @@ int most_stuff_bits(int n) {
   return *std::ranges::max_element(best);
 }
 
-// Data must divide a nanosecond's billion, so that all is whole.
+// The data rate must divide a billion, so that all durations are whole nanoseconds.
 Duration longest(int data_bytes, BitRates rates) {
   const int sof = 1, identifier = 11, rrs = 1, ide = 1, fdf = 1, res = 1, brs = 1;
   const int esi = 1, dlc = 4, stuff_count = 4, crc = data_bytes > 16 ? 21 : 17;
@@ -61,7 +60,7 @@ Cluster shipped(const std::string& name) {
   return schedules::check::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
 }
 
-// One node off sync with slot 1 on both channels, and a payload of so many words.
+// A sync node with slot 1 on both channels, and a payload of so many words.
 Cluster with_payload(int words) {
   Cluster cluster;
   cluster.flexray.gNumberOfStaticSlots = 10;
@@ -136,7 +135,7 @@ TEST(ScheduleOnCan, DrawnFramesLastNoLonger) {
   }
 }
 
-// What is a sync frame's: the key slot of a node that is a sync node, sent by itself.
+// Only sync frames have follow-ups: a sync node's key slot, sent by that node.
 TEST(ScheduleOnCan, OnlySyncFramesAreFollowedUp) {
   Cluster cluster = with_payload(0);
   auto& sender = *cluster.nodes[0].flexray;
@@ -154,8 +153,8 @@ TEST(ScheduleOnCan, OnlySyncFramesAreFollowedUp) {
   EXPECT_FALSE(followed_up());
 }
 
-// A slot of two senders, each on its channel, the second one a sync node: one row with what the longer one
-// needs.
+// Each channel of the slot has its own sender, the second one a sync node. One row has the needs of the
+// longer one.
 TEST(ScheduleOnCan, ASlotOfSeveralFramesIsJudgedByTheLongest) {
   Cluster cluster = with_payload(8);
   cluster.nodes[1].flexray->pKeySlotId = 1;
@@ -171,8 +170,8 @@ TEST(ScheduleOnCan, ASlotOfSeveralFramesIsJudgedByTheLongest) {
   }
 }
 
-// Slots 21..24: fragments of 56 bytes; (9 + 1 + 80 + 560 + 2 + 1) bits of 0.10015 us at most are ten
-// minislots of 7 us less 0.15 %, one more in which it begins, and one of idle phase: 84 us.
+// Slots 21..24: fragments of 56 bytes. (9 + 1 + 80 + 560 + 2 + 1) bits of at most 0.10015 us are ten
+// minislots of 7 us less 0.15 %. With one more for the beginning and one of idle phase: 84 us.
 TEST(ScheduleOnCan, DynamicFramesHaveTheirMinislots) {
   const auto slots = slots_on_can(shipped("flexray_demo"), kFast);
   ASSERT_EQ(slots.size(), 14u);

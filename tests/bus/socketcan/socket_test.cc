@@ -73,7 +73,7 @@ TEST_F(SocketOnVcan, EveryFlexRayFrameReachesTheOthersOnceInOrderUnchanged) {
     EXPECT_EQ(receiver->lost(), 0u);
   }
   Received own;
-  EXPECT_EQ(sender.receive(own), Status::kNothing);  // nobody hears himself
+  EXPECT_EQ(sender.receive(own), Status::kNothing);  // a sender does not hear itself
 }
 
 TEST_F(SocketOnVcan, StampsAreWhenTheFrameWasThere) {
@@ -113,7 +113,7 @@ TEST_F(SocketOnVcan, FiltersLetThroughWhatMatches) {
   EXPECT_EQ(heard, (std::vector<canid_t>{0x100, 0x206, 0x207}));
 }
 
-// Nobody reads: what has no room is counted, where it is missing and at the end.
+// Without a reader, frames without room are counted, at the gap and at the end.
 TEST_F(SocketOnVcan, WhatHasNoRoomIsCounted) {
   constexpr std::uint32_t kSent = 200, kAgain = 10;
   Socket sender({.interface = kName, .filters = {}});
@@ -128,7 +128,7 @@ TEST_F(SocketOnVcan, WhatHasNoRoomIsCounted) {
   EXPECT_GE(heard, 16u);
   EXPECT_LT(heard, kSent);
   EXPECT_EQ(receiver.lost(), kSent - heard);
-  // The gap is told with the first frame after it.
+  // The first frame after the gap reports it.
   for (std::uint32_t i = 0; i < kAgain; ++i) ASSERT_EQ(sender.send(can_fd(1, 64, number++)), Status::kDone);
   for (std::uint32_t i = 0; i < kAgain; ++i) {
     Received received;
@@ -160,7 +160,7 @@ TEST_F(SocketOnVcan, ASmallerReceiveBufferIsToldWithTheCommand) {
   EXPECT_EQ(command_in(receiver.shortage()), "sysctl -w net.core.rmem_max=384000000");
 }
 
-// What was there before is still handed out, then the end is told, to whoever receives and whoever sends.
+// Earlier frames are still handed out. Then receivers and senders get the end.
 TEST_F(SocketOnOwnVcan, AnInterfaceThatGoesDownIsAClearError) {
   ip("mtu 72 up");
   Socket sender({.interface = kName, .filters = {}}), receiver({.interface = kName, .filters = {}});
@@ -175,12 +175,12 @@ TEST_F(SocketOnOwnVcan, AnInterfaceThatGoesDownIsAClearError) {
   EXPECT_EQ(receiver.receive(received), Status::kDown);
   EXPECT_EQ(receiver.failure(), "vcan97: the interface went down during the run: ip link set vcan97 up");
   EXPECT_EQ(sender.send(can_fd(1, 8, 0)), Status::kDown);
-  ip("up");  // frames may have gone by unseen: it stays at that
+  ip("up");  // frames may have passed unseen: the error remains
   EXPECT_EQ(receiver.receive(received), Status::kDown);
   EXPECT_EQ(receiver.send(can_fd(1, 8, 0)), Status::kDown);
 }
 
-// Whoever sleeps is woken by it.
+// A sleeping reader wakes up.
 TEST_F(SocketOnOwnVcan, AnInterfaceThatIsRemovedWakesItsReader) {
   ip("mtu 72 up");
   Socket receiver({.interface = kName, .filters = {}});

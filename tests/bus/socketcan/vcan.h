@@ -1,4 +1,4 @@
-// A CAN of the kernel's for tests: skipped, with the reason, where there is none to be had.
+// A kernel CAN for tests: skipped, with the reason, where there is none.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ class Vcans {
   Vcans& operator=(const Vcans&) = delete;
 
   const std::string& operator[](std::size_t i) const { return names_[i]; }
-  // Why there are none; empty: there are.
+  // The reason for their absence; empty: they are there.
   const std::string& missing() const { return missing_; }
 
  private:
@@ -62,7 +62,7 @@ class Vcans {
   std::string missing_;
 };
 
-// An interface of the test's own, to be changed at will: needs a kernel with vcan, and CAP_NET_ADMIN.
+// An interface of the test's own, free to change. Needs a kernel with vcan, and CAP_NET_ADMIN.
 class OwnVcan : public ::testing::Test {
  protected:
   static constexpr const char* kName = "vcan97";

@@ -11,8 +11,9 @@
 namespace ttf::bus::wire {
 namespace {
 
-// What is counted: start of frame to the end of the three bits of intermission. Lengths published without it are three
-// bits shorter: 111 bits unstuffed for 8 bytes are 108 and the intermission, 135 in the worst case 132 and it.
+// Durations go from the start of frame to the end of the three intermission bits. Published lengths without
+// intermission are three bits shorter: 108 instead of 111 unstuffed bits for 8 bytes, 132 instead of 135 in
+// the worst case.
 
 schedules::model::CanBus classic() {
   schedules::model::CanBus bus;
@@ -31,7 +32,7 @@ schedules::model::CanBus fast() {
 
 constexpr int kFdLengths[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
 
-// The oracle writes the whole frame as it stands on the wire, bit by bit: each with its rate, stuff bits in their
+// The oracle writes the whole frame as on the wire, bit by bit: each with its rate, stuff bits in their
 // places.
 class WireFrame {
  public:
@@ -135,7 +136,7 @@ class WireFrame {
 };
 
 std::vector<std::byte> drawn_data(RandomStream& stream, int length) {
-  // Runs of equal bits of drawn length, so that there is something to stuff.
+  // Runs of equal bits of drawn length, to cause stuffing.
   std::vector<std::byte> data(static_cast<std::size_t>(length));
   bool level = false;
   std::int64_t run = 0;
@@ -175,7 +176,8 @@ TEST(CanTiming, FlexibleDataRateFramesBitByBit) {
   }
 }
 
-// Stuff bits are counted by whole bytes: every byte after every other, so that each meets every run in front of it.
+// The code counts stuff bits by whole bytes. Every byte follows every other, so that each meets every
+// preceding run.
 TEST(CanTiming, EveryPairOfBytesBitByBit) {
   for (unsigned pair = 0; pair < 0x1'0000; ++pair) {
     const std::vector<std::byte> data{static_cast<std::byte>(pair >> 8), static_cast<std::byte>(pair & 0xFFu)};
@@ -186,8 +188,8 @@ TEST(CanTiming, EveryPairOfBytesBitByBit) {
   }
 }
 
-// The oracle's own frames obey the rules: nowhere six equal bits up to the CRC's end, and fixed stuff bits that differ
-// from the bit before.
+// The oracle's own frames obey the rules: no six equal bits up to the CRC's end. Fixed stuff bits differ from
+// the bit before.
 TEST(CanTiming, OracleFramesAreStuffed) {
   RandomStream stream({6, 0, Purpose::kTest, 3, 0});
   for (int run = 0; run < 2000; ++run) {
@@ -207,11 +209,11 @@ TEST(CanTiming, OracleFramesAreStuffed) {
 
 // Five equal bits at the end of the data: only the fixed stuff bit follows (ISO 11898-1:2015, 10.5).
 TEST(CanTiming, NoTwoStuffBitsInARowAtTheEndOfTheData) {
-  // 0xA0 ends in five zeros, 0xA1 does not; nothing else can be stuffed in the last byte.
+  // 0xA0 ends in five zeros, 0xA1 does not; no other stuffing is possible in the last byte.
   const std::vector<std::byte> ends_in_five{std::byte{0xAA}, std::byte{0xA0}};
   const std::vector<std::byte> ends_in_four{std::byte{0xAA}, std::byte{0xA1}};
   EXPECT_EQ(can_frame_duration(fast(), 0x555, ends_in_five), can_frame_duration(fast(), 0x555, ends_in_four));
-  // In a classic frame stuffing goes on into the CRC: there the same byte does cost its stuff bit.
+  // In a classic frame, stuffing continues into the CRC: there the same byte costs its stuff bit.
   EXPECT_EQ(WireFrame::classic_frame(0x555, ends_in_five).at(1'000'000, 1'000'000),
             can_frame_duration(classic(), 0x555, ends_in_five));
 }

@@ -26,7 +26,7 @@ Bytes counting(std::size_t size) {
   return bytes;
 }
 
-// The oracle: polynomial division bit by bit over a list of bits, nothing shared with the code under test.
+// The oracle: bitwise polynomial division over a list of bits, independent of the code under test.
 std::uint32_t divide(const std::vector<bool>& bits, int width, std::uint32_t polynomial, std::uint32_t start) {
   std::uint64_t shift_register = start;
   for (const bool bit : bits) {
@@ -156,7 +156,7 @@ TEST(Frame, EveryHeaderFieldGoesRoundTrip) {
   }
 }
 
-// Taken apart bit by bit, by the drawing in the specification (4.2), with and without what follows it.
+// Decoded bit by bit after the specification's drawing (4.2), with and without trailing bytes.
 TEST(Frame, AHeaderIsReadWhateverItsCrcSays) {
   RandomStream stream({4, 0, Purpose::kTest, 2, 0});
   int holding = 0;
@@ -204,7 +204,8 @@ TEST(Frame, AFrameThatCrossedTheChannelsIsDetected) {
   }
 }
 
-// Hamming distance 6: up to five wrong bits are always found; here all single and pair flips of a short frame.
+// Hamming distance 6: up to five wrong bits are always found. This flips all single bits and pairs of a short
+// frame.
 TEST(Frame, EveryOneOrTwoWrongBitsAreDetected) {
   FrameHeader header;
   header.sync = true;
@@ -252,7 +253,7 @@ TEST(Frame, EachErrorHasItsName) {
   EXPECT_EQ(decode_frame(Channel::kA, reserved).error, FrameError::kReservedId);
 }
 
-// The header CRC does not cover the indicators: only the frame CRC has to be made right again.
+// The header CRC does not cover the indicators: only the frame CRC has to be corrected.
 TEST(Frame, ANullFrameHasNoPayloadPreamble) {
   FrameHeader header;
   header.frame_id = 7;

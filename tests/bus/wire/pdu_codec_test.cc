@@ -49,7 +49,8 @@ TEST(PduCodec, SignalsAreMostSignificantBitFirstWithoutGaps) {
   EXPECT_EQ(read_element_raw(layout, payload, 1, 1), 0b110101u);
 }
 
-// Any widths at any offsets, in payloads of two bytes and of many: what is written is read, and nothing else changes.
+// Any widths at any offsets, in payloads of two bytes and of many. Written values are read back, and all
+// other bits stay.
 TEST(PduCodec, RoundTripLeavesTheNeighboursAlone) {
   RandomStream stream({5, 0, Purpose::kTest, 1, 0});
   int shorter = 0, as_long = 0, longer = 0;  // than the 64 bits that are handled at once
@@ -144,7 +145,7 @@ TEST(PduCodec, CodesAboveTheRangeAreReported) {
     ASSERT_EQ(physical, raw > 200 ? 10.0 : -10.0 + raw * 0.1) << raw;
     ASSERT_EQ(to_physical(s, raw), physical);
   }
-  // Where the range ends between two codes, `high` is written as the nearer one, and that is the highest.
+  // When the range ends between two codes, `high` is written as the nearer one, which is the highest.
   s.high = 9.97;
   EXPECT_EQ(highest_code(s), 200u);
   s.high = 9.92;

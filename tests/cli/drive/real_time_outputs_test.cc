@@ -1,4 +1,4 @@
-// What is told of a run by the wall clock: words, JSON, and the page, from records made by hand.
+// The outputs of a run in real time: words, JSON, and the page, from records made by hand.
 #include "cli/drive/real_time_outputs.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ recording::records::BinnedDurations late_by(std::initializer_list<std::pair<std:
   return late;
 }
 
-// Stretched ten times. Node 0: 1000 wake-ups. Node 2 told of nothing but had problems.
+// Stretched ten times. Node 0 has 1000 wake-ups. Node 2 reported none, but had problems.
 StrategyResult a_run() {
   StrategyResult result;
   result.strategy = fusion::strategies::StrategyKind::kTt;
@@ -76,7 +76,7 @@ TEST(RealTimeOutputs, TablesTellTheHistogramsAndTheCounts) {
   EXPECT_TRUE(has_line(text, third + " 0 0 4 5 2 1 3 -")) << text;
   EXPECT_TRUE(has_line(text, "medium of sent received no room to send lost dropped foreign malformed")) << text;
   EXPECT_TRUE(has_line(text, first + " 101 102 103 104 107 105 106")) << text;
-  // Of the drive's time, ten times as long in real time; of a bin, its end.
+  // Drive time, which is ten times as long in real time; for a bin, its end.
   EXPECT_TRUE(has_line(text, "clocks apart \\[us\\] 51 30.0 30.0 30.0")) << text;
   EXPECT_TRUE(has_line(text, "sensor to feature, newest measurement \\[ms\\] 100 204.8 300.0 300.0")) << text;
   EXPECT_TRUE(has_line(text, "sensor to feature, oldest measurement \\[ms\\] 100 250.0 250.0 250.0")) << text;

@@ -1,4 +1,4 @@
-// Who was in operation at the end of a drive, in a sentence.
+// The sentence about the nodes in operation at the end of a drive.
 #include "cli/launch/drive_end.h"
 
 #include <gtest/gtest.h>

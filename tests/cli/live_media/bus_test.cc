@@ -82,7 +82,7 @@ TEST(Preflight, SaysHowAMissingBusIsMade) {
   EXPECT_THAT(items[1].commands,
               ElementsAre("ip link add dev vcan_absent type vcan", "ip link set vcan_absent mtu 72 up"));
   EXPECT_EQ(items[2].how, "is not there; ip -details link show type can lists the CAN interfaces (channel B)");
-  EXPECT_THAT(items[2].commands, IsEmpty());  // hardware: nobody knows its driver
+  EXPECT_THAT(items[2].commands, IsEmpty());  // hardware: its driver is unknown
   EXPECT_THAT(text_of(items), HasSubstr("not ready: vcan_absent is not there (channel A); as root:\n"
                                         "    ip link add dev vcan_absent type vcan\n"));
 }
@@ -93,7 +93,7 @@ TEST(Preflight, TellsACanFromOtherInterfaces) {
   EXPECT_FALSE(items[1].good);
 }
 
-// One that has the CAN's own name is no hardware's, so that the commands make a virtual one.
+// An interface with the CAN's own name is not hardware, so the commands make a virtual one.
 TEST(Preflight, LooksAtPrivateCans) {
   const auto items = look_at(Bus::parse("socketcan:vcan_absent"), {{"laser_can", "laser_can", true},
                                                                    {"camera_can", "camera_can", false},

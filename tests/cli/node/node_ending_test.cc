@@ -1,4 +1,4 @@
-// What a supervisor hears at the end of a node's run in real time.
+// A supervisor's messages at the end of a node's run in real time.
 #include "cli/node/node_ending.h"
 
 #include <gmock/gmock.h>

@@ -44,7 +44,7 @@ class ChildProcess : public Launching {
 TEST_F(ChildProcess, HasARawTerminalAndASessionOfItsOwn) {
   auto command = child({"where"});
   command.environment = {{"MOOD", "good"}};
-  const Descriptor leak(open("/dev/null", O_RDONLY));  // one that anybody would inherit
+  const Descriptor leak(open("/dev/null", O_RDONLY));  // inheritable
   Child process(command);
   EXPECT_EQ(all_output(process),
             "input from nothing: yes\noutput on a terminal: yes\nraw: yes\nleads its session and group: yes\n"
@@ -99,7 +99,7 @@ TEST_F(ChildProcess, SpeaksOnItsControlLine) {
   Child process(child({"ready", "tell:{\"health\":{}}", "start", "exit:0"}));
   EXPECT_EQ(next_message(process), "{\"ready\":true}");
   EXPECT_EQ(next_message(process), "{\"health\":{}}");
-  EXPECT_TRUE(process.send_control("{\"later\":1}"));  // not known yet: passed over
+  EXPECT_TRUE(process.send_control("{\"later\":1}"));  // unknown here, so it is skipped
   EXPECT_TRUE(process.send_control("{\"start\":{\"at\":5}}"));
   EXPECT_EQ(all_output(process), "start {\"at\":5}\n");
   EXPECT_EQ(next_message(process), std::nullopt);
@@ -153,7 +153,7 @@ TEST_F(ChildProcess, IsKilledWithItsObject) {
   EXPECT_TRUE(eventually([&] { return is_gone(grandchild); }));
 }
 
-// Started by who ignores and blocks signals, it does neither.
+// It ignores and blocks no signals, even when its parent does.
 TEST_F(ChildProcess, TakesSignalsWhateverItsParentDoes) {
   const SignalWatch blocked;
   signal(SIGUSR1, SIG_IGN);

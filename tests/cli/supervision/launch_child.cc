@@ -1,17 +1,17 @@
-// The child that the tests of launching start: one habit per word on its command line, done one after the other.
+// The child that the launch tests start: one habit per word on its command line, done one after the other.
 //
 //   launch_child ready start print:48690a exit:3
 //
-//   ready            says so                         start          waits to be told
-//   tell:TEXT        any message on the line         print:HEX      bytes to standard output
-//   flood:BYTES      'x', without a newline          where          what its descriptors are, and its environment
+//   ready            reports that                  start          waits for the start message
+//   tell:TEXT        sends any message             print:HEX      bytes to standard output
+//   flood:BYTES      'x', without a newline        where          prints its descriptors and environment
 //   ignore:SIGNAL    from here on                    report:SIGNAL  {"health": {"state": "asked N"}} whenever it comes
-//   raise:SIGNAL     kills or stops itself           wait           for ever
-//   exit:CODE        ends                            on:SIGNAL:CODE ends so when it comes
-//   pid:FILE         its number, into a file         descend:FILE   a child of its own, which waits for ever
+//   raise:SIGNAL     kills or stops itself         wait           for ever
+//   exit:CODE        ends                          on:SIGNAL:CODE ends so when it comes
+//   pid:FILE         its number, into a file       descend:FILE   a child of its own, which waits for ever
 //   try:FILE:N       exit 7 unless this is the N-th time
-//   supervise:DIR    is a supervisor itself, of a process that waits, as does that one's own child; their numbers are
-//                    in DIR/child and DIR/grandchild
+//   supervise:DIR    supervises a process that waits, as does that one's own child; their numbers are in DIR/child and
+//                    DIR/grandchild
 #include <signal.h>
 #include <unistd.h>
 
@@ -47,7 +47,7 @@ std::string unhex(const std::string& hex) {
   return bytes;
 }
 
-// Where nobody supervises, a child of these tests has no business.
+// Without a supervisor, the tests' child has no purpose.
 ControlLine& line() {
   static auto control = ControlLine::from_environment();
   if (!control) _exit(98);
@@ -83,7 +83,7 @@ void do_habit(const std::string& word, const std::string& value) {
   } else if (word == "ignore") {
     signal(signal_given(), SIG_IGN);
   } else if (word == "report") {
-    // Held back except while waiting, so that none is missed.
+    // Blocked except while waiting, so that no signal is missed.
     sigset_t held;
     sigemptyset(&held);
     sigaddset(&held, signal_given());

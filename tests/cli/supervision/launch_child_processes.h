@@ -1,4 +1,4 @@
-// What the tests' child does with files and processes.
+// File and process operations of the tests' child.
 #pragma once
 
 #include <sys/types.h>
@@ -15,7 +15,7 @@ void leave_number(const std::string& path, pid_t number);
 void descend(const std::string& path);
 // The how-manieth call with this file it is.
 int times(const std::string& path);
-// Standard descriptors, environment and what is open besides the control line, in words.
+// Describes the standard descriptors, the environment and all open descriptors besides the control line.
 std::string surroundings(int control_fd);
 // Runs a supervisor of `DIR/child` and `DIR/grandchild`; its exit code.
 int supervise(const std::string& folder);

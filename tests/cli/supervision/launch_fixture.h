@@ -1,4 +1,4 @@
-// What the tests of launching share: a folder that goes away, a screen to read, and bounded waiting.
+// Shared by the launch tests: a temporary folder, a readable screen, and bounded waiting.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,8 +27,8 @@ class Launching : public testing::Test {
   static constexpr Duration kNever = Duration::milliseconds(3'600'000);
 
   Launching() {
-    alarm(240);               // nothing here may wait for ever
-    signal(SIGHUP, SIG_DFL);  // whoever runs the tests may ignore it
+    alarm(240);               // no test may hang
+    signal(SIGHUP, SIG_DFL);  // a test runner may ignore it
     std::string name = (std::filesystem::temp_directory_path() / "ttf_launch_XXXXXX").string();
     folder_ = mkdtemp(name.data());
     screen_ = memfd_create("screen", 0);
@@ -45,7 +45,7 @@ class Launching : public testing::Test {
   }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
 
-  // Nothing comes by itself in these: whatever is waited for must happen.
+  // No timeout ends these waits: the awaited event must happen.
   SupervisorConfig config(std::vector<NodeSpec> nodes) const {
     SupervisorConfig config;
     config.nodes = std::move(nodes);
@@ -55,7 +55,7 @@ class Launching : public testing::Test {
     return config;
   }
 
-  // What was shown, without the time in front of each line (eight characters and a blank).
+  // The displayed text, without each line's time (eight characters and a blank).
   std::string shown() const {
     std::string bytes(static_cast<std::size_t>(std::filesystem::file_size("/proc/self/fd/" + std::to_string(screen_))),
                       '\0');
@@ -89,7 +89,7 @@ class Launching : public testing::Test {
     return number;
   }
 
-  // Gone, or dead and waiting for whoever adopted it.
+  // Gone, or dead and waiting for its adoptive parent.
   static bool is_gone(pid_t pid) {
     if (kill(pid, 0) != 0 && errno == ESRCH) return true;
     const std::string stat = contents("/proc/" + std::to_string(pid) + "/stat");

@@ -107,7 +107,7 @@ TEST_F(Folder, TellsWhoHasBeenInIt) {
   ASSERT_TRUE(earlier);
   EXPECT_EQ(earlier->strategy, "adva");
   EXPECT_EQ(earlier->nodes, (std::vector<std::string>{"a/b", "c"}));
-  // What is no launch's.
+  // Manifests that no launch wrote.
   for (const char* const other : {"", "{", "[]", "7", "{}", R"({"nodes": 3})"}) {
     std::ofstream(path("run/manifest.json")) << other;
     EXPECT_FALSE(earlier_launch(path("run"))) << other;
@@ -117,7 +117,7 @@ TEST_F(Folder, TellsWhoHasBeenInIt) {
   ASSERT_TRUE(odd);
   EXPECT_EQ(odd->strategy, "");
   EXPECT_EQ(odd->nodes, std::vector<std::string>{"d"});
-  // Names of files are made of it.
+  // File names contain it.
   std::ofstream(path("run/manifest.json")) << R"({"strategy": "../elsewhere/buff", "nodes": []})";
   EXPECT_EQ(earlier_launch(path("run"))->strategy, "");
 }
@@ -165,7 +165,7 @@ TEST_F(Folder, IsOfOneLaunchAtATime) {
     EXPECT_EQ(sentence_of(look), expected);
     EXPECT_EQ(manifest()["seed"], 7) << "written over by who was refused";
   }
-  // What is left means nothing.
+  // The remaining file has no meaning.
   EXPECT_TRUE(std::filesystem::exists(path("run/launch.lock")));
   EXPECT_EQ(sentence_of(look), "");
   EXPECT_EQ(sentence_of(another), "");

@@ -49,7 +49,8 @@ TEST(Screen, ShowsLinesInOrder) {
   EXPECT_EQ(read_some(pipe.out.get()), "one\ntwo\n");
 }
 
-// A reader that stops reading: nobody waits for it, whole lines are left out, and their number stands in their place.
+// A reader stops reading: writers do not wait, whole lines are left out, and their number stands in their
+// place.
 TEST(Screen, LeavesOutWhatASlowReaderDoesNotTake) {
   Pipe pipe;
   const int copy = memfd_create("copy", 0);

@@ -1,4 +1,4 @@
-// How a launch is stopped, and that nobody outlives it.
+// Stopping a launch: all its processes end with it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ TEST_F(Stopping, KillsWhoIgnoresAll) {
   EXPECT_THAT(shown(), HasSubstr("deaf: signal 9 (Killed)\n"));
 }
 
-// The graces are an hour here: only who interrupts again comes further.
+// The graces are an hour here: only another interrupt gets further.
 TEST_F(Stopping, AnotherInterruptHurries) {
   std::vector<std::string> asked;
   Hooks hooks;

@@ -66,7 +66,7 @@ TEST_F(Supervising, ANodeSetFromStartToEnd) {
   EXPECT_EQ(health_[0]["process"], "exit 0");
 }
 
-// Whoever is ready waits for the last one.
+// A ready process waits for the last one.
 TEST_F(Supervising, NobodyStartsBeforeAllAreReady) {
   Hooks hooks;
   hooks.on_all_ready = [&] {
@@ -315,7 +315,7 @@ TEST_F(Supervising, WhatAHookThrowsEndsTheLaunch) {
   EXPECT_THAT(shown(), Not(HasSubstr("a      | start")));
 }
 
-// On a terminal that wants it: colours, and the table now and then, not only at the end.
+// On a capable terminal: colours, and the table now and then, not only at the end.
 TEST_F(Supervising, OnATerminalTheTableComesAgain) {
   const Descriptor terminal(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK));
   ASSERT_TRUE(terminal.open() && unlockpt(terminal.get()) == 0);
@@ -337,8 +337,8 @@ TEST_F(Supervising, OnATerminalTheTableComesAgain) {
   EXPECT_THAT(text, HasSubstr(" a      |\x1b[0m start {}\r\n"));
 }
 
-// Each descriptor that is at its end would keep an idle loop busy: its own terminal and control line closed, it lives
-// on.
+// Every descriptor at its end would keep an idle loop busy. The process lives on with its own terminal and
+// control line closed.
 TEST_F(Supervising, SleepsWhileNothingHappens) {
   const auto processor_ms = [] {
     timespec used{};

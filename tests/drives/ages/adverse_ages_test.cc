@@ -1,10 +1,9 @@
-// The bounds on ages that the checker computes are reached: everything the laser's way depends on conspires.
+// The checker's bounds on ages are reached: everything on the laser's way conspires.
 //
-//   worst   full lists whose bits need the most stuff bits, on the raw CAN and on the observation CAN; a camera's frame
-//           that began just before the laser's list was queued; every execution at its upper bound; the preprocessing
-//           on the slowest oscillator there may be and the rest of the cluster on the fastest; and the phase at which
-//           the list is written just after its slot began in the very cycle that makes it wait longest for fusion,
-//           image and use
+//   worst   full lists with the most stuff bits, on the raw CAN and on the observation CAN; a camera's frame that began
+//           just before the laser's list was queued; every execution at its upper bound; the preprocessing on the
+//           slowest possible oscillator and the rest of the cluster on the fastest; and the phase at which the list is
+//           written just after its slot began, in the cycle that makes it wait longest for fusion, image and use
 //   best    the other way round
 #include <gtest/gtest.h>
 
@@ -24,7 +23,7 @@ constexpr std::uint32_t kMeasurement =
     30;  // when the cluster's rate has settled: the one that everything conspires for
 const TrueTime kEnd = sim::crank::kFirstCycle + Duration::milliseconds(3000);
 
-// What happened to one of the laser's lists.
+// The fate of one of the laser's lists.
 struct Followed final : recording::records::Sink {
   using recording::records::Sink::on;
   const schedules::model::Cluster& cluster;
@@ -35,7 +34,7 @@ struct Followed final : recording::records::Sink {
   std::optional<TrueTime> camera_after;
   recording::records::CanFrameSent camera_frame;         // the last one of the camera that began before
   std::vector<std::pair<std::int64_t, TrueTime>> slots;  // of its first fragment: cycle, action point
-  Duration missing{};                                    // what its frames stayed under their worst case
+  Duration missing{};                                    // margin of its frames to their worst case
   Duration fused{}, used{};                              // its ages
   std::optional<GlobalTime> measured;
   std::optional<std::uint32_t> image;                                        // the first one with the measurement in it
@@ -111,8 +110,8 @@ struct Conspiracy {
       }
     }
     for (const SensorId sensor : {laser, camera}) cluster.sensors[index_of(sensor)].phase = Duration{};
-    // An identifier whose arbitration field takes as many stuff bits as any: 0 0000 [1] 1111 [0] 000 00 [1] 1 0 1; and
-    // one that takes none. The order of the messages stays as it is.
+    // An identifier whose arbitration field takes the most stuff bits: 0 0000 [1] 1111 [0] 000 00 [1] 1 0 1;
+    // and one that takes zero. The messages keep their order.
     for (schedules::model::CanBus& bus : cluster.can_buses)
       for (schedules::model::CanMessage& message : bus.messages)
         if (cluster.pdu(message.pdu).sensor == laser)
@@ -146,9 +145,9 @@ struct Conspiracy {
     return seen;
   }
 
-  // Moves the sensors' phases until the list is written within a few microticks after its slot's action point (before
-  // it, for the best), and a frame of the camera's began as shortly before the list was queued. The camera comes first,
-  // and then moves with the laser: its frame shifts the laser's list.
+  // Moves the sensors' phases. Then the list is written within a few microticks after its slot's action point
+  // (before it, for the best), and a camera's frame began as shortly before the list was queued. The camera
+  // comes first, and then moves with the laser: its frame shifts the laser's list.
   Followed closed_in() {
     static constexpr Duration kAim{75}, kNear{200};
     const auto near = [](Duration d) { return d > Duration{} && d <= kNear; };
@@ -184,7 +183,7 @@ struct Conspiracy {
   }
 };
 
-// What is left to the bound, besides the stuff bits that sequence, fragment and count of the lists do not need:
+// The rest to the bound, besides stuff bits that the lists' sequence, fragment and count do not need:
 //   34 us  the wait for slot and fusion on a clock 3000 ppm off the cluster's (3000 ppm of 11.4 ms)
 //    8 us  clocks apart by the assumed precision and a macrotick
 //   27 us  CAN bits are exact in true time, half of those 3000 ppm away from the cluster's (of 17.5 ms)
@@ -199,12 +198,12 @@ TEST(AdverseAges, TheWorstIsReached) {
   EXPECT_LE(seen.extremes.second, bound.fused_worst);
   EXPECT_LT(bound.fused_worst - seen.fused - seen.missing, Duration::microseconds(80));
   EXPECT_LT(seen.missing, Duration::microseconds(150));
-  // Until the use all else is on the grid; on another clock it is another length.
+  // Until the use, everything else is on the grid; another clock gives another length.
   const Duration on_grid = bound.use_worst - bound.fused_worst;
   EXPECT_LT(bound.use_worst - seen.used - seen.missing, Duration::microseconds(80) + Duration{on_grid.ns * 3 / 1000});
 }
 
-// Lists of one fragment, nothing else on the CANs, and every oscillator off to the other side.
+// Lists of one fragment, free CANs, and every oscillator off to the other side.
 TEST(AdverseAges, TheBestIsReached) {
   Conspiracy all(false);
   const schedules::analysis::AgePath bound = all.bounds();

@@ -1,5 +1,5 @@
-// Ages in simulation against the checker's bounds, over many phases and drifts. That the bounds are reached:
-// adverse_ages_test.cc.
+// Ages in simulation against the checker's bounds, over many phases and drifts. adverse_ages_test.cc reaches
+// the bounds.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -36,7 +36,7 @@ TEST(Ages, SimulatedAgesLieWithinTheBounds) {
       EXPECT_GT(used.count, kDrives * 60);
       EXPECT_GE(used.best, path.use_best);
       EXPECT_LE(used.worst, buffered ? path.buffered_newest_worst : path.newest_worst);
-      // The bound is no empty promise: over so many phases the worst age comes within a fusion period and a use's.
+      // The bound is tight: over so many phases, the worst age comes within a fusion period and a use's.
       EXPECT_GT(used.worst, (buffered ? path.buffered_newest_worst : path.newest_worst) - Duration::milliseconds(50));
     }
   }

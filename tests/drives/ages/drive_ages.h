@@ -21,7 +21,8 @@ struct AgeRange {
   }
 };
 
-// When fused: of every list. When used: of the newest measurement of each sensor in the used image, at every use.
+// When fused: of every list. When used: of the newest measurement of each sensor in the used image, at every
+// use.
 struct Ages final : recording::records::Sink {
   using recording::records::Sink::on;
   std::map<SensorId, AgeRange> fused, used;

@@ -1,5 +1,4 @@
-// Measurements whose lists travel in the dynamic segment: drives of the cluster that sends them there, against the
-// bounds.
+// Measurements whose lists travel in the dynamic segment: drives of that cluster, against the bounds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +44,7 @@ TEST_P(DynamicLists, AreFusedWithinTheirBounds) {
       const Duration bound = strategy == StrategyKind::kBuff ? path.buffered_fused_worst : path.fused_worst;
       EXPECT_GE(*best, path.fused_best);
       EXPECT_LE(*worst, bound);
-      // No empty promise: within a fusion period and what preprocessing may differ by.
+      // Tight: within a fusion period and the variation of preprocessing.
       EXPECT_GT(*worst, bound - Duration::milliseconds(20));
     }
   }
@@ -62,7 +61,8 @@ struct Problems final : recording::records::Sink {
   void on(const recording::records::ListFused&) override { ++lists; }
 };
 
-// The camera's device on B only, in its key slot only; its lists on A only, the laser's behind a message id.
+// The camera's device is on B only, in its key slot only. Its lists are on A only, the laser's behind a
+// message id.
 TEST(DynamicAges, OneChannelMessageIdsAndKeySlotOnlyGoThroughADrive) {
   std::ifstream file(shipped("schedules/flexray_demo.yaml"));
   std::string text{std::istreambuf_iterator<char>(file), {}};

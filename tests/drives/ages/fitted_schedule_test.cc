@@ -1,5 +1,4 @@
-// The time-triggered schedule at its best (schedules/paper_fitted.yaml): what its phases are chosen for comes out in
-// drives.
+// The time-triggered schedule at its best (schedules/paper_fitted.yaml): drives show its phases' purpose.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +26,7 @@ struct InOrder final : recording::records::Sink {
   }
 };
 
-// Of one car, whose lists are short, and of as many objects as the lists have room for.
+// Lists of one car, which are short, and of as many objects as fit.
 TEST(FittedSchedule, EveryUseFindsBothSensorsNewestListsAtTheSameAge) {
   for (const auto& [file, drives] :
        {std::pair{"scenarios/paper_scenario1.yaml", 20u}, std::pair{"scenarios/crowd_25.yaml", 2u}}) {
@@ -44,7 +43,7 @@ TEST(FittedSchedule, EveryUseFindsBothSensorsNewestListsAtTheSameAge) {
       EXPECT_EQ(outcome.counts.overruns + outcome.counts.overwritten_lists + outcome.counts.deadlines_missed +
                     outcome.counts.discarded_lists,
                 0u);
-      // Two lists each 34.4 ms: none is lost, none waits for another.
+      // Two lists each 34.4 ms, without losses or waits.
       EXPECT_GE(order.fused, 2u * 69u);
       EXPECT_EQ(order.behind, 0u);
       EXPECT_EQ(order.held, 0u);
@@ -56,7 +55,7 @@ TEST(FittedSchedule, EveryUseFindsBothSensorsNewestListsAtTheSameAge) {
       const AgeRange &fused = ages.fused[path.sensor], &used = ages.used[path.sensor];
       EXPECT_GE(fused.best, path.fused_best);
       EXPECT_LE(fused.worst, path.fused_worst);
-      // The newest one is of this period at every use, and no older than its way takes; what is left are the clocks.
+      // The newest one is of this period at every use, and no older than its way; the clocks are the rest.
       EXPECT_GE(used.best, path.use_best);
       EXPECT_LE(used.worst, path.use_worst);
       EXPECT_LT(used.worst - used.best, Duration::microseconds(20));

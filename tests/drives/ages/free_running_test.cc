@@ -1,5 +1,5 @@
-// Sensors that measure when their host has preprocessed the last measurement, and lists that are fused when they
-// arrive: drives of the clusters that have both, over CAN and over either segment of FlexRay.
+// Sensors that measure when their host has preprocessed the last measurement, and lists fused on arrival.
+// Drives of the clusters that have both, over CAN and over either segment of FlexRay.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(Over, FreeRunning,
                                          Medium{"StaticSegment", "schedules/paper_free_flexray.yaml", true}),
                          [](const auto& one) { return std::string(one.param.name); });
 
-// By node: when its only task's runs began and ended, in true time, and when its sensor measured.
+// By node: begin and end of its only task's executions, in true time, and its sensor's measurements.
 struct Rounds final : recording::records::Sink {
   using recording::records::Sink::on;
   struct Run {
@@ -72,7 +72,7 @@ TEST_P(FreeRunning, AMeasurementFollowsThePreprocessingOfTheLast) {
       const Duration since = measured[n + 1].activated - measured[n].activated;
       const Duration behind = measured[n + 1].activated - preprocessed[n].end;
       longest = std::max(longest, since);
-      // A device counts whole microticks of 25 ns; and it may be off by 1500 ppm.
+      // A device counts whole microticks of 25 ns, and may be off by 1500 ppm.
       EXPECT_GE(behind, Duration{-26});
       EXPECT_GE(since.ns, sensor.period.ns * 9985 / 10000);
       if (behind <= Duration{50})
@@ -92,7 +92,7 @@ TEST_P(FreeRunning, AMeasurementFollowsThePreprocessingOfTheLast) {
   EXPECT_EQ(outcome.counts.discarded_lists, 0u);
 }
 
-// What corrections may make of 5 ms.
+// The largest effect of corrections on 5 ms.
 constexpr Duration kCorrections = Duration::microseconds(25);
 
 struct Fates final : recording::records::Sink {
@@ -101,7 +101,7 @@ struct Fates final : recording::records::Sink {
   void on(const recording::records::FusionInput& in) override { ++taken[{in.sensor, in.sequence}]; }
 };
 
-// Of one node's tasks, by its global time.
+// Responses of one node's tasks, by its global time.
 struct Responses final : recording::records::Sink {
   using recording::records::Sink::on;
   explicit Responses(NodeId which) : node(which) {}
@@ -154,7 +154,7 @@ TEST_P(FreeRunning, EveryListIsTakenOnceAndWithinItsBounds) {
       EXPECT_LE(fused.worst, buffered ? path.buffered_fused_worst : path.fused_worst);
       EXPECT_GE(used.best, path.use_best);
       EXPECT_LE(used.worst, buffered ? path.buffered_newest_worst : path.newest_worst);
-      // A list that nothing is before is taken at once.
+      // A list with a free way is taken at once.
       if (!buffered) {
         EXPECT_LT(fused.best, path.fused_best + Duration::milliseconds(2));
       }

@@ -1,4 +1,5 @@
-// Other traffic on the CAN between preprocessing and fusion: lists wait for it, and no longer than the checker says.
+// Other traffic on the CAN between preprocessing and fusion: lists wait for it no longer than the checker
+// says.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ Drive with_other_load(const std::string& load) {
   return drive;
 }
 
-// How long the lists of one drive were on their way from their preprocessing's end to the fusion node, at most.
+// The longest way of one drive's lists, from the end of their preprocessing to the fusion node.
 struct Transfers final : recording::records::Sink {
   using recording::records::Sink::on;
   std::map<std::pair<PduId, std::uint32_t>, TrueTime> written;

@@ -39,7 +39,7 @@ TEST(Pairing, NothingBeyondTheGate) {
   EXPECT_TRUE(closest_pairs({}, truth, 1.5).empty());
 }
 
-// Drawn scenes: nothing twice, nothing beyond the gate, growing distances, and nothing left that could still be paired.
+// Drawn scenes: each at most once, no pair beyond the gate, growing distances, and no possible pair left.
 TEST(Pairing, DrawnScenesAreOneToOneAndComplete) {
   for (std::uint32_t scene = 0; scene < 200; ++scene) {
     RandomStream draw({7, 0, Purpose::kTest, 0, scene});

@@ -15,7 +15,7 @@ TEST(Measures, OfNothingThereIsNoError) {
   for (const bool with_image : {false, true}) {
     DriveMeasures measures(TrueTime{});
     if (with_image) {
-      // An object nobody has, 50 m from the only true one.
+      // A spurious object, 50 m from the only true one.
       write_image(measures, 0, global(40), {{60, 0}});
       use_image(measures, 0, at(40), {{60, 0}});
       truth_at(measures, at(40), 0, 10, 0);
@@ -59,7 +59,7 @@ TEST(Measures, ErrorsAreOfThePairsAtTheUse) {
   EXPECT_NEAR(summary.nees, (0.25 + 1.0) / 2, 1e-12);
 }
 
-// Two images predicted to the same instant: the one that was used is judged, by its own covariance.
+// Two images predicted to the same instant: the used one is judged, by its own covariance.
 TEST(Measures, ConsistencyIsOfTheImageThatWasUsed) {
   for (const std::uint32_t used : {7u, 8u}) {
     DriveMeasures measures(TrueTime{});
@@ -73,7 +73,7 @@ TEST(Measures, ConsistencyIsOfTheImageThatWasUsed) {
   }
 }
 
-// The image's time stamp is rounded on the bus: the sequence number is what names it.
+// The image's time stamp is rounded on the bus: the sequence number identifies it.
 TEST(Measures, ConsistencyDoesNotHangOnTheTimeStampsRounding) {
   DriveMeasures measures(TrueTime{});
   write_image(measures, 3, GlobalTime{40'000'123}, {{11, 0, 1.0}});
@@ -82,7 +82,7 @@ TEST(Measures, ConsistencyDoesNotHangOnTheTimeStampsRounding) {
   EXPECT_EQ(measures.finish().nees_samples, 1u);
 }
 
-// Two estimates of one object: one of them is spurious, for the errors and for the consistency alike.
+// Two estimates of one object: one of them is spurious, for the errors and for the consistency.
 TEST(Measures, ConsistencyUsesThePairsOfTheErrors) {
   DriveMeasures measures(TrueTime{});
   const std::vector<Shown> shown{{13, 0, 1.0}, {10.5, 0, 1.0}};
@@ -97,7 +97,7 @@ TEST(Measures, ConsistencyUsesThePairsOfTheErrors) {
   EXPECT_NEAR(summary.position_rmse_truth, 0.5, 1e-12);
 }
 
-// A second use of an image is an error like any, but no sample of a prediction that was made for the first.
+// A second use of an image counts for the errors. It is no sample of the prediction for the first use.
 TEST(Measures, ARepeatedUseIsNoSampleOfConsistency) {
   DriveMeasures measures(TrueTime{});
   write_image(measures, 0, global(40), {{11, 0, 1.0}});
@@ -144,7 +144,7 @@ void fuse(recording::records::Sink& sink, std::uint8_t sensor, std::uint32_t seq
   sink.on(fused);
 }
 
-// Two lists are held back, one over three fusion instants and one over one; a third not at all.
+// Two lists are held back, one over three fusion instants and one over one; a third is fused at once.
 TEST(Measures, HowLongAListWasHeldBack) {
   DriveMeasures measures(TrueTime{});
   const auto becomes = [&](std::uint32_t sequence, recording::records::Disposition what, std::int64_t ms) {
@@ -169,7 +169,7 @@ TEST(Measures, HowLongAListWasHeldBack) {
   EXPECT_EQ(summary.held_for.worst, Duration::milliseconds(30));
 }
 
-// Sensor 1 falls silent at 100 ms; what is known of it is older at every use, however long that lasts.
+// Sensor 1 falls silent at 100 ms; its information is older at every use, for any length of silence.
 TEST(Measures, TheAgeOfADeadSensorGrowsOn) {
   DriveMeasures measures(TrueTime{});
   fuse(measures, 1, 5, 100);
@@ -185,7 +185,7 @@ TEST(Measures, TheAgeOfADeadSensorGrowsOn) {
   EXPECT_EQ(summary.age_used_by_sensor.at(SensorId{1}).worst, Duration::milliseconds(40 + 999 * 40));
 }
 
-// Sensor and fusion node restart and count anew: what was made before is not what is meant.
+// Sensor and fusion node restart and count anew: numbers refer to the later ones.
 TEST(Measures, NumbersThatBeginAgainMeanTheLatest) {
   DriveMeasures measures(TrueTime{});
   for (std::uint32_t k = 0; k < 20; ++k) {

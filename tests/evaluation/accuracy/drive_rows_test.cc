@@ -1,4 +1,4 @@
-// The rows that figures are drawn from, against the measures of the same drive, which count them one by one.
+// The rows behind the figures, against the measures of the same drive, which count them one by one.
 #include "evaluation/accuracy/drive_rows.h"
 
 #include <gtest/gtest.h>

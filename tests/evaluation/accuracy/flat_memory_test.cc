@@ -1,4 +1,4 @@
-// The measures look at a drive of any length: what they keep does not grow with it.
+// The measures' memory does not grow with the drive's length.
 #include <gtest/gtest.h>
 
 #include "evaluation/accuracy/drive_measures.h"

@@ -90,8 +90,8 @@ TEST(ReferenceJudge, AReferenceThatFallsSilentIsNotWaitedForForever) {
   EXPECT_LE(judge.waiting(), 501u) << "20 s, a use every 40 ms";
 }
 
-// Estimates that are the truth, against the receiver as the simulator has it: what is found is the reference's own
-// error, all of it, and the expectation has it in its interval. A drive counts once.
+// Perfect estimates against the simulated receiver: the measured error is all of the reference's own error.
+// The expectation's interval contains it. A drive counts once.
 TEST(ReferenceJudge, ItsOwnErrorIsTheExpectedOne) {
   sim::world::WorldConfig drive;
   drive.duration = Duration::milliseconds(4000);

@@ -11,8 +11,8 @@ recording::records::Stamp at(std::int64_t true_ns, int node, std::int64_t global
   return {{true_ns}, {true_ns}, {global_ns}, static_cast<NodeId>(node)};
 }
 
-// Cycles of 5 ms. Node 1 is active from cycle 7 on, by a clock that is 3 us behind its grid; it stops, and comes back
-// in what its new count calls cycle 21.
+// Cycles of 5 ms. Node 1 is active from cycle 7 on, by a clock 3 us behind its grid. It stops, and comes back
+// in cycle 21 of its new count.
 TEST(StartupAccount, TellsTheFirstEntryIntoNormalActiveAndThePresentState) {
   StartupAccount account(Duration{5 * kMs});
   account.on(recording::records::PowerChanged{at(3 * kMs, 1, 3 * kMs), true});

@@ -1,5 +1,5 @@
-// What a report of faults makes of the records of whole drives, against what was done to them. What is said of the
-// faults is made up: the report has nothing but that, and the records.
+// A fault report from the records of whole drives, against their real disturbances. The faults' records are
+// made up: the report has only those and the drive's records.
 #include "evaluation/faults/fault_account.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ struct Deaf final : sim::medium::Disturbance {
   }
 };
 
-// A drive whose report is made while it runs. What is said of the fault is made up.
+// A drive whose report is made while it runs, with made-up fault records.
 struct Reported {
   schedules::model::Cluster cluster;
   FaultAccount report;
@@ -90,7 +90,7 @@ TEST(FaultAccount, WithoutAFaultThereIsNothingToTell) {
   EXPECT_TRUE(run.unattributed().nothing());
 }
 
-// A dead host: the four others miss its status frame in every cycle, and that harms nobody.
+// A dead host: the four others miss its status frame in every cycle, without harm.
 TEST(FaultAccount, ASilentNodeIsMissedInEveryCycleAndHarmsNobody) {
   Reported run(FaultKind::kCrash, "laser_pre");
   run.begins(0.5, run.node("laser_pre"));
@@ -103,8 +103,8 @@ TEST(FaultAccount, ASilentNodeIsMissedInEveryCycleAndHarmsNobody) {
   EXPECT_TRUE(run.unattributed().nothing());
 }
 
-// The feature service hears nothing of the gateway for 20 cycles: on one channel it is told, on both it is harmed. What
-// is said to have done it is something on the channel.
+// The feature service hears no frame of the gateway for 20 cycles. On one channel it is reported, on both it
+// is harm. The made-up cause is a fault on the channel.
 TEST(FaultAccount, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
   for (const bool both : {false, true}) {
     Reported run(FaultKind::kTransient);
@@ -152,7 +152,7 @@ TEST(FaultAccount, WhatFitsNoFaultIsUnattributed) {
   EXPECT_TRUE(run.harmed());
 }
 
-// The last frames of a run are owed like all others: it ends when the static segment that they were lost in is over.
+// The last frames of a run are due like all others: it ends after the static segment in which they were lost.
 TEST(FaultAccount, AFrameLostInTheLastCycleIsHarm) {
   for (const bool told : {false, true}) {
     Reported run(FaultKind::kTransient);
@@ -175,7 +175,7 @@ TEST(FaultAccount, AFrameLostInTheLastCycleIsHarm) {
   }
 }
 
-// Where the faulty node's own ears are at fault it is nobody else's harm.
+// A fault of the node's own reception harms no other node.
 TEST(FaultAccount, WhatTheFaultyNodeMissesHarmsNobody) {
   Reported run(FaultKind::kOmission, "feature");
   Deaf deaf;
@@ -193,7 +193,7 @@ TEST(FaultAccount, WhatTheFaultyNodeMissesHarmsNobody) {
   EXPECT_TRUE(run.unattributed().nothing());
 }
 
-// The fault-free clocks part when one of them drifts away: told by the frames alone, whoever is said to be at fault.
+// The fault-free clocks part when one of them drifts away: frames alone show it, for any faulty node.
 TEST(FaultAccount, ClocksThatPartAreHarmUnlessTheOneThatPartsIsFaulty) {
   for (const bool named : {true, false}) {
     Reported run(named ? FaultKind::kDrift : FaultKind::kTransient, named ? "feature" : nullptr);
@@ -208,7 +208,7 @@ TEST(FaultAccount, ClocksThatPartAreHarmUnlessTheOneThatPartsIsFaulty) {
   }
 }
 
-// H1: fault-free nodes lose their supply, one after the other, while something is on the channel: every one is named.
+// H1: fault-free nodes lose their supply, one after the other, during a fault on the channel: each is named.
 TEST(FaultAccount, EveryNodeThatLeavesNormalActiveIsNamed) {
   Reported run(FaultKind::kCrash, "laser_pre");
   run.begins(0.5, run.node("laser_pre"));
@@ -225,8 +225,9 @@ TEST(FaultAccount, EveryNodeThatLeavesNormalActiveIsNamed) {
   EXPECT_NEAR(static_cast<double>(left[1].first.ns), 0.7e9, 50.0);
 }
 
-// H5: as records are when a controller sends nothing on B in a slot of its own and somebody else does, with a valid
-// frame that the others take for its: the record of what it sent there is missing, and nobody complains.
+// H5: records of a controller that sends nothing on B in its own slot, while a forger sends a valid frame
+// there. The others take it for the controller's. The record of the sent frame is missing, without any
+// complaint.
 struct Forged final : recording::records::Sink {
   using recording::records::Sink::on;
   recording::records::Sink* to = nullptr;

@@ -1,4 +1,4 @@
-// Whose doing something was, where a plan has several faults.
+// The cause of each effect when a plan has several faults.
 #include "evaluation/faults/causes.h"
 
 #include <gtest/gtest.h>
@@ -147,7 +147,7 @@ TEST(FaultCauses, NothingIsOfAFaultThatHasNotBegun) {
   EXPECT_EQ(plan.heard(kAda, kDan, 10'000), 0u);
 }
 
-// A node that loses its supply says so by its last microtick, which may have been before.
+// A node that loses its supply dates it by its last microtick, which may be earlier.
 TEST(FaultCauses, AFaultMayBeginAMicrotickAfterWhatItDid) {
   Plan plan({});
   plan.plan.faults = {fault(FaultKind::kCrash, kAda)};

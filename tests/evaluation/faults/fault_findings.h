@@ -1,4 +1,4 @@
-// Reports of faults in whole drives, for tests: made of a plan, and what is asked of them.
+// Fault reports of whole drives, for tests: made from a plan, with queries.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ inline std::set<NodeId> harmed_nodes(const FaultEffects& effects, Harm kind) {
   return nodes;
 }
 
-// What the injector does to a drive, by a plan.
+// A drive with the injector's acts of a plan.
 struct Planned {
   drives::Drive drive;
   std::optional<FaultAccount> report;

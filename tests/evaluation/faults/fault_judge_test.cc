@@ -1,4 +1,4 @@
-// One story for every kind of harm, told by hand, and the same story without it.
+// One scripted story for every kind of harm, and the same story without it.
 #include "evaluation/faults/judge.h"
 
 #include <gtest/gtest.h>

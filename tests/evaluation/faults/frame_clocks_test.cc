@@ -1,4 +1,4 @@
-// How far clocks are apart as their frames tell it.
+// The clocks' distance as their frames show it.
 #include "evaluation/faults/frame_clocks.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 using drives::LivingDrive;
 using fusion::strategies::StrategyKind;
 
-// The distance of the clocks as frames tell it, against the simulator's own, which looks at all of a double cycle.
+// The clocks' distance from frames, against the simulator's own, which covers a whole double cycle.
 struct Spread final : recording::records::Sink {
   using recording::records::Sink::on;
   const schedules::model::Cluster& cluster;

@@ -1,4 +1,4 @@
-// What a report of faults says of drives with a plan, on a bus and behind guardians; live and from the log.
+// Fault reports of drives with a plan, on a bus and behind guardians; live and from the log.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,8 +38,8 @@ TEST(FaultAccount, ATransientOnBothChannelsHarmsOnOneItDoesNot) {
   }
 }
 
-// The clocks run free for twenty cycles, too long to come together again. What comes of it is the transient's for as
-// long as a controller puts up with missing sync frames; later nobody can say any more.
+// The clocks run free for twenty cycles, too long to converge again. Effects belong to the transient as long
+// as a controller tolerates missing sync frames; later they cannot be attributed.
 TEST(FaultAccount, WhatALongTransientLeavesBehindIsItsOwnForAWhile) {
   Planned run;
   run.add(FaultKind::kTransient, "", 1'000, 100);
@@ -67,7 +67,7 @@ TEST(FaultAccount, ACrashOfOneHarmsNoOther) {
   EXPECT_TRUE(found.unattributed.nothing());
 }
 
-// Five nodes start while the sixth has no supply: that they do so is no effect of it. That it starts late is.
+// Five nodes start while the sixth has no supply: their steps are no effect of it, its late start is.
 TEST(FaultAccount, TheStepsOfAStartUpAreNobodysDoing) {
   Planned run("scenarios/cold_start.yaml");
   run.add(FaultKind::kCrash, "camera", 1, 100);
@@ -80,7 +80,7 @@ TEST(FaultAccount, TheStepsOfAStartUpAreNobodysDoing) {
   EXPECT_TRUE(found.unattributed.states.empty());
 }
 
-// The leading node loses its supply when others have begun to follow: they are thrown back, and say so.
+// The leading node loses its supply when others have begun to follow. They are thrown back, and report it.
 TEST(FaultAccount, StepsBackInAStartUpAreOfTheFault) {
   Planned run("scenarios/cold_start.yaml");
   run.add(FaultKind::kCrash, "fusion", 8, 0);
@@ -95,7 +95,7 @@ TEST(FaultAccount, StepsBackInAStartUpAreOfTheFault) {
   EXPECT_FALSE(thrown_back.empty());
 }
 
-// Its node's slots are silent, and it is of that node, too: it has done nothing.
+// It is also a fault of the node whose slots are silent, but it has done nothing.
 TEST(FaultAccount, WhatNeverActsHasNoEffects) {
   Planned run;
   run.add(FaultKind::kCrash, "camera_pre", 1'000, 0);
@@ -107,7 +107,8 @@ TEST(FaultAccount, WhatNeverActsHasNoEffects) {
   EXPECT_TRUE(found.unattributed.nothing());
 }
 
-// A burst is told no longer than its fault lasts; a frame is sent to its end, and what comes of it is the fault's.
+// A burst is recorded no longer than its fault lasts. A frame is sent to its end, and its effects belong to
+// the fault.
 TEST(FaultAccount, WhatABurstDoesIsItsFaults) {
   for (const FaultKind kind : {FaultKind::kNoise, FaultKind::kBabblingIdiot}) {
     Planned run;
@@ -128,7 +129,7 @@ TEST(FaultAccount, WhatABurstDoesIsItsFaults) {
   EXPECT_TRUE(found.unattributed.nothing());
 }
 
-// H2: noise that never ends keeps everybody from starting.
+// H2: endless noise keeps all nodes from starting.
 TEST(FaultAccount, WhoNeverStartsIsHarmed) {
   Planned run("scenarios/cold_start.yaml");
   ttf::faults::Fault& noise = run.add(FaultKind::kNoise, "", 0, 0);
@@ -160,7 +161,7 @@ TEST(FaultAccount, OfSeveralFaultsEachIsToldItsOwn) {
   EXPECT_TRUE(found.unattributed.nothing());
 }
 
-// Two faults of one node, in slots that follow one another: a frame that does not leave is silence, one with inverted
+// Two faults of one node, in consecutive slots: a frame that does not leave is silence, one with inverted
 // bits is not.
 TEST(FaultAccount, OfTwoFaultsOfOneNodeEachIsToldItsOwn) {
   Planned run;
@@ -174,7 +175,7 @@ TEST(FaultAccount, OfTwoFaultsOfOneNodeEachIsToldItsOwn) {
   EXPECT_TRUE(found.unattributed.nothing());
 }
 
-// The guardians keep a babbling idiot's noise from the others; they are the only ones to see it.
+// The guardians keep a babbling idiot's noise from the others; only they see it.
 struct Interventions final : recording::records::Sink {
   using recording::records::Sink::on;
   std::vector<recording::records::GuardianIntervention> seen;
@@ -271,7 +272,7 @@ TEST(FaultAccount, WhatGuardiansCutIsTold) {
   EXPECT_TRUE(interventions.reasons.count("longer than one of its kind may last"));
 }
 
-// A log tells what the run told.
+// The log gives the same report as the run.
 TEST(FaultAccount, IsTheSameFromTheLog) {
   Planned run("scenarios/faulty_bus.yaml");
   run.drive.cluster.topology = schedules::model::Topology::kStar;

@@ -1,4 +1,4 @@
-// What is settled of frames, and when: told by hand, cycle by cycle.
+// The settled frames and their instants, scripted cycle by cycle.
 #include "evaluation/faults/slot_ledger.h"
 
 #include <gtest/gtest.h>
@@ -95,7 +95,7 @@ TEST_F(Ledger, TheLastCyclesAreSettledInTheirOrderAfterARound) {
   EXPECT_EQ(losses_[1].at, frame_at(65));
 }
 
-// Who has not reported yet has neither received the frame nor missed it, and what is not there is not forged.
+// A node without a report has neither received nor missed the frame, and an absent frame is not forged.
 TEST_F(Ledger, WhatHasNotBeenReportedByTheEndIsOpen) {
   cycle(0, false);
   sends(1, 0);
@@ -103,7 +103,7 @@ TEST_F(Ledger, WhatHasNotBeenReportedByTheEndIsOpen) {
   EXPECT_TRUE(losses_.empty());
 }
 
-// The sender's controller sent nothing on B; the receiver, which reports nothing of that slot, took something for valid
+// The sender's controller sent nothing on B. The receiver, without a report of that slot, got a valid frame
 // there.
 TEST_F(Ledger, AValidFrameThatWasNotSentIsForged) {
   cycle(0, false);

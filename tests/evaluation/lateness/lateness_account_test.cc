@@ -1,4 +1,4 @@
-// Runs in real time, made by hand: what was late, what was lost, and how far the clocks were apart.
+// Runs in real time, made by hand: late and lost frames, and the clocks' distance.
 #include "evaluation/lateness/lateness_account.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ std::function<std::int64_t(std::int64_t)> always(std::int64_t ns) {
   return [ns](std::int64_t) { return ns; };
 }
 
-// A stamp of each in every double cycle, one node's after the other's, in the order of the host's clock.
+// A stamp of each in every double cycle, one node after the other, in order of the host's clock.
 std::vector<recording::records::Stamp> stamps_of(const std::vector<HandClock>& clocks, int double_cycles,
                                                  const std::function<bool(ttf::NodeId, int)>& there = {}) {
   std::vector<recording::records::Stamp> stamps;
@@ -58,7 +58,7 @@ TEST(AchievedPrecision, IsTheLargestDifferenceOfAnyTwoNodes) {
       apart(stamps_of({{NodeId{0}, always(4'000)}, {NodeId{1}, always(-9'000)}, {NodeId{2}, always(1'000)}}, 10));
   EXPECT_EQ(found.longest(), Duration{13'000});
   EXPECT_EQ(found.quantile(500), Duration{13'000});
-  // 30 instants; at the first only one node has shown its time, at the last two only those that still come.
+  // 30 instants. At the first, only one node has shown its time; at the last two, only those still to come.
   EXPECT_EQ(found.count(), 28u);
 }
 
@@ -100,7 +100,7 @@ TEST(AchievedPrecision, DrawnClocksAreAsFarApartAsTheirFormulasSay) {
 TEST(AchievedPrecision, OfOneClockOrOfNoneThereIsNone) {
   EXPECT_TRUE(apart({}).empty());
   EXPECT_TRUE(apart(stamps_of({{NodeId{0}, always(7)}}, 20)).empty());
-  // A node that has no global time shows its local time once more.
+  // A node without global time shows its local time again.
   auto stamps = stamps_of({{NodeId{0}, always(0)}, {NodeId{1}, always(5'000)}}, 20);
   for (recording::records::Stamp& stamp : stamps)
     if (stamp.node == NodeId{1}) stamp.local.ns = stamp.global.ns;
@@ -108,7 +108,7 @@ TEST(AchievedPrecision, OfOneClockOrOfNoneThereIsNone) {
 }
 
 TEST(AchievedPrecision, WhoIsSilentHasNoTimeMeanwhile) {
-  // Node 1 is 20 us ahead before its silence and, on another count of rounds, 2 us ahead after it.
+  // Node 1 is 20 us ahead before its silence. On another count of rounds, it is 2 us ahead after it.
   const std::vector<HandClock> clocks{
       {NodeId{0}, always(0)},
       {NodeId{1}, [](std::int64_t host_ns) { return host_ns < 50 * kCycleNs ? 20'000 : 2'000 - 5 * kRoundNs; }}};
@@ -116,8 +116,8 @@ TEST(AchievedPrecision, WhoIsSilentHasNoTimeMeanwhile) {
   const auto silent = stamps_of(clocks, 60, [](NodeId node, int k) { return node == NodeId{0} || k < 20 || k >= 30; });
   EXPECT_EQ(apart(silent).longest(), Duration{20'000});
   EXPECT_EQ(apart(all).longest(), Duration{20'000});
-  // Of node 1 ten stamps are missing, and node 0's from k = 20 to 30 lie between node 1's of k = 19 and of k = 30,
-  // which is 300 us later than node 0's.
+  // Ten stamps of node 1 are missing. Node 0's from k = 20 to 30 lie between node 1's of k = 19 and of k =
+  // 30, which is 300 us later than node 0's.
   EXPECT_EQ(apart(all).count() - apart(silent).count(), 10u + 11u);
   // One stamp that is missing is bridged.
   const auto gap = stamps_of(clocks, 60, [](NodeId node, int k) { return node == NodeId{0} || k != 20; });
@@ -234,7 +234,7 @@ TEST(LatenessAccount, WhatMediaCountedIsOfTheWholeRun) {
   EXPECT_EQ(found->medium.at(NodeId{2}).sent, 55u);
 }
 
-// One frame of two that never came was withheld: told by its sender in another log.
+// One of two absent frames was withheld: its sender reports it in another log.
 TEST(LatenessAccount, WhatSendersWithheldIsToldApart) {
   schedules::model::Cluster cluster = three_nodes();
   schedules::model::FrameSlot frame;
@@ -326,7 +326,7 @@ TEST(LatenessAccount, MergedLogsOfSeveralNodesTellOfTheWholeRun) {
     for (std::int64_t k = 0; k < 30; ++k) {
       log.on(corrected(stamp(2 * kCycleNs * k + 100'000 * n), n == 1 ? -8 : 0));
       if (k % 10 != 9) continue;
-      // What has come since the beginning: k wake-ups of (10 + n) us, one of 100 us.
+      // Totals since the beginning: k wake-ups of (10 + n) us, one of 100 us.
       std::vector<std::uint64_t> counts(100);
       counts[10u + n] = static_cast<std::uint64_t>(k);
       counts[recording::records::lateness_bin(Duration::microseconds(100))] = 1;
@@ -365,7 +365,7 @@ TEST(LatenessAccount, MergedLogsOfSeveralNodesTellOfTheWholeRun) {
 
 // ----------------------------------------------------------------------------------------- sensor to feature
 
-// The ages that the measures know, as distributions: of the oldest and the newest that are fused in what was used.
+// The measures' ages as distributions: of the oldest and the newest measurement fused in the used image.
 TEST(Measures, AgesOfTheOldestAndTheNewestUsedAreTheSortedLists) {
   RandomStream stream({.seed = 5, .purpose = Purpose::kTest});
   accuracy::DriveMeasures measures(TrueTime{});

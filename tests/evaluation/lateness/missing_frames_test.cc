@@ -16,8 +16,8 @@ namespace {
 constexpr std::int64_t kTurnNs = 5'000'000;  // a cycle
 constexpr NodeId kTalker{0}, kListener{1}, kSecondTalker{2};
 
-// Slot 1 is kTalker's in every cycle, on both channels; slot 2 in cycles 1, 5, 9, ... on A only, and kSecondTalker's
-// in cycles 3, 7, ...
+// Slot 1 is kTalker's in every cycle, on both channels. Slot 2 is on A only: in cycles 1, 5, 9, ...
+// kTalker's, in cycles 3, 7, ... kSecondTalker's.
 schedules::model::Cluster cluster_of_two_slots() {
   schedules::model::Cluster cluster;
   cluster.flexray.gMacroPerCycle = 5000;
@@ -102,7 +102,7 @@ TEST_F(MissingFramesTest, WithheldOnly) {
 TEST_F(MissingFramesTest, LostOnly) {
   lost(12, 2);
   EXPECT_EQ(withheld(), 0u);
-  // What was missed is another slot's, channel's or cycle's, the receiver's own, or before or behind the gap.
+  // The missed frames are of another slot, channel or cycle, the receiver's own, or before or behind the gap.
   missed(10, 0, 2);
   missed(10, 0, 1, kTalker, 1);
   missed(9);
@@ -145,14 +145,14 @@ TEST_F(MissingFramesTest, TurnsAreTheSchedules) {
   lost(9, 1, 0, 2);  // 7
   EXPECT_EQ(withheld(), 1u);
   told_.pop_back();
-  lost(9, 1, 0, 2, 0, kSecondTalker);  // who sends in 7 itself misses 5
+  lost(9, 1, 0, 2, 0, kSecondTalker);  // the sender in 7 misses 5
   EXPECT_EQ(withheld(kSecondTalker), 1u);
   told_.pop_back();
   lost(13, 1, 0, 2);  // 11
   EXPECT_EQ(withheld(), 0u);
 }
 
-// A node that restarted counts whole rounds less than the others; and before that, others than after.
+// A restarted node counts whole rounds less than the others, and before that, others than after.
 TEST_F(MissingFramesTest, ASenderThatRestarted) {
   missed(630);
   lost(631, 1);
@@ -189,7 +189,7 @@ TEST_F(MissingFramesTest, MoreThanARound) {
   EXPECT_EQ(withheld(), 49u);
 }
 
-// A node that was stopped does late what it does: true times are then far behind the turns.
+// A stopped node acts late: true times are then far behind the turns.
 TEST_F(MissingFramesTest, WhoWasStoppedToldOfItLater) {
   for (std::int64_t cycle = 10; cycle < 13; ++cycle) {
     missed(cycle);
@@ -223,7 +223,7 @@ TEST_F(MissingFramesTest, ASenderThatWasAwaySentNothing) {
   lost(15, 4);
   EXPECT_EQ(withheld(), 1u);
   EXPECT_EQ(away(), 2u);  // 13 and 14; 11 was lost on the way
-  // Before the first and behind the last frame nobody knows.
+  // Before the first and behind the last frame the state is unknown.
   told_.clear();
   lost(10, 3);
   lost(20, 3);
@@ -244,7 +244,7 @@ TEST_F(MissingFramesTest, ASenderThatIsAwayWhileItRestartsCountsAnew) {
   EXPECT_EQ(away(), 30u);
 }
 
-// A slot that is not in every cycle, and of two senders, is silent in its turns only.
+// A slot with gaps between its cycles, and with two senders, is silent only in its turns.
 TEST_F(MissingFramesTest, SilenceIsOfTheSendersOwnTurns) {
   for (const std::int64_t at : {5, 9, 13}) sent(at, 0, 2, kTalker);
   for (const std::int64_t at : {3, 7, 19}) sent(at, 0, 2, kSecondTalker);
@@ -263,8 +263,8 @@ TEST_F(MissingFramesTest, OneTurnCountsOnce) {
   EXPECT_EQ(withheld(), 1u);
 }
 
-// An oracle: drawn gaps, of frames each withheld, lost, not sent, or there, in a drawn order of telling, counted from
-// either end.
+// An oracle: drawn gaps whose frames are withheld, lost, not sent, or there. They are reported in a drawn
+// order, and counted from either end.
 TEST_F(MissingFramesTest, DrawnRunsAreCountedTurnByTurn) {
   for (std::uint32_t draw = 0; draw < 50; ++draw) {
     RandomStream stream({.seed = 9, .purpose = Purpose::kTest, .index = draw});

@@ -1,5 +1,5 @@
-// docs/fault_campaign.md shows the table of the shipped campaign; it takes a quarter of an hour to make. What tells in
-// a moment whether it is still of the same faults: how many of each class were drawn.
+// docs/fault_campaign.md shows the table of the shipped campaign, which takes a quarter of an hour to make.
+// The number of draws of each class shows quickly whether the faults are still the same.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -14,7 +14,8 @@
 namespace ttf::experiments::campaign {
 namespace {
 
-// Of every line "class [A+B] [*] number ..." of the page: each class as often as the page has it (a table per variant).
+// Reads every line "class [A+B] [*] number ..." of the page: each class as often as the page has it (a table
+// per variant).
 std::map<std::string, std::vector<int>> on_the_page() {
   std::map<std::string, std::vector<int>> counts;
   std::istringstream page(read_file(TTF_SOURCE_DIR "/docs/fault_campaign.md"));

@@ -1,4 +1,5 @@
-// A campaign of all classes: with guardians and two channels no single fault of the hypothesis harms a fault-free node.
+// A campaign of all classes. With guardians and two channels, no single fault of the hypothesis harms a
+// fault-free node.
 #include "experiments/campaign/coverage.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ TEST(Coverage, OfTwoThousandSingleFaults) {
   }
   EXPECT_EQ(injected, 2000u);
 
-  // The observable that every class must have, on the bus, where nothing is kept from the others.
+  // The required observable of every class, on the bus, where all effects reach the others.
   using faults::FaultKind;
   for (const auto& [kind, check] : {std::pair{FaultKind::kCrash, evaluation::faults::Check::kNoFrame},
                                     std::pair{FaultKind::kOmission, evaluation::faults::Check::kNoFrame},

@@ -74,7 +74,7 @@ TEST(FaultCampaign, EveryClassIsDrawnAndEveryFaultCanBeInjected) {
   EXPECT_EQ(kinds.size(), faults::kAllFaultKinds.size());
 }
 
-// What is printed of a fault is an entry of a fault plan, and the same fault when it is read again.
+// A printed fault is an entry of a fault plan, and reads back as the same fault.
 TEST(FaultCampaign, WhatIsPrintedOfAFaultIsReadAgain) {
   const CampaignFile campaign = small_campaign(1);
   const CampaignClusters clusters(campaign);

@@ -1,4 +1,4 @@
-// Single faults of which one can say beforehand who notices them, and whom they harm.
+// Single faults with predictable observers and harm.
 #include "experiments/campaign/trial.h"
 
 #include <gtest/gtest.h>
@@ -117,7 +117,7 @@ TEST_F(FaultTrial, NoiseOnOneChannelLeavesTheOther) {
   EXPECT_FALSE(in_hypothesis(noise));
 }
 
-// Campaigns run on the transparent medium. What comes of any fault is what comes of it where every frame is encoded.
+// Campaigns run on the transparent medium. Any fault has the same effects as with every frame encoded.
 TEST_F(FaultTrial, OnATransparentMediumEveryFaultHasTheSameOutcome) {
   int activated = 0;
   for (std::uint32_t index = 0; index < 400; ++index) {

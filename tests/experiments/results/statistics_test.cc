@@ -19,7 +19,7 @@ TEST(Moments, AreThoseOfTheTextbook) {
   EXPECT_DOUBLE_EQ(moments.variance(), 32.0 / 7.0);
 }
 
-// A large mean takes nothing from the variance.
+// A large mean does not reduce the variance's precision.
 TEST(Moments, LargeNumbersCancelNothing) {
   Moments moments;
   for (const double x : {1e9 + 4.0, 1e9 + 7.0, 1e9 + 13.0, 1e9 + 16.0}) moments.add(x);
@@ -49,7 +49,7 @@ TEST(Interval, OfOneSampleIsNone) {
   EXPECT_FALSE(interval.above(2.0));
 }
 
-// 2,000 samples of eight normal numbers each: 95 % of the intervals have the expectation in them, +- 4 sigma of a
+// 2,000 samples of eight normal numbers each: 95 % of the intervals contain the expectation, +- 4 sigma of a
 // binomial distribution.
 TEST(Interval, CoversWhatItSays) {
   int covered = 0;

@@ -102,7 +102,7 @@ TEST_F(StoreTest, WhereNothingCanBeWrittenItSaysSo) {
   EXPECT_THROW((void)Store::create(folder_ + "/nowhere/results.sqlite", head_), std::runtime_error);
 }
 
-// A limit to the size of files stands in for a full disk: what was there before stays.
+// A limit to the size of files stands in for a full disk: earlier contents stay.
 TEST_F(StoreTest, AFullDiskTakesNothingThatWasThere) {
   Store store = Store::create(path(), head_);
   store.add({first_});

@@ -1,5 +1,4 @@
-// Everything that an experiment may vary does to a drive what it must: the axes as docs/experiments.md writes them,
-// each driven by itself.
+// Every axis of docs/experiments.md has its proper effect on a drive, each driven alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -118,7 +117,7 @@ TEST(Axes, AllThatAreDocumentedAreTriedHere) {
   EXPECT_EQ(documented, tried);
 }
 
-// What is written down in it is what holds where nothing is.
+// The scenario's explicit values equal the defaults.
 TEST(Axes, TheScenarioIsTheOneItSaysItIs) {
   const std::string text = sweep_text(1);
   const auto with = [&](const std::string& scenario) {
@@ -130,8 +129,8 @@ TEST(Axes, TheScenarioIsTheOneItSaysItIs) {
   EXPECT_EQ(with("axes"), with("dynamics"));
 }
 
-// The car goes as far astray as the square root of the density says, times what filters make of it: between 0.1 and 4
-// the error squared grows, and not by as much.
+// The car's deviation grows with the square root of the density, reduced by the filters. Between 0.1 and 4
+// the squared error grows, but less.
 TEST(Axes, ProcessNoise) {
   Varied varied("process_noise");
   for (const char* paradigm : {"adva", "tt"}) {
@@ -142,13 +141,13 @@ TEST(Axes, ProcessNoise) {
   }
 }
 
-// In the other drive the car turns, which the tracker's model knows nothing of.
+// In the other drive the car turns, which the tracker's model does not cover.
 TEST(Axes, Scenario) {
   Varied varied("scenario");
   EXPECT_GT(varied.mean("nees", 1, "adva"), 1.5 * varied.mean("nees", 0, "adva"));
 }
 
-// A list of 25 objects takes some milliseconds more on its CAN than that of one.
+// A list of 25 objects takes some milliseconds more on its CAN than a list of one.
 TEST(Axes, Objects) {
   Varied varied("objects");
   for (const char* paradigm : {"adva", "tt", "free"}) {
@@ -165,7 +164,7 @@ TEST(Axes, SensorNoise) {
   EXPECT_NEAR(varied.once("age_fused", 1, "adva"), varied.once("age_fused", 0, "adva"), 1e-9);
 }
 
-// The camera's noise at 40 m is far above the laser's: the laser is believed, and its 0.5 m are the error.
+// The camera's noise at 40 m is far above the laser's: the laser dominates, and its 0.5 m are the error.
 TEST(Axes, Bias) {
   Varied varied("bias");
   for (const char* paradigm : {"adva", "tt"}) {
@@ -193,7 +192,7 @@ TEST(Axes, SensorCycle) {
   }
 }
 
-// Of a cycle's slots all but the image's come half as often.
+// All of a cycle's slots except the image's come half as often.
 TEST(Axes, BusCycle) {
   Varied varied("bus_cycle");
   EXPECT_EQ(varied.once("lists_fused", 1, "adva"), varied.once("lists_fused", 0, "adva"));
@@ -224,7 +223,7 @@ TEST(Axes, ShortestProcessing) {
   EXPECT_LT(more, 8.0 * 0.6);
 }
 
-// Who waits for preprocessing measures the oftener the sooner that is done.
+// A sensor that waits for preprocessing measures more often when that ends sooner.
 TEST(Axes, LongestProcessing) {
   Varied varied("longest_processing");
   EXPECT_GT(varied.once("lists_fused", 0, "free"), 1.05 * varied.once("lists_fused", 1, "free"));
@@ -242,7 +241,7 @@ TEST(Axes, BusLoad) {
   EXPECT_LT(much, idle + 0.3);
 }
 
-// What is lost in a static slot is there again in the next cycle.
+// A list lost in a static slot is there again in the next cycle.
 TEST(Axes, Loss) {
   Varied varied("loss");
   for (const char* paradigm : {"adva", "tt"}) {
@@ -261,7 +260,7 @@ TEST(Axes, Synchronisation) {
   EXPECT_TRUE(std::isnan(varied.once("position_mse_truth", 1, "free"))) << "nothing is heard from far off";
 }
 
-// Whoever does not correct clocks has them apart by their drifts, and by what they began with.
+// Uncorrected clocks are apart by their drifts and their initial distance.
 TEST(Axes, Drift) {
   Varied varied("drift");
   const double little = varied.mean("precision", 0, "unsynchronised");
@@ -287,7 +286,7 @@ TEST(Axes, FaultPlan) {
   }
 }
 
-// One list in six is late; augmented is exact, and c ignores what the car may have done meanwhile.
+// One list in six is late. The augmented method is exact, and c ignores the car's possible motion in between.
 TEST(Axes, LateMethod) {
   Varied varied("late_method");
   const double rewinding = varied.mean("nees", 0, "free");

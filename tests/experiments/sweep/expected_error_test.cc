@@ -1,5 +1,5 @@
-// The covariance recursion of a schedule: against closed forms, and against what the strategies and their tracker make
-// of drawn measurements.
+// The covariance recursion of a schedule: against closed forms, and against the strategies with their tracker
+// on drawn measurements.
 #include "experiments/sweep/expected_error.h"
 
 #include <gtest/gtest.h>
@@ -27,8 +27,7 @@ using fusion::strategies::StrategyKind;
 GlobalTime at_ms(double ms) { return GlobalTime{static_cast<std::int64_t>(std::llround(ms * 1e6))}; }
 Look look_at(double ms, double variance) { return {at_ms(ms), variance * Eigen::Matrix2d::Identity()}; }
 
-// Least squares through n points of a line, of whose slope nothing is known: at the last one 2 (2n - 1) / (n (n + 1))
-// of R.
+// Least squares through n points of a line with unknown slope: at the last one 2 (2n - 1) / (n (n + 1)) of R.
 TEST(ExpectedError, WithoutNoiseOfMotionItIsThatOfALineThroughAllPoints) {
   ErrorRecursion recursion(PointMotion::known(0.0, 1e4));
   for (int n = 1; n <= 20; ++n) {
@@ -38,8 +37,9 @@ TEST(ExpectedError, WithoutNoiseOfMotionItIsThatOfALineThroughAllPoints) {
   }
 }
 
-// The steady alpha-beta filter of white acceleration: with alpha and beta the gains of position and velocity,
-// beta^2 / (1 - alpha) = q T^3 / R and alpha = sqrt(2 beta + beta^2 / 12) - beta / 2 (Bar-Shalom et al., 2001, 6.5.3).
+// The steady alpha-beta filter of white acceleration, with alpha and beta the gains of position and velocity:
+// beta^2 / (1 - alpha) = q T^3 / R and alpha = sqrt(2 beta + beta^2 / 12) - beta / 2 (Bar-Shalom et al.,
+// 2001, 6.5.3).
 TEST(ExpectedError, SettlesAtTheAlphaBetaFilter) {
   for (const double density : {0.01, 1.0, 30.0})
     for (const double variance : {0.0025, 0.25})
@@ -56,7 +56,7 @@ TEST(ExpectedError, SettlesAtTheAlphaBetaFilter) {
       }
 }
 
-// Measured ever more often, it is the Kalman-Bucy filter with r = R T: sqrt(2) q^(1/4) r^(3/4).
+// With ever more frequent measurements, it is the Kalman-Bucy filter with r = R T: sqrt(2) q^(1/4) r^(3/4).
 TEST(ExpectedError, MeasuredAllTheTimeItIsTheKalmanBucyFilter) {
   const double density = 2.0, variance = 10.0, t = 1e-4;
   ErrorRecursion recursion(PointMotion::known(density, 1.0));
@@ -66,7 +66,7 @@ TEST(ExpectedError, MeasuredAllTheTimeItIsTheKalmanBucyFilter) {
   EXPECT_NEAR(p(0, 2), std::sqrt(density * variance * t), 0.002 * p(0, 2));
 }
 
-// Who assumes what is not so is worse off than who knows, and told so; who assumes right is told what he believes.
+// A wrong assumed density costs accuracy, and the recursion shows it. A right one gives the believed error.
 TEST(ExpectedError, AWrongDensityCosts) {
   const auto settled = [](double assumed, double actual) {
     PointMotion motion = PointMotion::known(assumed, 8.0);
@@ -119,7 +119,7 @@ class Sampled {
 
   Sampled(StrategyKind kind, const Drawn& drawn) : drawn_(drawn) {
     tracker_.process_noise = kDensity;
-    tracker_.gate_probability = 0.9999999;  // what a gate refuses is no part of the recursion
+    tracker_.gate_probability = 0.9999999;  // the recursion has no gate
     std::vector<fusion::strategies::SensorTiming> timings;
     for (std::size_t s = 0; s < 2; ++s)
       timings.push_back({static_cast<SensorId>(s), fusion::strategies::Settling::after(drawn.longest[s]), true,
@@ -127,7 +127,7 @@ class Sampled {
     strategy_ = fusion::strategies::make_strategy(kind, tracker_, timings);
   }
 
-  // The instants at which lists are fused, as drawn.lists, and the squares of the errors at the uses.
+  // The instants at which lists are fused, as drawn.lists, and the squared errors at the uses.
   void drive(std::uint32_t replication, std::span<const Use> uses, std::vector<GlobalTime>& fused,
              std::vector<std::optional<double>>& squares) {
     draw(replication, uses);
@@ -136,7 +136,7 @@ class Sampled {
     auto use = uses.begin();
     std::size_t next = 0;
     while (next < drawn_.lists.size() || strategy_->next_release()) {
-      // Arrivals, releases and uses as they come; a use sees what is fused at its instant.
+      // Arrivals, releases and uses in order; a use sees everything fused at its instant.
       GlobalTime now = next < drawn_.lists.size() ? drawn_.lists[next].arrival : *strategy_->next_release();
       if (const auto release = strategy_->next_release()) now = std::min(now, *release);
       for (; use != uses.end() && use->known < now; ++use) squares.push_back(square_at(*use, image));
@@ -149,7 +149,7 @@ class Sampled {
   }
 
  private:
-  // The object at all instants that somebody asks for, exactly as the density says, and what the sensors say.
+  // The object at all needed instants, exactly with this density, and the sensors' measurements of it.
   void draw(std::uint32_t replication, std::span<const Use> uses) {
     std::vector<GlobalTime> instants;
     for (const ListTimes& list : drawn_.lists) instants.push_back(list.measured);
@@ -210,7 +210,7 @@ std::vector<Use> uses_every_40_ms(double from_ms, double to_ms) {
 
 class AgainstStrategies : public testing::TestWithParam<StrategyKind> {};
 
-// What is said of the instants of fusion is what the strategies do.
+// The predicted fusion instants are the strategies'.
 TEST_P(AgainstStrategies, ListsAreFusedWhenSaid) {
   const Drawn drawn = drawn_lists(3000.0);
   Sampled sampled(GetParam(), drawn);
@@ -262,8 +262,8 @@ TEST_P(AgainstStrategies, TheErrorIsTheExpectedOne) {
 INSTANTIATE_TEST_SUITE_P(Strategies, AgainstStrategies, testing::ValuesIn(fusion::strategies::kAllStrategies),
                          [](const auto& one) { return std::string(name_of(one.param)); });
 
-// Two equal sensors of one period, the other one `phase` (0 to 1) of it behind: the variance of the predicted position,
-// averaged over time, when both have settled. A list is known when it has been under way for `delay_ms`.
+// The variance of the predicted position, averaged over time, for two equal, settled sensors of one period.
+// The other one is `phase` (0 to 1) of the period behind. A list is known after `delay_ms`.
 double average_variance(double density, double variance, double period_ms, double phase, double delay_ms) {
   constexpr int kPeriods = 400, kSteps = 20;
   std::vector<Look> looks;
@@ -273,8 +273,8 @@ double average_variance(double density, double variance, double period_ms, doubl
       looks.push_back(look_at(begin, variance));
       fused.push_back(at_ms(begin + delay_ms));
     }
-  // From the last but one list of the first sensor on; the error grows as a polynomial of the third order between two
-  // lists, of which Simpson's rule knows the mean.
+  // From the last but one list of the first sensor on. Between two lists the error grows as a cubic
+  // polynomial, whose mean Simpson's rule gives exactly.
   double sum = 0.0;
   const double begin = period_ms * (kPeriods - 1) + delay_ms;
   for (const auto& [from, to] : {std::pair{0.0, phase}, std::pair{phase, 1.0}}) {
@@ -282,7 +282,7 @@ double average_variance(double density, double variance, double period_ms, doubl
     std::vector<Use> uses;
     for (int k = 0; k <= kSteps; ++k) {
       const GlobalTime at = at_ms(begin + period_ms * (from + (to - from) * k / kSteps));
-      // At its end a list that comes then is not known yet.
+      // A list that comes at its end is not known yet.
       uses.push_back({k < kSteps ? std::max(at, at_ms(begin + period_ms * from)) : at - Duration{1000}, at});
     }
     const auto errors = expected_errors(PointMotion::known(density, 8.0), looks, fused, uses);
@@ -294,9 +294,10 @@ double average_variance(double density, double variance, double period_ms, doubl
   return sum;
 }
 
-// Niu, Varshney, Mehrotra, Mohan: "Temporally staggered sensors in multi-sensor target tracking systems", IEEE
-// Transactions on Aerospace and Electronic Systems 41, 2005: sensors of equal noise that are evenly staggered leave
-// less error on the average over time than synchronous ones; and with two, the closer to even the less.
+// Niu, Varshney, Mehrotra, Mohan: "Temporally staggered sensors in multi-sensor target tracking systems",
+// IEEE Transactions on Aerospace and Electronic Systems 41, 2005. Evenly staggered sensors of equal noise
+// leave less error on the average over time than synchronous ones. With two sensors, the error falls the more
+// even they are.
 TEST(SchedulePhases, EvenlyStaggeredSensorsLeaveLessErrorThanSynchronousOnes) {
   double least = 1.0, most = 0.0;
   for (const double density : {0.01, 0.1, 1.0, 10.0, 100.0})
@@ -317,8 +318,7 @@ TEST(SchedulePhases, EvenlyStaggeredSensorsLeaveLessErrorThanSynchronousOnes) {
   RecordProperty("even_by_synchronous", std::to_string(least) + " to " + std::to_string(most));
 }
 
-// It is a matter of the average: who is asked at one instant of the period only is best off with both lists right
-// before it.
+// This holds on average only. A use at one instant of the period is best off with both lists right before it.
 TEST(SchedulePhases, AskedAtOneInstantOnlySynchronousSensorsAreBetter) {
   const auto used_late = [](double phase) {
     std::vector<Look> looks;

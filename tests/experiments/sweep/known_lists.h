@@ -1,4 +1,4 @@
-// What is known when: lists that strategies let in, and the errors that are to be expected of it at every use.
+// The lists that strategies have fused at each instant, and the expected errors at every use.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,9 +21,10 @@ struct ListTimes {
   SensorId sensor{};
   GlobalTime measured{}, arrival{};
 };
-// By list, where fusion may take place at any instant and all lists arrive. ADVA: as it arrives. TT: when all have that
-// were measured before, for the schedule says which there are. BUFF: when besides, of every other sensor, one has that
-// is not older, or none can be any more: `longest`, by sensor, how long a list is under way at most.
+// The instant of fusion by list, if fusion can happen at any instant and all lists arrive. ADVA fuses on
+// arrival. TT fuses when all earlier-measured lists have arrived, since the schedule lists them. BUFF also
+// needs, for every other sensor, a list that is not older, or the certainty that none can come. `longest`: by
+// sensor, a list's longest way.
 inline std::vector<GlobalTime> fused_at(fusion::strategies::StrategyKind strategy, std::span<const ListTimes> lists,
                                         std::span<const Duration> longest) {
   // Each on its own, then behind all that are older.
@@ -50,12 +51,12 @@ inline std::vector<GlobalTime> fused_at(fusion::strategies::StrategyKind strateg
   return fused;
 }
 
-// The image shows what is known at `known`, and is of the instant `at`.
+// The image shows everything known at `known`, and is of the instant `at`.
 struct Use {
   GlobalTime known{}, at{};
 };
-// One for every use: both in the order of their instants. `fused[i]`: when looks[i] is. Throws nothing; looks must not
-// be newer than the uses that know them, and every use must know one.
+// One for every use; both are in order of their instants. `fused[i]` is the instant at which looks[i] is
+// fused. Does not throw. Looks must not be newer than the uses that know them, and every use must know one.
 inline std::vector<Eigen::Matrix4d> expected_errors(const PointMotion& motion, std::span<const Look> looks,
                                                     std::span<const GlobalTime> fused, std::span<const Use> uses) {
   TTF_CHECK(looks.size() == fused.size(), "{} looks, {} instants", looks.size(), fused.size());

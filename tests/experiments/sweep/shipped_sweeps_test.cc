@@ -1,5 +1,5 @@
-// The experiments that are shipped can be driven: the ends of each grid, with every paradigm. And what covariances say
-// of a whole cluster is what is sampled of it, where it is linear.
+// The shipped experiments can be driven: the ends of each grid, with every paradigm. A whole linear cluster's
+// sampled error matches the covariances.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ TEST(ShippedSweeps, TheErrorOfAWholeClusterIsTheExpectedOne) {
   }
 }
 
-// A fusion node that comes back has forgotten all, and may count its time anew: what was expected of it has, too.
+// A returning fusion node has forgotten everything, and may count its time anew: so has the expectation.
 TEST(ShippedSweeps, WhatIsToBeExpectedSurvivesACrashOfTheFusionNode) {
   SweepFile sweep = load_sweep(kFolder + "schedule_phases.yaml");
   const SweepDrives drives(sweep);

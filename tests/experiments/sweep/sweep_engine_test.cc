@@ -26,7 +26,7 @@ class SweepEngine : public testing::Test {
   results::Store store(const SweepDrives& drives, const std::string& name) const {
     return results::Store::create(folder_ + "/" + name, {"small", drives.identity(), "1", "", drives.columns()});
   }
-  // What is in it after all has been driven, as text.
+  // The store's contents as text after all drives.
   std::string driven(const SweepDrives& drives, const std::string& name, unsigned workers) const {
     results::Store fresh = store(drives, name);
     run_sweep(drives, fresh, {}, workers, [](const SweepProgress&) {});
@@ -44,7 +44,7 @@ TEST_F(SweepEngine, TheSameForAnyNumberOfWorkers) {
   EXPECT_EQ(driven(drives, "8", 8), one);
 }
 
-// The clocks are compared where their precision is asked for, which changes nothing else.
+// Clocks are compared only where their precision is asked for; nothing else changes.
 TEST_F(SweepEngine, PrecisionIsThereWhereItIsAskedFor) {
   SweepFile sweep = small_sweep(1);
   const results::Run without = SweepDrives(sweep).run({0, 0, 0});
@@ -56,7 +56,7 @@ TEST_F(SweepEngine, PrecisionIsThereWhereItIsAskedFor) {
   EXPECT_LT(with.values[2], 10.0);
 }
 
-// Somebody elsewhere who takes some runs at a time, and gives them back one turn later.
+// A remote worker that takes some runs at a time, and returns them one turn later.
 class OneElsewhere final : public Elsewhere {
  public:
   explicit OneElsewhere(const SweepDrives& drives) : driver_(drives) {}
@@ -113,7 +113,7 @@ TEST_F(SweepEngine, OnlyWhatIsMissingIsDriven) {
   EXPECT_EQ(runs_csv(sweep, some), whole);
 }
 
-// What is drawn for a replication is the same for all paradigms and points, and stands beside the measures.
+// A replication's draws are the same for all paradigms and points, and are stored beside the measures.
 TEST_F(SweepEngine, DrawnAxesAreDrawnOnceAReplication) {
   std::string text = sweep_text(3);
   text.insert(text.find("measures:"), "  q: {keys: [tracker.process_noise], uniform: [0.1, 5]}\n");
@@ -128,7 +128,7 @@ TEST_F(SweepEngine, DrawnAxesAreDrawnOnceAReplication) {
   EXPECT_EQ(drives.prepare({0, 1, 0}).scenario.tracker.process_noise, one.values[0]);
 }
 
-// A point whose difference is sure enough after a batch gets no more.
+// A point that is certain enough after a batch gets no more.
 TEST_F(SweepEngine, StopsWhereItIsSureEnough) {
   const SweepFile enough = small_sweep(9, "stop: {half_width: 1e6, batch: 3}\n");
   const SweepDrives some(enough);
@@ -151,7 +151,7 @@ TEST_F(SweepEngine, AFullDiskEndsItAndLosesNothing) {
   EXPECT_GT(some.count(), 0u);
 }
 
-// ---- what the runs say, of runs that are made up
+// ---- evaluation of made-up runs
 
 results::Run made_up(std::uint32_t point, std::uint32_t replication, std::uint32_t paradigm, double rmse) {
   return {{point, replication, paradigm}, results::kDone, {rmse, 10.0}};
@@ -213,7 +213,7 @@ TEST_F(SweepEngine, MeasuresMayAgree) {
   EXPECT_EQ(answer.expectations[0].text, "position_rmse_truth of adva agrees with age_fused");
 }
 
-// Where two are exactly alike, the sides differ by what is behind it.
+// At an exact tie, the sides differ by the points behind it.
 TEST_F(SweepEngine, ACrossingMayBeAtAPoint) {
   std::string text = sweep_text(3);
   text.replace(text.find("[1, 40]"), 7, "[1, 20, 40]");
@@ -237,7 +237,7 @@ TEST_F(SweepEngine, ACrossingMayBeAtAPoint) {
   EXPECT_TRUE(crossings("met", {1.0, 0.0, 0.0}).empty());
 }
 
-// A run that failed is a row, and takes its pair out of the differences, nothing else.
+// A failed run is a row, and only removes its pair from the differences.
 TEST_F(SweepEngine, AFailedRunIsARow) {
   const SweepFile sweep = small_sweep(3);
   const SweepDrives drives(sweep);

@@ -156,7 +156,7 @@ TEST(SweepFile, FilesAreValues) {
               HasSubstr("faulty_bus.yaml: faults: must not be there where"));
 }
 
-// The grid is bounded before anything is made of it.
+// The grid's size is checked before it is made.
 TEST(SweepFile, TooManyPointsAreRefused) {
   std::string axes = "axes:\n";
   for (int a = 0; a < 9; ++a) axes += fmt::format("  a{}: {{keys: [key{}], from: 0, to: 9, count: 10}}\n", a, a);

@@ -12,7 +12,7 @@
 namespace ttf::fusion::association {
 namespace {
 
-// Best sum of gains over every way to leave a row alone or give it a free column.
+// The largest sum of gains over all ways to leave a row alone or give it a free column.
 double brute_force(const std::vector<std::vector<double>>& gain, std::size_t row, unsigned taken) {
   if (row == gain.size()) return 0.0;
   double best = brute_force(gain, row + 1, taken);
@@ -22,7 +22,7 @@ double brute_force(const std::vector<std::vector<double>>& gain, std::size_t row
   return best;
 }
 
-// Sum of the gains of a solution; fails where a pair is no candidate or a column is given twice.
+// The sum of a solution's gains. Fails when a pair is no candidate or a column is given twice.
 double value_of(const std::vector<std::vector<double>>& gain, std::span<const int> column_of) {
   double sum = 0.0;
   std::set<int> columns;
@@ -36,7 +36,7 @@ double value_of(const std::vector<std::vector<double>>& gain, std::span<const in
 }
 
 TEST(Assignment, IsAsGoodAsTryingAllWays) {
-  Assignment assignment(7, 7);  // one object for all: nothing may be left over from the problem before
+  Assignment assignment(7, 7);  // one object for all: no state may survive a problem
   for (std::uint32_t index = 0; index < 3000; ++index) {
     RandomStream stream({.seed = 5, .purpose = Purpose::kTest, .index = index});
     const auto rows = static_cast<std::size_t>(stream.integer(0, 6)),
@@ -71,7 +71,7 @@ TEST(Assignment, GreedyWouldBeWorse) {
 }
 
 TEST(Assignment, FullSizeDenseProblem) {
-  // gain = 1000 - (r - c)^2 on 64 x 100: the diagonal is best by far for every row.
+  // gain = 1000 - (r - c)^2 on 64 x 100: the diagonal is by far the best for every row.
   Assignment assignment(64, 100);
   std::vector<Candidate> candidates;
   for (int r = 0; r < 64; ++r)

@@ -1,4 +1,4 @@
-// Joint probabilities against the enumeration of all joint events, and what is computed where there are too many.
+// Joint probabilities against the enumeration of all joint events, and the approximation for too many tracks.
 #include "fusion/association/joint_association.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ struct Probabilities {
   explicit Probabilities(const Table& weights) : of(weights.rows, weights.columns), none(weights.columns) {}
 };
 
-// Every event, one after the other: the row-th observation is of nothing, or of each track that is still free.
+// Enumerates all events: the row-th observation is clutter, or belongs to any track still free.
 void enumerate(const Table& weights, std::size_t row, double weight, std::vector<int>& row_of, Probabilities& sums) {
   if (row == weights.rows) {
     sums.all += weight;
@@ -106,7 +106,7 @@ TEST(JointAssociation, EqualsTheEnumerationOfAllEvents) {
   EXPECT_EQ(joint.approximated(), 0u);
 }
 
-// Every event has exactly one probability: nothing is left over, in the largest tables that are exact, too.
+// Each event has one probability, so they sum to one, in the largest exact tables, too.
 TEST(JointAssociation, EachTracksProbabilitiesHaveTheSumOne) {
   RandomStream stream({.seed = 2});
   for (const auto& [rows, columns] : {std::pair<std::size_t, std::size_t>{12, 12}, {12, 15}, {63, 10}, {10, 63}}) {
@@ -139,7 +139,8 @@ TEST(JointAssociation, TheLargestAndTheSmallestWeightsStayNumbers) {
   }
 }
 
-// One more than the table holds: approximated, counted, still probabilities, and exact for who has no rival.
+// One track more than the table holds: the result is approximate, counted, and still made of probabilities.
+// It is exact for a track without rivals.
 TEST(JointAssociation, WhatIsTooManyIsApproximatedAndCounted) {
   RandomStream stream({.seed = 3});
   JointAssociation joint(20, 20);

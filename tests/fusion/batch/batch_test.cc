@@ -1,4 +1,4 @@
-// Many filters at once against one at a time: filters::Kalman on constant velocity and positions, bit for bit.
+// A batch of filters against single filters::Kalman of constant velocity and positions, bit for bit.
 #include "fusion/batch/batch.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ constexpr std::size_t kFilters = 101;  // the last block is not full
 constexpr int kSteps = 60;
 const motion::ConstantVelocity kModel(3.0);
 
-// Whatever a filter of the form may hold, and may be told.
+// Draws any valid state and measurement of a form.
 template <template <class> class Form> linear::Gaussian<4> prior(RandomStream& stream) {
   linear::Gaussian<4> state;
   state.x = motion::drawn<4>(linear::Vector<4>::Zero(), 100.0 * linear::Matrix<4>::Identity(), stream);

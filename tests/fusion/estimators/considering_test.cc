@@ -1,5 +1,5 @@
-// Sensors that are wrong the same way all through a drive: who ignores it is too sure, who considers it is not. The
-// tracker as a whole: birth, gates, association, late lists.
+// Sensors with the same error throughout a drive. A tracker that ignores the error is overconfident; one that
+// considers it is consistent. Covers the whole tracker: birth, gates, association, late lists.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 constexpr int kLaser = 0, kRadar = 1;
 constexpr double kNoise = 0.5;  // of the motion [m^2/s^3]
 
-// A laser on the front, turned a little, and a radar on the side: seven biases.
+// A slightly rotated laser at the front and a radar at the side: seven biases.
 std::vector<sensors::KnownSensor> laser_and_radar_biases() {
   std::vector<sensors::KnownSensor> sensors(2);
   sensors[kLaser].mounting = {.position = {3.5, 0.5}, .yaw = 0.2};
@@ -42,7 +42,7 @@ config::TrackerConfig config_with(config::SystematicErrorsAre answer,
   return config;
 }
 
-// What this sensor says of x, its errors being b and its stamp's x(3); in its own axes.
+// This sensor's observation of x with the errors b, in its own axes; its stamp is off by b(3).
 sensors::Observation seen(const State& x, int sensor, const sensors::KnownSensor& known, const linear::Vector<4>& b,
                           RandomStream& stream) {
   motion::Kinematics k{.position = x.head<2>() + b(3) * x.segment<2>(2), .velocity = x.segment<2>(2)};
@@ -139,7 +139,7 @@ TEST(Considering, IsConsistentWithAccelerations) {
     expect_only_the_considering_one_consistent(config::MotionModel::kConstantAcceleration, lists);
 }
 
-// A sensor's first sight of an object nobody knows anything of is an update of a state that may be anywhere.
+// A sensor's first sight of an unknown object is an update of a state that may be anywhere.
 TEST(Considering, ABirthIsAnUpdateOfAlmostNothing) {
   using M = motion::ConstantVelocity;
   std::vector<sensors::KnownSensor> sensors = laser_and_radar_biases();
@@ -148,7 +148,7 @@ TEST(Considering, ABirthIsAnUpdateOfAlmostNothing) {
       for (sensors::KnownSensor& one : sensors) {
         one.errors.axes = axes;
         if (axes == sensors::ErrorAxes::kCartesian) one.errors.sigma << 0.3, 0.2, 0.0, 0.0;
-        // The stamp's error counts to second order here, and the cross velocity of a radar is not known.
+        // The stamp's error has second-order effects here, and a radar does not know the cross velocity.
         one.errors.sigma(3) = 0.0;
       }
       const config::TrackerConfig config = config_with(kConsidered, sensors);
@@ -200,7 +200,7 @@ TEST(Considering, NothingToConsiderIsIgnoring) {
   }
 }
 
-// A second sensor, turned by its bias at 60 m: outside the gate of who ignores it.
+// A second sensor, rotated by its bias, sees 60 m away. Ignoring the bias puts it outside the gate.
 TEST(Considering, GatesAreAsWideAsTheBiases) {
   std::vector<sensors::KnownSensor> sensors(2);
   sensors[1].errors.sigma << 0.0, 0.05, 0.0, 0.0;
@@ -218,7 +218,7 @@ TEST(Considering, GatesAreAsWideAsTheBiases) {
   }
 }
 
-// The search by x leaves out nothing that a gate would let in: the same as asking for every distance.
+// The search by x finds every track that a gate would accept: the same as computing every distance.
 TEST(Considering, TheExpectedPositionIsThatOfTheGate) {
   const config::TrackerConfig config = config_with(kConsidered);
   const auto estimator = make_estimator(config);
@@ -238,7 +238,7 @@ TEST(Considering, TheExpectedPositionIsThatOfTheGate) {
   }
 }
 
-// Twenty-five objects seen by both: late lists leave the bits of arrival in order, and nothing allocates.
+// Two sensors see 25 objects. Late lists give the same bits as arrival in order, without allocation.
 config::TrackerConfig config_of_crowd() {
   std::vector<sensors::KnownSensor> sensors(2);
   sensors[0].errors.sigma << 0.2, 0.01, 0.0, 0.01;
@@ -296,8 +296,8 @@ TEST(Considering, AllocatesNothingAfterConstruction) {
   EXPECT_EQ(image.size(), 25u);
 }
 
-// Laser and radar at the back, looking backwards, see what they would see from the origin: the tracks are the same, and
-// so is what is to be considered.
+// A laser and a radar at the back, looking backwards, see the same as from the origin. Tracks and considered
+// covariances are equal.
 TEST(Mounting, BackwardsTheSameTracks) {
   std::vector<sensors::KnownSensor> ahead(2), behind(2);
   for (std::vector<sensors::KnownSensor>* sensors : {&ahead, &behind})

@@ -1,5 +1,5 @@
-// The estimator's own covariance tells the truth about its errors: NEES and NIS in their 95 % bands on fixed
-// seeds, and out of them where the model is wrong (Bar-Shalom, Li, Kirubarajan 2001, section 5.4).
+// The estimator's covariance matches its errors. NEES and NIS lie in their 95 % bands on fixed seeds, and
+// outside where the model is wrong (Bar-Shalom, Li, Kirubarajan 2001, section 5.4).
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -29,7 +29,7 @@ struct Case {
   bool with_radar = false;
 };
 
-// Independent drives, each judged once, at its last step (so that the sum is chi-square distributed exactly).
+// Independent drives, each judged once, at its last step: the sum is then exactly chi-square distributed.
 Statistics simulate(const Case& c, int runs, std::uint64_t seed) {
   Statistics s;
   s.runs = runs;

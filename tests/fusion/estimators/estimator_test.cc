@@ -1,5 +1,5 @@
-// Estimators of straight motion against closed forms and a batch solution in information form, and the laws of all
-// (fusion/estimators/estimator.h).
+// Estimators of straight motion against closed forms and a batch solution in information form. All estimators
+// against their laws (fusion/estimators/estimator.h).
 #include "fusion/estimators/estimator.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 const config::MotionModel kStraight[] = {config::MotionModel::kConstantVelocity,
                                          config::MotionModel::kConstantAcceleration};
 
-// What a constant-velocity estimate knows nothing of is zero and certain.
+// A constant-velocity estimate has a zero, certain acceleration.
 Cartesian without_acceleration(Cartesian c) {
   c.x.tail<2>().setZero();
   c.p.rightCols<2>().setZero();
@@ -62,9 +62,9 @@ TEST(Predict, TwoStepsAreOne) {
   }
 }
 
-// Steady state of the continuous Riccati equation A P + P A' + G q G' - P H' H P / rho = 0 in closed form,
+// The continuous Riccati equation A P + P A' + G q G' - P H' H P / rho = 0 has a steady state in closed form,
 // for two and three integrators in a row. With measurements every dt of variance rho / dt, the discrete
-// filter's mean of prior and posterior comes to it as dt goes to 0.
+// filter's mean of prior and posterior converges to it as dt goes to 0.
 TEST(Kalman, ReachesTheSteadyStateOfTheRiccatiEquation) {
   constexpr double q = 3.0, rho = 0.02, dt = 1e-3;
   for (const config::MotionModel motion : kStraight) {
@@ -96,9 +96,9 @@ TEST(Kalman, ReachesTheSteadyStateOfTheRiccatiEquation) {
   }
 }
 
-// All states x_0 .. x_n of a run are the least-squares solution of one linear system: the prior of x_0, the
-// transitions weighed with Q^-1 and the measurements with R^-1. The last state and its covariance are what
-// the filter must have.
+// All states x_0 .. x_n of a run are the least-squares solution of one linear system. It contains the prior
+// of x_0, the transitions weighed with Q^-1 and the measurements with R^-1. The filter must give the last
+// state and its covariance.
 TEST(Kalman, EqualsBatchLeastSquares) {
   for (const config::MotionModel motion : kStraight) {
     const int per_axis = motion == config::MotionModel::kConstantVelocity ? 2 : 3, n = 2 * per_axis, steps = 9;
@@ -139,7 +139,7 @@ TEST(Kalman, EqualsBatchLeastSquares) {
 }
 
 TEST(Kalman, CovarianceStaysSymmetricAndPositive) {
-  // Measurements a million times better than the prior, at intervals from nothing to seconds.
+  // Measurements a million times better than the prior, at intervals from zero to seconds.
   RandomStream stream({.seed = 4});
   const auto estimator = make_estimator({});
   Estimate estimate = estimator->initial(position(5.0, 5.0, 100.0));
@@ -210,8 +210,8 @@ class EveryEstimator : public testing::TestWithParam<Choice> {
 };
 INSTANTIATE_TEST_SUITE_P(All, EveryEstimator, every_choice(), name_of_choice);
 
-// Laws 1, 2 and 4 along a drive of a car that stands, drives off, turns, is hidden for two seconds and stops: positions
-// and a radar's measurements in turn.
+// Laws 1, 2 and 4 along a drive. A car stands, drives off, turns, is hidden for two seconds and stops.
+// Positions and a radar's measurements alternate.
 TEST_P(EveryEstimator, KeepsItsLaws) {
   RandomStream stream({.seed = 6});
   linear::Vector<2> at(30.0, -8.0);
@@ -267,7 +267,8 @@ TEST_P(EveryEstimator, NothingIsLearntAtTheOrigin) {
   EXPECT_TRUE(same_bits(estimate, before));
 }
 
-// A minute at a red light: the heading is known no less than not at all, and followed again as soon as there is one.
+// A minute at a red light: the heading stays as uncertain as an unknown one, and is followed again on driving
+// off.
 TEST_P(EveryEstimator, WhatStoodForAMinuteDrivesOff) {
   RandomStream stream({.seed = 8});
   double y = 0.0, speed = 10.0;
@@ -295,7 +296,7 @@ TEST_P(EveryEstimator, WhatStoodForAMinuteDrivesOff) {
   }
 }
 
-// What drives off is polar within the second; what stands is not, ever, and is never known to move.
+// A car that drives off becomes polar within a second. A standing car never does, and is never known to move.
 TEST_P(EveryEstimator, ACourseIsKnownBeforeItIsBelieved) {
   for (const double speed : {0.0, 10.0}) {
     RandomStream stream({.seed = 7});

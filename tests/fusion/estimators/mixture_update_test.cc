@@ -1,5 +1,5 @@
-// The update by several explanations (law 5 of fusion/estimators/estimator.h) for every motion model and filter, and
-// for linear ones against the equations of probabilistic data association.
+// The update by several explanations (law 5 of fusion/estimators/estimator.h) for every motion model and
+// filter. Linear ones are checked against the equations of probabilistic data association.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -23,7 +23,8 @@ class MixtureUpdate : public testing::TestWithParam<Choice> {
 };
 INSTANTIATE_TEST_SUITE_P(All, MixtureUpdate, every_choice(), name_of_choice);
 
-// Along a drive that stands, drives off and turns: positions and a radar's measurements in turn, with an echo beside.
+// A drive that stands, drives off and turns. Positions and a radar's measurements alternate, each with an
+// echo beside.
 TEST_P(MixtureUpdate, KeepsTheLawsAlongADrive) {
   RandomStream stream({.seed = 11});
   linear::Vector<2> at(30.0, -8.0);
@@ -77,7 +78,7 @@ TEST_P(MixtureUpdate, KeepsTheLawsAlongADrive) {
   EXPECT_LT((estimator->cartesian(estimate).x.head<2>() - at).norm(), 1.5);
 }
 
-// Bar-Shalom, Fortmann 1988, 6.4: one gain, the combined innovation, P^c and the spread of the innovations.
+// Bar-Shalom, Fortmann 1988, 6.4: one gain, the combined innovation, P^c, the spread of the innovations.
 TEST(MixtureUpdate, OfALinearFilterIsProbabilisticDataAssociation) {
   RandomStream stream({.seed = 12});
   const auto estimator = make_estimator({});

@@ -1,5 +1,5 @@
-// The tracker under each motion model and filter: what a model gains where it is right, what it claims, and that orders
-// of arrival and memory are the same to all.
+// The tracker under each motion model and filter. A model gains accuracy where it is right and states its
+// errors truly. Orders of arrival and memory are handled the same by all.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -35,8 +35,8 @@ config::TrackerConfig alone(config::MotionModel motion, double process_noise, co
   return config;
 }
 
-// One object that drives as `truth` says, from `start`, seen as a position every 50 ms. Errors of (x, y, vx, vy) at the
-// last instant of each run, judged by what the tracker claims of them, and root mean squares over the second half.
+// One object drives as `truth` says, from `start`; its position is seen every 50 ms. The NEES takes the error
+// of (x, y, vx, vy) at each run's last instant. Root mean squares cover the second half.
 struct Judged {
   double nees = 0.0, position = 0.0, velocity = 0.0;
   int lost = 0;
@@ -85,7 +85,7 @@ Judged on_a_bend_faster_and_faster(config::MotionModel motion, double process_no
   return judge(alone(motion, process_noise, filter), motion::Ctra(kTurn, kAlong), start);
 }
 
-// Its covariance is true, and whatever constant velocity takes the noise for that a bend is to it, it is nearer.
+// The covariance is true, and the error is smaller than constant velocity's, with any noise for a bend.
 template <class Straight> void expect_right(const Judged& right, const Straight& straight_with) {
   EXPECT_EQ(right.lost, 0);
   EXPECT_GT(right.nees, Judged::lower());
@@ -126,7 +126,7 @@ TEST_P(OnABend, CtraIsRightWithAccelerationToo) {
   EXPECT_GT(constant_speed.nees, Judged::upper()) << "it accelerates";
 }
 
-// Straight on for five seconds, then a bend for five: either model alone is worse somewhere.
+// Five seconds straight on, then five of bend: either model alone is worse in one part.
 struct Legs {
   double straight = 0.0, bend = 0.0;  // root mean squares of the velocity's error
 };
@@ -172,7 +172,7 @@ class EveryChoice : public testing::TestWithParam<Choice> {
 };
 INSTANTIATE_TEST_SUITE_P(All, EveryChoice, every_choice(), name_of_choice);
 
-// Two cars, one of which turns, seen by a laser and a radar; three scans share an instant.
+// Two cars, one turning, seen by a laser and a radar; three scans share an instant.
 std::vector<OwnedList> lists_of_two_cars(std::uint32_t count) {
   RandomStream stream({.seed = 33});
   std::vector<OwnedList> lists;

@@ -1,5 +1,5 @@
-// Filters of one object against closed forms and second implementations: the dense linear filter (textbook.h),
-// the information form, the scalar Riccati equation, the state augmented by the biases.
+// Filters of one object against closed forms and second implementations. These are the dense linear filter
+// (textbook.h), the information form, the scalar Riccati equation, and the state augmented by the biases.
 #include <Eigen/LU>
 
 #include "fusion/filters/consider.h"
@@ -67,7 +67,8 @@ TEST(SquareRoot, OfWhatIsCertainInPart) {
   EXPECT_EQ(a.col(2).norm(), 0.0);
 }
 
-// The steady state of a scalar random walk, Q = 0.7 per step, R = 1.3: P = (sqrt(Q^2 + 4 Q R) - Q) / 2 after an update.
+// A scalar random walk, Q = 0.7 per step, R = 1.3. Its steady state after an update is P = (sqrt(Q^2 + 4 Q R)
+// - Q) / 2.
 TEST(JosephUpdate, ReachesTheRiccatiEquationsFixedPoint) {
   const double q = 0.7, r = 1.3;
   linear::Gaussian<1> state{linear::Vector<1>::Zero(), linear::Matrix<1>::Constant(100.0)};
@@ -78,7 +79,7 @@ TEST(JosephUpdate, ReachesTheRiccatiEquationsFixedPoint) {
   }
   EXPECT_NEAR(state.p(0, 0), 0.5 * (std::sqrt(q * q + 4.0 * q * r) - q), 1e-15);
 }
-// A thing that stands still and is known to: the mean of its measurements, R / n.
+// An object known to stand still: its estimate is the mean of its measurements, with R / n.
 TEST(JosephUpdate, OfWhatStandsIsTheMean) {
   motion::ConstantVelocity model(0.0);
   linear::Gaussian<4> state;
@@ -93,7 +94,7 @@ TEST(JosephUpdate, OfWhatStandsIsTheMean) {
   EXPECT_NEAR(state.x(0), sum / 50.0, 1e-9);
   EXPECT_NEAR(state.p(0, 0), 0.25 / 50.0, 1e-9);
 }
-// A millimetre's measurement of what was anywhere within 100 m: the covariance stays positive and symmetric.
+// A millimetre's measurement of a point known to 100 m: the covariance stays positive and symmetric.
 TEST(JosephUpdate, StaysPositiveWhereNumbersAreFarApart) {
   motion::ConstantVelocity model(1e-3);
   linear::Gaussian<4> state;
@@ -125,7 +126,7 @@ linear::LinearMeasurement<M::kStates, S::kDimension> linearised(const S& sensor,
   return out;
 }
 
-// To the bit: what a gate is told is what an update finds.
+// Bit for bit: a gate's innovation is the update's.
 template <int M> void expect_same(const Innovation<M>& a, const Innovation<M>& b) {
   EXPECT_TRUE((motion::same<M, 1>(a.nu, b.nu) && motion::same<M, M>(a.s, b.s)));
   EXPECT_EQ(a.nis, b.nis);
@@ -133,7 +134,7 @@ template <int M> void expect_same(const Innovation<M>& a, const Innovation<M>& b
   EXPECT_EQ(a.used, b.used);
 }
 
-// The filter against the dense one, step by step, on measurements of a vehicle somewhere ahead.
+// The filter against the dense one, step by step, with measurements of a vehicle ahead.
 template <class F, class M, class S> void is_the_dense_filter(const M& model, const S& sensor, double tolerance) {
   constexpr int kN = M::kStates, kM = S::kDimension;
   RandomStream stream({.seed = 11});
@@ -198,14 +199,14 @@ TEST(KalmanFilter, IsTheInformationForm) {
   }
 }
 
-// A heading just below half a turn and just above it are neighbours, for points and for what comes of them.
+// Headings just below and just above half a turn are neighbours, for points and for their mean.
 TEST(UnscentedFilter, HeadingsAverageAsAngles) {
   const motion::Ctrv model(0.01, 0.01);
   linear::Gaussian<5> state;
   state.x << 10.0, 0.0, 3.13, 5.0, 0.1;
   state.p = linear::Vector<5>(0.01, 0.01, 0.04, 0.01, 0.01).asDiagonal();
   linear::Gaussian<5> turned = state;
-  turned.x(2) = 0.13;  // the same, but for a turn of three radians
+  turned.x(2) = 0.13;  // the same, except for a turn of three radians
   Unscented{}.predict(model, state, 0.5);
   Unscented{}.predict(model, turned, 0.5);
   EXPECT_NEAR(motion::to_half_turn(state.x(2) - turned.x(2)), 3.0, 1e-13);
@@ -251,7 +252,7 @@ TEST(Filters, DoNotUseWhatTheyCannotSee) {
   refuses(Extended{}, RangeBearingRate{});  // at the sensor
   refuses(Unscented{}, PositionHeading{});  // standing: no course
 }
-// At 0.5 m/s it has a course; a sigma point, two sigmas off, of the speed 0.09 m/s has not.
+// At 0.5 m/s it has a course. A sigma point two sigmas off, at 0.09 m/s, has none.
 TEST(UnscentedFilter, DoesNotUseWhatOneOfItsPointsCannotSee) {
   linear::Gaussian<4> slow{{10.0, 2.0, 0.5, 0.0},
                            linear::Matrix<4>(linear::Vector<4>(0.01, 0.01, 0.205 * 0.205, 0.01).asDiagonal())};
@@ -263,8 +264,8 @@ TEST(UnscentedFilter, DoesNotUseWhatOneOfItsPointsCannotSee) {
   EXPECT_TRUE(Unscented{}.update(motion::ConstantVelocity{}, PositionHeading{}, z, slow).used);
 }
 
-// One drive with two sensors that are both wrong, against the state augmented by all biases, whose gain has the biases'
-// rows set to zero.
+// One drive with two biased sensors, against the state augmented by all biases. That state's gain has zero
+// rows for the biases.
 TEST(ConsiderFilter, IsTheAugmentedFilterWithoutTheBiasesGain) {
   using M = motion::ConstantVelocity;
   constexpr int kB = 7, kA = 4 + kB;

@@ -1,5 +1,5 @@
-// Interacting multiple models: against one filter, against probabilities by hand, and on a drive that goes straight on
-// and turns.
+// Interacting multiple models: against one filter, against probabilities by hand, and on a drive with a
+// straight and a bend.
 #include "fusion/filters/imm.h"
 #include "fusion/filters/extended.h"
 #include "fusion/sensors/position.h"
@@ -81,7 +81,8 @@ TEST(Imm, SurvivesWhatIsFarAway) {
   EXPECT_NEAR(modes.probability.sum(), 1.0, 1e-15);
   EXPECT_NEAR(modes.probability(1), 1.0, 1e-15);
 }
-// The first leaves mode 0 without any probability, the second, of the same instant, speaks for it and against mode 1.
+// The first list leaves mode 0 with zero probability. The second, of the same instant, supports mode 0 and
+// contradicts mode 1.
 TEST(Imm, SurvivesWhatContradictsItself) {
   Two modes = two_at(0.0, 3.0);
   kTwo.update(Position{}, {{1e6, 0.0}, kSeen.r}, modes);
@@ -95,8 +96,8 @@ TEST(Imm, SurvivesWhatContradictsItself) {
   EXPECT_NEAR(modes.probability(0), 0.5 * (1.0 - std::exp(-0.1)), 1e-15) << "time leads back to it";
   EXPECT_TRUE(std::get<0>(modes.estimates).x.allFinite() && std::get<0>(modes.estimates).p.allFinite());
 }
-// One mode expects the bearing 0.01 rad, the other -0.01 rad. Of what is measured half a turn off, one is nearly half a
-// turn to the left, the other to the right: neighbours, as they are where one radian is measured.
+// One mode expects the bearing 0.01 rad, the other -0.01 rad. A measurement half a turn off is nearly half a
+// turn to the left of one and to the right of the other. They are neighbours, as they are at one radian.
 TEST(Imm, BearingsAverageAsAngles) {
   const auto measured = [](double bearing) {
     const Imm<Extended, ConstantVelocity, ConstantVelocity> imm({}, ConstantVelocity(0.1), ConstantVelocity(10.0));
@@ -134,8 +135,8 @@ TEST(ModeChain, OneStepIsTwoSteps) {
             1e-15);
 }
 
-// Ten seconds straight on, ten along a bend of 0.4 rad/s, seen every 0.1 s: the mode follows, and the mixture is nearer
-// to the truth than the model that does not know of bends.
+// Ten seconds straight on, ten along a bend of 0.4 rad/s, seen every 0.1 s. The mode follows. The mixture is
+// nearer to the truth than the model without bends.
 TEST(Imm, FollowsTheManoeuvre) {
   using All = Modes<ConstantVelocity, Ctrv>;
   const ConstantVelocity straight(0.01);

@@ -1,5 +1,5 @@
-// Filters of one object on a recording that nobody here made: a vehicle seen by a laser (position, sigma 0.15 m) and a
-// radar (range 0.3 m, bearing 0.03 rad, range rate 0.3 m/s) in turn every 50 ms, with ground truth.
+// Filters of one object on a third party's recording, with ground truth. A laser (position, sigma 0.15 m) and
+// a radar (range 0.3 m, bearing 0.03 rad, range rate 0.3 m/s) see a vehicle in turn, every 50 ms.
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -113,8 +113,8 @@ class LaserRadar : public testing::Test {
   std::vector<Seen> drive;
 };
 
-// The process noise is that of the decades of its two densities under which the innovations are likeliest: a choice
-// that knows no truth. Then the innovations are as large as they are said to be (means of 249 and 250, 95 % bands).
+// The process noise is chosen without the truth: of the decades of its two densities, those of the likeliest
+// innovations. The innovations then have their stated size (means of 249 and 250, 95 % bands).
 template <class F> void expect_consistent(const F& filter, const Result& chosen, const std::vector<Seen>& drive) {
   for (const double turn : {0.1, 1.0, 10.0})
     for (const double along : {0.1, 1.0, 10.0})

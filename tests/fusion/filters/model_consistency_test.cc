@@ -1,8 +1,8 @@
-// The covariance tells the truth: NEES and NIS of 1,000 seeded drives lie in their bands where models are right, and
-// outside where they are wrong (Bar-Shalom, Li, Kirubarajan 2001, 5.4). Each drive is judged once, at its last step, so
-// that the sum over drives is chi-square distributed. A band leaves 1e-4 on either side. Two seeds are taken, 1 and 2,
-// and for each of them eight of the statistics below and four variances must lie in their bands: were all models right
-// and other seeds taken, one in two hundred pairs of seeds would show one of them outside.
+// The covariance matches the errors. NEES and NIS of 1,000 seeded drives lie in their bands where models are
+// right, and outside where they are wrong (Bar-Shalom, Li, Kirubarajan 2001, 5.4). Each drive is judged once,
+// at its last step, so that the sum over drives is chi-square distributed. A band leaves 1e-4 on either side.
+// For each of the seeds 1 and 2, eight of the statistics below and four variances must lie in their bands.
+// Were all models right, one in two hundred other pairs of seeds would show one outside.
 #include "fusion/filters/consider.h"
 #include "fusion/filters/unscented.h"
 #include "fusion/metrics/chi_square.h"
@@ -52,8 +52,8 @@ struct Consistency {
 class ModelConsistency : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Seed, ModelConsistency, testing::ValuesIn(kSeeds));
 
-// The world drives by `truth`, the filter believes in `model`; measurements have `factor` times the noise that it is
-// told of.
+// The world drives by `truth`, the filter assumes `model`. Measurements have `factor` times the noise that
+// the filter assumes.
 template <class F, class M, class S>
 Consistency simulate(std::uint64_t seed, const F& filter, const M& truth, const M& model, const S& sensor,
                      const sensors::Measurement<S::kDimension>& noise, const linear::Gaussian<M::kStates>& start,
@@ -96,8 +96,8 @@ const auto kalman = [](std::uint64_t seed, double true_q, double assumed_q, doub
 };
 TEST_P(ModelConsistency, Kalman) { kalman(GetParam(), 3.0, 3.0, 1.0).expect_inside(); }
 TEST_P(ModelConsistency, TooLittleProcessNoiseShows) { kalman(GetParam(), 3.0, 0.3, 1.0).expect_too_sure(); }
-// Ten times too much shows in the state's error; in a single innovation, which is mostly measurement noise at these
-// short steps, a hundred times does.
+// Ten times too much shows in the state's error. A single innovation is mostly measurement noise at these
+// short steps, so only a hundred times shows there.
 TEST_P(ModelConsistency, TooMuchProcessNoiseShows) {
   EXPECT_LT(kalman(GetParam(), 0.3, 3.0, 1.0).nees, Consistency::lower(4));
   kalman(GetParam(), 3.0, 300.0, 1.0).expect_too_modest();
@@ -128,7 +128,7 @@ TEST_P(ModelConsistency, UnscentedAlongBends) {
   turning(GetParam(), Unscented{}, 0.05).expect_too_sure();
 }
 
-// A laser 0.2 m beside its place whose stamps are 20 ms late, sigma; drawn anew for every drive, constant during it.
+// A laser 0.2 m off its place, with stamps 20 ms late (sigmas): drawn for each drive, constant during it.
 struct WithBias {
   Consistency considered, ignored;
   linear::Matrix<4> mse = linear::Matrix<4>::Zero(), p = linear::Matrix<4>::Zero();

@@ -74,7 +74,8 @@ TEST(ClearMotPublished, Ids) {
   EXPECT_NEAR(mot.counts().motp_m(), 1.6 / 10.0, 1e-15);
 }
 
-// The same file: test_correct_average, after figure 3 of the paper: sums over all instants, not a mean of ratios.
+// The same file: test_correct_average, after figure 3 of the paper. It sums over all instants and takes no
+// mean of ratios.
 TEST(ClearMotPublished, CorrectAverage) {
   ClearMot mot = judge();
   for (int i = 0; i < 4; ++i) mot.step(Names{1, 2, 3, 4}, Names{}, Distances{});
@@ -126,7 +127,7 @@ TEST(ClearMot, KeepsTheMatchWhereAnotherTrackIsCloser) {
   expect_counts(mot.counts(), {6, 0, 0, 0});
 }
 
-// The same beyond the gate: two switches at one instant, and none as long as it stays so.
+// The same beyond the gate: two switches at one instant, then no more while it stays so.
 TEST(ClearMot, SwitchesBeyondTheGateOnce) {
   ClearMot mot = judge(3.0);
   const std::vector<Named> objects{{1, {-2, 0}}, {2, {2, 0}}};
@@ -146,7 +147,7 @@ TEST(ClearMot, TheGateItselfBelongs) {
   expect_counts(mot.counts(), {1, 1, 1, 0});
 }
 
-// After misses: the same track again is no switch, another one is; the instants between do not matter.
+// After misses: the same track again is no switch, another one is. The instants between do not matter.
 TEST(ClearMot, RemembersAcrossMisses) {
   for (const Identity later : {5u, 6u}) {
     ClearMot mot = judge();
@@ -158,8 +159,8 @@ TEST(ClearMot, RemembersAcrossMisses) {
   }
 }
 
-// The first loses its track, which later follows the second: when all are near, it stays with the second, whichever is
-// closer and has the smaller name.
+// The first object loses its track, which later follows the second. When all are near, the track stays with
+// the second. Neither distance nor the smaller name matters.
 TEST(ClearMot, ATrackThatSeveralHadStaysWithTheLast) {
   for (const bool swapped : {false, true}) {
     ClearMot mot = judge();
@@ -186,8 +187,8 @@ TEST(ClearMot, TiesGoToTheSmallerNames) {
   EXPECT_EQ(pairs_of(two.step(Names{4, 3}, Names{8, 9}, Distances{1, 1, 1, 1})), (Pairs{{3, 8}, {4, 9}}));
 }
 
-// The rules written down plainly: maps, recursion over all ways to pair, nothing shared with the code under test but
-// types.
+// The rules in a plain second implementation: maps and recursion over all ways to pair. It shares only types
+// with the code under test.
 class PlainClearMot {
  public:
   explicit PlainClearMot(double gate_m) : gate_(gate_m) {}

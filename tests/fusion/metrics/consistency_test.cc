@@ -1,5 +1,4 @@
-// NEES and NIS by hand, their bands against printed tables, and a filter that is judged right when it is, wrong when
-// not.
+// NEES and NIS by hand, their bands against printed tables, and their verdicts on a right and a wrong filter.
 #include "fusion/metrics/consistency.h"
 
 #include <gtest/gtest.h>

@@ -17,7 +17,7 @@ namespace {
 constexpr double kApart = std::numeric_limits<double>::infinity();
 using Costs = std::vector<std::vector<double>>;  // kApart where a pair is not offered
 
-// Largest sum of gains over every way to leave a row alone or give it a free column.
+// The largest sum of gains over all ways to leave a row alone or give it a free column.
 double best_of_all(const Costs& costs, double bonus, std::size_t row = 0, unsigned taken = 0) {
   if (row == costs.size()) return 0.0;
   double best = best_of_all(costs, bonus, row + 1, taken);
@@ -61,9 +61,9 @@ double gain_of(const Costs& costs, const std::vector<int>& column_of, double bon
   return sum;
 }
 
-// P1, and P3, of drawn problems: dense squares, sparse and oblong ones, with and without ties.
+// P1 and P3 of drawn problems: dense squares, sparse and oblong ones, with and without ties.
 TEST(Pairing, IsAsGoodAsTryingAllWays) {
-  Pairing pairing(6, 6);  // one for all: nothing may be left over from the problem before
+  Pairing pairing(6, 6);  // one for all: no state may survive a problem
   for (std::uint32_t index = 0; index < 1500; ++index) {
     RandomStream stream({.seed = 21, .purpose = Purpose::kTest, .index = index});
     const auto rows = static_cast<std::size_t>(stream.integer(0, 6));

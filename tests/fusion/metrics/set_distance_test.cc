@@ -1,4 +1,4 @@
-// GOSPA and OSPA: their definitions over all permutations, the axioms of a metric, and published values.
+// GOSPA and OSPA against their definitions over all permutations, a metric's axioms, and published values.
 #include "fusion/metrics/set_distance.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ CutOff drawn_cut_off(RandomStream& stream) {
   return {stream.uniform(0.5, 12.0), kOrders[stream.integer(0, 2)]};
 }
 
-// Least sum over all permutations of the larger set: definition 1 of the GOSPA paper, and the OSPA paper's.
+// The least sum over all permutations of the larger set (GOSPA paper, definition 1; OSPA paper).
 double least_sum(Points fewer, Points more, const CutOff& cut_off) {
   if (fewer.size() > more.size()) std::swap(fewer, more);
   std::vector<std::size_t> order(more.size());
@@ -152,8 +152,8 @@ TEST(SetMetric, EmptySets) {
   EXPECT_DOUBLE_EQ(false_ones.ospa.distance_m, 4.0);
 }
 
-// At the cut-off a pair costs as much as a miss and a false estimate: the distance is continuous there, its parts
-// change.
+// At the cut-off a pair costs as much as a miss and a false estimate. The distance is continuous there, while
+// its parts change.
 TEST(SetMetric, AtTheCutOff) {
   const CutOff cut_off{2.0, 2.0};
   const double inside = std::nextafter(2.0, 0.0);
@@ -201,8 +201,8 @@ TEST(PublishedValues, StoneSoupOspa) {
     EXPECT_NEAR(compare(truths, row.estimates, {10.0, row.order}).ospa.distance_m, row.value, 5e-6) << row.order;
 }
 
-// The same file: test_gospametric_computemetric (c = 10, p = 1), and the second instant of
-// test_switching_gospametric_computemetric (c = 2, p = 2) without its switching term.
+// The same file: test_gospametric_computemetric (c = 10, p = 1). Also the second instant of
+// test_switching_gospametric_computemetric (c = 2, p = 2), without its switching term.
 TEST(PublishedValues, StoneSoupGospa) {
   const Points truths = on_axis({0, 1, 2, 3, 4});
   EXPECT_DOUBLE_EQ(compare(truths, on_axis({0.5, 1.5, 2.5, 3.5, 4.5}), {10.0, 1.0}).gospa.distance_m / 5.0, 0.5);
@@ -214,9 +214,9 @@ TEST(PublishedValues, StoneSoupGospa) {
   EXPECT_DOUBLE_EQ(d.gospa.distance_m, 2.0);
 }
 
-// The GOSPA paper's example of two objects and their estimates, c = 8, as ewilthil/gospapy has it
-// (examples/replicate_table_fusion2017.py; the false estimates read off the paper's figure): here the means, without
-// the paper's noise, so the values are by hand.
+// The GOSPA paper's example of two objects and their estimates, c = 8, from ewilthil/gospapy
+// (examples/replicate_table_fusion2017.py). The false estimates are read off the paper's figure. Means
+// replace the paper's noise, so the values are by hand.
 TEST(PublishedValues, ExampleOfTheGospaPaperWithoutNoise) {
   const Points truths{{-6, -6}, {0, 3}}, good{{-6.7, -5.1}, {-1.8, 2.9}};
   const Points false_ones{{22, 18}, {-10, 18},  {35, 42}, {38, 0},  {50, 35},

@@ -18,7 +18,7 @@ using Objects = std::vector<Identity>;
 
 TrueTime instant(int i) { return TrueTime{} + Duration::milliseconds(100 * i); }
 
-// One object's life, an instant a letter: a track's letter, '.' missed, ' ' not listed.
+// One object's life, one letter an instant: a track's letter, '.' missed, ' ' not listed.
 ObjectLife life_of(std::string_view letters) {
   ClearMot mot({.objects = 1, .tracks = 1, .objects_ever = 1}, 1.0);
   TrackLives lives(1);
@@ -33,7 +33,7 @@ ObjectLife life_of(std::string_view letters) {
   return lives.lives().front();
 }
 
-// py-motmetrics, README.md: two objects, of which one is mostly and one partly tracked, one switch, one fragmentation.
+// py-motmetrics, README.md: two objects, one mostly and one partly tracked, one switch, one fragmentation.
 TEST(TrackLivesPublished, Readme) {
   constexpr double kBeyond = std::numeric_limits<double>::quiet_NaN();
   ClearMot mot({.objects = 2, .tracks = 3, .objects_ever = 2}, 10.0);

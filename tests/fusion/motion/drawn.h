@@ -1,4 +1,4 @@
-// What the tests of models and filters share: drawn states, derivatives by central differences.
+// Shared by the tests of models and filters: drawn states, derivatives by central differences.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ namespace ttf::fusion::motion {
 
 using AllMotions = testing::Types<motion::ConstantVelocity, motion::ConstantAcceleration, motion::Ctrv, motion::Ctra>;
 
-// A vehicle somewhere within 100 m: up to 20 m/s, 1 rad/s, 3 m/s^2; every third draw turns at a rate where formulas
-// change hands or cancel.
+// Draws a vehicle within 100 m: up to 20 m/s, 1 rad/s, 3 m/s^2. Every third draw has a turn rate where
+// formulas switch or cancel.
 template <class M> linear::Vector<M::kStates> drawn_state(RandomStream& stream, int draw) {
   linear::Vector<M::kStates> x;
   x(0) = stream.uniform(-100.0, 100.0);
@@ -55,7 +55,8 @@ linear::Vector<N> drawn(const linear::Vector<N>& mean, const linear::Matrix<N>& 
   return mean + times<N, N, 1>(filters::square_root<N>(covariance), white);
 }
 
-// d f / d x by central differences with the step 1e-5 max(1, |x_i|): errors of about 1e-10 |f'''| + 1e-11 |f|.
+// d f / d x by central differences with the step 1e-5 max(1, |x_i|). Errors are about 1e-10 |f'''| + 1e-11
+// |f|.
 template <int Rows, int N, class Function, class Difference>
 linear::Matrix<Rows, N> numerical_jacobian(const Function& f, const linear::Vector<N>& x,
                                            const Difference& difference) {

@@ -1,5 +1,5 @@
-// The laws of motion models (fusion/motion/motion_model.h), over every model and drawn states, turn rates near zero
-// included; conversions between layouts, ego motion.
+// The laws of motion models (fusion/motion/motion_model.h), for every model and drawn states. Turn rates
+// include those near zero. Also conversions between layouts, and ego motion.
 #include "fusion/motion/conversion.h"
 #include "fusion/motion/ego_motion.h"
 #include "tests/fusion/motion/drawn.h"
@@ -41,7 +41,7 @@ TYPED_TEST(MotionLaws, JacobianIsTheDerivative) {
   }
 }
 
-// Which components white noise drives: the last of each axis, or turn rate and the last but it.
+// The components driven by white noise: the last of each axis, or turn rate and the last but one.
 template <class M> std::array<int, 2> driven() {
   if constexpr (M::kCartesian)
     return {M::kStates - 2, M::kStates - 1};
@@ -49,7 +49,7 @@ template <class M> std::array<int, 2> driven() {
     return {4, M::kStates == 6 ? 5 : 3};
 }
 
-// The noise of 400 steps, each let in as a whole at the middle of its step: errors of (dt / 400)^2.
+// The noise of 400 steps, each added at the middle of its step: errors of (dt / 400)^2.
 TYPED_TEST(MotionLaws, NoiseIsTheSumOfManySmallSteps) {
   using M = TypeParam;
   constexpr int kN = M::kStates, kSteps = 400;
@@ -104,7 +104,7 @@ TEST(IntegratorChain, AdvanceIsTheProduct) {
   advance_is_the_product(motion::ConstantAcceleration(0.7));
 }
 
-// Against quadrature by 2000 midpoints (error u^2 / 1e8), and from one side of the switch to the other.
+// Against quadrature with 2000 midpoints (error u^2 / 1e8), and across the switch of formulas.
 TEST(TurnMoments, AreTheIntegrals) {
   for (const double u : {0.0, 1e-9, 0.01, -0.5, 0.999, 1.001, -2.0, 6.0}) {
     const motion::TurnMoments m = motion::turn_moments(u);
@@ -132,7 +132,7 @@ TEST(TurnMoments, AreContinuousWhereTheSeriesEnds) {
   }
 }
 
-// With no turn at all a polar model drives as the Cartesian one does.
+// Without a turn a polar model drives like the Cartesian one.
 TEST(CoordinatedTurn, StraightOnIsConstantAcceleration) {
   linear::Vector<6> x;
   x << 3.0, -2.0, 0.4, 7.0, 0.0, 1.5;
@@ -152,7 +152,7 @@ TEST(CoordinatedTurn, DrivesAroundACircle) {
   EXPECT_NEAR(moved(2), 0.5 * std::numbers::pi, 1e-15);
 }
 
-// What a conversion makes of the uncertainty of one component is the derivative of what it makes of the mean.
+// The converted uncertainty of one component is the derivative of the converted mean.
 template <class From, class To> void conversion_is_first_order() {
   constexpr int kFrom = From::kStates, kTo = To::kStates;
   RandomStream stream({.seed = 3});
@@ -217,7 +217,7 @@ TEST(Conversion, WhatStandsKeepsItsHeading) {
 template <class M> class EgoMotion : public MotionLaws<M> {};
 TYPED_TEST_SUITE(EgoMotion, AllMotions);
 
-// Vehicle to the new place and back: nothing has changed.
+// To the new place and back: everything is unchanged.
 TYPED_TEST(EgoMotion, ThereAndBackIsTheSame) {
   using M = TypeParam;
   for (int i = 0; i < 50; ++i) {
@@ -239,7 +239,7 @@ TYPED_TEST(EgoMotion, ThereAndBackIsTheSame) {
     EXPECT_LT((apart<M::kStates, M::kStates>(moved.p, state.p)), 1e-13);
   }
 }
-// What odometry is wrong by enters as the derivative by the pose.
+// Odometry's errors enter through the derivative by the pose.
 TYPED_TEST(EgoMotion, OdometryIsNotCertain) {
   using M = TypeParam;
   constexpr int kN = M::kStates;

@@ -1,5 +1,5 @@
-// All the methods, chosen at run time, for an axis and for a plane: compiled once, in any_methods.cc, and called,
-// not inlined, because the compiler needs its time.
+// All methods, chosen at run time, for an axis and for a plane. They take long to compile, so any_methods.cc
+// does it once, without inlining.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a clone is told beforehand, and what becomes of those that were not announced.
+// A clone's announcements, and measurements that were not announced.
 #include "fusion/oosm/clone.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST_F(Announced, ATimeThatIsKeptNeedsNoClone) {
 
 TEST_F(Announced, ACloneServesOnce) {
   EXPECT_TRUE(method_.announce(between(0)));
-  EXPECT_TRUE(method_.announce(between(0)));  // once more is once
+  EXPECT_TRUE(method_.announce(between(0)));  // again: still one
   method_.take(list_of(1), position(1));
   EXPECT_EQ(method_.take(between(0), position(1)), Taken::kLate);
   EXPECT_EQ(method_.take(between(0), position(1)), Taken::kUnannounced);

@@ -1,7 +1,7 @@
-// Normalised estimation error squared over 1,000 seeded runs: within its band where covariances are true, and outside
-// where they are not. A band leaves 1e-4 on either side. Two seeds are taken, 1 and 2, and for each of them seventeen
-// statistics must lie in their bands, not counting those that are the same to rounding (of exact methods): were other
-// seeds taken, fewer than one in a hundred pairs would show one of them outside.
+// Normalised estimation error squared over 1,000 seeded runs: inside its band where covariances are true,
+// outside where they are not. A band leaves 1e-4 on either side. For each of the seeds 1 and 2, seventeen
+// statistics must lie in their bands. Those equal up to rounding (of exact methods) are not counted. Fewer
+// than one in a hundred other pairs of seeds would show one outside.
 //
 //   0 . 1 . 2 . . . 11 . 12     positions once a second; at last, one from the middle of the interval `lag` back
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ template <int M> struct Setting {
 };
 const Setting<1> kPosition{Line{}, 1, linear::Matrix<1, 2>(1.0, 0.0), linear::Vector<1>(0.5)};
 
-// One run's measurements in the order of arrival; `truth` is the state at the last list.
+// One run's measurements in order of arrival; `truth` is the state at the last list.
 template <int M>
 Timeline<2, M> run_of(std::uint64_t seed, const Setting<M>& setting, std::uint32_t replication,
                       linear::Vector<2>& truth) {
@@ -75,7 +75,7 @@ double nees_of(std::uint64_t seed, Kind kind, const Setting<1>& setting) {
   });
 }
 
-// Of the average of chi-squares of two degrees of freedom.
+// The average of chi-squares of two degrees of freedom.
 void expect_inside(double nees) {
   EXPECT_GT(nees, metrics::chi_square_quantile(1e-4, 2.0 * kRuns) / kRuns);
   EXPECT_LT(nees, metrics::chi_square_quantile(1.0 - 1e-4, 2.0 * kRuns) / kRuns);
@@ -111,8 +111,8 @@ TEST_P(Consistency, OfAAndBAtOneLag) {
     }
 }
 
-// Position and velocity measured, as in table IV of Bar-Shalom 2002: the more noise, the more C believes what it
-// should not.
+// Position and velocity measured, as in table IV of Bar-Shalom 2002. With more noise, C is more
+// overconfident.
 TEST_P(Consistency, CIsOutsideAtHighNoise) {
   Setting<2> setting{Line{4.0}, 1, linear::Matrix<2>::Identity(), linear::Vector<2>(1.0, 0.1)};
   double sum_a = 0.0, sum_c = 0.0;
@@ -131,7 +131,7 @@ TEST_P(Consistency, CIsOutsideAtHighNoise) {
   EXPECT_GT(sum_c / kRuns, kFarOutside);
 }
 
-// Bl1's mean with Al1's covariance, five lags back: neither's, and wrong.
+// Bl1's mean with Al1's covariance, five lags back: an inconsistent pair.
 TEST_P(Consistency, TheMixOfAl1AndBl1IsOutside) {
   const Setting<1> setting = positions_with(4.0, 5);
   const double mixed = average_nees(GetParam(), setting, [&](const Timeline<2, 1>& arrivals) {

@@ -1,5 +1,5 @@
-// Laws L8 and L9: what is exact equals the textbook's filter, in order, to a relative 1e-12, and what it sees of an
-// earlier instant the textbook's smoother.
+// Laws L8 and L9. An exact method equals the textbook's filter in order, to a relative 1e-12. Its sight of an
+// earlier instant equals the textbook's smoother.
 #include <gtest/gtest.h>
 
 #include <tuple>
@@ -35,7 +35,7 @@ template <int N, int M> int late_ones(const Timeline<N, M>& arrivals) {
   return late;
 }
 
-// 60 measurements, each as many as 20 late: several are late at a time, and not in order among themselves.
+// 60 measurements, each up to 20 late: several are late at a time, and out of order among themselves.
 template <class X, class Model> void expect_exact_in_any_order(Kind kind) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream stream({.seed = seed});
@@ -83,7 +83,8 @@ INSTANTIATE_TEST_SUITE_P(Method, ExactAtOneLag, testing::Values(Kind::kA, Kind::
 TEST_P(ExactAtOneLag, EveryOtherLateOnALine) { expect_exact_with_every_other_late<OnLine, Line>(GetParam()); }
 TEST_P(ExactAtOneLag, EveryOtherLateOnAPlane) { expect_exact_with_every_other_late<OnPlane, Plane>(GetParam()); }
 
-// x(tau) given all of `events` (Rauch, Tung, Striebel 1965), which are in order; tau is of no instant of theirs.
+// x(tau) given all of `events` (Rauch, Tung, Striebel 1965). They are in order; tau is the instant of no
+// event.
 template <int N, int M, Motion<N> Model>
 linear::Gaussian<N> smoothed(const Model& motion, const linear::Gaussian<N>& prior, const Timeline<N, M>& events,
                              GlobalTime tau) {
@@ -148,7 +149,7 @@ TEST_P(SeesWhatASmootherSees, OfALateInstant) {
   }
 }
 
-// Without process noise there is nothing to ignore.
+// Without process noise, an approximation that ignores it is exact.
 class ExactWithoutNoise : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(Method, ExactWithoutNoise, testing::Values(Kind::kB, Kind::kC, Kind::kBl1, Kind::kAugmented),
                          kind_of);

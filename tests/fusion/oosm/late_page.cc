@@ -1,8 +1,8 @@
-// The tables and pictures of docs/late_measurements.md: what a late measurement costs at each lag, from the kept counts
-// of instructions (tests/bench/instruction_counts), and what the estimate is worse by than the best there is, computed
-// without chance (true_error.h).
-//   late_page PROJECT_DIR            makes them anew
-//   late_page PROJECT_DIR --check    exit code 1 where they are not those that are there
+// Makes the tables and pictures of docs/late_measurements.md. The cost of a late measurement at each lag
+// comes from the kept counts of instructions (tests/bench/instruction_counts). The loss against the best
+// estimate is computed without chance (true_error.h).
+//   late_page PROJECT_DIR            makes them
+//   late_page PROJECT_DIR --check    exits with 1 when they differ from the kept ones
 #include <fmt/format.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ std::string colour_of(Kind kind) {
 
 bool one_lag_only(Kind kind) { return kind == Kind::kA || kind == Kind::kB || kind == Kind::kC; }
 
-// ---- what it costs
+// ---- the cost
 
 // Instructions by method and lag.
 using Costs = std::map<std::pair<std::string, int>, long>;
@@ -70,7 +70,7 @@ std::string cost_table(const Costs& costs) {
   return table;
 }
 
-// ---- what it is worse by
+// ---- the loss
 
 // The standard deviation of the position's error [m].
 double sigma(Kind kind, double noise, const Timeline<2, 1>& arrivals) {
@@ -79,7 +79,7 @@ double sigma(Kind kind, double noise, const Timeline<2, 1>& arrivals) {
       true_error(OnLine(kind, motion), motion, linear::Matrix<2>(linear::Matrix<2>::Identity()), arrivals)(0, 0));
 }
 
-// In percent of the best there is: rewinding. Nothing: the late measurement is left out.
+// In percent of the best, which is rewinding. Without a kind, the late measurement is left out.
 double worse_by(std::optional<Kind> kind, double noise, int lag) {
   auto arrivals = positions(lag);
   const double best = sigma(Kind::kRewind, noise, arrivals);
@@ -191,7 +191,7 @@ std::string read(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// What stands between "<!-- name -->" and "<!-- end -->" becomes `table`.
+// Replaces the text between "<!-- name -->" and "<!-- end -->" by `table`.
 std::string with(const std::string& page, const std::string& name, const std::string& table) {
   const std::string begin = "<!-- " + name + " -->\n";
   const std::size_t from = page.find(begin);

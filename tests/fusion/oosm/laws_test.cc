@@ -98,9 +98,9 @@ TEST_P(OosmLaws, L4Gains) {
   EXPECT_GT(late, 60);
 }
 
-// Each with a hundred millionth of the variance there was before: what is left is the small difference of large
-// numbers. The late one is of the interval before, or (every other seed) of the same instant and of the same thing, and
-// leaves nothing but rounding.
+// Each measurement has a hundred millionth of the prior variance, so the result is a small difference of
+// large numbers. The late one is from the interval before. For every other seed it has the same instant and
+// measures the same component: only rounding remains.
 TEST_P(OosmLaws, L4GainsOfPreciseMeasurements) {
   constexpr double kPrecise = 1e-8, kRounding = 1e-13;
   double least = 1.0, gain = 1.0;
@@ -170,7 +170,7 @@ TEST_P(OosmLaws, L7Start) {
   EXPECT_TRUE(same_bits<2>(used.state(), fresh.state()));
 }
 
-// Of what comes next, of one of every six that is half-way to what was taken before, and of what was taken.
+// Sight of the next instant, of one in six that lies between earlier ones, and of the instants taken.
 TEST_P(OosmLaws, L9Sight) {
   OnLine method = started();
   Stamp newest = Stamp::start(GlobalTime{});

@@ -1,15 +1,15 @@
-// Tables I, II and IV of Bar-Shalom: "Update with Out-of-Sequence Measurements in Tracking: Exact Solution", IEEE
-// TAES 38(3), 2002, to every digit printed there. Times in seconds, the late measurement in the middle of the last
-// interval.
+// Tables I, II and IV of Bar-Shalom: "Update with Out-of-Sequence Measurements in Tracking: Exact Solution",
+// IEEE TAES 38(3), 2002, to every printed digit. Times in seconds; the late measurement is in the middle of
+// the last interval.
 //
 //   t(k-1) = 0        tau = 0.5        t(k) = 1       P(k-1|k-1) is the start, z(k) comes first, z(tau) after it
 //
-// Given there for tables I and II: Q = 1 (or 0.05) per interval and R = 1; P(k-1|k-1) = 1 for all of both. What the
-// paper says of table IV's R and P(1|1) could not be read: R = diag(1, 0.1) and P(1|1) = R were chosen so that the
-// printed digits come out. So the test of table IV is no check of the paper's setting, nor as strong as those of tables
-// I and II. What it still shows: one plain choice for both rows gives six numbers to the last digit printed, of A's
-// calculated variance, of C's, and of C's true error, at two noises; so these three fit together for a state of two
-// components. Table III could not be read and is not checked.
+// Given there for tables I and II: Q = 1 (or 0.05) per interval, R = 1, P(k-1|k-1) = 1. The paper's R and
+// P(1|1) of table IV could not be read. R = diag(1, 0.1) and P(1|1) = R were chosen so that the printed
+// digits come out. So the test of table IV does not check the paper's setting, and is weaker than those of
+// tables I and II. It still shows that one plain choice for both rows gives six numbers to the last printed
+// digit. These are A's calculated variance, C's, and C's true error, at two noises: the three fit together
+// for a state of two components. Table III could not be read and is not checked.
 #include <gtest/gtest.h>
 
 #include "fusion/oosm/algorithm_a.h"
@@ -35,7 +35,7 @@ linear::Matrix<N> calculated(const Model& motion, const linear::Matrix<N>& prior
   return method.state().p;
 }
 
-// Of the scalar random walk.
+// For the scalar random walk.
 template <class Memory> Retrodicted<1> retrodicted(double q) {
   linear::Gaussian<1> state{linear::Vector<1>(0.0), linear::Matrix<1>(1.0 + q)};
   const linear::Matrix<1> predicted = state.p;

@@ -1,4 +1,4 @@
-// Rewinding gives the very bits of processing in order, whatever the order of arrival.
+// Rewinding gives the bits of processing in order, for any order of arrival.
 #include "fusion/oosm/rewind.h"
 
 #include <gtest/gtest.h>

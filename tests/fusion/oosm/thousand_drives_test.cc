@@ -1,10 +1,11 @@
-// Every strategy, motion model, filter and method for late lists tells the truth about its errors: over 1,000 drives
-// each, drawn from the very model that the tracker assumes, with lists of two sensors that come late and out of order,
-// NEES and NIS are in their bands; with a thirtieth of the noise assumed they are not (Bar-Shalom, Li, Kirubarajan
-// 2001, section 5.4). The methods for late lists that only approximate are so near that a thousand drives do not tell.
+// Every strategy, motion model, filter and late method states its errors truly. Over 1,000 drives each, NEES
+// and NIS lie in their bands. Drives are drawn from the model that the tracker assumes, with late and
+// unordered lists of two sensors. With a thirtieth of the noise assumed, they lie outside (Bar-Shalom, Li,
+// Kirubarajan 2001, section 5.4). A thousand drives cannot distinguish the approximate methods from exact
+// ones.
 //
-// Each drive is judged once, at its end, so that the sums are chi-square distributed. All figures of one kind are to be
-// in their bands together with a probability of 95 %: a single band is as wide as that takes.
+// Each drive is judged once, at its end, so that the sums are chi-square distributed. All figures of one kind
+// lie in their bands together with a probability of 95 %. Single bands are widened accordingly.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -50,7 +51,7 @@ config::TrackerConfig config_for(const Case& c, double noise_times) {
   return config;
 }
 
-// Every 100 ms each of two sensors, in turn; on a schedule where somebody has to know it.
+// Each of two sensors every 100 ms, in turn; on a schedule where strategy or method needs one.
 std::vector<strategies::SensorTiming> sensors(const Case& c) {
   const bool known = c.strategy == strategies::StrategyKind::kTt || c.late == oosm::Kind::kClone;
   std::vector<strategies::SensorTiming> both;
@@ -78,7 +79,7 @@ void judge_one(const Case& c, const M& truth, linear::Vector<M::kStates> x, doub
     if (k > 0) x = motion::drawn<M::kStates>(truth.move(x, 1e-3 * kEvery), truth.noise(x, 1e-3 * kEvery), stream);
     last = M::template kinematics<motion::kWithVelocity>(x);
     const std::int64_t at = kEvery * k;
-    // The first few are in time, so that all methods have a track to begin with.
+    // The first lists are in time, so that all methods start with a track.
     const std::int64_t delay = k < 4 ? 0 : stream.integer(0, kLatest - 10);
     arrivals.push_back({at + delay, list_of(static_cast<std::uint8_t>(k % 2), k / 2, at_ms(at), {seen()})});
   }

@@ -12,8 +12,8 @@
 
 namespace ttf::fusion::oosm {
 
-// White noise of density q in continuous time: on the position of the first, on every axis' acceleration of the
-// second.
+// White noise of density q in continuous time: on the first's position, on the acceleration of each axis of
+// the second.
 struct RandomWalk {
   double q = 1.0;
   linear::LinearStep<1> step(double dt) const { return {linear::Matrix<1>(1.0), linear::Matrix<1>(q * dt)}; }
@@ -53,8 +53,8 @@ template <int N> linear::Gaussian<N> drawn_prior(RandomStream& stream) {
   return {drawn<N, 1>(stream), linear::Matrix<N>(root * root.transpose() + linear::Matrix<N>::Identity())};
 }
 
-// `count` measurements in order, of two sensors, 1 ns to 200 ms apart or (one in eight) at the same instant, all of
-// H and R drawn.
+// Draws `count` measurements in order, of two sensors. They are 1 ns to 200 ms apart, or (one in eight) at
+// the same instant. All of H and R is drawn.
 template <int N, int M> Timeline<N, M> drawn_timeline(RandomStream& stream, int count) {
   Timeline<N, M> events(static_cast<std::size_t>(count));
   GlobalTime time{};
@@ -89,7 +89,7 @@ template <int N, int M> Timeline<N, M> one_late(Timeline<N, M> events, int lag) 
   return events;
 }
 
-// Takes all in the order given; what comes late is announced before anything later is taken.
+// Takes all in the given order. A late one is announced before anything later is taken.
 template <Method X, int N, int M> std::vector<Taken> take_all(X& method, const Timeline<N, M>& arrivals) {
   std::vector<Taken> taken;
   for (auto event = arrivals.begin(); event != arrivals.end(); ++event) {

@@ -1,6 +1,6 @@
-// The true covariance of a method's error, without a single random number. Gains depend on no measurement, so the
-// error is linear in all the noises there are: the method is run once for each of their independent parts, at one
-// sigma, and the outer products of the errors add up.
+// The true covariance of a method's error, without random numbers. Gains depend on no measurement, so the
+// error is linear in all noises. The method runs once for each independent part, at one sigma. The outer
+// products of the errors add up.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -20,7 +20,8 @@ linear::Matrix<X::kStates> true_error(const X& method, const Model& motion, cons
   const auto event = [&](int i) -> const auto& { return arrivals[static_cast<std::size_t>(i)]; };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return event(a).stamp < event(b).stamp; });
 
-  // One part: component c of the prior (at = -1), of the noise before the at-th instant, or of its measurement.
+  // One part: component c of the prior (at = -1), of the noise before the at-th instant, or of its
+  // measurement.
   const auto error = [&](int at, bool measured, int component) {
     linear::Vector<kN> truth = linear::Vector<kN>::Zero();
     if (at < 0) truth = linear::Matrix<kN>(prior.llt().matrixL()).col(component);

@@ -20,7 +20,7 @@ linear::Matrix<2> said_by(Kind kind, const Line& motion, const linear::Matrix<2>
   return method.state().p;
 }
 
-// The mean square error of B and C in closed form: what is wrong with x(tau) = F^-1 x is the noise v since tau,
+// The mean square error of B and C in closed form. x(tau) = F^-1 x lacks the noise v since tau:
 //   E = F^-1 [P + Q - Pxv - Pxv'] F'^-1,  Pxz = (P - Pxv) F'^-1 H',  Pxv = Q - P- U Q,
 //   M = P - W Pxz' - Pxz W' + W (H E H' + R) W'.
 template <class Memory>

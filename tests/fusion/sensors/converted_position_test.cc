@@ -1,5 +1,5 @@
-// Range and bearing made a position: without bias, and as uncertain as it says, against draws and the published
-// formula.
+// Range and bearing converted into a position: unbiased, and as uncertain as stated. Against draws and the
+// published formula.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -47,7 +47,7 @@ TEST(ConvertedPosition, IsUnbiasedAndConsistentWhereTheBearingIsPoor) {
     mean += error / kDraws;
     nees += error.dot(z.r.topLeftCorner<2, 2>().inverse() * error) / kDraws;
   }
-  // Without the factor 1 / lambda the mean would be off by 4.4 m along the line of sight.
+  // Without the factor 1 / lambda, the mean would be off by 4.4 m along the line of sight.
   EXPECT_LT(mean.norm(), 0.6);
   EXPECT_NEAR(nees, 2.0, 0.3);
 }

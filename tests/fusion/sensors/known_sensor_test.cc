@@ -1,4 +1,4 @@
-// What is known of a sensor: read strictly, and taken out of what it says.
+// A sensor's known errors: read strictly, and removed from its observations.
 #include "fusion/sensors/known_sensor.h"
 
 #include <gmock/gmock.h>
@@ -65,7 +65,7 @@ TEST(KnownSensor, EveryMistakeIsASentence) {
   EXPECT_THAT(mistakes("bias: {time: 2 ms}\n"), testing::SizeIs(1));
 }
 
-// A sensor that is turned and wrong by what is known sees the truth when that is taken out.
+// A sensor with known errors sees the truth once they are removed.
 TEST(KnownSensor, PlacedIsWhatIsThere) {
   KnownSensor sensor;
   sensor.mounting = {.position = {2.0, -1.0}, .yaw = 2.0};

@@ -1,5 +1,5 @@
-// The laws of sensor models (fusion/sensors/sensor_model.h), over every sensor, as it is, mounted, and with systematic
-// errors; and the chain rule with every motion model.
+// The laws of sensor models (fusion/sensors/sensor_model.h), for every sensor: plain, mounted, and with
+// systematic errors. Also the chain rule with every motion model.
 #include "fusion/filters/linearise.h"
 #include "fusion/sensors/mounted.h"
 #include "fusion/sensors/position.h"
@@ -84,7 +84,7 @@ TEST(Sees, NotAtRangeZeroNorWhatHasNoHeading) {
   EXPECT_TRUE(std::isfinite(RangeBearingRate{}.expected({})(2)));
 }
 
-// A radar 2 m ahead and 1 m left of the origin that looks to the left; the vehicle drives at 5 m/s.
+// A radar looks left from 2 m ahead and 1 m left of the origin. The vehicle drives at 5 m/s.
 TEST(MountedSensor, SeesFromItsPlace) {
   const Mounting place = carried({.position = {2.0, 1.0}, .yaw = 0.5 * std::numbers::pi}, {5.0, 0.0}, 0.0);
   const motion::Kinematics ahead_of_it{{2.0, 11.0}, {5.0, 3.0}, 0.0, true};
@@ -123,7 +123,7 @@ TEST(SystematicErrors, BiasJacobianIsTheDerivative) {
   bias_jacobian_is_the_derivative<RangeBearingRate>();
 }
 
-// The vehicle and what it follows drive alike: whenever it was seen, it was at the same place ahead.
+// The vehicle and its target drive alike: the target was always at the same place ahead.
 template <class S> void late_stamps_do_not_matter() {
   const linear::Vector<2> velocity(22.0, 0.5);
   const Mounting place = carried({.position = {3.5, -0.4}, .yaw = 0.3}, velocity, 0.0);
@@ -136,7 +136,7 @@ TEST(SystematicErrors, TimeBiasIsOfTheMotionRelativeToTheSensor) {
   late_stamps_do_not_matter<Position>();
   late_stamps_do_not_matter<PositionHeading>();
   late_stamps_do_not_matter<RangeBearingRate>();
-  // What stands comes nearer by the vehicle's way.
+  // A standing object comes nearer by the vehicle's way.
   const Mounted<Systematic<Position>> laser(carried({}, {20.0, 0.0}, 0.0), {{}, linear::Vector<2>::Zero(), 0.05});
   EXPECT_NEAR(laser.expected({.position = {30.0, 2.0}}).x(), 29.0, 1e-14);
   EXPECT_NEAR(laser.bias_jacobian({.position = {30.0, 2.0}})(0, 2), -20.0, 1e-14);
@@ -151,7 +151,8 @@ static_assert(Biased<Mounted<Systematic<RangeBearing>>> && !Biased<Mounted<Range
 
 template <class M> class ChainRule : public testing::Test {
  protected:
-  // What the measurement matrix says of the leading components is the derivative; of the others it does not depend.
+  // The measurement matrix is the derivative by the leading components. The measurement does not depend on
+  // the others.
   template <class S> void check(const S& sensor) {
     constexpr int kN = M::kStates, kM = S::kDimension, kC = motion::leading_columns(S::kParts);
     RandomStream stream({.seed = 8});

@@ -1,4 +1,4 @@
-// ADVA fuses whatever is there. Timelines: x measured, > arrives at the fusion node; fusion every 10 ms.
+// ADVA fuses every list at once. Timelines: x measured, > arrives at the fusion node; fusion every 10 ms.
 #include <gtest/gtest.h>
 
 #include "tests/fusion/drives.h"

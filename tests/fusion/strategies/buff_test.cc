@@ -1,5 +1,5 @@
-// What BUFF holds back and when it lets go. Timelines: x measured, > arrives at the fusion node; fusion every
-// 10 ms.
+// BUFF holds lists back until their order is certain. Timelines: x measured, > arrives at the fusion node;
+// fusion every 10 ms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,9 +18,9 @@ namespace {
 //   sensor 1        x0 --------->30         x1 ------>65
 //   fused                                         0/0   1/0                     1/1
 //
-//   1/0 (10 ms) is there at 30, but sensor 0 could still deliver something older: until 10 + 60 = 70.
-//   0/0 ( 0 ms) is there at 55; sensor 1 has delivered something younger: fused at 60, at once.
-//   1/1 (50 ms): sensor 0 could still deliver until 50 + 60 = 110.
+// 1/0 (10 ms) arrives at 30, but sensor 0 could still deliver an older list: until 10 + 60 = 70.
+// 0/0 ( 0 ms) arrives at 55; sensor 1 has delivered a younger list: fused at 60, at once.
+// 1/1 (50 ms): sensor 0 could still deliver until 50 + 60 = 110.
 TEST(Buff, WaitsUntilTheOrderIsCertain) {
   const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
   const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
@@ -29,7 +29,7 @@ TEST(Buff, WaitsUntilTheOrderIsCertain) {
   EXPECT_EQ(run(*strategy, arrivals, 150), (std::vector{fused(60, 0, 0), fused(70, 1, 0), fused(110, 1, 1)}));
 }
 
-// A list of the same instant from the other sensor settles the order: the smaller sensor first.
+// The other sensor's list of the same instant settles the order: the smaller sensor first.
 //
 //   t [ms]    0     10    20    30    40    50    60
 //   sensor 0        x0 ------------------>45
@@ -63,7 +63,7 @@ TEST(Buff, SaysWhenItLetsGoIfNothingArrives) {
   }
 }
 
-// However often it is looked at, what waits was on its way for as long as it was.
+// Frequent checks do not lengthen the recorded delay of a waiting list.
 TEST(Buff, WaitingIsNoDelay) {
   const std::vector<SensorTiming> sensors{free_running(0, 1000), free_running(1, 1000)};
   config::TrackerConfig config;
@@ -88,7 +88,7 @@ TEST(Buff, SaysWhatItHolds) {
   EXPECT_TRUE(strategy->newest().empty());
 }
 
-// Of a silent sensor, to the nanosecond.
+// For a silent sensor, to the nanosecond.
 TEST(Buff, LetsGoWhenNothingOlderCanArriveAnyMore) {
   const auto strategy = make_strategy(StrategyKind::kBuff, {}, std::vector{free_running(0, 60), free_running(1, 30)});
   strategy->accept(list_of(1, 0, at_ms(20)).view());
@@ -111,7 +111,7 @@ TEST(Buff, RepairsABrokenPromise) {
             (std::vector{fused(70, 1, 0), fused(90, 0, 0, Disposition::kFusedLate)}));
 }
 
-// 25 ms behind every measurement, at the next fusion instant, whatever has arrived.
+// 25 ms after every measurement, at the next fusion instant, regardless of arrivals.
 //
 //   t [ms]    0     10    20    30    40    50    60
 //   sensor 0  x0 ------------------------------>55
@@ -127,8 +127,8 @@ TEST(Buff, WithAFixedLagWaitsNoLongerAndRepairsWhatComesLater) {
             (std::vector{fused(40, 1, 0), fused(60, 0, 0, Disposition::kFusedLate)}));
 }
 
-// Sensor 0 may take 60 ms, but its first list took 20, as fusion instants see it: from then on nobody waits for longer.
-// When one takes 50, that counts.
+// Sensor 0 may take 60 ms, but its first list took 20, as fusion instants see it. From then on no list waits
+// longer. Once one takes 50, that counts.
 //
 //   t [ms]    0     10    20    30    40    50    60    70    80   ...  100   110   120   130   140   150   160
 //   sensor 0  x0 --------->15         x1 ------------------------------>85
@@ -150,8 +150,8 @@ TEST(Buff, WithMeasuredDelaysWaitsForTheLongestSoFar) {
                          fused(160, 1, 2)}));
 }
 
-// Any drive that keeps its promises: released in chronological order, never late, and no later than the last
-// promise.
+// Any drive with delays below the worst: released in chronological order, never late, no later than the worst
+// delay.
 TEST(Buff, IsInOrderAndNeverWaitsLongerThanTheWorstDelay) {
   const std::int64_t worst[] = {120, 45, 80}, period[] = {80, 42, 55};
   const std::vector<SensorTiming> sensors{free_running(0, worst[0]), free_running(1, worst[1]),

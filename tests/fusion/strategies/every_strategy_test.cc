@@ -1,4 +1,4 @@
-// What all strategies have in common: the result, duplicates, stamps from the future, full waiting rooms, no
+// Common to all strategies: the result, duplicates, stamps from the future, full waiting rooms, no
 // allocation.
 #include <gtest/gtest.h>
 

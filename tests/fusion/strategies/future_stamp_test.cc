@@ -1,4 +1,4 @@
-// A stamp from the future says nothing of what else may come: waiting goes on as before.
+// A stamp from the future settles no other list: waiting goes on as before.
 #include <gtest/gtest.h>
 
 #include "tests/fusion/drives.h"
@@ -8,7 +8,7 @@ namespace {
 
 // sensor 0 (worst 60)   x0 (stamped 30 s)   x10 ---------------> 62
 // sensor 1 (worst 30)          x20 ---> 45
-//   1/0 (20 ms) waits for sensor 0 until 20 + 60 = 80, however late the stamp of 0/0 is.
+//   1/0 (20 ms) waits for sensor 0 until 20 + 60 = 80, regardless of 0/0's stamp.
 class FutureStamp : public testing::TestWithParam<StrategyKind> {};
 INSTANTIATE_TEST_SUITE_P(WhoWait, FutureStamp, testing::Values(StrategyKind::kBuff, StrategyKind::kTt),
                          name_of_strategy);

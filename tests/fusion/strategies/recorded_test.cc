@@ -1,6 +1,6 @@
-// The tracker on a recording that nobody here made: a vehicle seen by a laser (position) and a radar (range,
-// bearing, range rate) in turn, with ground truth. Parameters are the documented noise; see the recording's
-// own README.
+// The tracker on a third party's recording, with ground truth. A laser (position) and a radar (range,
+// bearing, range rate) see a vehicle in turn. Parameters are the documented noise; see the recording's
+// README.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::vector<Row> read_rows(const std::string& path) {
   return rows;
 }
 
-// What a motion model is told of the vehicle, and the limits of its error [m, m/s].
+// A motion model's parameters, and the limits of its error [m, m/s].
 struct Told {
   const char* name;
   config::MotionModel motion;
@@ -57,9 +57,9 @@ struct Told {
 // Published limits for a good extended and a good unscented filter on this set, over the whole run.
 const linear::Vector<4> kExtendedLimits{0.11, 0.11, 0.52, 0.52}, kUnscentedLimits{0.09, 0.10, 0.40, 0.30};
 
-// 5 m/s and up to 0.55 rad/s: accelerations of 2.8 m/s^2 that last for seconds, and reach it within seconds. On bends
-// the densities under which the innovations are likeliest (tests/fusion/filters/laser_radar_test.cc); of the models
-// that interact, one drives straight on.
+// 5 m/s and up to 0.55 rad/s: accelerations of 2.8 m/s^2, reached within seconds, last for seconds. On bends
+// the densities give the likeliest innovations (tests/fusion/filters/laser_radar_test.cc). One of
+// the interacting models drives straight on.
 const Told kTold[] = {
     {"ConstantVelocity", config::MotionModel::kConstantVelocity, config::FilterKind::kExtended, 4.0, kExtendedLimits},
     {"ConstantAcceleration", config::MotionModel::kConstantAcceleration, config::FilterKind::kExtended, 2.0,
@@ -75,7 +75,7 @@ config::TrackerConfig config_for(const Told& told) {
   config.turn_noise = 0.01;
   config.confirm_hits = 1;
   config.confirm_window = 1;
-  config.gate_probability = 0.999999;  // one object, no clutter: nothing needs to be gated out
+  config.gate_probability = 0.999999;  // one object, no clutter: gating is unnecessary
   return config;
 }
 
@@ -110,8 +110,8 @@ TEST_P(Recorded, FollowsTheVehicle) {
   for (int i = 0; i < 4; ++i) EXPECT_LT(rmse(i), GetParam().limits(i)) << i;
 }
 
-// The radar's lists come 70 ms late, each after the next of the laser: every one is out of sequence, none is
-// lost, and the track is that of arrival in order to the last bit.
+// The radar's lists come 70 ms late, each after the laser's next. All of them are out of sequence, but not
+// lost. The track has the bits of arrival in order.
 TEST_P(Recorded, LateRadarEndsWithTheSameBits) {
   const auto in_order = make_strategy(StrategyKind::kAdva, config_for(GetParam()), sensors);
   const auto strategy = make_strategy(StrategyKind::kAdva, config_for(GetParam()), sensors);

@@ -30,7 +30,7 @@ TEST(Settling, AfterAConstantDelayAtAnyInstant) {
     EXPECT_EQ(settling.settled(GlobalTime{ns}).ns, ns - 60'000'000);
 }
 
-// settled_from() is where settled() gets there: there it is, and a nanosecond before it is not.
+// settled() reaches an instant at settled_from(), and not a nanosecond before.
 TEST(Settling, SaysFromWhenOnSomethingIsSettled) {
   const Settling steps({{at_ms(6), at_ms(-4)}, {at_ms(16), at_ms(1)}}, Duration::milliseconds(20));
   const Settling delay = Settling::after(Duration::milliseconds(60));
@@ -52,8 +52,8 @@ TEST(SettlingDeath, RefusesWhatIsNoRound) {
   EXPECT_DEATH(Settling({{at_ms(0), at_ms(0)}, {at_ms(1), at_ms(10)}}, round), "more than a round");
 }
 
-// Sensor 0 has its slots every 10 ms and is read at 6, 16, 26 ms and so on, where everything is there that
-// was measured 44 ms before: of 2, 12, 22 ms and older at 46, 56, 66.
+// Sensor 0 has its slots every 10 ms and is read at 6, 16, 26 ms and so on. A read has everything measured 44
+// ms before: 2, 12, 22 ms and older at 46, 56, 66.
 //
 //   t [ms]       0     10    20    30    40    50    60    70
 //   settled             -28   -18   -8    2     12    22
@@ -64,7 +64,7 @@ std::vector<SensorTiming> read_every_10_ms(bool on_schedule) {
           {SensorId{1}, slots, on_schedule, at_ms(2), Duration::milliseconds(40)}};
 }
 
-// The instant at which sensor 1's list is fused where sensor 0 is silent; fusion at 6, 16, 26 ms ...
+// The instant at which sensor 1's list is fused while sensor 0 is silent; fusion at 6, 16, 26 ms ...
 std::int64_t goes_on_at(StrategyKind kind, GlobalTime measured) {
   const auto strategy = make_strategy(kind, {}, read_every_10_ms(kind == StrategyKind::kTt));
   strategy->accept(list_of(1, 0, measured).view());
@@ -82,7 +82,8 @@ TEST(MissingList, BuffGoesOnAtTheStepThatSettlesIt) {
   EXPECT_EQ(goes_on_at(StrategyKind::kBuff, at_ms(12) + kNanosecond), 66);
 }
 
-// Its own stamp is not what counts: the schedule's instant 2 ms is awaited, whatever fits it or follows it.
+// The list's own stamp does not count. The schedule's instant 2 ms is awaited, regardless of the lists near
+// it.
 TEST(MissingList, TimeTriggeredGoesOnAtTheStepThatSettlesItsInstant) {
   EXPECT_EQ(goes_on_at(StrategyKind::kTt, at_ms(2)), 46);
   EXPECT_EQ(goes_on_at(StrategyKind::kTt, at_ms(2) + Duration::microseconds(3)), 46);

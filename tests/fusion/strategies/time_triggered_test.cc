@@ -1,5 +1,5 @@
-// What TT waits for, knowing all instants. Timelines: x measured, > arrives at the fusion node; fusion every
-// 10 ms.
+// TT knows all instants and waits only for older lists. Timelines: x measured, > arrives at the fusion node;
+// fusion every 10 ms.
 #include <gtest/gtest.h>
 
 #include "tests/fusion/drives.h"
@@ -14,9 +14,9 @@ namespace {
 //   camera                x0 ------------>45      x1 ------------>85
 //   fused                                   0/0, 1/0                1/1
 //
-//   camera 0 (20 ms) waits for the laser's 0 ms, which is due at 60 and comes at 50: both then. BUFF would
-//   wait for what the schedule says cannot come, until 20 + 60 = 80. camera 1 (60 ms) waits for nobody: the
-//   laser's next instant is younger.
+// Camera 0 (20 ms) waits for the laser's 0 ms, which is due at 60 and comes at 50: then both are fused. BUFF
+// would wait until 20 + 60 = 80 for a list that is not on the schedule. Camera 1 (60 ms) does not wait: the
+// laser's next instant is younger.
 TEST(TimeTriggered, WaitsOnlyForWhatIsOnTheSchedule) {
   const std::vector<Arrival> arrivals{
       {50, list_of(0, 0, at_ms(0))}, {45, list_of(1, 0, at_ms(20))}, {85, list_of(1, 1, at_ms(60))}};
@@ -52,7 +52,7 @@ TEST(TimeTriggered, RepairsABrokenPromise) {
   run(*in_order, {{45, laser}, {45, camera}}, 100);
   EXPECT_EQ(strategy->tentative_count(), 3);
   EXPECT_EQ(strategy->newest_measured(), at_ms(20));
-  // Confirm both with the same further lists: the images must be the same to the last bit.
+  // Both are confirmed with the same further lists: the images must be bitwise equal.
   std::vector<tracks::TrackView> image[2];
   int i = 0;
   for (Strategy* s : {strategy.get(), in_order.get()}) {
@@ -65,8 +65,8 @@ TEST(TimeTriggered, RepairsABrokenPromise) {
   EXPECT_TRUE(same_bits(image[0], image[1]));
 }
 
-// Stamps are clock readings. Both measure at 40 ms; the camera stamps 39.997 and arrives first, the
-// laser 39.995.
+// Stamps are clock readings. Both measure at 40 ms. The camera stamps 39.997 and arrives first, the laser
+// stamps 39.995.
 //   By its stamp alone the camera would have no scheduled predecessor, and the laser would come late.
 TEST(TimeTriggered, SensorsOfOneInstantWaitForEachOtherWhateverTheStamps) {
   const std::vector<SensorTiming> together{scheduled(0, 60, 0, 40), scheduled(1, 35, 0, 40)};
@@ -84,7 +84,7 @@ TEST(TimeTriggered, SensorsOfOneInstantWaitForEachOtherWhateverTheStamps) {
   EXPECT_EQ(run(*without, {{60, list_of(1, 1, camera_stamp)}}, 200), (std::vector{fused(100, 1, 1)}));
 }
 
-// An instant of the schedule is recognised though the stamp is a little early or late.
+// An instant of the schedule is recognised from a slightly early or late stamp.
 TEST(TimeTriggered, RecognisesInstantsByStampsThatAreALittleOff) {
   for (const std::int64_t off_ns : {-300'000, 0, 300'000}) {
     const auto strategy = make_strategy(StrategyKind::kTt, {}, laser_and_camera());
@@ -93,7 +93,7 @@ TEST(TimeTriggered, RecognisesInstantsByStampsThatAreALittleOff) {
   }
 }
 
-// Before a sensor's first instant there is nothing to wait for.
+// Before a sensor's first instant there is no list to wait for.
 TEST(TimeTriggered, TheScheduleHasABeginning) {
   const auto strategy =
       make_strategy(StrategyKind::kTt, {}, std::vector{scheduled(0, 60, 100, 80), scheduled(1, 35, 20, 40)});

@@ -1,4 +1,4 @@
-// What the kinds of association and birth are worth, and that each keeps what the tracker promises: the same bits in
+// The accuracy of each kind of association and birth. Each keeps the tracker's promises: the same bits in
 // every order of arrival, no allocation.
 #include <gtest/gtest.h>
 
@@ -45,8 +45,8 @@ INSTANTIATE_TEST_SUITE_P(All, EveryOption,
                                           testing::Bool()),
                          [](const testing::TestParamInfo<Options>& options) { return name_of_options(options.param); });
 
-// Two crossing objects in clutter, of which sensor 1 sees what sensor 0 does a little further on: gates are shared,
-// births are many, and twins come up.
+// Two objects cross in clutter; sensor 1 sees them a little further on than sensor 0. Gates are shared,
+// births are many, and twins appear.
 std::vector<OwnedList> crossing_lists(std::uint64_t seed) {
   RandomStream stream({.seed = seed, .purpose = Purpose::kTest, .entity = 9});
   std::vector<OwnedList> lists;
@@ -119,7 +119,7 @@ TEST_P(EveryOption, AllocatesNothingAfterConstruction) {
   }
 }
 
-// Certain to be seen and nothing else about: what JPDA makes of one observation is the Kalman update.
+// One object, seen for certain, without clutter: JPDA's update is the Kalman update.
 TEST(Association, JpdaOfACertainObservationIsTheNearests) {
   for (const config::MotionModel motion :
        {config::MotionModel::kConstantVelocity, config::MotionModel::kCtrv, config::MotionModel::kInteracting}) {
@@ -151,7 +151,7 @@ TEST(Association, JpdaOfACertainObservationIsTheNearests) {
   }
 }
 
-// Between two observations that are as likely, it waits: the mean is between, and the covariance says so.
+// Between two equally likely observations, the mean stays between them and the covariance grows.
 TEST(Association, JpdaDoesNotDecideWhatNobodyKnows) {
   config::TrackerConfig config;
   config.association = config::Association::kJpda;
@@ -200,8 +200,8 @@ Followed follow_by(config::Association association, config::Birth birth, double 
   return followed;
 }
 
-// 36 observations of nothing to a list. Who decides believes too much; who weighs says what is true. The band is that
-// of 300 runs of one independent judgement each, twice as wide: 4 +- 2 x 1.96 sqrt(8 / 300).
+// A list has 36 false observations. Deciding makes a track overconfident; weighing keeps it consistent. The
+// band is that of 300 runs of one independent judgement each, twice as wide: 4 +- 2 x 1.96 sqrt(8 / 300).
 TEST(Association, CrossingInClutterIsConsistentWithJpdaOnly) {
   const Followed nearest = follow_by(config::Association::kNearest, config::Birth::kExistence, 0.03, 300);
   const Followed jpda = follow_by(config::Association::kJpda, config::Birth::kExistence, 0.03, 300);
@@ -216,7 +216,7 @@ TEST(Association, CrossingInClutterIsConsistentWithJpdaOnly) {
   EXPECT_LT(nearest.switches, 30u);
 }
 
-// M of N counts observations, of which clutter has enough; existence knows how many to expect.
+// M of N counts observations, and clutter has enough of them. Existence knows how many to expect.
 TEST(Association, CrossingInClutterExistenceBelievesLittleOfIt) {
   for (const config::Association association : {config::Association::kNearest, config::Association::kJpda}) {
     const Followed counted = follow_by(association, config::Birth::kMOfN, 0.01, 20);

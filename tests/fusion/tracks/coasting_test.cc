@@ -1,5 +1,5 @@
-// A track of which nothing is heard any more: less and less certain, marked, and ended at the instant the rule says
-// (given_up() in fusion/tracks/track.h).
+// A track without further observations becomes less certain, is marked, and ends by the rule of given_up() in
+// fusion/tracks/track.h.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ INSTANTIATE_TEST_SUITE_P(All, Coasting, testing::ValuesIn(strategies::kAllStrate
 
 constexpr std::int64_t kLast = 760;  // [ms], of the newest measurement
 
-// A car at 10 m/s, seen every 40 ms until kLast, then no more lists of anybody. All is fused, whatever the strategy.
+// A car at 10 m/s, seen every 40 ms until kLast; then all lists cease. All are fused, under every strategy.
 struct Drive {
   config::TrackerConfig config;
   std::unique_ptr<strategies::Strategy> strategy;
@@ -39,7 +39,7 @@ struct Drive {
   }
 };
 
-// Against prediction by numerical integration, from what is known at the newest measurement.
+// Against prediction by numerical integration, from the state at the newest measurement.
 TEST_P(Coasting, CovarianceGrowsAsTheMotionModelSays) {
   for (const config::MotionModel motion :
        {config::MotionModel::kConstantVelocity, config::MotionModel::kConstantAcceleration}) {
@@ -91,7 +91,7 @@ TEST_P(Coasting, IsMarkedAndEndsToTheNanosecond) {
   EXPECT_EQ(drive.strategy->newest_measured(), seen) << "and its age goes on growing";
 }
 
-// Too uncertain before it is too old: at the first instant at which the position's spread is above the limit.
+// Too uncertain before it is too old: it ends as soon as the position's spread exceeds the limit.
 TEST_P(Coasting, EndsWhenItsPositionIsTooUncertain) {
   config::TrackerConfig config;
   config.delete_position_sigma = 0.6;
@@ -113,7 +113,8 @@ TEST_P(Coasting, EndsWhenItsPositionIsTooUncertain) {
   EXPECT_FALSE(drive.at(at_ms(kLast + limit)));
 }
 
-// Lists come again when the track is no more: what they show is new, and no track until enough of them did.
+// Lists come again after the track has ended. Their object is new, and becomes a track only after enough of
+// them.
 TEST_P(Coasting, WhatHasEndedDoesNotComeBack) {
   const config::TrackerConfig config;
   Drive drive(GetParam(), config);
@@ -130,7 +131,7 @@ TEST_P(Coasting, WhatHasEndedDoesNotComeBack) {
   EXPECT_NE(born->id, old);
 }
 
-// The same gap, a little shorter: the track takes the observation, and is as certain as before.
+// The same gap, a little shorter: the track takes the observation and is as certain as before.
 TEST_P(Coasting, WhatHasNotEndedGoesOn) {
   const config::TrackerConfig config;
   Drive drive(GetParam(), config);
@@ -146,8 +147,8 @@ TEST_P(Coasting, WhatHasNotEndedGoesOn) {
   EXPECT_LT(view->covariance.trace(), coasting);
 }
 
-// The sensor that sees the car dies; the other goes on and does not see it: coasting with its third list, ended with
-// its eighth.
+// The sensor that sees the car dies. The other goes on without seeing it. The track coasts with that sensor's
+// third list and ends with its eighth.
 TEST_P(Coasting, ListsThatDoNotSeeItEndATrackSooner) {
   const config::TrackerConfig config;
   Drive drive(GetParam(), config);
@@ -167,7 +168,7 @@ TEST_P(Coasting, ListsThatDoNotSeeItEndATrackSooner) {
   }
 }
 
-// Tentative tracks are nobody's knowledge yet: they end by the same rule.
+// Tentative tracks end by the same rule.
 TEST(CoastingTracker, ATentativeTrackDoesNotSurviveSilence) {
   const config::TrackerConfig config;
   Tracker tracker(config, 4);

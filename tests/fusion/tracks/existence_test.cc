@@ -33,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryAssociation,
                            return kind.param == config::Association::kNearest ? "Nearest" : "Jpda";
                          });
 
-// One track, one observation or none to a list, an independent filter for the density: for both associations
+// One track, at most one observation a list, an independent filter for the density. For both associations:
 //   e <- e exp(-dt/tau);  L = 1 - P_D P_G + P_D f / lambda;  e <- L e / (1 - e + L e).
 TEST_P(EveryAssociation, ExistenceFollowsTheClosedForm) {
   config::TrackerConfig config = by_existence(GetParam());
@@ -69,7 +69,7 @@ TEST_P(EveryAssociation, ExistenceFollowsTheClosedForm) {
         const double density = std::exp(-0.5 * nu.dot(s_inverse * nu)) / (2.0 * kPi * std::sqrt(determinant));
         const double ratio = p_d * density / 0.01;
         likelihood += ratio;
-        // What the estimate takes in of it: all, or with its probability given that the object exists.
+        // The estimate takes in all of it, or weighs it with its probability given that the object exists.
         const double beta = GetParam() == config::Association::kNearest ? 1.0 : ratio / (1.0 - p_d * p_g + ratio);
         const linear::Matrix<4, 2> gain = by_hand.p.leftCols<2>() * s_inverse;
         const linear::Vector<4> moved = gain * nu;
@@ -89,7 +89,7 @@ TEST_P(EveryAssociation, ExistenceFollowsTheClosedForm) {
 TEST(Existence, OfTwoTracksThatShareAnObservation) {
   const config::TrackerConfig config = by_existence(config::Association::kJpda);
   const double gated = seen_in_gate(config), e1 = 0.7, e2 = 0.4, r1 = 5.0, r2 = 2.0;
-  // Unnormalised: none, of the first, of the second.
+  // Unnormalised: no observation, of the first, of the second.
   const double none = (1.0 - gated * e1) * (1.0 - gated * e2), first = e1 * r1 * (1.0 - gated * e2),
                second = (1.0 - gated * e1) * e2 * r2, all = none + first + second;
   association::JointAssociation joint(1, 2);
@@ -112,7 +112,7 @@ TEST(Existence, ClutterOfARadarIsThatOfThePlane) {
   config.clutter_density = 0.02;
   config.initial_velocity_sigma = 5.0;
   EXPECT_EQ(clutter_at(position(30.0, 2.0, 0.1), config), 0.02);
-  // Over ranges to R, all bearings and the whole width of range rates: as many as in the disc.
+  // Over ranges to R, all bearings and the full width of range rates: as many as in the disc.
   const double width = 2.0 * std::sqrt(3.0) * 5.0, radius = 40.0;
   double sum = 0.0;
   for (int i = 0; i < 4000; ++i) {
@@ -122,7 +122,7 @@ TEST(Existence, ClutterOfARadarIsThatOfThePlane) {
   EXPECT_NEAR(sum / (0.02 * kPi * radius * radius), 1.0, 1e-5);
 }
 
-// Confirmed from confirm_existence on; ended below delete_existence; nothing else is asked.
+// Confirmed from confirm_existence on, ended below delete_existence; nothing else counts.
 TEST_P(EveryAssociation, ATrackIsBornAndEndsByItsExistence) {
   const config::TrackerConfig config = by_existence(GetParam());
   Tracker tracker(config, 8);
@@ -146,8 +146,8 @@ TEST_P(EveryAssociation, ATrackIsBornAndEndsByItsExistence) {
   EXPECT_TRUE(ended);
 }
 
-// What is seen once and never again ends in a few lists; in clutter as dense as was assumed, few false tracks are
-// believed, with a true one among them that is.
+// An object seen once ends within a few lists. In clutter as dense as assumed, few false tracks are believed,
+// and the true one among them is.
 TEST_P(EveryAssociation, ClutterIsSeldomBelieved) {
   config::TrackerConfig config = by_existence(GetParam());
   config.clutter_density = 0.01;

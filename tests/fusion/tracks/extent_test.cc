@@ -51,7 +51,7 @@ TEST(Subtended, NothingWhereTheOutlineReachesBehindTheSensor) { EXPECT_EQ(subten
 Aspect seen(double range, double angle, double sigma_angle) { return {range, 0.05, angle, sigma_angle}; }
 double span_of(double range, double angle) { return subtended(range, angle, {4.4, 1.8}).angle; }
 
-// 20 m ahead, from behind and from the side: what the outline shows becomes known, the other does not.
+// 20 m ahead, from behind and from the side: the visible side becomes known, the other does not.
 TEST(Extent, ASpanTellsWhatIsTurnedToTheSensor) {
   Extent behind, beside;
   for (int k = 0; k < 10; ++k) {
@@ -67,7 +67,8 @@ TEST(Extent, ASpanTellsWhatIsTurnedToTheSensor) {
   EXPECT_NEAR(beside.size(1), 1.8, 0.1) << "a side is no width";
 }
 
-// At 45 degrees the span is a mixture: alone it tells neither, with a length it tells the width.
+// At 45 degrees the span is a mixture. Alone it determines neither side; with a length it determines the
+// width.
 TEST(Extent, AMixtureTellsOneWhereTheOtherIsKnown) {
   Extent extent;
   for (int k = 0; k < 10; ++k)
@@ -80,7 +81,7 @@ TEST(Extent, AMixtureTellsOneWhereTheOtherIsKnown) {
   EXPECT_NEAR(extent.size(1), 1.8, 3.0 * std::sqrt(extent.covariance(1, 1)));
 }
 
-// An aspect that is off by the same in every one of 200 lists: the error stays within what is stated.
+// An aspect with the same error in each of 200 lists: the error stays within the stated one.
 TEST(Extent, ErrorsThatRepeatAreNotAveragedAway) {
   RandomStream stream({.seed = 4});
   for (const double angle : {0.0, 0.7, std::numbers::pi / 2, 2.6}) {

@@ -1,4 +1,4 @@
-// Ids of confirmed tracks stay what they are, however late lists rewrite the past.
+// Ids of confirmed tracks never change, however far late lists rewrite the past.
 #include "fusion/tracks/identities.h"
 
 #include <gtest/gtest.h>
@@ -36,8 +36,8 @@ TEST(Identities, AreGivenAtConfirmationAndCountUp) {
   }
 }
 
-// Sensor 1 is three lists late, all the time, and sees lanes that sensor 0 does not: births before the
-// others', late.
+// Sensor 1 is always three lists late, and sees lanes that sensor 0 does not. It causes late births before
+// the others'.
 //
 //   sensor 0   x0    x40    x80    x120   x160 ...        5 objects
 //   sensor 1     x20 ------------------> 145  ...         10 objects, the 5 among them
@@ -73,7 +73,7 @@ TEST(Identities, ATrackKeepsItsIdThroughManyLateLists) {
   EXPECT_EQ(late, 197);
   ASSERT_EQ(ids_of.size(), 10u);
   for (const auto& [object, ids] : ids_of) EXPECT_EQ(ids.size(), 1u) << "object " << object << " changed its id";
-  // What is still under way in order is late here: then both have taken in the same lists.
+  // Lists still under way in the ordered run are late here; after them, both have taken in the same lists.
   for (std::uint32_t k = 197; k < 200; ++k) {
     const GlobalTime past = at_ms(40 * k + 20);
     timeline.insert(list_of(1, k, past, many.see(past, k)).view());
@@ -82,7 +82,7 @@ TEST(Identities, ATrackKeepsItsIdThroughManyLateLists) {
   EXPECT_EQ(births(timeline.current()).size(), births(in_order.current()).size());
 }
 
-// The same object, seen earlier by another sensor whose list comes when the track is confirmed already.
+// The same object, seen earlier by another sensor whose list comes after the track's confirmation.
 //
 //   sensor 0         x40   x80   x120
 //   sensor 1   x20 ------------------> 130
@@ -103,7 +103,7 @@ TEST(Identities, ALateListMayMoveTheBirthButNotTheId) {
   EXPECT_EQ(moved.id, id);
 }
 
-// A track that ended lives on when a late list shows it was seen after all.
+// A track that ended lives on when a late list shows a later sighting.
 TEST(Identities, WhoComesBackToLifeHasItsOldName) {
   config::TrackerConfig config;
   config.delete_misses = 3;
@@ -121,7 +121,7 @@ TEST(Identities, WhoComesBackToLifeHasItsOldName) {
   EXPECT_EQ(timeline.current().tracks[1].id, second);
 }
 
-// Thousands of tracks that come and go: names are not given again, and storage stays what it was.
+// Thousands of tracks come and go: names are never reused, and storage does not grow.
 TEST(Identities, AreNotGivenAgain) {
   config::TrackerConfig config;
   config.delete_misses = 2;

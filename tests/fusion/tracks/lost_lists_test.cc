@@ -1,5 +1,5 @@
-// Lists get lost and sensors fall silent: what is fused is what in-order processing of the lists that came gives, and
-// nobody waits for the others longer than the schedule says.
+// Lost lists and silent sensors. The result is that of the arrived lists in order. No list waits longer than
+// the schedule says.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,13 +17,13 @@ namespace {
 class LostLists : public testing::TestWithParam<strategies::StrategyKind> {};
 INSTANTIATE_TEST_SUITE_P(All, LostLists, testing::ValuesIn(strategies::kAllStrategies), name_of_strategy);
 
-// A span of the drive in which a sensor is dead; its last list may be on its way still.
+// A span of the drive in which a sensor is dead. Its last list may still be on its way.
 struct Silence {
   SensorId sensor;
   std::int64_t from_ms, to_ms;
 };
 
-// What is left of a drawn drive: one list in `one_in` lost by itself, and all that were measured in a silence.
+// The rest of a drawn drive: without one list in `one_in`, and without all that were measured in a silence.
 std::vector<Arrival> survivors(std::uint64_t seed, std::int64_t one_in, const std::vector<Silence>& silences) {
   RandomStream stream({.seed = seed, .entity = 1});
   std::vector<Arrival> left;
@@ -37,7 +37,7 @@ std::vector<Arrival> survivors(std::uint64_t seed, std::int64_t one_in, const st
   return left;
 }
 
-// What an oracle that never heard of lost lists shows at `at`. Names are each strategy's own.
+// The image at `at` by an oracle without lost lists. Names are each strategy's own.
 std::vector<TrackView> in_order(std::vector<Arrival> arrivals, GlobalTime at) {
   std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
     return before(a.list.id, a.list.measured, b.list.id, b.list.measured);
@@ -65,7 +65,7 @@ void expect_as_if_never_sent(strategies::StrategyKind kind, const std::vector<Ar
     const bool late = f.disposition == strategies::Disposition::kFusedLate;
     ASSERT_TRUE(f.disposition == strategies::Disposition::kFused || (late && kind == strategies::StrategyKind::kAdva))
         << "promises were kept: " << f;
-    // The first of the fusion instants, every 10 ms, at which nothing older can come.
+    // The first fusion instant, every 10 ms, after which no older list can arrive.
     ASSERT_LT(f.ms,
               (kind == strategies::StrategyKind::kAdva ? arrived : std::max(arrived, measured + kLongestWay)) + 10)
         << f;
@@ -96,7 +96,7 @@ TEST_P(LostLists, ASensorDeadForAWhileAndThenTheOther) {
     expect_as_if_never_sent(GetParam(), survivors(seed, 20, {{kLaser, 500, 1'700}, {kCamera, 2'000, 2'600}}), 25);
 }
 
-// Both silent, longer than any track lives on: what is there afterwards was born afterwards.
+// Both sensors are silent for longer than any track survives: all later tracks are new.
 TEST_P(LostLists, BothDeadForAWhile) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
     expect_as_if_never_sent(GetParam(), survivors(seed, 20, {{kLaser, 1'000, 2'400}, {kCamera, 1'000, 2'400}}), 25);
@@ -107,14 +107,14 @@ TEST_P(LostLists, BothDeadForGood) {
     expect_as_if_never_sent(GetParam(), survivors(seed, 20, {{kLaser, 2'000, 10'000}, {kCamera, 2'000, 10'000}}), 0);
 }
 
-// A sensor restarts: its numbers begin again, while lists of its first life are in the history still.
+// A sensor restarts. Its numbers begin again while lists of its first life are still in the history.
 //
 //   number     0    1    2  ...  9                 0    1    2  ...  9
 //   measured   0    80   160     720   (silent)    1000 1080 1160    1720
 TEST_P(LostLists, ASensorThatRestartsCountsAnewAndIsNotTakenForItself) {
   const auto strategy = make_strategy(GetParam(), {}, std::vector{free_running(0, 60)});
-  // The second life begins with another object first in the list: its number and place are those the first one was born
-  // by.
+  // The second life begins with another object first in the list. Its number and place are those of the first
+  // one's birth.
   const auto a = [](std::int64_t ms) { return position(20.0 + 0.002 * static_cast<double>(ms), 0.0, 0.1); };
   const auto b = [](std::int64_t ms) { return position(40.0 - 0.003 * static_cast<double>(ms), 8.0, 0.1); };
   std::vector<Arrival> arrivals;
@@ -137,7 +137,7 @@ TEST_P(LostLists, ASensorThatRestartsCountsAnewAndIsNotTakenForItself) {
   EXPECT_NEAR(image[1].state(0), 34.6, 0.3);
 }
 
-// The newest of a sensor is what it measured last, whatever it calls it.
+// A sensor's newest list is the last measured, regardless of its number.
 TEST_P(LostLists, TheNewestOfARestartedSensorIsToldByItsInstant) {
   const auto strategy = make_strategy(GetParam(), {}, std::vector{free_running(0, 60)});
   run(*strategy, {{30, list_of(0, 500, at_ms(0))}, {330, list_of(0, 2, at_ms(300))}}, 400);

@@ -1,7 +1,6 @@
-// Going back and taking a late measurement in again, against the published closed forms for one late
-// measurement: algorithms A (exact), B and C of Bar-Shalom, "Update with Out-of-Sequence Measurements in
-// Tracking: Exact Solution", IEEE TAES 38(3), 2002, which are first checked against the numbers printed
-// there.
+// Rewinding for one late measurement, against the published closed forms: algorithms A (exact), B and C of
+// Bar-Shalom, "Update with Out-of-Sequence Measurements in Tracking: Exact Solution", IEEE TAES 38(3), 2002.
+// They are first checked against the paper's printed numbers.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -16,19 +15,19 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// State at k after the measurement at k, and what its update leaves behind.
+// The state at k after the measurement at k, with the values that the update keeps.
 struct AtK {
   Vector x, nu;
   Matrix p, prior_p, h, s;
 };
-// The late measurement z at tau <= t(k): h and r of it, the way back fb = F(tau, k), the noise q = Q(k, tau).
+// The late measurement z at tau <= t(k): its h and r, the way back fb = F(tau, k), the noise q = Q(k, tau).
 struct Late {
   Vector z;
   Matrix h, r, fb, q;
 };
 struct Updated {
   Vector x;
-  Matrix p, w, p_tau, mse;  // mse: the true error covariance, whatever p claims
+  Matrix p, w, p_tau, mse;  // mse: the true error covariance; p may differ
 };
 
 AtK update_at_k(const Vector& prior_x, const Matrix& prior_p, const Vector& z, const Matrix& h, const Matrix& r) {
@@ -104,8 +103,7 @@ TEST(OutOfSequence, ThePaperTableII) {
   EXPECT_NEAR(random_walk('C', 0.05).mse(0, 0), 0.3470, 5e-5);
 }
 
-// Taking both in order, as the tracker does after going back, is the exact solution that algorithm A
-// reproduces.
+// Taking both in order, as the tracker does after rewinding, is algorithm A's exact solution.
 TEST(OutOfSequence, InOrderProcessingIsAlgorithmA) {
   const auto update = [](double p) { return p / (p + 1.0); };
   for (const double q : {0.05, 1.0, 4.0})
@@ -118,7 +116,7 @@ TEST(OutOfSequence, InOrderProcessingIsAlgorithmA) {
 //   ----x---------------x-----------------x------> measured        arrival: 0, 2, 1
 //      0 ms           tau             1000 ms
 //
-// Against algorithm A, which never goes back: the same estimate although not one step is the same.
+// Against algorithm A, which never rewinds: the same estimate by entirely different steps.
 TEST(OutOfSequence, RewindingEqualsAlgorithmA) {
   config::TrackerConfig config;
   config.gate_probability = 0.999999;

@@ -15,7 +15,7 @@ namespace {
 constexpr int kObjects = 1000;
 constexpr std::uint32_t kCycles = 14;
 
-// Two sensors every 40 ms; the first one's lists come a cycle late, so that each is taken in by going back.
+// Two sensors every 40 ms. The first one's lists come a cycle late, so each causes a rewind.
 TEST(Thousand, ObjectsAreTrackedEachByOneTrackWithoutAllocation) {
   const Lanes laser{.objects = kObjects, .across = 40, .sigma = 0.2, .seed = 1};
   const Lanes camera{.objects = kObjects, .across = 40, .sigma = 0.4, .seed = 2};

@@ -56,8 +56,8 @@ TEST(Timeline, EveryOrderOfSixListsGivesTheSameBits) {
   }
 }
 
-// An object that is seen 18.5 m further after 2 s is taken for another one; a late list from between shows
-// how fast it is, and the association is opened again.
+// An object seen 18.5 m further after 2 s is taken for another one. A late list from between shows its speed
+// and reopens the association.
 //
 //   x [m]                             o 18.5
 //                    o 7.5 (late)
@@ -108,7 +108,7 @@ TEST(Timeline, HistoryHasAnEnd) {
 }
 
 TEST(Timeline, LongDrivesInDisorder) {
-  // 200 lists of two sensors, each up to 12 places late, objects that appear and get lost.
+  // 200 lists of two sensors, each up to 12 places late; objects appear and get lost.
   config::TrackerConfig config;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     RandomStream stream({.seed = seed});

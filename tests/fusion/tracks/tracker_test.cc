@@ -1,4 +1,4 @@
-// Birth, confirmation, deletion and what an image shows of a track.
+// Birth, confirmation, deletion, and a track's fields in an image.
 #include "fusion/tracks/tracker.h"
 
 #include <gtest/gtest.h>
@@ -33,9 +33,9 @@ struct Bench {
   }
 };
 
-// Every pattern of hits and misses of ten lists, against the rule in words: a track is born by a hit without
-// a track; it is confirmed as soon as 3 of its last 5 lists are hits; tentative, it ends as soon as 3 of 5
-// cannot be reached any more; confirmed, it ends with the 4th miss in a row.
+// Every pattern of hits and misses over ten lists, against the rule in words. A hit without a track starts a
+// track. Three hits in its last five lists confirm it. A tentative track ends once 3 of 5 are out of reach. A
+// confirmed track ends with the 4th miss in a row.
 TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
   config::TrackerConfig config;
   config.confirm_hits = 3;
@@ -146,7 +146,7 @@ TEST(Tracker, GatesOutWhatIsTooFar) {
 }
 
 TEST(Tracker, AConfirmedTrackKeepsItsObservationFromATentativeOne) {
-  // The tentative track lies nearer, but what both want belongs to the track that is known.
+  // The tentative track lies nearer, but the confirmed track gets an observation that both want.
   Bench bench;
   for (int k = 0; k < 6; ++k) bench.step(50 * k, {position(20.0, 0.0, 0.3)});
   bench.step(300, {position(20.0, 0.0, 0.3), position(22.0, 0.0, 0.3)});
@@ -206,7 +206,7 @@ TEST(View, AxisTellsTheHeadingOfWhatStandsAndCourseTellsItsFront) {
   Track standing = moving_track(0.01, 0.0, 0.5);
   standing.heading = {2.0, 0.01, true};
   EXPECT_NEAR(shown(standing, at_ms(0), at_ms(0)).heading, 2.0, 1e-12);
-  // Driving along +x with an axis measured half a turn off: weighed on the side it drives to.
+  // Driving along +x with an axis measured half a turn off: turned towards the direction of travel.
   Track driving = moving_track(10.0, 0.0, 1.0);
   driving.heading = {std::numbers::pi - 0.2, 0.01, true};  // course variance is 0.01 too
   const TrackView view = shown(driving, at_ms(0), at_ms(0));

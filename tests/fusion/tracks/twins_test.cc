@@ -26,8 +26,8 @@ int confirmed(const TrackSet& set) {
       std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; }));
 }
 
-// A car that drives ahead at 5 m/s. The laser sees its rear, the camera takes it to be further away at first, so that
-// each has a track of its own; as the car comes nearer to where both agree, the tracks come together.
+// A car drives ahead at 5 m/s. The laser sees its rear; the camera first places it further away, so that each
+// has a track. As the car approaches and both agree, the tracks merge.
 //
 //   camera's view  ------____
 //   laser's view   ==========------  one
@@ -78,7 +78,8 @@ TEST(Twins, LasersAndCamerasViewsOfOneObjectBecomeOne) {
     }
 }
 
-// Two cars 2 m apart, one sensor that tells them apart: over hundreds of lists, with gates wide enough to touch.
+// Two cars 2 m apart and a sensor that distinguishes them: over hundreds of lists, with gates wide enough to
+// touch.
 TEST(Twins, CarsSideBySideStayTwo) {
   for (const config::Association association : {config::Association::kNearest, config::Association::kJpda}) {
     config::TrackerConfig config = uniting(0.999999);

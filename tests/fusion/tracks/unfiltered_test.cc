@@ -1,4 +1,4 @@
-// What a track carries along: sums of scores by class, and the newest of the third axis.
+// A track's unfiltered content: sums of scores by class, and the newest third axis.
 #include <gtest/gtest.h>
 
 #include "fusion/tracks/unfiltered.h"

@@ -101,8 +101,7 @@ TEST(Triangulation, AVanishingDisparityIsFarAndUncertainButFinite) {
   }
 }
 
-// Against the sensor model: the error of a car's centre, weighed by the stated covariance, has mean 2 where
-// it is honest.
+// Against the sensor model: a consistent covariance gives the error of a car's centre a weighted mean of 2.
 TEST(Triangulation, CovarianceIsHonestForTheEmulatedCamera) {
   sim::world::CameraConfig camera;
   camera.miss_probability = camera.clutter_per_frame = 0.0;

@@ -1,4 +1,4 @@
-// The image's bytes: within half a resolution, saturated at the ends, and every status there is.
+// The image's bytes: within half a resolution, saturated at the ends, with every status.
 #include "nodes/fusion/image_codec.h"
 
 #include <gtest/gtest.h>
@@ -109,7 +109,7 @@ TEST(ImageCodec, SaturatesWhatIsOutOfRangeAndCountsIt) {
   EXPECT_EQ(image.out.take_saturated(), 3);
 }
 
-// A layout that lacks a signal, or has one the code does not know, is refused at start-up.
+// A layout that lacks a signal, or has an unknown one, is refused at start-up.
 TEST(ImageCodec, BindsAllSignalsOrNone) {
   Image image;
   schedules::model::PduLayout layout = image.layout;
@@ -119,7 +119,7 @@ TEST(ImageCodec, BindsAllSignalsOrNone) {
   EXPECT_THROW(bind_image(image.cluster, layout), InputError);
 }
 
-// What a view says of a track's state.
+// A view's status of a track.
 TEST(ImageStatus, CoastsAfterListsWithoutAnObservation) {
   const ttf::fusion::config::TrackerConfig config;
   const auto estimator = ttf::fusion::estimators::make_estimator(config);

@@ -1,5 +1,5 @@
-// What the image says of an object's size, against the truth: within what it states, over the paper's drives
-// and cars that cross.
+// The image's object sizes against the truth: within their stated uncertainty, over the paper's drives and
+// crossing cars.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using drives::Drive;
 
-// A size as the image tells it, from the instant on at which drives are judged.
+// A size in the image, from the instant on at which drives are judged.
 struct Told {
   int uses = 0, known = 0, outside_3 = 0;
   double error_squares = 0.0, normalised_squares = 0.0;
@@ -56,8 +56,7 @@ Sizes driven(const Drive& drive) {
   return sizes;
 }
 
-// Sizes hardly change from use to use, so that the samples are far from independent: a mean of 1.6 is nothing
-// unusual.
+// Sizes hardly change from use to use, so samples are far from independent: a mean of 1.6 is not unusual.
 void expect_honest(const Told& told) {
   EXPECT_GT(told.uses, 500);
   EXPECT_LE(told.normalised_squares, 1.6 * told.known + 10.0);
@@ -86,7 +85,7 @@ TEST_P(ImageExtent, IsHonestForACarThatComesAndTurnsOff) {
   EXPECT_LT(sizes.length.rms(), 0.5);
 }
 
-// The camera sees a crossing car's side. Its width is what the laser makes of its front.
+// The camera sees a crossing car's side. The laser derives the car's width from its front.
 TEST_P(ImageExtent, IsHonestForACarThatCrosses) {
   for (const bool from_left : {false, true}) {
     Drive drive("scenarios/paper_scenario1.yaml", GetParam());

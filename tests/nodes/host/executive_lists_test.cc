@@ -1,5 +1,4 @@
-// Lists that come to a node over its CAN: read once, overwritten, and discarded where no strobe tells their
-// time.
+// Lists that reach a node over its CAN: read once, overwritten, or discarded without a strobe for their time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +31,7 @@ struct CameraHost {
   std::unique_ptr<Executive> executive;
   Microticks now{1000};
 
-  // Integrated from the start, or (without a clock) starting up on a silent bus, which lasts.
+  // Integrated from the start, or (without a clock) starting up on a silent bus, for ever.
   explicit CameraHost(std::optional<bus::controller::InitialClock> clock = bus::controller::InitialClock{{1000}, 0}) {
     while (cluster.can_buses[camera_can].name != "camera_can") ++camera_can;
     const schedules::model::Task& task = cluster.node(id).tasks[0];
@@ -93,7 +92,8 @@ TEST(ExecutiveLists, AListWithoutAStrobeIsDiscardedCountedAndRecorded) {
   EXPECT_EQ(host.executive->counts().discarded_lists, 1u);
 }
 
-// The camera starts anew when its host is at 3000 of the field's 4096: the next list seems to be 1096 further on.
+// The camera restarts when its host is at 3000 of the field's 4096: the next list seems to be 1096 further
+// on.
 TEST(ExecutiveLists, TheDevicesRestartIsNoReasonToDiscard) {
   CameraHost host;
   const auto measured = [&](std::uint32_t sequence) {
@@ -109,7 +109,7 @@ TEST(ExecutiveLists, TheDevicesRestartIsNoReasonToDiscard) {
   EXPECT_EQ(host.heard.hops.back().sequence, 2u) << "under the device's own number";
 }
 
-// While it starts up a host has a clock of its own only, which says nothing to others.
+// During start-up a host has only a local clock, which means nothing to others.
 TEST(ExecutiveLists, WithoutGlobalTimeThereIsNoTimeOfMeasuring) {
   CameraHost host(std::nullopt);
   host.executive->strobe(host.camera, 0, host.now);

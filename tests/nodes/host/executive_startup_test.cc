@@ -1,4 +1,4 @@
-// A node that starts up says what its controller does and why.
+// A node in start-up reports its controller's changes with their reasons.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -71,9 +71,9 @@ struct ColdNode {
   }
 };
 
-// Two attempts allowed are two CAS: after the listen timeout of 2 * 40 121 microticks, and after the silent cycle.
-// Cycle 0 begins a macrotick after the end of the CAS, which lasts 39 bits of 0.1 us; the node gives up at the end of
-// cycle 4.
+// Two attempts allowed give two CAS: after the listen timeout of 2 * 40 121 microticks, and after the silent
+// cycle. Cycle 0 begins a macrotick after the end of the CAS, which lasts 39 bits of 0.1 us. The node gives
+// up at the end of cycle 4.
 TEST(ExecutiveStartup, EveryChangeOfStateIsReportedWithItsReason) {
   ColdNode node;
   node.run_to(60'000);
@@ -108,7 +108,7 @@ TEST(ExecutiveStartup, SymbolsAreReportedOnEachChannelTheyLeaveOn) {
                                                           {8'010, 8'014, 1, recording::records::kSymbolCas}}));
 }
 
-// It has no global time then, and says so: its own once more.
+// It has no global time then and reports its local time instead.
 TEST(ExecutiveStartup, WhatHappensBeforeNormalOperationHasLocalTimeForGlobalTime) {
   ColdNode node;
   node.run_to(60'000);
@@ -119,8 +119,8 @@ bus::ports::Reception heard_until(std::int64_t us, bus::ports::Signal signal) {
   return {schedules::model::Channel::kA, signal, {40 * (us - 50)}, {40 * us}, {}};
 }
 
-// Two patterns of 60 bits and 180 idle ones, 48 us, after the listen timeout of 2006 us; then start-up, which listens
-// anew.
+// Two patterns of 60 bits and 180 idle ones, 48 us, after the listen timeout of 2006 us. Then start-up, which
+// listens anew.
 TEST(ExecutiveStartup, WhoWakesSendsThePatternOnOneChannelAndStartsUpAfterwards) {
   ColdNode node(std::nullopt, ColdStart::kWakes);
   node.run_to(4'500);

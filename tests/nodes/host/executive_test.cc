@@ -67,7 +67,7 @@ TEST(Executive, TheFileDecidesTiesOnly) {
 }
 
 TEST(Executive, AnActivationThatMeetsAWaitingOneIsAnOverrun) {
-  // Busy for 2.5 cycles from 100 on: of the activations at 200, 1200, 2200 two meet the first, still waiting.
+  // Busy for 2.5 cycles from 100 on. Two of the activations at 200, 1200, 2200 meet the first, still waiting.
   OneNode node({at(100, task("busy", 2500), 4), at(200, task("short", 10))});
   node.run_to(3, 0);
   EXPECT_EQ(node.executive->counts().overruns, 2u);
@@ -105,7 +105,7 @@ TEST(Executive, ExecutionTimesAreDrawnBetweenTheirBoundsAlikeForASeed) {
   EXPECT_GT(longest->end - longest->start, 290);
 }
 
-// The law: what a task writes is there at its end, not when it was computed.
+// The law: a task's outputs are there at its end rather than at their computation.
 TEST(Executive, OutputsBecomeVisibleAtTheEnd) {
   schedules::model::Task writer = at(100, task("writer", 40));
   writer.writes = {{"out", bus::kList, schedules::model::kFlexRay, 0}};

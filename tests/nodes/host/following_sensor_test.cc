@@ -1,4 +1,4 @@
-// A sensor that follows its host: device and host, each by itself.
+// A sensor that follows its host: device and host, each alone.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -72,8 +72,8 @@ struct OneEnd {
   }
 };
 
-// At 3 ms by itself; triggered 10 and 40 ms after its last measurement, of which it can do the second at once. Then
-// nobody triggers it: 33 ms later it goes on by itself.
+// It measures at 3 ms by itself. Triggers come 10 and 40 ms after its last measurement; only the second can
+// be obeyed at once. Then triggers cease: 33 ms later it measures by itself.
 TEST(FollowingSensor, MeasuresWhenTriggeredIfItCanAndByItselfIfNot) {
   OneEnd device("camera");
   device.run_to(OneEnd::ms(13));
@@ -102,7 +102,7 @@ TEST(FollowingSensor, IsTriggeredWhenItsHostsTaskEnds) {
   EXPECT_EQ(host.lines.triggers, (std::vector{OneEnd::ms(28), OneEnd::ms(66)}));
 }
 
-// The device has measured by itself meanwhile: its next list waits already when the first one is done.
+// The device has measured by itself meanwhile: its next list already waits when the first one is done.
 TEST(FollowingSensor, IsNotTriggeredWhileANewerListWaits) {
   OneEnd host("camera_pre");
   host.run_to(OneEnd::ms(2));

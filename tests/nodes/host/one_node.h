@@ -15,7 +15,7 @@
 
 namespace ttf::nodes::host {
 
-// A step that is what the test says.
+// A step scripted by the test.
 class Scripted final : public Step {
  public:
   explicit Scripted(std::function<void(ttf::nodes::host::StepContext&)> what = [](StepContext&) {})

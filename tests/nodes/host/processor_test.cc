@@ -1,4 +1,4 @@
-// The operating system alone: who runs when, without controllers, lists or steps. One microtick is 25 ns.
+// The operating system alone: task execution without controllers, lists or steps. One microtick is 25 ns.
 #include "nodes/host/processor.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Strobe latches, stamps and sequence numbers that wrap, and what an output list holds.
+// Strobe latches, stamps and wrapping sequence numbers, and the content of an output list.
 #include "nodes/host/step.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +38,8 @@ TEST(StrobeLatch, ALostStrobeLeavesAGapNotANeighboursTime) {
   EXPECT_EQ(latch.find(5, kAllBits)->at.ns, 50);
 }
 
-// A host that started late has not seen the number wrap, a device that restarted has gone back: both mean the
-// measurement whose low bits the list carries, and its number is the device's.
+// A host that started late has missed the number's wrap; a restarted device has gone back. In both cases the
+// list's low bits identify the measurement, with the device's number.
 TEST(StrobeLatch, ListsAreRecognisedByTheBitsTheBusCarries) {
   StrobeLatch latch;
   for (std::uint32_t k = 4090; k < 4100; ++k) latch.strobe(k, GlobalTime{k});
@@ -62,8 +62,7 @@ schedules::model::PduLayout stamped(int bits) {
 // Longer than the signal's wrap: sender and reader count the same rounds.
 constexpr Duration kSameRounds{std::int64_t{1} << 50};
 
-// Any instant comes back to the microsecond from its low bits, whatever instant within half a wrap it is
-// looked at from.
+// The low bits give any instant to the microsecond, from any instant within half a wrap.
 TEST(TimeStamp, UnwrapsToTheNearestInstant) {
   RandomStream draw({.seed = 9});
   for (const int bits : {16, 24, 32}) {
@@ -89,8 +88,8 @@ TEST(TimeStamp, RoundsToTheNearestMicrosecondAlsoBeforeTheStart) {
   }
 }
 
-// The sender has restarted, or the reader has, any number of times: they count different rounds. What the stamp says is
-// found on the reader's count, whatever instant within half a round it is looked at from.
+// Sender and reader have restarted any number of times: they count different rounds. A stamp is resolved on
+// the reader's count, from any instant within half a round.
 TEST(TimeStamp, IsUnderstoodModuloARoundOfTheCycleCounter) {
   RandomStream draw({.seed = 10});
   const schedules::model::PduLayout layout = stamped(32);

@@ -1,4 +1,4 @@
-// The wiring alone, on media made for the test: a medium needs no more than to be registered.
+// The wiring alone, on media made for the test: a medium only has to be registered.
 #include "nodes/host/wiring.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ constexpr PduId kOther{1};
 constexpr schedules::model::MediumId kFirst = schedules::model::MediumId::can(0),
                                      kSecond = schedules::model::MediumId::can(1);
 
-// What goes into it stays there; what comes out of it the test has put there.
+// A medium that keeps outputs, and gives the test's inputs.
 struct Box final : ListMedium {
   struct Content {
     std::map<PduId, std::unique_ptr<bus::cni::IncomingList>> incoming;
@@ -44,7 +44,7 @@ struct Hops final : recording::records::Sink {
   void on(const recording::records::ListHop& hop) override { hops.push_back({hop.hop, hop.sequence, hop.can_bus}); }
 };
 
-// Task 0 is activated by kList from the first medium; task 1 reads it, too, and kOther from the second.
+// Task 0 is activated by kList from the first medium. Task 1 reads it, too, and kOther from the second.
 struct Wired {
   schedules::model::Cluster cluster = bus::small_cluster(1);
   NodeTime time{NodeId{0}, timebase::Oscillator(25'000, 0, 0), nullptr};
@@ -65,7 +65,7 @@ struct Wired {
     if (on_second) media.push_back({kSecond, std::make_unique<Box>(cluster, second)});
     wiring.emplace(cluster, cluster.nodes[0], std::move(media), time, records);
   }
-  // A whole list comes, over that medium as the wiring is told.
+  // A whole list arrives, over the given medium.
   std::vector<std::size_t> comes(schedules::model::MediumId medium, PduId pdu, std::uint32_t sequence) {
     bus::MadeList list(cluster.pdu(pdu), sequence, 3, 0);
     bus::cni::IncomingList& incoming = *(medium == kFirst ? first : second).incoming.at(pdu);

@@ -63,8 +63,8 @@ TEST(LaserPreprocessor, SameScanSameBits) {
   }
 }
 
-// A scan of returns in groups that belong together, each group far from the next: as many segments as it can have with
-// a group of one, as many objects with the fewest returns an object may have.
+// A scan of returns in groups, each far from the next. Groups of one give the most segments; groups of an
+// object's fewest returns give the most objects.
 std::vector<ScanPoint> broken_scan(std::size_t group) {
   std::vector<ScanPoint> scan;
   for (std::size_t i = 0; i < kMostPoints; ++i)

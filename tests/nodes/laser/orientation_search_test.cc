@@ -1,4 +1,4 @@
-// The search over lanes against one angle after the other: the very same angle, to the last bit.
+// The search over lanes against one angle after the other: bitwise the same angle.
 #include "nodes/laser/orientation_search.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kClosest = 0.06;
 
-// Projections of the returns on one axis: their nearest end, and whether the sensor stands outside of them.
+// Projections of the returns on one axis: their nearest end, and whether the sensor stands outside them.
 struct Seen {
   double cos, sin, near;
   bool visible;
@@ -93,7 +93,7 @@ TEST(OrientationSearch, FindsForAnyReturnsWhatAPlainSearchFinds) {
   EXPECT_GT(std::min({hidden, single, both}), 50);
 }
 
-// Of angles that score alike the first counts: a single return lies on both faces at any angle.
+// The first of several equal scores counts: a single return lies on both faces at any angle.
 TEST(OrientationSearch, TakesTheFirstOfEqualAngles) {
   EXPECT_EQ(search_orientation(std::vector<PlanePoint>{{20.0, 5.0, 0.0, 0.0}}, kClosest), 0.0);
 }

@@ -1,4 +1,4 @@
-// Rectangles from emulated scans of cars whose pose and size are known.
+// Rectangles from emulated scans of cars with known pose and size.
 #include "nodes/laser/rectangle_fit.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace ttf::nodes::laser {
 namespace {
 
-// Through segmentation: a car is one object, whatever its aspect.
+// Through segmentation: a car is one object from any aspect.
 LaserObject fitted(const sim::world::ObjectState& car, std::uint32_t sequence,
                    const sim::world::LaserConfig& laser = {}) {
   LaserPreprocessor preprocessor({}, kMostPoints);
@@ -64,7 +64,7 @@ TEST(RectangleFit, ARearAloneLeavesTheLengthOpen) {
     EXPECT_EQ(o.sigma_length, config.length_sigma_m);
     EXPECT_NEAR(o.width, 1.8, 3.0 * o.sigma_width);
     EXPECT_NEAR(axis_difference(o.heading, 0.0), 0.0, 3.0 * o.sigma_heading);
-    // Behind the rear by half the nominal length, uncertain by half its spread; sideways it is seen well.
+    // Half the nominal length behind the rear, uncertain by half its spread; sideways it is seen well.
     EXPECT_NEAR(o.x, x - 2.2 + 0.5 * config.nominal_length_m, 0.1);
     EXPECT_NEAR(std::sqrt(o.sxx), 0.5 * config.length_sigma_m, 0.05);
     EXPECT_LT(std::sqrt(o.syy), 0.2);
@@ -104,10 +104,9 @@ TEST(RectangleFit, TurningTheSceneTurnsTheAnswer) {
   EXPECT_NEAR(b.y, s * a.x + c * a.y, 0.05);
 }
 
-// Many cars of the fleet the nominal size stands for, all aspects, near and far: the error of the centre,
-// weighed by the stated covariance (NEES), is of mean 2 where it is honest. A band, since the errors are
-// neither Gaussian nor independent of the aspect: on average a little on the safe side, and no aspect
-// overconfident.
+// Many cars of the fleet behind the nominal size, all aspects, near and far. A consistent covariance gives
+// the centre's error (NEES) a mean of 2. The errors are neither Gaussian nor independent of the aspect, so
+// this checks a band. It leans a little to the safe side, and no aspect is overconfident.
 TEST(RectangleFit, TheCentresCovarianceIsHonestFromEveryAspect) {
   constexpr int kAspects = 24, kCars = 60;
   RandomStream fleet({17, 0, Purpose::kTest, 0, 0});

@@ -40,7 +40,7 @@ TEST(Segmentation, OneReturnIsOneSegment) {
 
 TEST(Segmentation, CarsBesideEachOtherAreTwo) {
   for (const double range : {12.0, 30.0, 60.0}) {
-    // Turned to the sensor, so that only their rears show, 2.2 m apart.
+    // 2.2 m apart, turned to the sensor so that only their rears show.
     const double turn = std::atan2(2.0, range);
     const auto scan = emulated_scan({}, {car_at(range, -2.0, -turn), car_at(range, 2.0, turn, 4.4, 1.8, 1)}, 0);
     EXPECT_EQ(cut(scan).segments.size(), 2U) << range;

@@ -1,5 +1,5 @@
-// A real scanner in a real street (a recording that is not part of the repository): no ground truth, so
-// what is asked for is that the boxes are plausible as vehicles and hold still from scan to scan.
+// A real scanner in a real street (the recording is not part of the repository). Without ground truth, boxes
+// must be plausible as vehicles and hold still from scan to scan.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,8 +29,7 @@ std::vector<std::vector<ScanPoint>> street_scans() {
   return scans;
 }
 
-// Ten scans a second in a city, where 50 km/h is the limit: what is there is within 1.4 m of where it was, and a
-// little.
+// Ten scans a second in a city with a limit of 50 km/h: an object moves at most 1.4 m, and a little.
 constexpr double kMostStep_m = 1.5;
 
 TEST(StreetScans, YieldPlausibleVehicles) {

@@ -38,8 +38,8 @@ struct Told final : ArrivalEvents {
   void lost(std::int64_t, int, Channel, std::uint32_t count) override { lost_counts.push_back(count); }
 };
 
-// The feature node of the paper's cluster: others' key slots are 1 to 4, slot 6 carries the gateway's list; 40
-// microticks to a macrotick, 200,000 to a cycle, which begins at 1,000,000.
+// The feature node of the paper's cluster. Other nodes' key slots are 1 to 4, slot 6 carries the gateway's
+// list. A macrotick has 40 microticks, a cycle 200,000; it begins at 1,000,000.
 class ArrivalWindowTest : public testing::Test {
  protected:
   static constexpr std::int64_t kStart = 1'000'000;
@@ -129,11 +129,11 @@ TEST_F(ArrivalWindowTest, ASyncFrameIsNeverPutBeyondWhatFlexRayAllows) {
   arrive(1, action_point(1) + 5000, true, kCycle, 0);
   const auto due = take(kStart + 100'000);
   ASSERT_TRUE(due);
-  // The action point lies 7 macroticks in; one is kept, and of the others an eighth.
+  // The action point lies 7 macroticks in. One is kept, and an eighth of the others.
   EXPECT_EQ(due->reception.start.value, action_point(1) + kCompensation + 6 * 40 - 30);
 }
 
-// From clocks far apart rates are measured all the same, as long as there is room.
+// Rates are measured even between clocks far apart, as long as there is room.
 //
 //   deviation in the even cycle    5000   -3900    5000   100    5000   210    none
 //   in the odd one so much more      20     -20     -70    20      50    20    5000
@@ -210,7 +210,7 @@ TEST_F(ArrivalWindowTest, WhatNeverCameIsToldByTheNextOfItsSlot) {
   EXPECT_EQ(told_.lost_counts.size(), 1u);
 }
 
-// A process that was stopped finds frames of a round before, whose cycle counter is that of now.
+// A stopped process finds frames of an earlier round whose cycle counter equals the present one.
 TEST_F(ArrivalWindowTest, AFrameOfTheRoundBeforeIsNotTakenForOneOfThisCycle) {
   arrive(6, action_point(6) - 64 * 200'000, false, kCycle - 64);
   EXPECT_FALSE(take(kStart + 1'000'000));
@@ -242,7 +242,7 @@ TEST_F(ArrivalWindowTest, WithoutAClockAFrameKeepsItsInstant) {
   EXPECT_EQ(due->reception.end.value, 5'000'100 + frame_length().value);
 }
 
-// A process that was held up finds what came in the meantime, of cycles that its node has yet to get to.
+// A delayed process finds frames of cycles that its node has yet to reach.
 TEST_F(ArrivalWindowTest, WhatCameWhileTheProcessWasHeldUpIsPlacedWhenItsCycleComes) {
   for (int ahead = 0; ahead < 5; ++ahead) arrive(6, action_point(6) + ahead * 200'000 + 900, false, kCycle + ahead);
   for (int ahead = 0; ahead < 5; ++ahead) {
@@ -255,7 +255,7 @@ TEST_F(ArrivalWindowTest, WhatCameWhileTheProcessWasHeldUpIsPlacedWhenItsCycleCo
   EXPECT_TRUE(told_.missed.empty());
 }
 
-// A clock that is derived for a cycle that is over, and does not go on: nothing waits for it.
+// A clock derived for a past cycle, which does not go on: frames do not wait for it.
 TEST_F(ArrivalWindowTest, AFrameOfTheNextCycleDoesNotWaitForAClockThatStandsStill) {
   arrive(6, action_point(6) + 200'000, false, kCycle + 1);
   const auto due = take(kStart + 900'000);

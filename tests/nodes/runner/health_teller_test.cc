@@ -1,4 +1,4 @@
-// Laws of nodes/runner/health_teller.h: who hands over never waits, and what is handed over is told as it was.
+// Laws of nodes/runner/health_teller.h: handing over never waits, and reports are unchanged.
 #include "nodes/runner/health_teller.h"
 
 #include <gtest/gtest.h>
@@ -39,8 +39,8 @@ TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
   EXPECT_NE(who.get_future().get(), std::this_thread::get_id());
 }
 
-// While one is being told, for as long as it takes, those that come are left out and counted; the next one behind it
-// is told.
+// While one is being reported, for however long, new ones are left out and counted; the next one after it is
+// reported.
 TEST(HealthTeller, WhoHandsOverNeverWaits) {
   std::promise<void> begun, go_on;
   std::vector<std::uint64_t> told;
@@ -52,7 +52,7 @@ TEST(HealthTeller, WhoHandsOverNeverWaits) {
   });
   EXPECT_TRUE(teller.hand_over(health_of(0)));
   begun.get_future().wait();
-  // Whoever waited for the other thread here would wait for good.
+  // Waiting for the other thread here would hang.
   for (std::uint64_t i = 1; i <= 10'000; ++i) EXPECT_FALSE(teller.hand_over(health_of(i)));
   EXPECT_EQ(teller.left_out(), 10'000u);
   go_on.set_value();
@@ -71,7 +71,7 @@ TEST(HealthTeller, WhatWasHandedOverIsToldBeforeItIsClosed) {
   }
 }
 
-// Whenever it is handed over, each is whole: never half of one and half of the next.
+// Each report is whole at any time: never half of one and half of the next.
 TEST(HealthTeller, WhatIsToldIsWholeAndInOrder) {
   std::uint64_t last = 0, told = 0;
   HealthTeller teller([&](const Health& health, bus::ports::MachineTime) {

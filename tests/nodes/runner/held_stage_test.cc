@@ -28,7 +28,7 @@ TEST(HeldStage, StandsInTheOrderOfItsLists) {
   for (std::size_t i = 0; i < kAllHeldEvents.size(); ++i) EXPECT_EQ(static_cast<std::size_t>(kAllHeldEvents[i]), i);
 }
 
-// What is found of a frame leads where it leads from wherever that frame waits to be placed.
+// A finding about a frame leads to the same stage from every waiting stage.
 TEST(HeldStage, WhatIsFoundLeadsToOneStage) {
   const std::map<Event, Stage> leads{{Event::kOfNextCycle, Stage::kAwaitsCycle},
                                      {Event::kInWindow, Stage::kPlaced},

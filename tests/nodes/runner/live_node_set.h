@@ -1,5 +1,5 @@
-// The paper's node set on a medium in memory, each node with a runner and a clock of its own: what the tests by a
-// turned clock and those by the kernel's share.
+// The paper's node set on the memory live medium, each node with its own runner and clock. Shared by the
+// tests with a turned clock and with the kernel's.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ constexpr Duration ms(std::int64_t n) { return Duration::milliseconds(n); }
 constexpr Duration us(std::int64_t n) { return Duration::microseconds(n); }
 inline constexpr bus::ports::MachineTime kOrigin{1'000'000'000'000};  // of the drives by a clock that is turned
 
-// What a node has recorded, as far as the tests ask for it.
+// A node's records, as far as the tests need them.
 struct Recorded final : recording::records::Sink {
   using recording::records::Sink::on;
   using SlotOfCycle = std::tuple<std::int64_t, int, int>;  // cycle, slot, channel
@@ -85,7 +85,7 @@ struct Recorded final : recording::records::Sink {
     ++accounts;
   }
 
-  // So many of them, or so much of what they count.
+  // The number of problems, or the sum of their counts.
   std::uint64_t told(std::uint8_t what) const {
     std::uint64_t sum = 0;
     for (const Told& problem : problems)
@@ -108,7 +108,7 @@ struct Recorded final : recording::records::Sink {
   std::map<std::int64_t, Correction> corrections;  // by cycle
   std::vector<std::string> states;                 // of the controller, as it comes into them
   std::vector<recording::records::Stamp> changes;
-  std::map<int, Histogram> lateness;        // the last, by what it is of
+  std::map<int, Histogram> lateness;        // the last, by its subject
   recording::records::MediumCounts medium;  // the last
 };
 
@@ -140,7 +140,7 @@ class Deaf final : public bus::ports::LiveMedium {
   std::function<bus::ports::MachineTime()> now_;
 };
 
-// What holds however late a node was: nothing is told without being counted, or counted without being told.
+// Holds for any lateness of a node: every report is counted, every count is reported.
 inline void expect_counted_once(const Recorded& recorded, const Health& health) {
   const TimingCounts& timing = health.timing;
   EXPECT_TRUE(recorded.ordered);
@@ -193,7 +193,8 @@ class LiveNodeSet : public testing::Test {
           std::make_unique<Deaf>(bus.join(), clock.machine_time(sim::crank::kFirstCycle + how.deaf_for), now));
     return media;
   }
-  // Behind the drive: what one has sent, each other has received, has lost and counted, or finds now.
+  // After the drive, every sent frame is at each other member: received, counted as lost, or still to be
+  // found.
   void expect_nothing_vanished(const std::vector<std::unique_ptr<bus::ports::LiveMedium>>& media) {
     std::uint64_t sent = 0;
     for (const auto& medium : media) sent += medium->counts().sent;

@@ -1,4 +1,4 @@
-// One node of the paper's cluster with a runner by a clock that the test turns; a script speaks for the others.
+// One node of the paper's cluster with a runner, by a turned clock; a script plays the others.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@
 
 namespace ttf::nodes::runner {
 
-// Computes for so long before it does what it does.
+// Computes for this long before its action.
 class Slow final : public host::Step {
  public:
   Slow(std::shared_ptr<host::Step> step, MachineClock& host, Duration computes)
@@ -41,7 +41,7 @@ class Slow final : public host::Step {
 class RunnerTest : public LiveNodeSet {
  protected:
   using SlotOfCycle = Recorded::SlotOfCycle;
-  // Integrated from cycle 0 on, unless it is told otherwise.
+  // Integrated from cycle 0 on by default.
   class Alone {
    public:
     Alone(const RunnerTest& set, const char* node, Drive how)

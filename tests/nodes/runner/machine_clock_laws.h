@@ -45,7 +45,7 @@ TYPED_TEST_P(MachineClockLaws, L2_WaitsUntilAnInstantAndNotLess) {
   this->clock().wait_until(bus::ports::MachineTime{-5});  // over long ago
 }
 
-// Who did not watch would wait for an hour.
+// Without watching, this would wait for an hour.
 TYPED_TEST_P(MachineClockLaws, L2_WakesUpForWhatItWatches) {
   const bus::ports::MachineTime until = this->in(Duration::milliseconds(3'600'000));
   this->clock().watch(-1);

@@ -1,5 +1,5 @@
-// Whole node sets in real time, by a clock that the test turns: what they make of kernels that are late by so much, of
-// nodes that stand still, come late or start together.
+// Whole node sets in real time, by a clock that the test turns. Kernels are late by a given time; nodes stand
+// still, come late or start together.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ class TurnedNodeSet : public LiveNodeSet {
       if (problem.what == recording::records::kSlotMissed) missed.insert(problem.slot);
     return missed;
   }
-  // Of what the other sends in each slot, how many frames between two that were sent were not.
+  // The frames that a node did not send in each slot, between the first and the last sent one.
   std::uint64_t withheld(const char* node) {
     std::map<std::pair<int, int>, std::pair<std::int64_t, std::int64_t>> sent;  // by slot and channel: first, last
     for (const auto& [cycle, slot, channel] : of(node).frames) {
@@ -75,7 +75,7 @@ class TurnedNodeSet : public LiveNodeSet {
   }
 };
 
-// 600 ms: a laser scan every 80 ms, a camera frame every 40, an image every 40, the first of them with no tracks in it.
+// 600 ms: a laser scan every 80 ms, a camera frame every 40, an image every 40, the first without tracks.
 TEST_F(TurnedNodeSet, ANodeSetDrivesInRealTime) {
   for (const std::int64_t scale : {1'000'000, 4'000'000}) {
     SCOPED_TRACE(scale);
@@ -108,7 +108,7 @@ TEST_F(TurnedNodeSet, TheSameDriveGivesTheSameRecords) {
   }
 }
 
-// As late as the window allows, each time anew, and nobody notices.
+// As late as the window allows, each time anew, without effect.
 TEST_F(TurnedNodeSet, WithinTheWindowNothingIsMissedOrLost) {
   const Duration most = cluster_.arrival_window->late - us(10);  // clocks differ by microticks
   drive({}, [&](NodeId node) { return drawn_late(most, static_cast<std::uint16_t>(index_of(node))); });
@@ -121,7 +121,7 @@ TEST_F(TurnedNodeSet, WithinTheWindowNothingIsMissedOrLost) {
   }
 }
 
-// Beyond it, what a node withholds as too late is what each of the others says it has lost of it, frame by frame.
+// Beyond it, every frame that a node withholds as too late is reported lost by each of the others.
 TEST_F(TurnedNodeSet, WhatOneWithholdsTheOthersHaveLost) {
   drive({}, [](NodeId node) { return drawn_late(us(700), static_cast<std::uint16_t>(index_of(node))); });
   expect_all_active();
@@ -136,8 +136,8 @@ TEST_F(TurnedNodeSet, WhatOneWithholdsTheOthersHaveLost) {
   }
 }
 
-// Two of the five sync nodes, late each time, are within the window, and nobody's clock follows them: by their lateness
-// alone it would be off by 8000 microticks.
+// Two of the five sync nodes are always late, within the window, and no clock follows them. Their lateness
+// alone would shift it by 8000 microticks.
 TEST_F(TurnedNodeSet, LatenessIsNotTakenForTheClock) {
   drive({});
   std::vector<Recorded> in_time = std::exchange(recorded_, {});
@@ -158,14 +158,14 @@ TEST_F(TurnedNodeSet, LatenessIsNotTakenForTheClock) {
   }
 }
 
-// Clocks that are off by up to 1500 ppm (the cluster's own draws) stay together: uncorrected they would be apart by
-// hundreds of microticks within a cycle. The first cycles correct what the initial clocks are apart by.
+// Clocks that are off by up to 1500 ppm (the cluster's draws) stay together. Uncorrected they would be
+// hundreds of microticks apart within a cycle. The first cycles correct the initial clocks' distance.
 TEST_F(TurnedNodeSet, ClocksThatDriftStayTogether) {
   drive({.lasts = ms(400)});
   for (const char* node : kOnFlexRay) EXPECT_LE(of(node).largest_offset(8), 8) << node;
 }
 
-// True time is when the clock showed that, not when the process came to do it, a kernel's whim later.
+// True time is the clock's instant, not the later instant at which the process runs.
 TEST_F(TurnedNodeSet, WhatClocksShowIsOfOneInstant) {
   drive({.lasts = ms(400)},
         [](NodeId node) { return drawn_late(us(400), static_cast<std::uint16_t>(index_of(node))); });
@@ -195,8 +195,8 @@ TEST_F(TurnedNodeSet, AClusterStartsUp) {
   }
 }
 
-// Nobody hears anybody until all coldstart attempts are in vain. Only the hosts can help then: a cluster in which all
-// only listen stays silent for good.
+// The nodes cannot hear each other until all coldstart attempts are exhausted. Only the hosts can help then:
+// a cluster of listeners stays silent for good.
 TEST_F(TurnedNodeSet, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSame) {
   cluster_.flexray.gColdStartAttempts = 2;
   drive({.lasts = ms(1000),
@@ -224,7 +224,7 @@ TEST_F(TurnedNodeSet, ANodeThatComesLaterIntegrates) {
     EXPECT_TRUE(of(node).states.empty()) << node << " has noticed";
 }
 
-// Two cycles and a half: it catches up, with its own clock and all that it has heard, and is where the others are.
+// Two cycles and a half: it catches up with its own clock and all received frames, and rejoins the others.
 TEST_F(TurnedNodeSet, ANodeThatWasStoppedForShortIsBackInTime) {
   drive({}, only("camera_pre", stopped(at(ms(200)), at(ms(212)))));
   EXPECT_THAT(missed("camera_pre"),
@@ -240,8 +240,8 @@ TEST_F(TurnedNodeSet, ANodeThatWasStoppedForShortIsBackInTime) {
   EXPECT_EQ(of("feature").fresh, 15);
 }
 
-// Twenty cycles, of which there is room for the frames of five: of the others it hears nothing when it catches up, and
-// its clock goes astray. It halts, as FlexRay has it, and integrates anew; until then it hardly disturbs the others.
+// Twenty cycles, with room for the frames of five: it hears no others when it catches up, and its clock goes
+// astray. It halts, as FlexRay specifies, and integrates anew. Until then it hardly disturbs the others.
 TEST_F(TurnedNodeSet, ANodeThatWasStoppedForLongIntegratesAnew) {
   drive({.lasts = ms(600), .room = 64}, only("camera_pre", stopped(at(ms(200)), at(ms(300)))));
   expect_all_active();

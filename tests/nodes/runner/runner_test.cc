@@ -1,5 +1,5 @@
-// One node in real time, by a clock that the test turns: what it does at which instant, and what it counts, to the
-// nanosecond. The others of its cluster are silent, or a script speaks for them.
+// One node in real time, by a clock that the test turns: its actions and counts, to the nanosecond. The
+// others of its cluster are silent, or played by a script.
 #include "nodes/runner/runner.h"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ TEST_F(RunnerTest, WhoIsWokenUpInTimeIsNeverLate) {
   EXPECT_EQ(gateway.health.medium.sent, 4u * 34);
 }
 
-// The window's last instant is in time, for a frame and for all else that is due.
+// The window's last instant is in time, for a frame and for all other acts.
 TEST_F(RunnerTest, WhoIsAsLateAsTheWindowAllowsIsInTime) {
   const Duration late = cluster_.arrival_window->late;
   Alone gateway(*this, "gateway", {.lasts = ms(20)});
@@ -61,7 +61,7 @@ TEST_F(RunnerTest, WhatIsANanosecondTooLateIsNotSentAndToldSo) {
   for (const Recorded::Told& problem : gateway.out.problems) EXPECT_EQ(problem.late, too_late);
 }
 
-// Stopped in cycle 1, going on in cycle 3: it does what it missed, in order, but for what is too late to be sent.
+// Stopped in cycle 1, going on in cycle 3: it catches up in order, except for frames that are too late.
 TEST_F(RunnerTest, WhoWasStoppedCatchesUp) {
   Alone gateway(*this, "gateway", {.lasts = ms(20)});
   const bus::ports::MachineTime from = gateway.at(ms(7)), until = gateway.at(ms(16));
@@ -79,7 +79,7 @@ TEST_F(RunnerTest, WhoWasStoppedCatchesUp) {
   EXPECT_TRUE(gateway.out.ordered);
 }
 
-// The medium's threads were stopped, too: who is more than a cycle behind gives them time to take in what has come.
+// The medium's threads were stopped, too: a node more than a cycle behind gives them time to take frames in.
 TEST_F(RunnerTest, WhoIsMoreThanACycleBehindWaitsForTheMedium) {
   for (const Duration more : {Duration{0}, Duration{1}}) {
     Alone gateway(*this, "gateway", {.lasts = ms(20)});
@@ -170,8 +170,8 @@ TEST_F(RunnerTest, AFrameIsJudgedByItsWindowInRealTime) {
   }
 }
 
-// The scan's 93 frames are not ready at once: they leave as a CAN FD of the cluster's bit rates would carry them,
-// however the drive is stretched, and whoever is late with one is not late with the next.
+// The scan's 93 frames are not ready at once: they leave at a CAN FD's pace with the cluster's bit rates, at
+// any time scale. A late frame does not delay the next.
 TEST_F(RunnerTest, FramesLeaveAsACanWouldCarryThem) {
   for (const std::int64_t scale : {1'000'000, 4'000'000}) {
     SCOPED_TRACE(scale);
@@ -214,7 +214,7 @@ TEST_F(RunnerTest, ALineIsKnownByItsForm) {
   EXPECT_EQ(camera_pre.health.medium.received, 4u);
 }
 
-// Nodes take turns: the camera's, the second of seven, is a quarter of a second behind each whole one.
+// Nodes take turns: the camera's, the second of seven, comes a quarter of a second after each whole one.
 TEST_F(RunnerTest, HealthIsToldOnceASecondAtItsTurn) {
   for (const auto& [scale, lasts] : {std::pair(1'000'000, ms(3'500)), {4'000'000, ms(875)}}) {
     Alone camera(*this, "camera", {.lasts = lasts, .scale_ppm = scale});
@@ -225,7 +225,8 @@ TEST_F(RunnerTest, HealthIsToldOnceASecondAtItsTurn) {
   }
 }
 
-// At twice the drive's time its turn comes 1.5 ms into a cycle, among its slots; the last of them is at 1.687 ms.
+// At twice the drive's time its turn comes 1.5 ms into a cycle, among its slots; the last of them is at 1.687
+// ms.
 TEST_F(RunnerTest, HealthIsToldWhereThereIsRoomForIt) {
   Alone gateway(*this, "gateway", {.lasts = ms(400), .scale_ppm = 2'000'000});
   gateway.run();
@@ -246,7 +247,8 @@ TEST_F(RunnerTest, HealthIsPutOffByASecondAtMost) {
   EXPECT_EQ(gateway.waits_for_nothing, 0);
 }
 
-// Who sends no sync frame and hears none cannot correct its clock, and halts; its host starts it anew at once.
+// A node without own or received sync frames cannot correct its clock, and halts; its host restarts it at
+// once.
 TEST_F(RunnerTest, AHaltedControllerIsStartedAnew) {
   auto& parameters = *cluster_.nodes[index_of(id_of("gateway"))].flexray;
   parameters.pKeySlotUsedForSync = parameters.pKeySlotUsedForStartup = false;
@@ -260,7 +262,7 @@ TEST_F(RunnerTest, AHaltedControllerIsStartedAnew) {
     EXPECT_EQ(gateway.out.changes[i].local, gateway.out.changes[halted].local) << states[i];
 }
 
-// Noise puts off a coldstart, unless the node had no power yet to hear it.
+// Noise delays a coldstart, unless the node had no power to hear it.
 TEST_F(RunnerTest, WhoHasNoPowerYetHearsNothing) {
   const auto begins_cluster = [&](std::optional<Duration> noise) {
     Alone gateway(*this, "gateway", {.lasts = ms(60), .power_on = [](NodeId) {
@@ -276,7 +278,7 @@ TEST_F(RunnerTest, WhoHasNoPowerYetHearsNothing) {
   EXPECT_GT(begins_cluster(ms(11)), silent);
 }
 
-// A startup frame lasts 65 us; a node that starts up takes it at its end, long before it has anything to do by itself.
+// A startup frame lasts 65 us. A node in start-up takes it at its end, long before its own next event.
 TEST_F(RunnerTest, WhoListensIsWokenUpByWhatItHears) {
   Alone gateway(*this, "gateway",
                 {.lasts = ms(20), .power_on = [](NodeId) { return std::optional(sim::crank::kFirstCycle); }});
@@ -318,7 +320,7 @@ TEST_F(RunnerTest, WhoMayOnlyListenIsStartedAnewAfter64Cycles) {
   EXPECT_THAT(std::vector<std::string>(states.begin() + gave_up, states.end()), testing::Contains("coldstart listen"));
 }
 
-// The fusion begins at 1.8 ms; its slot 4 is due 3.459 ms later, and then as late as the window allows.
+// The fusion begins at 1.8 ms. Its slot 4 is due 3.459 ms later, and then as late as the window allows.
 TEST_F(RunnerTest, AStepThatComputesForTooLongMakesTheNextSlotLate) {
   const auto missed_after = [&](Duration computes) {
     Alone fusion(*this, "fusion", {.lasts = ms(10)});
@@ -332,7 +334,7 @@ TEST_F(RunnerTest, AStepThatComputesForTooLongMakesTheNextSlotLate) {
   EXPECT_THAT(missed_after(longest + us(1)), testing::ElementsAre(SlotOfCycle{1, 4, 0}, SlotOfCycle{1, 4, 1}));
 }
 
-// What a plain thread beside it was late by is told along with its own.
+// The lateness of a plain thread beside it is reported along with its own.
 TEST_F(RunnerTest, TheMachinesOwnLatenessIsTold) {
   Alone gateway(*this, "gateway", {.lasts = ms(10)});
   gateway.floor.add(us(70));

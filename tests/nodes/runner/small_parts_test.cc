@@ -33,7 +33,8 @@ TEST(DriveClock, AnInstantOfTheDriveIsReachedAtItsMachineTimeAndNotBefore) {
   }
 }
 
-// A turn every 10 ns, 3 behind the origin at 1000: at ..., 993, 1003, 1013, ...; the drive's scale has no part in it.
+// A turn every 10 ns, 3 after the origin at 1000: at ..., 993, 1003, 1013, ...; regardless of the drive's
+// scale.
 TEST(DriveClock, TurnsAreWhereTheyAreFromTheOrigin) {
   const DriveClock clock(bus::ports::MachineTime{1'000}, 2'500'000);
   const auto next = [&](std::int64_t now) {

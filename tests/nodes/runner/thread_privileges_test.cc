@@ -1,4 +1,4 @@
-// What is asked of the kernel, in processes of their own that may lock more or less memory.
+// Requests to the kernel, in separate processes with different limits on locked memory.
 #include "nodes/runner/thread_privileges.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 namespace ttf::nodes::runner {
 namespace {
 
-constexpr std::size_t kPlace = 1'000'000;  // nobody's: no processor is taken
+constexpr std::size_t kPlace = 1'000'000;  // beyond all processors: it takes no processor
 constexpr std::size_t kLater = 64 << 20;
 
 // g++ says it by macros, clang by features.
@@ -33,7 +33,7 @@ constexpr std::size_t kLater = 64 << 20;
 #define TTF_SANITIZED
 #endif
 #if defined(TTF_SANITIZED)
-constexpr bool kLocks = false;  // sanitizers let nobody lock memory
+constexpr bool kLocks = false;  // sanitizers forbid locking memory
 #else
 constexpr bool kLocks = true;
 #endif
@@ -52,7 +52,7 @@ bool set_limit(rlim_t bytes) {
   return setrlimit(RLIMIT_MEMLOCK, &limit) == 0;
 }
 
-// The sentence about memory; empty where there is none.
+// The sentence about memory; empty if there is none.
 std::string asked() {
   std::string found;
   for (const std::string& sentence : ask_for_thread_privileges(kPlace, kPlace))
@@ -78,7 +78,7 @@ std::uint64_t locked_kib() {
   return kib;
 }
 
-// `what` in a process of its own: 0 well, 77 it cannot be tried here, else it fails.
+// Runs `what` in a separate process: 0 well, 77 it cannot be tried here, else it fails.
 int alone(const std::function<int()>& what) {
   const pid_t process = fork();
   if (process == 0) _exit(what());
@@ -92,7 +92,7 @@ int failed(const std::string& why) {
   return 1;
 }
 
-// Runs as a test what alone() says.
+// Turns alone()'s result into the test's.
 #define TRY_ALONE(what)                                                         \
   if (!kLocks) GTEST_SKIP() << "sanitizers let nobody lock memory";             \
   const int code = alone(what);                                                 \

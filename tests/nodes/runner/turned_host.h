@@ -1,14 +1,14 @@
-// A host whose clock the test turns: time passes only while all its processes wait, and then it leaps to where the
-// first of them wakes up. How late that is, the test says. Each process has a thread of its own, as a runner's loop
-// wants one, but one runs at a time and hands over to the next: the scheduler has no say, and the same drive gives the
-// same records on any machine, however busy.
+// A host whose clock the test turns. Time passes only while all its processes wait; then it leaps to the
+// first wake-up. The test sets the lateness. Each process has its own thread, as a runner's loop needs, but
+// only one runs at a time and hands over to the next. The scheduler has no influence: the same drive gives
+// the same records on any machine, however busy.
 //
 //   TurnedHost host;
 //   TurnedHost::Process &a = host.process(), &b = host.process(stopped(from, until));
 //   host.at(from, [&] { medium.send(...); });
 //   host.run({[&] { run_a(a); }, [&] { run_b(b); }});
 //
-// Where there is one process, it may run on the test's own thread, without run().
+// A single process may run on the test's own thread, without run().
 #pragma once
 
 #include <poll.h>
@@ -51,7 +51,7 @@ inline Wakes drawn_late(Duration most, std::uint16_t process) {
 class TurnedHost {
  public:
   class Process;
-  // What a wait takes at least, even for an instant that is over.
+  // The least duration of a wait, even for a past instant.
   static constexpr Duration kShortest = Duration::microseconds(10);
 
   explicit TurnedHost(bus::ports::MachineTime begin = {1'000'000'000}) : now_(begin) {}
@@ -60,7 +60,7 @@ class TurnedHost {
   // While no process runs.
   void turn_to(bus::ports::MachineTime later) { now_ = std::max(now_, later); }
   inline Process& process(Wakes wakes = late_by({}));
-  // Something that happens then, before any process wakes up at that instant. It must not wait.
+  // Adds an event before any process wakes up at that instant. It must not wait.
   void at(bus::ports::MachineTime when, std::function<void()> happens) { events_.emplace(when, std::move(happens)); }
   // Runs the processes, in the order in which they were made, until all have ended.
   inline void run(const std::vector<std::function<void()>>& bodies);
@@ -71,7 +71,7 @@ class TurnedHost {
   inline Process* first_to_wake();
   inline void look_for_arrivals();
 
-  std::mutex mutex_;  // of who hands over; all the rest belongs to the process that runs
+  std::mutex mutex_;  // for handing over; all other members belong to the running process
   std::condition_variable ended_;
   bus::ports::MachineTime now_;
   Process* runs_ = nullptr;
@@ -102,7 +102,7 @@ class TurnedHost::Process final : public MachineClock {
   }
   recording::records::BinnedDurations floor() const override { return told_floor; }
 
-  recording::records::BinnedDurations told_floor;  // what the plain thread beside it is said to have been late by
+  recording::records::BinnedDurations told_floor;  // stated lateness of the plain thread beside it
   std::vector<Duration> sleeps;                    // so far
   int waits_for_nothing = 0;                       // so far: for an instant that was over
 
@@ -113,7 +113,7 @@ class TurnedHost::Process final : public MachineClock {
   std::vector<pollfd> watched_;
   std::condition_variable turn_;
   std::optional<bus::ports::MachineTime> wakes_up_;  // while it waits
-  bool watches_ = false;                             // likewise, and nothing has come yet
+  bool watches_ = false;                             // likewise, before an arrival
 };
 
 TurnedHost::Process& TurnedHost::process(Wakes wakes) {

@@ -1,4 +1,4 @@
-// The host whose clock the test turns: it keeps a clock's laws, and does what is due in the order in which it is due.
+// The host whose clock the test turns keeps a clock's laws, and runs events in their due order.
 #include "tests/nodes/runner/turned_host.h"
 
 #include <gmock/gmock.h>
@@ -21,9 +21,9 @@ struct TurnedBench {
 };
 INSTANTIATE_TYPED_TEST_SUITE_P(Turned, MachineClockLaws, TurnedBench);
 
-using Done = std::vector<std::pair<char, std::int64_t>>;  // who, when
+using Done = std::vector<std::pair<char, std::int64_t>>;  // process, when
 
-// a wakes up at 10, 20, ...; b at 15, 30, ..., 2 late; something happens at 20, before a wakes up.
+// a wakes up at 10, 20, ...; b at 15, 30, ..., 2 late; an event happens at 20, before a wakes up.
 TEST(TurnedHost, DoesWhatIsDueInItsOrder) {
   TurnedHost host({0});
   TurnedHost::Process &a = host.process(), &b = host.process(late_by({2'000}));
@@ -41,7 +41,7 @@ TEST(TurnedHost, DoesWhatIsDueInItsOrder) {
       (Done{{'a', 10'000}, {'b', 17'000}, {'!', 20'000}, {'a', 20'000}, {'a', 30'000}, {'b', 32'000}, {'b', 47'000}}));
 }
 
-// What one writes wakes the other up as late as its kernel is, while the first goes on.
+// A write wakes the other up with its kernel's lateness, while the first goes on.
 TEST(TurnedHost, WakesUpWhoWatches) {
   const int event = eventfd(0, EFD_CLOEXEC);
   TurnedHost host({0});

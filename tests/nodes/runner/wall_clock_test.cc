@@ -1,6 +1,6 @@
-// Node sets by the kernel's clock, a thread each. How late they are is the machine's affair: it is told, not judged,
-// and a cluster may fall apart for it. What is asserted holds however late they are. What a runner makes of its
-// lateness is tested by a clock that is turned: runner_test.cc, node_set_test.cc.
+// Node sets by the kernel's clock, a thread each. Their lateness is the machine's: it is reported without
+// judgement, and may break a cluster up. The assertions hold at any lateness. A runner's treatment of its
+// lateness is tested by a turned clock: runner_test.cc, node_set_test.cc.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ class WallClockNodeSet : public LiveNodeSet {
     expect_nothing_vanished(media);
     report();
   }
-  // For people, and for whoever reads the test's output in a year.
+  // For people who read the test's output, now or in a year.
   void report() {
     fmt::print("{:<12}{:>12}{:>12}{:>12}{:>12}{:>10}{:>8}  state\n", "us late", "wake-up p50", "p99", "longest",
                "floor", "withheld", "lost");

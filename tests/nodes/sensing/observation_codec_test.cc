@@ -63,7 +63,7 @@ TEST(ObservationCodec, ALasersValidBitsAreThree) {
   }
 }
 
-// Whatever bytes arrive: covariances are positive definite, sigmas above zero, and all is finite.
+// Any bytes give positive definite covariances, sigmas above zero, and finite values.
 TEST(ObservationCodec, AnyBytesMakeUsableObservations) {
   RandomStream draw({.seed = 12});
   for (const auto& [file, name] : {std::pair{"paper_synchronised.yaml", "laser_objects"},

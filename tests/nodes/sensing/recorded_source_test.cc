@@ -1,4 +1,4 @@
-// A recording and a cluster that do not fit are told so before anything runs.
+// A mismatch of recording and cluster is reported before the run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ RecordedInput one_row(const std::string& sensor, RecordedObservation::Kind kind)
   return input;
 }
 
-// What is said of this recording as the source of the shipped cluster's sensor; empty if it fits.
+// The refusal of this recording as the source of the shipped cluster's sensor; empty if it fits.
 std::string refusal(const std::string& sensor, RecordedInput input) {
   static const schedules::model::Cluster cluster =
       schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/laser_radar.yaml");

@@ -31,7 +31,7 @@ FeatureConfig driving(double own_speed) {
   return config;
 }
 
-// Rear edge 20 m ahead, closing with 10 m/s: 2 s, whoever of the two it is that moves.
+// Rear edge 20 m ahead, closing with 10 m/s: 2 s, whichever of the two moves.
 TEST(FeatureService, TimeToCollisionIsClearanceByClosingSpeed) {
   for (const double own : {0.0, 10.0, 25.0}) {
     const recording::records::FeatureObject f = judge(car(22.0, 0.0, kPi, 10.0), driving(own));
@@ -66,7 +66,7 @@ TEST(FeatureService, ClosesAlongTheLineOfSight) {
   EXPECT_FALSE(f.warning) << "15 m beside the line of travel";
 }
 
-// The near edge: the rear of what drives ahead, the side of what crosses, in between where the line of sight
+// The near edge: the rear of a car ahead, the side of a crossing one; in between, where the line of sight
 // meets it.
 TEST(FeatureService, ClearanceEndsAtTheOutline) {
   const auto clearance = [](double heading) {

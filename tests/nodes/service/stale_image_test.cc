@@ -1,4 +1,4 @@
-// Images that do not come: the feature service goes on with the last one as long as the rule allows, and then without.
+// Absent images: the feature service keeps the last one as long as the rule allows, then goes on without.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -79,7 +79,7 @@ TEST(StaleImage, IsRefusedBeyondTheLargestAgeToTheNanosecond) {
   EXPECT_EQ(service.use(at_ms(40'040)), (Use{8, at_ms(40'040), true, false, 1}));
 }
 
-// The stamp on the bus has 32 bits of microseconds: after as long it means the present again.
+// The stamp on the bus has 32 bits of microseconds: after a full round it means the present again.
 TEST(StaleImage, DoesNotBecomeNewWhenItsStampWraps) {
   Service service;
   service.receive(7, at_ms(40));
@@ -88,7 +88,7 @@ TEST(StaleImage, DoesNotBecomeNewWhenItsStampWraps) {
   EXPECT_EQ(service.use(wrapped), (Use{7, at_ms(40), false, true, 0}));
 }
 
-// Stamps mean the instant nearest to now, of those a whole round of the cycle counter (320 ms) apart.
+// A stamp means the nearest of the instants that are a whole round of the cycle counter (320 ms) apart.
 TEST(StaleImage, AStampFromTheFutureIsNoImageOfNow) {
   Service service;
   service.receive(7, at_ms(190));

@@ -1,4 +1,4 @@
-// Captures against the schedule: a bus that obeys it, and one capture with each kind of contradiction.
+// Captures against the schedule: a correct bus, and one capture with each kind of contradiction.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ TEST(CaptureCheck, AMissingFrameIsNamedAfterThePacketBeforeIt) {
   frames.erase(frames.begin() + static_cast<std::ptrdiff_t>(at));
   const CaptureVerdict verdict = verdict_on(frames);
   EXPECT_EQ(verdict.counts, counts({{Contradiction::kMissing, 1}}));
-  // The pair of slot 8 comes before; the frame of slot 9 on A is no earlier slot.
+  // The pair of slot 8 comes before; the frame of slot 9 on A belongs to no earlier slot.
   EXPECT_THAT(texts(verdict), ElementsAre(packet(at - 2) + "slot 9 on B, cycle 4: has no frame"));
 }
 
@@ -208,7 +208,7 @@ TEST(CaptureCheck, AStartupFrameThatIsNoSyncFrame) {
 TEST(CaptureCheck, OneChannelAloneIsCheckedWhenAskedFor) {
   std::vector<BusFrame> frames = scheduled_frames(paper(), 4);
   const std::size_t of_b = std::erase_if(frames, [](const BusFrame& frame) { return frame.channel == Channel::kB; });
-  // All but those beside the first and the last frame, where the capture may have begun and ended.
+  // All except those beside the first and the last frame, where the capture may have begun and ended.
   EXPECT_EQ(verdict_on(frames).counts, counts({{Contradiction::kMissing, of_b - 2}}));
   CaptureCheckOptions options;
   options.channels = schedules::model::Channels::kA;

@@ -12,7 +12,8 @@ std::vector<std::byte> bytes_of(std::initializer_list<int> values) {
   return bytes;
 }
 
-// Header 38 01 10 46 c0 and payload 00..0f: startup and sync frame 1 of 8 words in cycle 0; trailer of channel A.
+// Header 38 01 10 46 c0 and payload 00..0f: startup and sync frame 1 of 8 words in cycle 0; trailer of
+// channel A.
 std::vector<std::byte> known_frame() {
   std::vector<std::byte> bytes = bytes_of({0x38, 0x01, 0x10, 0x46, 0xc0});
   for (int i = 0; i < 16; ++i) bytes.push_back(static_cast<std::byte>(i));
@@ -42,7 +43,7 @@ TEST(CapturePacket, EveryFlippedBitIsFlaggedByTheChecksThatCoverIt) {
   for (std::size_t bit = 0; bit < sound.size() * 8; ++bit) {
     std::vector<std::byte> bytes = sound;
     bytes[bit / 8] ^= static_cast<std::byte>(0x80 >> bit % 8);
-    // Sync, startup, frame id, length (bits 3 to 22) and the header CRC itself (23 to 33).
+    // Sync, startup, frame id, length (bits 3 to 22) and the header CRC (23 to 33).
     const bool in_header_crc = bit >= 3 && bit <= 33;
     EXPECT_EQ(check_flexray_frame(Channel::kA, bytes).errors, kFrameCrcError | (in_header_crc ? kHeaderCrcError : 0))
         << "bit " << bit;

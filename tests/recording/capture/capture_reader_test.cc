@@ -1,4 +1,4 @@
-// Captures read back: our own, those of other programs in every byte order and resolution, and damaged ones.
+// Reads captures: our own, other programs' in every byte order and resolution, and damaged ones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What the check says of captures of the paper's cluster, in a form to compare.
+// The check's verdicts on captures of the paper's cluster, in comparable form.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ inline std::vector<std::string> texts(const CaptureVerdict& verdict) {
   return lines;
 }
 
-// The frame of a slot and channel in the n-th cycle; its packet's number is one more than its place.
+// The frame of a slot and channel in the n-th cycle; its packet's number is its place plus one.
 inline std::size_t place_of(const std::vector<BusFrame>& frames, int slot, Channel channel, int counter) {
   const auto found = std::find_if(frames.begin(), frames.end(), [&](const BusFrame& frame) {
     return frame.header.frame_id == slot && frame.channel == channel && frame.header.cycle == counter;
@@ -49,7 +49,7 @@ inline std::size_t place_of(const std::vector<BusFrame>& frames, int slot, Chann
 
 inline std::string packet(std::size_t place) { return std::to_string(place + 1) + ": "; }
 
-// Simple packet blocks have no stamps: the counter alone tells the cycles.
+// Simple packet blocks have no stamps: only the counter gives the cycles.
 inline Capture without_stamps(const std::vector<BusFrame>& frames) {
   std::string bytes = capture_bytes({});
   for (const BusFrame& frame : frames) {

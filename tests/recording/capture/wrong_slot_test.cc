@@ -1,4 +1,4 @@
-// Frames in another slot than the one whose id they bear: seen by stamps that are good enough, and only by such.
+// Frames in another slot than their id's: only sufficiently precise stamps show them.
 //
 //   slot      4        5        6        7
 //          |  4  |   [6]   |  dead  |   7  |      the owner of slot 5 bears slot 6's id
@@ -27,7 +27,7 @@ std::vector<BusFrame> without(std::vector<BusFrame> frames, int slot) {
   return frames;
 }
 
-// Slot 6's owner is dead; slot 5's sends as that in the cycles from 4 to 6.
+// Slot 6's owner is dead; slot 5's sends with id 6 in the cycles from 4 to 6.
 std::vector<BusFrame> masquerade(int cycles = 12, std::int64_t ppm = 0) {
   std::vector<BusFrame> frames = without(scheduled_frames(paper(), cycles, 0, ppm), 6);
   for (BusFrame& frame : frames)
@@ -69,7 +69,7 @@ TEST(WrongSlot, AFrameInAnotherSlotIsMissingInItsOwnAndNoSecondOneHere) {
   frames[at].header.frame_id = 6;
   EXPECT_THAT(texts(verdict_on(frames)), ElementsAre(packet(at - 1) + "slot 7 on A, cycle 2: has no frame",
                                                      packet(at) + "slot 6 on A, cycle 2: was sent in slot 7"));
-  // By the counter alone nobody knows when it was there.
+  // The counter alone does not give its time.
   EXPECT_EQ(check_capture(without_stamps(frames), "bus.pcapng", paper(), {}).counts,
             counts({{Contradiction::kMissing, 1}, {Contradiction::kTwice, 1}}));
 }
@@ -118,7 +118,7 @@ TEST(WrongSlot, ASmallClusterIsEnough) {
   EXPECT_EQ(wrong_slots(check_capture(capture_of(frames), "bus.pcapng", demo, {})), 6u);
 }
 
-// Of two senders either may be the one in the wrong slot.
+// Either of two senders may be in the wrong slot.
 TEST(WrongSlot, TwoSendersDoNotTell) {
   schedules::model::Cluster two = paper();
   std::erase_if(two.frames, [](const schedules::model::FrameSlot& frame) { return frame.slot > 2; });
@@ -146,8 +146,7 @@ TEST(WrongSlot, AClockThatIsSetTripsNothing) {
   }
 }
 
-// Microseconds are good enough for slots of 84 us. Milliseconds are not: nothing is said then but what was said
-// without.
+// Microseconds suffice for slots of 84 us. Milliseconds do not: the verdict is then that without stamps.
 TEST(WrongSlot, CoarseStampsTellWhatTheyCan) {
   const auto resolved = [](std::int64_t unit) { return [unit](std::int64_t time) { return time / unit * unit; }; };
   for (const std::int64_t ppm : {-1500, 0, 700}) {
@@ -179,7 +178,7 @@ TEST(WrongSlot, AMasqueraderIsSeenInSpiteOfALittleJitter) {
   EXPECT_EQ(wrong_slots(verdict_on(stamped_by(masquerade(), jitter))), 6u);
 }
 
-// One stamp in twenty is late by a slot or two, as of a program that was busy: where another frame was at that time.
+// One stamp in twenty is late by a slot or two, as from a busy program: at another frame's time.
 TEST(WrongSlot, AStampAtAnotherFramesTimeIsAWrongStamp) {
   RandomStream stream({4, 0, Purpose::kTest, 5, 0});
   std::vector<BusFrame> frames = scheduled_frames(paper(), 130);

@@ -1,4 +1,4 @@
-// Exports, line by line, from records that say exactly what must come out.
+// Exports, line by line, from records with an exactly known result.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ struct Exported {
     sent.bytes = bytes;
     collector.on(sent);
   }
-  // What was on the channel for a frame of the gateway, sent at `sent_ns`; slot 0: no frame of its controller.
+  // The channel's record of a frame of the gateway, sent at `sent_ns`; slot 0: no frame of its controller.
   void on_channel(std::int64_t start_ns, std::int64_t sent_ns, int slot, std::uint8_t channel, std::uint8_t state,
                   std::span<const std::byte> bytes) {
     records::ChannelFrame frame;
@@ -140,7 +140,7 @@ TEST(CaptureExport, PacketsCarryTheMeasurementInTheirComments) {
   EXPECT_EQ(capture.packets[0].interface, 1u);
 }
 
-// Five frames that were sent in vain or otherwise than they were there, and two that no controller sent.
+// Five frames lost or changed on the way, and two that no controller sent.
 Exported disturbed() {
   Exported log;
   const PduId list = *log.nodes.find_pdu("laser_objects");

@@ -1,5 +1,5 @@
-// The same of a drive with many faults: what was on the channels, with the error flags it deserves; and the drive's
-// schedule held against it. Skipped without tshark.
+// The same for a drive with many faults. The capture has the channels' contents with the right error flags,
+// and is compared with the drive's schedule. Skipped without tshark.
 #include <fstream>
 #include <map>
 #include <optional>
@@ -12,7 +12,7 @@
 namespace ttf::recording::exports {
 namespace {
 
-// Of a drive with faults: what was sent, and of what became of it which bits are not those that were sent.
+// Expects, for a drive with faults, the sent frames and the changed bits of those on the channels.
 class FaultyExpectation final : public Expectation {
  public:
   using Expectation::Expectation;
@@ -31,7 +31,7 @@ class FaultyExpectation final : public Expectation {
     sent_[{record.stamp.true_time.ns, record.channel, record.stamp.node}] = {
         {{record.stamp.true_time.ns, flexray_text(text, record.channel, bytes, {})}, {}}, text, bytes};
   }
-  // What does not leave at all is told of before it is told that it was sent.
+  // A frame that does not leave at all is recorded as such before it is recorded as sent.
   void on(const records::ChannelFrame& record) override {
     collector_.on(record);
     on_channel_.push_back({record, {record.bytes.begin(), record.bytes.end()}});
@@ -166,7 +166,7 @@ TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
   const std::string file = log::scratch("faulty.pcapng");
   std::ofstream(file, std::ios::binary) << bytes;
 
-  // By what tshark should say of them: several are alike at most in what they say.
+  // Keyed by tshark's expected line; packets with equal lines are interchangeable.
   std::multimap<std::string, Flags> due;
   for (const FaultyExpectation::Packet& packet : expected.packets())
     due.emplace(seconds(packet.line.time_ns) + "\t" + packet.line.text, packet.flags);
@@ -187,7 +187,7 @@ TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
   for (const auto& [line, flag] : due) EXPECT_GT(5, ++strange) << "not in the capture: " << line;
   EXPECT_EQ(strange, 0);
 
-  // The injector counts what it does; the capture shows it.
+  // The injector counts its acts; the capture shows them.
   int header = 0, frame = 0, coding = 0;
   for (const Flags& one : flags) header += one.header_crc, frame += one.frame_crc, coding += one.coding;
   EXPECT_GT(header, 20);
@@ -199,7 +199,7 @@ TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
   EXPECT_EQ(expected.foreign, expected.acts["noise"] + expected.acts["masquerading"]);
   EXPECT_GE(coding, expected.acts["noise"] + expected.acts["transient"]);
 
-  // And the schedule is held against it, packet by packet.
+  // The schedule is compared with it, packet by packet.
   const capture::CaptureVerdict verdict =
       capture::check_capture(capture::parse_capture(bytes, "faulty.pcapng"), "faulty.pcapng", drive.cluster, {});
   ASSERT_LT(verdict.findings.size(), capture::kMostFindings);

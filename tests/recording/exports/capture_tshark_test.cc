@@ -1,5 +1,4 @@
-// A drive's capture as Wireshark's own dissectors see it: every frame must be what the log says. Skipped without
-// tshark.
+// A drive's capture as Wireshark's dissectors see it: every frame must match the log. Skipped without tshark.
 #include <fstream>
 
 #include "tests/recording/exports/tshark.h"

@@ -1,4 +1,5 @@
-// Durations counted in bins have the sorted list's quantiles, to a bin; what a node's processes told is added up.
+// Durations counted in bins have the sorted list's quantiles, to a bin. The reports of a node's processes are
+// summed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ using records::kLatenessBins;
 
 Duration us(std::int64_t n) { return Duration::microseconds(n); }
 
-// The bins tile the axis: each begins where the one before ends, and what lies between is in it.
+// The bins tile the axis: each begins at the end of the one before, and contains everything between.
 TEST(LatenessBins, EveryDurationIsInTheBinThatBeginsBeforeIt) {
   for (std::size_t bin = 0; bin + 1 < kLatenessBins; ++bin) {
     const Duration from = records::lateness_from(bin), to = records::lateness_from(bin + 1);

@@ -1,4 +1,4 @@
-// Whole drives as Perfetto traces: sound as traces, and every way that ends in the feature service is there.
+// Whole drives as Perfetto traces: valid, with every measurement that reaches the feature service.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,8 @@ namespace {
 
 using drives::Drive;
 
-// Which measurements were the newest of their sensor in an image that was used: only the first of their images counts.
+// The measurements that were the newest of their sensor in a used image; only the first of their images
+// counts.
 struct Used final : records::Sink {
   using records::Sink::on;
   std::map<std::uint32_t, std::vector<MeasurementId>> first_in;

@@ -1,4 +1,4 @@
-// Perfetto traces from records that say exactly what must come out, and from records no run can have.
+// Perfetto traces from records with an exactly known result, and from records that no run can have.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -85,8 +85,8 @@ struct Drive {
   }
 };
 
-// measured - two CAN frames - preprocessing - a slot, and again, on A and B - held - fused - image - its slot - used,
-// twice
+// measured - two CAN frames - preprocessing - a slot, and again, on A and B - held - fused - image - its slot
+// - used, twice
 void drive_one_way(Drive& drive) {
   drive.measured(3, 1 * kMs);
   drive.can(3, 0, 2 * kMs, 2 * kMs + 100);
@@ -94,7 +94,7 @@ void drive_one_way(Drive& drive) {
   drive.hop(kLaser, records::Hop::kRead, 3, 3 * kMs);
   drive.run(kLaser, 0, 3 * kMs, 5 * kMs);
   drive.hop(kLaser, records::Hop::kWritten, 3, 5 * kMs);
-  drive.run(kLaser, 0, 5 * kMs, 6 * kMs);  // of another list: what is written then is not its
+  drive.run(kLaser, 0, 5 * kMs, 6 * kMs);  // of another list: lists written then are not its output
   for (const std::int64_t when : {6, 8})
     for (const std::uint8_t channel : {0, 1}) drive.slot(kLaser, kList, kSensor, 3, channel, when * kMs);
   drive.fused(3, records::Disposition::kHeld, 10 * kMs);
@@ -169,7 +169,7 @@ TEST(PerfettoExport, WhatIsLostEndsWhereItWasLostAndMissesAreMarked) {
   drive.measured(3, 1 * kMs);
   drive.can(3, 0, 2 * kMs, 3 * kMs);
   drive.hop(kLaser, records::Hop::kOverwritten, 3, 4 * kMs);
-  drive.measured(4, 5 * kMs);  // nothing becomes of it
+  drive.measured(4, 5 * kMs);  // has no successor
   drive.run(kFeature, 0, 6 * kMs, 7 * kMs, false);
   const PerfettoTrace trace = drive.finished();
   EXPECT_THAT(trace.problems, IsEmpty());
@@ -221,7 +221,7 @@ TEST(PerfettoExport, ASensorThatCountsAnewBeginsNewWays) {
   EXPECT_EQ(trace.way(2).size(), 2u);
 }
 
-// What is kept in memory is of the last seconds.
+// Memory keeps only the last seconds.
 TEST(PerfettoExport, IsWrittenWhileTheDriveGoesOn) {
   Drive drive;
   for (std::uint32_t n = 0; n < 2000; ++n) {
@@ -235,7 +235,7 @@ TEST(PerfettoExport, IsWrittenWhileTheDriveGoesOn) {
   EXPECT_GT(static_cast<double>(before), 0.95 * static_cast<double>(drive.bytes.size()));
 }
 
-// Whatever a damaged log says, and in whatever order: a trace that readers take.
+// Any damaged log, in any order, makes a valid trace.
 TEST(PerfettoExport, RecordsNoRunCanHaveStillMakeATrace) {
   Drive drive;
   std::uint32_t n = 0;

@@ -1,4 +1,4 @@
-// A Perfetto trace as its readers see it: what is wrong with it, and what is in it.
+// A Perfetto trace as its readers see it: its problems and its contents.
 #pragma once
 
 #include <fmt/format.h>

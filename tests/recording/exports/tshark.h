@@ -1,4 +1,4 @@
-// What tshark prints of a capture, and what it should print of a log's frames.
+// Runs tshark on a capture, and gives the expected output for a log's frames.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@
 
 namespace ttf::recording::exports {
 
-// What tshark is asked for, in the order of the lines that are compared.
+// The fields requested from tshark, in the order of the compared lines.
 inline constexpr char kFields[] =
     "-e frame.time_epoch -e frame.interface_name -e frame.comment -e flexray.ch -e flexray.fid -e flexray.cc "
     "-e flexray.ppi -e flexray.nfi -e flexray.sfi -e flexray.stfi -e flexray.pl -e flexray.hcrc -e flexray.hcrc_err "
@@ -41,7 +41,8 @@ struct Flags {
   bool header_crc = false, frame_crc = false, frame_end = false, coding = false;
 };
 
-// As tshark should print a packet with these bytes of a frame, trailer included where the frame has come to its end.
+// tshark's expected output for a packet with these bytes of a frame. Includes the trailer if the frame is
+// complete.
 inline std::string flexray_text(const std::string& comment, int channel, std::span<const std::byte> bytes,
                                 const Flags& flags) {
   const std::string errors =
@@ -59,8 +60,8 @@ inline std::string flexray_text(const std::string& comment, int channel, std::sp
 // Sync to the end of the header CRC.
 inline bool in_header_crc(std::size_t bit) { return bit >= 3 && bit <= 33; }
 
-// Reads a log: every frame goes on to the export, and, as tshark should print it, into `lines`. Of every
-// `flip_every`-th FlexRay frame one bit is flipped, as if it had been disturbed on the wire.
+// Reads a log: every frame goes on to the export, and its expected tshark output into `lines`. One bit of
+// every `flip_every`-th FlexRay frame is flipped, as if disturbed on the wire.
 class Expectation : public records::Sink {
  public:
   Expectation(FrameCollector& collector, const log::LogManifest& manifest, std::vector<SensorId> pdu_sensors,
@@ -86,7 +87,7 @@ class Expectation : public records::Sink {
     if (flags.frame_crc) return;
     const bus::wire::FrameHeader h =
         bus::wire::decode_frame(static_cast<schedules::model::Channel>(record.channel), bytes).header;
-    // The wire says what the log's fields say.
+    // The frame's bytes agree with the log's fields.
     EXPECT_EQ(h.frame_id, record.slot);
     EXPECT_EQ(h.cycle, record.cycle % 64);
     EXPECT_EQ(h.null_frame, record.null_frame);
@@ -99,7 +100,8 @@ class Expectation : public records::Sink {
                      comment(record.pdu, record.sequence, record.fragment, false), record.identifier,
                      record.data.size(), record.flexible_data_rate ? "1" : "")});
   }
-  // A collision avoidance symbol's TSS of 9 bits is low, too, and then 30 more; a wake-up pattern has more than 127.
+  // A collision avoidance symbol's TSS of 9 bits is low, too, followed by 30 more. A wake-up pattern has more
+  // than 127.
   void on(const records::SymbolSent& record) override {
     collector_.on(record);
     const bool cas = record.kind == records::kSymbolCas;

@@ -1,5 +1,5 @@
-// Nothing of a record is lost on its way through a log. Payloads are filled by reflection over the format itself, so
-// that a field nobody encodes or decodes shows however it is called; and a record has as many fields as its payload.
+// A log loses no part of a record. Payloads are filled by reflection over the format, so that a field without
+// encoder or decoder shows under any name. A record has as many fields as its payload.
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-// Sets every field of a payload, each to a value of its own that is not the default. Numbers count from 1, so that they
-// fit the smallest types; truth values are all true. Lists get `list` items, those of fixed size theirs.
+// Sets every field of a payload to its own non-default value. Numbers count from 1, so that they fit the
+// smallest types; truth values are all true. Lists get `list` items, those of fixed size their own number.
 class Fill {
  public:
   explicit Fill(int list) : list_(list) {}
@@ -39,9 +39,9 @@ class Fill {
   }
 
  private:
-  // Dispositions, hops, symbols, signals, what a fault does, what was not in its time and what a histogram is of are
-  // small choices, an object's status has four bits, a guardian and a timing problem one of two channels; everything
-  // else takes the next number.
+  // Small choices are dispositions, hops, symbols, signals, a fault's act, a timing problem's and a
+  // histogram's subject. An object's status has four bits. A guardian and a timing problem have one of two
+  // channels. All other fields take the next number.
   std::uint32_t whole(const FieldDescriptor& field) {
     if (field.full_name() == "ttfusion.Guardian.channel" || field.full_name() == "ttfusion.TimingProblem.channel")
       return 1;
@@ -146,8 +146,8 @@ TEST(LogFields, EveryFieldOfEveryPayloadIsInTheLog) {
   }
 }
 
-// The number of fields of a struct: the most values it can be initialised from (with fewer it may not be: some types
-// have no default).
+// The number of fields of a struct: the most values it can be initialised from. Fewer may fail, as some types
+// have no default.
 struct Anything {
   template <class T> operator T() const;  // never called
 };
@@ -176,7 +176,8 @@ TEST(LogFields, ARecordHasAsManyFieldsAsItsPayload) {
   expect_same_fields<MeasurementId, ttfusion::MeasurementId>();
   expect_same_fields<records::ImageObject, ttfusion::ImageObject>();
   records::for_each_kind([]<class Record>() {
-    // The feature service's objects are parallel lists there: images and a list for each other field of theirs.
+    // The feature service's objects are parallel lists there: images and a list for each of their other
+    // fields.
     const bool parallel = std::is_same_v<Record, records::FeatureUsed>;
     expect_same_fields<Record, Payload<Record>>(parallel ? fields_of<records::FeatureObject>() - 1 : 0);
   });

@@ -1,4 +1,4 @@
-// Laws of recording/log/behind.h: all that is added is written, in order, and who adds never waits.
+// Laws of recording/log/behind.h: every added message is written, in order, and adding never waits.
 #include "recording/log/behind.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kSeed = 41;
 
-// The number of a message says what all of it must be.
+// A message's number determines its whole content.
 std::string payload_of(std::uint64_t number) {
   return std::string(number * 2'654'435'761 % 97, static_cast<char>('a' + number % 26));
 }
@@ -27,7 +27,7 @@ void add(LogBehind& log, std::uint64_t number) {
   log.add({static_cast<std::uint8_t>(number % 251), number, number + 1, payload});
 }
 
-// Whether what is written is 0, 1, 2 and so on, each as it was added.
+// Checks that the written messages are 0, 1, 2 and so on, each as added.
 class Check {
  public:
   void operator()(const LogMessage& message) {
@@ -55,7 +55,8 @@ TEST(LogBehind, WritesAllInOrder) {
   }
 }
 
-// For longer than the writer pauses, with pauses of all lengths between: it takes over at all sorts of instants.
+// For longer than the writer pauses, with pauses of all lengths between: the writer takes over at many
+// instants.
 TEST(LogBehind, WritesAllInOrderHoweverItIsAdded) {
   Check check;
   LogBehind log([&](const LogMessage& message) { check(message); });
@@ -78,8 +79,8 @@ TEST(LogBehind, IsWrittenBehindAndNotOnlyAtTheEnd) {
   written.get_future().wait();
 }
 
-// A writer that stands: what comes is kept, without allocating while there is room. Were the writer waited for, nothing
-// would go on here.
+// The writer stands still. Messages are kept, without allocation while there is room. If adding waited for
+// the writer, this test would hang.
 TEST(LogBehind, WhoAddsNeverWaits) {
   std::promise<void> stands, go_on;
   std::uint64_t written = 0;
@@ -101,7 +102,7 @@ TEST(LogBehind, WhoAddsNeverWaits) {
   EXPECT_EQ(written, 30'001u);
 }
 
-// Beyond the room it costs memory, and nothing is lost.
+// Beyond the room it costs memory, without losses.
 TEST(LogBehind, KeepsWhatThereIsNoRoomFor) {
   std::promise<void> stands, go_on;
   Check check;

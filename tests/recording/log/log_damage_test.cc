@@ -1,4 +1,4 @@
-// Logs that were cut off or damaged: what is sound is read, the rest is named, nothing crashes.
+// Truncated or damaged logs: sound records are read, the rest is reported, without a crash.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ bool is_prefix(const std::vector<std::string>& part, const std::vector<std::stri
   return part.size() <= whole.size() && std::equal(part.begin(), part.end(), whole.begin());
 }
 
-// What is said of so much of the log; empty if it is read.
+// The refusal of a log cut to this size; empty if it is read.
 std::string refusal(std::size_t size) {
   try {
     (void)read(std::string_view(small_log()).substr(0, size));
@@ -64,7 +64,7 @@ TEST(LogDamage, WhatEndsBeforeItsManifestIsNoLog) {
   for (std::size_t size = least; size < small_log().size(); size += 501) EXPECT_EQ(refusal(size), "") << size;
 }
 
-// How many records the log has when it is cut, per length from the least on: read once, for it takes a while.
+// The number of records in a cut log, for each length from the least on. Counted once, because it takes long.
 const std::vector<std::size_t>& records_by_length() {
   static const std::vector<std::size_t> counts = [] {
     const Result whole = read(small_log());
@@ -96,7 +96,7 @@ TEST(LogDamage, CutAnywhereItIsReadUpToTheCut) {
   EXPECT_EQ(std::set<std::size_t>(counts.begin(), counts.end()).size(), whole.info.chunks_read + 1);
 }
 
-// Cut where the writer stands after each flush: what a crash of the process leaves.
+// Cut at the writer's position after each flush: the result of a process crash.
 TEST(LogDamage, ClosedChunksAreInTheFileBeforeTheWriterCloses) {
   const std::string path = scratch("crash.mcap");
   LogWriter writer(path, sample_manifest());
@@ -112,7 +112,8 @@ TEST(LogDamage, ClosedChunksAreInTheFileBeforeTheWriterCloses) {
   EXPECT_LT(sink.lines.size(), 1000u);
 }
 
-// One byte changed anywhere: at most one chunk's records are missing, none are changed, and it is said.
+// One byte changed anywhere: at most one chunk's records are missing, no record is changed, and the loss is
+// reported.
 TEST(LogDamage, OneChangedByteCostsAtMostItsChunk) {
   const std::string& bytes = small_log();
   const Result whole = read(bytes);
@@ -146,8 +147,7 @@ TEST(LogDamage, OneChangedByteCostsAtMostItsChunk) {
   }
 }
 
-// Anything may happen to several bytes, but no crash, no endless reading, and no record that was never
-// written.
+// With several bytes changed there is no crash, no endless reading, and no invented record.
 TEST(LogDamage, ManyChangesNeverCrashNorInventRecords) {
   const std::string& bytes = small_log();
   const Result whole = read(bytes);
@@ -173,7 +173,7 @@ TEST(LogDamage, ManyChangesNeverCrashNorInventRecords) {
   }
 }
 
-// Chunks without a checksum (0 means "none" in MCAP) reach the decoder whatever they hold: it must not trust
+// Chunks without a checksum (0 means "none" in MCAP) reach the decoder with any content: it must not trust
 // them.
 TEST(LogDamage, UncheckedPayloadsAreDecodedWithCare) {
   const auto put = [](std::string& out, std::uint64_t value, int size) {

@@ -1,4 +1,5 @@
-// What is written is read again; the same records give the same bytes; the hash follows the records.
+// Written records are read back. The same records give the same bytes, and the hash depends on the records
+// alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -118,7 +119,7 @@ TEST(Log, HashChangesWithAnyRecordAndNotWithTheOrderOfArrival) {
       const bool counts = records::counts_in_hash(static_cast<records::RecordKind>(kind));
       EXPECT_EQ(seen.insert(hash({{kind, values}})).second, counts) << "kind " << kind;
     }
-  // All but these: what takes one who sees all clocks, and what is of the machine.
+  // All except records that need an observer of all clocks, and records about the machine.
   int passed_over = 0;
   for (int kind = 1; kind <= kKinds; ++kind)
     passed_over += records::counts_in_hash(static_cast<records::RecordKind>(kind)) ? 0 : 1;
@@ -126,7 +127,7 @@ TEST(Log, HashChangesWithAnyRecordAndNotWithTheOrderOfArrival) {
   for (const auto kind : {records::kKindOf<records::PrecisionSample>, records::kKindOf<records::TimingProblem>,
                           records::kKindOf<records::LatenessHistogram>, records::kKindOf<records::MediumCounts>})
     EXPECT_EQ(hash({{static_cast<int>(kind), Values::kDrawn}}), hash({})) << records::topic_of(kind);
-  // Twice the same record is not once, nor none.
+  // The same record twice hashes differently from once and from an empty log.
   EXPECT_TRUE(seen.insert(hash({{1, Values::kZero}, {1, Values::kZero}})).second);
   EXPECT_EQ(hash({{1, Values::kZero}, {17, Values::kDrawn}}), hash({{17, Values::kDrawn}, {1, Values::kZero}}));
 }
@@ -185,7 +186,7 @@ TEST(Log, WhatIsNoLogIsInvalidInput) {
   EXPECT_TRUE(read.lines.empty());
 }
 
-// Logs from before there was a time scale, and all in virtual time, say nothing of it.
+// Logs older than the time scale, and all in virtual time, lack it.
 TEST(Log, WithoutATimeScaleRealTimeWasTheDrives) {
   LogManifest manifest;
   for (const auto& [key, value] : manifest_entries(manifest)) EXPECT_NE(key, "time_scale_ppm");
@@ -218,7 +219,7 @@ TEST(Log, AHistogramHasNoMoreBinsThanThereAre) {
   EXPECT_EQ(read.lines.size(), 1u);
 }
 
-// A receiver that gives no velocity, or a log from before it was recorded: there is none, rather than one of zero.
+// A receiver without velocity, or a log older than its recording, gives an absent velocity instead of zero.
 TEST(Log, AReferenceWithoutVelocityHasNone) {
   struct Fixes final : records::Sink {
     using records::Sink::on;
@@ -251,8 +252,8 @@ TEST(Log, WhatCannotBeWrittenIsSaid) {
   EXPECT_THROW(writer.close(), std::runtime_error);
 }
 
-// After a first drive has shown the lists' largest sizes, a second of log costs no allocation per record.
-// What remains is one entry per chunk in the index, whose memory doubles now and then.
+// A first drive shows the lists' largest sizes. After that, a second of log allocates nothing per record. One
+// entry per chunk remains in the index, whose memory doubles now and then.
 TEST(Log, RecordingDoesNotAllocatePerRecord) {
   LogWriter writer(scratch("allocations.mcap"), {});
   std::vector<std::int64_t> counts;

@@ -1,5 +1,4 @@
-// Writes a log with every kind of record, for other programs' readers to open, and prints what they should
-// find:
+// Writes a log with every kind of record for other programs' readers, and prints the expected result:
 //   sample_log OUT.mcap     {"counts":{"/can_frame":177,...},"hash":"0123456789abcdef"}
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// Whole drives, recorded by one process or by one per node: merged, everything that is made of the logs is the same,
-// and what it was before anything was merged.
+// Whole drives, recorded by one process or by one per node. After merging, every result made of the logs is
+// the same as of the single log.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ using Read = std::function<void(ttf::recording::records::Sink&)>;
 
 constexpr TrueTime kNever{-1};
 
-// What is told of a drive, from its records alone.
+// A drive's results, from its records alone.
 std::string told(const evaluation::accuracy::DriveSummary& s) {
   std::string text = fmt::format("{} {} {} {} {}", s.position_rmse_truth, s.velocity_rmse_truth,
                                  s.position_rmse_reference, s.velocity_rmse_reference, s.reference_compared);
@@ -116,7 +116,7 @@ Outcome outcome(const Drive& drive, const log::LogManifest& manifest, const Read
           export_csv(frames, frames.in_order(), log_names)};
 }
 
-// Not EXPECT_EQ: nobody wants to see a megabyte.
+// EXPECT_EQ would print a megabyte.
 void expect_same(const Outcome& a, const Outcome& b, const std::string& what) {
   EXPECT_EQ(a.measures, b.measures) << what;
   EXPECT_EQ(a.startup, b.startup) << what;

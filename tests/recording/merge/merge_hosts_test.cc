@@ -1,4 +1,4 @@
-// Logs of several hosts, whose clocks are apart and drift: merged, they are on one time.
+// Logs of several hosts with different, drifting clocks: merging puts them on one time.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -36,7 +36,7 @@ TEST(CommonTime, IsLinearBetweenItsPointsAndGoesOnAtTheHostsRate) {
   EXPECT_EQ(CommonTime({{ms(10), ms(0)}})(TrueTime{-kLast}).ns, -kLast - 1);
 }
 
-// Where a record stands among the others is by its own time: so every kind has to be put on the common scale.
+// A record's own time places it among the others, so every kind must be put on the common scale.
 TEST(CommonTime, MovesEveryKindOfRecord) {
   const CommonTime later({{ms(0), ms(1000)}});
   for (int kind = 1; kind <= static_cast<int>(records::kKindCount); ++kind) {
@@ -55,7 +55,7 @@ CommonTime machine_clock(Duration ahead, std::int64_t ppm) {
   return CommonTime({{TrueTime{}, TrueTime{} + ahead}, {end, end + ahead + Duration{ppm * 100'000}}});
 }
 
-// When each task ran, by what no merge changes: node, task and its node's local time.
+// Each task's start, keyed by values that no merge changes: node, task and the node's local time.
 struct Runs final : records::Sink {
   std::map<std::tuple<NodeId, std::uint8_t, LocalTime>, TrueTime> starts;
   using records::Sink::on;
@@ -92,8 +92,7 @@ struct Hosts {
     for (auto& writer : writers) writer->close();
   }
 
-  // How far apart the times of what happened within the same 20 ms are, at most: what they gained on the simulator's
-  // time.
+  // The largest distance between the times of events within the same 20 ms, relative to the simulator's time.
   Duration most_apart(const std::function<void(ttf::recording::records::Sink&)>& read) const {
     Runs runs;
     read(runs);
@@ -128,7 +127,7 @@ TEST(MergeHosts, ClocksOfDifferentHostsAreBroughtTogether) {
   EXPECT_EQ(merged.manifest().clock, log::kCommonClock);
   EXPECT_EQ(merged.manifest().host, "");
 
-  // The same whatever the order; and on one time it stays.
+  // Any order gives the same, and merging again keeps the time.
   write_merged(merged, log::scratch("forest.mcap"));
   write_merged(MergedLogs({hosts.paths[2], hosts.paths[0], hosts.paths[1]}), log::scratch("other.mcap"));
   const std::string bytes = read_file(log::scratch("forest.mcap"));

@@ -1,4 +1,4 @@
-// Several logs as one: the order of the records, what belongs together, and what damage costs.
+// Several logs as one: the order of records, matching logs, and the cost of damage.
 #include "recording/merge/merge.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ std::vector<std::string> lines_of(const MergedLogs& merged) {
   return std::move(sink.lines);
 }
 
-// Logs in memory, by what is emitted into each.
+// Logs in memory, from the records emitted into each.
 using Emission = std::function<void(std::vector<ttf::recording::records::Sink*>&)>;
 std::vector<StoredLog> logs_of(std::size_t count, const Emission& emission,
                                const log::LogManifest& manifest = log::sample_manifest()) {
@@ -44,7 +44,8 @@ std::vector<StoredLog> logs_of(std::size_t count, const Emission& emission,
   return logs;
 }
 
-// Records of all kinds, 40 within each 10 us, 20 ms apart: many of the same instant, and in no order within the 10 us.
+// Records of all kinds, 40 within each 10 us, 20 ms apart. Many share an instant; within the 10 us they are
+// unordered.
 void emit_crowd(records::Sink& sink) {
   for (std::uint32_t i = 0; i < 4000; ++i)
     emit(sink, log::kind_of(i), Values::kDrawn, i, std::int64_t{i / 40} * 20'000'000 - 5'000);
@@ -119,7 +120,7 @@ TEST(Merge, AMergedLogIsTheSameFileWhateverItIsMergedOf) {
 constexpr NodeId kA{0}, kB{1};
 records::Stamp at(std::int64_t ns, NodeId node) { return {TrueTime{ns}, LocalTime{ns}, GlobalTime{ns}, node}; }
 
-// All of it in one log, in that one's order, or that of A in one and that of B in the other:
+// All in one log, in its order; or A's records in one log and B's in another:
 //   true time        -40        0              1000 ns
 //   of the run                                 fault 0 ends, fault 1 begins and acts
 //   of node A        power on   three states   power off: 3 ns earlier by its own clock
@@ -156,7 +157,7 @@ TEST(Merge, AtOneInstantCausesStandBeforeEffectsAndANodesReportsInTheirOrder) {
     EXPECT_EQ(lines_of(MergedLogs(logs_of(count, emission))), expected.lines) << count;
 }
 
-// A record that was reported 30 s after its time, behind a hundred chunks: no window is too small for it.
+// A record reported 30 s after its time, behind a hundred chunks: no window is too small for it.
 TEST(Merge, WhatWasReportedMuchLaterStandsAtItsTime) {
   const auto emission = [](std::vector<records::Sink*>& sinks) {
     for (std::int64_t i = 0; i < 300; ++i)
@@ -232,7 +233,7 @@ TEST(Merge, TheSameLogTwiceIsRefused) {
     return logs;
   };
   EXPECT_EQ(refused([&] { MergedLogs{copied("")}; }), kTwice);
-  // A copy that was cut off is another log by its hash: its records tell.
+  // By its hash, a truncated copy is another log; its records give it away.
   const std::string cut = read_file(log::scratch("part1.mcap")).substr(0, 200'000);
   const MergedLogs merged(copied(cut));
   EXPECT_EQ(refused([&] { lines_of(merged); }), kTwice);
@@ -240,7 +241,7 @@ TEST(Merge, TheSameLogTwiceIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(log::scratch("none.mcap")));
 }
 
-// What a folder holds whose logs have been merged.
+// A folder after merging its logs.
 TEST(Merge, TheWholeAmongItsPartsIsPassedOver) {
   const std::string path = log::scratch("whole_among_parts.mcap");
   const MergedLogs parts(logs_of(3, crowd()));
@@ -279,7 +280,7 @@ TEST(Merge, NoLogIsWrittenOver) {
   EXPECT_THROW(write_merged(merged, log::scratch("no/such/folder.mcap")), std::runtime_error);
 }
 
-// Damage in one log costs records of that log only, and is told of by its name.
+// Damage in one log costs only records of that log, and is reported with its name.
 TEST(Merge, ADamagedLogLosesWhatWasDamagedAndTheOthersNothing) {
   constexpr std::size_t kDamaged = 1;
   const std::vector<StoredLog> sound = logs_of(3, crowd());

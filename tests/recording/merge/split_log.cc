@@ -1,4 +1,4 @@
-// split_log LOG COUNT FOLDER: the logs that COUNT processes would have written in place of the one that wrote LOG.
+// split_log LOG COUNT FOLDER: splits LOG into the logs that COUNT processes would have written.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

@@ -1,5 +1,5 @@
-// One process' log as the logs that several processes would have written: each record goes to the log of its node's
-// process. What belongs to no node goes to the first.
+// Splits one process' log into those of several processes. Each record goes to the log of its node's process,
+// records without a node to the first.
 #pragma once
 
 #include <memory>

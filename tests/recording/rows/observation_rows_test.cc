@@ -1,4 +1,4 @@
-// Recorded observations in CSV: what is right is read exactly, what is wrong is one sentence for each line.
+// Recorded observations in CSV: correct lines are read exactly, each wrong one gives one sentence.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -140,7 +140,7 @@ TEST(Sniff, TellsTheFormatByTheBeginning) {
   EXPECT_EQ(sniff("# frame,azimuth_rad,range_m,intensity\n0,1,2,3\n"), RecordingFormat::kLidarScans);
   EXPECT_EQ(sniff("0,1,2,3\n"), RecordingFormat::kLidarScans);
   EXPECT_EQ(sniff(log::log_of([](records::Sink&) {})), RecordingFormat::kLog);
-  // The head decides, however long the recording; a heading that never ends is none.
+  // The head decides, at any length of the recording; an endless heading is no recording.
   const std::string comment = "#" + std::string(1022, ' ') + "\n";
   std::string head;
   while (head.size() + comment.size() < kRecordingHead) head += comment;
@@ -160,7 +160,7 @@ TEST(LaserRadar, ReadsTheRecordingNobodyHereWrote) {
   ASSERT_EQ(sniff_recording(path.string()), RecordingFormat::kLaserRadar);
   const RecordedInput input = read_laser_radar(path.string());
   ASSERT_EQ(input.observations.size(), 500u);
-  // The stated noise, against the truth in the same row, as a check that no column is mistaken for another.
+  // The stated noise, against the truth in the same row, checks that no columns are confused.
   double position = 0, range = 0, bearing = 0, rate = 0;
   int lasers = 0, radars = 0;
   for (std::size_t i = 0; i < 500; ++i) {

@@ -1,4 +1,4 @@
-// Tracks in CSV: as many cells as columns, exact times, and nothing where nothing is known.
+// Tracks in CSV: as many cells as columns, exact times, and empty cells for unknown values.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// How often lists may activate a task: drawn writers and slots against the bounds, above all over FlexRay, where a list
-// is sent every cycle and written far less often.
+// How often lists may activate a task: drawn writers and slots against the bounds. Over FlexRay, a list is
+// sent every cycle and written far less often.
 #include "schedules/analysis/activation_bounds.h"
 
 #include <gtest/gtest.h>
@@ -40,8 +40,8 @@ std::int64_t drawn(RandomStream& draws, std::int64_t low, std::int64_t high) {
   return kind == 0 ? low : kind == 1 ? high : draws.integer(low, high);
 }
 
-// When lists are complete that are written at least `apart`, all clocks alike: each goes out in the first cycle whose
-// slots begin after it, or while it waits for the first of them.
+// Completion instants of lists written at least `apart`, all clocks equal. Each goes out in the first cycle
+// whose slots begin after it, or while it waits for the first of them.
 std::vector<std::int64_t> arrivals_drawn(const model::Cluster& cluster, PduId pdu, std::int64_t apart,
                                          RandomStream& draws) {
   const auto groups = slot_groups(cluster, pdu);
@@ -93,8 +93,8 @@ TEST(ActivationBounds, NoDrawnListsComeMoreOftenThanTheirBounds) {
   }
 }
 
-// Written 12.4 ms apart, a list of the camera that has just missed its slots is complete 5 ms and the length of seven
-// slots later, so that two may come 6.8 ms apart; of their slots alone one would fear 4.4.
+// The camera's lists are written 12.4 ms apart. One that just missed its slots is complete after 5 ms and the
+// length of seven slots, so two may come 6.8 ms apart. By their slots alone it would be 4.4 ms.
 TEST(ActivationBounds, OverFlexRayTheWriterSaysHowOften) {
   const model::Cluster cluster = over_flexray(false);
   const model::Task& fuse = task_of(cluster, "fusion", "fuse_camera");
@@ -114,7 +114,7 @@ TEST(ActivationBounds, OfWhatIsUnknownThereIsOne) {
   EXPECT_FALSE(processor::ActivationBounds{}.gap().has_value());
 }
 
-// Two nodes whose tasks set each other off over FlexRay: each is taken to be as fast as the other's slots.
+// Two nodes' tasks activate each other over FlexRay: each is taken to be as fast as the other's slots.
 TEST(ActivationBounds, WritersMayWaitForEachOther) {
   model::Cluster cluster = over_flexray(false);
   const PduId to = *cluster.find_pdu("laser_objects"), back = *cluster.find_pdu("camera_objects");

@@ -12,8 +12,9 @@
 namespace ttf::schedules::analysis {
 namespace {
 
-// Measured at 0, written at 1 ms, sent in the next cycle's slot 3: at worst until its end, 5.252 ms; at best the
-// frame's 652 bits from the action point on, 5.175 ms + 65.2 us. Fused at 6 ms, published at 10 ms, used at 10.5 ms.
+// Measured at 0, written at 1 ms, sent in the next cycle's slot 3. At worst it is complete at the slot's end,
+// 5.252 ms. At best it takes the frame's 652 bits from the action point on, 5.175 ms + 65.2 us. Fused at 6
+// ms, published at 10 ms, used at 10.5 ms.
 TEST(Ages, OfAScheduledSensorAreExact) {
   const auto ages = measurement_ages(small(true));
   ASSERT_EQ(ages.size(), 1u);
@@ -28,8 +29,8 @@ TEST(Ages, OfAScheduledSensorAreExact) {
   EXPECT_EQ(ages[0].newest_worst.ns, ages[0].use_worst.ns + kApart);
 }
 
-// Adverse phase: written just after slot 3 of cycle c has begun at 168 us, so sent in cycle c + 1. If that is even, the
-// list is fused in c + 2 and used in c + 3, 15.332 ms after it was written; if odd, 5 ms earlier.
+// Adverse phase: written just after slot 3 of cycle c has begun at 168 us, so sent in cycle c + 1. If that is
+// even, the list is fused in c + 2 and used in c + 3, 15.332 ms after it was written. If odd, 5 ms earlier.
 TEST(Ages, OfAFreeSensorAreTheAdversePhases) {
   const auto ages = measurement_ages(small(false));
   ASSERT_EQ(ages.size(), 1u);
@@ -40,8 +41,8 @@ TEST(Ages, OfAFreeSensorAreTheAdversePhases) {
   EXPECT_EQ(ages[0].use_best.ns, 1'000'000 - kRounding + 5'500'000 - 175'000 - kClocks);
 }
 
-// Oscillators 1500 ppm off to either side: 3000 ppm of the execution, and 3000 ppm of the wait on the grid, but the
-// execution's once only.
+// Oscillators are 1500 ppm off to either side. 3000 ppm count for the execution and for the wait on the grid,
+// the execution's once only.
 TEST(Ages, DriftCountsOnceOnEachStretch) {
   model::Cluster cluster = small(false);
   for (model::Node& node : cluster.nodes) node.drift_ppb = 1'500'000;
@@ -61,7 +62,8 @@ TEST(Ages, ContributionsComeInTheOrderOfTheWay) {
   EXPECT_EQ(worst, ages[0].fusion_worst);
 }
 
-// Sent within the clocks' distance before the fusion begins: at worst it misses it, at best it does not.
+// The list is sent within the clocks' distance before the fusion begins: at worst it misses the fusion, at
+// best not.
 TEST(Ages, ClocksThatDifferCountAtCloseInstants) {
   model::Cluster cluster = small(true);
   cluster.nodes[1].tasks[0].activation.at.offset = Macroticks{255};  // slot 3 ends at 252 us
@@ -70,7 +72,7 @@ TEST(Ages, ClocksThatDifferCountAtCloseInstants) {
   EXPECT_EQ(ages[0].fused_worst.ns, 15'255'000 + kClocks);
 }
 
-// Two of a node's tasks are activated by messages: each may have to wait for the other.
+// Messages activate two of a node's tasks: each may have to wait for the other.
 TEST(Ages, ATaskInTheWayCountsOnce) {
   model::Cluster cluster = small(false);
   model::Task other = timed("other", {}, Duration::milliseconds(3));
@@ -81,9 +83,9 @@ TEST(Ages, ATaskInTheWayCountsOnce) {
   EXPECT_EQ(delayed[0].use_worst.ns - plain[0].use_worst.ns, 3'000'000 + kRounding);
 }
 
-// The gateway's tasks read lists that come over one CAN, the laser's before the camera's. What is left of the camera's
-// execution when the laser's list is there: that list took nine frames since the camera's last one. The other way round
-// it is one frame.
+// The gateway's tasks read lists that come over one CAN, the laser's before the camera's. The laser's list
+// took nine frames since the camera's last one, so only the rest of the camera's execution remains. The other
+// way round it is one frame.
 TEST(Ages, ListsOnOneCanComeOneAfterTheOther) {
   model::Cluster cluster = file::load_cluster(shipped_path("paper_unsynchronised"));
   const auto waits = [&](const std::string& sensor) {
@@ -117,9 +119,9 @@ TEST(Ages, ListsOnOneCanComeOneAfterTheOther) {
   EXPECT_GT(waits("laser"), Duration::milliseconds(3));
 }
 
-// Written when slot 3 of an odd cycle begins at the latest, a list is fused in that cycle at 1 ms; written later, 10 ms
-// later. So BUFF holds no list longer than the way to the slot, 0.832 ms from there to the fusion and the 10 ms; a
-// stamp may be 1.5 us off.
+// A list written by the start of slot 3 of an odd cycle is fused in that cycle at 1 ms; a later one 10 ms
+// later. BUFF holds a list for at most the way to the slot, 0.832 ms from there to the fusion, and the 10 ms.
+// A stamp may be 1.5 us off.
 TEST(Ages, OfHeldMeasurements) {
   const auto ages = measurement_ages(small(false));
   EXPECT_EQ(ages[0].buffered_fused_worst.ns, 1'000'000 + kRounding + kApart + 1'500 + 832'000 + 10'000'000 + kClocks);
@@ -127,8 +129,8 @@ TEST(Ages, OfHeldMeasurements) {
   EXPECT_EQ(ages[0].buffered_newest_worst - ages[0].buffered_use_worst, ages[0].newest_worst - ages[0].use_worst);
 }
 
-// The same with a CAN before the bus, and with tasks that messages and other tasks activate (classic CAN, 8 bytes at 1
-// Mbit/s: 135 us at worst, 111 us less the intermission of 3 us at best):
+// The same with a CAN before the bus, and with tasks activated by messages and by other tasks. Classic CAN, 8
+// bytes at 1 Mbit/s, takes 135 us at worst, 111 us less the intermission of 3 us at best:
 //
 //   device:   measure 1 ms -> CAN
 //   gateway:  forward, on the list's arrival, 0.2 to 0.5 ms -> list in slot 3 of every cycle
@@ -191,8 +193,8 @@ TEST(Ages, AFrameOfLowerPriorityOnTheCanIsWaitedFor) {
   EXPECT_EQ(delayed[0].fusion_worst.ns - plain[0].fusion_worst.ns, 135'000);
 }
 
-// Fused at 6 ms, ended at 8 ms, published at 8.1 ms, in slot 4 of the next cycle: 10.252 to 10.336 ms, used when it is
-// there.
+// Fused at 6 ms, ended at 8 ms, published at 8.1 ms, in slot 4 of the next cycle: 10.252 to 10.336 ms, used
+// on arrival.
 TEST(Ages, PublishedWhenTheFusionEndsAndUsedWhenTheImageArrives) {
   const auto ages = measurement_ages(over_can(true));
   ASSERT_TRUE(ages[0].reaches_use);
@@ -201,7 +203,7 @@ TEST(Ages, PublishedWhenTheFusionEndsAndUsedWhenTheImageArrives) {
   EXPECT_EQ(ages[0].use_best.ns, 10'252'000 + 7'000 + 65'200 - kClocks);
 }
 
-// Set off by the sensor's list instead: one of those comes within two periods of 10 ms.
+// The sensor's list activates it instead: such a list comes within two periods of 10 ms.
 TEST(Ages, AListWaitsForTheOneThatActivatesItsReader) {
   model::Cluster cluster = over_can(true);
   model::Task& use = cluster.nodes[2].tasks[0];
@@ -212,8 +214,8 @@ TEST(Ages, AListWaitsForTheOneThatActivatesItsReader) {
   EXPECT_EQ(ages[0].use_best.ns, 10'252'000 + 7'000 + 65'200 - kClocks);
 }
 
-// The fusion itself follows a task of 0.3 ms that time activates every 10 ms: a list that just missed it waits for the
-// next one, a period and that task's end later.
+// The fusion follows a task of 0.3 ms that time activates every 10 ms. A list that just missed it waits for
+// the next one: a period and that task's end later.
 TEST(Ages, AListWaitsForTheBeginningOfAChain) {
   model::Cluster cluster = small(true);
   model::Task prepare = timed("prepare", {1, 2, Macroticks{1000}}, Duration::microseconds(300));

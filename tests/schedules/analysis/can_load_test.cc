@@ -60,7 +60,7 @@ TEST(CanFrames, RoundUpToWholeNanoseconds) {
   EXPECT_EQ(can_best_case(classic(300'000), 0), Duration{156'667});  // 47 / 300 kHz = 156'666.7 ns
 }
 
-// What frames on the wire really take lies between the two.
+// The duration of frames on the wire lies between the two.
 TEST(CanFrames, BoundTheFramesOnTheWire) {
   for (const model::CanBus& bus : {classic(), fast()})
     for (const int length : {0, 1, 7, 8, 64}) {
@@ -91,12 +91,12 @@ TEST(CanResponse, BlockingAndHigherPriorities) {
   EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(270));  // one below, itself
   EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[1]), Duration::microseconds(405));  // all three
   EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[2]), Duration::microseconds(405));  // two above, itself
-  // Half of the bus is others': a longest frame of them too, and all at half the speed.
+  // Other traffic takes half of the bus: a longest frame of it, too, and everything at half the speed.
   bus.other_load = 0.5;
   EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(810));
   bus.other_load = 0.0;
-  // Short periods: the highest comes every 200 us. 405 us see it three times, 675 us four times, 810 us five times,
-  // and 945 us are not more than five.
+  // Short periods: the highest comes every 200 us. It comes three times in 405 us, four times in 675 us, five
+  // times in 810 us. 945 us have no more than five.
   bus.messages[0].shortest_period = Duration::microseconds(200);
   bus.messages[1].shortest_period = Duration::milliseconds(2);
   bus.messages[2].shortest_period = Duration::milliseconds(2);

@@ -1,4 +1,4 @@
-// Lists that are dealt out to both channels: which file says so, and what is refused.
+// Lists dealt out to both channels: their notation in the file, and the refused cases.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,4 +1,4 @@
-// Message ids of dynamic frames, and external correction terms: what cluster files may say of them.
+// Message ids of dynamic frames, and external correction terms: the rules for cluster files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,7 +83,8 @@ TEST(ExternalCorrection, RangesAreThoseOfTheRegister) {
           << name << ' ' << value;
 }
 
-// 386 macroticks of 40 microticks less 601 in 5000 are 15393.. of which one each stays: 3887 fit with nothing external.
+// 386 macroticks of 40 microticks less 601 in 5000 are 15393.. of which one each stays. 3887 fit without an
+// external term.
 TEST(ExternalCorrection, TakesOfTheRoomForOffsetCorrection) {
   const auto limit = [](int offset, const std::string& external) {
     return findings_of(changed("(pOffsetCorrectionOut: )[0-9]+([^~]*\\bpWakeupPattern: 2)",

@@ -16,7 +16,8 @@ model::FrameSlot frame(int slot, model::Channels channels, NodeId sender, PduId 
   return {slot, channels, 0, 1, sender, pdu, 0, 0, false};
 }
 
-// 10 static slots of 50; minislots of 7 MT, action point 3, one idle; lists of 8 bytes (4 words), 32 (16) and 56 (28).
+// 10 static slots of 50; minislots of 7 MT, action point 3, one idle; lists of 8 bytes (4 words), 32 (16) and
+// 56 (28).
 model::Cluster dynamic() {
   model::Cluster cluster;
   model::GlobalParameters& g = cluster.flexray;
@@ -37,7 +38,7 @@ model::Cluster dynamic() {
 
 // TSS 9 + 1 + 80 + 20 per word + 2 bits, and one of the DTS, 0.10015 us each, in minislots of 7 * 0.9985 us:
 //   4 words: 173 bits, 17.326 us, 2.48 -> 3; 16: 413, 41.362, 5.92 -> 6; 28: 653, 65.398, 9.36 -> 10
-// and one for the beginning's part before the action point, and one idle.
+// One more counts for the part before the action point, and one is idle.
 TEST(Minislots, AFrameTakesSoMany) {
   const model::GlobalParameters g = dynamic().flexray;
   EXPECT_EQ(minislots_of(g, 4), 3 + 1 + 1);
@@ -84,7 +85,8 @@ TEST(Minislots, OnlySlotsOfTheSameCyclesCount) {
   EXPECT_EQ(latest_turn(cluster, cluster.frames[2]), 1 + 1);
 }
 
-// Of the laser's and the camera's list in slots 21 to 24, 12 minislots each, behind 1000 macroticks of static segment.
+// The laser's and the camera's lists are in slots 21 to 24, 12 minislots each, behind 1000 macroticks of
+// static segment.
 TEST(Minislots, AListGoesOutBetweenItsTurns) {
   const model::Cluster cluster = check::load_checked_cluster(shipped_path("flexray_demo"));
   const auto laser = slot_groups(cluster, *cluster.find_pdu("laser_objects"));
@@ -98,13 +100,13 @@ TEST(Minislots, AListGoesOutBetweenItsTurns) {
   EXPECT_EQ(camera[0].taken_by, Macroticks{1000 + 24 * 7 + 3});
   EXPECT_EQ(camera[0].complete_by, Macroticks{1000 + 48 * 7});
   EXPECT_TRUE(camera[0].bounded);
-  // Two lists written just before and just after a turn: two cycles apart at most, one at least.
+  // Two lists written just before and just after a turn: at most two cycles apart, at least one.
   EXPECT_EQ(shortest_slot_gap(cluster, *cluster.find_pdu("camera_objects"))->gap, Duration::milliseconds(2));
   EXPECT_EQ(shortest_slot_gap(cluster, *cluster.find_pdu("camera_objects"))->spread, Duration::microseconds(46 * 7));
 }
 
-// At best one frame: (9 + 1 + 80 + 560 + 2) bits of 0.1 us, less drift and what oscillators round off; at worst it
-// missed its turn by a nanosecond, and is sent in the next cycle behind everything else.
+// At best one frame: (9 + 1 + 80 + 560 + 2) bits of 0.1 us, less drift and the oscillators' rounding. At
+// worst it missed its turn by a nanosecond, and is sent in the next cycle behind all others.
 TEST(Minislots, AgesCountTheWaitForATurn) {
   const model::Cluster cluster = check::load_checked_cluster(shipped_path("flexray_demo"));
   for (const AgePath& path : measurement_ages(cluster)) {
@@ -158,12 +160,12 @@ TEST(DynamicLoad, IsListedAndDrawn) {
   EXPECT_NE(shown.find("21-22     1000-1168     AB  laser_pre   laser_objects 0-1 (dynamic)"), std::string::npos)
       << shown;
   EXPECT_NE(shown.find("1560-1573     AB              symbol window"), std::string::npos) << shown;
-  // 48 of the 80 minislots, then the rest, then two columns with symbol window in them.
+  // 48 of the 80 minislots, then the rest, then two columns that include symbol window.
   EXPECT_NE(shown.find("sDDDDDDDDDDDDDDDDd"), std::string::npos) << shown;
   EXPECT_NE(shown.find("dwwn"), std::string::npos) << shown;
 }
 
-// May wait for another cycle: allowed for a list that nobody counts on.
+// A list without dependents may wait for another cycle.
 TEST(DynamicLoad, SaysWhatMayHaveToWait) {
   model::Cluster cluster = dynamic();
   cluster.frames = {frame(11, model::Channels::kA, NodeId{0}, PduId{2}),

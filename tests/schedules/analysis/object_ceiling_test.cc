@@ -1,4 +1,5 @@
-// How many objects the shipped clusters carry: the figures of docs/tracker.md, and that the checker agrees.
+// The number of objects that the shipped clusters carry: the figures of docs/tracker.md, confirmed by the
+// checker.
 #include "schedules/analysis/object_ceiling.h"
 
 #include <fmt/format.h>
@@ -63,8 +64,8 @@ std::string exchanged(std::string text, const std::string& from, const std::stri
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-// The paper's cluster for `objects`, the lists one behind the other from slot 6 on, the fusion between the sensors' and
-// the image's.
+// The paper's cluster for `objects`. The lists follow each other from slot 6 on, the fusion lies between the
+// sensors' and the image's.
 std::string paper_for(int objects) {
   const int laser = (objects + 2) / 3, camera = (objects + 3) / 4, image = (objects + 1) / 2;
   const int second = 6 + laser, third = second + camera, end = third + image - 1;

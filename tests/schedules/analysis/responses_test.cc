@@ -78,7 +78,7 @@ TEST(Responses, TasksOfMessagesWaitForEachOther) {
   EXPECT_EQ(r[0].written, ms(20) - Duration{100} - us(300));  // one late, the next at once
 }
 
-// Every 2 ms comes one of 0.5 ms: two of them and the first task are before the second, which is 2.1 ms later.
+// One of 0.5 ms comes every 2 ms. Two of them and the first task precede the second, which is 2.1 ms later.
 //
 //   first  |========|
 //   second           ^activated  |====|
@@ -128,7 +128,8 @@ TEST(Responses, CorrectionsBringInstantsCloser) {
   EXPECT_NEAR(static_cast<double>(responses(cluster)[0].gap->ns), 10e6 - 30e3 - 20e3, 200);
 }
 
-// The shortest distance over the cycles, not the shortest repetition: cycles 1, 9, 17 .. and 2, 10, 18 ..
+// The shortest distance over the cycles, rather than the shortest repetition: cycles 1, 9, 17 .. and 2, 10,
+// 18 ..
 TEST(SlotGaps, AreBetweenTheCyclesThatHaveTheList) {
   model::Cluster cluster = cluster_of({});
   cluster.flexray.gNumberOfStaticSlots = 24;

@@ -1,4 +1,4 @@
-// Sensors that follow their hosts: how often they measure, and what that makes of the hosts' tasks.
+// Sensors that follow their hosts: their rate, and the load of the hosts' tasks.
 #include "schedules/analysis/sensor_loop.h"
 
 #include <gtest/gtest.h>
@@ -17,9 +17,9 @@ constexpr Duration microseconds(std::int64_t n) { return Duration::microseconds(
 
 model::Cluster following_cluster() { return check::load_checked_cluster(shipped_path("paper_free_running")); }
 
-// Camera: classic CAN at 1 Mbit/s, a frame of 8 bytes takes 108 us at best without its intermission, 40 of them 5.4 ms
-// at worst. Oscillators are off by 1500 ppm at most, so that two of them make 0.3 % of every time; 101 ns of rounding
-// each way.
+// Camera: classic CAN at 1 Mbit/s. A frame of 8 bytes takes 108 us at best without its intermission, 40 of
+// them 5.4 ms at worst. Oscillators are off by at most 1500 ppm, so two of them give 0.3 % of every time; 101
+// ns of rounding each way.
 TEST(SensorLoop, ARoundIsExecutionTransferAndPreprocessing) {
   const model::Cluster cluster = following_cluster();
   const SensorId camera = *cluster.find_sensor("camera");
@@ -36,8 +36,8 @@ TEST(SensorLoop, ARoundIsExecutionTransferAndPreprocessing) {
   EXPECT_FALSE(loop_of(file::load_cluster(shipped_path("paper_unsynchronised")), camera).has_value());
 }
 
-// Alone on its processor the host's task ends after its execution, though the shortest period is shorter than that; its
-// ends, and with them the lists, are a round apart.
+// Alone on its processor, the host's task ends after its execution, though the shortest period is shorter.
+// Its ends, and with them the lists, are a round apart.
 TEST(SensorLoop, TheHostsTaskNeverMeetsItself) {
   const model::Cluster cluster = following_cluster();
   const auto found = worst_responses(cluster, *cluster.find_node("laser_pre"));
@@ -92,7 +92,7 @@ TEST(Mutations, OfFollowingSensors) {
       "paper_free_running");
 }
 
-// An oracle: a queue with one task that a sensor follows, and one that comes at least 20 ms apart.
+// An oracle: a queue with one task followed by a sensor, and one that comes at least 20 ms apart.
 struct FollowedQueue {
   const model::Task &followed, &other;
   Duration pause;  // from an end of `followed` to its next activation

@@ -16,15 +16,15 @@ constexpr std::int64_t kToSlot = 1'000'000 + kRounding + kApart + kStamp;  // fr
 constexpr std::int64_t kRound = 320'000'000;
 constexpr std::int64_t ms(std::int64_t n) { return n * 1'000'000; }
 
-// The first instant from which on a list of this stamp is no longer waited for.
+// The first instant from which on a list of this stamp is no longer awaited.
 GlobalTime waited_until(const SettledRound& round, GlobalTime stamp) {
   for (std::int64_t shift = -10 * round.round.ns;; shift += round.round.ns)
     for (const Settled& settled : round.instants)
       if (stamp <= settled.measured + Duration{shift}) return settled.at + Duration{shift};
 }
 
-// Slot 3 begins at 168 us of every cycle and ends at 252 us; fusion is at 1 ms of odd cycles. What is written until
-// slot 3 of an odd cycle is fused in it.
+// Slot 3 begins at 168 us of every cycle and ends at 252 us; fusion is at 1 ms of odd cycles. A list written
+// before slot 3 of an odd cycle is fused in it.
 TEST(Settled, OneStepPerFusionInstant) {
   const auto round = settled_round(small(false), SensorId{0});
   ASSERT_TRUE(round.has_value());
@@ -37,8 +37,8 @@ TEST(Settled, OneStepPerFusionInstant) {
   for (std::size_t i = 1; i < 32; ++i) EXPECT_EQ((round->instants[i].at - round->instants[i - 1].at).ns, ms(10));
 }
 
-// Whatever the stamp, by enumeration: the first slot that begins not before the list is there, its end, and the first
-// fusion instant that is later by at least the clocks' distance.
+// For any stamp, by enumeration. The list takes the first slot that begins once it is there. The first fusion
+// instant after that slot's end, later by at least the clocks' distance, settles it.
 TEST(Settled, IsTheFirstFusionInstantAfterTheLatestWay) {
   for (const std::int64_t offset_us : {255, 259, 260, 1000, 4999}) {
     model::Cluster cluster = small(false);
@@ -63,7 +63,7 @@ TEST(Settled, IsTheFirstFusionInstantAfterTheLatestWay) {
   }
 }
 
-// Of fusion instants between two of a list's slots only the first settles anything.
+// Between two of a list's slots, only the first fusion instant settles anything.
 TEST(Settled, SlotsOfFewCycles) {
   model::Cluster cluster = small(false);
   cluster.frames[0].base_cycle = 2;
@@ -94,7 +94,7 @@ TEST(Settled, SlotsOfTwoGroupsOfCycles) {
   }
 }
 
-// Over a CAN to the fusing task: nothing but that task is on the grid.
+// Over a CAN to the fusing task: only that task is on the grid.
 TEST(Settled, WithoutSlots) {
   model::Cluster cluster = small(false);
   model::CanBus bus;
@@ -125,9 +125,9 @@ TEST(Settled, NothingWhereNothingIsFusedByTime) {
   EXPECT_EQ(settled_round(unread, SensorId{0}), std::nullopt);
 }
 
-// The shipped synchronised cluster, fusion at 1.8 ms + n 10 ms: the laser of 27.7 ms has its slots in the cycle that
-// begins at 80 ms, the camera of 5.9 ms in that of 40 ms. Each is fused in the cycle of its slots, and waited for until
-// then.
+// The shipped synchronised cluster, fusion at 1.8 ms + n 10 ms. The laser of 27.7 ms has its slots in the
+// cycle at 80 ms, the camera of 5.9 ms in that at 40 ms. Each is fused in the cycle of its slots, and awaited
+// until then.
 TEST(SettledShipped, ScheduledListsAreDueInTheCycleOfTheirSlots) {
   const model::Cluster cluster = check::load_checked_cluster(shipped_path("paper_synchronised"));
   const auto laser = settled_round(cluster, *cluster.find_sensor("laser"));

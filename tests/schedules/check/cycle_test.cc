@@ -100,7 +100,7 @@ TEST(CycleRules, PaperLayoutIsTheTightestThatHolds) {
   EXPECT_EQ(shortest_static_slot(g), 84);
 }
 
-// What clocks may be apart is never less than the parameters say, whatever part of a nanosecond they say.
+// The assumed distance of clocks is never less than the parameters' value, with any fraction of a nanosecond.
 TEST(CycleRules, TheAssumedPrecisionIsWholeNanosecondsRoundedUp) {
   model::GlobalParameters g;
   EXPECT_EQ(assumed_precision(g), Duration::nanoseconds(6'850));
@@ -147,11 +147,11 @@ TEST(Instants, TimeIsRoundedUpToANanosecondThatHasReachedIt) {
   g.gdMacrotick_ps = 1'000'300;
   EXPECT_EQ(time_of(g, 0, Macroticks{1}).ns, 1001);
   EXPECT_EQ(time_of(g, 1, Macroticks{0}).ns, 10'003);
-  // 10^9 cycles on, nothing has accumulated.
+  // 10^9 cycles on, no error has accumulated.
   EXPECT_EQ(time_of(g, 1'000'000'000, Macroticks{0}).ns, 10'003'000'000'000);
 }
 
-// Every repetition that FlexRay has or ever had, of instants and of frames, in counters and in cycles counted on.
+// Every repetition that FlexRay has or had, of instants and of frames, in counters and in counted cycles.
 TEST(InCycle, IsTheRemainderOfTheRepetition) {
   for (const int repetition : {1, 2, 4, 5, 8, 10, 16, 20, 32, 40, 50, 64})
     for (int base = 0; base < repetition; ++base) {

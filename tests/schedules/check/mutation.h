@@ -1,4 +1,4 @@
-// Every rule has a mistake that breaks it: one change to a shipped file, and the finding it must lead to.
+// A mistake for every rule: one change to a shipped file, and the finding it must cause.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ struct Wanted {
   std::string line;  // the file's line it points to contains this,
   std::string key;   // its key and value are these,
   std::string value;
-  std::string words;  // and what it expects contains this
+  std::string words;  // and its expectation contains this
 };
 
 struct Mutation {

@@ -64,7 +64,8 @@ TEST(Mutations, OfDynamicSlots) {
            "gdDynamicSlotIdlePhase: 1",
            "gdDynamicSlotIdlePhase: 0",
            {"gdDynamicSlotIdlePhase: 0", "flexray.gdDynamicSlotIdlePhase", "0", "must be at least 1 minislots"}},
-          // The laser's two frames may take minislots 1 to 24; the camera's first may begin in 25, its second in 37.
+          // The laser's two frames may take minislots 1 to 24; the camera's first may begin in 25, its second
+          // in 37.
           {"age_without_bound",
            "pLatestTx: 69 ",
            "pLatestTx: 36 ",
@@ -96,7 +97,7 @@ TEST(Mutations, OfDynamicSlots) {
       "flexray_demo");
 }
 
-// A list that sets off a task needs a bound, whatever is in it.
+// A list that activates a task needs a bound, regardless of its content.
 TEST(Mutations, OfAListThatActivatesATask) {
   const std::string text = std::regex_replace(
       std::regex_replace(shipped_text("flexray_demo"), std::regex("pLatestTx: 69"), "pLatestTx: 36"),

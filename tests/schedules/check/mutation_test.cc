@@ -1,4 +1,4 @@
-// How mistakes in a cluster file are reported; the rules one by one are in the mutation_*_test.cc.
+// Reports of mistakes in a cluster file; each rule is in one of mutation_*_test.cc.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ TEST(Mutations, LinesAreThoseOfTheParameter) {
   EXPECT_EQ(found->line, line);
 }
 
-// A section that is not there leaves many keys unread; each finding about them points to where the section should be.
+// A missing section leaves many keys unread. Each finding about them points to the section's proper place.
 TEST(Mutations, EveryFindingAboutAMissingSectionHasALine) {
   for (const char* section :
        {"name", "synchronisation", "flexray", "node_parameters", "pdus", "sensors", "nodes", "frames", "can"}) {
@@ -83,7 +83,7 @@ TEST(Mutations, MoreNamesThanRecordsCanNumber) {
 
 TEST(Mutations, ATruncatedFileIsNeverAccepted) {
   const std::string text = shipped_text("paper_unsynchronised");
-  // A cut may leave valid YAML, but never a whole cluster, except behind its last line's end.
+  // A cut may leave valid YAML, but never a whole cluster, except behind the last line.
   for (std::size_t length = 0; length + 40 < text.size(); length += 97)
     EXPECT_FALSE(findings_of(text.substr(0, length)).empty()) << "cut after " << length << " bytes";
 }

@@ -1,5 +1,4 @@
-// Rules W1..W7 of schedules/check/real_time_rules.h, at the very numbers where they begin to hold; and the section of
-// the file.
+// Rules W1..W7 of schedules/check/real_time_rules.h, at their exact thresholds; and the section of the file.
 #include "schedules/check/real_time_rules.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +16,8 @@ namespace {
 
 constexpr Duration us(std::int64_t n) { return Duration::microseconds(n); }
 
-// Slots of 84 us from 40 of which 34 are in use, 7 us to the action point: 7 x 84 - 7 = 581 us of room. A
-// cycle of 5 ms.
+// 40 slots of 84 us, the first 34 in use, 7 us to the action point: 7 x 84 - 7 = 581 us of room. A cycle of 5
+// ms.
 model::Cluster paper(Duration early, Duration late) {
   model::Cluster cluster = load_checked_cluster(shipped_path("paper_synchronised"));
   cluster.arrival_window = {early, late};
@@ -76,7 +75,7 @@ TEST(RealTime, TheWindowsOfASlotInTwoCyclesMustNotOverlap) {
             "arrival windows of a slot in two cycles overlap; --time-scale 1.000001 or more would do");
 }
 
-// Whatever the window: the scale that is named would do, and the one before would not.
+// For any window: the named scale suffices, and the one before does not.
 TEST(RealTime, TheTimeScaleNamedIsTheSmallest) {
   const std::pair<Duration, Duration> windows[] = {
       {{}, us(582)},          {us(100), us(2'000)},       {us(100), Duration{123'456'789}},
@@ -118,7 +117,7 @@ TEST(RealTime, EachObstacleIsNamedAtItsLine) {
             "must be bus in real time: stars, and guardians in them, are simulated in virtual time only");
 }
 
-// Laser and camera have 1 to 4, each on its own CAN: what the other has is free there.
+// Laser and camera have 1 to 4, each on its own CAN: the other's identifiers are free there.
 TEST(RealTime, ASensorsLinesHaveTheirIdentifiersToThemselves) {
   const auto found = [](std::size_t can, std::uint32_t identifier) {
     model::Cluster cluster = paper({}, us(500));
@@ -141,7 +140,7 @@ TEST(RealTime, ASensorsLinesHaveTheirIdentifiersToThemselves) {
   for (std::uint32_t free = 0; free < 6; ++free) EXPECT_TRUE(found(2, free).empty()) << free;  // no sensor's
 }
 
-// A device that keeps its raw data to itself, or whose task begins by the schedule instead of with its sensor.
+// A device that keeps its raw data, or whose task begins by the schedule instead of with its sensor.
 TEST(RealTime, ASensorsLinesNeedACan) {
   const model::Cluster whole = paper({}, us(500));
   const NodeId device = whole.sensors[1].device;

@@ -26,8 +26,7 @@ class DbcOfShipped : public testing::TestWithParam<std::string> {
   const model::Cluster cluster_ = check::load_checked_cluster(shipped_path(GetParam()));
 };
 
-// What the reader makes of a frame by the file alone is what our own decoder makes of it: every signal of every
-// element.
+// The reader, from the file alone, decodes a frame as our decoder does: every signal of every element.
 TEST_P(DbcOfShipped, DecodesEveryFrameAsWeDo) {
   const DbcFile file = read_dbc(dbc_text(cluster_));
   ASSERT_EQ(file.nodes.size(), cluster_.nodes.size());
@@ -70,7 +69,7 @@ TEST_P(DbcOfShipped, DecodesEveryFrameAsWeDo) {
   std::size_t sensors = 0;
   for (std::size_t s = 0; s < cluster_.sensors.size(); ++s)
     if (can_of_lines(cluster_, static_cast<SensorId>(s))) ++sensors;
-  EXPECT_EQ(file.messages.size(), messages + 2 * sensors + 1);  // and what is on the channels
+  EXPECT_EQ(file.messages.size(), messages + 2 * sensors + 1);  // and the frames on the channels
   EXPECT_EQ(file.messages.at(0).name, "flexray_symbol");
 }
 
@@ -177,7 +176,7 @@ TEST(Dbc, ASensorsLinesAreMessagesOfItsCan) {
   }
 }
 
-// In virtual time they are nobody's, and messages may have them.
+// In virtual time they are free, and messages may have them.
 TEST(Dbc, WhatAMessageHasIsNoLinesIdentifier) {
   model::Cluster cluster = file::load_cluster(shipped_path("paper_synchronised"));
   cluster.can_buses[2].messages[0].identifier = 1;

@@ -1,5 +1,5 @@
-// A reader of DBC files for tests, with nothing of the writer's in it: messages, signals, and what a signal's bits
-// say by the format's own rules. Lines it does not know fail the test.
+// A reader of DBC files for tests, independent of the writer. It reads messages and signals, and decodes
+// signals' bits by the format's rules. An unknown line fails the test.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The ranges of FlexRay Protocol Specification 2.1 Rev. A, annex B, written down once more and held against what the
-// loader accepts: both ends are in, one beyond either end is out.
+// The ranges of FlexRay Protocol Specification 2.1 Rev. A, annex B, written a second time and compared with
+// the loader. Both ends are accepted, one beyond either end is refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ constexpr AnnexB kRanges[] = {
     {"pWakeupPattern", 2, 63},
 };
 
-// What the loader, not the checker, says about the parameter with this value.
+// The loader's refusal (not the checker's) of the parameter with this value.
 std::string refusal(const std::string& name, int value) {
   const std::string text =
       std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("\\b" + name + ": [0-9.]+"),

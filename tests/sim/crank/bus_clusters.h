@@ -1,5 +1,5 @@
-// Clusters of any size for tests of the protocol alone: 5 ms cycles of 64 static slots and 300 minislots, every node
-// sending a status frame of 16 bytes in its key slot on both channels.
+// Clusters of any size for tests of the protocol alone: 5 ms cycles of 64 static slots and 300 minislots.
+// Every node sends a status frame of 16 bytes in its key slot on both channels.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 namespace ttf::sim::crank {
 
 inline constexpr int kMicroPerCycle = 200'000;  // of 25 ns
-// (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay: the worst case of FlexRay 2.1A, annex B,
-// here with a damping of 2 (schedules/check/checker.h).
+// (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay: the worst case of FlexRay 2.1A,
+// annex B. The damping is 2 here (schedules/check/checker.h).
 inline constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};
 
 // The first `coldstart` nodes are coldstart nodes, the first `sync` of all are sync nodes.
@@ -52,7 +52,7 @@ inline schedules::model::Cluster bus_cluster(int nodes, int coldstart, int sync)
   return cluster;
 }
 
-// What a controller says about itself.
+// A controller's changes of state.
 struct StateLog final : bus::controller::ControllerEvents {
   struct Change {
     bus::poc::PocKind from{}, to{};

@@ -1,6 +1,6 @@
-// Clock synchronisation under random clocks, delays and Byzantine sync nodes: FlexRay's fault-tolerant midpoint drops
-// one value at each end of 3 to 7, and two of 8 to 15. So one arbitrary clock among 4 to 7 and two among 8 to 15 do no
-// harm; one of 3 and two of 7 do.
+// Clock synchronisation under random clocks, delays and Byzantine sync nodes. FlexRay's fault-tolerant
+// midpoint drops one value at each end of 3 to 7, and two of 8 to 15. So one arbitrary clock among 4 to 7 and
+// two among 8 to 15 do no harm; one of 3 and two of 7 do.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,12 +14,12 @@
 namespace ttf::sim::crank {
 namespace {
 
-// The sync frames of nodes 0..traitors-1 reach each receiver at a time of its own: late at some, early at others,
-// within what still fits the slot; the worst a clock can do that nobody else notices.
+// The sync frames of nodes 0..traitors-1 reach each receiver at a different time: late at some, early at
+// others, still inside the slot. This is the worst that a clock can do unnoticed.
 class TwoFaced final : public medium::Disturbance {
  public:
-  // Pull apart: late at every other receiver, early at the rest. Pull rates: besides, the other way round in every
-  // other cycle, so that the double cycles seem long to some and short to others.
+  // Pull apart: late at every other receiver, early at the rest. Pull rates: also inverted in every other
+  // cycle, so that double cycles seem long to some and short to others.
   enum class Plan { kRandom, kPullApart, kPullRates };
   TwoFaced(int traitors, Plan plan, std::uint64_t seed) : traitors_(traitors), plan_(plan), seed_(seed) {}
   bool leaving(medium::Leaving& signal) override {

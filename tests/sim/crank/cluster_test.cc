@@ -18,7 +18,7 @@ struct PrecisionSink final : recording::records::Sink {
   void on(const recording::records::PrecisionSample& sample) override { samples.push_back(sample); }
 };
 
-// FlexRay 2.1A, as public E-Ray tooling computes it: what the schedule was dimensioned for.
+// FlexRay 2.1A, as public E-Ray tooling computes it: the schedule was dimensioned for it.
 Duration assumed_precision(const schedules::model::GlobalParameters& g) {
   return {((34 + 20 * g.gClusterDriftDamping) * g.gdMaxMicrotick_ps + 2 * g.gdMaxPropagationDelay_ps) / 1000};
 }
@@ -35,7 +35,8 @@ TEST(TimeBase, StaysWithinTheAssumedPrecisionForDrawnDrifts) {
   }
 }
 
-// Without correction two clocks part by the difference of their drifts times the time, until frames leave their slots.
+// Without correction two clocks diverge by the difference of their drifts times the time, until frames leave
+// their slots.
 TEST(TimeBase, WithoutCorrectionItGrowsAsDriftTimesTime) {
   Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
   drive.cluster.synchronisation = false;

@@ -1,5 +1,5 @@
-// Clusters on a star, with guardians or without, their start-up and what the nodes and guardians say; for tests of the
-// guardian.
+// Clusters on a star, with or without guardians: their start-up, and the nodes' and guardians' reports. For
+// tests of the guardian.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ inline schedules::model::Cluster star_cluster(int nodes, int coldstart, int sync
   return cluster;
 }
 
-// What a node's controller says: its state changes, and in which slots what it saw was wrong or missing.
+// A node's report: state changes, and the slots with errors or without frames.
 struct NodeLog final : bus::controller::ControllerEvents {
   StateLog states;
   std::map<int, std::uint64_t> problems;                                       // by slot, 0: outside every slot
@@ -52,7 +52,7 @@ struct Guarded {
   std::vector<std::unique_ptr<NodeLog>> logs;
   std::unique_ptr<BusSimulation> simulation;
 
-  // Clocks of nodes and guardians are drawn. `view`: what node 0 believes in.
+  // Clocks of nodes and guardians are drawn. `view`: the schedule of node 0.
   Guarded(schedules::model::Cluster made, const std::vector<TrueTime>& power_on, std::uint64_t seed,
           const schedules::model::Cluster* view = nullptr)
       : cluster(std::move(made)) {
@@ -100,7 +100,8 @@ struct Guarded {
       if (logs[n]->left_active()) return false;
     return true;
   }
-  // In slots of the nodes from `first` on and outside every slot, as these nodes see it. (Node n sends in slot n + 1.)
+  // Problems in slots of the nodes from `first` on and outside every slot, as these nodes see them. (Node n
+  // sends in slot n + 1.)
   std::uint64_t problems(std::size_t first = 0) const {
     std::uint64_t sum = 0;
     for (std::size_t n = first; n < logs.size(); ++n)
@@ -108,7 +109,7 @@ struct Guarded {
         if (slot == 0 || slot > static_cast<int>(first)) sum += times;
     return sum;
   }
-  // Whether the nodes from `first` on agree about what came in the slot.
+  // Returns whether the nodes from `first` on agree about the slot.
   bool agree(int slot, std::size_t first) const {
     const auto seen = [&](std::size_t n) {
       std::set<std::tuple<std::int64_t, int, schedules::model::Channel>> of_slot;

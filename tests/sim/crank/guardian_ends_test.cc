@@ -1,6 +1,6 @@
-// A node whose dynamic frame breaks off, or whose clock jumps in the middle of one, in a star with guardians: all
-// others, and the guardians, go on counting alike to the end of the segment (bus/guardian/guardian.h G9). Node 0 is the
-// faulty one; its frame is the segment's first, and the others' come behind it.
+// In a star with guardians, a node's dynamic frame breaks off, or its clock jumps within one. All others and
+// the guardians still count alike to the segment's end (bus/guardian/guardian.h G9). Node 0 is faulty; its
+// frame is the segment's first, and the others' come behind it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ schedules::model::Cluster breaking_off_cluster() {
   return cluster;
 }
 
-// What one node received in dynamic slots.
+// A node's received dynamic frames.
 struct DynamicHeard final : bus::controller::ControllerEvents {
   using Frame = std::tuple<std::int64_t, int, Channel>;  // cycle, slot
   std::map<Frame, Microticks> frames;                    // when it was over
@@ -59,7 +59,7 @@ struct DynamicHeard final : bus::controller::ControllerEvents {
   void slot_problem(std::int64_t, int, Channel, bus::controller::SlotStatus, Microticks) override { ++problems; }
 };
 
-// Begins integrated, cycle 0 at kEndsBegin; everybody sends one dynamic frame in every cycle.
+// Begins integrated, cycle 0 at kEndsBegin; every node sends one dynamic frame in every cycle.
 struct BreakingOff {
   schedules::model::Cluster cluster = breaking_off_cluster();
   std::vector<std::unique_ptr<DynamicHeard>> heard;
@@ -103,7 +103,7 @@ struct BreakingOff {
     return Duration::microseconds(bus::controller::MinislotGrid(cluster.flexray).action_point(1).value);
   }
   medium::StarCoupler& coupler(Channel channel) { return *simulation->coupler(channel); }
-  // What the others sent in this cycle, all others received.
+  // Expects that all others received the others' frames of this cycle.
   void expect_everything_heard(const std::string& when) {
     for (int receiver = 1; receiver < kEndsNodes; ++receiver)
       for (int sender = 1; sender < kEndsNodes; ++sender)
@@ -138,7 +138,7 @@ TEST(GuardianEnds, WhereverADynamicFrameBreaksOffAllGoOnCountingAlike) {
   EXPECT_EQ(kept_from_others, 0u) << "a guardian counts otherwise than a sender";
 }
 
-// As a sender's does whose clock has jumped.
+// As from a sender whose clock has jumped.
 TEST(GuardianEnds, WhereverATrailingSequenceEndsAllGoOnCountingAlike) {
   struct Stretched final : medium::Disturbance {
     Duration by{};
@@ -153,7 +153,7 @@ TEST(GuardianEnds, WhereverATrailingSequenceEndsAllGoOnCountingAlike) {
     RandomStream draw({n, 0, Purpose::kTest, 1, 0});
     BreakingOff run(n);
     Stretched stretched;
-    stretched.by = Duration{draw.integer(-6'500, 20'000)};  // the bits are whole; beyond what it may last
+    stretched.by = Duration{draw.integer(-6'500, 20'000)};  // the bits are whole; may exceed the allowed length
     run.whole_cycles(2);
     run.simulation->set_disturbance(&stretched);
     run.write_all();

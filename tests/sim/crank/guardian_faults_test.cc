@@ -1,6 +1,6 @@
-// A running cluster on a star, one node of it faulty: with guardians no other node notices more than that node's own
-// slot; without them the same fault does the harm that the guardian is for. Node 0 is the faulty one, in slot 1; node 4
-// is no sync node.
+// A running cluster on a star with one faulty node. With guardians the others notice only that node's own
+// slot. Without them the same fault does the harm that the guardian prevents. Node 0 is faulty, in slot 1;
+// node 4 is no sync node.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -19,7 +19,7 @@ using schedules::model::Channel;
 
 constexpr NodeId kFaulty{0};
 
-// Does to what the faulty node sends what it is given.
+// Applies a given function to the faulty node's signals.
 struct Doing final : medium::Disturbance {
   std::function<bool(ttf::sim::medium::Leaving&)> to_leaving;
   bool leaving(medium::Leaving& signal) override { return signal.sender != kFaulty || to_leaving(signal); }
@@ -60,7 +60,7 @@ TEST(GuardianFaults, ABabblingIdiotIsHeardByNobody) {
   }
 }
 
-// Everything that start-up spoilers do, in a cluster that runs: a lone coldstart node that hears nothing, wake-up
+// All acts of start-up spoilers, in a running cluster: a lone coldstart node that hears nothing, wake-up
 // patterns, ...
 TEST(GuardianFaults, NobodyStartsAClusterThatRuns) {
   for (const auto plan : StartSpoiler::kPlans)
@@ -79,7 +79,7 @@ TEST(GuardianFaults, NobodyStartsAClusterThatRuns) {
   EXPECT_GT(without.cluster.problems(1), 0u);
 }
 
-// The faulty node's frames carry node 1's id, and one of them comes into node 1's slot, ahead of node 1's own.
+// The faulty node's frames carry node 1's id. One of them comes into node 1's slot, ahead of node 1's own.
 struct Masquerade final : medium::Disturbance {
   Plant& plant;
   std::array<std::byte, bus::wire::kMaxFrameBytes> forged{};
@@ -118,7 +118,8 @@ TEST(GuardianFaults, NobodySendsInAnothersNameOrSlot) {
   }
 }
 
-// Frames that are a little early or late: some receivers find them in the slot, some do not. A coupler decides for all.
+// Frames that are a little early or late: some receivers find them in the slot, some do not. A coupler
+// decides for all.
 TEST(GuardianFaults, WhatIsSlightlyOffIsOffForAll) {
   int disagreements = 0;
   for (std::uint64_t seed = 0; seed < 4; ++seed)
@@ -143,7 +144,7 @@ TEST(GuardianFaults, WhatIsSlightlyOffIsOffForAll) {
   EXPECT_GT(disagreements, 0);
 }
 
-// A signal that some receivers make out and others do not, by what its sender does: through a coupler all get the same.
+// Its sender makes a signal that only some receivers can decode: through a coupler all get the same.
 TEST(GuardianFaults, AMarginalValueIsTheSameForAll) {
   struct Marginal final : medium::Disturbance {
     std::uint32_t calls = 0;
@@ -204,8 +205,8 @@ TEST(GuardianFaults, AClockThatRunsAwayTakesNobodyAlong) {
     }
 }
 
-// The worst that a sync node can do to clocks through couplers: another time on either channel, as far off as passes,
-// the other way round in every other cycle.
+// A sync node's worst attack on clocks through couplers. The time differs on either channel, as far as it can
+// pass, and is inverted in every other cycle.
 TEST(GuardianFaults, AByzantineClockMovesNobodyBeyondThePrecision) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Running run(true, seed);
@@ -253,8 +254,8 @@ TEST(GuardianFaults, AClusterStartsWithOneGuardianSilentOrOpen) {
     }
 }
 
-// Noise out of nothing on one channel, and then on both, for longer than the nodes stay active: afterwards everything
-// is as before, or starts again with the guardians.
+// Noise without a sender on one channel, then on both, for longer than the nodes stay active. Afterwards
+// everything is as before, or starts again with the guardians.
 TEST(GuardianFaults, AGuardianOutlivesNoise) {
   struct Noise final : medium::Disturbance {
     Plant& plant;
@@ -288,7 +289,7 @@ TEST(GuardianFaults, AGuardianOutlivesNoise) {
   }
 }
 
-// Who was kept from what is told, with its reason.
+// Each intervention is reported with its node and reason.
 TEST(GuardianFaults, EveryInterventionIsTold) {
   Running run(true, 3);
   std::vector<medium::StarCoupler::Intervention> told;

@@ -1,5 +1,5 @@
-// A guardian that has lost its cluster begins anew as often as it must, allocates nothing for it, and is then as good
-// as new.
+// A guardian that has lost its cluster starts anew as often as needed, without allocation, and then works as
+// before.
 #include <gtest/gtest.h>
 
 #include "tests/sim/crank/guarded.h"

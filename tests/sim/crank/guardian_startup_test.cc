@@ -1,5 +1,5 @@
-// Clusters start through the guardians, in the cycles of the specification, from any power-on delays, and whatever one
-// coldstart node does that has gone mad.
+// Clusters start through the guardians in the specification's cycles, from any power-on delays, with one
+// coldstart node in any kind of madness.
 #include <gtest/gtest.h>
 
 #include "tests/sim/crank/guarded.h"
@@ -19,7 +19,8 @@ bool guardians_synchronised(Guarded& started) {
   });
 }
 
-// All powered on within a few cycles: the first to listen leads, and the guardians integrate like the last nodes.
+// All powered on within a few cycles: the first to listen leads, and the guardians integrate like the last
+// nodes.
 TEST(GuardianStartup, TheCyclesOfTheSpecification) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Guarded started(star_cluster(5, 3, 5), seed, Duration::milliseconds(9));
@@ -86,7 +87,7 @@ TEST(GuardianStartup, ARestartedNodeIntegratesAgain) {
   }
 }
 
-// Everybody loses the supply, and with the cluster the guardians lose their schedule: they must not keep it against the
+// All nodes lose the supply, and the guardians lose their schedule with the cluster: it must not block the
 // next start.
 TEST(GuardianStartup, AClusterThatWentDownStartsAgain) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -120,7 +121,7 @@ TEST(GuardianStartup, AGuardianThatComesLateJoinsTheRunningCluster) {
   }
 }
 
-// ---- one coldstart node that does what it likes
+// ---- one coldstart node gone mad
 
 constexpr Duration kPoweredOnWithin = Duration::milliseconds(20);  // four cycles
 
@@ -148,7 +149,7 @@ struct Spoiled {
 class SpoiledStart : public testing::TestWithParam<StartSpoiler::Plan> {};
 
 TEST_P(SpoiledStart, TwoFaultFreeColdstartNodesStartTheClusterAllTheSame) {
-  constexpr int kMost = 40;  // cycles; without anybody mad it takes 15
+  constexpr int kMost = 40;  // cycles; without a mad node it takes 15
   for (const int good : {2, 3})
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       Spoiled spoiled(good, true, GetParam(), seed);
@@ -164,7 +165,7 @@ TEST_P(SpoiledStart, TwoFaultFreeColdstartNodesStartTheClusterAllTheSame) {
 
 INSTANTIATE_TEST_SUITE_P(Plans, SpoiledStart, testing::ValuesIn(StartSpoiler::kPlans));
 
-// What the guardians are for: on a star without them, and on a bus, one node keeps all others from starting.
+// The guardians' purpose: on a star without them, and on a bus, one node keeps all others from starting.
 TEST(GuardianStartup, WithoutGuardiansOneNodePreventsTheStart) {
   for (const auto plan : {StartSpoiler::Plan::kBabble, StartSpoiler::Plan::kSymbols, StartSpoiler::Plan::kEvenCycles,
                           StartSpoiler::Plan::kMasquerade})

@@ -1,4 +1,4 @@
-// What a plant does to controllers: supply, drift, and schedules that a node alone believes in.
+// A plant's effects on controllers: supply, drift, and a different schedule for one node.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,7 +18,7 @@ using bus::poc::PocKind;
 constexpr std::int64_t kCycle_ns = 5'000'000;
 constexpr TrueTime kSlotOne{1'000'000 + 7'000};  // cycle 0's action point of slot 1, about
 
-// Counts by slot what a controller saw wrong.
+// Counts by slot the problems that a controller saw.
 struct Problems final : bus::controller::ControllerEvents {
   std::array<int, 65> syntax{}, content{}, missing{};
   void slot_problem(std::int64_t, int slot, schedules::model::Channel, bus::controller::SlotStatus status,
@@ -72,8 +72,8 @@ TEST(Plant, NodesMayBeginIntegrated) {
   }
 }
 
-// In the middle of its frame the sender loses its supply: the others hear what they cannot make out, and nothing from
-// then on.
+// In the middle of its frame the sender loses its supply. The others hear an undecodable signal, and then
+// silence.
 TEST(Plant, WhatANodeWithoutSupplyWasSendingIsCutOff) {
   Plant4 plant(1);
   const std::int64_t cycle = 10;
@@ -107,7 +107,8 @@ TEST(Plant, TheCutEndsTheSignalAtOnce) {
   }
 }
 
-// It was off for the first half of the frame: what it hears of it is no frame, so the next one's schedule is taken.
+// It was off for the first half of the frame. The rest counts as no frame, so the next one's schedule is
+// taken.
 TEST(Plant, WhoIsPoweredOnInTheMiddleOfAFrameHearsNone) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Plant4 plant(seed);
@@ -165,7 +166,7 @@ TEST(Plant, AHostCommandsItsController) {
   EXPECT_EQ(plant.kind(0), PocKind::kNormalActive);
 }
 
-// Node 3 believes that slot 9 is its own, which in the cluster is nobody's.
+// Node 3's schedule gives it slot 9, which the cluster leaves unassigned.
 TEST(Plant, ANodeMayBelieveInAnotherSchedule) {
   schedules::model::Cluster wrong = bus_cluster(4, 3, 4);
   wrong.frames.back().slot = 9;
@@ -179,7 +180,7 @@ TEST(Plant, ANodeMayBelieveInAnotherSchedule) {
   }
 }
 
-// Whatever is done to them, in whatever order, at whatever instants: the run goes on, and is a function of its seed.
+// Under any acts, in any order, at any instants, the run goes on and is a function of its seed.
 class Tormentor final : public medium::Disturbance {
  public:
   Tormentor(BusSimulation& plant, std::uint64_t seed) : plant_(plant), draw_({seed, 0, Purpose::kTest, 1, 0}) {}

@@ -1,5 +1,5 @@
-// A coldstart node gone mad during start-up: it sends what might keep the others from starting, on its own branch. Node
-// 0 has no supply; what leaves in its name is made here.
+// A coldstart node gone mad during start-up: it sends signals that may keep the others from starting, on its
+// own branch. Node 0 has no supply; this makes the signals in its name.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class StartSpoiler final : public medium::Disturbance {
     kBabble,         // noise, frames and symbols at all times
     kSymbols,        // one collision avoidance symbol after another
     kFalseLeader,    // leads properly, for some cycles
-    kEvenCycles,     // startup frames that nobody can derive a schedule from
+    kEvenCycles,     // startup frames without a derivable schedule
     kMasquerade,     // startup frames of others
     kReactive,       // a symbol or a header as soon as another leads
     kSplit,          // leads on one channel, then on the other

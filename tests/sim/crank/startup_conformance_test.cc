@@ -47,7 +47,8 @@ struct Size {
 };
 class StartupConformance : public testing::TestWithParam<Size> {};
 
-// A lone coldstart node spends five cycles and a gap on each of its attempts. Whoever comes within that time joins.
+// A lone coldstart node spends five cycles and a gap on each of its attempts. A node that comes within that
+// time joins.
 TEST_P(StartupConformance, StartsFromAnyPowerOnDelaysWithinTheAttempts) {
   const Size size = GetParam();
   const Duration window = Duration::milliseconds(6 * 5 * 6);  // six of eight attempts of six cycles
@@ -72,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, StartupConformance,
                                          Size{64, 5, 15, 60}),
                          [](const auto& name) { return std::to_string(name.param.nodes) + "Nodes"; });
 
-// The larger clusters as often as the small ones: half a minute, so it has a ctest entry of its own
+// The larger clusters as often as the small ones: half a minute, so a separate ctest entry
 // (startup_thousands).
 INSTANTIATE_TEST_SUITE_P(DISABLED_Thousands, StartupConformance,
                          testing::Values(Size{16, 4, 8, 3000}, Size{64, 5, 15, 1000}),
@@ -104,7 +105,7 @@ TEST(StartupConformance, BeyondTheWindowTheLogSaysThatTheAttemptsAreExhausted) {
     ASSERT_EQ(started.kind(0), PocKind::kIntegrationListen);
     EXPECT_EQ(started.logs[0]->changes.back().consequence, PocReason::kAttemptsExhausted);
     EXPECT_EQ(to_text(PocReason::kAttemptsExhausted).find("attempt") != std::string_view::npos, true);
-    // The other comes too late, tries by itself, and the first may follow it.
+    // The other comes too late and tries by itself; the first may follow it.
     started.simulation->run_until(TrueTime{10'300'000'000});
     EXPECT_EQ(started.kind(0), PocKind::kNormalActive);
     EXPECT_EQ(started.kind(1), PocKind::kNormalActive);

@@ -1,4 +1,4 @@
-// The transparent medium and the bit-true one, the fast way and the plain way: nobody can tell which it was.
+// The transparent medium and the bit-true one, the fast way and the plain way, are indistinguishable.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using schedules::model::Channel;
 
-// Everything a controller says, but for the bytes.
+// All of a controller's reports, without the bytes.
 struct Diary final : bus::controller::ControllerEvents {
   std::vector<std::int64_t> entries;
   template <class... Numbers> void write(Numbers... numbers) {
@@ -49,7 +49,7 @@ struct Diary final : bus::controller::ControllerEvents {
   int frames = 0, encoded = 0;
 };
 
-// Some nodes' frames are cut, flipped, moved, swapped or lost, now and then; noise, and supplies that fail.
+// Some nodes' frames are sometimes cut, flipped, moved, swapped or lost; noise, and supplies that fail.
 class Trouble final : public medium::Disturbance {
  public:
   Trouble(BusSimulation& plant, std::uint64_t seed, int nodes)
@@ -102,7 +102,7 @@ class Trouble final : public medium::Disturbance {
   TrueTime next_{20'000'000};
 };
 
-// What became of frames on their way, with their bytes.
+// The fate of frames on their way, with their bytes.
 struct ChannelDiary final : recording::records::Sink {
   std::vector<std::int64_t> entries;
   int frames = 0;

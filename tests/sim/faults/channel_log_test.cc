@@ -1,5 +1,5 @@
-// What the log is told of frames on the channels: of every fault what becomes of the frames it befalls. Integrated
-// clusters of four: node n sends 8 words in slot n + 1, on both channels, in every cycle.
+// The log's records of frames on the channels, for every fault and its affected frames. Integrated clusters
+// of four: node n sends 8 words in slot n + 1, on both channels, in every cycle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -157,7 +157,8 @@ TEST(ChannelLog, OfWhatCollidesNothingIsLeft) {
   ttf::faults::Fault fault = fault_of(FaultKind::kMasquerading, 2, 10, 5);
   fault.slot = 2;
   const LoggedBus logged(fault, 20);
-  // The node knows of a cycle by its own slot, which comes after that one: its first frame more is in the next.
+  // The node notices a cycle in its own slot, which comes after that one: its first additional frame is in
+  // the next.
   ASSERT_EQ(logged.bus.acts(), 8U);
   ASSERT_EQ(logged.frames().size(), 16U);
   int of_the_owner = 0;
@@ -225,7 +226,7 @@ TEST(ChannelLog, AFrameThatIsLateIsSoundAndLate) {
     ASSERT_EQ(logged.frames().size(), 10U);
     for (const Heard::Frame& frame : logged.frames()) {
       expect_sent_by(frame, 1);
-      // The guardian takes nothing that is more than half an action point offset late.
+      // The guardian refuses a frame that is late by more than half an action point offset.
       EXPECT_EQ(frame.record.state, star ? recording::records::kChannelNothing : 0);
       EXPECT_EQ(frame.record.start, frame.record.sent + fault.shift);
     }
@@ -257,7 +258,7 @@ TEST(ChannelLog, WhatAGuardianBlocksReachedNobodyAndWhatItMakesOutIsSound) {
                                            2, bus::controller::kSyntaxError | bus::controller::kNoFrame)));
 }
 
-// A coupler that lets everything through, and the crash of a node while its frame goes through it.
+// A coupler forwards everything, and a node crashes while its frame passes.
 TEST(ChannelLog, ThroughAStarAFrameBreaksOffWhereItsSenderDoes) {
   ttf::faults::Fault fault = fault_of(FaultKind::kCrash, 1, 10);
   fault.from = Duration{10 * kCycleNs + (43 + 7 + 12) * 1'000};
@@ -271,7 +272,7 @@ TEST(ChannelLog, ThroughAStarAFrameBreaksOffWhereItsSenderDoes) {
   }
 }
 
-// 100 ms of noise, and a burst of 10 us in every 100 us of it, beside the frames of four nodes.
+// 100 ms of noise with a burst of 10 us in every 100 us, beside the frames of four nodes.
 TEST(ChannelLog, WhatIsDrawnIntoALongNoiseIsToldWhenItIsOver) {
   ttf::faults::Fault noise = fault_of(FaultKind::kNoise, -1, 10, 20);
   noise.length = noise.interval = Duration::milliseconds(100);

@@ -1,4 +1,4 @@
-// Controllers without hosts on a bus on which faults happen, and everything that they and the injector say.
+// Controllers without hosts on a bus with faults, and all reports of them and of the injector.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace ttf::sim::faults {
 inline constexpr std::int64_t kCycleNs = 5'000'000;
 inline constexpr unsigned kAnything = 0xff;  // every bit of a slot status
 
-// What one controller says.
+// A controller's reports.
 struct Said final : bus::controller::ControllerEvents {
   struct Problem {
     std::int64_t cycle = 0;
@@ -63,7 +63,7 @@ struct FaultBusConfig {
   std::uint64_t seed = 1;
   std::int64_t most_drift_ppb = 200'000;
   bool cold = false;   // all powered on at time zero; else integrated, cycle 0 beginning at a millisecond
-  bool inject = true;  // false: nobody disturbs
+  bool inject = true;  // false: no disturbance
 };
 inline FaultBusConfig with(std::vector<ttf::faults::Fault> faults) {
   FaultBusConfig config;
@@ -153,8 +153,8 @@ class FaultBus final : public recording::records::Sink {
   std::vector<Activity> activities_;
 };
 
-// A fault of node `node`, from cycle `from` on for `cycles` cycles, a macrotick before cycle boundaries; -1: to the
-// end.
+// A fault of node `node`, from cycle `from` on for `cycles` cycles, a macrotick before cycle boundaries; -1:
+// to the end.
 inline ttf::faults::Fault fault_of(ttf::faults::FaultKind kind, int node, int from = 10, int cycles = -1) {
   ttf::faults::Fault fault;
   fault.kind = kind;

@@ -11,7 +11,7 @@ namespace {
 using drives::Drive;
 using ttf::faults::FaultKind;
 
-// What happened, as a number: frames as they left, tasks, problems and images. Not the faults' own records.
+// The drive as a number: frames as they left, tasks, problems and images, without the faults' records.
 struct Sum final : recording::records::Sink {
   using recording::records::Sink::on;
   std::uint64_t sum = 0xcbf29ce484222325;
@@ -54,7 +54,7 @@ TEST_P(FaultyDrive, TheShippedOneRunsToItsEndAndEveryFaultActs) {
     EXPECT_EQ(sum.acts[std::string(ttf::faults::name_of(fault.kind))], outcome.faults[i].times);
   }
   for (const unsigned status : {1U, 4U, 8U, 16U}) EXPECT_GT(sum.problems[status], 0U) << status;
-  // The camera's host: 200 ms and what integration takes, on two channels, at four receivers.
+  // The camera's host: 200 ms and the time of integration, on two channels, at four receivers.
   const int slot = drive.cluster.node(*drive.cluster.find_node("camera_pre")).flexray->pKeySlotId;
   EXPECT_GE(sum.empty[slot], 40U * 2 * 4);
   EXPECT_GT(sum.images, 70U) << "one every 40 ms, whatever happens";

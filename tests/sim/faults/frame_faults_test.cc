@@ -1,5 +1,5 @@
-// What befalls a node's frames, and which check of which receiver sees it. Integrated clusters of four: node n sends in
-// slot n + 1, on both channels, in every cycle.
+// Faults of a node's frames, and the check of each receiver that sees them. Integrated clusters of four: node
+// n sends in slot n + 1, on both channels, in every cycle.
 #include <gtest/gtest.h>
 
 #include "tests/sim/faults/fault_bus.h"
@@ -12,7 +12,7 @@ using schedules::model::Channel;
 using schedules::model::Channels;
 using ttf::faults::FaultKind;
 
-// Nobody says anything of any slot but this one.
+// Expects reports of this slot only.
 void expect_only_slot(const FaultBus& bus, int slot) {
   for (int n = 0; n < 4; ++n)
     for (const Said::Problem& problem : bus.said(n).problems) EXPECT_EQ(problem.slot, slot) << "at node " << n;
@@ -28,7 +28,7 @@ TEST(FrameFaults, WithoutAFaultNobodyHasAnythingToSay) {
   EXPECT_TRUE(bus.activities().empty());
 }
 
-// What the log and the run's table say of a fault's first act.
+// The log's and the run table's words for a fault's first act.
 TEST(FrameFaults, SayInWordsWhatTheyDo) {
   const auto first_act = [](const ttf::faults::Fault& fault) {
     const FaultBus bus(fault, 15);
@@ -139,7 +139,8 @@ TEST(FrameFaults, MasqueradingInASlotInUseIsACollision) {
   ttf::faults::Fault fault = fault_of(FaultKind::kMasquerading, 2, 10, 10);
   fault.slot = 1;
   const FaultBus bus(fault, 30);
-  // The key slot of the tenth cycle is the first: slot 1 comes in the eleventh, and the last is cut by the end.
+  // The key slot of the tenth cycle is the first: slot 1 comes in the eleventh, and the last is cut by the
+  // end.
   EXPECT_EQ(bus.acts(), 18U);
   for (const int n : {1, 3}) EXPECT_EQ(bus.said(n).count(1, bus::controller::kSyntaxError), 18) << n;
   EXPECT_EQ(bus.said(0).count(1, bus::controller::kTransmissionConflict), 18);
@@ -169,8 +170,7 @@ TEST(FrameFaults, MasqueradingInAFreeSlotIsAContentError) {
 }
 
 TEST(FrameFaults, SosTimingDividesTheReceivers) {
-  // A frame of 26.3 us leaves 7 us into a slot of 43 us; towards the far end of the bus it is on its way for up to 2.5
-  // us.
+  // A frame of 26.3 us leaves 7 us into a slot of 43 us. It takes up to 2.5 us to the far end of the bus.
   ttf::faults::Fault fault = fault_of(FaultKind::kSosTiming, 0, 10, 10);
   fault.shift = Duration{8'900};
   const FaultBus bus(fault, 30);
@@ -185,7 +185,8 @@ TEST(FrameFaults, SosTimingTowardsOneReceiver) {
   fault.receivers = {NodeId{1}};
   const FaultBus bus(fault, 30);
   EXPECT_TRUE(bus.said(2).problems.empty() && bus.said(3).problems.empty());
-  // Begun before its slot: in the network idle time, where nothing may be; its slot is not silent, but has no frame.
+  // Begun before its slot, in the network idle time, where silence is required. Its slot is not silent, but
+  // has no frame.
   EXPECT_EQ(bus.said(1).count(0, bus::controller::kBoundaryViolation), 20);
   EXPECT_EQ(bus.said(1).count(1, bus::controller::kBoundaryViolation), 20);
   EXPECT_EQ(bus.said(1).count(1, kAnything & ~unsigned{bus::controller::kBoundaryViolation}), 0);

@@ -1,4 +1,4 @@
-// The same faults in a star with a guardian: what does harm on a bus stays with the node that it is of.
+// The same faults in a star with a guardian: the harm stays with the faulty node.
 #include <gtest/gtest.h>
 
 #include "tests/sim/faults/fault_bus.h"

@@ -1,4 +1,4 @@
-// The laws of sim/faults/injector.h, and what faults do to bytes.
+// The laws of sim/faults/injector.h, and the faults' effects on bytes.
 #include "sim/faults/injector.h"
 
 #include <gtest/gtest.h>
@@ -15,10 +15,10 @@ namespace {
 using schedules::model::Channel;
 using ttf::faults::FaultKind;
 
-// What is so to the end.
+// Lasts to the end.
 bool kind_lasts(FaultKind kind) { return kind == FaultKind::kWrongSchedule || kind == FaultKind::kDrift; }
 
-// One of every kind, each of another node or time where they would hide each other.
+// One of every kind, at different nodes or times where they would hide each other.
 std::vector<ttf::faults::Fault> every_kind() {
   std::vector<ttf::faults::Fault> faults;
   for (const FaultKind kind : ttf::faults::kAllFaultKinds) {
@@ -95,7 +95,7 @@ TEST(Injector, L2WhatAFaultDrawsDoesNotDependOnTheOthers) {
   ASSERT_GT(alone.acts(), 0U);
   ASSERT_GT(beside.acts(1), 0U);
   const auto at = [](const FaultBus& bus) {
-    // By cycles: corrections of clocks do depend on who is heard.
+    // By cycles: clock corrections depend on the heard nodes.
     std::vector<std::int64_t> cycles;
     for (const FaultBus::Activity& activity : bus.activities())
       if (activity.fault == 0) cycles.push_back((activity.at.ns + kCycleNs / 4) / kCycleNs);
@@ -125,7 +125,7 @@ TEST(Injector, L3AFaultThatIsStillToComeChangesNothing) {
   EXPECT_EQ(with.everything(), without.everything());
 }
 
-// Stands for a simulation: remembers what is asked of it.
+// Stands for a simulation: remembers its calls.
 struct Listener final : crank::Plant {
   TrueTime time{};
   std::vector<std::string> asked;
@@ -149,7 +149,7 @@ class Bytes : public testing::Test {
     for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = static_cast<std::byte>(31 * i);
     size_ = bus::wire::encode_frame(header, Channel::kB, payload, frame_);
   }
-  // What leaves node 2 on channel B when it sends the frame.
+  // The signal that leaves node 2 on channel B when it sends the frame.
   std::vector<std::byte> left(Injector& injector) {
     medium::Leaving signal{
         NodeId{2}, Channel::kB, bus::ports::Signal::kFrame, plant_.time, plant_.time + Duration{26'300}, frame()};
@@ -250,7 +250,8 @@ TEST_F(Bytes, AnothersFrameIdHasARightCrc) {
   EXPECT_TRUE(std::equal(decoded.payload.begin(), decoded.payload.end(), frame().begin() + bus::wire::kHeaderBytes));
 }
 
-// The frame is on its way to the coupler when the same node babbles: behind the coupler it is still the frame befallen.
+// The frame is on its way to the coupler when the same node babbles: behind the coupler it is still the
+// faulty frame.
 TEST_F(Bytes, WhatAFaultSendsIsNotTakenForTheNodesFrame) {
   ttf::faults::Fault fault = fault_of(FaultKind::kBitFlipTrailer, 2, 0);
   fault.bits = {5};
@@ -302,8 +303,8 @@ TEST_F(Bytes, NothingIsShiftedToBeforeItIsSent) {
   EXPECT_EQ(signal.end - signal.start, Duration{26'300});
 }
 
-// A transient that begins in the middle of a frame, and a deaf receiver from when it would begin to hear one that has
-// left: it is known when the frame leaves, and told when the fault begins.
+// A transient begins in the middle of a frame. A receiver becomes deaf before it begins to hear a frame that
+// has left. Both are known when the frame leaves, and reported when the fault begins.
 TEST(Injector, NothingIsToldBeforeItIsSo) {
   const TrueTime slot_three{1'000'000 + 10 * kCycleNs + 2 * 43'000 + 7'000};
   for (const FaultKind kind : {FaultKind::kTransient, FaultKind::kOmission}) {
@@ -311,7 +312,7 @@ TEST(Injector, NothingIsToldBeforeItIsSo) {
     fault.direction = ttf::faults::FaultDirection::kReceive;
     FaultBusConfig config = six({});
     config.most_drift_ppb = 0;
-    // The first instant at which node 2's frame has left and is not at node 0 yet, or is half over.
+    // The first instant at which node 2's frame has left without reaching node 0, or is half over.
     FaultBus undisturbed(config);
     undisturbed.simulation().run_until(slot_three - Duration{1'000});
     const medium::FlexRayMedium& medium = undisturbed.simulation().medium();
@@ -342,7 +343,7 @@ TEST(Injector, NothingIsToldBeforeItIsSo) {
 }
 
 TEST(Injector, L4NothingIsAllocatedWhileItRuns) {
-  // Not crash and lone coldstart: a controller that is powered on is made anew.
+  // Without crash and lone coldstart: power-on makes a new controller.
   std::vector<ttf::faults::Fault> faults;
   for (const ttf::faults::Fault& fault : every_kind())
     if (fault.kind != FaultKind::kCrash && fault.kind != FaultKind::kLoneColdstart) faults.push_back(fault);
@@ -422,7 +423,7 @@ TEST(ChannelSwap, ANodeWithOneWireIsRefused) {
   }
 }
 
-// A campaign's variant with one channel: there is nothing to swap.
+// A campaign's variant with one channel has no channels to swap.
 TEST(ChannelSwap, WhereThereIsOneChannelItDoesNothing) {
   FaultBusConfig config = six({fault_of(FaultKind::kChannelSwap, 3)});
   for (schedules::model::Node& node : config.cluster.nodes) node.flexray->pChannels = schedules::model::Channels::kA;

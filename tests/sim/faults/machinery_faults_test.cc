@@ -1,4 +1,4 @@
-// Supplies, clocks, schedules and start-up under faults: what becomes of the node and of the others.
+// Supplies, clocks, schedules and start-up under faults: the effects on the node and on the others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ TEST(MachineryFaults, ACrashedNodesSlotIsEmptyUntilItIsBack) {
   bus.run(5 * 60);
   EXPECT_EQ(bus.acts(), 2U);
   EXPECT_EQ(bus.state(3), PocKind::kNormalActive);
-  // Integration takes two cycles to derive a schedule and two good double cycles (bus/poc/poc.h), and what precedes an
-  // even one.
+  // Integration takes two cycles to derive a schedule and two good double cycles (bus/poc/poc.h), and the
+  // wait for an even one.
   const int empty = bus.said(0).count(4, bus::controller::kNoFrame) / 2;
   EXPECT_GE(empty, 10 + 6);
   EXPECT_LE(empty, 10 + 8);
@@ -138,7 +138,7 @@ int started(FaultBusConfig config, int latest) {
 }
 
 TEST(MachineryFaults, WhoeverKeepsSendingCasKeepsTheOthersFromStarting) {
-  // What its controller sends does not leave it: it would lead, for it does not hear itself.
+  // Its controller's frames do not leave it. It would lead, since it does not hear itself.
   ttf::faults::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 3, 0, 60);
   fault.interval = Duration::milliseconds(3);
   const ttf::faults::Fault mute = fault_of(FaultKind::kOmission, 3, 0);
@@ -161,7 +161,7 @@ TEST(MachineryFaults, RogueStartupFramesDisturbStartUp) {
   config.cold = true;
   FaultBus bus(std::move(config));
   bus.run(40);
-  // They hear a startup frame before anybody has begun, and take the schedule that it is of.
+  // They hear a startup frame before any node has begun, and take its schedule.
   EXPECT_TRUE(was_in(bus.said(0), PocKind::kInitialiseSchedule));
   EXPECT_FALSE(was_in(bus.said(0), PocKind::kColdstartCollisionResolution));
   EXPECT_EQ(bus.acts(), 2U * 8);
@@ -213,7 +213,7 @@ TEST(MachineryFaults, LongerFramesAreContentErrorsBothWays) {
 TEST(MachineryFaults, LongerSlotsMakeFramesLate) {
   FaultBus bus(with({wrong(ttf::faults::WrongSchedule::kStaticSlot, 6)}));
   bus.run(5 * 4);
-  // Three slots before its own, 6 us each: beyond what the slot has to spare.
+  // Three slots before its own, 6 us each: more than the slot's margin.
   for (const int n : {0, 1, 2})
     EXPECT_GT(bus.said(n).count(4, bus::controller::kBoundaryViolation | bus::controller::kSyntaxError), 0) << n;
 }

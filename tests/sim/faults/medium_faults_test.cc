@@ -1,4 +1,4 @@
-// What appears on the channels out of nothing, and what destroys what is on them.
+// Signals without a sender on the channels, and faults that destroy the channels' signals.
 #include <gtest/gtest.h>
 
 #include "tests/sim/faults/fault_bus.h"
@@ -145,7 +145,7 @@ TEST(MediumFaults, NoiseEndsWithItsFault) {
   }
 }
 
-// Whatever it is to send besides its schedule: there is nothing that could, and time goes on all the same.
+// It can send no additional signals either, and time still goes on.
 TEST(MediumFaults, ANodeWithoutSupplySendsNothing) {
   std::vector<ttf::faults::Fault> senders(5);
   for (ttf::faults::Fault& fault : senders) fault = fault_of(FaultKind::kBabblingIdiot, 1, 15, 5);
@@ -154,7 +154,7 @@ TEST(MediumFaults, ANodeWithoutSupplySendsNothing) {
   senders[1].interval = Duration{};
   senders[2].kind = senders[3].kind = FaultKind::kDuplicateColdstart;
   senders[3].duplicate = ttf::faults::DuplicateMode::kStartupFrames;
-  // From the middle of cycle 14 on, when it has sent its own frame and crashes before the other's slot.
+  // From the middle of cycle 14 on: after its own frame, it crashes before the other's slot.
   ttf::faults::Fault& masquerade = senders[4];
   masquerade = fault_of(FaultKind::kMasquerading, 1, 14, 6);
   masquerade.slot = 40;

@@ -1,5 +1,5 @@
-// What nodes send, close together in time or far apart, on one channel or on both at once: in the fast way or in the
-// plain way, what arrives is what the delays and the overlaps say.
+// Signals close together in time or far apart, on one channel or on both at once. In the fast way and in the
+// plain way, arrivals follow from the delays and the overlaps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -105,7 +105,7 @@ struct Line {
     }
   }
 
-  // What has been or is to be received of what was sent so far: intervals that overlap are one.
+  // The past and future receptions of all signals sent so far: overlapping intervals are one.
   std::vector<Reached> expected() const {
     std::vector<Reached> all;
     for (std::size_t node = 0; node < kNodes; ++node)
@@ -182,7 +182,7 @@ TEST_P(ClearFlights, WhatArrivesIsWhatDelaysAndOverlapsSay) {
   EXPECT_GT(drawn_together, 1000);
 }
 
-// A noise of 100 ms, and in it 10 us bursts and frames, one behind the other: more of them than there is room for at
+// A noise of 100 ms with 10 us bursts and frames in it, one behind the other: more than there is room for at
 // once.
 TEST_P(ClearFlights, WhatIsDrawnIntoALongNoiseIsOverWhenItEnds) {
   Line line = made();
@@ -204,7 +204,7 @@ TEST_P(ClearFlights, WhatIsDrawnIntoALongNoiseIsOverWhenItEnds) {
   ASSERT_EQ(line.reached, line.expected());
 }
 
-// Each ends later than all before it: none is over before the last one has begun.
+// Each ends later than all before it: none ends before the last one has begun.
 TEST_P(ClearFlights, WhereThereAreMoreThanThereIsRoomForThereIsMoreRoom) {
   Line line = made();
   TrueTime now{1'000};

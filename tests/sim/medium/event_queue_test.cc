@@ -11,7 +11,7 @@
 namespace ttf::sim::medium {
 namespace {
 
-// At one instant: phase, then node, then order of scheduling; whatever order they were scheduled in.
+// At one instant: phase, then node, then order of scheduling, from any order of scheduling.
 TEST(EventQueue, OneTotalOrder) {
   EventQueue<int> queue(16);
   queue.schedule(TrueTime{20}, Phase::kArrival, 0, 7);
@@ -26,7 +26,8 @@ TEST(EventQueue, OneTotalOrder) {
   EXPECT_TRUE(queue.empty());
 }
 
-// Among simultaneous arrivals at one receiver the rank decides, before the order of scheduling and after the receiver.
+// Among simultaneous arrivals at one receiver, the rank decides after the receiver and before the order of
+// scheduling.
 TEST(EventQueue, RankIsBetweenNodeAndSequence) {
   EventQueue<int> queue(16);
   queue.schedule(TrueTime{10}, Phase::kArrival, 1, 4, 0);

@@ -35,8 +35,8 @@ class SimulatedFlexRayBench final : public SimulatedFlexRay {
   SimulatedFlexRayBench() : SimulatedFlexRay(on_flexray()) {}
 };
 
-// Node 1 is on no CAN. The schedule knows two of the identifiers; frames too short for their PDU are delivered all the
-// same.
+// Node 1 is on no CAN. The schedule knows two of the identifiers; frames too short for their PDU are still
+// delivered.
 schedules::model::Cluster on_can(bool flexible_data_rate) {
   schedules::model::Cluster cluster;
   cluster.nodes.resize(kNodes + 1);
@@ -52,8 +52,8 @@ schedules::model::Cluster on_can(bool flexible_data_rate) {
   return cluster;
 }
 
-// What the medium reports agrees with what it does: frames one after the other, each as long as it takes. What a frame
-// is of, its sender says (nodes/host/executive.h).
+// The medium's reports agree with its acts: frames one after the other, each with its duration. The frame's
+// sender gives its meaning (nodes/host/executive.h).
 struct Reported final : recording::records::Sink {
   using recording::records::Sink::on;
   std::size_t frames = 0;

@@ -1,5 +1,5 @@
-// The simulated FlexRay for the laws of its port (tests/laws/flexray_port_laws.h): every FlexRay node of a cluster is
-// one of the laws' controllers, in file order.
+// The simulated FlexRay for the laws of its port (tests/laws/flexray_port_laws.h). Every FlexRay node of a
+// cluster is one of the laws' controllers, in file order.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The simulated star: its delays, and what a coupler in its middle hears and decides. The laws of a FlexRay port hold
-// for it with a coupler that forwards everything.
+// The simulated star: its delays, and the reception and decisions of its coupler. The laws of a FlexRay port
+// hold for it with a coupler that forwards everything.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -39,7 +39,7 @@ struct TestCoupler final : sim::medium::Coupler {
   TrueTime fell_silent(NodeId, TrueTime at) override { return hold.value_or(at); }
 };
 
-// All branches alike, so that the laws' nodes are as far from one another as they ask for.
+// All branches are equal, so that the laws' nodes have the required distances.
 class StarBench final : public SimulatedFlexRay {
  public:
   StarBench() : SimulatedFlexRay(star(2'000'000, 2'000'000)) {
@@ -174,7 +174,7 @@ TEST(Star, WhatANodeEmitsGoesThroughTheCouplerAndWhatComesOutOfNothingPastIt) {
   EXPECT_EQ(bench.run().size(), laws::kNodes);
 }
 
-// What a disturbance does to a signal on its branch, it does to it for everybody.
+// A disturbance of a signal on its branch reaches all nodes.
 TEST(Star, ADisturbanceIsAskedOnTheWayToTheCouplerAndOnTheWayFromIt) {
   struct Marginal final : Disturbance {
     int to_coupler = 0, from_coupler = 0;

@@ -1,5 +1,5 @@
-// Every node in a process of its own (here: a thread, with nothing but messages between them) records what it records
-// where one process simulates them all.
+// Every node in its own process (here a thread, with only messages between them) makes the same records as in
+// one process that simulates all.
 #include "sim/processes/turn_taking.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ namespace {
 using drives::Drive;
 using Lines = std::vector<std::string>;
 
-// The largest difference of the clocks is nobody's record where nobody sees two clocks.
+// The clocks' largest difference is not recorded when no process sees two clocks.
 Lines sorted_without_precision(Lines lines) {
   std::erase_if(lines, [](const std::string& line) { return line.starts_with("precision"); });
   std::sort(lines.begin(), lines.end());
@@ -40,11 +40,12 @@ Lines in_one_process(const Drive& drive) {
   return sorted_without_precision(std::move(sink.lines));
 }
 
-// What stands between a node and the others, for whoever wants to be in the way.
+// Wraps the exchange between a node and the others, for tests that interfere.
 using Wrap =
     std::function<std::unique_ptr<bus::ports::Exchange>(ttf::NodeId, std::unique_ptr<ttf::bus::ports::Exchange>)>;
 
-// What each node's process records. One that fails with Killed is gone from then on; any other failure is the test's.
+// Each node's process' records. A process that fails with Killed is gone from then on; any other failure is
+// the test's.
 struct Killed {};
 std::vector<Lines> in_processes(const Drive& drive, const Wrap& wrap = {}) {
   test::MemoryExchange hub;
@@ -124,8 +125,8 @@ constexpr const char* kAhead = "scenarios/paper_scenario1.yaml";
 constexpr const char* kOverCan = "schedules/paper_free_running.yaml";
 constexpr const char* kOverFlexRay = "schedules/paper_free_flexray.yaml";
 
-// The cold drives have frames in the dynamic segment. Sensors that follow their hosts are triggered when a message of
-// another process lets them; lists over FlexRay set tasks off.
+// The cold drives have frames in the dynamic segment. Sensors that follow their hosts are triggered through
+// another process' messages. Lists over FlexRay activate tasks.
 INSTANTIATE_TEST_SUITE_P(
     Drives, TurnTakingOf,
     testing::Values(

@@ -1,4 +1,4 @@
-// The message of a turn: what is written is read again, and nothing else is taken.
+// The message of a turn: it is read as written, and other messages are refused.
 #include "sim/processes/turn.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Whether anybody looks at the frames, or compares the clocks, makes no difference to anything else.
+// Recording frames or comparing clocks changes nothing else.
 #include <gtest/gtest.h>
 
 #include <type_traits>
@@ -51,7 +51,7 @@ TEST(UnwantedFrames, LeaveAllOtherRecordsAsTheyAre) {
     compare({"scenarios/paper_scenario1.yaml", strategy});
 }
 
-// Every cluster has its own mixture of slots that repeat, take turns, or have their fragments from lists of many.
+// Every cluster has a different mixture of slots that repeat, take turns, or have fragments of lists of many.
 TEST(UnwantedFrames, OfEveryClusterLeaveAllOtherRecordsAsTheyAre) {
   for (const char* cluster : {"paper_dynamic", "paper_event_triggered", "paper_free_running", "flexray_demo"}) {
     drives::Drive drive("scenarios/dynamics.yaml", fusion::strategies::StrategyKind::kAdva);
@@ -63,12 +63,12 @@ TEST(UnwantedFrames, OfEveryClusterLeaveAllOtherRecordsAsTheyAre) {
   compare({"scenarios/crowd_25.yaml", fusion::strategies::StrategyKind::kTt});
 }
 
-// Nodes that are powered on later hear some of what is on its way, and all of what they do not know yet.
+// Nodes powered on later hear some of the frames under way, and all frames that are new to them.
 TEST(UnwantedFrames, BelongToStartupLikeOthers) {
   compare({"scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kAdva});
 }
 
-// Clocks that are not corrected drift apart until frames cross the others' slots, and then meet.
+// Uncorrected clocks drift apart until frames cross the others' slots, and then collide.
 TEST(UnwantedFrames, MayBeOutsideOfTheirSlots) {
   drives::Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
   drive.cluster.synchronisation = false;

@@ -129,7 +129,7 @@ TEST(Camera, HiddenFarAndOutsideObjectsAreNotSeen) {
   EXPECT_TRUE(frame(config, {car_at(0, -20.0, 0.0)}).truth.empty());
 }
 
-// From a mast one sees over what is near: behind it only the share of its distance that its shadow takes is hidden.
+// A mast sees over near objects. Behind them, only their shadow's share of the distance is hidden.
 TEST(Camera, FromAboveOnlyWhatIsInAShadowIsHidden) {
   CameraConfig config = exact_camera();
   config.shadow = 0.5;

@@ -19,7 +19,7 @@ inline WorldConfig world_from(const std::string& text) {
   return config;
 }
 
-// Of "scenarios/<name>.yaml": the world only, with the drive's duration.
+// The world of "scenarios/<name>.yaml", with the drive's duration.
 inline WorldConfig drive(const std::string& name) {
   const StrictYaml yaml = StrictYaml::load(TTF_SOURCE_DIR "/scenarios/" + name + ".yaml");
   Findings findings;

@@ -1,4 +1,4 @@
-// The shipped drives are what their descriptions say.
+// The shipped drives match their descriptions.
 #include <gtest/gtest.h>
 
 #include <algorithm>

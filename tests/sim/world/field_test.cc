@@ -1,4 +1,4 @@
-// Objects in rows: where each stands, and what is refused.
+// Objects in rows: each object's place, and the refused values.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -87,7 +87,7 @@ TEST(Laser, RaysMeetOutlinesWhereTheirEdgesAre) {
     }
 }
 
-// However they lie, also around the sensor, beside it, behind it, and cut by the end of the field.
+// In any position: also around the sensor, beside it, behind it, and cut by the end of the field.
 TEST(Laser, EveryBeamEndsAtTheNearestOutline) {
   const LaserConfig config = exact_laser();
   const auto half = static_cast<int>(config.half_field_rad / config.azimuth_step_rad);
@@ -138,7 +138,7 @@ TEST(Laser, NearObjectsHideFarOnes) {
 }
 
 TEST(Laser, HalfHiddenObjectsShowTheOtherHalf) {
-  // The near one's left edge is seen under atan(1/10) = 0.0997 rad; the far one spans y = 2.1..3.9 at 28 m:
+  // The near one's left edge is seen under atan(1/10) = 0.0997 rad. The far one spans y = 2.1..3.9 at 28 m:
   // 0.075..0.138.
   const auto [hits, truth] = scan(exact_laser(), {box(0, 12.0, 0.0, 0.0, 4.0, 2.0), box(1, 30.0, 3.0, 0.0, 4.0, 1.8)});
   double low = 1.0, high = -1.0;
@@ -179,7 +179,7 @@ TEST(Laser, RangeNoiseHasItsMeanAndSigma) {
 TEST(Laser, LossesGrowWithTheRangeSquared) {
   const LaserConfig config;
   for (const double range : {25.0, 50.0, 100.0}) {
-    // A wide wall, so that hits are many; only beams near the axis, where the range is the distance.
+    // A wide wall gives many hits; only beams near the axis, where the range is the distance.
     const std::vector<ObjectState> wall = {box(0, range + 0.5, 0.0, 0.0, 1.0, 0.2 * range)};
     const std::size_t all = scan(exact_laser(), wall).hits.size() * 4;
     std::size_t seen = 0;
@@ -234,7 +234,7 @@ TEST(Laser, DrawsBelongToSensorSequenceAndReplication) {
   EXPECT_EQ(ranges(7, 0, 0), seventh) << "not a function of the measurement's number alone";
 }
 
-// What else the scan meets, and where it begins to, shifts no beam's noise.
+// Neither the scan's other hits nor their beginnings shift a beam's noise.
 TEST(Laser, DrawsBelongToTheBeam) {
   const LaserConfig config;
   const ObjectState far = box(0, 40.0, 6.0, 0.0, 4.4, 1.8), right = box(1, 15.0, -5.0, 0.0, 4.4, 1.8);
@@ -251,7 +251,7 @@ TEST(Laser, DrawsBelongToTheBeam) {
   EXPECT_GT(both.hits.size(), alone.hits.size() + 20);
 }
 
-// The beams' parts of the stream do not overlap: neighbours' noise is not the same, nor shifted by a layer.
+// The beams' parts of the stream do not overlap: neighbours' noise is neither equal nor shifted by a layer.
 TEST(Laser, BeamsDrawIndependently) {
   LaserConfig config;
   config.miss_at_100m = 0.0;

@@ -21,7 +21,7 @@ TEST(DriveError, IsFixedUnlessItHasASigma) {
   }
 }
 
-// Every drive, sensor and kind of error has its own draw, the same whoever asks and however often.
+// Every drive, sensor and kind of error has its own draw, for any caller and any number of calls.
 TEST(DriveError, IsDrawnOncePerDriveSensorAndKind) {
   std::set<double> draws;
   for (const std::uint64_t seed : {1u, 2u})
@@ -50,7 +50,7 @@ TEST(DriveError, HasItsSigma) {
   EXPECT_NEAR(squares, 0.04, 4.0 * 0.04 * std::sqrt(2.0 / kDrives));
 }
 
-// What one sensor of a drive draws changes neither its noise nor another error of it.
+// A sensor's draws for a drive change neither its noise nor its other errors.
 TEST(DriveError, OfASensorAreItsOwn) {
   LaserConfig laser;
   laser.range_bias.sigma = 0.1;

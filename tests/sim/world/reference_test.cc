@@ -88,8 +88,7 @@ TEST(Reference, PositionNoiseHasItsSigmaPerAxis) {
   EXPECT_NEAR(xy / n, 0.0, 4.0 / std::sqrt(kFixes));
 }
 
-// A moving car: the velocity's noise has its sigma per axis, whatever the position's errors are, and is not the
-// position's.
+// A moving car: the velocity's noise has its sigma per axis, independent of the position's errors.
 TEST(Reference, VelocityNoiseHasItsOwnSigmaAndDoesNotJump) {
   ReferenceConfig c;
   c.sigma_m = 5.0;
@@ -147,8 +146,8 @@ TEST(Reference, ExcursionsLastSeveralFixesAndAreAsOftenAsStated) {
     last_x = x;
     last_y = y;
   }
-  // A fix is away unless none of the last n began an excursion; runs of n make the count spread sqrt(n)
-  // wider.
+  // A fix is away unless none of the last n began an excursion; runs of n widen the count's spread by
+  // sqrt(n).
   const double expected = 1.0 - std::pow(1.0 - c.excursion_probability, c.excursion_fixes);
   EXPECT_NEAR(away / double{kFixes}, expected,
               4.0 * std::sqrt(c.excursion_fixes * expected * (1.0 - expected) / kFixes));

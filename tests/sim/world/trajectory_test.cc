@@ -68,7 +68,7 @@ TEST(Motion, AConstantTurnClosesItsCircle) {
   const ObjectState end = moved(start, 2.0 * std::numbers::pi / 0.5);
   EXPECT_NEAR(end.x, start.x, 1e-12);
   EXPECT_NEAR(end.y, start.y, 1e-12);
-  // Half way round it is a diameter (2 v / w = 20 m) to the left of where it began.
+  // Half way round it is a diameter (2 v / w = 20 m) to the left of its start.
   const ObjectState half = moved(start, std::numbers::pi / 0.5);
   EXPECT_NEAR(half.x, start.x - 20.0 * std::sin(0.7), 1e-12);
   EXPECT_NEAR(half.y, start.y + 20.0 * std::cos(0.7), 1e-12);
@@ -167,7 +167,7 @@ TEST(Trajectory, ProcessNoiseHasItsVariance) {
   const double speed_sigma = 2.0 * 0.01 * std::sqrt(300.0), heading_sigma = 0.05 * 0.01 * std::sqrt(300.0);
   EXPECT_NEAR(speed / kRuns, 0.0, 4.0 * speed_sigma / std::sqrt(kRuns));
   EXPECT_NEAR(heading / kRuns, 0.0, 4.0 * heading_sigma / std::sqrt(kRuns));
-  // A variance estimated from n runs spreads by sqrt(2 / n) of itself; four times that.
+  // A variance estimated from n runs spreads by sqrt(2 / n) of itself; this allows four times as much.
   const double spread = 4.0 * std::sqrt(2.0 / kRuns);
   EXPECT_NEAR(speed_squared / kRuns / (speed_sigma * speed_sigma), 1.0, spread);
   EXPECT_NEAR(heading_squared / kRuns / (heading_sigma * heading_sigma), 1.0, spread);

@@ -1,4 +1,4 @@
-// Sessions: what they must be, who is missing, who is there too often; and how DDS is set up for them.
+// Sessions: their requirements, missing and duplicate members, and the configuration of DDS.
 #include "bus/dds/common/session.h"
 
 #include <gmock/gmock.h>
@@ -159,7 +159,7 @@ TEST_F(DdsPair, WhoIsAnnouncedGoneAndLivesIsToldSo) {
   supervisor_->announce_gone(NodeId{1});
   EXPECT_TRUE(zero_->receive().gone);
   EXPECT_EQ(error_of([this] { one_->receive(); }), "exchange: node 1 has been announced gone");
-  one_->send({});  // to nobody
+  one_->send({});  // to no member
   EXPECT_EQ(error_of([this] { zero_->receive(); }), "exchange: node 0: all other members are gone");
 }
 
@@ -170,9 +170,9 @@ TEST_F(DdsPair, StopsWhenTheSupervisorLeaves) {
 
 TEST_F(DdsPair, TheSupervisorKnowsWhoHasJoinedAndLeft) {
   zero_.reset();
-  supervisor_->announce_gone(NodeId{0});  // as a launch does with whatever ends
+  supervisor_->announce_gone(NodeId{0});  // a launch does this for every end
   EXPECT_TRUE(one_->receive().gone);
-  one_.reset();  // else it would be asked what it has heard, and not answer
+  one_.reset();  // else it would be asked for its messages and not answer
   using Happening = exchange::ExchangeSupervisor::What;
   std::vector<Happening> of_zero;
   while (of_zero.empty() || of_zero.back() != Happening::kGone) {

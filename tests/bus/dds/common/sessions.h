@@ -10,7 +10,7 @@
 
 namespace ttf::bus::dds::common {
 
-// Not the domain that everybody else uses by default.
+// Differs from the usual default domain.
 inline constexpr std::uint32_t kTestDomain = 17;
 
 inline Session session(std::size_t members) {

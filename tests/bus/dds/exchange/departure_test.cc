@@ -1,4 +1,4 @@
-// How survivors agree on the end of a dead member (bus/dds/exchange/departure.h), with the streams that do it
+// Survivors' agreement on the end of a dead member (bus/dds/exchange/departure.h), with its streams
 // (bus/dds/exchange/stream.h).
 #include "bus/dds/exchange/departure.h"
 
@@ -47,7 +47,7 @@ TEST(Departure, WhereAllHeardTheSameNobodyHasToSayAnythingAgain) {
   const auto close = departure.report(kB, 1, 5);
   ASSERT_TRUE(close);
   EXPECT_EQ(close->holder, kNoNode);
-  EXPECT_FALSE(departure.without(kA));  // so nothing depends on anybody
+  EXPECT_FALSE(departure.without(kA));  // so no end depends on it
 }
 
 TEST(Departure, BeginsAgainWhereTheHolderDies) {
@@ -79,7 +79,7 @@ TEST(Departure, ADyingSurvivorsReportIsNotWaitedFor) {
   const auto close = departure.without(kB);
   ASSERT_TRUE(close);
   EXPECT_EQ(close->end, 5u);
-  EXPECT_FALSE(departure.without(kC));  // was none
+  EXPECT_FALSE(departure.without(kC));  // was no survivor
 }
 
 TEST(Departure, WithoutSurvivorsThereIsNothingToAgreeUpon) {
@@ -92,9 +92,9 @@ TEST(Departure, WithoutSurvivorsThereIsNothingToAgreeUpon) {
   EXPECT_TRUE(last.done());
 }
 
-// Survivors who hear of one dead, each cut off at a drawn sample, and who are told everything late, in a drawn
-// order; some of them die in the middle of it, and with them what they were saying again. All that survive must
-// have heard the same.
+// Survivors of one dead member: each heard it up to a drawn sample. They receive all messages late, in a
+// drawn order. Some die in between, and with them their repetitions. All remaining survivors must have heard
+// the same.
 class DrawnDeparture {
  public:
   explicit DrawnDeparture(std::uint64_t seed) : draw_(seed) {
@@ -145,8 +145,8 @@ class DrawnDeparture {
     std::vector<common::Entry> entries;
     std::uint64_t in_flight = 0;                         // the next sample that still comes from the dead itself
     std::uint64_t reach = 0;                             // and the first that does not
-    std::deque<Departure::Order> orders;                 // of the supervisor, not yet seen
-    std::deque<std::pair<NodeId, std::uint64_t>> again;  // said again, by whom, not yet seen
+    std::deque<Departure::Order> orders;                 // the supervisor's, not yet seen
+    std::deque<std::pair<NodeId, std::uint64_t>> again;  // repetitions with their speakers, not yet seen
     std::uint32_t confirm = 0;                           // the round that is to be confirmed
   };
 

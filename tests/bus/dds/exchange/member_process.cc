@@ -1,14 +1,14 @@
-// A member of an exchange over DDS as a process of its own.
+// A member of an exchange over DDS as a separate process.
 //
 //   dds_member DOMAIN SESSION SELF MEMBERS LEASE_MS supervised|alone MODE COUNT small|all [ENDLESS...]
 //
-//   MODE     talk: says COUNT messages as fast as it can, then hears the others
-//            rounds: COUNT times, says one, then hears one of each other that is not gone
+//   MODE     talk: sends COUNT messages as fast as it can, then hears the others
+//            rounds: COUNT times, sends one, then hears one of each other member that is still there
 //   ENDLESS  nodes that do not stop at COUNT
 //
-// Says "ready" once everybody hears everybody. Ends when every other member has said COUNT messages, or for the
-// endless ones, is gone. On stdout, one line for each other member: its number, how many messages were heard of it,
-// their hash, and whether it went. Exit code 1 and "error: ..." where the exchange fails.
+// Prints "ready" once all members hear each other. Ends when every other member has sent COUNT messages, or
+// is gone if it is endless. Prints one line for each other member: its number, the count of its messages,
+// their hash, and whether it went. If the exchange fails, prints "error: ..." and exits with 1.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Members of an exchange as processes (member_process.cc), and what they say in the end.
+// Members of an exchange as processes (member_process.cc), and their final reports.
 #pragma once
 
 #include <fmt/format.h>
@@ -63,7 +63,7 @@ class MemberProcess : public test::ChildProcess {
   NodeId self_;
 };
 
-// What is heard of a node that says `count` messages.
+// The hash of the messages from a node that sends `count` of them.
 inline std::string hash_of_messages(NodeId node, std::uint64_t count, test::Sizes sizes) {
   std::uint64_t hash = test::kHashBegin;
   for (std::uint64_t i = 0; i < count; ++i) hash = test::hash_of(message(node, i, sizes), hash);

@@ -37,9 +37,9 @@ class Launch {
     member(index).signal(SIGKILL);
     EXPECT_EQ(member(index).wait(), -SIGKILL);
   }
-  // Waits for all that were not killed, and for what each has heard: `count` messages of those not in `dead`; of
-  // each of these the same, a beginning of what it said, and that it is gone. Announces every end, as a launch
-  // does.
+  // Waits for all members that were not killed. Expects `count` messages of members not in `dead`. Members in
+  // `dead` must be gone, and all must have heard the same beginning of their messages. Announces every end,
+  // as a launch does.
   void expect_all_heard(const std::set<std::size_t>& dead = {}) {
     std::map<std::size_t, std::optional<MemberProcess::HeardOf>> of_dead;
     for (MemberProcess& member : members_) {

@@ -1,5 +1,5 @@
-// What one member hears of another, sample by sample (bus/dds/exchange/stream.h), and what all have heard
-// (bus/dds/exchange/heard.h).
+// A member's stream of another, sample by sample (bus/dds/exchange/stream.h), and the messages that all have
+// heard (bus/dds/exchange/heard.h).
 #include "bus/dds/exchange/stream.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ common::Entry said(std::uint64_t number, common::Kind kind = common::Kind::kMess
   return {number, kind, std::make_shared<const std::vector<std::byte>>(size)};
 }
 
-// What has been heard, as text: "0 1 2 bye".
+// The heard messages as text: "0 1 2 bye".
 class StreamTest : public testing::Test {
  protected:
   void accept(std::uint64_t number, common::Kind kind = common::Kind::kMessage) {
@@ -108,7 +108,7 @@ TEST_F(StreamTest, ALaterRoundMayEndItEarlier) {
   stream_.fence();
   close(4);
   accept(1);
-  EXPECT_EQ(stream_.fence(), 2u);  // who held the rest has died
+  EXPECT_EQ(stream_.fence(), 2u);  // the member with the rest has died
   accept(2);
   EXPECT_EQ(heard(), "0 1");
   close(2);
@@ -163,13 +163,13 @@ TEST(Heard, WhatAllHaveHeardIsTheLeastOfThoseWhoAreStillThere) {
   HeardTable table({a, b, c});
   EXPECT_EQ(table.by_all(a), 0u);
   table.note(b, {{a, 10}, {c, 3}});
-  EXPECT_EQ(table.by_all(a), 0u);  // c has said nothing yet
+  EXPECT_EQ(table.by_all(a), 0u);  // c has not spoken yet
   table.note(c, {{a, 7}, {b, 2}});
   EXPECT_EQ(table.by_all(a), 7u);
   EXPECT_EQ(table.by_all(c), 0u);  // a has not
   table.without(a);
   EXPECT_EQ(table.by_all(c), 3u);
-  EXPECT_EQ(table.by_all(a), 7u);  // also of one who has gone: it may have to be said again
+  EXPECT_EQ(table.by_all(a), 7u);  // also for a departed member: it may need repeating
   table.without(c);
   EXPECT_EQ(table.by_all(a), 10u);
 }

@@ -1,5 +1,5 @@
-// When frames of other hosts have arrived: what is asked is how far the instants are from those at which frames would
-// have come had nothing but the network's least delay been on their way. The delays are the test's own.
+// The arrival instants of other hosts' frames. The tests compare them with the instants of frames that only
+// have the network's least delay. The test draws the delays.
 #include "bus/dds/live/arrival_instant.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ constexpr std::int64_t kUs = 1'000, kMs = 1'000'000, kSecond = 1'000'000'000;
 constexpr std::int64_t kLeast = 60 * kUs;          // on the network
 constexpr std::int64_t kApart = -1'000 * kSecond;  // what the other clock shows beyond this one at the begin
 
-// A host afar, and how late this host's kernel takes its frames in: never early, exponential, now and then by a slice
-// of the scheduler's. One frame after the other, in order, as a socket hands them over.
+// A remote host, and this host's delay in taking its frames. The delay is never negative and exponential;
+// sometimes it is a slice of the scheduler. Frames come one after the other, in order, as from a socket.
 class Afar {
  public:
   Afar(std::uint64_t seed, double drift_ppm, double jitter_us)
@@ -69,7 +69,7 @@ Errors errors(ArrivalInstant& instants, Afar& afar, std::int64_t from, std::int6
 
 class DdsArrivalInstant : public testing::TestWithParam<std::uint64_t> {};
 
-// Mean wake-ups 200 us late: none of it is left in the instants, but for the least of some hundred.
+// Wake-ups are 200 us late on average. The instants show none of it, except the least of some hundred.
 TEST_P(DdsArrivalInstant, OneSidedJitterVanishes) {
   ArrivalInstant instants(4);
   Afar afar(GetParam(), 0, 200);
@@ -88,7 +88,8 @@ TEST_P(DdsArrivalInstant, DriftIsFollowedAndThenKnown) {
     ArrivalInstant instants(4);
     Afar afar(GetParam(), ppm, 200);
     errors(instants, afar, 0, kSecond, 5 * kMs);
-    // Until it is known, the least delay of a second ago is taken where delays grow: the other's clock is slow.
+    // While the drift is unknown, the least delay of a second ago counts if delays grow (the other clock is
+    // slow).
     const Errors unknown = errors(instants, afar, kSecond, 8 * kSecond, 5 * kMs);
     EXPECT_GE(unknown.earliest, std::min(0.0, ppm * 1e3) - 1e3);
     EXPECT_LE(unknown.latest, 100 * kUs);
@@ -116,7 +117,7 @@ TEST_P(DdsArrivalInstant, AClockThatIsSetIsFollowed) {
   }
 }
 
-// What was the least of one boot is nothing to the next.
+// A new boot forgets the old one's least delay.
 TEST_P(DdsArrivalInstant, AHostThatWasStartedAnewBeginsAnew) {
   ArrivalInstant instants(1);
   Afar before(GetParam(), 0, 200);
@@ -139,7 +140,7 @@ TEST_P(DdsArrivalInstant, AHostThatWasStartedAnewBeginsAnew) {
 
 INSTANTIATE_TEST_SUITE_P(Drawn, DdsArrivalInstant, testing::Range<std::uint64_t>(1, 11));
 
-// As long as there is no drift known, it is the least of a second, but for what shares a bin with its begin.
+// Without a known drift, it is the least of a second, up to values in the bin of that second's start.
 TEST(DdsLeastDelay, IsTheLeastOfASecond) {
   std::mt19937_64 random(3);
   LeastDelay least;
@@ -159,7 +160,7 @@ TEST(DdsLeastDelay, IsTheLeastOfASecond) {
   }
 }
 
-// The first has arrived when it was in hand, and from then on nobody later than the least delayed so far.
+// The first has arrived when it was in hand. From then on, no arrival is later than the least delay so far.
 //
 //   left       0     10    20    30    40 ms
 //   delayed    900   300   500   60    700 us
@@ -176,7 +177,7 @@ TEST(DdsArrivalInstantBegin, TheLeastDelayedSoFarIsTheMeasure) {
   }
 }
 
-// L2: a burst that was taken at once after a stop, and the first that is not delayed right behind it.
+// L2: a burst taken at once after a stop, directly followed by an undelayed frame.
 TEST(DdsArrivalInstantOrder, OfOneSenderNothingComesBeforeWhatCameBefore) {
   ArrivalInstant instants(1);
   const ports::MachineTime first = instants.of(NodeId{1}, kFarHost, 1'000 * kUs, ports::MachineTime{kSecond});
@@ -189,7 +190,7 @@ TEST(DdsArrivalInstantOrder, OfOneSenderNothingComesBeforeWhatCameBefore) {
   EXPECT_EQ(other.ns, kSecond - 5 * kUs);
 }
 
-// Hosts have minima of their own; of more than there is room for, who was silent for longest is forgotten.
+// Each host has its own minimum. When room runs out, the host that was silent for longest is forgotten.
 TEST(DdsArrivalInstantHosts, HaveTheirOwnMinima) {
   ArrivalInstant instants(2);
   const auto delayed = [&](std::uint64_t host, std::int64_t by) {
@@ -207,7 +208,7 @@ TEST(DdsArrivalInstantHosts, HaveTheirOwnMinima) {
   EXPECT_EQ(delayed(2, 500), 300);
 }
 
-// Whatever a stamp says: in order, never after it was in hand, and the same again.
+// With any stamp, instants are in order, never after the frame was in hand, and repeatable.
 TEST(DdsArrivalInstantProperty, HoldsForAnyStamps) {
   std::mt19937_64 random(5);
   ArrivalInstant one(3), again(3);

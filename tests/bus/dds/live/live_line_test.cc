@@ -1,4 +1,4 @@
-// What lines of a medium in real time over DDS are called, how they count, and how they keep what arrives.
+// Lines of a real-time medium over DDS: their names, numbering and queues.
 #include "bus/dds/live/line.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(DdsLiveTopic, HasOnlyWhatDdsAllowsAndNoTwoAreTheSame) {
 TEST(DdsLiveNumbering, CountsGapsButNotAcrossABeginning) {
   LiveNumbering numbering;
   const NodeId a{1}, b{2};
-  EXPECT_EQ(numbering.missing_before(a, 7, 100), 0u);  // what it said before is none of ours
+  EXPECT_EQ(numbering.missing_before(a, 7, 100), 0u);  // earlier messages do not concern us
   EXPECT_EQ(numbering.missing_before(a, 7, 101), 0u);
   EXPECT_EQ(numbering.missing_before(a, 7, 104), 2u);
   EXPECT_FALSE(numbering.missing_before(a, 7, 104));
@@ -67,7 +67,7 @@ TEST(DdsLiveQueue, HasRoomForSoMuchAndKeepsTheOrder) {
   }
 }
 
-// Whoever sleeps until the descriptor is readable gets everything, whatever comes between what.
+// A reader that sleeps until the descriptor is readable gets every frame, in any interleaving.
 TEST(DdsLiveQueue, NobodySleepsWhileSomethingIsThere) {
   static constexpr int kCount = 200'000;
   LiveQueue queue;

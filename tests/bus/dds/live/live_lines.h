@@ -1,4 +1,4 @@
-// Lines for tests: two channels with everybody on them, a CAN without the last of more than two, and a CAN FD.
+// Lines for tests: two channels with all members, a CAN without the last of more than two, and a CAN FD.
 #pragma once
 
 #include <algorithm>

@@ -1,15 +1,14 @@
-// A member of a medium in real time over DDS as a process of its own.
+// A member of a real-time medium over DDS as a separate process.
 //
 //   dds_live_member DOMAIN SESSION SELF MEMBERS LEASE_MS best-effort|reliable COUNT [SPOILT...]
 //
-//   COUNT    how much it says on either channel, one thing a millisecond on each
-//   SPOILT   members that are killed, stopped or started anew: what is heard of them is counted and not looked at. Of
-//            the others nothing may be missing. If it is one of them itself, it says things without end, and may miss
-//            some.
+//   COUNT    its number of messages on either channel, one a millisecond on each
+//   SPOILT   members that are killed, stopped or restarted: their messages are counted, not checked. Messages of the
+//            others must be complete. A member that is itself spoilt sends endlessly, and may miss some.
 //
-// Says "ready" once it hears everybody and they hear it, and begins at the first line on stdin. Ends when it has said
-// and heard everything; who is spoilt, at the second line. Then one line: "lost N longest_us N wrong TEXT", the longest
-// being what send() took; and one for each other member: "NODE HEARD".
+// Prints "ready" once it hears all others and they hear it, and begins at the first line on stdin. Ends when
+// it has sent and heard all messages; a spoilt member ends at the second line. Then prints "lost N longest_us
+// N wrong TEXT", with the longest send(), and one line for each other member: "NODE HEARD".
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -70,7 +69,7 @@ class LiveMember {
   bool well() const { return wrong_.empty(); }
 
  private:
-  // Whether there is a line on stdin, or its end; waits for it so many ms, -1: for ever.
+  // Returns whether stdin has a line or has ended; waits up to `patience` ms, -1: for ever.
   static bool told(int patience) {
     pollfd input{STDIN_FILENO, POLLIN, 0};
     char letter = 0;

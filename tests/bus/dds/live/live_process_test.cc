@@ -1,5 +1,5 @@
-// The medium in real time over DDS between processes: they talk, they are stopped, killed and started anew, and nobody
-// else notices.
+// The real-time medium over DDS between processes. Some are stopped, killed and restarted; the others are
+// unaffected.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -40,7 +40,7 @@ LiveReport report_of(const test::ChildProcess& child, std::size_t members) {
   return report;
 }
 
-// Members of a session as processes, of whom some are going to be spoilt.
+// Members of a session as processes, some of which will be spoilt.
 class LiveProcesses {
  public:
   LiveProcesses(const common::Session& session, std::size_t count, std::set<std::size_t> spoilt = {},
@@ -61,8 +61,8 @@ class LiveProcesses {
     EXPECT_EQ(members_[spoilt]->wait(), 0) << members_[spoilt]->said();
     return report_of(*members_[spoilt], members_.size());
   }
-  // All others have heard everything of each other, and nobody made them wait. Nothing is lost, or
-  // only what the spoilt said.
+  // All others have heard each other's messages completely, without waiting. There are no losses, or only of
+  // spoilt members' messages.
   enum class Lost { kNothing, kButOfSpoilt };
   std::vector<LiveReport> expect_undisturbed(Lost lost = Lost::kNothing) {
     std::vector<LiveReport> reports(members_.size());
@@ -128,7 +128,7 @@ TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsKilledAndHearItStartedAnew) {
   for (const std::size_t i : {0, 1, 3}) EXPECT_GT(reports[i].heard[2], 2 * 1000u) << i;
 }
 
-// Within its lease: what it missed it knows.
+// Stopped within its lease: it knows its losses.
 TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsStopped) {
   LiveProcesses processes(common::session(4), 4500, {1}, GetParam());
   std::this_thread::sleep_for(300ms);
@@ -141,7 +141,8 @@ TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsStopped) {
   EXPECT_EQ(stopped.heard[0] + stopped.heard[2] + stopped.heard[3] + stopped.lost, 3 * 2 * 4500u);
 }
 
-// For longer than its lease: it is found again. What it says until then reaches nobody, and is counted.
+// Stopped for longer than its lease: it is found again. Its messages until then reach no member, and are
+// counted.
 TEST_P(DdsLiveProcesses, HearWhoWasStoppedForLongerThanItsLease) {
   common::Session session = common::session(3);
   session.lease = 1s;

@@ -1,5 +1,4 @@
-// The medium in real time over DDS, between participants of one process: the laws of its port, with strangers among
-// them.
+// The real-time medium over DDS between participants of one process: its port's laws, with strangers present.
 #include "bus/dds/live/medium.h"
 
 #include <dds/dds.h>
@@ -23,7 +22,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Somebody else on a line of the session, who says what it likes.
+// A foreign participant on a line of the session, with arbitrary messages.
 class Stranger {
  public:
   Stranger(const bus::dds::common::Session& session, const bus::dds::live::LiveLinePlan& plan)
@@ -90,7 +89,7 @@ using DdsLiveBenches = testing::Types<
     DdsLiveBench<2, bus::dds::live::Delivery::kReliable>, DdsLiveBench<5, bus::dds::live::Delivery::kReliable>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Dds, LiveMediumLaws, DdsLiveBenches);
 
-// Each is counted and never handed over; what is sound in between is heard.
+// Each malformed sample is counted and never handed over; sound ones in between are heard.
 TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
   const bus::dds::common::Session session = bus::dds::common::session(2);
   const auto plans = bus::dds::live::live_lines(2);

@@ -1,5 +1,5 @@
-// Plain CDR as ROS 2 has it on the wire (OMG CDR, little endian; DDSI-RTPS 2.3, 10.5), written by hand: what a
-// message's bytes must be, independent of what makes them.
+// Plain CDR as ROS 2 has it on the wire (OMG CDR, little endian; DDSI-RTPS 2.3, 10.5), written by hand. It
+// gives a message's expected bytes independently of the code under test.
 #pragma once
 
 #include <cstddef>

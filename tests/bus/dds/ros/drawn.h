@@ -1,4 +1,4 @@
-// Records with a different value in every field, for tests of what becomes of them.
+// Records with a different value in every field, for tests of their messages.
 #pragma once
 
 #include <unistd.h>
@@ -13,7 +13,7 @@
 
 namespace ttf::bus::dds::ros {
 
-// Not the domain that everybody else uses by default.
+// Differs from the usual default domain.
 inline constexpr std::uint32_t kRosDomain = 18;
 
 // A publisher that no other test, of this or another program, is taken for.
@@ -52,8 +52,8 @@ inline recording::records::ImageObject image_object(int i) {
           .status = static_cast<std::uint8_t>(i % 2 == 0 ? 1 : 6)};
 }
 
-// An image written at true_ns, of use 20 ms later, with a newest measurement of 5 ms before. It must not move: its
-// record refers to it.
+// An image written at true_ns, of use 20 ms later, with a newest measurement of 5 ms before. Its record
+// refers to it, so it must not move.
 struct DrawnImage {
   DrawnImage(std::int64_t true_ns, std::uint32_t sequence, int count) {
     for (int i = 0; i < count; ++i) objects.push_back(image_object(i));

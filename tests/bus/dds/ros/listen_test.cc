@@ -1,4 +1,4 @@
-// The shipped example as users start it, with a publisher in a process of its own.
+// The shipped example as users start it, with a publisher in another process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -129,7 +129,7 @@ TEST_F(RosListen, AKilledPublisherIsNoticedByItsLease) {
   EXPECT_TRUE(event.has_value());
 }
 
-// Stopped for longer than its deadline: that is noticed, and once it goes on, so is it.
+// Stopped for longer than its deadline: the listener reports that, and the recovery.
 TEST_F(RosListen, AStoppedPublisherMissesItsDeadlineAndIsHeardAgain) {
   const std::int64_t before = sample_of(topic("image")).at("sequence_number").get<std::int64_t>();
   talker_.signal(SIGSTOP);

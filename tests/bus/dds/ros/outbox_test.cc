@@ -99,7 +99,7 @@ TEST(Outbox, AStepHasItsOwnTracksOnly) {
   EXPECT_TRUE(outbox.steps.first()->tracks.empty());
 }
 
-// A step of which a part had no room is dropped whole, also when there is room again before it ends.
+// A step without room for one part is dropped whole, even when room returns before its end.
 TEST(Outbox, AStepIsDroppedWhole) {
   Outbox outbox(small());
   for (std::uint32_t step = 0; step < 3; ++step) outbox.put(recording::records::FusionStep{stamp_at(step), step, 0, 0});
@@ -130,14 +130,14 @@ TEST(Outbox, TheTruthOfAnInstantIsTakenOnceWhoeverTellsIt) {
   EXPECT_TRUE(outbox.put(truth_at(100, 0, 1)));
   EXPECT_TRUE(outbox.put(truth_at(100, 1, 1)));
   EXPECT_FALSE(outbox.put(truth_at(100, 0, 2)));  // another node, the same instant
-  EXPECT_FALSE(outbox.put(truth_at(90, 0, 2)));   // what is past
-  EXPECT_FALSE(outbox.put(truth_at(200, 2, 1)));  // nobody asked for object 2
+  EXPECT_FALSE(outbox.put(truth_at(90, 0, 2)));   // already past
+  EXPECT_FALSE(outbox.put(truth_at(200, 2, 1)));  // object 2 was not requested
   EXPECT_TRUE(outbox.put(truth_at(200, 0, 2)));
   EXPECT_EQ(outbox.dropped().truths, 0u);
   EXPECT_EQ(outbox.truths.first()->state.object, ObjectId{0});
 }
 
-// Else it would be missing, though there was room for it when another node told it.
+// Else it would be missing, though there was room when another node reported it.
 TEST(Outbox, ATruthThatHadNoRoomMayComeAgain) {
   Outbox outbox(small());  // room for 3 instants of 2 objects
   for (std::int64_t at = 0; at < 6; ++at) EXPECT_TRUE(outbox.put(truth_at(at, 0)));
@@ -191,7 +191,7 @@ TEST(Outbox, AllocatesNothingOnceItIsThere) {
   EXPECT_EQ(support::allocations(), before);
 }
 
-// One thread puts as fast as it can, one takes: every image comes out whole, in order, or is counted.
+// One thread puts as fast as it can, one takes. Every image comes out whole and in order, or is counted.
 TEST(Outbox, LosesNothingUncountedBetweenThreads) {
   RosOptions options = small();
   options.queue = 4;

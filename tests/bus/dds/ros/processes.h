@@ -1,4 +1,4 @@
-// The example listener and a publisher as processes, and what the listener prints.
+// The example listener and a publisher as processes, and the listener's output.
 #pragma once
 
 #include <fcntl.h>
@@ -21,7 +21,7 @@
 
 namespace ttf::bus::dds::ros {
 
-// A process that ends with the test. What it writes to stdout can be read line by line.
+// A process that ends with the test. Its stdout can be read line by line.
 class Process {
  public:
   // `variables`: set in its environment, "KEY=value".
@@ -61,7 +61,7 @@ class Process {
     TTF_CHECK(waitpid(process_, &status, 0) == process_);
     return status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
-  // The next line, without its end; none within `patience`, or at the end of its output.
+  // The next line, without its end; empty after `patience` or at the end of its output.
   std::optional<std::string> line(std::chrono::milliseconds patience) {
     const auto until = std::chrono::steady_clock::now() + patience;
     while (true) {
@@ -88,14 +88,14 @@ class Process {
   std::string said_;
 };
 
-// The example, set up as anybody would: with the shipped configuration.
+// The example as users set it up: with the shipped configuration.
 class Listener : public Process {
  public:
   Listener()
       : Process({TTF_ROS_LISTEN, std::to_string(kRosDomain)},
                 {"CYCLONEDDS_URI=file://" TTF_SOURCE_DIR "/bus/dds/loopback.xml"}) {}
 
-  // The next line that is wanted; those before it are gone. None: it has not come in time.
+  // The next wanted line; earlier ones are discarded. Empty: it has not come in time.
   std::optional<nlohmann::json> find(const std::function<bool(const nlohmann::json&)>& wanted,
                                      std::chrono::milliseconds patience) {
     const auto until = std::chrono::steady_clock::now() + patience;

@@ -1,4 +1,4 @@
-// Publishing never holds up who records: whoever listens, however badly, and however slowly DDS takes it.
+// Publishing never delays recording, regardless of listeners and of DDS' speed.
 #include "bus/dds/ros/publisher.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// How often this thread has given up the processor of its own accord: each time it waited for something.
+// The thread's voluntary context switches: each is a wait.
 long waits() {
   rusage usage{};
   getrusage(RUSAGE_THREAD, &usage);

@@ -1,4 +1,5 @@
-// What a ROS 2 reader gets: topics' and types' names, bytes and qualities, as another participant of DDS sees them.
+// A ROS 2 reader's view: names of topics and types, bytes and qualities, as another DDS participant sees
+// them.
 #include <dds/dds.h>
 #include <dds/ddsi/ddsi_serdata.h>
 #include <gmock/gmock.h>
@@ -42,7 +43,7 @@ class Stranger {
     ASSERT_EQ(matched.current_count, 1u) << topic;
   }
 
-  // The payload of the next sample, behind the four bytes that say it is plain CDR.
+  // The next sample's payload, behind the four bytes that announce plain CDR.
   std::vector<std::uint8_t> next() const {
     ddsi_serdata* sample = nullptr;
     dds_sample_info_t info;
@@ -64,7 +65,7 @@ class Stranger {
     std::string type;
     std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos;
   };
-  // What DDS' own topic of publications says, for topics that have `part` in their name.
+  // Entries of DDS' own topic of publications, for topics with `part` in their name.
   std::map<std::string, Endpoint> publications(const std::string& part, std::size_t count) const {
     const dds_entity_t reader =
         dds_create_reader(participant_.handle(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
@@ -100,7 +101,7 @@ void expect_bytes(const std::vector<std::uint8_t>& bytes, const Cdr& expected) {
   EXPECT_EQ(differs - expected.bytes().begin(), static_cast<std::ptrdiff_t>(expected.bytes().size()));
 }
 
-// What publishers put before everything: std_msgs/Header.
+// The publishers' common prefix: std_msgs/Header.
 Cdr header(std::int32_t seconds, std::uint32_t nanoseconds) {
   Cdr cdr;
   cdr.time(seconds, nanoseconds).text("sensor_car");
@@ -144,8 +145,8 @@ TEST(RosWire, StampsAreOnTheClockThatAStretchedDriveGoesBy) {
   expect_bytes(stranger.next(), expected);
 }
 
-// vision_msgs/Detection3DArray of Humble: header; detections of header, results of (class_id, score, pose, covariance),
-// bbox of (center, size), id.
+// vision_msgs/Detection3DArray of Humble: header; detections of header, results of (class_id, score, pose,
+// covariance), bbox of (center, size), id.
 TEST(RosWire, BoxesHaveTheBytesOfVisionMsgs4) {
   const RosOptions options = options_of_its_own();
   RosPublisher publisher(options);
@@ -211,8 +212,8 @@ TEST(RosWire, TruthHasTheBytesOfOdometry) {
   expect_bytes(stranger.next(), expected);
 }
 
-// diagnostic_msgs/DiagnosticArray: header; status of level, name, message, hardware_id, values of (key, value). The
-// last one is kept for who comes later.
+// diagnostic_msgs/DiagnosticArray: header; status of level, name, message, hardware_id, values of (key,
+// value). The last one is kept for late joiners.
 TEST(RosWire, AHealthHasTheBytesOfDiagnosticsAndIsKept) {
   const RosOptions options = options_of_its_own();
   RosPublisher publisher(options);

@@ -1,4 +1,4 @@
-// Which scheduled instants are announced, and which lists are of them.
+// The announced scheduled instants, and the lists that belong to them.
 #include "fusion/strategies/late/announcements.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Lists that come late, and the two ways to take them in side by side: by a method, and by going back.
+// Late lists, taken in by a method and by rewinding, side by side.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace ttf::fusion::strategies::late {
 // Both measure every 40 ms, the second 20 ms after the first.
 inline std::vector<SensorTiming> in_turn() { return {scheduled(0, 200, 0, 40), scheduled(1, 200, 20, 40)}; }
 
-// No right observation is ever outside its gate, so that all depends on what is taken in, and how.
+// No correct observation lies outside its gate, so results depend only on the lists taken in, and how.
 inline config::TrackerConfig taking_late(oosm::Kind kind,
                                          config::MotionModel motion = config::MotionModel::kConstantVelocity) {
   config::TrackerConfig config = config_of(motion);
@@ -28,7 +28,7 @@ inline config::TrackerConfig taking_late(oosm::Kind kind,
   return config;
 }
 
-// Of a few objects far from each other, in order; the first `all` show all of them, the others miss one in five.
+// Lists of a few objects far apart, in order. The first `all` show all objects, the others miss one in five.
 inline std::vector<OwnedList> few_objects(std::uint64_t seed, std::uint32_t lists, std::uint32_t all = 8) {
   std::vector<OwnedList> result;
   for (std::uint32_t k = 0; k < lists; ++k) {
@@ -38,7 +38,8 @@ inline std::vector<OwnedList> few_objects(std::uint64_t seed, std::uint32_t list
   return result;
 }
 
-// The place in `lists` of each as it arrives: the first `in_time` in order, then each behind as many as `most` others.
+// Each list's place in `lists`, in order of arrival. The first `in_time` are in order; each later one comes
+// behind up to `most` others.
 inline std::vector<std::size_t> drawn_order(RandomStream& stream, std::size_t lists, std::size_t in_time, int most) {
   std::vector<std::pair<std::int64_t, std::size_t>> arrivals;
   for (std::size_t i = 0; i < lists; ++i)
@@ -48,7 +49,7 @@ inline std::vector<std::size_t> drawn_order(RandomStream& stream, std::size_t li
   for (const auto& arrival : arrivals) order.push_back(arrival.second);
   return order;
 }
-// Of every `lag` + 1 after the first `in_time`, the first comes last.
+// The first of every `lag` + 1 lists after the first `in_time` comes last.
 inline std::vector<std::size_t> one_late_order(std::size_t lists, std::size_t in_time, std::size_t lag) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < lists; ++i) order.push_back(i);

@@ -38,7 +38,7 @@ TEST(LateRefusal, NamesWhatCannotBe) {
   }
 }
 
-// What a drive ends with; all lists have arrived, but not all in order.
+// The state at the end of a drive; all lists have arrived, though not in order.
 struct Ending {
   std::vector<tracks::TrackView> image;
   std::size_t lists = 0, late = 0, dropped = 0;
@@ -61,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(All, LateUnderAdva,
                                          Kind::kA, Kind::kB, Kind::kC),
                          name_of_kind);
 
-// 25 objects, of which one in twenty or ten is missed: rewinding thinks over what these methods leave as it is, and is
-// born from late lists, which makes little difference.
+// 25 objects, one in twenty or ten missed. Rewinding reconsiders associations that these methods keep, and
+// starts tracks from late lists. The difference is small.
 TEST_P(LateUnderAdva, ImagesAreNearlyThoseOfRewinding) {
   const std::vector<Arrival> arrivals = drawn_drive(1, 40);
   const Ending rewinding = end_of(StrategyKind::kAdva, Kind::kRewind, arrivals),
@@ -104,7 +104,7 @@ TEST_P(LateUnderAdva, AllocatesNothing) {
   EXPECT_GT(late, 5u);
 }
 
-// A list that comes after its promise is taken in by going back: the bits of BUFF as it always was.
+// A list that misses its promise is taken in by rewinding: the bits of plain BUFF.
 TEST(LateUnderBuff, IsAlwaysRewinding) {
   std::vector<Arrival> arrivals = drawn_drive(5, 40);
   for (std::size_t i = 10; i < arrivals.size(); i += 7) arrivals[i].ms += 100;  // broken promises

@@ -1,4 +1,4 @@
-// What a late list does to tracks beside their state, and which lists are not taken in.
+// A late list's effects on tracks beside their state, and the lists that are not taken in.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -22,7 +22,7 @@ class LateList : public testing::Test {
   static sensors::Observation car(std::int64_t ms, double sigma = 0.1) {
     return position(10.0 + 0.02 * static_cast<double>(ms), 0.0, sigma);
   }
-  // Of sensor 0, every 40 ms.
+  // Lists of sensor 0, every 40 ms.
   static void drive(LateUpdates& late, std::uint32_t lists) {
     for (std::uint32_t k = 0; k < lists; ++k)
       ASSERT_EQ(late.insert(at(0, k, 40 * k, {car(40 * k)}).view()), Insertion::kInOrder);
@@ -118,7 +118,7 @@ TEST_F(LateList, CanEndATrack) {
   EXPECT_EQ(late.insert(at(1, 2, 270, {car(270)}).view()), Insertion::kTooOld) << "the first's past is forgotten";
 }
 
-// Without a walk, what is measured of an axis or a side is worth the same whenever it was.
+// Without a random walk, a measured axis or side counts the same at any age.
 TEST_F(LateList, TurnsAndSizesAsOneOfNow) {
   config::TrackerConfig config = taking_late(Kind::kAugmented);
   config.heading_noise = config.extent_noise = 0.0;
@@ -177,7 +177,7 @@ TEST_F(LateList, CarriesTheNewestHeightAndEveryScore) {
   EXPECT_EQ(shown().classes.sums[1], 3.0);
 }
 
-// Twenty lists; a track remembers the last fifteen before the newest, and clones what was announced.
+// Twenty lists. A track remembers the last fifteen before the newest, and clones the announced ones.
 TEST_F(LateList, IsTooOldWhereNoTrackReaches) {
   LateUpdates late(taking_late(Kind::kAugmented), 4, {});
   EXPECT_EQ(late.insert(at(0, 100, 1, {}).view()), Insertion::kInOrder);
@@ -213,7 +213,7 @@ TEST_F(LateList, IsTooOldBehindOneLag) {
   EXPECT_EQ(late.insert(at(1, 2, 190, {car(190)}).view()), Insertion::kLate) << "the last list was a miss";
 }
 
-// The clocks of sensor 1 are off by as much as 60 us; the list that fits no instant was never announced.
+// The clocks of sensor 1 are off by up to 60 us. The list that fits no instant was never announced.
 TEST_F(LateList, OfACloneMustFitTheSchedule) {
   const config::TrackerConfig config = taking_late(Kind::kClone);
   LateUpdates late(config, 4, in_turn());

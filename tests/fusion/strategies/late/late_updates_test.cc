@@ -1,4 +1,4 @@
-// Tracks that take late lists in by a method, against tracks that are gone back with.
+// Tracks that take late lists in by a method, against rewound tracks.
 #include "fusion/strategies/late/late_updates.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ INSTANTIATE_TEST_SUITE_P(LateUpdates, EveryMethod,
                                          Kind::kA, Kind::kB, Kind::kC),
                          name_of_kind);
 
-// Law L1 of fusion/oosm/method.h, of tracks: what nothing late comes to is as it always was.
+// Law L1 of fusion/oosm/method.h for tracks: without late lists, the bits stay the same.
 TEST_P(EveryMethod, GivesTheBitsOfTheTrackerInOrder) {
   for (const config::MotionModel motion :
        {config::MotionModel::kConstantVelocity, config::MotionModel::kConstantAcceleration}) {
@@ -44,7 +44,7 @@ TEST_P(EveryMethod, GivesTheBitsOfTheTrackerInOrder) {
   }
 }
 
-// What is not late goes on as before, whatever came late.
+// Lists in time are taken in as before, regardless of late ones.
 struct Compared {
   int late = 0, too_old = 0;
   double worst = 0.0;  // relative difference of estimates
@@ -78,7 +78,7 @@ Compared compare(const config::TrackerConfig& config, const std::vector<OwnedLis
 
 constexpr double kExact = 1e-9;
 
-//      0 1 2 3 4 5 6 7 | each behind as many as six others, also of the same track
+//      0 1 2 3 4 5 6 7 | each behind up to six others, also of the same track
 class ExactInAnyOrder : public testing::TestWithParam<std::tuple<Kind, config::MotionModel>> {};
 INSTANTIATE_TEST_SUITE_P(LateUpdates, ExactInAnyOrder,
                          testing::Combine(testing::Values(Kind::kAugmented, Kind::kClone),
@@ -117,7 +117,7 @@ TEST_P(ExactWithOneLate, TracksAreThoseOfOrder) {
   }
 }
 
-// B, C and Bl1 are exact without process noise, which the tracker is never without: with the least there is.
+// B, C and Bl1 are exact without process noise. The tracker always has some, so this uses the least.
 class ExactWithoutNoise : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(LateUpdates, ExactWithoutNoise, testing::Values(Kind::kB, Kind::kC, Kind::kBl1), name_of_kind);
 TEST_P(ExactWithoutNoise, TracksAreThoseOfOrder) {
@@ -131,8 +131,8 @@ TEST_P(ExactWithoutNoise, TracksAreThoseOfOrder) {
   }
 }
 
-// An object that drives as the model says, seen by two sensors in turn, and lists in an order that suits the method:
-// the error at the end of each drive, by its own covariance (the drives are independent).
+// An object drives as the model says, seen by two sensors in turn. The lists come in an order that suits the
+// method. The error at each drive's end is judged by its own covariance (the drives are independent).
 metrics::Consistency drives(Kind kind, int runs) {
   metrics::Consistency nees;
   const config::TrackerConfig config = taking_late(kind);
@@ -173,8 +173,8 @@ TEST_P(ExactMethod, IsConsistentOverThreeHundredDrives) {
   EXPECT_TRUE(nees.consistent()) << nees.mean() << " in " << nees.band().low << " .. " << nees.band().high;
 }
 
-// Al1 and Bl1 at three lags are "a few percent" worse, B hardly at all: of the standard deviations of position and
-// velocity in the middle of so many drives.
+// Al1 and Bl1 at three lags are "a few percent" worse, B hardly at all. This compares the standard deviations
+// of position and velocity in the middle of so many drives.
 class ApproximateMethod : public testing::TestWithParam<std::tuple<Kind, std::size_t>> {};
 INSTANTIATE_TEST_SUITE_P(LateUpdates, ApproximateMethod,
                          testing::Values(std::tuple(Kind::kAl1, 3u), std::tuple(Kind::kBl1, 3u),

@@ -1,5 +1,5 @@
-// The busy period by itself: chains in, worst responses out. tests/schedules/analysis/responses_test.cc holds it
-// against a queue.
+// The busy period alone: chains in, worst responses out. tests/schedules/analysis/responses_test.cc compares
+// it with a queue.
 #include "schedules/analysis/processor/busy_period.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(BusyPeriod, IsTheWorkThatComesAtOnce) {
   EXPECT_EQ(worst_chain_response(set, 1, *busy), 70);
 }
 
-// Two of a kind may come 10 apart, so that the first busy period has both of them in it; the second waits the longest.
+// Two of a kind may come 10 apart, so the first busy period contains both; the second waits the longest.
 //
 //   activated  ^         ^10
 //   busy       |==40==|==40==|==30==|
@@ -41,7 +41,8 @@ TEST(BusyPeriod, OfMoreWorkThanTimeHasNoEnd) {
   EXPECT_EQ(busy_time({{by_message(60, 100)}, {}}, 59), std::nullopt) << "more than it may be";
 }
 
-// Whose newest activation was 25 ago has 25 less before it; what was longer ago than it takes is over.
+// A chain whose newest activation was 25 ago has 25 less left. One that was activated longer ago than it
+// takes is over.
 TEST(BusyPeriod, IsShorterBehindWhatCameEarlier) {
   const TaskChains set{{by_message(40, 1'000), by_message(30, 1'000)}, {}};
   const std::int64_t ahead[] = {0, 25};
@@ -50,7 +51,7 @@ TEST(BusyPeriod, IsShorterBehindWhatCameEarlier) {
   EXPECT_EQ(worst_chain_response(set, 0, 70, long_ago), 40);
 }
 
-// A sensor that waits for the end of a task of 40 has it run once in 50, whatever else is going on.
+// A sensor waits for the end of a task of 40, so that task runs once in 50, under any other load.
 TEST(BusyPeriod, AFollowingSensorNeverOverloads) {
   const TaskChains set{{{40, ByFollower{.best = 40, .worst = 40, .pause = 10}}, by_message(30, 1'000)}, {}};
   const auto busy = busy_time(set, kLimit);
@@ -58,7 +59,8 @@ TEST(BusyPeriod, AFollowingSensorNeverOverloads) {
   EXPECT_EQ(worst_chain_response(set, 1, *busy), 70);
 }
 
-// Time brings 40 at 0 and 30 at 20, in rounds of 1000: the second waits for the first, and the first never for it.
+// Time brings 40 at 0 and 30 at 20, in rounds of 1000: the second waits for the first, and the first never
+// waits.
 TEST(BusyPeriod, OfTimedChainsIsExact) {
   const TaskChains set{{{40, ByTime{}}, {30, ByTime{}}}, TimedInstants({{20, 1}, {0, 0}}, 1'000, std::nullopt)};
   EXPECT_EQ(busy_time(set, kLimit), 70);
@@ -78,8 +80,8 @@ TEST(TimedInstants, GoOnInTheNextRoundAndBackInTheLast) {
   EXPECT_EQ(instants.within(0, 400, TimedInstants::kBackward).size(), 1u);
 }
 
-// 1 % by the rate, 1 us by the offset of every second cycle of 5 ms, 100 ns by the granularity; 1 ns for what is cut
-// off.
+// 1 % by the rate, 1 us by the offset of every second cycle of 5 ms, 100 ns by the granularity, 1 ns by
+// truncation.
 TEST(TimedInstants, AreAsCloseAsCorrectionsMakeThem) {
   const ClockCorrections corrections{.cycle_ns = 5'000'000, .microticks = 200'000, .rate = 2'000, .offset_ns = 1'000};
   EXPECT_EQ(corrections.shortest(0), 0);

@@ -1,4 +1,4 @@
-// Whether two clusters are the same in what FIBEX can say: timing, controllers, slots, PDUs and signals.
+// Compares two clusters in everything that FIBEX can express: timing, controllers, slots, PDUs and signals.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 
 namespace ttf::schedules::exchange::fibex {
 
-// Every difference on a line, "" for none.
+// Every difference on a line; "" if they are equal.
 class FibexDifference {
  public:
   static std::string of(const model::Cluster& a, const model::Cluster& b) {
@@ -98,7 +98,7 @@ class FibexDifference {
                        frame.pdu == kNoPdu ? "status" : cluster.pdu(frame.pdu).name, frame.fragment);
   }
 
-  // Of one slot and cycle, channel A first.
+  // Frames of one slot and cycle, channel A first.
   static std::vector<model::FrameSlot> ordered(std::vector<model::FrameSlot> frames) {
     std::stable_sort(frames.begin(), frames.end(), [](const model::FrameSlot& x, const model::FrameSlot& y) {
       return std::tuple{x.slot, x.base_cycle, x.repetition, static_cast<int>(x.channels)} <

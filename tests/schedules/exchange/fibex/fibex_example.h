@@ -1,11 +1,11 @@
-// FIBEX files written by hand, as other tools write them: nothing of them comes from our exporter.
+// FIBEX files written by hand in other tools' style, independent of our exporter.
 #pragma once
 
 namespace ttf::schedules::exchange::fibex {
 
-// A small powertrain cluster in the style of public examples: parameters that are self-consistent but not
-// complete (CYCLE and MACROTICK, no MACRO-PER-CYCLE), ordinary PDUs in low-high byte order, codings beside
-// the elements, a frame in the dynamic segment, one triggered by CYCLE-COUNTER.
+// A small powertrain cluster in the style of public examples. Its parameters are self-consistent but
+// incomplete (CYCLE and MACROTICK, no MACRO-PER-CYCLE). PDUs are ordinary, in low-high byte order, with
+// codings beside the elements. One frame is in the dynamic segment, one is triggered by CYCLE-COUNTER.
 inline constexpr char kPowertrain[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 <fx:FIBEX VERSION="3.1.0" xmlns:fx="http://www.asam.net/xml/fbx" xmlns:ho="http://www.asam.net/xml"
           xmlns:flexray="http://www.asam.net/xml/fbx/flexray" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
@@ -200,8 +200,8 @@ inline constexpr char kPowertrain[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 </fx:FIBEX>
 )";
 
-// A list of objects, multiplexed by its fragment number over two frames, by a tool that knows nothing of us:
-// other prefixes, no extension, signals within one byte given in low-high order.
+// A list of objects in a foreign tool's style, multiplexed by its fragment number over two frames. It has
+// other prefixes and no extension; signals within one byte are in low-high order.
 inline constexpr char kObjects[] =
     R"(<f:FIBEX VERSION="3.1.0" xmlns:f="http://www.asam.net/xml/fbx" xmlns="http://www.asam.net/xml"
          xmlns:flexray="http://www.asam.net/xml/fbx/flexray" xmlns:i="http://www.w3.org/2001/XMLSchema-instance">

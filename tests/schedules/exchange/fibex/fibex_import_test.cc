@@ -1,5 +1,5 @@
-// Files of other tools, by hand: what is understood is right, what is not is named with its line, what is
-// wrong is refused.
+// Other tools' files, by hand. Supported parts are imported correctly, unsupported ones are named with their
+// line, wrong ones are refused.
 #include "schedules/exchange/fibex/import.h"
 
 #include <gmock/gmock.h>
@@ -203,7 +203,7 @@ TEST(FibexObjects, AListOfAnotherToolIsAList) {
     EXPECT_EQ(import.cluster.frames[static_cast<std::size_t>(f)].fragment, f);
     EXPECT_EQ(import.cluster.frames[static_cast<std::size_t>(f)].pdu, PduId{0});
   }
-  // Nothing but the fragments' order is uncertain.
+  // Only the fragments' order is uncertain.
   ASSERT_EQ(import.left_out.size(), 2u) << sentences(import.left_out);
   EXPECT_THAT(import.left_out[0].sentence(), HasSubstr("Objects1: does not say which fragment it carries"));
   // The rest of the cycle: 5000 - 45 * 100; a macrotick of 2 us, 5 Mbit/s.
@@ -246,7 +246,7 @@ TEST(FibexObjects, SlotsBehindTheStaticOnesAreDynamic) {
   EXPECT_EQ(short_segment.cluster.frames.size(), 1u);
   EXPECT_THAT(sentences(short_segment.left_out),
               HasSubstr("slot 47: is left out: it is beyond the static slots and the minislots"));
-  // A frame that is not as long as what it carries.
+  // A frame whose length differs from its contents'.
   const FibexImport longer =
       parse_fibex(replaced(replaced(text, "<flexray:MACROTICK>",
                                     "<flexray:NUMBER-OF-MINISLOTS>60</flexray:NUMBER-OF-MINISLOTS><flexray:MACROTICK>"),
@@ -258,7 +258,7 @@ TEST(FibexObjects, SlotsBehindTheStaticOnesAreDynamic) {
                         "fragment, 8 bytes"));
 }
 
-// Each is no list any more, for the reason given; and the rest of the file is imported all the same.
+// Each is no longer a list, for the given reason; the rest of the file is still imported.
 TEST(FibexObjects, WhatIsNoListSaysWhy) {
   const std::pair<const char*, std::pair<const char*, const char*>> edits[] = {
       {"<SHORT-NAME>sequence<", {"<SHORT-NAME>number<", "no signals sequence, fragment and count"}},
@@ -365,7 +365,7 @@ TEST(FibexImport, MistakesAreRefusedWithLineAndValue) {
   }
 }
 
-// What the file says twice, and not the same each time.
+// The file gives a value twice, with a contradiction.
 TEST(FibexImport, WhatContradictsAValueThatIsKeptIsNamed) {
   struct Contradiction {
     std::string from, to, note;
@@ -388,7 +388,7 @@ TEST(FibexImport, WhatContradictsAValueThatIsKeptIsNamed) {
     EXPECT_THAT(sentences(import.left_out), HasSubstr(one.note));
     EXPECT_EQ(import.left_out.size(), before + 1) << sentences(import.left_out);
   }
-  // What does not contradict is no note, and is used where the file does not say what follows from it.
+  // Consistent values cause no note, and fill in values that the file leaves out.
   const FibexImport drift = parse_fibex(
       replaced(kPowertrain, "<flexray:MICROTICK>", "<flexray:MAX-DRIFT>300</flexray:MAX-DRIFT><flexray:MICROTICK>"),
       "demo.xml");
@@ -397,7 +397,7 @@ TEST(FibexImport, WhatContradictsAValueThatIsKeptIsNamed) {
   EXPECT_EQ(drift.cluster.nodes[0].flexray->pRateCorrectionOut, 300);
 }
 
-// Two FlexRay clusters in one file: channels, connectors and ECUs of the second stay away from the first.
+// Two FlexRay clusters in one file: the second one's channels, connectors and ECUs stay out of the first.
 TEST(FibexImport, TheChannelsAreThoseTheClusterRefersTo) {
   const std::string one =
       replaced(replaced(kPowertrain, "<fx:SPEED>10000000</fx:SPEED>",

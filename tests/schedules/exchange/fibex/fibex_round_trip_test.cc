@@ -1,5 +1,5 @@
-// What is exported and imported again is the same in timing, controllers, slots, PDUs and signals; and the
-// exported bit positions are where the codec puts the bits.
+// Export and import keep timing, controllers, slots, PDUs and signals. The exported bit positions match the
+// codec's.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -61,7 +61,7 @@ TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
       parameters_of(cluster).*p.member = end;
       for (model::Node& node : cluster.nodes)
         if (node.flexray) node.microtick_ps = node.flexray->pdMicrotick_ps;
-      // No frame is longer than the static payload; slots beyond the static ones are none of a cluster file.
+      // No frame is longer than the static payload; a cluster file has no slots beyond the static ones.
       cluster.flexray.gNumberOfStaticSlots = std::max(cluster.flexray.gNumberOfStaticSlots, 40);
       SCOPED_TRACE(p.name);
       expect_round_trip(cluster);
@@ -87,8 +87,8 @@ TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
     }
 }
 
-// Random schedules: one frame of a random list, sender, channel and multiplexing in each of 40 static and 20 dynamic
-// slots; random channels of every node.
+// Random schedules: 40 static and 20 dynamic slots have one frame each, of a random list, sender, channel and
+// multiplexing. Every node has random channels.
 TEST(FibexRoundTrip, KeepsRandomSchedules) {
   const model::Cluster shipped = check::load_checked_cluster(shipped_path("paper_unsynchronised"));
   std::vector<NodeId> senders;
@@ -242,7 +242,7 @@ TEST(FibexExport, ByHand) {
   EXPECT_EQ(at((timing + "fx:SLOT-ID").c_str()), "34");
   EXPECT_EQ(at((timing + "fx:BASE-CYCLE").c_str()), "1");
   EXPECT_EQ(at((timing + "fx:CYCLE-REPETITION").c_str()), "8");
-  // Of an image object 60 bits stand before the speed, and 192 in the first object: bit 252 is the fifth of
+  // In an image object 60 bits precede the speed, and the first object has 192 bits: bit 252 is the fifth of
   // byte 31.
   const Place speed = Places(xml).of("image_elements").at("speed_1");
   EXPECT_EQ(speed.position, 31 * 8 + 3);
