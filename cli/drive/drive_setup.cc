@@ -112,7 +112,7 @@ std::uint64_t seed_of(const std::string& text) {
 
 std::string folder_of(const drives::Scenario& scenario) {
   if (scenario.name.empty() || scenario.name.find('/') != std::string::npos || scenario.name.front() == '.')
-    throw InputError({scenario.file, 0, "name", scenario.name, "must name a folder under out/, or --out be given"});
+    throw InputError({scenario.file, 0, "name", scenario.name, "must name a folder under out/; give --out otherwise"});
   return "out/" + scenario.name;
 }
 

@@ -45,7 +45,7 @@ template <class Each> void for_each(const FaultFindings& findings, Each each) {
 
 std::string injected_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
   report::drawing::Table table(
-      {"#", "fault", "node", "begins [s]", "first act [s]", "acts", "ends [s]", "what it did first"});
+      {"#", "fault", "node", "begins [s]", "first act [s]", "acts", "ends [s]", "its first act"});
   for (const FaultSeen& fault : findings.faults)
     table.add({fmt::format("{}", fault.fault), fault.kind, node_name(fault.node, cluster), cell(fault.begins),
                cell(fault.first_act), fmt::format("{}", fault.acts), cell(fault.ends), fault.text});
@@ -216,7 +216,7 @@ std::vector<NodeId> fault_free_nodes(const FaultFindings& findings, const faults
 std::string faults_text(std::string_view run, const FaultFindings& findings, const std::vector<NodeId>& fault_free,
                         const schedules::model::Cluster& cluster) {
   std::string text = fmt::format("Faults, {}\n", run);
-  if (findings.faults.empty()) return text + "None of the plan's faults began.\n";
+  if (findings.faults.empty()) return text + "No fault of the plan began.\n";
   return text + injected_text(findings, cluster) + "\n" + checks_text(findings, cluster) + "\n" +
          guardians_text(findings) + states_text(findings, cluster) + "\n" + harms_text(findings, fault_free, cluster);
 }

@@ -96,7 +96,7 @@ void add_run(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "One drive in virtual time: log, summary table and pictures");
   command->footer("Example: ttfusion run scenarios/paper_scenario1.yaml --seed 7 --out out/drive");
   command->add_option("scenario", options->scenario, "Scenario file")->required();
-  command->add_option("--strategy", options->strategy, "Only one strategy; all three otherwise")
+  command->add_option("--strategy", options->strategy, "Only this strategy (default: all three)")
       ->check(CLI::IsMember(strategy_names()));
   command->add_option("--seed", options->seed, "Seed of every random stream, instead of the scenario's");
   command->add_option("--input", options->input, "Recorded observations in place of the sensor models")->check(kNamed);

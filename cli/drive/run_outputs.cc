@@ -117,8 +117,8 @@ const Row kRows[] = {
     {"content hash of the log",
      [](const StrategyResult& r) { return r.content_hash.empty() ? std::string("-") : r.content_hash; }},
     {"CAN frames refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_can_frames); }, true},
-    {"fates of lists that no record tells",
-     [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); }, true},
+    {"fates of lists without a record", [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); },
+     true},
 };
 
 nlohmann::ordered_json ages(const evaluation::accuracy::AgeStatistics& statistics) {
@@ -278,11 +278,10 @@ void write_pictures(const drives::Scenario& scenario, const std::vector<Strategy
     if (const auto window = extent.window(result.cluster.cycle())) {
       report::startup::StartupDiagram startup(names, result.cluster.cycle(), window->first, window->second);
       recording::log::read_log(result.log_path, startup);
-      picture(strategy + "_startup", strategy + ": start-up", "Every node's states, and what it sent.", startup.svg());
+      picture(strategy + "_startup", strategy + ": start-up", "Every node's states and transmissions.", startup.svg());
     }
     if (result.real_time) {
-      picture(strategy + "_lateness", strategy + ": lateness",
-              "How late the nodes' processes were woken up, in real time.",
+      picture(strategy + "_lateness", strategy + ": lateness", "Lateness of the nodes' wake-ups, in real time.",
               report::plots::lateness_svg(result.real_time->lateness, names));
       entries.push_back({"", "", "", real_time_text(result), {}});
     }

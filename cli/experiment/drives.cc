@@ -83,15 +83,14 @@ void check_same_experiment(const SweepDrives& drives, const report::experiment::
       folder.points, [&](const report::experiment::ExperimentPoint& point) { return point.point < points; });
   if (!all_there || head.identity != drives.identity() || head.measures != drives.columns() ||
       names != folder.paradigms)
-    throw NoDrives(
-        fmt::format("{}, or a file that it names, is not as it was when the experiment was driven", sweep.file));
+    throw NoDrives(fmt::format("{}, or a file that it names, has changed since the experiment was driven", sweep.file));
 }
 
 report::run::Drive driven(const SweepDrives& drives, const experiments::results::Run& known) {
   const std::string& paradigm = drives.sweep().paradigms[known.key.paradigm].name;
   const ScratchFolder scratch;
   if (!same(drive_again(drives, known.key, scratch.path()), known))
-    throw NoDrives(fmt::format("{}, driven again, came to other figures than in results.sqlite", paradigm));
+    throw NoDrives(fmt::format("{}, driven again, gave other numbers than in results.sqlite", paradigm));
   report::run::ResultsFolder folder = report::run::read_results_folder(scratch.path());  // its logs are in memory now
   report::run::Drive drive = std::move(folder.drives.front());
   drive.folder.clear();
@@ -105,8 +104,7 @@ std::vector<report::run::Drive> all_driven(const report::experiment::ExperimentF
   const SweepDrives drives(sweep);
   check_same_experiment(drives, folder);
   const std::vector<experiments::results::Run> runs = first_done_by_all(*folder.store, point, folder.paradigms.size());
-  if (runs.empty())
-    throw NoDrives(fmt::format("at point {} there is no replication that every paradigm has done", point));
+  if (runs.empty()) throw NoDrives(fmt::format("point {} has no replication that every paradigm has done", point));
   replication = runs.front().key.replication;
   fmt::print(stderr, "{}: {} of point {}, replication {}, again ...\n", sweep.name, counted(runs.size(), "run"), point,
              replication);
@@ -142,7 +140,7 @@ report::experiment::ExperimentDrives drives_of(const report::experiment::Experim
   const std::string path = file.value_or(folder.file);
   try {
     if (!folder.store) throw NoDrives("there is no results.sqlite");
-    if (path.empty()) throw NoDrives("answer.json does not say where the experiment's file is (--file does)");
+    if (path.empty()) throw NoDrives("answer.json does not name the experiment's file: give --file");
     result.drives = all_driven(folder, path, result.point, result.replication);
   } catch (const NoDrives& reason) {
     if (file)

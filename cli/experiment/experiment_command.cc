@@ -65,8 +65,7 @@ int run_experiment(const ExperimentOptions& options) {
 void add_experiment(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExperimentOptions>();
   CLI::App* command = app.add_subcommand(
-      "experiment",
-      "Many drives, and what they answer: a sweep over paradigms and axes, or a campaign of single faults");
+      "experiment", "Many drives and their answer: a sweep over paradigms and axes, or a campaign of single faults");
   command->footer(
       "Examples: ttfusion experiment experiments/process_noise.yaml --out out/noise\n"
       "          ttfusion experiment experiments/process_noise.yaml --out out/noise --resume\n"
@@ -78,14 +77,14 @@ void add_experiment(CLI::App& app, Action& action) {
       "          mpirun -n 8 ttfusion experiment FILE --out all");
   command->add_option("file", options->file, "Experiment file")->required();
   command->add_option("--jobs", options->jobs, "Workers (default: one per processor)")->check(CLI::Range(1u, 1024u));
-  command->add_option("--replications", options->replications, "As many of every point, whatever the file says")
+  command->add_option("--replications", options->replications, "Replications of every point, instead of the file's")
       ->check(CLI::Range(1u, experiments::sweep::kMostReplications));
   auto* shard =
       command->add_option("--shard", options->shard, "i/n: every n-th fault or replication only, from the i-th on");
-  auto* merge = command->add_option("--merge", options->merge, "Folders of all shards, whose results are put together");
+  auto* merge = command->add_option("--merge", options->merge, "Folders of all shards, to merge their results");
   auto* replay =
       command->add_option("--replay", options->replay, "One fault alone, or one run as point/paradigm/replication");
-  auto* resume = command->add_flag("--resume", options->resume, "Go on with what --out has already");
+  auto* resume = command->add_flag("--resume", options->resume, "Continue the results in --out");
   command->add_option("--out", options->out, "Folder for results (a sweep's default: out/<name>)");
   auto* json = command->add_flag("--json", options->json, "The answer as JSON on standard output");
   merge->excludes(shard)->excludes(resume);

@@ -85,8 +85,8 @@ Store opened(const SweepDrives& drives, const std::string& path) {
   Store store = Store::open(path);
   if (store.head().identity != drives.identity() || store.head().measures != drives.columns() ||
       store.head().version != TTF_VERSION)
-    throw InputError({path, 0, "", "",
-                      "must be of this experiment: the file, a file that it names or the program was another then"});
+    throw InputError(
+        {path, 0, "", "", "must belong to this experiment: the file, a file that it names or the program has changed"});
   const SweepFile& sweep = drives.sweep();
   for (const experiments::results::RunKey& key : store.keys())
     if (key.point >= sweep.points() || key.replication >= sweep.replications || key.paradigm >= sweep.paradigms.size())
@@ -101,7 +101,7 @@ Store store_of(const ExperimentOptions& options, const SweepDrives& drives, cons
     return Store::create(
         path, {sweep.name, drives.identity(), TTF_VERSION, sweep.text, drives.columns(), sweep.replications});
   if (!options.resume)
-    throw InputError({path, 0, "", "", "is there already: --resume goes on with it, another --out begins anew"});
+    throw InputError({path, 0, "", "", "exists already: --resume continues it, another --out begins anew"});
   Store store = opened(drives, path);
   if (store.head().replications != sweep.replications) store.ask_for(sweep.replications);
   return store;
@@ -119,7 +119,7 @@ bool merge(const std::vector<Store>& shards, const SweepFile& sweep, Store& stor
   }
   const std::uint64_t all = sweep.runs();
   if (sweep.stop || store.count() == all) return true;
-  fmt::print(stderr, "error: {} of {} runs are not among them: --resume drives them\n", all - store.count(), all);
+  fmt::print(stderr, "error: {} of {} runs are missing: --resume drives them\n", all - store.count(), all);
   return false;
 }
 
@@ -206,8 +206,8 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
   // Checks all options before anything is written.
   const experiments::results::Shard shard = shard_of(options.shard);
   if (!options.shard.empty() && sweep.stop)
-    throw InputError(
-        {"command line", 0, "--shard", options.shard, "needs an experiment without `stop`: no shard sees enough"});
+    throw InputError({"command line", 0, "--shard", options.shard,
+                      "needs an experiment without `stop`: no shard has enough runs to decide it"});
   std::vector<Store> shards;
   for (const std::string& from : options.merge) shards.push_back(opened(drives, store_in(from)));
 
@@ -245,7 +245,7 @@ void settle_replications(ExperimentOptions& options, SweepFile& sweep) {
     const std::uint32_t asked_for = Store::open(path).head().replications;
     if (options.replications > 0 && options.replications < asked_for)
       throw InputError({"command line", 0, "--replications", std::to_string(options.replications),
-                        fmt::format("must be {} at least: so many were asked for in {}", asked_for, path)});
+                        fmt::format("must be at least {}, as in {}", asked_for, path)});
     there = std::max(there, asked_for);
   }
   const std::uint32_t files = sweep.replications;

@@ -101,12 +101,12 @@ std::string lateness(const DiagramOptions& options) {
   for (const auto& [name, seconds] : {std::pair("--from", options.from_s), std::pair("--to", options.to_s)})
     if (seconds >= 0.0)
       throw InputError({"command line", 0, name, fmt::format("{:g} s", seconds),
-                        "does not go with --kind lateness, which is of the whole run"});
+                        "does not go with --kind lateness, which shows the whole run"});
   const recording::merge::MergedLogs run = one_run(options.logs);
   recording::exports::LatenessSums sums;
   run.read(sums);
   if (sums.nodes().empty())
-    throw InputError({options.logs[0], 0, "", "", "tells of no lateness: the run was not in real time"});
+    throw InputError({options.logs[0], 0, "", "", "has no lateness: the run was not in real time"});
   return report::plots::lateness_svg(sums.nodes(), report::drawing::names_of(run.manifest()));
 }
 
@@ -164,7 +164,7 @@ int run_diagram(const DiagramOptions& options) {
   Extent extent;
   for (const recording::merge::MergedLogs& run : runs) run.read(extent);
   const TrueTime from = window.from;
-  if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "holds no task's run: nothing to draw"});
+  if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "has no execution of a task to draw"});
   if (from > extent.last)
     throw InputError({"command line", 0, "--from", fmt::format("{:g} s", options.from_s),
                       fmt::format("must be before the end of the log, {:g} s", (extent.last - TrueTime{}).seconds())});
@@ -181,27 +181,28 @@ void add_diagram(CLI::App& app, Action& action) {
   auto options = std::make_shared<DiagramOptions>();
   CLI::App* command = app.add_subcommand("diagram", "Timing and start-up diagrams and position plots from logs");
   command->footer(
-      "Logs of one run, as its processes wrote them, are merged; position and plane show several runs side by side.\n"
+      "The logs of a run's processes are merged; position and plane show several runs side by side.\n"
       "Examples: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o timing.svg\n"
       "          ttfusion diagram out/launch/*.mcap --from 1.5 --to 1.65 -o timing.svg\n"
       "          ttfusion diagram out/cold_start/tt.mcap --kind startup -o startup.svg");
   command
-      ->add_option("logs", options->logs,
-                   "Logs: one of a run or of each of its processes (with --kind boxes: a recording of laser scans)")
+      ->add_option(
+          "logs", options->logs,
+          "Logs: one of a run, or one of each of its processes (with --kind boxes: a recording of laser scans)")
       ->required();
   command
       ->add_option("--from", options->from_s,
-                   "Start of the window, true time in seconds (default: 0; of a start-up diagram: of the start-up)")
+                   "Start of the window, true time in seconds (default: 0; for a start-up diagram the start-up's)")
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option(
           "--to", options->to_s,
-          "End of the window, true time in seconds (default: the end; of a timing diagram 160 ms after its start; "
-          "of a start-up diagram two cycles after the start-up)")
+          "End of the window, true time in seconds (default: the end; for a timing diagram 160 ms after its start, "
+          "for a start-up diagram two cycles after the start-up)")
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--kind", options->kind,
-                   "timing, startup (states and what was sent), lateness (of wake-ups, in real time), "
+                   "timing, startup (states and transmissions), lateness (of wake-ups, in real time), "
                    "position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
       ->check(CLI::IsMember({"timing", "startup", "lateness", "position", "plane", "boxes"}))
       ->capture_default_str();

@@ -149,7 +149,7 @@ std::vector<PaperFile> of_logs(const std::vector<std::string>& paths) {
   }
   std::vector<PaperFile> scripts = report::paper::scripts_of_runs(runs);
   if (scripts.empty())
-    throw InputError({joined(paths), 0, "", "", "tells of no position, no use of an image and no measurement fused"});
+    throw InputError({joined(paths), 0, "", "", "has no position, no use of an image and no fused measurement"});
   for (PaperFile& script : scripts) files.push_back(std::move(script));
   return files;
 }

@@ -69,7 +69,7 @@ std::string html(const ReportOptions& options) {
   }
   if (options.folders.size() > 1)
     throw InputError({"command line", 0, "folders", options.folders[0],
-                      "must be one experiment, or runs alone: a report of several experiments there is none"});
+                      "must be one experiment, or only runs: a report has one experiment at most"});
   return experiment_html(options, window);
 }
 
@@ -98,24 +98,24 @@ void add_report(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("report", "One HTML page of a run, of several side by side, or of an experiment");
   command->footer(
-      "The page needs no network and nothing beside it.\n"
+      "The page needs no network and no other file.\n"
       "Examples: ttfusion report out/paper_scenario1 -o drive.html\n"
       "          ttfusion report out/seed1 out/seed2 out/seed3 -o drives.html\n"
       "          ttfusion report out/process_noise -o answer.html\n"
       "          ttfusion report out/process_noise --point 7 -o point7.html");
-  command->add_option("folders", options->folders, "What run, launch or experiment left in --out")
+  command->add_option("folders", options->folders, "Folders of results, from --out of run, launch or experiment")
       ->required()
       ->check(kNamed);
   command
       ->add_option("--from", options->from_s,
-                   "Start of the timing diagrams, true time in seconds (default: from where the drive is judged)")
+                   "Start of the timing diagrams, true time in seconds (default: the begin of the judged part)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--to", options->to_s, "End of the timing diagrams (default: 160 ms later; 2 s later at most)")
       ->check(CLI::NonNegativeNumber);
-  auto* file =
-      command->add_option("--file", options->file,
-                          "An experiment's file, where it is not where it was: a run of each paradigm is driven again");
-  auto* point = command->add_option("--point", options->point, "Of which point (default: the first)");
+  auto* file = command->add_option("--file", options->file,
+                                   "An experiment's file, if it has moved: a run of each paradigm is driven again");
+  auto* point =
+      command->add_option("--point", options->point, "Point of an experiment to drive again (default: the first)");
   auto* none = command->add_flag("--no-drives", options->no_drives, "Drive nothing again: no timing diagrams");
   none->excludes(file)->excludes(point);
   command->add_option("-o,--out", options->out, "The page to write, .html")->required()->check(kNamed);

@@ -67,16 +67,17 @@ void print_text(const schedules::model::Cluster& cluster, const CaptureArguments
 
 void add_capture_arguments(CLI::App& command, CaptureArguments& arguments) {
   CLI::Option* against = command.add_option(
-      "--against", arguments.file, "Capture (pcap or pcapng with FlexRay frames) to hold against the schedule");
-  command.add_option("--channels", arguments.channels, "Channels that were captured: A, B or AB")
+      "--against", arguments.file, "Capture (pcap or pcapng with FlexRay frames) to compare with the schedule");
+  command.add_option("--channels", arguments.channels, "Captured channels: A, B or AB")
       ->check(CLI::IsMember({"A", "B", "AB"}))
       ->capture_default_str()
       ->needs(against);
   command
-      .add_option("--from", arguments.from_s, "Begin so many seconds after the first FlexRay packet (after a start-up)")
+      .add_option("--from", arguments.from_s,
+                  "Begin this many seconds after the first FlexRay packet (after a start-up)")
       ->check(CLI::NonNegativeNumber)
       ->needs(against);
-  command.add_option("--to", arguments.to_s, "End so many seconds after the first FlexRay packet")
+  command.add_option("--to", arguments.to_s, "End this many seconds after the first FlexRay packet")
       ->check(CLI::NonNegativeNumber)
       ->needs(against);
 }

@@ -37,8 +37,8 @@ bus::socketcan::BitRates bit_rates(const std::string& medium) {
   };
   if (medium == "can" || medium.starts_with("can:"))
     throw refuse(
-        "must be can-fd: a frame of classic CAN holds 8 bytes, which are a FlexRay frame's header and CRC "
-        "alone");
+        "must be can-fd: a frame of classic CAN holds 8 bytes, no more than a FlexRay frame's header and "
+        "CRC");
   const std::size_t slash = medium.find('/');
   const bool formed = medium.starts_with(kPrefix) && slash != std::string::npos;
   const std::string_view text = medium;
@@ -151,9 +151,9 @@ void print_text(const schedules::model::Cluster& cluster, const Verdict& verdict
 }  // namespace
 
 void add_medium_arguments(CLI::App& command, MediumArguments& arguments) {
-  CLI::Option* medium =
-      command.add_option("--medium", arguments.medium,
-                         "can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M: which slots do not hold on such a CAN");
+  CLI::Option* medium = command.add_option(
+      "--medium", arguments.medium,
+      "can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M: list the slots that do not hold on such a CAN");
   command
       .add_option("--time-scale", arguments.time_scale, "With --medium: the schedule stretched in real time, 0.1..1000")
       ->needs(medium);

@@ -178,10 +178,10 @@ void add_schedule(CLI::App& app, Action& action) {
       "          ttfusion schedule export schedules/paper_synchronised.yaml --format dbc -o cluster.dbc\n"
       "          ttfusion schedule export cluster.xml --format yaml -o cluster.yaml");
   exporting->add_option("file", options->file, "Cluster file (fibex, dbc), or FIBEX file (yaml)")->required();
-  exporting->add_option("--format", options->format, "fibex, dbc: out of a cluster file; yaml: out of a FIBEX file")
+  exporting->add_option("--format", options->format, "fibex, dbc: from a cluster file; yaml: from a FIBEX file")
       ->required()
       ->check(CLI::IsMember({"fibex", "dbc", "yaml"}));
-  exporting->add_option("--can", options->can, "dbc: only this CAN of the cluster's");
+  exporting->add_option("--can", options->can, "dbc: only this CAN of the cluster");
   exporting->add_option("-o,--out", options->out, "File to write; else standard output");
   exporting->callback([options, &action] { action = [options] { return export_cluster(*options); }; });
 }

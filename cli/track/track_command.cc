@@ -98,17 +98,18 @@ int run_track(const TrackOptions& options) {
 
 void add_sensor_options(CLI::App& command, TrackOptions& options) {
   const auto each_takes_one = [](CLI::Option* option) { option->allow_extra_args(false); };
+  each_takes_one(command.add_option("--noise", options.noise,
+                                    "SENSOR:WHAT=SIGMA: noise of rows without a covariance, as in radar:range=0.3; "
+                                    "may be repeated, like the next three"));
   each_takes_one(
-      command.add_option("--noise", options.noise,
-                         "SENSOR:WHAT=SIGMA: noise of what has no covariance of its own, as in radar:range=0.3; "
-                         "may be repeated, as the next three"));
-  each_takes_one(command.add_option("--worst-delay", options.worst_delay,
-                                    "SENSOR=DURATION: what buff and tt rely on; else the longest that is seen"));
-  each_takes_one(command.add_option(
-      "--period", options.period, "SENSOR=DURATION: the schedule tt relies on; else as the sensor is seen to measure"));
+      command.add_option("--worst-delay", options.worst_delay,
+                         "SENSOR=DURATION: the delay that buff and tt rely on (default: the longest one recorded)"));
+  each_takes_one(
+      command.add_option("--period", options.period,
+                         "SENSOR=DURATION: the period that tt relies on (default: the recorded one, if regular)"));
   each_takes_one(
       command.add_option("--delay", options.delay,
-                         "SENSOR=LEAST..MOST: delays drawn in place of the recorded ones, as in radar=20ms..70ms"));
+                         "SENSOR=LEAST..MOST: delays to draw instead of the recorded ones, as in radar=20ms..70ms"));
 }
 
 }  // namespace
@@ -124,12 +125,12 @@ void add_track(CLI::App& app, Action& action) {
   command
       ->add_option("--format", options->format, "csv (docs/track.md; the default) or laser_radar (docs/recordings.md)")
       ->check(CLI::IsMember({"csv", "laser_radar"}));
-  command->add_option("--strategy", options->strategy, "Instead of the configuration's; adva where there is none")
+  command->add_option("--strategy", options->strategy, "Strategy, instead of the configuration's (default: adva)")
       ->check(CLI::IsMember(drive::strategy_names()));
   add_sensor_options(*command, *options);
-  command->add_option("--shuffle", options->shuffle, "Each so many lists arrive together, in drawn order")
+  command->add_option("--shuffle", options->shuffle, "Groups of this many lists arrive together, in drawn order")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--seed", options->seed, "Seed of what is drawn (default: 1)");
+  command->add_option("--seed", options->seed, "Seed of the draws (default: 1)");
   command->add_flag("--predict", options->predict, "Tracks predicted to the instant of each fusion");
   command->add_flag("--skip-damaged", options->skip_damaged, "Leave damaged rows out, each with a warning");
   command->add_option("-o,--out", options->out, "File for the tracks (default: standard output)")->check(kNamed);

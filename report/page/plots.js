@@ -44,7 +44,7 @@
       const bar = make("div", { className: "bar" });
       if (spec.views.length > 1) {
         const select = make("select");
-        select.setAttribute("aria-label", `${spec.heading}: what is shown`);
+        select.setAttribute("aria-label", `${spec.heading}: choice of view`);
         spec.views.forEach((view, i) => select.append(new Option(view.label, i)));
         select.addEventListener("change", () => {
           this.view = spec.views[select.value];

@@ -44,7 +44,7 @@
           "Drag to move, <kbd>Ctrl</kbd> or <kbd>Shift</kbd> and the wheel to zoom, or, with the focus here: " +
           "<kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>←</kbd> <kbd>→</kbd> move, <kbd>0</kbd> all, " +
           "<kbd>,</kbd> <kbd>.</kbd> from thing to thing" +
-          "<span class=\"scrolls\">, <kbd>Shift</kbd> with <kbd>←</kbd> <kbd>→</kbd> to what is beside it</span>.";
+          "<span class=\"scrolls\">, <kbd>Shift</kbd> with <kbd>←</kbd> <kbd>→</kbd> to the parts beside it</span>.";
       this.paper.before(bar);
       this.paper.after(this.told, this.keys);
       this.paper.tabIndex = 0;
@@ -169,7 +169,7 @@
     const one_of = (chosen) => boxes.forEach((box, i) => { box.hidden = i !== chosen; });
     if (boxes.length > 1) {
       const select = make("select");
-      select.setAttribute("aria-label", "Whose timing diagram");
+      select.setAttribute("aria-label", "Drive of the timing diagram");
       boxes.forEach((box, i) => select.append(new Option(box.dataset.label, i)));
       select.addEventListener("change", () => one_of(Number(select.value)));
       boxes[0].before(make("div", { className: "bar" }, select));

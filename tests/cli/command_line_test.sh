@@ -203,7 +203,7 @@ expect 2 'command line: --from = 1e.300: must be 0..1000000000 s' \
 expect 2 'must be after --from' diagram "$work/a/tt.mcap" --from 1.5 --to 1.5 -o "$work/timing.pdf"
 expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work/plane.svg"
 expect 2 '--from = 50 s: must be before the end of the log' diagram "$work/a/tt.mcap" --from 50 -o "$work/none.svg"
-expect 2 'tt.mcap: tells of no lateness: the run was not in real time' \
+expect 2 'tt.mcap: has no lateness: the run was not in real time' \
   diagram "$work/a/tt.mcap" --kind lateness -o "$work/none.svg"
 expect 2 '--to = 1.5 s: does not go with --kind lateness' \
   diagram "$work/a/tt.mcap" --kind lateness --to 1.5 -o "$work/none.svg"

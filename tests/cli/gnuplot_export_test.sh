@@ -76,7 +76,7 @@ done
 
 # ---- refused input
 head -c 20000 "$work/run/tt.mcap" >"$work/begun.mcap"
-expect 2 'begun.mcap: tells of no position, no use of an image' export "$work/begun.mcap" --format gnuplot \
+expect 2 'begun.mcap: has no position, no use of an image' export "$work/begun.mcap" --format gnuplot \
   -o "$work/none"
 mkdir "$work/empty"
 expect 2 'empty: holds neither logs' export "$work/empty" --format gnuplot -o "$work/none"

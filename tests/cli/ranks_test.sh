@@ -54,7 +54,7 @@ refused() {
 }
 refused 'small.yaml: cannot be' "$work/none/small.yaml"
 refused '--jobs.*: must not be given under mpirun' "$file" --jobs 2 --out "$work/never"
-refused 'results.sqlite: is there already' "$file" --out "$work/alone"
+refused 'results.sqlite: exists already' "$file" --out "$work/alone"
 refused 'kind = fault_campaign: must be sweep under mpirun' \
   "$source/experiments/fault_campaign.yaml" --out "$work/never"
 [[ -e $work/never ]] && fail "what is refused leaves a folder behind"

@@ -15,7 +15,7 @@ for name in answer.txt answer.json runs.csv summary.csv results.sqlite; do
   [[ -s $work/whole/$name ]] || fail "no $name"
 done
 [[ $(wc -l <"$work/whole/runs.csv") -eq 161 ]] || fail "not 160 runs: $(wc -l <"$work/whole/runs.csv")"
-expect 2 'results.sqlite: is there already: --resume goes on with it' experiment "$file" --out "$work/whole"
+expect 2 'results.sqlite: exists already: --resume continues it' experiment "$file" --out "$work/whole"
 
 # ---- killed twice at any point, and resumed with the same result; long enough to be killed, since finished
 # runs are written twice a second
@@ -51,7 +51,7 @@ expect 0 '' experiment "$file" --replications 10 --out "$work/quick"
 cp "$work/quick/runs.csv" "$work/ten.csv"
 expect 0 '10 replications' experiment "$file" --out "$work/quick" --resume
 cmp "$work/ten.csv" "$work/quick/runs.csv" || fail "going on forgets how many were asked for"
-expect 2 '--replications = 9: must be 10 at least: so many were asked for in .*quick/results.sqlite' \
+expect 2 '--replications = 9: must be at least 10, as in .*quick/results.sqlite' \
   experiment "$file" --out "$work/quick" --resume --replications 9
 expect 0 '' experiment "$file" --out "$work/quick" --resume --replications 40
 for name in runs.csv summary.csv answer.txt answer.json; do
@@ -61,7 +61,7 @@ expect 0 '' experiment "$file" --shard 1/2 --replications 10 --out "$work/ten_fi
 expect 0 '' experiment "$file" --shard 2/2 --replications 10 --out "$work/ten_second"
 expect 0 '' experiment "$file" --merge "$work/ten_first" "$work/ten_second" --out "$work/ten"
 cmp "$work/ten.csv" "$work/ten/runs.csv" || fail "two shards of 10 replications put together are others"
-expect 1 '20 of 60 runs are not among them' \
+expect 1 '20 of 60 runs are missing' \
   experiment "$file" --merge "$work/ten_first" "$work/ten_second" --replications 15 --out "$work/fifteen"
 expect 2 'must be 10 at least' experiment "$file" --merge "$work/ten_first" --replications 5 --out "$work/never"
 expect 2 '--replications = 10000000: must make 100000000 runs at most' \
@@ -83,14 +83,14 @@ expect 2 'must be point/paradigm/replication' experiment "$file" --replay 1/buff
 
 # ---- refused input, and unexpected results
 sed 's/seed: 3/seed: 4/' "$file" >"$work/other.yaml"
-expect 2 'must be of this experiment: the file, a file that it names or the program was another then' \
+expect 2 'must belong to this experiment: the file, a file that it names or the program has changed' \
   experiment "$work/other.yaml" --out "$work/whole" --resume
-expect 2 'must be of this experiment' experiment "$work/other.yaml" --merge "$work/first" --out "$work/none"
+expect 2 'must belong to this experiment' experiment "$work/other.yaml" --merge "$work/first" --out "$work/none"
 expect 2 'none/results.sqlite: cannot be opened' experiment "$file" --merge "$work/first" "$work/none" \
   --out "$work/none"
 expect 2 '--shard = 3/2' experiment "$file" --shard 3/2 --out "$work/none"
 [[ -e $work/none ]] && fail "what is refused leaves a folder behind"
-expect 1 '80 of 160 runs are not among them: --resume drives them' experiment "$file" --merge "$work/first" \
+expect 1 '80 of 160 runs are missing: --resume drives them' experiment "$file" --merge "$work/first" \
   --out "$work/half"
 expect 0 '' experiment "$file" --out "$work/half" --resume
 cmp "$work/whole/runs.csv" "$work/half/runs.csv" || fail "a shard and the rest are not the whole"

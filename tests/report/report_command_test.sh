@@ -127,9 +127,9 @@ lacks none.html 'One drive of each paradigm|class="diagram"'
 mkdir changed away
 sed 's/^replications: .*/replications: 5/' small.yaml >changed/small.yaml
 (cd changed && "$program" report ../small -o page.html >/dev/null 2>said) || fail "no page where the file is another"
-grep -q '^warning: No drive is shown here: small.yaml, or a file that it names, is not as it was' changed/said ||
+grep -q '^warning: No drive is shown here: small.yaml, or a file that it names, has changed' changed/said ||
   fail "another file is not told of: $(cat changed/said)"
-has changed/page.html 'No drive is shown here: small.yaml, or a file that it names, is not as it was'
+has changed/page.html 'No drive is shown here: small.yaml, or a file that it names, has changed'
 lacks changed/page.html 'class="diagram"'
 (cd away && "$program" report ../small -o page.html >/dev/null 2>&1) || fail "no page where there is no file"
 has away/page.html 'No drive is shown here: the experiment cannot be driven again (small.yaml'
@@ -155,7 +155,7 @@ for name, changes in [("forged", [f"UPDATE runs SET age_fused = age_fused + 1e-9
     store.commit()
 END
 expect 0 'written to' report forged -o forged.html
-has forged.html 'No drive is shown here: tt, driven again, came to other figures than in results.sqlite.'
+has forged.html 'No drive is shown here: tt, driven again, gave other numbers than in results.sqlite.'
 # A replication that one of them has not done is passed over.
 expect 0 '^small: 2 runs of point 0, replication 2, again' report holes -o holes.html
 # The commands it shows do what they say.
@@ -177,7 +177,7 @@ has torn.html 'cut off at byte 300000'
 mkdir nothing
 expect 2 '^error: nothing: is neither a run .* nor an experiment' report nothing -o x.html
 expect 2 '^error: nowhere: must be a folder of results' report nowhere -o x.html
-expect 2 '^error: .*small: must be one experiment, or runs alone' report small seed1 -o x.html
+expect 2 '^error: .*small: must be one experiment, or only runs' report small seed1 -o x.html
 expect 2 '^error: .*--out' report seed1
 mkdir damaged
 head -c 1000 small/answer.json >damaged/answer.json
