@@ -7,9 +7,11 @@ add_library(ttf_options INTERFACE)
 target_compile_options(ttf_options INTERFACE -mno-fma -ffp-contract=off -pthread)
 target_include_directories(ttf_options INTERFACE ${PROJECT_SOURCE_DIR})
 if(TTF_SANITIZE)
+  # Four checks of pointers are left out: AddressSanitizer sees the access itself, and they double the compile time of Eigen.
   # Sanitizers keep g++ 12 from inlining; it then reports uninitialised reads inside the standard library.
   target_compile_options(ttf_options INTERFACE
-    -fsanitize=${TTF_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    -fsanitize=${TTF_SANITIZE} -fno-sanitize=null,alignment,object-size,pointer-overflow
+    -fno-sanitize-recover=all -fno-omit-frame-pointer
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(ttf_options INTERFACE -fsanitize=${TTF_SANITIZE})
 endif()
@@ -61,7 +63,7 @@ endfunction()
 if(TTF_BUILD_TESTS)
   find_package(GTest REQUIRED)
   # Tests' own code is not optimised, which builds faster; the rooms that it calls are.
-  set(TTF_TEST_OPTIONS $<$<CONFIG:Release>:-O0>)
+  set(TTF_TEST_OPTIONS -O0)
   ttf_common_headers(ttf_test_headers
     OPTIONS ${TTF_TEST_OPTIONS} HEADERS <gtest/gtest.h> <gmock/gmock.h> DEPS GTest::gmock)
 endif()
