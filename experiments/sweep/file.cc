@@ -56,7 +56,7 @@ class Reader {
   SweepFile read() {
     file_.file = yaml_.name();
     file_.text = yaml_.text();
-    if (root_.text("kind") != "sweep") root_.fail("kind", "must be sweep");
+    root_.choice<bool>("kind", {{"sweep", true}});
     findings_.throw_if_any();  // the keys of another kind are not judged
     file_.name = root_.text("name");
     if (!is_name(file_.name)) root_.fail("name", std::string(kNames));
@@ -280,9 +280,10 @@ class Reader {
 
 }  // namespace
 
-SweepFile load_sweep(const std::string& path) { return Reader(StrictYaml::load(path)).read(); }
+SweepFile load_sweep(const std::string& path) { return read_sweep(StrictYaml::load(path)); }
 SweepFile parse_sweep(std::string text, std::string name) {
-  return Reader(StrictYaml::parse(std::move(text), std::move(name))).read();
+  return read_sweep(StrictYaml::parse(std::move(text), std::move(name)));
 }
+SweepFile read_sweep(const StrictYaml& yaml) { return Reader(yaml).read(); }
 
 }  // namespace ttf::experiments::sweep
