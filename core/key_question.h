@@ -1,5 +1,5 @@
-// The questions by which a loader reads keys. A file answers them through YamlMap; where nobody has a file, KeyAnswers
-// answers, and learns which keys the loader knows (keys/described_reading.h).
+// The questions by which a loader reads keys. YamlMap answers them from a file. Without a file KeyAnswers answers, and
+// learns which keys the loader knows (keys/described_reading.h).
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,7 @@ enum class KeyType : std::uint8_t {
   kMap,
   kMaps,
   kTexts,
+  kWords,  // words()
   kIntegers,
   kNamedMaps,
   kNamedTexts,
@@ -40,12 +41,12 @@ struct KeyQuestion {
   KeyValue low, high;                // numbers and durations
   std::string unit;
   std::int64_t scale = 1;          // decimals
-  std::vector<std::string> words;  // words
+  std::vector<std::string> words;  // kWord, kWords
 
   std::string path() const { return map.empty() ? key : map + "." + key; }
 };
 
-// What stands for any name in a path, and answers a question for a text.
+// Stands for any name in a path, and answers questions for a text.
 inline constexpr const char* kAnyName = "NAME";
 
 class KeyAnswers {

@@ -151,11 +151,8 @@ bool YamlMap::boolean(std::string_view key) {
 }
 
 bool YamlMap::boolean_or(std::string_view key, bool fallback) {
-  if (!is_described()) return has(key) ? boolean(key) : fallback;
-  KeyQuestion asked = question(key, KeyType::kBoolean);
-  asked.optional = true;
-  asked.fallback = fallback;
-  return std::get<bool>(ask(asked));
+  if (is_described()) return std::get<bool>(ask(question(key, KeyType::kBoolean, fallback)));
+  return has(key) ? boolean(key) : fallback;
 }
 
 std::string YamlMap::text(std::string_view key) {
@@ -167,16 +164,12 @@ std::string YamlMap::text(std::string_view key) {
 }
 
 std::string YamlMap::text_or(std::string_view key, std::string_view fallback) {
-  if (!is_described()) return has(key) ? text(key) : std::string(fallback);
-  KeyQuestion asked = question(key, KeyType::kText);
-  asked.optional = true;
-  asked.fallback = std::string(fallback);
-  return std::get<std::string>(ask(asked));
+  if (is_described()) return std::get<std::string>(ask(question(key, KeyType::kText, std::string(fallback))));
+  return has(key) ? text(key) : std::string(fallback);
 }
 
 Duration YamlMap::duration(std::string_view key, Range<Duration> allowed) {
-  if (is_described())
-    return Duration{described(key, KeyType::kDuration, Range<std::int64_t>{allowed.low.ns, allowed.high.ns})};
+  if (is_described()) return described_duration(key, allowed, std::nullopt);
   const std::string expected = fmt::format("must be a time with its unit (ns, us, ms or s), {}..{}",
                                            duration_text(allowed.low), duration_text(allowed.high));
   const auto text = scalar(key, expected);
@@ -188,9 +181,7 @@ Duration YamlMap::duration(std::string_view key, Range<Duration> allowed) {
 }
 
 Duration YamlMap::duration_or(std::string_view key, Duration fallback, Range<Duration> allowed) {
-  if (is_described())
-    return Duration{described(key, KeyType::kDuration, Range<std::int64_t>{allowed.low.ns, allowed.high.ns}, "",
-                              std::optional(fallback.ns))};
+  if (is_described()) return described_duration(key, allowed, fallback);
   return has(key) ? duration(key, allowed) : fallback;
 }
 
@@ -284,6 +275,23 @@ std::vector<std::string> YamlMap::texts(std::string_view key) {
   }
   std::vector<std::string> list;
   for (Entry& entry : entries(key)) list.push_back(std::move(entry.text));
+  return list;
+}
+
+std::vector<std::string> YamlMap::words(std::string_view key, const std::vector<std::string>& allowed) {
+  if (is_described()) {
+    KeyQuestion asked = question(key, KeyType::kWords);
+    asked.words = allowed;
+    ask(asked);
+    return {allowed.front()};
+  }
+  std::vector<std::string> list;
+  for (Entry& entry : entries(key))
+    if (std::find(allowed.begin(), allowed.end(), entry.text) != allowed.end())
+      list.push_back(std::move(entry.text));
+    else
+      findings_->add({content_->file, entry.line, entry.path, entry.text,
+                      fmt::format("must be one of {}", fmt::join(allowed, ", "))});
   return list;
 }
 

@@ -80,6 +80,7 @@ class YamlMap {
   std::vector<YamlMap> maps_if(std::string_view key);  // the same, empty when the key is absent
   // A sequence with at least one entry. A wrong entry is a finding about key[i] and is left out.
   std::vector<std::string> texts(std::string_view key);
+  std::vector<std::string> words(std::string_view key, const std::vector<std::string>& allowed);
   std::vector<std::int64_t> integers(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   std::vector<std::pair<std::string, YamlMap>> named_maps(std::string_view key);       // name: {...}, in file order
   std::vector<std::pair<std::string, std::string>> named_texts(std::string_view key);  // name: text, in file order
@@ -99,11 +100,12 @@ class YamlMap {
   YamlMap(std::shared_ptr<Content> content, std::string path, Findings* findings);
   std::size_t choice_index(std::string_view key, const std::vector<std::string_view>& names);
   bool is_described() const;
-  KeyQuestion question(std::string_view key, KeyType type) const;
+  KeyQuestion question(std::string_view key, KeyType type, std::optional<KeyValue> fallback = std::nullopt) const;
   KeyValue ask(const KeyQuestion& question) const;
   template <class T>
   T described(std::string_view key, KeyType type, Range<T> allowed, std::string_view unit = "",
               std::optional<T> fallback = std::nullopt, std::int64_t scale = 1) const;
+  Duration described_duration(std::string_view key, Range<Duration> allowed, std::optional<Duration> fallback) const;
   std::size_t described_choice(std::string_view key, const std::vector<std::string_view>& names, bool optional,
                                std::optional<std::size_t> fallback) const;
   YamlMap described_map(std::string path) const;

@@ -9,11 +9,13 @@ namespace ttf {
 
 bool YamlMap::is_described() const { return content_->answers != nullptr; }
 
-KeyQuestion YamlMap::question(std::string_view key, KeyType type) const {
+KeyQuestion YamlMap::question(std::string_view key, KeyType type, std::optional<KeyValue> fallback) const {
   KeyQuestion question;
   question.map = path_;
   question.key = key;
   question.type = type;
+  question.optional = fallback.has_value();
+  question.fallback = std::move(fallback);
   return question;
 }
 
@@ -22,13 +24,11 @@ KeyValue YamlMap::ask(const KeyQuestion& question) const { return content_->answ
 template <class T>
 T YamlMap::described(std::string_view key, KeyType type, Range<T> allowed, std::string_view unit,
                      std::optional<T> fallback, std::int64_t scale) const {
-  KeyQuestion asked = question(key, type);
+  KeyQuestion asked = question(key, type, fallback ? std::optional<KeyValue>(*fallback) : std::nullopt);
   asked.low = allowed.low;
   asked.high = allowed.high;
   asked.unit = unit;
   asked.scale = scale;
-  asked.optional = fallback.has_value();
-  if (fallback) asked.fallback = *fallback;
   return std::get<T>(ask(asked));
 }
 
@@ -36,6 +36,12 @@ template std::int64_t YamlMap::described(std::string_view, KeyType, Range<std::i
                                          std::optional<std::int64_t>, std::int64_t) const;
 template double YamlMap::described(std::string_view, KeyType, Range<double>, std::string_view, std::optional<double>,
                                    std::int64_t) const;
+
+Duration YamlMap::described_duration(std::string_view key, Range<Duration> allowed,
+                                     std::optional<Duration> fallback) const {
+  const auto ns = fallback ? std::optional(fallback->ns) : std::nullopt;
+  return Duration{described(key, KeyType::kDuration, Range<std::int64_t>{allowed.low.ns, allowed.high.ns}, "", ns)};
+}
 
 std::size_t YamlMap::described_choice(std::string_view key, const std::vector<std::string_view>& names, bool optional,
                                       std::optional<std::size_t> fallback) const {

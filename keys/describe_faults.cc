@@ -4,7 +4,7 @@ namespace ttf::keys {
 namespace {
 
 constexpr Description kFault[] = {
-    {"kind", "The fault is of this kind; docs/faults.md says what each does.", "crash"},
+    {"kind", "The fault is of this kind; docs/faults.md describes them all.", "crash"},
     {"node", "This node fails.", "gateway"},
     {"from", "The fault begins this long after the start of cycle 0; in a cold drive, after its time zero."},
     {"duration", "The fault lasts this long.", "2 ms", "kind=transient"},
@@ -42,7 +42,7 @@ constexpr Description kFault[] = {
 };
 
 constexpr Description kFaultList[] = {
-    {"faults", "These faults happen in a drive whose scenario has none of its own."},
+    {"faults", "These faults happen in a drive whose scenario has no faults of its own."},
 };
 
 }  // namespace

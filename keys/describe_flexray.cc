@@ -16,7 +16,7 @@ constexpr Description kGlobals[] = {
     {"gNumberOfMinislots", "A cycle has so many minislots; 0: no dynamic segment.", "250"},
     {"gdMinislotActionPointOffset", "A dynamic frame begins this long after the start of its minislot.", "3"},
     {"gdDynamicSlotIdlePhase", "A dynamic slot ends with an idle phase this long.", "1"},
-    {"gdSymbolWindow", "The symbol window lasts this long; 0: there is none.", "0"},
+    {"gdSymbolWindow", "The symbol window lasts this long; 0: there is no symbol window.", "0"},
     {"gdNIT", "The network idle time lasts this long.", "386"},
     {"gOffsetCorrectionStart", "Offset correction begins at this macrotick of every odd cycle.", "4900"},
     {"gSyncNodeMax", "At most so many nodes send sync frames.", "5"},

@@ -5,7 +5,7 @@ namespace {
 
 constexpr Description kScenario[] = {
     {"name", "The drive has this name; results go to `out/NAME` unless `--out` says otherwise.", "dynamics"},
-    {"description", "This sentence says what happens in the drive; reports quote it.", "A car ahead brakes hard"},
+    {"description", "This sentence describes the drive; reports quote it.", "A car ahead brakes hard"},
     {"seed", "The seed starts all random streams of the drive.", "1"},
     {"duration", "The drive lasts this long.", "3 s"},
     {"evaluate_from",

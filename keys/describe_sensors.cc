@@ -54,7 +54,8 @@ constexpr Description kPreprocessing[] = {
     {"camera.disparity_sigma", "A disparity is assumed to have this standard deviation."},
     {"camera.bearing_sigma", "A bearing is assumed to have this standard deviation."},
     {"camera.width_sigma", "The width of a silhouette is assumed to have this standard deviation."},
-    {"camera.half_length", "An object's centre lies this far behind its rear."},
+    {"camera.half_length",
+     "A vehicle is taken to be twice this long; its centre lies this far beyond a rear that is seen."},
     {"camera.half_length_sigma", "That distance spreads by this standard deviation."},
     {"camera.nominal_width", "A vehicle is taken to be this wide."},
 };
@@ -67,7 +68,7 @@ constexpr Description kKnownSensor[] = {
     {"bias.range_rate", "Its range rates are too large by this.", "0.1"},
     {"bias.x", "Its positions are too far ahead by this; not together with polar biases.", "0.2"},
     {"bias.y", "Its positions are too far to the left by this; not together with polar biases.", "-0.1"},
-    {"bias_sigma", "The sensor has unknown biases of these standard deviations; `systematic` says what is done."},
+    {"bias_sigma", "The sensor has unknown biases of these standard deviations; `systematic` says how they count."},
     {"bias_sigma.range", "The unknown bias of its ranges has this standard deviation.", "0.1"},
     {"bias_sigma.bearing", "The unknown bias of its bearings has this standard deviation.", "0.005"},
     {"bias_sigma.range_rate", "The unknown bias of its range rates has this standard deviation.", "0.1"},

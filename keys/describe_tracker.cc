@@ -5,7 +5,7 @@ namespace {
 
 constexpr Description kTracker[] = {
     {"motion", "Objects are assumed to move like this; `interacting` weighs straight motion and bends."},
-    {"filter", "The filter takes what is not linear to first order, or by sigma points."},
+    {"filter", "The filter linearises to first order, or uses sigma points."},
     {"process_noise",
      "The white noise that drives each axis has this density: of acceleration [m^2/s^3], or of jerk [m^2/s^5] for "
      "`constant_acceleration` and `ctra`."},

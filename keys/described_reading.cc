@@ -76,6 +76,7 @@ KeyValue DescribedReading::answer(const KeyQuestion& question) {
     case KeyType::kMap:
     case KeyType::kMaps:
     case KeyType::kTexts:
+    case KeyType::kWords:
     case KeyType::kNamedMaps:
     case KeyType::kNamedTexts: break;
   }

@@ -1,13 +1,12 @@
-// One reading of a described file (StrictYaml::described): answers what a loader asks, and notes the questions.
+// One reading of a described file (StrictYaml::described): answers a loader's questions and notes them.
 //
 //   DescribedReading reading({{"startup.kind", std::int64_t{1}}});
 //   load(StrictYaml::described(reading));
 //   for (const auto& [path, map] : reading.maps()) ...   // the keys of each mapping that was asked for
 //
-// Where an answer may change what is asked next, the question is a decision. Each has a name, by which another reading
-// can be given another answer: the key's path, with "?" behind it for has() and "{}" for is_map(). Otherwise has() and
-// is_map() are true, flags and words have their fallback or else false and the first word, numbers their fallback or
-// else the least.
+// A question is a decision if its answer may change the next questions. Its name is the key's path, followed by "?" for
+// has() and by "{}" for is_map(). A reading may be given answers by these names. The usual answers are true for has()
+// and is_map(), the fallback, or else false, the first word and the least number.
 #pragma once
 
 #include <cstddef>

@@ -10,7 +10,7 @@
 
 namespace ttf::keys {
 
-// Descriptions of what lies below a path; "" is the whole file.
+// Descriptions of the keys below a path; "" is the whole file.
 struct Chapter {
   std::string place;
   Descriptions rows;
@@ -19,15 +19,15 @@ struct Chapter {
 struct Document {
   std::string kind;   // "scenario"
   std::string title;  // "A scenario"
-  std::string about;  // a sentence: what the file is for
+  std::string about;  // a sentence: the purpose of the file
   Loader load;
   std::vector<Chapter> chapters;
 
-  // Of the key at `path` in a case of its mapping; null where there is none.
+  // Describes the key at `path`, in a case of its mapping. Returns null if there is no description.
   const Description* describe(const std::string& path, const std::vector<Condition>& conditions) const;
 };
 
 const std::vector<Document>& documents();
-const Document* document_of(const std::string& kind);  // null where there is none
+const Document* document_of(const std::string& kind);  // null if there is no such kind
 
 }  // namespace ttf::keys

@@ -45,7 +45,7 @@ bool same_kind(const KeyQuestion& a, const KeyQuestion& b) {
   return a.type == b.type && a.optional == b.optional && a.unit == b.unit && a.scale == b.scale && a.words == b.words;
 }
 
-// Whether two readings know the same of a mapping, but for `apart`. A key whose value was not asked for is like any.
+// Whether two readings know the same keys of a mapping, except `apart`. A key whose value was not asked for matches any.
 bool same_keys(const DescribedReading::Map& a, const DescribedReading::Map& b, const std::string& apart) {
   if (std::set(a.known.begin(), a.known.end()) != std::set(b.known.begin(), b.known.end())) return false;
   return std::all_of(a.questions.begin(), a.questions.end(), [&](const KeyQuestion& question) {
@@ -87,7 +87,7 @@ class Explorer {
     found_.runs.push_back(std::move(run));
   }
 
-  // Runs with the other answers to what this run is the first to decide.
+  // Adds a run for each other answer to a decision that this run is the first to meet.
   void branch(std::size_t index) {
     const std::vector<Decision> decisions = found_.runs[index].usual().decisions();
     for (const Decision& decision : decisions) {
@@ -113,7 +113,7 @@ class Explorer {
     });
   }
 
-  // Which numbers set other keys' bounds and defaults: looked for where all numbers together change some.
+  // Finds the numbers that set other keys' bounds and defaults. Only needed if all numbers together change some.
   void attribute(std::size_t index) {
     const Run run = found_.runs[index];
     bool unexplained = false;

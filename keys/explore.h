@@ -1,9 +1,9 @@
-// Finds every key that a loader knows: it reads described files, with every answer that may change what it asks.
+// Finds every key that a loader knows: reads described files with every answer that may change the next questions.
 //
-// The first run has the usual answers. For every decision of a run that its parent had not met there is one run more per
-// other answer, with that answer and otherwise those of the run it was met in. Where such an answer changes the keys of
-// its own mapping, all decisions of this mapping are tried anew under it. So the number of runs grows with the number of
-// decisions, not with their combinations.
+// The first run has the usual answers. Each decision that a run is the first to meet gets one more run for each other
+// answer; all else is answered as in the run that met it. If such an answer changes the keys of its own mapping, all
+// decisions of this mapping are tried again under it. So the number of runs grows with the number of decisions, not
+// with their combinations.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace ttf::keys {
 
-// Findings that it throws are passed over: they are about made-up values.
+// Its findings are ignored: they are about made-up values.
 using Loader = std::function<void(const StrictYaml&)>;
 
 struct Run {

@@ -180,6 +180,7 @@ class Schema {
         return {{"if", {{"type", "object"}}}, {"then", mapping(question.path())}, {"else", {{"enum", key.words}}}};
       case KeyType::kMaps: return {{"type", "array"}, {"items", mapping(path_within(question))}};
       case KeyType::kTexts: return {{"type", "array"}, {"minItems", 1}, {"items", any_scalar}};
+      case KeyType::kWords: return {{"type", "array"}, {"minItems", 1}, {"items", {{"enum", question.words}}}};
       case KeyType::kIntegers: return {{"type", "array"}, {"minItems", 1}, {"items", numbers("integer", question)}};
       case KeyType::kNamedMaps:
         if (has_named_texts(outline_, question))

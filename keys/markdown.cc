@@ -36,9 +36,13 @@ std::vector<Section> sections_of(const std::vector<Row>& rows) {
 }
 
 // As a cell of a table.
-std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
-  return text;
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
 }
 
 std::string row_text(const Section& section, const Row& row) {
@@ -80,7 +84,7 @@ std::string file_of(const Document& document, const Section& section) {
 std::string first_page(const Document& document, const std::vector<Section>& sections,
                        const std::vector<const Section*>& apart) {
   std::string text = fmt::format(
-      "# {}: every key\n\n{}\n{} What is not in the table is refused, with the key named. `[]` stands for each entry "
+      "# {}: every key\n\n{}\n{} The program refuses any other key by its name. `[]` stands for each entry "
       "of a "
       "list, `NAME` for any name.\n\n## The file\n\n",
       document.title, written_by(document), document.about);

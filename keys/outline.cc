@@ -40,7 +40,7 @@ class MappingOutline {
     return runs_[run].changes_keys && runs_[run].changed->question.map == mapping_.path;
   }
 
-  // The run whose changed answer made the mapping what it is in this run.
+  // Returns the run whose changed answer gave the mapping the keys that it has in this run.
   std::size_t case_of(std::size_t run) const {
     while (!decides(run)) {
       if (!runs_[run].changed || !reaches(runs_[run].parent)) return kTop;
@@ -72,7 +72,7 @@ class MappingOutline {
     }
   }
 
-  // Of one branch, or, without an answer, of all the answers that have none.
+  // The condition of one branch; without an answer, of all answers that have no branch.
   Condition condition(const Decision& decision, const std::vector<std::size_t>& branches,
                       const KeyValue* answer) const {
     Condition condition;

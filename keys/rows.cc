@@ -56,7 +56,7 @@ std::set<std::string> all_values(const Mapping& mapping, const Conditions& condi
   return all;
 }
 
-// The same without what does not matter: conditions that name every value there is, and the presence of `key` itself.
+// Drops conditions that do not matter: those with every possible value, and the presence of `key` itself.
 void simplify(const Mapping& mapping, const std::string& key, std::vector<Conditions>& where) {
   for (bool again = true; again;) {
     again = join_some(where, true);

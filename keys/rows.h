@@ -13,7 +13,7 @@ struct Row {
   std::string path;
   Key key;
   std::string only_with;                     // the condition in words; empty: always
-  const Description* description = nullptr;  // null: there is none
+  const Description* description = nullptr;  // null: not described
 };
 
 // The keys of a mapping come in the order in which the loader asks for them, each before the keys within it.

@@ -57,6 +57,7 @@ std::string value_words(const Key& key, const std::string& mark) {
     case KeyType::kMap: return key.words.empty() ? "mapping" : any_of(key.words, mark) + ", or a mapping";
     case KeyType::kMaps: return "list of mappings";
     case KeyType::kTexts: return "list of texts";
+    case KeyType::kWords: return "list of " + any_of(question.words, mark);
     case KeyType::kIntegers: return range(key, "list of whole numbers", mark);
     case KeyType::kNamedMaps: return "mappings by name";
     case KeyType::kNamedTexts: return "values by name";

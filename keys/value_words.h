@@ -1,4 +1,4 @@
-// What a key may be, in words.
+// The values of a key, in words.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace ttf::keys {
 
 // "number 0..100 m/s", "`cold` or `integrated`"; with `mark` around words and names of keys.
 std::string value_words(const Key& key, const std::string& mark);
-// As in YAML; nothing where the loader has none, or one that no file could say.
+// As in YAML. Nothing if the loader has no default, or one out of its own range.
 std::optional<std::string> default_text(const Key& key);
 // "required", "default `3`", "optional".
 std::string need_words(const Key& key, const std::string& mark);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes docs/keys and schemas anew, as the program prints them. What nobody writes any more goes. [PROGRAM]
+# Writes docs/keys and schemas anew, as the program prints them; deletes the old ones first. [PROGRAM]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${1:-build/release/ttfusion}

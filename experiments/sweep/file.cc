@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/counted.h"
 #include "core/strict_yaml.h"
 #include "drives/scenario.h"
 #include "experiments/sweep/keys.h"
@@ -194,18 +193,12 @@ class Reader {
   }
 
   void read_measures() {
-    if (root_.has("measures"))
-      file_.measures = root_.texts("measures");
-    else
-      for (const Measure& measure : kMeasures) file_.measures.emplace_back(measure.name);
     std::vector<std::string> names;
     for (const Measure& measure : kMeasures) names.emplace_back(measure.name);
-    for (const std::string& name : file_.measures) {
-      if (find_measure(name) == nullptr)
-        root_.fail("measures", fmt::format("must be some of {}, and has {}", joined(names, " and "), name));
+    file_.measures = root_.has("measures") ? root_.words("measures", names) : names;
+    for (const std::string& name : file_.measures)
       if (std::count(file_.measures.begin(), file_.measures.end(), name) > 1)
         root_.fail("measures", "must not have one twice: " + name);
-    }
   }
 
   std::size_t paradigm(YamlMap& map, std::string_view key) {

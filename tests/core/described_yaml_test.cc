@@ -129,6 +129,10 @@ TEST(DescribedYaml, MappingsAndListsHaveOneEntry) {
             KeyType::kNamedMaps);
   EXPECT_EQ(asked(true, [](YamlMap& m) { EXPECT_EQ(m.texts("v"), std::vector<std::string>{kAnyName}); }).type,
             KeyType::kTexts);
+  const std::vector<std::string> words{"slow", "fast"};
+  const KeyQuestion question = asked(true, [&](YamlMap& m) { EXPECT_EQ(m.words("v", words).size(), 1u); });
+  EXPECT_EQ(question.type, KeyType::kWords);
+  EXPECT_EQ(question.words, words);
   EXPECT_EQ(asked(true, [](YamlMap& m) { EXPECT_EQ(m.named_texts("v").size(), 1u); }).type, KeyType::kNamedTexts);
 }
 

@@ -1,5 +1,5 @@
-// Every key of every loader has its description, every description its key, and what is kept in the tree is what the
-// program prints.
+// Every key of every loader has a description, and every description a key. The committed pages and schemas are those
+// that the program prints.
 #include "keys/documents.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(Documents, AMeaningIsOneSentence) {
     }
 }
 
-TEST(Documents, WhatHasNoDefaultHasAnExample) {
+TEST(Documents, AKeyWithoutADefaultHasAnExample) {
   for (const Document& document : documents())
     for (const Row& row : rows_of(document, outline_of(document))) {
       if (row.description == nullptr || !is_value(row.key.question.type) || default_text(row.key)) continue;
@@ -86,7 +86,7 @@ TEST(Documents, PagesAndSchemasAreThoseInTheTree) {
   }
   for (const char* folder : {"docs/keys", "schemas"})
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(TTF_SOURCE_DIR) / folder))
-      EXPECT_TRUE(files.contains(entry.path().filename().string())) << entry.path() << " is nobody's";
+      EXPECT_TRUE(files.contains(entry.path().filename().string())) << entry.path() << " belongs to no document";
 }
 
 }  // namespace

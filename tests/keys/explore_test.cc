@@ -1,4 +1,4 @@
-// What exploring finds of small loaders: conditions, bounds and defaults that other keys set, and names.
+// Explores small loaders: conditions, bounds and defaults that other keys set, words or mappings.
 #include "keys/explore.h"
 
 #include <gmock/gmock.h>

@@ -39,7 +39,7 @@ SCHEMAS = {path.name.split(".")[0]: json.loads(path.read_text()) for path in (SO
 
 
 def refusals(kind: str, text: str) -> list[str]:
-    """One line for each mistake: path, and what is wrong there."""
+    """One line for each mistake, with its path."""
     validator = jsonschema.Draft7Validator(SCHEMAS[kind])
     return [".".join(str(step) for step in error.absolute_path) + ": " + error.message
             for error in validator.iter_errors(yaml.load(text, Loader))]
@@ -51,7 +51,7 @@ SHIPPED = ([("scenario", path) for path in sorted((SOURCE / "scenarios").glob("*
            [("experiment", path) for path in sorted((SOURCE / "experiments").glob("*.yaml"))] +
            [("faults", path) for path in sorted((SOURCE / "experiments/faults").glob("*.yaml"))])
 
-# What other tests, and documents, give `ttfusion track`.
+# Configurations of `ttfusion track` in other tests.
 TRACKS = [
     "sensors: {laser: {}}\n",
     "strategy: tt\ntracker: {process_noise: 4.0, confirm_hits: 1}\n"
@@ -63,7 +63,7 @@ TRACKS = [
     "tracker: {late: clone, buff_waits: fixed_lag, fixed_lag: 50 ms, clutter_density: 1e-3}\n",
 ]
 
-# A shipped file, what in it becomes what, and the key that is wrong with it then.
+# Name of the mistake, kind of file, a right file (none: a track configuration), a text in it, its replacement, the wrong key.
 CAR = "scenarios/dynamics.yaml"
 PAPER = "schedules/paper_synchronised.yaml"
 NOISE = "experiments/process_noise.yaml"
@@ -74,14 +74,15 @@ WRONG = [
     ("a missing key", "scenario", CAR, "seed: 1\n", "", "seed"),
     ("out of range", "scenario", CAR, "speed: 10.0", "speed: 120.0", "speed"),
     ("a wrong unit", "scenario", CAR, "duration: 3 s", "duration: 3 min", "duration"),
-    ("a word that is none", "scenario", CAR, "process_noise: 0.04", "motion: ctrw", "motion"),
+    ("an unknown word", "scenario", CAR, "process_noise: 0.04", "motion: ctrw", "motion"),
     ("a flag that is a number", "cluster", PAPER, "synchronisation: true", "synchronisation: 1", "synchronisation"),
     ("a parameter below its range", "cluster", PAPER, "gdStaticSlot: 84", "gdStaticSlot: 3", "gdStaticSlot"),
     ("a key of another measurement", "cluster", PAPER, "measurement: scheduled", "measurement: scheduled, period: 80 ms",
      "period"),
     ("a fraction of a whole number", "cluster", PAPER, "gSyncNodeMax: 5", "gSyncNodeMax: 5.5", "gSyncNodeMax"),
     ("a campaign's key in a sweep", "experiment", NOISE, "seed: 1\n", "seed: 1\nvariants: {}\n", "variants"),
-    ("no list where one must be", "experiment", NOISE, "measures: [", "measures: nees #", "measures"),
+    ("an unknown measure", "experiment", NOISE, "measures: [", "measures: [speed, ", "measures"),
+    ("a text instead of a list", "experiment", NOISE, "measures: [", "measures: nees #", "measures"),
     ("a weight of an unknown kind", "experiment", CAMPAIGN, "seed: 1\n", "seed: 1\nclasses: {crush: 1}\n", "crush"),
     ("another kind's parameter", "faults", TORN, "from: 1600 ms", "from: 1600 ms, probability: 0.5", "probability"),
     ("a time without a unit", "faults", TORN, "from: 1600 ms", "from: 1600", "from"),
