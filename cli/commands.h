@@ -35,6 +35,9 @@ void add_schedule(CLI::App& app, Action& action);
 namespace ttf::cli::experiment {
 void add_experiment(CLI::App& app, Action& action);
 }  // namespace ttf::cli::experiment
+namespace ttf::cli::keys {
+void add_keys(CLI::App& app, Action& action);
+}  // namespace ttf::cli::keys
 namespace ttf::cli::launch {
 void add_launch(CLI::App& app, Action& action);
 }  // namespace ttf::cli::launch

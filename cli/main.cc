@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
   ttf::cli::logs::add_export(app, action);
   ttf::cli::schedule::add_schedule(app, action);
   ttf::cli::experiment::add_experiment(app, action);
+  ttf::cli::keys::add_keys(app, action);
   ttf::cli::launch::add_launch(app, action);
   ttf::cli::node::add_node(app, action);
   ttf::cli::logs::add_report(app, action);

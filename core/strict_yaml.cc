@@ -1,25 +1,18 @@
 #include "core/strict_yaml.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
 #include <charconv>
 #include <set>
-#include <sstream>
 
 #include "core/decimal.h"
 #include "core/file_bytes.h"
+#include "core/yaml_content.h"
+#include "core/yaml_document.h"
 #include "core/yaml_node.h"
 
 namespace ttf {
-
-struct YamlMap::Content {
-  std::string file;
-  YAML::Node node;  // a map, or null for a missing one
-  int line = 0;     // of the mapping around a missing one
-  std::set<std::string, std::less<>> asked;
-};
 
 namespace {
 
@@ -35,42 +28,6 @@ template <class T> std::optional<T> parse_number(std::string_view text) {
 // In a file a space separates number and unit.
 std::optional<Duration> spaced_duration(const std::string& text) {
   return text.find(' ') == std::string::npos ? std::nullopt : parse_duration(text);
-}
-
-// YAML allows tabs and line ends, but no other control character. The parser takes some of them for the end of
-// the file and skips the rest. Throws InputError at the first one.
-void check_characters(const std::string& text, const std::string& name) {
-  int line = 1;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if ((code < 0x20 && c != '\t' && c != '\n' && c != '\r') || code == 0x7f)
-      throw InputError({name, line, "", fmt::format("byte {:#04x}", code), "must not be in a YAML text"});
-    if (c == '\n') ++line;
-  }
-}
-
-// Notes the line where a document begins, and builds no nodes.
-struct DocumentStart final : YAML::EventHandler {
-  int line = 0;  // of the last one; 0 before the first
-  void OnDocumentStart(const YAML::Mark& mark) override { line = mark.line + 1; }
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
-  void OnMapEnd() override {}
-};
-
-// YAML::Load reads the first document and ignores the rest. YAML::LoadAll would see the rest, but loops forever
-// on some empty documents, such as a tag without a value.
-void check_one_document(const std::string& text, const std::string& name) {
-  std::istringstream stream(text);
-  YAML::Parser parser(stream);
-  DocumentStart start;
-  if (parser.HandleNextDocument(start) && parser.HandleNextDocument(start))
-    throw InputError({name, start.line, "", "", "must be one YAML document: another one begins here"});
 }
 
 std::string duration_text(Duration d) {
@@ -97,11 +54,13 @@ std::string YamlMap::key_path(std::string_view key) const {
 }
 
 bool YamlMap::has(std::string_view key) const {
+  if (is_described()) return std::get<bool>(ask(question(key, KeyType::kIsThere)));
   content_->asked.emplace(key);
   return child(content_->node, key).IsDefined();
 }
 
 bool YamlMap::is_map(std::string_view key) const {
+  if (is_described()) return std::get<bool>(ask(question(key, KeyType::kIsMap)));
   const YAML::Node node = child(content_->node, key);
   return node.IsDefined() && node.IsMap();
 }
@@ -113,6 +72,7 @@ int YamlMap::line(std::string_view key) const {
 }
 
 void YamlMap::fail(std::string_view key, std::string expected) {
+  if (is_described()) return;
   const YAML::Node node = child(content_->node, key);
   const std::string value = node.IsDefined() && node.IsScalar() ? node.Scalar() : "";
   findings_->add({content_->file, line(key), key_path(key), value, std::move(expected)});
@@ -133,6 +93,7 @@ std::optional<std::string> YamlMap::scalar(std::string_view key, std::string_vie
 }
 
 std::int64_t YamlMap::integer(std::string_view key, Range<std::int64_t> allowed, std::string_view unit) {
+  if (is_described()) return described(key, KeyType::kInteger, allowed, unit);
   const std::string expected = range_text(allowed, unit, "a whole number");
   const auto text = scalar(key, expected);
   if (!text) return allowed.low;
@@ -144,10 +105,12 @@ std::int64_t YamlMap::integer(std::string_view key, Range<std::int64_t> allowed,
 
 std::int64_t YamlMap::integer_or(std::string_view key, std::int64_t fallback, Range<std::int64_t> allowed,
                                  std::string_view unit) {
+  if (is_described()) return described(key, KeyType::kInteger, allowed, unit, std::optional(fallback));
   return has(key) ? integer(key, allowed, unit) : fallback;
 }
 
 double YamlMap::number(std::string_view key, Range<double> allowed, std::string_view unit) {
+  if (is_described()) return described(key, KeyType::kNumber, allowed, unit);
   const std::string expected = range_text(allowed, unit, "a number");
   const auto text = scalar(key, expected);
   if (!text) return allowed.low;
@@ -158,11 +121,13 @@ double YamlMap::number(std::string_view key, Range<double> allowed, std::string_
 }
 
 double YamlMap::number_or(std::string_view key, double fallback, Range<double> allowed, std::string_view unit) {
+  if (is_described()) return described(key, KeyType::kNumber, allowed, unit, std::optional(fallback));
   return has(key) ? number(key, allowed, unit) : fallback;
 }
 
 std::int64_t YamlMap::scaled(std::string_view key, std::int64_t scale, Range<std::int64_t> allowed,
                              std::string_view unit) {
+  if (is_described()) return described(key, KeyType::kDecimal, allowed, unit, std::optional<std::int64_t>{}, scale);
   const auto unscaled = [&](std::int64_t value) { return static_cast<double>(value) / static_cast<double>(scale); };
   const std::string expected =
       range_text(Range<double>{unscaled(allowed.low), unscaled(allowed.high)}, unit, "a decimal number") +
@@ -176,6 +141,7 @@ std::int64_t YamlMap::scaled(std::string_view key, std::int64_t scale, Range<std
 }
 
 bool YamlMap::boolean(std::string_view key) {
+  if (is_described()) return std::get<bool>(ask(question(key, KeyType::kBoolean)));
   constexpr std::string_view kExpected = "must be true or false";
   const auto text = scalar(key, kExpected);
   if (!text) return false;
@@ -184,9 +150,13 @@ bool YamlMap::boolean(std::string_view key) {
   return false;
 }
 
-bool YamlMap::boolean_or(std::string_view key, bool fallback) { return has(key) ? boolean(key) : fallback; }
+bool YamlMap::boolean_or(std::string_view key, bool fallback) {
+  if (is_described()) return std::get<bool>(ask(question(key, KeyType::kBoolean, fallback)));
+  return has(key) ? boolean(key) : fallback;
+}
 
 std::string YamlMap::text(std::string_view key) {
+  if (is_described()) return std::get<std::string>(ask(question(key, KeyType::kText)));
   constexpr std::string_view kExpected = "must be a text";
   const auto text = scalar(key, kExpected);
   if (text && text->empty()) fail(key, std::string(kExpected));
@@ -194,10 +164,12 @@ std::string YamlMap::text(std::string_view key) {
 }
 
 std::string YamlMap::text_or(std::string_view key, std::string_view fallback) {
+  if (is_described()) return std::get<std::string>(ask(question(key, KeyType::kText, std::string(fallback))));
   return has(key) ? text(key) : std::string(fallback);
 }
 
 Duration YamlMap::duration(std::string_view key, Range<Duration> allowed) {
+  if (is_described()) return described_duration(key, allowed, std::nullopt);
   const std::string expected = fmt::format("must be a time with its unit (ns, us, ms or s), {}..{}",
                                            duration_text(allowed.low), duration_text(allowed.high));
   const auto text = scalar(key, expected);
@@ -209,11 +181,13 @@ Duration YamlMap::duration(std::string_view key, Range<Duration> allowed) {
 }
 
 Duration YamlMap::duration_or(std::string_view key, Duration fallback, Range<Duration> allowed) {
+  if (is_described()) return described_duration(key, allowed, fallback);
   return has(key) ? duration(key, allowed) : fallback;
 }
 
 std::size_t YamlMap::choice_index(std::string_view key, const std::vector<std::string_view>& names) {
-  const std::string expected = fmt::format("must be one of {}", fmt::join(names, ", "));
+  if (is_described()) return described_choice(key, names, false, std::nullopt);
+  const std::string expected = fmt::format("must be {}{}", names.size() > 1 ? "one of " : "", fmt::join(names, ", "));
   const auto text = scalar(key, expected);
   if (!text) return 0;
   const auto found = std::find(names.begin(), names.end(), *text);
@@ -225,6 +199,10 @@ std::size_t YamlMap::choice_index(std::string_view key, const std::vector<std::s
 }
 
 YamlMap YamlMap::map(std::string_view key) {
+  if (is_described()) {
+    ask(question(key, KeyType::kMap));
+    return described_map(key_path(key));
+  }
   content_->asked.emplace(key);
   const YAML::Node node = child(content_->node, key);
   if (!node.IsDefined()) fail(key, "is missing: must be a mapping");
@@ -242,6 +220,10 @@ std::optional<YamlMap> YamlMap::map_if(std::string_view key) {
 }
 
 std::vector<YamlMap> YamlMap::maps(std::string_view key) {
+  if (is_described()) {
+    ask(question(key, KeyType::kMaps));
+    return {described_map(key_path(key) + "[]")};
+  }
   content_->asked.emplace(key);
   const YAML::Node node = child(content_->node, key);
   std::vector<YamlMap> list;
@@ -287,12 +269,34 @@ std::vector<YamlMap::Entry> YamlMap::entries(std::string_view key) {
 }
 
 std::vector<std::string> YamlMap::texts(std::string_view key) {
+  if (is_described()) {
+    ask(question(key, KeyType::kTexts));
+    return {kAnyName};
+  }
   std::vector<std::string> list;
   for (Entry& entry : entries(key)) list.push_back(std::move(entry.text));
   return list;
 }
 
+std::vector<std::string> YamlMap::words(std::string_view key, const std::vector<std::string>& allowed) {
+  if (is_described()) {
+    KeyQuestion asked = question(key, KeyType::kWords);
+    asked.words = allowed;
+    ask(asked);
+    return {allowed.front()};
+  }
+  std::vector<std::string> list;
+  for (Entry& entry : entries(key))
+    if (std::find(allowed.begin(), allowed.end(), entry.text) != allowed.end())
+      list.push_back(std::move(entry.text));
+    else
+      findings_->add({content_->file, entry.line, entry.path, entry.text,
+                      fmt::format("must be one of {}", fmt::join(allowed, ", "))});
+  return list;
+}
+
 std::vector<std::int64_t> YamlMap::integers(std::string_view key, Range<std::int64_t> allowed, std::string_view unit) {
+  if (is_described()) return {described(key, KeyType::kIntegers, allowed, unit)};
   const std::string expected = range_text(allowed, unit, "a whole number");
   std::vector<std::int64_t> list;
   for (const Entry& entry : entries(key)) {
@@ -306,6 +310,10 @@ std::vector<std::int64_t> YamlMap::integers(std::string_view key, Range<std::int
 }
 
 std::vector<std::pair<std::string, YamlMap>> YamlMap::named_maps(std::string_view key) {
+  if (is_described()) {
+    ask(question(key, KeyType::kNamedMaps));
+    return {{kAnyName, described_map(fmt::format("{}.{}", key_path(key), kAnyName))}};
+  }
   YamlMap outer = map(key);
   std::vector<std::pair<std::string, YamlMap>> list;
   if (!outer.content_->node.IsDefined() || !outer.content_->node.IsMap()) return list;
@@ -327,6 +335,10 @@ std::vector<std::pair<std::string, YamlMap>> YamlMap::named_maps(std::string_vie
 }
 
 std::vector<std::pair<std::string, std::string>> YamlMap::named_texts(std::string_view key) {
+  if (is_described()) {
+    ask(question(key, KeyType::kNamedTexts));
+    return {{kAnyName, kAnyName}};
+  }
   YamlMap outer = map(key);
   std::vector<std::pair<std::string, std::string>> list;
   if (!outer.content_->node.IsDefined() || !outer.content_->node.IsMap()) return list;
@@ -370,13 +382,7 @@ StrictYaml StrictYaml::parse(std::string text, std::string name) {
   document.text_ = std::move(text);
   document.content_ = std::make_shared<YamlMap::Content>();
   document.content_->file = document.name_;
-  check_characters(document.text_, document.name_);
-  try {
-    check_one_document(document.text_, document.name_);
-    document.content_->node.reset(YAML::Load(document.text_));
-  } catch (const YAML::Exception& error) {
-    throw InputError({document.name_, error.mark.line + 1, "", "", "is not valid YAML: " + error.msg});
-  }
+  document.content_->node.reset(parse_document(document.text_, document.name_));
   if (!document.content_->node.IsMap())
     throw InputError({document.name_, 1, "", "", "must be a YAML mapping at the top level"});
   return document;
@@ -385,6 +391,7 @@ StrictYaml StrictYaml::parse(std::string text, std::string name) {
 YamlMap StrictYaml::root(Findings& findings) const {
   auto content = std::make_shared<YamlMap::Content>();
   content->file = content_->file;
+  content->answers = content_->answers;
   content->node.reset(content_->node);
   return YamlMap(std::move(content), "", &findings);
 }

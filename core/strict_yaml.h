@@ -10,6 +10,9 @@
 //
 // A getter without a usable value adds its finding and returns a value inside the range. Reading continues, so
 // that later mistakes are found too. Getters with a fallback do not require the key.
+//
+// StrictYaml::described() has no file: KeyAnswers answers the getters, and learns which keys a loader reads. Each list
+// and each named mapping has one entry there, and findings are ignored.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +24,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/key_question.h"
 #include "core/time.h"
 
 namespace ttf {
@@ -60,7 +64,14 @@ class YamlMap {
     return choices[choice_index(key, names)].second;
   }
   template <class Enum> Enum choice_or(std::string_view key, Enum fallback, const Choices<Enum>& choices) {
-    return has(key) ? choice(key, choices) : fallback;
+    if (!is_described()) return has(key) ? choice(key, choices) : fallback;
+    std::vector<std::string_view> names;
+    std::optional<std::size_t> otherwise;
+    for (const auto& entry : choices) {
+      if (entry.second == fallback) otherwise = names.size();
+      names.push_back(entry.first);
+    }
+    return choices[described_choice(key, names, true, otherwise)].second;
   }
 
   YamlMap map(std::string_view key);  // a missing map is a finding and reads as empty
@@ -69,6 +80,7 @@ class YamlMap {
   std::vector<YamlMap> maps_if(std::string_view key);  // the same, empty when the key is absent
   // A sequence with at least one entry. A wrong entry is a finding about key[i] and is left out.
   std::vector<std::string> texts(std::string_view key);
+  std::vector<std::string> words(std::string_view key, const std::vector<std::string>& allowed);
   std::vector<std::int64_t> integers(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   std::vector<std::pair<std::string, YamlMap>> named_maps(std::string_view key);       // name: {...}, in file order
   std::vector<std::pair<std::string, std::string>> named_texts(std::string_view key);  // name: text, in file order
@@ -87,6 +99,16 @@ class YamlMap {
   struct Content;
   YamlMap(std::shared_ptr<Content> content, std::string path, Findings* findings);
   std::size_t choice_index(std::string_view key, const std::vector<std::string_view>& names);
+  bool is_described() const;
+  KeyQuestion question(std::string_view key, KeyType type, std::optional<KeyValue> fallback = std::nullopt) const;
+  KeyValue ask(const KeyQuestion& question) const;
+  template <class T>
+  T described(std::string_view key, KeyType type, Range<T> allowed, std::string_view unit = "",
+              std::optional<T> fallback = std::nullopt, std::int64_t scale = 1) const;
+  Duration described_duration(std::string_view key, Range<Duration> allowed, std::optional<Duration> fallback) const;
+  std::size_t described_choice(std::string_view key, const std::vector<std::string_view>& names, bool optional,
+                               std::optional<std::size_t> fallback) const;
+  YamlMap described_map(std::string path) const;
   std::string key_path(std::string_view key) const;
   struct Entry {
     std::string text, path;
@@ -106,6 +128,7 @@ class StrictYaml {
  public:
   static StrictYaml load(const std::string& path);
   static StrictYaml parse(std::string text, std::string name);
+  static StrictYaml described(KeyAnswers& answers);  // they must live as long as the mappings
 
   YamlMap root(Findings& findings) const;
   const std::string& text() const { return text_; }

@@ -5,8 +5,6 @@
 
 namespace ttf::drives {
 
-namespace {
-
 Scenario read_scenario(const StrictYaml& yaml) {
   const std::string& path = yaml.name();
   Findings findings;
@@ -81,8 +79,6 @@ Scenario read_scenario(const StrictYaml& yaml) {
   findings.throw_if_any();
   return scenario;
 }
-
-}  // namespace
 
 Scenario load_scenario(const std::string& path) { return read_scenario(StrictYaml::load(path)); }
 

@@ -52,5 +52,6 @@ struct Scenario {
 Scenario load_scenario(const std::string& path);
 // Reads a scenario from a text. `name` stands for the file in errors, and its folder is that of the clusters.
 Scenario parse_scenario(std::string text, std::string name);
+Scenario read_scenario(const StrictYaml& yaml);
 
 }  // namespace ttf::drives

@@ -25,4 +25,13 @@ FaultPlan load_fault_plan(YamlMap& yaml, Duration latest) {
   return plan;
 }
 
+FaultPlan read_fault_plan(const StrictYaml& file, Duration latest) {
+  Findings findings;
+  YamlMap root = file.root(findings);
+  FaultPlan plan = load_fault_plan(root, latest);
+  root.finish();
+  findings.throw_if_any();
+  return plan;
+}
+
 }  // namespace ttf::faults

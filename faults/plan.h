@@ -106,6 +106,8 @@ struct FaultPlan {
 // Reads the list `faults` of a mapping; empty if absent. `latest` is the largest permitted `from`. Findings go
 // to the mapping. Names are not looked up here: a scenario's clusters need not have been read.
 FaultPlan load_fault_plan(YamlMap& yaml, Duration latest);
+// Reads a file that has such a list and nothing else. Throws InputError.
+FaultPlan read_fault_plan(const StrictYaml& file, Duration latest);
 // Reads one entry of such a list.
 Fault load_fault(YamlMap& yaml, Duration latest);
 

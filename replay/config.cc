@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "core/errors.h"
-#include "core/file_bytes.h"
 
 namespace ttf::replay {
 namespace {
@@ -52,20 +51,18 @@ std::string sigma_names() {
   return names;
 }
 
-ReplayConfig parse_replay_config(const std::string& text, const std::string& name, const SensorSetup& any) {
-  const StrictYaml yaml = StrictYaml::parse(text, name);
+ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any) {
   Findings findings;
   YamlMap root = yaml.root(findings);
   ReplayConfig config;
-  config.file = name;
+  config.file = yaml.name();
   using fusion::strategies::kStrategyNames;
   config.strategy = root.choice_or<fusion::strategies::StrategyKind>("strategy", config.strategy,
                                                                      {kStrategyNames.begin(), kStrategyNames.end()});
   if (std::optional<YamlMap> tracker = root.map_if("tracker")) {
-    config.tracker = fusion::config::load_tracker(*tracker);
-    if (!config.tracker.sensors.empty())
+    config.tracker = fusion::config::load_tracker(*tracker, fusion::config::SensorsAre::kElsewhere);
+    if (tracker->has("sensors"))
       tracker->fail("sensors", "must not be given here: mounting and biases belong under the top-level key sensors");
-    config.tracker.sensors.clear();
     if (tracker->has("late")) config.late_line = tracker->line("late");
     tracker->finish();
   }
@@ -81,8 +78,12 @@ ReplayConfig parse_replay_config(const std::string& text, const std::string& nam
   return config;
 }
 
+ReplayConfig parse_replay_config(const std::string& text, const std::string& name, const SensorSetup& any) {
+  return read_replay_config(StrictYaml::parse(text, name), any);
+}
+
 ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any) {
-  return parse_replay_config(read_file(path), path, any);
+  return read_replay_config(StrictYaml::load(path), any);
 }
 
 }  // namespace ttf::replay

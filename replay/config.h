@@ -69,5 +69,6 @@ std::string sigma_names();
 // Keys missing for a sensor are as in `any`. Throws InputError.
 ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any);
 ReplayConfig parse_replay_config(const std::string& text, const std::string& name, const SensorSetup& any);
+ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any);
 
 }  // namespace ttf::replay

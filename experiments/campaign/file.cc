@@ -28,16 +28,15 @@ Variant read_variant(const std::string& name, YamlMap& yaml) {
   return variant;
 }
 
-CampaignFile read(const StrictYaml& yaml) {
+}  // namespace
+
+CampaignFile read_campaign(const StrictYaml& yaml) {
   Findings findings;
   YamlMap root = yaml.root(findings);
   CampaignFile campaign;
   campaign.file = yaml.name();
-  const std::string kind = root.text("kind");
-  if (!kind.empty() && kind != "fault_campaign") {
-    root.fail("kind", "must be fault_campaign");
-    findings.throw_if_any();  // the keys of another kind are not judged
-  }
+  root.choice<bool>("kind", {{"fault_campaign", true}});
+  findings.throw_if_any();  // the keys of another kind are not judged
   campaign.name = root.text("name");
   campaign.cluster_file =
       (std::filesystem::path(yaml.name()).parent_path() / root.text("cluster")).lexically_normal().string();
@@ -71,11 +70,9 @@ CampaignFile read(const StrictYaml& yaml) {
   return campaign;
 }
 
-}  // namespace
-
-CampaignFile load_campaign(const std::string& path) { return read(StrictYaml::load(path)); }
+CampaignFile load_campaign(const std::string& path) { return read_campaign(StrictYaml::load(path)); }
 CampaignFile parse_campaign(std::string text, std::string name) {
-  return read(StrictYaml::parse(std::move(text), std::move(name)));
+  return read_campaign(StrictYaml::parse(std::move(text), std::move(name)));
 }
 
 schedules::model::Cluster cluster_of(const CampaignFile& campaign, const Variant& variant) {

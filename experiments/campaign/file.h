@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "core/strict_yaml.h"
 #include "faults/plan.h"
 #include "schedules/model/cluster.h"
 
@@ -50,9 +51,10 @@ struct CampaignFile {
   std::optional<std::int64_t> expected_harmed;  // of the hypothesis, with guardian and two channels
 };
 
-// Both throw InputError.
+// All throw InputError.
 CampaignFile load_campaign(const std::string& path);
 CampaignFile parse_campaign(std::string text, std::string name);
+CampaignFile read_campaign(const StrictYaml& yaml);
 
 // Returns the campaign's cluster, wired as in the variant and proved consistent; all its nodes are on FlexRay.
 // Throws InputError.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/counted.h"
 #include "core/strict_yaml.h"
 #include "drives/scenario.h"
 #include "experiments/sweep/keys.h"
@@ -56,7 +55,7 @@ class Reader {
   SweepFile read() {
     file_.file = yaml_.name();
     file_.text = yaml_.text();
-    if (root_.text("kind") != "sweep") root_.fail("kind", "must be sweep");
+    root_.choice<bool>("kind", {{"sweep", true}});
     findings_.throw_if_any();  // the keys of another kind are not judged
     file_.name = root_.text("name");
     if (!is_name(file_.name)) root_.fail("name", std::string(kNames));
@@ -194,18 +193,12 @@ class Reader {
   }
 
   void read_measures() {
-    if (root_.has("measures"))
-      file_.measures = root_.texts("measures");
-    else
-      for (const Measure& measure : kMeasures) file_.measures.emplace_back(measure.name);
     std::vector<std::string> names;
     for (const Measure& measure : kMeasures) names.emplace_back(measure.name);
-    for (const std::string& name : file_.measures) {
-      if (find_measure(name) == nullptr)
-        root_.fail("measures", fmt::format("must be some of {}, and has {}", joined(names, " and "), name));
+    file_.measures = root_.has("measures") ? root_.words("measures", names) : names;
+    for (const std::string& name : file_.measures)
       if (std::count(file_.measures.begin(), file_.measures.end(), name) > 1)
         root_.fail("measures", "must not have one twice: " + name);
-    }
   }
 
   std::size_t paradigm(YamlMap& map, std::string_view key) {
@@ -280,9 +273,10 @@ class Reader {
 
 }  // namespace
 
-SweepFile load_sweep(const std::string& path) { return Reader(StrictYaml::load(path)).read(); }
+SweepFile load_sweep(const std::string& path) { return read_sweep(StrictYaml::load(path)); }
 SweepFile parse_sweep(std::string text, std::string name) {
-  return Reader(StrictYaml::parse(std::move(text), std::move(name))).read();
+  return read_sweep(StrictYaml::parse(std::move(text), std::move(name)));
 }
+SweepFile read_sweep(const StrictYaml& yaml) { return Reader(yaml).read(); }
 
 }  // namespace ttf::experiments::sweep

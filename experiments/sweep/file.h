@@ -40,6 +40,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/strict_yaml.h"
 #include "fusion/strategies/strategy.h"
 
 namespace ttf::experiments::sweep {
@@ -119,8 +120,9 @@ inline constexpr std::size_t kMostPoints = 10'000;
 inline constexpr std::uint64_t kMostRuns = 100'000'000;
 inline constexpr std::uint32_t kMostReplications = 10'000'000;
 
-// Both throw InputError with every finding.
+// All throw InputError with every finding.
 SweepFile load_sweep(const std::string& path);
 SweepFile parse_sweep(std::string text, std::string name);
+SweepFile read_sweep(const StrictYaml& yaml);
 
 }  // namespace ttf::experiments::sweep

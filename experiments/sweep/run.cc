@@ -160,12 +160,7 @@ void SweepDrives::plan_faults(const std::string& file, drives::Scenario& scenari
   if (!scenario.faults.empty())
     throw InputError({scenario.file, 0, "faults", "", "must be absent, since " + file + " has the faults"});
   const std::string& text = texts_.at(file);
-  const StrictYaml yaml = StrictYaml::parse(text, file);
-  Findings findings;
-  YamlMap root = yaml.root(findings);
-  scenario.faults = faults::load_fault_plan(root, scenario.duration);
-  root.finish();
-  findings.throw_if_any();
+  scenario.faults = faults::read_fault_plan(StrictYaml::parse(text, file), scenario.duration);
   scenario.text += "\n" + text;
 }
 

@@ -12,7 +12,7 @@ bool is_straight_and_extended(const TrackerConfig& c) {
          c.filter == FilterKind::kExtended;
 }
 
-void load_systematic(YamlMap& yaml, TrackerConfig& c) {
+void load_systematic(YamlMap& yaml, TrackerConfig& c, SensorsAre sensors_are) {
   c.systematic = yaml.choice_or<SystematicErrorsAre>(
       "systematic", c.systematic,
       {{"ignore", SystematicErrorsAre::kIgnored}, {"consider", SystematicErrorsAre::kConsidered}});
@@ -20,7 +20,7 @@ void load_systematic(YamlMap& yaml, TrackerConfig& c) {
     yaml.fail("systematic",
               "must be ignore unless motion is constant_velocity or constant_acceleration and filter "
               "is extended");
-  if (!yaml.has("sensors")) return;
+  if (sensors_are == SensorsAre::kElsewhere || !yaml.has("sensors")) return;
   for (auto& [name, map] : yaml.named_maps("sensors")) {
     sensors::KnownSensor sensor = sensors::load_known_sensor(map);
     sensor.name = name;
@@ -68,7 +68,7 @@ void load_late(YamlMap& yaml, TrackerConfig& c) {
 
 }  // namespace
 
-TrackerConfig load_tracker(YamlMap& yaml) {
+TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
   TrackerConfig c;
   c.motion = yaml.choice_or<MotionModel>("motion", c.motion,
                                          {{"constant_velocity", MotionModel::kConstantVelocity},
@@ -115,7 +115,7 @@ TrackerConfig load_tracker(YamlMap& yaml) {
               "must be at most 1000000");
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
-  load_systematic(yaml, c);
+  load_systematic(yaml, c, sensors);
   load_association(yaml, c);
   load_late(yaml, c);
   return c;

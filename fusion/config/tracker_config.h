@@ -103,6 +103,8 @@ struct TrackerConfig {
   int merge_scans = 5;
 };
 
-TrackerConfig load_tracker(YamlMap& yaml);
+// Whether the tracker's own keys say what is known of the sensors.
+enum class SensorsAre : unsigned char { kHere, kElsewhere };
+TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors = SensorsAre::kHere);
 
 }  // namespace ttf::fusion::config

@@ -382,7 +382,9 @@ class Loader {
   model::Cluster cluster_;
 };
 
-model::Cluster load(const StrictYaml& file) {
+}  // namespace
+
+model::Cluster read_cluster(const StrictYaml& file) {
   Findings met;
   model::Cluster cluster = Loader(file, met).load();
   // Shared parameters are read once per node; a mistake in them is reported once.
@@ -394,12 +396,10 @@ model::Cluster load(const StrictYaml& file) {
   return cluster;
 }
 
-}  // namespace
-
 model::Cluster parse_cluster(std::string text, std::string name) {
-  return load(StrictYaml::parse(std::move(text), std::move(name)));
+  return read_cluster(StrictYaml::parse(std::move(text), std::move(name)));
 }
 
-model::Cluster load_cluster(const std::string& path) { return load(StrictYaml::load(path)); }
+model::Cluster load_cluster(const std::string& path) { return read_cluster(StrictYaml::load(path)); }
 
 }  // namespace ttf::schedules::file

@@ -38,12 +38,14 @@
 
 #include <string>
 
+#include "core/strict_yaml.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::schedules::file {
 
-// Both throw InputError. The result is complete but not yet checked: schedules/check proves it consistent.
+// All throw InputError. The result is complete but not yet checked: schedules/check proves it consistent.
 model::Cluster load_cluster(const std::string& path);
 model::Cluster parse_cluster(std::string text, std::string name);
+model::Cluster read_cluster(const StrictYaml& file);
 
 }  // namespace ttf::schedules::file

@@ -97,6 +97,7 @@ void World::states_at(TrueTime since_start, std::vector<ObjectState>& out) const
 namespace {
 
 constexpr Range<double> kPlace{-kFarthest_m, kFarthest_m};
+constexpr std::int64_t kMostObjects = 65'534;  // whose ids are no false detection's
 
 // Loads an object without its place.
 void load_kind(YamlMap& map, ObjectConfig& object) {
@@ -149,7 +150,12 @@ WorldConfig load_world(YamlMap& yaml) {
   }
   if (auto field = yaml.map_if("field")) load_field(*field, config.objects);
   const auto all = static_cast<std::int64_t>(config.objects.size());
-  const std::int64_t count = yaml.integer_or("object_count", all, {std::min<std::int64_t>(all, 1), all});
+  const Range<std::int64_t> there{std::min<std::int64_t>(all, 1), all};
+  std::int64_t count = yaml.integer_or("object_count", all, {0, kMostObjects});
+  if (!there.contains(count)) {
+    yaml.fail("object_count", fmt::format("must be {}..{}: so many objects there are", there.low, there.high));
+    count = std::clamp(count, there.low, there.high);
+  }
   const auto reference = std::find_if(config.objects.begin(), config.objects.end(),
                                       [](const ObjectConfig& object) { return object.reference; });
   if (reference != config.objects.end() && reference - config.objects.begin() >= count)

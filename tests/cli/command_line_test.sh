@@ -21,7 +21,7 @@ expect 0 "Example: ttfusion run" run --help
 expect 2 "^error: command line: .*required" run
 expect 2 "^error: command line: A subcommand is required"
 expect 2 \
-  '^error: foo is no command: must be run, diagram, export, schedule, experiment, launch, node, report or track$' foo \
+  '^error: foo is no command: must be run, diagram, export, schedule, experiment, keys, launch, node, report or track$' foo \
   --help
 expect 2 '^error: draw is no command of schedule: must be check, show or export$' schedule draw x.yaml
 expect 2 '^error: command line: .*--fast' run "$source/scenarios/paper_scenario1.yaml" --fast
@@ -31,6 +31,16 @@ for command in run launch 'node fusion' track; do
     "$source/scenarios/paper_scenario1.yaml" --strategy best
 done
 expect 2 "nothing.yaml: cannot be read" run "$work/nothing.yaml"
+
+expect 0 'Examples: ttfusion keys scenario' keys --help
+expect 0 '^world.objects\[\].speed: number 0..100 m/s, default 0$' keys scenario
+expect 0 '^flexray.gdStaticSlot: whole number 4..661 macroticks, required$' keys
+expect 2 '^error: command line: kind: voyage not in \{scenario,cluster,experiment,track,faults\}' keys voyage
+expect 2 '^error: command line: --format = json-schema: goes with one kind' keys --format json-schema
+expect 0 '' keys faults --format json-schema -o "$work/faults.json"
+cmp -s "$work/faults.json" "$source/schemas/faults.schema.json" || fail "keys writes another schema than the one kept"
+expect 0 '' keys --format markdown -o "$work/keys"
+[[ -s $work/keys/scenario_tracker.md ]] || fail "keys --format markdown writes no page of the tracker"
 
 for seed in 12x 010x 4611686018427387905 99999999999999999999999; do
   expect 2 '--seed.*must be a whole number 0..4611686018427387904' run "$source/scenarios/paper_scenario1.yaml" \

@@ -216,6 +216,11 @@ TEST(StrictYaml, EachGetterNamesWhatItWants) {
          EXPECT_THAT(m.integers("v", {1, 5}, "m"), ElementsAre(1, 5));
        },
        "a.yaml:3: v[1] = 6: must be a whole number 1..5 m"},
+      {"v:\n  - fast\n  - medium",
+       [](YamlMap& m) {
+         EXPECT_THAT(m.words("v", {"slow", "fast"}), ElementsAre("fast"));
+       },
+       "a.yaml:3: v[1] = medium: must be one of slow, fast"},
       {"v:\n  a: 7", [](YamlMap& m) { EXPECT_TRUE(m.named_maps("v").empty()); }, "a.yaml:2: v.a: must be a mapping"},
       {"v:\n  a: {b: 1}", [](YamlMap& m) { EXPECT_TRUE(m.named_texts("v").empty()); }, "a.yaml:2: v.a: must be a text"},
       {"v:\n  a: x\n  a: y", [](YamlMap& m) { EXPECT_EQ(m.named_texts("v").size(), 2u); },

@@ -69,7 +69,8 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   EXPECT_THAT(refusal(kHead), HasSubstr("axes"));
   const std::string axes = "axes: {one: {keys: [world.yaw_rate_noise], values: [1, 2]}}\n";
   EXPECT_EQ(refusal(kHead + axes), "taken");
-  EXPECT_THAT(refusal(kHead + axes + "measures: [speed]\n"), HasSubstr("must be some of position_rmse_truth"));
+  EXPECT_THAT(refusal(kHead + axes + "measures: [speed]\n"),
+              HasSubstr("measures[0] = speed: must be one of position_rmse_truth"));
   EXPECT_THAT(refusal(kHead + axes + "compare: {baseline: b}\n"), HasSubstr("must be one of the paradigms"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: a}]\n"),
               HasSubstr("must differ from `less`"));

@@ -1,0 +1,60 @@
+// The questions by which a loader reads keys. YamlMap answers them from a file. Without a file KeyAnswers answers, and
+// learns which keys the loader knows (keys/described_reading.h).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace ttf {
+
+enum class KeyType : std::uint8_t {
+  kIsThere,  // has()
+  kIsMap,    // is_map()
+  kBoolean,
+  kInteger,
+  kNumber,
+  kDecimal,  // scaled()
+  kDuration,
+  kText,
+  kWord,  // choice()
+  kMap,
+  kMaps,
+  kTexts,
+  kWords,  // words()
+  kIntegers,
+  kNamedMaps,
+  kNamedTexts,
+};
+
+// Durations count nanoseconds, decimals are times their scale, and a word is its place among the words.
+using KeyValue = std::variant<bool, std::int64_t, double, std::string>;
+
+struct KeyQuestion {
+  std::string map;  // "nodes.NAME", "frames[]"; empty: the whole file
+  std::string key;
+  KeyType type{};
+  bool optional = false;             // a getter with a fallback
+  std::optional<KeyValue> fallback;  // may be missing even then
+  KeyValue low, high;                // numbers and durations
+  std::string unit;
+  std::int64_t scale = 1;          // decimals
+  std::vector<std::string> words;  // kWord, kWords
+
+  std::string path() const { return map.empty() ? key : map + "." + key; }
+};
+
+// Stands for any name in a path, and answers questions for a text.
+inline constexpr const char* kAnyName = "NAME";
+
+class KeyAnswers {
+ public:
+  virtual ~KeyAnswers() = default;
+  // Boolean for kIsThere, kIsMap and kBoolean; std::int64_t for kInteger, kIntegers, kDecimal, kDuration and kWord;
+  // double for kNumber; std::string for kText. For the others the answer does not matter.
+  virtual KeyValue answer(const KeyQuestion& question) = 0;
+};
+
+}  // namespace ttf

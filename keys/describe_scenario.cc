@@ -1,0 +1,98 @@
+#include "keys/descriptions.h"
+
+namespace ttf::keys {
+namespace {
+
+constexpr Description kScenario[] = {
+    {"name", "The drive has this name; results go to `out/NAME` unless `--out` says otherwise.", "dynamics"},
+    {"description", "This sentence describes the drive; reports quote it.", "A car ahead brakes hard"},
+    {"seed", "The seed starts all random streams of the drive.", "1"},
+    {"duration", "The drive lasts this long.", "3 s"},
+    {"evaluate_from",
+     "Measures and pictures begin this long after the start of the drive; before, the tracker warms up."},
+    {"startup",
+     "The cluster begins like this: `integrated`, with every node in cycle 0, or as the mapping says; `cold` needs the "
+     "mapping. Absent, it is `integrated`."},
+    {"startup.kind", "The nodes are integrated from the beginning, or start cold.", "cold"},
+    {"startup.spread", "Each node gets its supply at a time drawn from 0 to this."},
+    {"startup.power_on", "These nodes get their supply at times of their own."},
+    {"startup.power_on.NAME", "The node gets its supply at this time; with `wake_up`, counted from when it is woken.",
+     "12 ms"},
+    {"startup.wake_up", "This node wakes the cluster before it starts up; absent, no node sleeps.", "fusion"},
+    {"clusters", "Each strategy has a cluster file, named from the scenario's folder."},
+    {"clusters.buff", "The drive by BUFF has this cluster.", "../schedules/paper_unsynchronised.yaml"},
+    {"clusters.adva", "The drive by ADVA has this cluster.", "../schedules/paper_unsynchronised.yaml"},
+    {"clusters.tt", "The drive by TT has this cluster.", "../schedules/paper_synchronised.yaml"},
+    {"world", "The world has the objects, and the noise that drives them."},
+    {"world.acceleration_noise",
+     "Each 10 ms step adds noise of this standard deviation to the acceleration of every object."},
+    {"world.yaw_rate_noise", "Each 10 ms step adds noise of this standard deviation to the yaw rate of every object."},
+    {"world.objects", "These objects drive through the world."},
+    {"world.objects[].name", "The object has this name.", "car"},
+    {"world.objects[].x", "The object's centre starts at this x, ahead of the sensor vehicle.", "30.0"},
+    {"world.objects[].y", "The object's centre starts at this y, to the left of the sensor vehicle.", "0.0"},
+    {"world.objects[].heading", "The object heads this way at first, counted from x to y."},
+    {"world.objects[].speed", "The object drives at this speed at first, along its heading."},
+    {"world.objects[].length", "The object has this length."},
+    {"world.objects[].width", "The object has this width."},
+    {"world.objects[].reference", "The object carries the reference's antenna; at most one object does."},
+    {"world.objects[].segments",
+     "The object drives these segments one after the other, then straight on at constant speed."},
+    {"world.objects[].segments[].duration", "The segment lasts this long.", "1500 ms"},
+    {"world.objects[].segments[].acceleration", "The object accelerates by this along its heading."},
+    {"world.objects[].segments[].yaw_rate", "The object turns at this rate."},
+    {"world.field", "Equal objects stand in rows across the x axis."},
+    {"world.field.objects", "The field has so many objects, as far as the rows have room for them.", "1000"},
+    {"world.field.nearest", "The first row is this far ahead."},
+    {"world.field.row", "Rows are this far apart."},
+    {"world.field.across", "Neighbours in a row are this far apart; every other row is shifted by half of it."},
+    {"world.field.half_angle", "Rows reach this far to either side of the x axis, as seen from the sensor vehicle."},
+    {"world.field.heading", "Each object heads this way at first."},
+    {"world.field.speed", "Each object drives at this speed at first."},
+    {"world.field.length", "Each object has this length."},
+    {"world.field.width", "Each object has this width."},
+    {"world.object_count",
+     "Only the first so many objects are there, those of `objects` before those of `field`; absent, all are."},
+    {"sensors", "The sensors have these properties and errors."},
+    {"sensors.laser", "Every laser of the cluster is like this."},
+    {"sensors.camera", "Every camera of the cluster is like this."},
+    {"reference", "A DGPS receiver on the object with the antenna measures it for comparison."},
+    {"reference.period", "The receiver measures once in this time."},
+    {"reference.latency", "A fix is available this long after it was measured."},
+    {"reference.sigma", "The position has this standard deviation on each axis."},
+    {"reference.velocity_sigma", "The velocity has this standard deviation on each axis."},
+    {"reference.excursion_probability", "An excursion begins at a fix with this probability."},
+    {"reference.excursion", "An excursion moves the position by this distance, in a drawn direction."},
+    {"reference.excursion_fixes", "An excursion lasts so many fixes."},
+    {"reference.alignment_baseline",
+     "The vehicle is aligned by two fixes this far apart; their errors turn all later fixes."},
+    {"preprocessing", "The sensors' hosts make observations of raw lists with these parameters."},
+    {"preprocessing.laser", "Scans become objects with these parameters."},
+    {"preprocessing.camera", "Silhouettes become positions with this calibration."},
+    {"tracker", "The tracker of the fusion node assumes this of objects and sensors."},
+    {"recorded",
+     "Recorded observations have these standard deviations; only a cluster that plays a recording has any."},
+    {"recorded.position", "A recorded position of a laser has this standard deviation on each axis."},
+    {"recorded.range", "A recorded range of a radar has this standard deviation."},
+    {"recorded.bearing", "A recorded bearing of a radar has this standard deviation."},
+    {"recorded.range_rate", "A recorded range rate of a radar has this standard deviation."},
+    {"feature_service", "The feature service warns of objects ahead by these parameters."},
+    {"feature_service.own_speed", "The sensor vehicle drives at this speed along x."},
+    {"feature_service.corridor_half_width", "Objects further off the line of travel do not warn."},
+    {"feature_service.warning_time", "A time to collision below this warns."},
+    {"feature_service.max_image_age", "An image predicted to an instant further off than this is refused as stale."},
+    {"faults", "These faults happen in the drive."},
+};
+
+constexpr Description kMounting[] = {
+    {"x", "The sensor is this far ahead of the vehicle's origin."},
+    {"y", "The sensor is this far to the left of the vehicle's origin."},
+    {"heading", "The sensor's x axis is turned by this from the vehicle's, from x to y."},
+};
+
+}  // namespace
+
+Descriptions scenario_descriptions() { return kScenario; }
+Descriptions mounting_descriptions() { return kMounting; }
+
+}  // namespace ttf::keys

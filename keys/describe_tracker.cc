@@ -1,0 +1,58 @@
+#include "keys/descriptions.h"
+
+namespace ttf::keys {
+namespace {
+
+constexpr Description kTracker[] = {
+    {"motion", "Objects are assumed to move like this; `interacting` weighs straight motion and bends."},
+    {"filter", "The filter linearises to first order, or uses sigma points."},
+    {"process_noise",
+     "The white noise that drives each axis has this density: of acceleration [m^2/s^3], or of jerk [m^2/s^5] for "
+     "`constant_acceleration` and `ctra`."},
+    {"turn_noise", "The white noise that drives the turn rate has this density; for bends."},
+    {"mode_seconds", "An object keeps to one model this long on the average; for `interacting`."},
+    {"initial_velocity_sigma", "The velocity of a new track has this standard deviation on each axis."},
+    {"initial_acceleration_sigma", "The acceleration of a new track has this standard deviation."},
+    {"initial_turn_rate_sigma", "The turn rate of a new track has this standard deviation."},
+    {"gate_probability", "The right observation is in its gate with this probability."},
+    {"confirm_window", "A track is confirmed by its hits among the last so many lists; with `birth: m_of_n`."},
+    {"confirm_hits", "So many hits confirm a track; with `birth: m_of_n`."},
+    {"coast_misses", "A track is coasting after so many lists in a row without an observation."},
+    {"delete_misses", "A confirmed track ends after so many lists in a row without an observation."},
+    {"delete_position_sigma", "A track ends when the standard deviation of its position is above this."},
+    {"coast_after", "A track is coasting this long after its newest observation."},
+    {"delete_after", "A track ends this long after its newest observation."},
+    {"max_objects", "The tracker has room for so many confirmed tracks."},
+    {"buff_waits",
+     "BUFF holds a list until the schedule excludes an older one, until the longest delay measured so far is over, or "
+     "for a fixed lag."},
+    {"fixed_lag", "BUFF fuses a list this long after its measurement; with `buff_waits: fixed_lag`."},
+    {"max_observations", "A list has at most so many observations."},
+    {"history_scans", "A late list is taken in up to so many lists back."},
+    {"heading_noise", "The heading of an object wanders with this spectral density."},
+    {"extent_noise", "The length and width of an object wander with this spectral density."},
+    {"systematic",
+     "Unknown biases of the sensors are ignored, or considered in the covariance of every track; `consider` needs "
+     "straight motion and the extended filter."},
+    {"sensors", "The tracker knows this of the cluster's sensors, by their names."},
+    {"association", "A track takes the most probable observation, or all in its gate with their probabilities."},
+    {"birth", "A track is confirmed by M hits in N lists, or by the probability that its object exists."},
+    {"detection_probability", "A list shows a tracked object with this probability; for `jpda` and `existence`."},
+    {"clutter_density", "A list has so many observations of nothing to the square metre; for `jpda` and `existence`."},
+    {"survival_seconds", "An object is there this long on the average; for `existence`."},
+    {"initial_existence", "The object of a new track exists with this probability; for `existence`."},
+    {"confirm_existence", "A track is confirmed from this probability of existence; for `existence`."},
+    {"delete_existence", "A track ends below this probability of existence; for `existence`."},
+    {"merge_probability", "Two confirmed tracks within this quantile of each other become one; 0: never."},
+    {"merge_scans", "Two tracks become one after so many lists in a row that leave them so close."},
+    {"late",
+     "ADVA takes a late list in by this method, and TT by this one where it is `clone`; other methods than `rewind` "
+     "need "
+     "straight motion, the extended filter, and no association, birth or bias beyond the defaults."},
+};
+
+}  // namespace
+
+Descriptions tracker_descriptions() { return kTracker; }
+
+}  // namespace ttf::keys

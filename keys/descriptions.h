@@ -1,0 +1,32 @@
+// The meaning of every key, in one sentence, and an example where the default does not show one. A test finds keys
+// without a description and descriptions without a key.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace ttf::keys {
+
+struct Description {
+  std::string_view key;  // its path below the place of the chapter
+  std::string_view meaning;
+  std::string_view example = "";
+  std::string_view when = "";  // "mode=cas": only where this holds; such rows go before the general one
+};
+using Descriptions = std::span<const Description>;
+
+Descriptions scenario_descriptions();
+Descriptions sensor_descriptions();  // below `sensors` of a scenario
+Descriptions preprocessing_descriptions();
+Descriptions mounting_descriptions();
+Descriptions tracker_descriptions();
+Descriptions known_sensor_descriptions();  // below a sensor of the tracker's
+Descriptions fault_descriptions();         // below `faults[]`
+Descriptions fault_list_descriptions();
+Descriptions cluster_descriptions();
+Descriptions cluster_parameter_descriptions();  // below `flexray`
+Descriptions node_parameter_descriptions();     // below `flexray` of a node, and `node_parameters`
+Descriptions experiment_descriptions();
+Descriptions track_descriptions();
+
+}  // namespace ttf::keys

@@ -1,0 +1,107 @@
+#include "keys/documents.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "drives/scenario.h"
+#include "experiments/campaign/file.h"
+#include "experiments/sweep/file.h"
+#include "faults/plan.h"
+#include "replay/config.h"
+#include "schedules/file/loader.h"
+
+namespace ttf::keys {
+namespace {
+
+constexpr Duration kLongestDrive = Duration::milliseconds(3'600'000);
+
+// The two kinds of experiments have one key in common, which says the kind.
+void load_experiment(const StrictYaml& yaml) {
+  Findings findings;
+  YamlMap root = yaml.root(findings);
+  if (root.choice<bool>("kind", {{"sweep", true}, {"fault_campaign", false}}))
+    experiments::sweep::read_sweep(yaml);
+  else
+    experiments::campaign::read_campaign(yaml);
+}
+
+std::vector<Document> all() {
+  const Chapter mounted_laser{"sensors.laser.mounting", mounting_descriptions()};
+  const Chapter mounted_camera{"sensors.camera.mounting", mounting_descriptions()};
+  return {
+      {"scenario",
+       "Scenario",
+       "A scenario says what happens in a drive: world, sensors, tracker, faults, and the cluster of each strategy.",
+       [](const StrictYaml& yaml) { drives::read_scenario(yaml); },
+       {{"", scenario_descriptions()},
+        {"sensors", sensor_descriptions()},
+        mounted_laser,
+        mounted_camera,
+        {"preprocessing", preprocessing_descriptions()},
+        {"tracker", tracker_descriptions()},
+        {"tracker.sensors.NAME", known_sensor_descriptions()},
+        {"tracker.sensors.NAME.mounting", mounting_descriptions()},
+        {"faults[]", fault_descriptions()}}},
+      {"cluster",
+       "Cluster",
+       "A cluster file says what happens in a cluster, and when: nodes, tasks, sensors, lists, FlexRay and CAN.",
+       [](const StrictYaml& yaml) { schedules::file::read_cluster(yaml); },
+       {{"", cluster_descriptions()},
+        {"flexray", cluster_parameter_descriptions()},
+        {"node_parameters", node_parameter_descriptions()},
+        {"nodes.NAME.flexray", node_parameter_descriptions()}}},
+      {"experiment",
+       "Experiment",
+       "An experiment is a sweep, which drives paradigms over a grid, or a campaign, which injects single faults.",
+       load_experiment,
+       {{"", experiment_descriptions()}}},
+      {"track",
+       "Track configuration",
+       "A track configuration says with which strategy, tracker and sensors `ttfusion track` replays observations.",
+       [](const StrictYaml& yaml) { replay::read_replay_config(yaml, {}); },
+       {{"", track_descriptions()},
+        {"tracker", tracker_descriptions()},
+        {"sensors.NAME", known_sensor_descriptions()},
+        {"sensors.NAME.mounting", mounting_descriptions()}}},
+      {"faults",
+       "Fault list",
+       "A fault list says what goes wrong in the drives of an experiment whose scenario has no faults of its own.",
+       [](const StrictYaml& yaml) { faults::read_fault_plan(yaml, kLongestDrive); },
+       {{"", fault_list_descriptions()}, {"faults[]", fault_descriptions()}}},
+  };
+}
+
+// "kind=noise" holds where the conditions have this value of the key.
+bool holds(std::string_view when, const std::vector<Condition>& conditions) {
+  if (when.empty()) return true;
+  const std::size_t sign = when.find('=');
+  return std::any_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
+    return condition.key == when.substr(0, sign) &&
+           std::find(condition.values.begin(), condition.values.end(), when.substr(sign + 1)) != condition.values.end();
+  });
+}
+
+}  // namespace
+
+const Description* Document::describe(const std::string& path, const std::vector<Condition>& conditions) const {
+  for (const Chapter& chapter : chapters) {
+    const std::string start = chapter.place.empty() ? "" : chapter.place + ".";
+    if (!path.starts_with(start)) continue;
+    for (const Description& row : chapter.rows)
+      if (row.key == std::string_view(path).substr(start.size()) && holds(row.when, conditions)) return &row;
+  }
+  return nullptr;
+}
+
+const std::vector<Document>& documents() {
+  static const std::vector<Document> kDocuments = all();
+  return kDocuments;
+}
+
+const Document* document_of(const std::string& kind) {
+  const auto& all = documents();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Document& one) { return one.kind == kind; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace ttf::keys

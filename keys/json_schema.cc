@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "keys/render.h"
+#include "keys/rows.h"
+#include "keys/value_words.h"
+
+namespace ttf::keys {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A scalar as YAML has it: a number or a flag where it looks like one.
+Json scalar(const std::string& text) {
+  const Json value = Json::parse(text, nullptr, false);
+  return value.is_number() || value.is_boolean() ? value : Json(text);
+}
+
+Json example(const std::string& text) {
+  if (!text.starts_with('[')) return scalar(text);
+  Json list = Json::array();
+  for (std::size_t at = 1; at < text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size() - 1);
+    list.push_back(scalar(text.substr(at, end - at)));
+    at = text.find_first_not_of(' ', end + 1);
+  }
+  return list;
+}
+
+Json number(const KeyQuestion& question, const KeyValue& value) {
+  if (const double* real = std::get_if<double>(&value)) return *real;
+  const std::int64_t whole = std::get<std::int64_t>(value);
+  if (question.type != KeyType::kDecimal || whole % question.scale == 0)
+    return question.type == KeyType::kDecimal ? whole / question.scale : whole;
+  return static_cast<double>(whole) / static_cast<double>(question.scale);
+}
+
+Json named(Json entry) {
+  return {{"type", "object"}, {"patternProperties", {{"^.", std::move(entry)}}}, {"additionalProperties", false}};
+}
+
+class Schema {
+ public:
+  Schema(const Document& document, const Outline& outline) : document_(document), outline_(outline) {}
+
+  Json whole() const {
+    Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
+                {"title", document_.title},
+                {"description", document_.about}};
+    schema.update(mapping(""));
+    return schema;
+  }
+
+ private:
+  Json mapping(const std::string& path) const {
+    const Mapping* mapping = outline_.find(path);
+    Json schema{{"type", "object"}};
+    if (mapping == nullptr) return schema;
+    if (mapping->cases.size() == 1) {
+      const Case& one = mapping->cases.front();
+      schema["properties"] = properties(one);
+      if (Json needed = required(one); !needed.empty()) schema["required"] = std::move(needed);
+      schema["additionalProperties"] = false;
+      return schema;
+    }
+    Json common = shared_properties(*mapping);
+    Json everywhere = required_everywhere(*mapping);
+    schema["properties"] = common;
+    if (!everywhere.empty()) schema["required"] = everywhere;
+    for (const Case& one : mapping->cases) {
+      Json then{{"properties", properties(one)}};
+      for (auto& [key, value] : then["properties"].items())
+        if (common.contains(key)) value = true;
+      if (Json needed = required(one); needed != everywhere && !needed.empty()) then["required"] = std::move(needed);
+      then["additionalProperties"] = false;
+      schema["allOf"].push_back({{"if", conditions(one)}, {"then", std::move(then)}});
+    }
+    return schema;
+  }
+
+  Json properties(const Case& one) const {
+    Json all = Json::object();
+    for (const Key& key : one.keys) all[key.question.key] = property(key, one.conditions);
+    return all;
+  }
+
+  static Json required(const Case& one) {
+    Json needed = Json::array();
+    for (const Key& key : one.keys)
+      if (!key.question.optional) needed.push_back(key.question.key);
+    return needed;
+  }
+
+  // Keys that are the same in every case that has them: those that decide are among them.
+  Json shared_properties(const Mapping& mapping) const {
+    Json shared = Json::object();
+    std::set<std::string> different;
+    for (const Case& one : mapping.cases) {
+      const Json all = properties(one);
+      for (const auto& [key, value] : all.items()) {
+        if (shared.contains(key) && shared[key] != value) different.insert(key);
+        shared[key] = value;
+      }
+    }
+    for (const std::string& key : different) shared.erase(key);
+    return shared;
+  }
+
+  static Json required_everywhere(const Mapping& mapping) {
+    Json everywhere = Json::array();
+    for (const Json& key : required(mapping.cases.front())) {
+      const bool always = std::all_of(mapping.cases.begin(), mapping.cases.end(), [&](const Case& one) {
+        const Json needed = required(one);
+        return std::find(needed.begin(), needed.end(), key) != needed.end();
+      });
+      if (always) everywhere.push_back(key);
+    }
+    return everywhere;
+  }
+
+  static Json conditions(const Case& one) {
+    Json all = Json::object();
+    for (const Condition& condition : one.conditions) {
+      if (condition.of == Condition::Of::kPresence) {
+        if (condition.values.size() != 1) continue;
+        if (condition.values.front() == "true")
+          all["required"].push_back(condition.key);
+        else
+          all["allOf"].push_back({{"not", {{"required", {condition.key}}}}});
+        continue;
+      }
+      Json values = Json::array();
+      for (const std::string& value : condition.values) values.push_back(scalar(value));
+      all["properties"][condition.key]["enum"] = std::move(values);
+      if (!condition.usual) all["required"].push_back(condition.key);
+    }
+    return all;
+  }
+
+  Json property(const Key& key, const std::vector<Condition>& conditions) const {
+    Json schema = value(key);
+    const Description* description = document_.describe(key.question.path(), conditions);
+    annotate(schema, key, description);
+    return schema;
+  }
+
+  static void annotate(Json& schema, const Key& key, const Description* description) {
+    const KeyQuestion& question = key.question;
+    if (description != nullptr) {
+      std::string words(description->meaning);
+      if (question.type == KeyType::kDuration)
+        words += fmt::format(" A {}.", value_words(key, ""));
+      else if (!question.unit.empty())
+        words += fmt::format(" In {}.", question.unit);
+      schema["description"] = words;
+    }
+    if (const auto text = default_text(key)) schema["default"] = scalar(*text);
+    if (description != nullptr && !description->example.empty())
+      schema["examples"] = Json::array({example(std::string(description->example))});
+  }
+
+  Json value(const Key& key) const {
+    const KeyQuestion& question = key.question;
+    const Json any_scalar{{"type", {"string", "number", "boolean"}}};
+    switch (question.type) {
+      case KeyType::kBoolean: return {{"type", "boolean"}};
+      case KeyType::kInteger: return numbers("integer", question);
+      case KeyType::kNumber:
+      case KeyType::kDecimal: return numbers("number", question);
+      case KeyType::kDuration:
+        return {{"type", "string"},
+                {"pattern", std::get<std::int64_t>(question.low) < 0 ? R"(^-?[0-9]+(\.[0-9]+)? (ns|us|ms|s)$)"
+                                                                     : R"(^[0-9]+(\.[0-9]+)? (ns|us|ms|s)$)"}};
+      case KeyType::kText: return {{"type", {"string", "number", "boolean"}}, {"minLength", 1}};
+      case KeyType::kWord: return {{"enum", question.words}};
+      case KeyType::kMap:
+        if (key.words.empty()) return mapping(question.path());
+        return {{"if", {{"type", "object"}}}, {"then", mapping(question.path())}, {"else", {{"enum", key.words}}}};
+      case KeyType::kMaps: return {{"type", "array"}, {"items", mapping(path_within(question))}};
+      case KeyType::kTexts: return {{"type", "array"}, {"minItems", 1}, {"items", any_scalar}};
+      case KeyType::kWords: return {{"type", "array"}, {"minItems", 1}, {"items", {{"enum", question.words}}}};
+      case KeyType::kIntegers: return {{"type", "array"}, {"minItems", 1}, {"items", numbers("integer", question)}};
+      case KeyType::kNamedMaps:
+        if (has_named_texts(outline_, question))
+          return named(property(outline_.find(question.path())->cases[0].keys[0], {}));
+        return named(mapping(path_within(question)));
+      case KeyType::kNamedTexts: return named(property(named_text(outline_, question), {}));
+      case KeyType::kIsThere:
+      case KeyType::kIsMap: break;
+    }
+    return Json::object();
+  }
+
+  static Json numbers(const char* type, const KeyQuestion& question) {
+    return {{"type", type}, {"minimum", number(question, question.low)}, {"maximum", number(question, question.high)}};
+  }
+
+  const Document& document_;
+  const Outline& outline_;
+};
+
+}  // namespace
+
+std::string json_schema(const Document& document, const Outline& outline) {
+  return Schema(document, outline).whole().dump(1) + "\n";
+}
+
+std::string schema_file(const Document& document) { return document.kind + ".schema.json"; }
+
+}  // namespace ttf::keys

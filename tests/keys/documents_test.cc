@@ -1,0 +1,93 @@
+// Every key of every loader has a description, and every description a key. The committed pages and schemas are those
+// that the program prints.
+#include "keys/documents.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+#include "core/file_bytes.h"
+#include "keys/render.h"
+#include "keys/rows.h"
+#include "keys/value_words.h"
+
+namespace ttf::keys {
+namespace {
+
+const Outline& outline_of(const Document& document) {
+  static std::map<std::string, Outline> found;
+  if (!found.contains(document.kind)) found[document.kind] = outline(explore(document.load));
+  return found[document.kind];
+}
+
+bool is_value(KeyType type) {
+  return type != KeyType::kMap && type != KeyType::kMaps && type != KeyType::kNamedMaps && type != KeyType::kNamedTexts;
+}
+
+TEST(Documents, EveryKeyHasADescription) {
+  for (const Document& document : documents())
+    for (const Row& row : rows_of(document, outline_of(document)))
+      EXPECT_NE(row.description, nullptr)
+          << document.kind << ": describe " << row.path << " " << row.only_with << " in keys/describe_*.cc";
+}
+
+TEST(Documents, EveryDescriptionHasAKey) {
+  std::set<const Description*> used;
+  for (const Document& document : documents())
+    for (const Row& row : rows_of(document, outline_of(document))) used.insert(row.description);
+  for (const Document& document : documents())
+    for (const Chapter& chapter : document.chapters)
+      for (const Description& description : chapter.rows)
+        EXPECT_TRUE(used.contains(&description)) << document.kind << ": no loader reads " << chapter.place << " "
+                                                 << description.key << " " << description.when;
+}
+
+TEST(Documents, AMeaningIsOneSentence) {
+  for (const Document& document : documents())
+    for (const Row& row : rows_of(document, outline_of(document))) {
+      if (row.description == nullptr) continue;
+      const std::string_view meaning = row.description->meaning;
+      EXPECT_TRUE(meaning.ends_with('.')) << meaning;
+      EXPECT_LE(meaning.size(), 200u) << meaning;
+    }
+}
+
+TEST(Documents, AKeyWithoutADefaultHasAnExample) {
+  for (const Document& document : documents())
+    for (const Row& row : rows_of(document, outline_of(document))) {
+      if (row.description == nullptr || !is_value(row.key.question.type) || default_text(row.key)) continue;
+      if (row.key.question.type == KeyType::kBoolean || !row.key.default_by.empty()) continue;
+      EXPECT_FALSE(row.description->example.empty()) << document.kind << ": " << row.path << " " << row.only_with;
+    }
+}
+
+void expect_committed(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path path = std::filesystem::path(TTF_SOURCE_DIR) / file;
+  ASSERT_TRUE(std::filesystem::exists(path)) << file << " is not there: tools/update_keys.sh writes it";
+  EXPECT_EQ(read_file(path.string()), text) << file << " is another: tools/update_keys.sh writes it anew";
+}
+
+TEST(Documents, PagesAndSchemasAreThoseInTheTree) {
+  std::set<std::string> files{"README.md"};
+  for (const Document& document : documents()) {
+    for (const Page& page : markdown_pages(document, outline_of(document))) {
+      EXPECT_LE(std::count(page.text.begin(), page.text.end(), '\n'), static_cast<std::ptrdiff_t>(kMostLines))
+          << page.file;
+      expect_committed(std::filesystem::path("docs/keys") / page.file, page.text);
+      files.insert(page.file);
+    }
+    expect_committed(std::filesystem::path("schemas") / schema_file(document),
+                     json_schema(document, outline_of(document)));
+    files.insert(schema_file(document));
+  }
+  for (const char* folder : {"docs/keys", "schemas"})
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(TTF_SOURCE_DIR) / folder))
+      EXPECT_TRUE(files.contains(entry.path().filename().string())) << entry.path() << " belongs to no document";
+}
+
+}  // namespace
+}  // namespace ttf::keys

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""The schemas take every shipped file and refuse wrong ones with the key named, as the program does.
+
+    schemas_test.py PROGRAM SOURCE_FOLDER
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import jsonschema
+import yaml
+
+PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+
+
+class Loader(yaml.SafeLoader):
+    """YAML 1.2, as editors read it: PyYAML takes `yes` for a flag and 1e-3 for a text. Keys are texts."""
+
+    yaml_implicit_resolvers = {}
+
+    def construct_mapping(self, node, deep=False):
+        return {key.value: self.construct_object(value, deep=True) for key, value in node.value}
+
+
+Loader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile("^(true|false)$"), None)
+Loader.add_implicit_resolver("tag:yaml.org,2002:int", re.compile("^[-+]?[0-9]+$"), None)
+Loader.add_implicit_resolver("tag:yaml.org,2002:null", re.compile("^(null|~|)$"), None)
+Loader.add_implicit_resolver("tag:yaml.org,2002:float",
+                             re.compile(r"^[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$"), None)
+Loader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))
+Loader.add_constructor("tag:yaml.org,2002:float", lambda loader, node: float(node.value))
+
+SCHEMAS = {path.name.split(".")[0]: json.loads(path.read_text()) for path in (SOURCE / "schemas").glob("*.json")}
+
+
+def refusals(kind: str, text: str) -> list[str]:
+    """One line for each mistake, with its path."""
+    validator = jsonschema.Draft7Validator(SCHEMAS[kind])
+    return [".".join(str(step) for step in error.absolute_path) + ": " + error.message
+            for error in validator.iter_errors(yaml.load(text, Loader))]
+
+
+SHIPPED = ([("scenario", path) for path in sorted((SOURCE / "scenarios").glob("*.yaml"))] +
+           [("scenario", path) for path in sorted((SOURCE / "tests/test_bed").glob("*.yaml"))] +
+           [("cluster", path) for path in sorted((SOURCE / "schedules").glob("*.yaml"))] +
+           [("experiment", path) for path in sorted((SOURCE / "experiments").glob("*.yaml"))] +
+           [("faults", path) for path in sorted((SOURCE / "experiments/faults").glob("*.yaml"))])
+
+# Configurations of `ttfusion track` in other tests.
+TRACKS = [
+    "sensors: {laser: {}}\n",
+    "strategy: tt\ntracker: {process_noise: 4.0, confirm_hits: 1}\n"
+    "sensors:\n  laser: {position: 0.15, period: 100 ms, worst_delay: 10 ms}\n"
+    "  radar: {range: 0.3, bearing: 0.03, range_rate: 0.3, period: 100 ms, first: 50 ms, worst_delay: 70 ms}\n",
+    "sensors:\n  side: {mounting: {x: 1.0, y: -0.9, heading: -1.57}, bias: {bearing: 0.01},"
+    " bias_sigma: {range: 0.1, time: 5 ms}}\ntracker: {systematic: consider}\n",
+    "sensors: {camera: {bias_sigma: {x: 0.5, y: 0.5}}, radar: {bias_sigma: {bearing: 0.02}}}\n",
+    "tracker: {late: clone, buff_waits: fixed_lag, fixed_lag: 50 ms, clutter_density: 1e-3}\n",
+]
+
+# Name of the mistake, kind of file, a right file (none: a track configuration), a text in it, its replacement, the wrong key.
+CAR = "scenarios/dynamics.yaml"
+PAPER = "schedules/paper_synchronised.yaml"
+NOISE = "experiments/process_noise.yaml"
+CAMPAIGN = "experiments/fault_campaign.yaml"
+TORN = "experiments/faults/camera_crash.yaml"
+WRONG = [
+    ("an unknown key", "scenario", CAR, "process_noise: 0.04", "proces_noise: 0.04", "proces_noise"),
+    ("a missing key", "scenario", CAR, "seed: 1\n", "", "seed"),
+    ("out of range", "scenario", CAR, "speed: 10.0", "speed: 120.0", "speed"),
+    ("a wrong unit", "scenario", CAR, "duration: 3 s", "duration: 3 min", "duration"),
+    ("an unknown word", "scenario", CAR, "process_noise: 0.04", "motion: ctrw", "motion"),
+    ("a flag that is a number", "cluster", PAPER, "synchronisation: true", "synchronisation: 1", "synchronisation"),
+    ("a parameter below its range", "cluster", PAPER, "gdStaticSlot: 84", "gdStaticSlot: 3", "gdStaticSlot"),
+    ("a key of another measurement", "cluster", PAPER, "measurement: scheduled", "measurement: scheduled, period: 80 ms",
+     "period"),
+    ("a fraction of a whole number", "cluster", PAPER, "gSyncNodeMax: 5", "gSyncNodeMax: 5.5", "gSyncNodeMax"),
+    ("a campaign's key in a sweep", "experiment", NOISE, "seed: 1\n", "seed: 1\nvariants: {}\n", "variants"),
+    ("an unknown measure", "experiment", NOISE, "measures: [", "measures: [speed, ", "measures"),
+    ("a text instead of a list", "experiment", NOISE, "measures: [", "measures: nees #", "measures"),
+    ("a weight of an unknown kind", "experiment", CAMPAIGN, "seed: 1\n", "seed: 1\nclasses: {crush: 1}\n", "crush"),
+    ("another kind's parameter", "faults", TORN, "from: 1600 ms", "from: 1600 ms, probability: 0.5", "probability"),
+    ("a time without a unit", "faults", TORN, "from: 1600 ms", "from: 1600", "from"),
+    ("too large a sigma", "track", None, "bearing: 0.03", "bearing: 0.9", "bearing"),
+]
+
+
+def program_says(kind: str, folder: pathlib.Path, text: str) -> tuple[int, str]:
+    file = folder / "wrong.yaml"
+    file.write_text(text)
+    observations = folder / "observations.csv"
+    observations.write_text("time,sensor,x,y\n0,laser,1,2\n1,laser,1,2\n")
+    sweep = folder / "sweep.yaml"
+    sweep.write_text(f"kind: sweep\nname: torn\nquestion: none\nscenario: {SOURCE / CAR}\nseed: 1\nreplications: 1\n"
+                     "paradigms: {tt: {strategy: tt}}\naxes: {bus: {settings: {torn: {faults: wrong.yaml}}}}\n")
+    command = {"scenario": ["run", file, "--out", folder / "out"],
+               "cluster": ["schedule", "check", file],
+               "experiment": ["experiment", file, "--out", folder / "out"],
+               "faults": ["experiment", sweep, "--out", folder / "out"],
+               "track": ["track", observations, "--config", file, "-o", folder / "tracks.csv"]}[kind]
+    done = subprocess.run([PROGRAM, *command], capture_output=True, text=True, timeout=60, check=False)
+    return done.returncode, done.stderr
+
+
+class Schemas(unittest.TestCase):
+    def test_they_are_schemas_with_right_examples(self):
+        def walk(schema):
+            if isinstance(schema, dict):
+                for value in schema.get("examples", []) + ([schema["default"]] if "default" in schema else []):
+                    jsonschema.validate(value, schema, cls=jsonschema.Draft7Validator)
+                for inner in schema.values():
+                    walk(inner)
+            elif isinstance(schema, list):
+                for inner in schema:
+                    walk(inner)
+
+        self.assertEqual(set(SCHEMAS), {"scenario", "cluster", "experiment", "track", "faults"})
+        for kind, schema in SCHEMAS.items():
+            with self.subTest(kind):
+                jsonschema.Draft7Validator.check_schema(schema)
+                walk({"properties": schema["properties"], "allOf": schema.get("allOf", [])})
+
+    def test_shipped_files_are_right(self):
+        self.assertGreater(len(SHIPPED), 40)
+        for kind, path in SHIPPED:
+            with self.subTest(path.name):
+                self.assertEqual(refusals(kind, path.read_text()), [])
+
+    def test_track_configurations_are_right(self):
+        blocks = re.findall(r"```yaml\n(.*?)```", (SOURCE / "docs/track.md").read_text(), re.DOTALL)
+        self.assertTrue(blocks)
+        for text in TRACKS + blocks:
+            with self.subTest(text):
+                self.assertEqual(refusals("track", text), [])
+
+    def test_wrong_files_are_refused_with_the_key(self):
+        for name, kind, file, old, new, key in WRONG:
+            with self.subTest(name):
+                good = TRACKS[1] if file is None else (SOURCE / file).read_text()
+                self.assertIn(old, good)
+                wrong = good.replace(old, new, 1)
+                self.assertEqual(refusals(kind, good), [])
+                said = refusals(kind, wrong)
+                self.assertTrue(any(re.search(rf"\b{key}\b", line) for line in said), said)
+                with tempfile.TemporaryDirectory() as folder:
+                    code, errors = program_says(kind, pathlib.Path(folder), wrong)
+                self.assertEqual(code, 2, errors)
+                self.assertRegex(errors, rf"wrong\.yaml:[0-9]+: [^ ]*\b{key}\b")
+                print(f"{name}: {said[0]}")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
