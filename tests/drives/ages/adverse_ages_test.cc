@@ -65,13 +65,13 @@ struct Followed final : recording::records::Sink {
     }
     if ((sent.pdu == raw || sent.pdu == objects) && sent.sequence == list) missing += under_worst(sent);
   }
-  void on(const recording::records::ListFused& list) override {
-    if (list.id.sensor != cluster.pdu(objects).sensor) return;
-    const Duration age = list.stamp.global - list.measured;
+  void on(const recording::records::ListFused& fusion) override {
+    if (fusion.id.sensor != cluster.pdu(objects).sensor) return;
+    const Duration age = fusion.stamp.global - fusion.measured;
     extremes = {std::min(extremes.first, age), std::max(extremes.second, age)};
-    if (list.id.sequence != list) return;
+    if (fusion.id.sequence != list) return;
     fused = age;
-    measured = list.measured;
+    measured = fusion.measured;
   }
   void on(const recording::records::ImageWritten& written_image) override {
     if (measured && !image) image = written_image.sequence;
