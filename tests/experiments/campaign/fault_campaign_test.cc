@@ -53,7 +53,7 @@ TEST(FaultCampaign, MistakesInTheFileAreNamed) {
               HasSubstr("start_up = 2: must be a number 0..1"));
   EXPECT_THAT(refusal(replaced(good, "topology: bus, guardian: false", "topology: bus, guardian: true")),
               HasSubstr("needs topology: star"));
-  EXPECT_THAT(refusal(good + "classes: {crash: 0}\n"), HasSubstr("must give some class a weight"));
+  EXPECT_THAT(refusal(good + "classes: {crash: 0}\n"), HasSubstr("must give a class a weight above 0"));
   EXPECT_THAT(refusal(good + "classes: {crush: 1}\n"), HasSubstr("crush: is not a known key"));
   EXPECT_THAT(refusal(replaced(good, "guardian: true", "guardian: false") + "expect: {harmed_with_guardian: 0}\n"),
               HasSubstr("small.yaml:12: expect.harmed_with_guardian"));
