@@ -1,4 +1,4 @@
-// Rows become lists in the order of arrival; simulated delays are drawn by sensor and number, and by nothing else.
+// Rows become lists in the order of arrival. Simulated delays depend only on sensor and number.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
