@@ -90,8 +90,8 @@ SCALE = int(sys.argv[2])
 APART = 100_000                 # of real time; a few microseconds on a quiet machine
 START = 1_500_000 / SCALE       # in the drive's time: by so much less has passed of it on the second host
 
-# What each node's clock showed, less its host's: the same for all within a host but for the cluster's precision, and on
-# different hosts by how far the clocks of these are apart.
+# Each node's clock reading, less its host's. Within a host they agree up to the cluster's precision. Between hosts they
+# differ by the hosts' clock distance.
 def shown(facts):
     by_node = {}
     for corrected in facts["corrections"]:

@@ -264,7 +264,7 @@ TEST(UnscentedFilter, DoesNotUseWhatOneOfItsPointsCannotSee) {
   EXPECT_TRUE(Unscented{}.update(motion::ConstantVelocity{}, PositionHeading{}, z, slow).used);
 }
 
-// One drive with two biased sensors, against the state augmented by all biases. That state's gain has zero
+// One drive with two biased sensors, against the state augmented by all biases, whose gain has zero
 // rows for the biases.
 TEST(ConsiderFilter, IsTheAugmentedFilterWithoutTheBiasesGain) {
   using M = motion::ConstantVelocity;
