@@ -38,7 +38,7 @@ on_second() { nsenter --target "$holder" $other -- "$@"; }
     on_second ip link set lo up && on_second ip link set ttf_second up
 } 2>"$work/ip.err" || { echo "skipped: no veth pair between namespaces: $(cat "$work/ip.err")"; exit 77; }
 
-# As bus/dds/loopback.xml says for several machines.
+# As bus/dds/loopback.xml recommends for several machines.
 for host in first second; do
   sed -e 's#<NetworkInterface name="lo"#<NetworkInterface name="ttf_'$host'"#' -e '/<MaxMessageSize>/d; /<FragmentSize>/d' \
     -e 's#<Peer Address="127.0.0.1"/>#<Peer Address="10.77.0.1"/><Peer Address="10.77.0.2"/>#' \

@@ -39,7 +39,7 @@ Read read(const std::string& entries) {
   return result;
 }
 
-// Every key a kind has, with a value that is not its default.
+// Every key of a kind, with a non-default value.
 const std::map<std::string, std::vector<std::string>> kFullEntries = {
     {"crash", {"node: a", "from: 1 ms", "duration: 2 ms"}},
     {"omission",

@@ -152,7 +152,7 @@ TEST(SimulatedArrivals, DelaysAreWithinTheirBoundsAndOfTheSeed) {
   EXPECT_TRUE(std::is_sorted(once.lists.begin(), once.lists.end(),
                              [](const RecordedList& a, const RecordedList& b) { return a.arrival < b.arrival; }));
 
-  // The camera is not there: the radar's delays are as they were.
+  // Without the camera, the radar's delays stay the same.
   std::vector<recording::rows::ObservationRow> rows = two_cars(10);
   std::erase_if(rows, [](const recording::rows::ObservationRow& row) { return row.sensor == "camera"; });
   RecordedLists alone = recorded_lists_of_rows(rows, config);

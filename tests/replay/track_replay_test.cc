@@ -19,7 +19,7 @@ using fusion::strategies::StrategyKind;
 
 struct Outcome {
   ReplayAccount account;
-  std::vector<std::string> lines;  // of the tracks, as they are written
+  std::vector<std::string> lines;  // the tracks as written
   std::vector<GlobalTime> known;   // the instants of fusions that took something in
   std::vector<recording::rows::TrackRow> last;
 };
@@ -64,7 +64,7 @@ TEST(TrackReplay, FollowsBothCars) {
   EXPECT_EQ(outcome.account.tracks, 2u);
   EXPECT_EQ(outcome.account.rows, outcome.lines.size());
   ASSERT_EQ(outcome.last.size(), 2u);
-  // The last camera list is of 9.95 s.
+  // The last camera list is from 9.95 s.
   EXPECT_NEAR(outcome.last[0].x, 10.0 + 8.0 * 9.95, 0.5);
   EXPECT_NEAR(outcome.last[1].x, 40.0 + 8.0 * 9.95, 0.5);
   EXPECT_NEAR(outcome.last[0].vx, 8.0, 1.0);

@@ -34,7 +34,7 @@ TEST(FaultTolerantMidpoint, DropsTheExtremesByCount) {
   for (const Row& row : rows) EXPECT_EQ(midpoint(row.values), row.result) << row.values.size() << " values";
 }
 
-// It is the midpoint of the extremes that are left, not the mean of all.
+// It is the midpoint of the remaining extremes, not the mean of all.
 TEST(FaultTolerantMidpoint, IsNoMean) { EXPECT_EQ(midpoint({-50, 0, 0, 0, 10, 50}), 5); }
 
 TEST(FaultTolerantMidpoint, RoundsTowardsZero) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The layer check, tried on small houses: what obeys the table passes, every way around it is named."""
+"""The layer check, tried on small houses: houses that obey the table pass, every violation is named."""
 
 import pathlib
 import sys

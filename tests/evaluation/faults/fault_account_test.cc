@@ -134,7 +134,7 @@ TEST(FaultAccount, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
   }
 }
 
-// The same deafness is of no fault of the plan where that is another node's.
+// The same deafness belongs to no fault of the plan if the plan's fault is another node's.
 TEST(FaultAccount, WhatFitsNoFaultIsUnattributed) {
   Reported run(FaultKind::kCrash, "laser_pre");
   Deaf deaf;

@@ -1,4 +1,4 @@
-// Laws L1 to L7 and L9 of fusion/oosm/method.h, of every method. L8 has tests of its own.
+// Laws L1 to L7 and L9 of fusion/oosm/method.h, for every method. L8 has separate tests.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>

@@ -105,7 +105,7 @@ TEST(PaperExperiment, WhoHasNoValueIsNotTheBaseline) {
   EXPECT_THAT(files.at("error.gp"), HasSubstr("difference from b"));
 }
 
-// Each kind of position has a name of its own.
+// Each kind of position has a distinct name.
 TEST(PaperRun, ASensorIsNoOtherKind) {
   EXPECT_EQ(sensor_kind("laser"), "laser");
   EXPECT_EQ(sensor_kind("sensor left"), "sensor left");

@@ -63,7 +63,7 @@ TEST(LatenessPicture, CurvesShowTheShareThatIsAsLate) {
   // The first point is at 1 us, where all are at least as late: the frame's upper left corner.
   const double top = curve.points.front().y, decade_y = 420.0 / 3;
   EXPECT_NEAR(curve.points.front().x, left, 0.01);
-  const auto share_at = [&](double us) {  // on the last point that is not beyond
+  const auto share_at = [&](double us) {  // on the last point inside
     double y = top;
     for (const drawing::Point& p : curve.points)
       if (p.x <= left + decade_x * std::log10(us) + 0.01) y = p.y;

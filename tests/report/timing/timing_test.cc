@@ -66,7 +66,7 @@ TEST(TimingDiagram, FramesSentWithoutGlobalTimeSayNothingOfTheCycles) {
   EXPECT_EQ(count(svg, "fill=\"#444444\">3</text>"), 0u);
 }
 
-// Lets nodes start anew: from then on they count `rounds` of 64 cycles less.
+// Restarts nodes: from then on they count `rounds` of 64 cycles less.
 class Restarted final : public recording::records::Sink {
  public:
   Restarted(recording::records::Sink& out, std::vector<NodeId> nodes, TrueTime at, std::int64_t rounds)
