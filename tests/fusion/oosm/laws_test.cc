@@ -170,7 +170,7 @@ TEST_P(OosmLaws, L7Start) {
   EXPECT_TRUE(same_bits<2>(used.state(), fresh.state()));
 }
 
-// Sight of the next instant, of one in six that lies between earlier ones, and of the instants taken.
+// Sight of the next instant, of the one half-way to the newest taken, and of the newest.
 TEST_P(OosmLaws, L9Sight) {
   OnLine method = started();
   Stamp newest = Stamp::start(GlobalTime{});
