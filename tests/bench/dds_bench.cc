@@ -40,7 +40,7 @@ bus::dds::common::Session session_of(const std::string& name, std::size_t member
   return session;
 }
 
-// One round: says a message, and hears one of each other. False when somebody has gone.
+// One round: sends a message, and hears one of each other. Returns false when a member has gone.
 class RoundMember {
  public:
   RoundMember(const bus::dds::common::Session& session, NodeId self)

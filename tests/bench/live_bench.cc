@@ -92,7 +92,7 @@ class Told {
     at_ += size;
     return true;
   }
-  // Behind those that are in `values` already.
+  // Appends to the contents of `values`.
   bool get(std::vector<std::int64_t>& values) {
     std::uint64_t count = 0;
     if (!get(&count, sizeof count)) return false;
@@ -171,7 +171,7 @@ class Member {
   std::vector<std::int64_t> ways_, sends_;  // ns
 };
 
-// Starts at the instant it gets once it is ready, in nanoseconds.
+// Starts at the instant, in nanoseconds, that it reads once it is ready.
 int be_member(char** words) {
   Member member(job_of(words));
   fmt::print("ready\n");

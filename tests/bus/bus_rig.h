@@ -57,7 +57,7 @@ inline schedules::model::Cluster small_cluster(int nodes) {
   return cluster;
 }
 
-// Everything a controller says.
+// All of a controller's reports.
 struct Heard final : controller::ControllerEvents {
   struct Problem {
     std::int64_t cycle;

@@ -386,7 +386,7 @@ expect 0 'HARMED by fault 0, .*never became normal active' \
 for row in 'uses of an image +0' 'objects compared / missed / spurious +-' 'precision of the time base \[us\] +-'; do
   expect 0 "^$row$" run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
 done
-# Frames that are lost are counted, whichever slots and senders they are of.
+# Lost frames are counted, in any slot and of any sender.
 sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" >"$work/drowned.yaml"
 printf 'faults:\n  - {kind: transient, from: 1 s, duration: 4 ms}\n' >>"$work/drowned.yaml"
 expect 0 \

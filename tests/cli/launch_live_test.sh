@@ -27,7 +27,7 @@ facts() {   # FOLDER: of its nodes' logs, into FOLDER.json
     fail "the logs of $1 cannot be read together"
 }
 
-# ---- every strategy, side by side, each in a session of its own
+# ---- every strategy, side by side, in separate sessions
 pids=()
 for strategy in tt buff adva; do
   begin "$work/$strategy" "$drive" --strategy "$strategy" --time-scale 5 --duration 1.6
@@ -110,7 +110,7 @@ for node in $(python3 -c 'import random, sys; names = sys.argv[2:]; random.Rando
 done &
 stops=$!
 
-# ---- meanwhile those that are stopped by the user, or by a death
+# ---- meanwhile: drives stopped by the user, or by a death
 begin "$work/interrupted" "$drive" --time-scale 4 --duration 600
 interrupted=$!
 begin "$work/required" "$drive" --time-scale 4 --duration 600

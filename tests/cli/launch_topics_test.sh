@@ -36,7 +36,7 @@ heard = {}
 for line in map(json.loads, open(sys.argv[1])):
     if line["event"] == "sample": heard.setdefault(line["topic"], []).append(line)
 counts = {topic: len(lines) for topic, lines in heard.items()}
-# Of 160 steps, 40 images, 20 measurements of the first sensor, and a health of each node in each second.
+# Least counts out of 160 steps, 40 images, 20 measurements of the first sensor, and a health of each node a second.
 for topic, least in (("tracks", 100), ("image", 25), ("image/boxes", 25), ("truth/object_0", 12)):
     assert counts.get("rt/ttfusion/" + topic, 0) >= least, counts
 assert any(line["tracks"] for line in heard["rt/ttfusion/tracks"]), "never a track"

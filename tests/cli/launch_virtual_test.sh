@@ -128,7 +128,7 @@ code=$?
 for file in $left; do [[ -e $work/required/$file ]] && fail "an earlier launch's $file is left"; done
 for file in $users; do [[ -s $work/required/$file ]] || fail "the user's $file is gone"; done
 
-# Interrupted, as by Ctrl-C, it stops in order and says so.
+# Interrupted, as by Ctrl-C, it stops in order and reports it.
 begin "$work/interrupted" "$drive" --duration 600
 interrupted=$!
 wait_begun "$work/interrupted"

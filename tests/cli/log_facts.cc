@@ -3,7 +3,7 @@
 //   clock                 of the merged records: "wall" or "common"; warnings: sentences
 //   logs                  {name, host, whole: closed and sound}
 //   states                {node, at_s, to, why}: changes of protocol operation control
-//   corrections           {node, at_ns, global_ns, offset_microticks}: a clock's corrections, with its reading and offset
+//   corrections           {node, at_ns, global_ns, offset_microticks}: a clock's corrections, with its reading
 //   features              at_s of each first use of an image that was not stale
 //   last_s                by node, its last task's end
 //   truths                the number of truth records

@@ -2,7 +2,7 @@
 """Reads a Perfetto trace without our format description or protobuf's code, as its readers do: by the field numbers of
 Perfetto's own protos/perfetto/trace (trace_packet, track_event/track_event, track_descriptor, debug_annotation).
 
-    perfetto_reader.py FILE      prints what is in it; exit 1 and a line for everything that is wrong with it
+    perfetto_reader.py FILE      prints its contents; exit 1 and a line for every error in it
 """
 
 import struct

@@ -38,7 +38,7 @@ on_second() { nsenter --target "$holder" $other -- "$@"; }
     on_second ip link set lo up && on_second ip link set ttf_second up
 } 2>"$work/ip.err" || { echo "skipped: no veth pair between namespaces: $(cat "$work/ip.err")"; exit 77; }
 
-# As bus/dds/loopback.xml says for several machines.
+# As bus/dds/loopback.xml recommends for several machines.
 for host in first second; do
   sed -e 's#<NetworkInterface name="lo"#<NetworkInterface name="ttf_'$host'"#' -e '/<MaxMessageSize>/d; /<FragmentSize>/d' \
     -e 's#<Peer Address="127.0.0.1"/>#<Peer Address="10.77.0.1"/><Peer Address="10.77.0.2"/>#' \
@@ -90,8 +90,8 @@ SCALE = int(sys.argv[2])
 APART = 100_000                 # of real time; a few microseconds on a quiet machine
 START = 1_500_000 / SCALE       # in the drive's time: by so much less has passed of it on the second host
 
-# What each node's clock showed, less its host's: the same for all within a host but for the cluster's precision, and on
-# different hosts by how far the clocks of these are apart.
+# Each node's clock reading, less its host's. Within a host they agree up to the cluster's precision. Between hosts they
+# differ by the hosts' clock distance.
 def shown(facts):
     by_node = {}
     for corrected in facts["corrections"]:

@@ -61,7 +61,7 @@ TEST(RandomStream, IntegersCoverTheirRangeEvenly) {
   EXPECT_EQ(stream.integer(5, 5), 5);
 }
 
-// A part read by itself is what reading on would have given: two uniform numbers to a block.
+// A part read alone equals the same part of the whole stream: two uniform numbers to a block.
 TEST(RandomStream, APartOfAStreamIsReadWithoutTheOthers) {
   const StreamKey key{.seed = 5, .entity = 3, .index = 9};
   RandomStream whole(key);

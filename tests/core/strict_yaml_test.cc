@@ -93,7 +93,7 @@ TEST(StrictYaml, OneDocumentToItsEnd) {
   EXPECT_EQ(sentence_of("a: 1\n...\n"), "accepted");
   EXPECT_EQ(sentence_of("---\na: 1\t# tabs and line ends are fine\r\n"), "accepted");
   EXPECT_EQ(sentence_of("a: 1\n---\nb: 2\n"), "c.yaml:2: must be one YAML document: another one begins here");
-  // The parser sees documents of nothing here, and never the end of them.
+  // Here the parser sees empty documents without end.
   EXPECT_EQ(sentence_of(", "), "c.yaml:1: must be one YAML document: another one begins here");
   // The parser takes this character for the end of the file.
   EXPECT_EQ(sentence_of("a: 1\n\x04\nb: 2\n"), "c.yaml:2: byte 0x04: must not be in a YAML text");
@@ -125,7 +125,7 @@ TEST(StrictYaml, ScaledNumbersAreExact) {
   EXPECT_EQ(value("0.0000001"), -5'000'000'000) << "finer than the scale: a finding, and the lower bound";
 }
 
-// What each getter returns when it finds nothing usable, and what it says.
+// Each getter's result without a usable value, and its sentence.
 struct Refusal {
   const char* text;
   std::function<void(ttf::YamlMap&)> read;
@@ -247,7 +247,7 @@ TEST(StrictYaml, WhatIsMissingIsSaidWithItsRange) {
                      EXPECT_FALSE(other.map_if("f").has_value());
                      EXPECT_TRUE(other.maps_if("g").empty());
                      other.finish();
-                     // A mapping that is not there reads as empty; its keys are missing where it should stand.
+                     // An absent mapping reads as empty; its missing keys are reported at its proper place.
                      YamlMap gone = map.map("gone");
                      EXPECT_EQ(gone.integer("x", {3, 5}), 3);
                      EXPECT_EQ(gone.integer_or("y", 4, {3, 5}), 4);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every link between the project's pages and files leads somewhere: the file is there, and so is the heading.
+"""Every link between the project's pages and files has a target: the file exists, and so does the heading.
 
     links_test.py REPOSITORY      exit 1 and one line for every broken link
 """

@@ -25,7 +25,7 @@ FOLDERS = ["scenarios", "schedules", "experiments"]
 
 
 class Failure(Exception):
-    """The page does not keep its word."""
+    """The page differs from its commands' results."""
 
 
 def place(lines: list[str], part: list[str], start: int) -> int | None:

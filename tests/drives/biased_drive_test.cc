@@ -230,7 +230,7 @@ TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
   EXPECT_GT(seen.predictions, 20u);
 }
 
-// The examples of docs/sensors.md, as they stand there.
+// The examples of docs/sensors.md, verbatim.
 TEST(BiasedDrive, TheDocumentedKeysLoad) {
   const auto whole = [](const std::string& path) {
     std::ostringstream text;

@@ -32,8 +32,8 @@ struct Told final : recording::records::Sink {
   std::vector<Symbol> symbols;
   std::vector<recording::records::ReferenceFix> fixes;
   std::map<MeasurementId, TrueTime> measured;
-  std::vector<std::pair<MeasurementId, TrueTime>> fused;  // when its list says it was measured
-  std::map<std::uint32_t, TrueTime> images;               // the instant an image is of
+  std::vector<std::pair<MeasurementId, TrueTime>> fused;  // the list's stamp of its measurement
+  std::map<std::uint32_t, TrueTime> images;               // the image's instant
   Duration image_off{};                                   // most that the feature service takes it to be of another one
 
   using recording::records::Sink::on;

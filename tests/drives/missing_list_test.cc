@@ -41,8 +41,8 @@ struct FusionNode {
   }
 };
 
-// The camera measures at 5.9 ms and its slots end at 41.764 ms, 36 us before the fusion. That distance is
-// less than the worst delay allows for the clocks of a whole way, but more than two clocks can differ.
+// The camera measures at 5.9 ms and its slots end at 41.764 ms, 36 us before the fusion. These 36 us are less
+// than the worst delay allows for the clocks of a whole way, but more than two clocks can differ.
 TEST(MissingList, TimeTriggeredGoesOnAtTheCamerasDueInstant) {
   FusionNode node("schedules/paper_synchronised.yaml", StrategyKind::kTt);
   EXPECT_EQ(node.goes_on("laser", at_us(27'700)), at_us(41'800));

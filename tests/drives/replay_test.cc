@@ -136,7 +136,7 @@ TEST(Log, ReplayingTheFusionNodesInputsGivesEveryImageBitForBit) {
   }
 }
 
-// The comparison can say no: one bit of one input, and images differ.
+// The comparison can fail: one bit of one input changes, and images differ.
 struct OneBitFlipped final : recording::records::Sink {
   using recording::records::Sink::on;
   FusionReplay& next;

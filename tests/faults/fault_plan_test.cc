@@ -1,4 +1,4 @@
-// What a list of faults may say, kind by kind, and what becomes of mistakes: one sentence each.
+// The allowed keys of a list of faults, kind by kind; each mistake gives one sentence.
 #include "faults/plan.h"
 
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ Read read(const std::string& entries) {
   return result;
 }
 
-// Every key a kind has, with a value that is not its default.
+// Every key of a kind, with a non-default value.
 const std::map<std::string, std::vector<std::string>> kFullEntries = {
     {"crash", {"node: a", "from: 1 ms", "duration: 2 ms"}},
     {"omission",
@@ -90,7 +90,7 @@ TEST(FaultPlan, EveryKindHasANameOfItsOwnAndAnEntryHere) {
   EXPECT_EQ(names.size(), 17U);
 }
 
-// What the tables of kinds are held to, at compile time.
+// The compile-time requirements of the tables of kinds.
 struct OfAKind {
   FaultKind kind{};
 };
@@ -268,7 +268,7 @@ TEST(FaultPlan, NamesAreLookedUpInTheCluster) {
   EXPECT_EQ(plan.faults[1].node, kNoNode);
   EXPECT_THAT(refused("  - {kind: sos_value, node: " + name(0) + ", receivers: [" + name(0) + "]}\n", cluster),
               ElementsAre(HasSubstr("faults[0].receivers = " + name(0) + ": must be another node")));
-  // Once more changes nothing.
+  // Resolving again changes nothing.
   EXPECT_EQ(resolve(plan, cluster).faults, plan.faults);
 }
 

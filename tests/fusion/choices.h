@@ -1,4 +1,4 @@
-// Every motion model under every filter, for tests that hold of all.
+// Every motion model under every filter, for tests common to all.
 #pragma once
 
 #include <gtest/gtest.h>

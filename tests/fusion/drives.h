@@ -14,7 +14,7 @@
 
 namespace ttf::fusion {
 
-// The name of a test that is run for every strategy.
+// The name of a test that runs for every strategy.
 inline std::string name_of_strategy(const testing::TestParamInfo<strategies::StrategyKind>& kind) {
   std::string name(name_of(kind.param));
   name.front() = static_cast<char>(name.front() - 'a' + 'A');

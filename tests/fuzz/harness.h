@@ -52,7 +52,8 @@ void check_refusal(const InputError& error, std::string_view file);
 // The same for warnings, of which there may be zero.
 void check_lines(std::string_view text, std::string_view file);
 
-// Whether `read` took its input. InputError is the only other way out, and it must look as it should.
+// Returns whether `read` accepted its input. InputError is the only other way out, and must have the proper
+// form.
 template <class Read> bool accepted(std::string_view file, Read&& read) {
   try {
     read();

@@ -56,7 +56,7 @@ struct Finite final : recording::records::Sink {
   }
 };
 
-// A node's buffers and tasks, without its clock: the input says when a task runs.
+// A node's buffers and tasks, without its clock: the input decides when a task runs.
 class Host {
  public:
   Host(const drives::NodeSetConfig& config, NodeId id)

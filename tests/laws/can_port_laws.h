@@ -45,7 +45,7 @@ using CanLabel = std::tuple<std::uint32_t, std::size_t, std::size_t>;
 
 template <class Bench> class CanPortLaws : public testing::Test {
  protected:
-  // Every length there is on this bus.
+  // Every length on this bus.
   std::vector<std::size_t> lengths() const {
     std::vector<std::size_t> all{0, 1, 2, 3, 4, 5, 6, 7, 8};
     if (bench_.flexible_data_rate()) all.insert(all.end(), {12, 16, 20, 24, 32, 48, 64});
@@ -139,7 +139,7 @@ TYPED_TEST_P(CanPortLaws, L3_TiesGoToTheLowerNode) {
   EXPECT_EQ(this->heard(), (std::vector<CanLabel>{{0x100, 0, 0}, {0x200, 0, 2}, {0x200, 1, 1}}));
 }
 
-// Two lists of many frames each, handed over at once, with others in between.
+// Two lists of many frames each, handed over together, with others in between.
 TYPED_TEST_P(CanPortLaws, L4_FramesOfOneIdentifierFromOneNodeKeepTheirOrder) {
   for (std::size_t number = 0; number < 20; ++number) {
     this->send(0, 0x200, this->data(0, number));

@@ -39,7 +39,7 @@ template <class Bench> class ExchangeLaws : public testing::Test {
  protected:
   static NodeId node(std::size_t index) { return NodeId{static_cast<std::uint8_t>(index)}; }
 
-  // Runs `work` for every member at once.
+  // Runs `work` for all members in parallel.
   void all(const std::function<void(std::size_t)>& work) {
     std::vector<std::thread> threads;
     for (std::size_t i = 0; i < bench_.members(); ++i)

@@ -24,7 +24,7 @@ namespace ttf::laws {
 class LiveBench {
  public:
   virtual ~LiveBench() = default;
-  // Why there is no such medium on this machine; empty: there is.
+  // The reason why this machine lacks such a medium; empty: it has one.
   virtual std::string missing() const { return {}; }
   // 2..16 members, who all hear each other already and have sent nothing yet. Each may have its own thread.
   virtual std::size_t members() const = 0;
@@ -51,7 +51,7 @@ class LiveBench {
   bool fast(bus::ports::Line line) const {
     return line >= bus::ports::line_of_can(0) && can_buses()[line - bus::ports::line_of_can(0)];
   }
-  // All members but this one that are on the line.
+  // All other members on the line.
   std::vector<std::size_t> others(std::size_t member, bus::ports::Line line) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < members(); ++i)
@@ -78,7 +78,7 @@ class LiveListener {
   std::uint64_t received() const { return received_; }
   std::uint64_t refused() const { return refused_; }
 
-  // Says the next thing on this line, again and again while there is no room.
+  // Sends the next utterance on this line, and retries while there is no room.
   void say(bus::ports::Line line) {
     const auto begin = std::chrono::steady_clock::now();
     while (!try_to_say(line) && wrong_.empty()) {

@@ -17,7 +17,7 @@ namespace ttf::laws {
 
 enum class Traffic {
   kAll,     // frames of all lengths, null frames, sync frames with their lateness, broken frames, all symbols
-  kFrames,  // frames of 24 bytes, and that is all
+  kFrames,  // only frames of 24 bytes
 };
 
 // The speaker, and the number of members (1..16, the speaker included).

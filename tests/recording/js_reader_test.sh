@@ -52,7 +52,7 @@ console.log("the official reader finds what was written:", JSON.stringify(found.
 JS
 node "$work/compare.mjs" "$work/expected.json" "$work/found.json"
 
-# The reader must be able to say no: one byte of the first chunk changed.
+# The reader must be able to fail: one byte of the first chunk changed.
 node -e '
   const fs = require("node:fs");
   const bytes = fs.readFileSync(process.argv[1]);

@@ -1,4 +1,4 @@
-// Rows become lists in the order of arrival; simulated delays are drawn by sensor and number, and by nothing else.
+// Rows become lists in the order of arrival. Simulated delays depend only on sensor and number.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -152,7 +152,7 @@ TEST(SimulatedArrivals, DelaysAreWithinTheirBoundsAndOfTheSeed) {
   EXPECT_TRUE(std::is_sorted(once.lists.begin(), once.lists.end(),
                              [](const RecordedList& a, const RecordedList& b) { return a.arrival < b.arrival; }));
 
-  // The camera is not there: the radar's delays are as they were.
+  // Without the camera, the radar's delays stay the same.
   std::vector<recording::rows::ObservationRow> rows = two_cars(10);
   std::erase_if(rows, [](const recording::rows::ObservationRow& row) { return row.sensor == "camera"; });
   RecordedLists alone = recorded_lists_of_rows(rows, config);

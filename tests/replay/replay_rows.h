@@ -22,8 +22,8 @@ inline recording::rows::ObservationRow position_row(const std::string& sensor, s
   return row;
 }
 
-// Two cars, one after the other on a lane, seen by a camera every 50 ms and a radar every 70 ms for `seconds`; every
-// list arrives as it is measured.
+// Two cars, one after the other on a lane, seen by a camera every 50 ms and a radar every 70 ms for
+// `seconds`. Every list arrives as it is measured.
 inline std::vector<recording::rows::ObservationRow> two_cars(int seconds) {
   std::vector<recording::rows::ObservationRow> rows;
   RandomStream noise({.seed = 5, .purpose = Purpose::kTest});
@@ -46,7 +46,7 @@ inline std::vector<recording::rows::ObservationRow> two_cars(int seconds) {
   return rows;
 }
 
-// Of sensors whose noise is as usual.
+// For sensors with default noise.
 inline RecordedLists recorded_lists_of_rows(const std::vector<recording::rows::ObservationRow>& rows,
                                             ReplayConfig& config) {
   list_sensors(config, rows, {}, "o.csv");

@@ -1,7 +1,7 @@
-// The replay on a recording that nobody here made (docs/recordings.md): a vehicle seen by a laser and a radar in turn,
-// with ground truth. Noise is the recording's documented one; the process noise follows from how such a vehicle moves,
-// as in scenarios/laser_radar_recorded.yaml. Published RMSE of px, py, vx, vy for a good extended filter: 0.11 0.11
-// 0.52 0.52; for an unscented one 0.09 0.10 0.40 0.30.
+// The replay on a third party's recording (docs/recordings.md): a laser and a radar see a vehicle in turn,
+// with ground truth. Noise is the recording's documented one. The process noise follows from such a vehicle's
+// motion, as in scenarios/laser_radar_recorded.yaml. Published RMSE of px, py, vx, vy for a good extended
+// filter: 0.11 0.11 0.52 0.52; for an unscented one 0.09 0.10 0.40 0.30.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -84,9 +84,9 @@ TEST_F(TrackRecorded, IsWithinThePublishedLimitsOfAnExtendedFilter) {
   EXPECT_LT(error.rmse[3], 0.52);
 }
 
-// The radar's lists are late by up to 90 ms, so that many come after a younger one of the laser: the tracks end as if
-// nothing had been late, whatever the strategy. (Less than the radar's period: BUFF and TT wait for other sensors, not
-// for the same.)
+// The radar's lists are late by up to 90 ms, so that many come after a younger one of the laser. Under every
+// strategy, the tracks end as without delays. (Less than the radar's period: BUFF and TT wait for other
+// sensors only.)
 TEST_F(TrackRecorded, DelaysChangeNothingInTheEnd) {
   const Error in_order = error_of(fusion::strategies::StrategyKind::kAdva);
   SimulatedArrivals simulated;

@@ -1,5 +1,5 @@
-// The replay: every list has one fate, lists are let go when they may be, and where the strategies know the same in the
-// end they say the same, to the last bit.
+// The replay: every list has one fate, and lists are released when allowed. Strategies with the same final
+// information give the same result, to the last bit.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using fusion::strategies::StrategyKind;
 
 struct Outcome {
   ReplayAccount account;
-  std::vector<std::string> lines;  // of the tracks, as they are written
+  std::vector<std::string> lines;  // the tracks as written
   std::vector<GlobalTime> known;   // the instants of fusions that took something in
   std::vector<recording::rows::TrackRow> last;
 };
@@ -39,7 +39,7 @@ Outcome outcome_of(const RecordedLists& arrivals, const ReplayConfig& config, St
   return outcome;
 }
 
-// Every number of the last tracks, and none of their names: those are in the order of confirmation as it happened.
+// Compares every number of the last tracks, but not their names: those follow the order of confirmation.
 void expect_same_end(const Outcome& a, const Outcome& b) {
   ASSERT_EQ(a.last.size(), b.last.size());
   for (std::size_t i = 0; i < a.last.size(); ++i) {
@@ -64,7 +64,7 @@ TEST(TrackReplay, FollowsBothCars) {
   EXPECT_EQ(outcome.account.tracks, 2u);
   EXPECT_EQ(outcome.account.rows, outcome.lines.size());
   ASSERT_EQ(outcome.last.size(), 2u);
-  // The last camera list is of 9.95 s.
+  // The last camera list is from 9.95 s.
   EXPECT_NEAR(outcome.last[0].x, 10.0 + 8.0 * 9.95, 0.5);
   EXPECT_NEAR(outcome.last[1].x, 40.0 + 8.0 * 9.95, 0.5);
   EXPECT_NEAR(outcome.last[0].vx, 8.0, 1.0);
@@ -95,8 +95,7 @@ TEST(TrackReplay, AdvaEndsTheSameForEveryOrderOfArrival) {
     }
 }
 
-// A radar at the back that looks backwards, and is wrong by what is known: the same tracks as one at the origin that is
-// right.
+// A backward radar at the back with a known error: the same tracks as with a correct one at the origin.
 TEST(TrackReplay, FollowsBothCarsFromAnotherPlace) {
   ReplayConfig plain;
   const Outcome expected = outcome_of(recorded_lists_of_rows(two_cars(10), plain), plain, StrategyKind::kAdva);
@@ -126,7 +125,7 @@ TEST(TrackReplay, FollowsBothCarsFromAnotherPlace) {
   }
 }
 
-// Two sensors that disagree by what each may be wrong by: considered, the tracks say how far they may be off.
+// Two sensors disagree within their biases: the tracks' considered covariances contain the biases.
 TEST(TrackReplay, ConsideredBiasesAreInTheTracks) {
   const char* kSensors = "sensors: {camera: {bias_sigma: {x: 0.5, y: 0.5}}, radar: {bias_sigma: {bearing: 0.02}}}\n";
   std::vector<ReplayConfig> configs{
@@ -137,14 +136,12 @@ TEST(TrackReplay, ConsideredBiasesAreInTheTracks) {
     outcomes.push_back(outcome_of(recorded_lists_of_rows(two_cars(10), config), config, StrategyKind::kAdva));
   ASSERT_EQ(outcomes[1].last.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
-    // Of y: both sensors may be wrong in it, whatever the number of observations.
+    // In y: both sensors may be biased in it, for any number of observations.
     EXPECT_GT(outcomes[1].last[i].covariance[4], 2.0 * outcomes[0].last[i].covariance[4]);
     EXPECT_GT(outcomes[1].last[i].covariance[4], 0.1);
   }
 }
 
-// Two vans and a car, says the camera of the one at 10 m; of the other it says as much car as van, and the first name
-// counts.
 TEST(TrackReplay, WhateverBuffWaitsForEveryListHasItsFate) {
   for (const fusion::config::BuffWaiting waits :
        {fusion::config::BuffWaiting::kSchedule, fusion::config::BuffWaiting::kMeasured,
@@ -186,6 +183,8 @@ TEST(TrackReplay, TtWaitsForTheScheduleFromItsFirstInstantOn) {
   EXPECT_EQ(outcome.account.sensors[0].in_order, 1u);
   EXPECT_EQ(outcome.account.sensors[0].longest_hold, Duration::milliseconds(50));
 }
+// The camera calls the near car a van twice as often as a car. For the other one, both names are equally
+// frequent, and the first one counts.
 TEST(TrackReplay, ClassAndThirdAxisGoWithTheTrackForEveryOrderOfArrival) {
   ReplayConfig config;
   std::vector<recording::rows::ObservationRow> rows = two_cars(2);
@@ -244,7 +243,7 @@ TEST(TrackReplay, AllStrategiesEndTheSameAndLoseNothing) {
   }
 }
 
-// A list of the camera at 0 ms waits for the radar, whose worst delay is 80 ms; nothing else ever comes.
+// A list of the camera at 0 ms waits for the radar, whose worst delay is 80 ms; no other list ever comes.
 //   camera  0 ------------------------ arrives 10
 //   BUFF                                            let go at 80
 TEST(TrackReplay, WhatIsHeldIsLetGoWhenTheWorstDelayIsOver) {
@@ -262,7 +261,7 @@ TEST(TrackReplay, WhatIsHeldIsLetGoWhenTheWorstDelayIsOver) {
   EXPECT_EQ(outcome_of(arrivals, config, StrategyKind::kBuff, true).last[0].time_ns, 80'000'000)
       << "predicted to the instant of the fusion";
 
-  // TT: the radar's last instant before is at -30 ms, so that its list is there by 50 ms.
+  // TT: the radar's last instant before is at -30 ms, so its list is there by 50 ms.
   config.sensors[1].second.period = Duration::milliseconds(100);
   config.sensors[1].second.first = GlobalTime{-30'000'000};
   EXPECT_THAT(outcome_of(arrivals, config, StrategyKind::kTt).known, testing::ElementsAre(GlobalTime{50'000'000}));

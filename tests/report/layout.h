@@ -1,4 +1,4 @@
-// What tests ask of an SVG: its texts with their areas, and how many elements have a class.
+// Queries on an SVG for tests: its texts with their areas, and the number of elements of a class.
 #pragma once
 
 #include <gtest/gtest.h>

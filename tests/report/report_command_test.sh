@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `ttfusion report`: of a run, of logs alone, of several runs, of an experiment; and what is refused.
+# `ttfusion report`: of a run, of logs alone, of several runs, of an experiment; and refused input.
 #   report_command_test.sh PROGRAM SOURCE_DIR
 set -u
 program=$1
@@ -8,7 +8,7 @@ source "$source/tests/cli/expect.sh"
 source "$source/tests/cli/small_sweep.sh"
 cd "$work" || exit 1
 
-# What is in a page that must not be in another one.
+# has: the page contains it. lacks: the page does not.
 has() { grep -Fq -- "$2" "$1" || fail "$1 does not have '$2'"; }
 lacks() { ! grep -Eq -- "$2" "$1" || fail "$1 has '$2'"; }
 
@@ -22,12 +22,12 @@ has run.html 'One drive is one draw of the noise'
 has run.html "ttfusion run scenarios/paper_scenario1.yaml --strategy tt --seed 1"
 has run.html \
   "$(python3 -c 'import json; print(json.load(open("seed1/summary.json"))["strategies"][2]["content_hash"])')"
-# Nothing is fetched by it.
+# The page loads no other files.
 lacks run.html '(src|href)="(https?:)?//|@import|url\(["'"'"']?http'
 # The same folder makes the same page.
 expect 0 '' report seed1 -o again.html
 cmp run.html again.html || fail "the same folder makes another page"
-# The curves are the run's: their root mean square from where the drive is judged is the summary's figure.
+# The curves are the run's: their root mean square from the start of judgement is the summary's figure.
 python3 - <<'END' || fail "the position errors of the page are not those of summary.json"
 import json, math, re, sys
 page = open("run.html", encoding="utf-8").read()
@@ -123,7 +123,7 @@ has point.html 'only 20 ms are drawn, from 0.5 s on'
 expect 0 'written to' report small --no-drives -o none.html
 lacks none.html 'One drive of each paradigm|class="diagram"'
 
-# ---- what is not what it was is not driven as if it were, and the page says so
+# ---- a changed experiment is not driven again as if it were the same, and the page reports it
 mkdir changed away
 sed 's/^replications: .*/replications: 5/' small.yaml >changed/small.yaml
 (cd changed && "$program" report ../small -o page.html >/dev/null 2>said) || fail "no page where the file is another"
@@ -140,7 +140,7 @@ expect 2 '^error: command line: --file = changed/small.yaml: cannot be driven ag
 expect 2 '^error: nowhere.yaml: ' report small --file nowhere.yaml -o x.html
 expect 2 '^error: command line: --point = 2: must be a point of small, 0 to 1' report small --point 2 -o x.html
 expect 2 '^error: command line: --point: goes with an experiment' report seed1 --point 0 -o x.html
-# Other figures than the rows': whoever wrote them, it was not this drive.
+# Figures that differ from the rows': they are not this drive's.
 cp -r small forged
 cp -r small holes
 python3 - <<'END'
@@ -158,10 +158,10 @@ expect 0 'written to' report forged -o forged.html
 has forged.html 'No drive is shown here: tt, driven again, gave other numbers than in results.sqlite.'
 # A replication that one of them has not done is passed over.
 expect 0 '^small: 2 runs of point 0, replication 2, again' report holes -o holes.html
-# The commands it shows do what they say.
+# The commands it shows work.
 expect 0 'written to one' experiment small.yaml --replay 0/adva/0 --out one
 expect 0 'written to' report one -o one.html
-# Drives that are judged from other instants on: each timing diagram says what it shows.
+# Drives with different starts of judgement: each timing diagram gives its window.
 expect 0 'written to' report seed1 one -o windows.html
 has windows.html 'A part of each drive is drawn'
 has windows.html 'data-label="one adva, of which 160 ms are drawn, from 0.4 s on"'
@@ -173,7 +173,7 @@ head -c 300000 seed1/tt.mcap >torn/tt.mcap
 expect 0 '^warning: .*cut off at byte 300000' report torn -o torn.html
 has torn.html 'cut off at byte 300000'
 
-# ---- what is refused, in a sentence each
+# ---- refused input, in a sentence each
 mkdir nothing
 expect 2 '^error: nothing: is neither a run .* nor an experiment' report nothing -o x.html
 expect 2 '^error: nowhere: must be a folder of results' report nowhere -o x.html

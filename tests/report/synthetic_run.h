@@ -1,6 +1,6 @@
-// A made-up drive as records, written out by hand arithmetic: two free-running sensors whose preprocessing
-// takes different times (so that camera lists overtake laser lists), a 5 ms cycle with two slots per list,
-// fusion every 10 ms and images every 40 ms. For the pictures only; it obeys no schedule checker.
+// A made-up drive as records, written out by hand arithmetic. Two free-running sensors have different
+// preprocessing times, so that camera lists overtake laser lists. A 5 ms cycle has two slots per list. Fusion
+// runs every 10 ms, images come every 40 ms. Only for the pictures; it obeys no schedule checker.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ struct SyntheticRun {
     for (f.channel = 0; f.channel < 2; ++f.channel) sink.on(f);
   }
 
-  // Whose measurement a list of the PDU is: raw data and objects of the two sensors in turn, then the image.
+  // The sensor of a PDU's list: raw data and objects of the two sensors in turn, then the image.
   static SensorId sensor_of(PduId pdu) {
     return index_of(pdu) < 4 ? SensorId(static_cast<std::uint8_t>(index_of(pdu) % 2)) : kNoSensor;
   }
@@ -94,7 +94,7 @@ struct SyntheticRun {
     bool taken = false;
   };
 
-  // From 0 to `end_us`, in the order of nothing in particular (a merged log has each process in turn).
+  // From 0 to `end_us`, unordered (a merged log has each process in turn).
   void drive(recording::records::Sink& sink, std::int64_t end_us) const {
     std::vector<Arrival> arrivals;
     struct Kind {

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Whether what a launch left in its folder is as it must be.
+"""Judges the results in a launch folder.
 
-    judge.py FOLDER [EXPRESSION SENTENCE]...      exit 1 and the sentence of each expression that does not hold
+    judge.py FOLDER [EXPRESSION SENTENCE]...      exit 1 and the sentence of each false expression
 
-Expressions are Python's, over `manifest`, `summary` (of the one strategy), `nodes` (by name, what each said of itself last),
-and sums of that over the nodes: lost(KEY), and medium(KEY) of what the medium counted.
+Expressions are Python's. Their variables are `manifest`, `summary` (of the one strategy) and `nodes` (each node's last report,
+by name). lost(KEY) sums a value over the nodes' reports, medium(KEY) a count of their media.
 """
 import json
 import pathlib

@@ -1,12 +1,12 @@
-# For the scripts here that run the node set of the paper's TT cluster as processes on vcans of their own; sourced, with
-# the program's path as $1.
+# For the scripts here that run the node set of the paper's TT cluster as processes on separate vcans. To be sourced
+# with the program's path as $1.
 ttfusion=$(realpath "$1")
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 drive=$project/tests/test_bed/short_drive.yaml
 export PATH=$PATH:/usr/sbin:/sbin
 
-# On the test bed time is virtual: nothing is late there, whatever else the machine does. Elsewhere wake-ups are as late as
-# they are, so that the schedule is stretched, and what is late is not judged.
+# On the test bed time is virtual: frames are never late there, under any load of the machine. Elsewhere wake-ups may be
+# late, so the schedule is stretched, and lateness is not judged.
 virtual_time=false
 time_scale=4
 if grep -q time-travel=inf-cpu /proc/cmdline; then
@@ -26,7 +26,7 @@ need() {
   done
 }
 
-# Interfaces of nobody else's: ttfcan0 and 1 are channels A and B.
+# Interfaces for these scripts only: ttfcan0 and 1 are channels A and B.
 a=ttfcan0 b=ttfcan1 laser_can=ttfcan2 camera_can=ttfcan3 observation_can=ttfcan4
 interfaces=("$a" "$b" "$laser_can" "$camera_can" "$observation_can")
 on_vcans=(--bus "socketcan:$a,$b" --can "laser_can=$laser_can" --can "camera_can=$camera_can"
@@ -51,8 +51,8 @@ make_interfaces() {
   done
 }
 
-# Until so many ns after the next tenth of a second, where drives begin: so that what comes then comes at the same instant of
-# each drive.
+# Sleeps until so many ns after the next tenth of a second, where drives begin. The following events then come at the same
+# instant of each drive.
 sleep_to() {
   local now
   now=$((10#$(date +%N)))
@@ -60,7 +60,7 @@ sleep_to() {
   sleep "$((now / 1000000000)).$(printf %09d $((now % 1000000000)))"
 }
 
-# launch FOLDER [OPTION...]: the node set, supervised; its words are in FOLDER.txt.
+# launch FOLDER [OPTION...]: runs the node set, supervised; its output is in FOLDER.txt.
 launch() {
   local folder=$1
   shift
@@ -68,13 +68,13 @@ launch() {
   "$ttfusion" launch "$drive" "${on_vcans[@]}" --no-pictures --json --out "$folder" "$@" >"$folder.json" 2>"$folder.txt"
 }
 
-# process_of NODE MANIFEST: its number, of the first process there was.
+# process_of NODE MANIFEST: prints the number of the node's first process.
 process_of() { awk -v name="\"$1\"," '$1 == "\"name\":" { on = $2 == name } on && $1 == "\"pid\":" { print +$2; exit }' "$2"; }
 
-# judge FOLDER [EXPRESSION SENTENCE]...: each must hold (judge.py says of what), else the sentence is said.
+# judge FOLDER [EXPRESSION SENTENCE]...: prints the sentence of each false expression (judge.py has their variables).
 judge() { python3 "$project/tests/test_bed/judge.py" "$@" || fail "see above"; }
 
-# What must hold of every drive of the whole node set, and more.
+# Judges a drive of the whole node set by the common expressions, and by those given.
 judge_drive() {
   local in_time=()
   ! $virtual_time ||

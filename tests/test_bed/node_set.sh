@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The node set as processes on vcans: all come through a drive, nothing is lost, and the images are used.
-#   node_set.sh TTFUSION      its logs stay in LOGS, if that is set; exit code 77, with the reason, where there is no vcan
+# The node set as processes on vcans: all finish a drive without losses, and the images are used.
+#   node_set.sh TTFUSION      its logs stay in LOGS, if that is set; exit code 77, with the reason, without a vcan
 set -euo pipefail
 source "$(dirname "$0")/node_set.bash"
 need python3

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# An interface that goes down under the node set: said in a sentence, and all stop in order, with logs that can be read.
-#   node_set_down.sh TTFUSION      exit code 77, with the reason, where there is no vcan
+# An interface goes down under the node set: a sentence reports it, and all stop in order, with readable logs.
+#   node_set_down.sh TTFUSION      exit code 77, with the reason, without a vcan
 set -euo pipefail
 source "$(dirname "$0")/node_set.bash"
 need python3

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A node that is killed under --policy NODE=restart comes back, integrates, and goes on; nobody else loses anything but its
+# A node killed under --policy NODE=restart comes back, integrates, and goes on. The others lose only its
 # frames.
-#   node_set_restart.sh TTFUSION      its logs stay in LOGS, if that is set; exit code 77, with the reason, where there is no vcan
+#   node_set_restart.sh TTFUSION      its logs stay in LOGS, if that is set; exit code 77, with the reason, without a vcan
 set -euo pipefail
 source "$(dirname "$0")/node_set.bash"
 need python3

@@ -31,7 +31,7 @@ for interface in "$a" "$laser_can"; do
 done
 quietly cangen "$a" -g 3 -n 40 -I i -L 8 -D r &                                    # classic, on our identifiers
 quietly cangen "$a" -g 3 -n 60 -I i -L i -D r -f &                                 # CAN FD on our identifiers
-quietly cangen "$laser_can" -g 3 -n 40 -I 300 -L 8 -D r &                          # nobody's identifier
+quietly cangen "$laser_can" -g 3 -n 40 -I 300 -L 8 -D r &                          # an unassigned identifier
 for _ in $(seq 10); do
   cansend "$laser_can" 001#010203                                                # a strobe of three bytes
   cansend "$laser_can" 002#00                                                    # a trigger of one
@@ -66,7 +66,7 @@ follow_ups=$(grep -c " ns late$" "$run/heard") sync_frames=$(grep -c "sync" <(gr
 [[ $follow_ups -eq $sync_frames ]] || fail "$follow_ups follow-ups of $sync_frames sync frames"
 
 echo "canplayer takes the laser's place: what it recorded of it gives the same observations"
-# What the device said; triggers are the host's.
+# The device's frames; triggers are the host's.
 grep -E ' (001#[0-9A-F]{8}|100##[0-9A-F]{129})$' "$run/laser.log" >"$run/device.log"
 mkdir "$run/by_hand"
 start=$(($(date +%s) + 3))
@@ -79,7 +79,7 @@ done
 candump -n 1 "$laser_can,002:7FF" >"$run/trigger"   # the first
 canplayer -I "$run/device.log" "$laser_can=$laser_can" &
 for node in "${nodes[@]}"; do wait "$node" || fail "$(cat "$run"/by_hand/*.txt)"; done
-observations() {   # but for sequence number and time stamp
+observations() {   # without sequence number and time stamp
   frames_of "$1" | awk -F, '$2 == "observation_can" && $9 == "laser_objects" { print substr($13, 17) }'
 }
 observations "$run/drive/laser_pre.mcap" >"$run/of_the_emulator"

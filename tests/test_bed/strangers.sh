@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# can-utils as strangers on vcan0 and vcan1, and a process of ours (vcan_peer.cc): each must see of the other what
-# docs/socketcan.md says.
-#   strangers.sh VCAN_PEER    exit code 77, with the reason, where there is no vcan or no can-utils; 1 if a test fails
+# can-utils as strangers on vcan0 and vcan1, and a process of ours (vcan_peer.cc): each must see the other as
+# docs/socketcan.md describes.
+#   strangers.sh VCAN_PEER    exit code 77, with the reason, without a vcan or can-utils; 1 if a test fails
 set -euo pipefail
 peer=$(realpath "$1")
 cd "$(dirname "$0")/../.."
@@ -42,7 +42,7 @@ for channel in A:vcan0 B:vcan1; do
   wait
   diff <(shown "$run/shown") "$run/expected" || fail "candump sees another frame on channel ${channel%:*}"
   grep -q ' foreign 0 malformed 0 displaced 0 abandoned 0 lost 0' "$run/heard" || fail "$(tail -1 "$run/heard")"
-  # What candump -L recorded, canplayer says again.
+  # canplayer replays candump's recording.
   "$peer" listen vcan0 "${channel%:*}" 500 >"$run/replayed" 2>"$run/ready" &
   wait_for listening "$run/ready"
   canplayer -I "$run/recorded" vcan0=vcan1

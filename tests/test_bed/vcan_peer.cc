@@ -1,14 +1,13 @@
-// One process on a vcan, for the scripts next to it: hears FlexRay frames on CAN FD, and says some.
+// One process on a vcan, for the scripts next to it: receives and sends FlexRay frames on CAN FD.
 //
 //   vcan_peer listen INTERFACE A|B IDLE_MS [ONTO]
-//       Prints every frame and symbol of that channel until nothing has come for IDLE_MS, then what it counted. With
-//       ONTO, a second interface, all that is complete is said again there. Exit code 1 and one sentence if an
-//       interface fails.
+//       Prints every frame and symbol of that channel until IDLE_MS without arrivals, then its counts. With ONTO, a
+//       second interface, it repeats every complete frame there. Exit code 1 and one sentence if an interface fails.
 //   vcan_peer node INTERFACE A|B SLOT NODES CYCLES START_S
-//       Sends a frame in its slot of CYCLES cycles of 5 ms from that second (CLOCK_REALTIME) on, and prints what it
-//       hears from the other NODES - 1: the kernel's stamp, the instant of reading, slot, cycle and payload.
+//       Sends a frame in its slot of CYCLES cycles of 5 ms from that second (CLOCK_REALTIME) on. Prints the frames of
+//       the other NODES - 1: the kernel's stamp, the instant of reading, slot, cycle and payload.
 //   vcan_peer deaf INTERFACE FRAMES MS
-//       Has room for that many frames, reads nothing for that long, then prints how many it heard and how many it lost.
+//       Has room for that many frames, reads nothing for that long, then prints the numbers of received and lost ones.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -119,7 +118,7 @@ bool send_frame(bus::socketcan::Socket& socket, Channel channel, int slot, int c
   return send_all(socket, bus::socketcan::frame_to_can(slot, std::span(frame).first(size)).all());
 }
 
-// Wakes at an instant, to the microsecond; a timeout of poll()'s comes up to a thousandth of its length late.
+// Wakes at an instant, to the microsecond; a timeout of poll() comes up to a thousandth of its length late.
 class Alarm {
  public:
   Alarm() : descriptor_(timerfd_create(CLOCK_REALTIME, TFD_CLOEXEC)) { prctl(PR_SET_TIMERSLACK, 1UL); }
@@ -143,7 +142,7 @@ class Alarm {
   int descriptor_;
 };
 
-// Prints what has been said until that instant.
+// Prints everything sent until that instant.
 bool hear_until(bus::socketcan::Socket& socket, Channel channel, bus::socketcan::Reassembly& reassembly, Alarm& alarm,
                 std::int64_t until) {
   alarm.set(until);

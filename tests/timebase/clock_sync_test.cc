@@ -34,7 +34,7 @@ TEST(FaultTolerantMidpoint, DropsTheExtremesByCount) {
   for (const Row& row : rows) EXPECT_EQ(midpoint(row.values), row.result) << row.values.size() << " values";
 }
 
-// It is the midpoint of the extremes that are left, not the mean of all.
+// It is the midpoint of the remaining extremes, not the mean of all.
 TEST(FaultTolerantMidpoint, IsNoMean) { EXPECT_EQ(midpoint({-50, 0, 0, 0, 10, 50}), 5); }
 
 TEST(FaultTolerantMidpoint, RoundsTowardsZero) {
@@ -45,7 +45,7 @@ TEST(FaultTolerantMidpoint, RoundsTowardsZero) {
   EXPECT_EQ(midpoint({-8, 1, 2, 90}), 1);
 }
 
-// Whatever k faulty clocks say, the result stays within the range of the others.
+// With any values of k faulty clocks, the result stays within the range of the others.
 TEST(FaultTolerantMidpoint, StaysWithinTheFaultlessValues) {
   RandomStream stream({3, 0, Purpose::kTest, 1, 0});
   for (int run = 0; run < 5000; ++run) {
@@ -97,7 +97,7 @@ SyncMeasurements pairs(std::vector<SyncDeviation> even, std::vector<SyncDeviatio
 }
 
 TEST(RateCorrection, IsOddMinusEvenOfTheSameFrame) {
-  // Frame 3 has no partner, frame 9 none either; the order of arrival does not matter.
+  // Neither frame 3 nor frame 9 has a partner; the order of arrival does not matter.
   const auto measured = pairs({{1, 10, 12}, {2, -5, -5}, {3, 900, 900}}, {{9, -900, -900}, {2, 5, 5}, {1, 30, 32}});
   EXPECT_EQ(rate_correction(measured, 0, 0, 1000).value, 15);  // (20 + 10) / 2
 }

@@ -58,7 +58,8 @@ TEST(CycleClock, MacroticksSumExactlyOverCycles) {
   }
 }
 
-// Every macrotick starts at the first microtick at or after its exact share, before the correction phase and in it.
+// Every macrotick starts at the first microtick at or after its exact share, before the correction phase and
+// in it.
 TEST(CycleClock, MacroticksAreSpreadEvenly) {
   for_drawn_cycles(2, [](const CycleGeometry& g, const CycleClock& clock, RandomStream&) {
     const std::int64_t length = g.micro_per_cycle + clock.rate_correction();
@@ -123,7 +124,7 @@ TEST(CycleClock, GlobalTimeIsMonotoneAcrossTheCyclesCorners) {
   });
 }
 
-// At the start of macrotick m the clock shows m macroticks, one microtick before it does not yet.
+// At the start of macrotick m the clock shows m macroticks; one microtick earlier it does not yet.
 TEST(CycleClock, GlobalTimeAgreesWithMacrotickStarts) {
   for_drawn_cycles(4, [](const CycleGeometry& g, const CycleClock& clock, RandomStream& stream) {
     for (int i = 0; i < 50; ++i) {
@@ -157,7 +158,8 @@ TEST(CycleClock, WhenIsTheFirstMicrotickAtOrAfter) {
 
 Int128 floor_of(Int128 a, Int128 b) { return a / b - (a % b < 0 ? 1 : 0); }
 
-// What the law says of microtick `into` of the cycle, to the picosecond rounded down and then to the nanosecond.
+// The law's value at microtick `into` of the cycle, rounded down to the picosecond and then to the
+// nanosecond.
 std::int64_t global_ns(const CycleGeometry& g, const CycleClock& clock, std::int64_t into) {
   const Int128 length = g.micro_per_cycle + clock.rate_correction();
   const Int128 before = -floor_of(-length * g.offset_correction_start, g.macro_per_cycle);
@@ -170,8 +172,8 @@ std::int64_t global_ns(const CycleGeometry& g, const CycleClock& clock, std::int
   return static_cast<std::int64_t>(floor_of(cycle * clock.cycle() + elapsed, 1000));
 }
 
-// From the first cycles to those in which 64 bits are full of picoseconds, with macroticks that are no whole
-// nanoseconds, too; at the cycle's corners, where roundings show, anywhere, and behind its end.
+// From the first cycles to those whose picoseconds fill 64 bits, also with macroticks of fractional
+// nanoseconds. Tests the cycle's corners, where roundings show, drawn instants, and instants behind its end.
 TEST(CycleClock, GlobalTimeIsTheLawsToTheNanosecond) {
   RandomStream stream({2, 0, Purpose::kTest, 6, 0});
   for (int run = 0; run < 400; ++run) {

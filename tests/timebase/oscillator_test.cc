@@ -13,7 +13,7 @@ namespace {
 struct Drawn {
   std::int64_t nominal_ps, drift_ppb, phase_ps;
   Oscillator oscillator() const { return {nominal_ps, drift_ppb, phase_ps}; }
-  // Where the law says tick k is, computed here: phase + k * (nominal / (1 + drift) rounded to an attosecond).
+  // The law's tick k, computed here: phase + k * (nominal / (1 + drift) rounded to an attosecond).
   Int128 attoseconds(std::int64_t k) const {
     const Int128 top = static_cast<Int128>(nominal_ps) * 1'000'000 * 1'000'000'000;
     const Int128 bottom = 1'000'000'000 + drift_ppb;
@@ -72,8 +72,8 @@ TEST(OscillatorLaws, L3_TimeOfIsTheFirstNanosecondAtOrAfterTheTick) {
   });
 }
 
-// Periods and phases of whole nanoseconds have ticks that are neither late nor early, where rounded estimates are off
-// by one; and ticks so late that what is rounded off has added up.
+// With periods and phases of whole nanoseconds, ticks are neither late nor early, where rounded estimates are
+// off by one. Late ticks, whose rounding errors have added up, are tested, too.
 TEST(OscillatorLaws, L1AndL3_HoldAtTicksOnTheNanosecondAndLongAfterTheStart) {
   RandomStream stream({1, 0, Purpose::kTest, 6, 0});
   for (int clock = 0; clock < 300; ++clock) {
@@ -153,7 +153,7 @@ TEST(Oscillator, TheTickUnderWayIsStretched) {
   EXPECT_EQ(oscillator.local_time({41}).ns, 1'025);
 }
 
-// 12.5 ns at +137.25 ppm: after 10^12 ticks still on the tick that the period says.
+// 12.5 ns at +137.25 ppm: after 10^12 ticks still on the period's tick.
 TEST(Oscillator, NothingAccumulates) {
   const Drawn drawn{12'500, 137'250, 3};
   const std::int64_t k = 1'000'000'000'000;

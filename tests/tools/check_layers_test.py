@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The layer check, tried on small houses: what obeys the table passes, every way around it is named."""
+"""The layer check, tried on small houses: houses that obey the table pass, every violation is named."""
 
 import pathlib
 import sys
@@ -72,7 +72,7 @@ class CheckLayers(unittest.TestCase):
                 self.expect({**leaf, refused: f'#include "{include}"\n'}, f"{refused}: ")
 
     def test_what_another_header_brings_along(self):
-        # Each include by itself is allowed; what report then sees is not.
+        # Each include is allowed alone; report's indirect view is not.
         self.expect({"bus/wire/frame.h": "", "recording/log.h": '#include "bus/wire/frame.h"\n',
                      "report/plot.cc": '#include "recording/log.h"\n'},
                     'report may not include bus/wire ("bus/wire/frame.h" over recording/log.h)')

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The joint table of drives: every drive and strategy has its column, aligned, and what was not measured is a dash."""
+"""The joint table of drives: every drive and strategy has its column, aligned, with a dash for a missing value."""
 
 import copy
 import pathlib

@@ -131,7 +131,7 @@ TEST(IncomingList, AWholeListInOneFragmentTearsToo) {
   expect_latest(incoming, small);
 }
 
-// Same sequence number, another count: two different lists all the same.
+// The same sequence number with another count: still two different lists.
 TEST(IncomingList, AnotherCountUnderOneNumberTears) {
   const auto layout = list_layout();
   IncomingList incoming(layout);
@@ -307,7 +307,7 @@ TEST(IncomingList, L4_CodesAboveTheRangeAreRefused) {
   layout.element[0].high = 1000.0;
   IncomingList incoming(layout);
   MadeList list(layout, 1, 5, 990);                                 // 990..994
-  wire::write_element_raw(layout, list.fragment(1), 2, 0, 0xFFFF);  // there is no sixth element
+  wire::write_element_raw(layout, list.fragment(1), 2, 0, 0xFFFF);  // the sixth element is absent
   EXPECT_EQ(incoming.arrive(list.fragment(0)), kIncomplete);
   for (const int element : {0, 1}) {
     std::vector<std::byte> bad(list.fragment(1).begin(), list.fragment(1).end());
@@ -350,7 +350,7 @@ TEST(IncomingList, WhateverTheNetworkDoesAListIsWholeOrNotThere) {
       // Mostly the newest list, now and then one before.
       MadeList& from = stream.integer(0, 9) == 0 ? sent.front() : sent.back();
       const auto fragment = static_cast<int>(stream.integer(0, from.fragments - 1));
-      // Each slot brings the same, and a known fragment is neither stored nor counted anew.
+      // Each slot brings the same, and a known fragment is neither stored nor counted again.
       const bool known = incoming.knows(from.fragment(fragment), fragment);
       const IncomingList before = incoming;
       IncomingList in_slot = incoming;

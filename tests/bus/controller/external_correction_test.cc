@@ -19,7 +19,7 @@ schedules::model::Cluster correctable(schedules::model::Cluster cluster, int dam
   return cluster;
 }
 
-// Length of a cycle that is over, in microticks of the node.
+// Length of a past cycle, in the node's microticks.
 std::int64_t length_of(const Heard& heard, std::size_t cycle) {
   return (heard.cycle_starts[cycle + 1].second - heard.cycle_starts[cycle].second).value;
 }
@@ -109,7 +109,7 @@ TEST(ExternalCorrection, DampingTakesTheRateTermBack) {
   }
 }
 
-// Coldstart nodes that are given terms from power-on use them from normal operation on only.
+// Coldstart nodes with terms from power-on use them only in normal operation.
 TEST(ExternalCorrection, IsNotForStartup) {
   const auto start = [](int offset) {
     Rig rig(correctable(startup_cluster(3)), {0, 0, 0}, {}, std::vector<TrueTime>(3, Rig::kStart));

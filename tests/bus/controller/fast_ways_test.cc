@@ -1,5 +1,6 @@
-// The controller's fast ways against the plain one, on drawn receptions: a frame on both channels at once
-// (receive_on_both()), and one that says nothing new, taken in before it is there (knows(), hear_known()).
+// The controller's fast ways against the plain one, on drawn receptions. One is a frame on both channels at
+// once (receive_on_both()). The other is a frame without new content, taken in before it arrives (knows(),
+// hear_known()).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 namespace ttf::bus::controller {
 namespace {
 
-// Everything a controller tells a host that wants no receptions.
+// All of a controller's reports to a host that wants no receptions.
 struct Told final : ControllerEvents {
   std::vector<std::int64_t> entries;
   int problems = 0;
@@ -27,7 +28,7 @@ struct Told final : ControllerEvents {
     ++problems;
   }
   void static_segment_ended(std::int64_t cycle, Microticks at) override { write(3, cycle, at.value); }
-  // Of a fragment that is known already it need not be told.
+  // A known fragment need not be reported.
   void list_arrived(PduId pdu, cni::ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
                     Microticks at) override {
     if (effect != cni::ArrivalEffect::kDuplicate || torn)
@@ -42,7 +43,7 @@ struct Told final : ControllerEvents {
   }
 };
 
-// What arrives on both channels, or on one.
+// A reception on both channels, or on one.
 struct Arrived {
   ports::Reception reception;
   bool on_a = true, on_b = true;
@@ -57,7 +58,7 @@ struct Seat {
   explicit Seat(const schedules::model::Cluster& cluster) : controller(cluster, NodeId{1}, port, told) {
     controller.start_integrated({{1000}, 0});
   }
-  // All that is due before.
+  // Runs all events due before.
   void run_to(Microticks at) {
     while (controller.next_event() < at) controller.advance(controller.next_event());
   }
@@ -79,7 +80,7 @@ class Drawn {
   void run(Counts& counts) {
     for (std::int64_t cycle = 0; cycle < 8; ++cycle) {
       for (int slot = 1; slot <= 10; ++slot) {
-        const bool own = slot == 2 || slot == 9 || slot == 10;  // or nobody's
+        const bool own = slot == 2 || slot == 9 || slot == 10;  // or unassigned
         if (draw_.uniform() < (own ? 0.9 : 0.03)) continue;
         arrive(cycle, slot, counts);
         if (draw_.uniform() < 0.05) arrive(cycle, slot, counts);
@@ -93,11 +94,11 @@ class Drawn {
   }
 
  private:
-  // Mostly what the schedule says, now and then what it does not.
+  // Mostly the schedule's frame, now and then another.
   void arrive(std::int64_t cycle, int slot, Counts& counts) {
     Frame frame = Frame::status(slot, cycle);
     if (slot >= 5 && slot <= 8) {
-      // A list lasts for two cycles, so that every other time all of it is there already.
+      // A list lasts for two cycles, so every second time it is already complete.
       MadeList list(cluster_.pdu(kList), static_cast<std::uint32_t>(cycle / 2), 10, 100);
       std::ranges::copy(list.fragment(slot - 5), frame.payload.begin());
       frame.header.null_frame = draw_.uniform() < 0.1;

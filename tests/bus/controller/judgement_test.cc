@@ -85,7 +85,7 @@ TEST(ControllerJudges, ContentErrors) {
   EXPECT_EQ(wire::decode_frame(Channel::kA, startup_only.bytes()).error, wire::FrameError::kNone);
   EXPECT_EQ(status_of(startup_only, 2), kContentError);
   EXPECT_EQ(status_of(Frame::status(10, 0), 10), kContentError);  // an unassigned slot
-  // The receiver's own: it is sending itself, and cannot make out anything.
+  // The receiver's own slot: it is sending, and cannot decode anything.
   EXPECT_EQ(status_of(Frame::status(5, 0), 5), kTransmissionConflict | kSyntaxError);
   EXPECT_EQ(status_of(Frame::status(9, 0), 9), kContentError);                  // not in even cycles
   EXPECT_EQ(status_of(Frame::status(9, 1, Channel::kB), 9, 1), kContentError);  // not on B

@@ -144,7 +144,7 @@ TEST(NetworkManagement, OnlyValidFramesWithTheIndicatorCount) {
   EXPECT_EQ(read_after(plain), silent);
   wrong_cycle.header.cycle = 3;
   EXPECT_EQ(read_after(wrong_cycle), silent);  // content error
-  in_list.header.frame_id = 9;                 // a slot of which the schedule does not say so
+  in_list.header.frame_id = 9;                 // a slot without it in the schedule
   in_list.header.sync = in_list.header.startup = false;
   in_list.header.cycle = 1;
   in_list.start = Alone::at(1, 84 * 8 + 7).value;

@@ -71,7 +71,7 @@ TEST(MediaTestSymbol, OnTheChannelsAskedForAndAttached) {
   EXPECT_EQ(attached.symbols()[0].channel, Channel::kA);
 }
 
-// Behind the minislots where there are any: 24 of 5 MT from 844 on.
+// Behind the minislots, if any: 24 of 5 MT from 844 on.
 TEST(MediaTestSymbol, TheWindowFollowsTheDynamicSegment) {
   schedules::model::Cluster cluster = small_cluster(4);
   cluster.flexray.gNumberOfMinislots = 24;
@@ -234,7 +234,7 @@ TEST(SymbolWindow, SaysNothingDuringStartup) {
   EXPECT_GT(heard_by_others, 50);
   EXPECT_EQ(rig.controller(3).state().kind, poc::PocKind::kNormalActive);
   EXPECT_TRUE(rig.controller(3).symbol_window_status(Channel::kA).valid_mts);
-  for (const auto& problem : rig.heard(1).problems) EXPECT_EQ(problem.slot, 4);  // the fourth's, before it is there
+  for (const auto& problem : rig.heard(1).problems) EXPECT_EQ(problem.slot, 4);  // the fourth's, before its start
 }
 
 }  // namespace

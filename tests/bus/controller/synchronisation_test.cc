@@ -98,7 +98,7 @@ TEST(Deviations, DelayCompensationIsTakenOffPerChannel) {
 TEST(Deviations, FramesWithoutSyncIndicatorAreNotMeasured) {
   Rig rig(small_cluster(2), {0, 0});
   rig.on_the_way = [](TestMedium::Arrival& frame) {
-    frame.start += Duration{1000};  // all frames that are not in key slots come 40 microticks late
+    frame.start += Duration{1000};  // all frames outside key slots come 40 microticks late
     const auto decoded = wire::decode_frame(frame.channel, frame.bytes);
     if (decoded.header.sync) frame.start = frame.start - Duration{1000};
     return true;
@@ -228,7 +228,7 @@ TEST(WithoutSynchronisation, TheDifferenceGrowsAsDriftTimesTime) {
     rig.run_until(at);
     EXPECT_NEAR(static_cast<double>(rig.precision(at).ns), 3000.0 * static_cast<double>(ms), 60.0) << ms;
   }
-  // It is measured and reported all the same, while frames still fall into their slots.
+  // It is still measured and reported, while frames fall into their slots.
   ASSERT_FALSE(rig.heard(0).corrected.empty());
   EXPECT_GT(rig.heard(0).corrected[0].offset.value, 0);
   EXPECT_LT(rig.heard(1).corrected[0].offset.value, 0);

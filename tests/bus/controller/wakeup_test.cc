@@ -58,7 +58,7 @@ TEST(Wakeup, AfterSilenceThePatternIsSentAndTheNodeIsReady) {
   EXPECT_EQ(node.status(), poc::WakeupStatus::kTransmitted);
 }
 
-// A channel that is busy at the timer's end has stopped the timer. The node listens anew afterwards.
+// A channel that is busy at the timer's end has stopped the timer. The node listens again afterwards.
 TEST(Wakeup, WhileListeningTheTimerFollowsTheChannels) {
   Waking node;
   node.port.busy[0] = true;

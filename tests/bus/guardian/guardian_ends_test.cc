@@ -14,7 +14,7 @@
 namespace ttf::bus::guardian {
 namespace {
 
-constexpr std::int64_t kDelay = 25;  // to the coupler, as it is compensated for: half of two nodes'
+constexpr std::int64_t kDelay = 25;  // to the coupler, as compensated: half of two nodes'
 constexpr int kMicroPerMacro = 40;
 
 // Minislots of 7 macroticks with the action point 3 in, of 25 ns microticks.

@@ -182,7 +182,7 @@ TEST(PocHost, KeySlotOnlyUntilAllSlotsAndTheNextCycle) {
   EXPECT_EQ(node.last.reason, PocReason::kCommandNotAccepted);
   node.tell(Event::kReady).cycle(kTwoNodes);
   EXPECT_EQ(node.state.slot_mode, SlotMode::kKeySlotOnly);
-  // Asked for while passive, it holds when active again.
+  // A request while passive takes effect when active again.
   node = PocScript(parameters);
   node.to_passive().tell(Event::kAllSlots).double_cycles(3, false);
   EXPECT_EQ(node.state.kind, Kind::kNormalActive);

@@ -13,7 +13,7 @@ namespace ttf::bus::poc {
 using Kind = PocKind;
 using Event = PocEventKind;
 
-inline constexpr int kReference = 1;  // frame id of the node that is followed
+inline constexpr int kReference = 1;  // frame id of the followed node
 inline constexpr StartupFramesSeen kNobody{};
 inline constexpr StartupFramesSeen kLeaderOnly{1, 1, true, true};
 inline constexpr StartupFramesSeen kTwoNodes{2, 2, true, true};

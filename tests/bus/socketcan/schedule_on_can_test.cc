@@ -36,7 +36,7 @@ int most_stuff_bits(int n) {
       if (run < 4)
         next[static_cast<std::size_t>(run) + 1] = best[static_cast<std::size_t>(run)];
       else
-        next[1] = std::max(next[1], best[4] + 1);  // the fifth, and the stuff bit begins a run of its own
+        next[1] = std::max(next[1], best[4] + 1);  // the fifth; the stuff bit begins a new run
     }
     best = next;
   }

@@ -53,7 +53,7 @@ TEST(PduCodec, SignalsAreMostSignificantBitFirstWithoutGaps) {
 // other bits stay.
 TEST(PduCodec, RoundTripLeavesTheNeighboursAlone) {
   RandomStream stream({5, 0, Purpose::kTest, 1, 0});
-  int shorter = 0, as_long = 0, longer = 0;  // than the 64 bits that are handled at once
+  int shorter = 0, as_long = 0, longer = 0;  // than the 64 bits handled at once
   for (int run = 0; run < 600; ++run) {
     schedules::model::PduLayout layout;
     layout.name = "drawn";

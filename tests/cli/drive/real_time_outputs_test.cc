@@ -54,7 +54,7 @@ std::string name_of_node(const StrategyResult& result, int node) {
   return result.cluster.nodes[static_cast<std::size_t>(node)].name;
 }
 
-// Lines as they are, blanks as one.
+// Matches lines; runs of blanks count as one.
 bool has_line(const std::string& text, const std::string& pattern) {
   const std::string blanks = std::regex_replace(pattern, std::regex(" "), " +");
   return std::regex_search(text, std::regex("(^|\n)" + blanks + " *(\n|$)"));

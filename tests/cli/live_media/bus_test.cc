@@ -42,7 +42,7 @@ TEST(Bus, IsExplained) {
   EXPECT_EQ(forms_with_interfaces(), "socketcan:IF[,IF]");
 }
 
-// Whichever media there are.
+// For every medium in the table.
 TEST(LiveMedia, EachRowIsWhole) {
   std::set<std::string_view> names;
   for (const LiveMediumRow* const medium : kLiveMedia) {
@@ -54,7 +54,7 @@ TEST(LiveMedia, EachRowIsWhole) {
     EXPECT_LE(medium->most_interfaces, 2u) << medium->name;  // one a channel
     EXPECT_TRUE(medium->look_at != nullptr && medium->make != nullptr) << medium->name;
   }
-  // --virtual-time says so.
+  // The first medium carries virtual time, as --virtual-time states.
   EXPECT_TRUE(kLiveMedia.front()->not_in_virtual_time.empty());
   EXPECT_FALSE(kLiveMedia.front()->has_interfaces());
 }

@@ -7,13 +7,13 @@
 
 namespace ttf::cli::supervision {
 
-// Sends the text as it is on the control line.
+// Sends the unchanged text on the control line.
 void tell(int control_fd, const std::string& text);
 // A file that appears complete.
 void leave_number(const std::string& path, pid_t number);
 // Forks a process that waits for ever, with its number in the file.
 void descend(const std::string& path);
-// The how-manieth call with this file it is.
+// Returns the number of calls with this file, this one included.
 int times(const std::string& path);
 // Describes the standard descriptors, the environment and all open descriptors besides the control line.
 std::string surroundings(int control_fd);

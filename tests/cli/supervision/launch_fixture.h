@@ -74,7 +74,7 @@ class Launching : public testing::Test {
     return text.str();
   }
 
-  // True as soon as it is; false after two minutes.
+  // Returns true as soon as the condition holds, false after two minutes.
   static bool eventually(const std::function<bool()>& condition) {
     for (int i = 0; i < 12'000; ++i) {
       if (condition()) return true;

@@ -43,7 +43,7 @@ TEST(LineCutter, CutsNoCharacterInTwo) {
   const std::string text = std::string(kLongestLine - 1, 'x') + "\xe2\x82\xac\n";  // a euro sign across the cut
   EXPECT_THAT(cutter.feed(text),
               ElementsAre(std::string(kLongestLine - 1, 'x') + std::string(LineCutter::kGoesOn), "\xe2\x82\xac"));
-  // Bytes that are no characters are cut anywhere.
+  // Bytes outside any character are cut anywhere.
   const std::string junk(kLongestLine + 10, '\x80');
   EXPECT_THAT(
       cutter.feed(junk + "\n"),

@@ -9,7 +9,7 @@
 namespace ttf::cli::supervision {
 namespace {
 
-// What it prints is read back by a shell as it was.
+// A shell reads its output back unchanged.
 TEST(ShellText, IsWhatAShellReads) {
   EXPECT_EQ(shell_text({"ttfusion", "node", "laser_pre", "--out=a/b"}), "ttfusion node laser_pre --out=a/b");
   const std::vector<std::string> arguments{"printf", "%s|",  "a b", "it's", "",  "$HOME",

@@ -122,7 +122,7 @@ TEST_F(Stopping, CanBeAskedFor) {
 }
 
 TEST_F(Stopping, TakesGrandchildrenAlong) {
-  // One of a node that is interrupted, one of a node that ended well before.
+  // One grandchild belongs to an interrupted node, one to a node that ended well before.
   const auto outcome = run_interrupted(
       config({{"a", Policy::kRequired, child({"descend:" + path("first"), "ready", "wait"})},
               {"b",
@@ -169,7 +169,7 @@ TEST_F(Stopping, NobodyOutlivesAKilledSupervisor) {
   EXPECT_TRUE(eventually([&] { return is_gone(grandchild); }));
 }
 
-// A second supervisor in the same process finds signals as they were.
+// A second supervisor in the same process finds signals unchanged.
 TEST_F(Stopping, LeavesSignalsAsTheyWere) {
   const auto disposition = [](int signal) {
     struct sigaction now {};

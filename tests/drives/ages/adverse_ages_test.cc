@@ -92,7 +92,7 @@ struct Followed final : recording::records::Sink {
 
 struct Conspiracy {
   Scenario scenario;
-  schedules::model::Cluster shipped, cluster;  // as loaded; as it is simulated
+  schedules::model::Cluster shipped, cluster;  // as loaded; as simulated
   SensorId laser, camera;
   bool worst;
 

@@ -34,7 +34,7 @@ TEST(ReferenceJudge, ComparesWithTheFixesInterpolatedOnceBothAreKnown) {
   EXPECT_EQ(judge.compared(), 1u);
   EXPECT_NEAR(judge.position_rmse(), 0.3, 1e-12);
   EXPECT_NEAR(judge.velocity_rmse(), 0.4, 1e-12);
-  // A use that is judged at once, as its fixes are known: 0.4 m away now.
+  // A use judged immediately, as its fixes are known: 0.4 m away now.
   judge.use(at(50), std::vector<PlaneEstimate>{{11.4, 0, 5.0, 0.0}});
   EXPECT_EQ(judge.compared(), 2u);
   EXPECT_NEAR(judge.position_rmse(), std::sqrt((0.09 + 0.16) / 2), 1e-12);

@@ -134,7 +134,7 @@ TEST(FaultAccount, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
   }
 }
 
-// The same deafness is of no fault of the plan where that is another node's.
+// The same deafness belongs to no fault of the plan if the plan's fault is another node's.
 TEST(FaultAccount, WhatFitsNoFaultIsUnattributed) {
   Reported run(FaultKind::kCrash, "laser_pre");
   Deaf deaf;
@@ -208,7 +208,7 @@ TEST(FaultAccount, ClocksThatPartAreHarmUnlessTheOneThatPartsIsFaulty) {
   }
 }
 
-// H1: fault-free nodes lose their supply, one after the other, during a fault on the channel: each is named.
+// H1: fault-free nodes lose their supply, one after the other, during another node's crash: each is named.
 TEST(FaultAccount, EveryNodeThatLeavesNormalActiveIsNamed) {
   Reported run(FaultKind::kCrash, "laser_pre");
   run.begins(0.5, run.node("laser_pre"));

@@ -21,7 +21,7 @@ struct Plan {
   ttf::faults::FaultPlan plan;
   std::optional<FaultCauses> causes;
 
-  // All of them begin and act at once.
+  // All faults begin and act at the same instant.
   explicit Plan(std::vector<Fault> faults) {
     plan.faults = std::move(faults);
     causes.emplace(plan, cluster);
@@ -30,7 +30,7 @@ struct Plan {
       causes->acts(f, us(0));
     }
   }
-  // In a slot of `owner`, as `receiver` says.
+  // The cause of a signal in a slot of `owner`, as `receiver` reports it.
   std::optional<std::size_t> heard(NodeId owner, NodeId receiver, std::int64_t from_us, bool silence = false,
                                    Channels channels = Channels::kB) const {
     return causes->of_signal({owner, receiver, channels, us(from_us), us(from_us + 80), silence});

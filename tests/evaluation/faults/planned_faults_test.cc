@@ -140,7 +140,7 @@ TEST(FaultAccount, WhoNeverStartsIsHarmed) {
   EXPECT_FALSE(found.unattributed.harmed());
 }
 
-// Several at once, each where it belongs, whichever began or acted last.
+// Several simultaneous faults: each effect goes to its own, in any order of beginnings and acts.
 TEST(FaultAccount, OfSeveralFaultsEachIsToldItsOwn) {
   Planned run;
   run.add(FaultKind::kCrash, "camera_pre", 1'000, 0);

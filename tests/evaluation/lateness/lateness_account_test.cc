@@ -79,7 +79,7 @@ TEST(AchievedPrecision, DrawnClocksAreAsFarApartAsTheirFormulasSay) {
     std::vector<std::pair<std::int64_t, std::int64_t>> lines;  // ahead, ns per ms
     for (std::uint8_t n = 0; n < 5; ++n) {
       const std::int64_t ahead = stream.integer(-30'000, 30'000), gain = stream.integer(-20, 20);
-      const std::int64_t rounds = stream.integer(-3, 3) * kRoundNs;  // of its own count
+      const std::int64_t rounds = stream.integer(-3, 3) * kRoundNs;  // by its own count
       lines.emplace_back(ahead, gain);
       clocks.push_back({NodeId{n}, [=](std::int64_t host_ns) { return ahead + gain * host_ns / 1'000'000 + rounds; }});
     }
@@ -119,7 +119,7 @@ TEST(AchievedPrecision, WhoIsSilentHasNoTimeMeanwhile) {
   // Ten stamps of node 1 are missing. Node 0's from k = 20 to 30 lie between node 1's of k = 19 and of k =
   // 30, which is 300 us later than node 0's.
   EXPECT_EQ(apart(all).count() - apart(silent).count(), 10u + 11u);
-  // One stamp that is missing is bridged.
+  // One missing stamp is bridged.
   const auto gap = stamps_of(clocks, 60, [](NodeId node, int k) { return node == NodeId{0} || k != 20; });
   EXPECT_EQ(apart(all).count() - apart(gap).count(), 1u);
 }

@@ -135,7 +135,7 @@ TEST_F(MissingFramesTest, EachReceiverAndChannelByItself) {
   EXPECT_EQ(withheld(kSecondTalker), 1u);
 }
 
-// Turns of a slot that is not in every cycle, and of two senders.
+// Turns of a slot with gaps between its cycles, and with two senders.
 TEST_F(MissingFramesTest, TurnsAreTheSchedules) {
   missed(5, 0, 2, kTalker);
   missed(7, 0, 2, kSecondTalker);
@@ -170,7 +170,7 @@ TEST_F(MissingFramesTest, ASenderThatRestarted) {
   EXPECT_EQ(withheld(), 0u);
 }
 
-// More than there are counters: each turn has an instant of its own.
+// More turns than counter values: each turn has its own instant.
 TEST_F(MissingFramesTest, MoreThanARound) {
   for (std::int64_t cycle = 100; cycle < 300; ++cycle) missed(cycle);
   missed(400);
@@ -239,7 +239,7 @@ TEST_F(MissingFramesTest, ASenderThatIsAwayWhileItRestartsCountsAnew) {
   told_.back().stamp.true_time += Duration{200 * kTurnNs};
   told_.back().late = Duration{200 * kTurnNs};
   EXPECT_EQ(away(), 30u);
-  // By some cycles it may be wrong: the counter says which turn it was.
+  // It may be wrong by some cycles: the counter gives the turn.
   told_.back().stamp.true_time += Duration{20 * kTurnNs};
   EXPECT_EQ(away(), 30u);
 }
@@ -254,7 +254,7 @@ TEST_F(MissingFramesTest, SilenceIsOfTheSendersOwnTurns) {
   EXPECT_EQ(away(), 2u) << "15 is kSecondTalker's; whether 17 was sent its sender's log does not say";
 }
 
-// Said twice is missed once; and never more than were lost.
+// Two reports of one frame count once, and never more frames than were lost.
 TEST_F(MissingFramesTest, OneTurnCountsOnce) {
   missed(10);
   missed(10);
@@ -317,7 +317,7 @@ TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
   }
   for (const std::int64_t scale : {std::int64_t{0}, std::int64_t{-5}, std::int64_t{1}, kFar}) {
     scale_ppm_ = scale;
-    EXPECT_LE(withheld(), 6u * 6u);  // no more for each loss than were missed
+    EXPECT_LE(withheld(), 6u * 6u);  // at most the missed ones for each loss
     EXPECT_LE(away(), 6 * std::uint64_t{std::numeric_limits<std::uint32_t>::max()});
   }
   told_ = {of(kTalker, recording::records::kSlotMissed, 7, 1, 1),

@@ -1,4 +1,4 @@
-// Campaigns on the shipped cluster, as short as they may be.
+// The shortest campaigns on the shipped cluster.
 #pragma once
 
 #include <fmt/format.h>

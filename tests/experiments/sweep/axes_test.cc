@@ -17,7 +17,7 @@
 namespace ttf::experiments::sweep {
 namespace {
 
-// By name, as they stand in the list.
+// By name, as in the list.
 std::map<std::string, std::string> documented_axes() {
   const std::string text = read_file(TTF_SOURCE_DIR "/docs/experiments.md"), begin = "\n```yaml\naxes:\n";
   const std::size_t from = text.find(begin) + begin.size();

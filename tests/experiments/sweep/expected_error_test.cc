@@ -112,7 +112,7 @@ Drawn drawn_lists(double until_ms) {
   return drawn;
 }
 
-// A replication through a strategy, asked at instants of its own. One object, a position a list.
+// A replication through a strategy, with queries at separate instants. One object, a position a list.
 class Sampled {
  public:
   static constexpr double kDensity = 3.0;

@@ -27,7 +27,7 @@ struct ListTimes {
 // sensor, a list's longest way.
 inline std::vector<GlobalTime> fused_at(fusion::strategies::StrategyKind strategy, std::span<const ListTimes> lists,
                                         std::span<const Duration> longest) {
-  // Each on its own, then behind all that are older.
+  // Each list alone, then behind all older ones.
   const auto certain = [&](const ListTimes& list) {
     GlobalTime at = list.arrival;
     if (strategy != fusion::strategies::StrategyKind::kBuff) return at;

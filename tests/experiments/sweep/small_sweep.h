@@ -1,4 +1,4 @@
-// Sweeps over drives as short as they may be.
+// Sweeps over the shortest drives.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The assignment is the best there is, by trying all.
+// The assignment is the best of all, found by trying all.
 #include "fusion/association/assignment.h"
 
 #include <gtest/gtest.h>

@@ -217,7 +217,7 @@ TEST(TrackerConfig, RefusesWhatAssociationAndBirthCannotBe) {
   EXPECT_NE(sentences[0].find("must be below confirm_existence"), std::string::npos) << sentences[0];
 }
 
-// The examples of docs/tracker.md, as they stand there.
+// The examples of docs/tracker.md, verbatim.
 TEST(TrackerConfig, TheDocumentedExamplesLoad) {
   std::ostringstream page;
   page << std::ifstream(TTF_SOURCE_DIR "/docs/tracker.md").rdbuf();
@@ -240,7 +240,7 @@ TEST(TrackerConfig, TheDocumentedExamplesLoad) {
   EXPECT_EQ(configs[1].birth, Birth::kExistence);
 }
 
-// A track that ends before it coasts would never be said to.
+// A track that ends before it coasts would never be marked as coasting.
 TEST(TrackerConfig, CoastingComesBeforeTheEnd) {
   std::vector<std::string> sentences;
   load("coast_after: 1001 ms\n", &sentences);

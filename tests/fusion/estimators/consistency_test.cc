@@ -84,7 +84,7 @@ TEST(Consistency, ConstantVelocity) { expect_consistent({}, 1); }
 TEST(Consistency, ConstantAcceleration) {
   expect_consistent({.motion = config::MotionModel::kConstantAcceleration, .true_noise = 2.0, .assumed_noise = 2.0}, 1);
 }
-// Far enough away for the linearisation to hold.
+// Far enough away for linearisation.
 TEST(Consistency, LaserAndRadarInTurn) { expect_consistent({.with_radar = true}, 1); }
 
 TEST(Consistency, TooLittleProcessNoiseShows) {

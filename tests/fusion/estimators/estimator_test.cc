@@ -267,8 +267,8 @@ TEST_P(EveryEstimator, NothingIsLearntAtTheOrigin) {
   EXPECT_TRUE(same_bits(estimate, before));
 }
 
-// A minute at a red light: the heading stays as uncertain as an unknown one, and is followed again on driving
-// off.
+// A minute at a red light: the heading's uncertainty never exceeds an unknown one's. The car is followed again
+// when it drives off.
 TEST_P(EveryEstimator, WhatStoodForAMinuteDrivesOff) {
   RandomStream stream({.seed = 8});
   double y = 0.0, speed = 10.0;

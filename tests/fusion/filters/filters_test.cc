@@ -61,7 +61,7 @@ TEST(PositiveDefinite, IsWhatCanBeFactored) {
 }
 TEST(SquareRoot, OfWhatIsCertainInPart) {
   linear::Matrix<3> p;
-  p << 4.0, 2.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0;  // two components that move as one, a third that is known
+  p << 4.0, 2.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0;  // two components that move as one, a known third
   const linear::Matrix<3> a = square_root<3>(p);
   EXPECT_LT((motion::apart<3, 3>(motion::times_transposed<3, 3, 3>(a, a), p)), 1e-15);
   EXPECT_EQ(a.col(2).norm(), 0.0);
@@ -264,7 +264,7 @@ TEST(UnscentedFilter, DoesNotUseWhatOneOfItsPointsCannotSee) {
   EXPECT_TRUE(Unscented{}.update(motion::ConstantVelocity{}, PositionHeading{}, z, slow).used);
 }
 
-// One drive with two biased sensors, against the state augmented by all biases. That state's gain has zero
+// One drive with two biased sensors, against the state augmented by all biases, whose gain has zero
 // rows for the biases.
 TEST(ConsiderFilter, IsTheAugmentedFilterWithoutTheBiasesGain) {
   using M = motion::ConstantVelocity;

@@ -107,7 +107,7 @@ TEST_P(ModelConsistency, WrongMeasurementNoiseShows) {
   kalman(GetParam(), 3.0, 3.0, 0.5).expect_too_modest();
 }
 
-// Known well enough for linearisations to hold.
+// Known well enough for linearisation.
 linear::Gaussian<5> turning_start() {
   linear::Gaussian<5> start;
   start.x << 40.0, 10.0, 2.0, 8.0, 0.3;

@@ -1,4 +1,4 @@
-// The pairs are the best there are, by trying all; ties by the stated rule.
+// The pairs are the best of all, found by trying all; ties by the stated rule.
 #include "fusion/metrics/pairing.h"
 
 #include <gtest/gtest.h>

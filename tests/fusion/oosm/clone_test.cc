@@ -50,7 +50,7 @@ TEST_F(Announced, ACloneServesOnce) {
 TEST_F(Announced, TheOldestGoesWhenAllAreInUse) {
   EXPECT_TRUE(method_.announce(between(1)));
   EXPECT_TRUE(method_.announce(between(0)));
-  EXPECT_FALSE(method_.announce(between(2)));  // two are as many as there is room for
+  EXPECT_FALSE(method_.announce(between(2)));  // there is room for two
   method_.take(list_of(2), position(1));
   EXPECT_TRUE(method_.announce(between(2)));
   method_.take(list_of(3), position(1));

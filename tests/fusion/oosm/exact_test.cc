@@ -133,7 +133,7 @@ TEST_P(SeesWhatASmootherSees, OfALateInstant) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream stream({.seed = seed, .index = 5});
     Timeline<4, 2> events = drawn_timeline<4, 2>(stream, 20);
-    for (std::size_t i = 0; i < events.size(); ++i)  // at instants of their own
+    for (std::size_t i = 0; i < events.size(); ++i)  // at separate instants
       events[i].stamp = stamp_at(events[i].stamp.time() + Duration::milliseconds(static_cast<std::int64_t>(i) + 1));
     const auto last = events.end() - lag;
     const Stamp late = stamp_at(GlobalTime{((last - 1)->stamp.time().ns + last->stamp.time().ns) / 2}, 1);

@@ -1,4 +1,4 @@
-// Laws L1 to L7 and L9 of fusion/oosm/method.h, of every method. L8 has tests of its own.
+// Laws L1 to L7 and L9 of fusion/oosm/method.h, for every method. L8 has separate tests.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -170,7 +170,7 @@ TEST_P(OosmLaws, L7Start) {
   EXPECT_TRUE(same_bits<2>(used.state(), fresh.state()));
 }
 
-// Sight of the next instant, of one in six that lies between earlier ones, and of the instants taken.
+// Sight of the next instant, of the one half-way to the newest taken, and of the newest.
 TEST_P(OosmLaws, L9Sight) {
   OnLine method = started();
   Stamp newest = Stamp::start(GlobalTime{});

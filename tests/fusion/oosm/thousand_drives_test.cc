@@ -28,7 +28,7 @@ namespace {
 using metrics::Consistency;
 
 constexpr std::uint32_t kDrives = 1000, kLists = 80;
-constexpr std::int64_t kEvery = 50, kLatest = 130;  // [ms] from list to list; until it is there
+constexpr std::int64_t kEvery = 50, kLatest = 130;  // [ms] from list to list; until its arrival
 constexpr double kSigma = 0.2;                      // [m] of a position, per axis
 constexpr double kAlong = 0.5, kTurn = 0.05;        // the densities that drives are drawn with
 constexpr double kWrong = 1.0 / 30.0;

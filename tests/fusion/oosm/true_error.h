@@ -9,7 +9,7 @@
 
 namespace ttf::fusion::oosm {
 
-// `method` as it is made, not started.
+// `method` is constructed, but not started.
 template <Method X, class Model>
 linear::Matrix<X::kStates> true_error(const X& method, const Model& motion, const linear::Matrix<X::kStates>& prior,
                                       const Timeline<X::kStates, X::kDimension>& arrivals) {

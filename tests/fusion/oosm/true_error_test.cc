@@ -1,4 +1,5 @@
-// The covariance a method says against that of its error, computed without chance (tests/fusion/oosm/true_error.h).
+// A method's stated covariance against that of its error, computed without chance
+// (tests/fusion/oosm/true_error.h).
 #include "tests/fusion/oosm/true_error.h"
 
 #include <gtest/gtest.h>

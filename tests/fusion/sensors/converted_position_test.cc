@@ -59,7 +59,7 @@ TEST(ConvertedPosition, LittleNoiseFarAwayIsNotLost) {
   EXPECT_NEAR(z.r(1, 1), 1e10 * 1e-8, 1e-5);
 }
 
-// To first order, seen from a sensor that is mounted aside and turned: J R J' with the Jacobian by differences.
+// To first order, from a sensor mounted aside and rotated: J R J' with the Jacobian by differences.
 TEST(PlanePosition, OfRangeAndBearingIsTheFirstOrderTransformationFromTheSensor) {
   Mounting from;
   from.position = {3.5, -0.8};

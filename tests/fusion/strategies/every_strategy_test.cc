@@ -103,8 +103,8 @@ TEST_P(EveryStrategy, ADuplicateIsReportedAndChangesNothing) {
              twice = make_strategy(GetParam(), {}, laser_and_camera());
   std::vector<Arrival> arrivals = drawn_drive(3, 6), repeated = arrivals;
   for (const Arrival& a : arrivals) {
-    repeated.push_back(a);                     // at once, while it may still wait
-    repeated.push_back({a.ms + 100, a.list});  // when it is long fused
+    repeated.push_back(a);                     // immediately, while it may still wait
+    repeated.push_back({a.ms + 100, a.list});  // long after its fusion
   }
   const std::size_t count = run(*once, arrivals, 1000).size();
   const std::vector<Fused> result = run(*twice, repeated, 1000);

@@ -1,4 +1,4 @@
-// When a strategy stops waiting for a list that is missing.
+// The end of a strategy's wait for a missing list.
 #include "fusion/strategies/settling.h"
 
 #include <gtest/gtest.h>

@@ -99,7 +99,7 @@ TEST_P(EveryOption, EveryStrategyEndsWithTheBitsOfInOrderProcessing) {
     const auto strategy = make_strategy(kind, config(), laser_and_camera());
     run(*strategy, arrivals, 2000);
     strategy->image(at_ms(1700), image);
-    // Names are in order of confirmation as it happened.
+    // Names follow the actual order of confirmation.
     for (std::size_t i = 0; i < std::min(image.size(), expected.size()); ++i) image[i].id = expected[i].id;
     EXPECT_TRUE(same_bits(image, expected));
     EXPECT_EQ(image.size(), 25u);

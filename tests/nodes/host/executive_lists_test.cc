@@ -16,7 +16,7 @@ struct NoCan final : bus::ports::CanPort {
   void send(const bus::ports::CanFrame&) override {}
 };
 
-// The paper's camera host with its own step, on wires of its own.
+// The paper's camera host with its step, on separate wires.
 struct CameraHost {
   schedules::model::Cluster cluster =
       schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");

@@ -31,7 +31,7 @@ struct Told final : recording::records::Sink {
   std::vector<Change> changes;
   std::vector<Symbol> symbols;
   std::vector<std::int64_t> powered;  // us
-  int of_the_cluster = 0;             // records with a global time of their own
+  int of_the_cluster = 0;             // records with their own global time
 
   using recording::records::Sink::on;
   void on(const recording::records::StateChanged& r) override {

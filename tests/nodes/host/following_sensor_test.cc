@@ -64,7 +64,7 @@ struct OneEnd {
     }
     now = end;
   }
-  // The camera's list number `sequence`, as it comes to its host.
+  // The camera's list number `sequence` arrives at its host.
   void list(std::uint32_t sequence) {
     Output raw("raw", *cluster.find_pdu("camera_frame"), cluster.pdu(*cluster.find_pdu("camera_frame")));
     raw.begin(sequence, 0, GlobalTime{});

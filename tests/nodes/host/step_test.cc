@@ -142,7 +142,7 @@ TEST(Output, HoldsWhatWasSetAndNothingOfTheListBefore) {
   EXPECT_EQ(out.view().fragments, 1) << "an empty list is a message too";
 }
 
-// Counts of rounds as lists come: which of them are of a known age.
+// Counts of rounds in arriving lists: only some have a known age.
 TEST(RoundsBelieved, AnotherCountTakesTwoListsInARow) {
   fusion::RoundsBelieved rounds;
   for (const auto& [count, believed] : {std::pair{0, true},

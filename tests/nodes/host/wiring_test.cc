@@ -127,13 +127,13 @@ TEST(Wiring, TheSameListOverAnotherMediumIsAnotherList) {
   EXPECT_TRUE(wired.told.hops.empty()) << "no task reads it from there";
 }
 
-// What its node is not on a task can neither read nor write.
+// A task can neither read from nor write to a medium without its node.
 TEST(Wiring, NoTaskUsesAMediumThatIsNotThere) {
   Wired wired(false);
   EXPECT_EQ(wired.comes(kFirst, bus::kList, 1), (std::vector<std::size_t>{0}));
   EXPECT_DEATH(wired.wiring->read(1, {}), "task 1 reads from medium 1, which its node is not on");
   EXPECT_TRUE(wired.wiring->read(0, {})[0].fresh);
-  wired.wiring->write(0, {});  // nothing
+  wired.wiring->write(0, {});  // no output
   wired.wiring->outputs(0)[0].begin(9, 3, GlobalTime{});
   EXPECT_DEATH(wired.wiring->write(0, {}), "task 0 writes to medium 1, which its node is not on");
 }

@@ -264,7 +264,7 @@ TEST_F(ArrivalWindowTest, AFrameOfTheNextCycleDoesNotWaitForAClockThatStandsStil
 }
 
 TEST_F(ArrivalWindowTest, WhatIsHandedOverTooLateForItsCycleIsTold) {
-  arrive(6, action_point(6) + 100, false, kCycle + 20);  // kept as it came
+  arrive(6, action_point(6) + 100, false, kCycle + 20);  // kept unchanged
   for (int i = 0; i < 2; ++i) clock_.next_cycle(0);
   EXPECT_FALSE(take(clock_.cycle_start().value + 10));
   EXPECT_EQ(told_.missed.size(), 1u);

@@ -29,7 +29,7 @@ TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
     who.set_value(std::this_thread::get_id());
   });
   EXPECT_TRUE(teller.hand_over(health_of(7)));
-  const auto [health, at] = told.get_future().get();  // without anything more that is handed over
+  const auto [health, at] = told.get_future().get();  // without further reports
   EXPECT_EQ(health.timing.late_wakeups, 7u);
   EXPECT_EQ(health.dropped, 14u);
   EXPECT_EQ(health.wakeup_longest, Duration::microseconds(7));

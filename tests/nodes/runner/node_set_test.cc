@@ -23,7 +23,7 @@ using SlotOfCycle = Recorded::SlotOfCycle;
 
 class TurnedNodeSet : public LiveNodeSet {
  protected:
-  // How a node's process wakes up; all in time where it is left out.
+  // The wake-ups of a node's process; all in time by default.
   using WakesOf = std::function<Wakes(NodeId)>;
   void drive(const Drive& how, const WakesOf& wakes_of = {}) {
     TurnedHost host(kOrigin - ms(50));
@@ -46,7 +46,7 @@ class TurnedNodeSet : public LiveNodeSet {
     for (std::size_t n = 0; n < nodes; ++n) expect_counted_once(recorded_[n], health_[n]);
     expect_nothing_vanished(media);
   }
-  // By the clock that is not stretched, behind the begin of cycle 0.
+  // By the unstretched clock, from the start of cycle 0.
   static bus::ports::MachineTime at(Duration drive) { return kOrigin + (sim::crank::kFirstCycle + drive - TrueTime{}); }
   WakesOf only(const char* node, Wakes wakes) const {
     return [id = id_of(node), wakes](NodeId other) { return other == id ? wakes : late_by({}); };
@@ -108,7 +108,7 @@ TEST_F(TurnedNodeSet, TheSameDriveGivesTheSameRecords) {
   }
 }
 
-// As late as the window allows, each time anew, without effect.
+// As late as the window allows every time, without effect.
 TEST_F(TurnedNodeSet, WithinTheWindowNothingIsMissedOrLost) {
   const Duration most = cluster_.arrival_window->late - us(10);  // clocks differ by microticks
   drive({}, [&](NodeId node) { return drawn_late(most, static_cast<std::uint16_t>(index_of(node))); });

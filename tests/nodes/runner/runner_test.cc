@@ -290,7 +290,7 @@ TEST_F(RunnerTest, WhoListensIsWokenUpByWhatItHears) {
   EXPECT_LT(derived->true_time, sim::crank::kFirstCycle + ms(3) + us(80));
 }
 
-// On such a medium it is there at once, and says how long it is.
+// On such a medium it arrives immediately, with its length.
 TEST_F(RunnerTest, ASymbolIsAsLongAsInTheDrive) {
   const auto first_symbol = [&](std::int64_t scale) {
     Alone gateway(*this, "gateway",
@@ -305,7 +305,7 @@ TEST_F(RunnerTest, ASymbolIsAsLongAsInTheDrive) {
   EXPECT_LE(std::abs((first_symbol(4'000'000) - length * 4).ns), 4) << "rounded to nanoseconds";
 }
 
-// It has begun a cluster in vain as often as it may, and listens. After 64 cycles its host gives it its attempts back.
+// It has used up its coldstart attempts, and listens. After 64 cycles its host restores them.
 TEST_F(RunnerTest, WhoMayOnlyListenIsStartedAnewAfter64Cycles) {
   cluster_.flexray.gColdStartAttempts = 2;
   Alone gateway(*this, "gateway",

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kPlace = 1'000'000;  // beyond all processors: it takes no processor
 constexpr std::size_t kLater = 64 << 20;
 
-// g++ says it by macros, clang by features.
+// g++ has macros for it, clang features.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define TTF_SANITIZED

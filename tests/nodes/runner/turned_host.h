@@ -41,7 +41,7 @@ inline Wakes late_by(Duration by) {
 inline Wakes stopped(bus::ports::MachineTime from, bus::ports::MachineTime until) {
   return [=](bus::ports::MachineTime due) { return due >= from ? std::max(due, until) : due; };
 }
-// Up to `most` late, by a stream of its own.
+// Up to `most` late, by a separate random stream.
 inline Wakes drawn_late(Duration most, std::uint16_t process) {
   return [most, stream = RandomStream({1, 0, Purpose::kTest, process, 0})](bus::ports::MachineTime due) mutable {
     return due + Duration{stream.integer(0, most.ns)};

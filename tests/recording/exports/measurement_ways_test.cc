@@ -9,7 +9,7 @@ using Deed = MeasurementWays::Deed;
 
 constexpr TrueTime at_ms(std::int64_t ms) { return TrueTime{} + Duration::milliseconds(ms); }
 
-// Two nodes write images, each with numbers of its own; the third one uses them.
+// Two nodes write images, each with its own numbers; the third one uses them.
 struct TwoFusionNodes {
   static constexpr NodeId kFirst{0}, kSecond{1}, kUser{2};
   static constexpr PduId kOfFirst{4}, kOfSecond{5};
@@ -23,7 +23,7 @@ struct TwoFusionNodes {
     ways.wrote(node, pdu);
   }
   void use(std::uint32_t number, std::int64_t ms) { ways.act({Deed::kUsed, at_ms(ms), kUser, {}, number}); }
-  // Whose images were used, in the order in which they were written.
+  // The nodes whose images were used, in order of writing.
   std::vector<NodeId> used() {
     ways.advance(at_ms(100), [](const MeasurementWays::Act&, const WayMark&) {});
     ways.finish();
@@ -55,7 +55,7 @@ TEST(MeasurementWays, OfEachListTheLastOneReadCounts) {
   EXPECT_EQ(cluster.used(), (std::vector<NodeId>{cluster.kSecond}));
 }
 
-// A part of a log may lack the hops, and of what a gateway passes on the writer is the gateway.
+// A part of a log may lack the hops. For lists that a gateway passes on, the gateway is the writer.
 TEST(MeasurementWays, WhereTheWriterIsNotToldTheNumberDecides) {
   for (const bool by_gateway : {false, true}) {
     TwoFusionNodes cluster;

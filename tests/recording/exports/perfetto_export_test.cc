@@ -169,7 +169,7 @@ TEST(PerfettoExport, WhatIsLostEndsWhereItWasLostAndMissesAreMarked) {
   drive.measured(3, 1 * kMs);
   drive.can(3, 0, 2 * kMs, 3 * kMs);
   drive.hop(kLaser, records::Hop::kOverwritten, 3, 4 * kMs);
-  drive.measured(4, 5 * kMs);  // has no successor
+  drive.measured(4, 5 * kMs);  // without further steps
   drive.run(kFeature, 0, 6 * kMs, 7 * kMs, false);
   const PerfettoTrace trace = drive.finished();
   EXPECT_THAT(trace.problems, IsEmpty());

@@ -47,7 +47,7 @@ std::string refusal(std::size_t size) {
   }
 }
 
-// The least of it that is a log: its manifest is there.
+// The smallest readable part: it has the manifest.
 std::size_t least_log() {
   std::size_t size = 0;
   while (!refusal(size).empty()) ++size;
@@ -168,7 +168,7 @@ TEST(LogDamage, ManyChangesNeverCrashNorInventRecords) {
       const Result result = read(damaged);
       for (const std::string& record : result.lines) ASSERT_EQ(known.count(record), 1u) << "seed " << seed;
     } catch (const InputError&) {
-      // Both header and manifest gone: no log of this program any more.
+      // Both header and manifest gone: no longer a log of this program.
     }
   }
 }

@@ -15,7 +15,7 @@
 
 namespace ttf::recording::log {
 
-// A path for this process alone, in a folder that is removed at the end.
+// A path for this process alone, in a folder removed at the end.
 inline std::string scratch(const std::string& name) {
   struct Folder {
     std::filesystem::path path =

@@ -67,7 +67,7 @@ struct Host {
   CommonTime clock;
 };
 
-// The drive as processes on these hosts log it; `host_of` says where each node is.
+// The drive's logs by processes on these hosts; `host_of` gives each node's host.
 struct Hosts {
   Runs truth;
   std::vector<std::string> paths;

@@ -256,7 +256,7 @@ TEST(Merge, TheWholeAmongItsPartsIsPassedOver) {
     EXPECT_EQ(lines_of(all), lines_of(parts));
     EXPECT_EQ(all.content_hash().value(), parts.content_hash().value());
   }
-  // Without one of its parts it is more than they are together.
+  // With one part missing, the whole has more records than the parts together.
   std::vector<StoredLog> fewer = logs_of(3, crowd());
   fewer.back() = StoredLog(read_file(path), "whole.mcap");
   const MergedLogs overlapping(std::move(fewer));

@@ -13,7 +13,7 @@
 
 namespace ttf::recording::merge {
 
-// Node n is in process n modulo how many there are.
+// Node n is in process n modulo their number.
 class ByNode final : public records::Every<ByNode> {
  public:
   explicit ByNode(std::vector<records::Sink*> processes) : processes_(std::move(processes)) {}

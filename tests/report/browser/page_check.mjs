@@ -1,6 +1,6 @@
-// Opens pages of `ttfusion report` in headless Chromium, by file://, and tries what a reader does.
+// Opens pages of `ttfusion report` in headless Chromium, by file://, and acts as a reader.
 //   node page_check.mjs CHROMIUM SCREENSHOT_FOLDER run=FILE compared=FILE experiment=FILE hostile=FILE
-// Exit 1 and a line for everything that is not as it must be.
+// Exit 1 and a line for every failure.
 import { chromium } from "playwright-core";
 import { mkdirSync } from "node:fs";
 import { pathToFileURL } from "node:url";
@@ -16,11 +16,11 @@ const check = (what, holds) => {
 
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--force-color-profile=srgb"] });
 
-// A page that is watched: whatever it complains of or asks for is a failure.
+// A watched page: any complaint or request of it is a failure.
 async function opened(name, file, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 1000 }, offline: true, ...options });
   const page = await context.newPage();
-  // What a plot writes on its canvas, and where.
+  // A plot's texts on its canvas, with their places.
   await page.addInitScript(() => {
     globalThis.written = [];
     const write = CanvasRenderingContext2D.prototype.fillText;
@@ -48,7 +48,7 @@ const range = (element) => element.evaluate((e) => [Number(e.dataset.from), Numb
 const inside = ([a, b], [c, d]) => a >= c - 1e-9 && b <= d + 1e-9 && b - a < (d - c) * 0.99;
 const same = ([a, b], [c, d]) => Math.abs(a - c) + Math.abs(b - d) < 1e-6 * (Math.abs(c) + Math.abs(d));
 
-// An axis' labels are the values that they stand at: both grow alike from label to label.
+// An axis' labels are the values at their places: both grow in proportion from label to label.
 async function labels_hold(name, page, figure) {
   const seen = new Set();
   for (let zoomed = 0; zoomed < 8; ++zoomed) {
@@ -72,7 +72,7 @@ async function labels_hold(name, page, figure) {
   await page.waitForTimeout(50);
 }
 
-// On a screen that is narrower than a timing diagram its end and its legend are scrolled to.
+// On a screen narrower than a timing diagram, its end and its legend are reached by scrolling.
 async function diagram_scrolls(name, page) {
   const diagram = page.locator(".diagram").first();
   const ends = await diagram.evaluate((box) => {
@@ -170,7 +170,7 @@ async function diagram_zooms(name, page) {
   await diagram.getByRole("button", { name: "Show all" }).click();
   await page.waitForTimeout(100);
   check(`${name}: the button shows all of the diagram`, same(await range(diagram), all));
-  // Pointing at an arrow, a slot and a task tells its times and ages.
+  // Pointing at an arrow, a slot and a task shows its times and ages.
   await paper.focus();
   for (let i = 0; i < 2; ++i) await page.keyboard.press("+");
   await page.waitForTimeout(100);
@@ -201,7 +201,7 @@ async function diagram_zooms(name, page) {
   await page.keyboard.press("Escape");
 }
 
-// Of an experiment a drive of each paradigm: a diagram each, chosen from a list, and their ages and clocks in one plot.
+// An experiment shows a drive of each paradigm: a diagram each, chosen from a list, and one plot of ages and clocks.
 async function side_by_side(name, page) {
   const figure = page.locator("figure.timing"), select = figure.locator("select");
   const labels = await select.locator("option").allTextContents();
@@ -220,7 +220,7 @@ async function side_by_side(name, page) {
   }
 }
 
-// Everything that can be operated is reached with the Tab key.
+// The Tab key reaches every control.
 async function reached(name, page) {
   await page.locator(".skip").focus();
   const wanted =

@@ -1,6 +1,10 @@
 #!/usr/bin/env bash
-# Opens the report of a drive, of two side by side, of an experiment, and one with hostile names, in headless Chromium.
-# page_test.sh PROGRAM SOURCE_DIR WORK_DIR exit 77: skipped, with the reason. Screenshots stay in WORK_DIR/pictures.
+# Opens the report of a drive, of two side by side, of an experiment, and one with hostile names, in headless
+# Chromium.
+#
+# page_test.sh PROGRAM SOURCE_DIR WORK_DIR      exit 77: skipped, with the reason
+#
+# Screenshots stay in WORK_DIR/pictures.
 set -euo pipefail
 program=$1 source=$2 work=$3
 here=$(cd "$(dirname "$0")" && pwd)
@@ -42,7 +46,7 @@ axes:
 measures: [position_rmse_truth, age_fused]
 END
 "$program" experiment small.yaml --out runs/small >/dev/null 2>&1
-# Names are whatever somebody wrote.
+# Names are arbitrary text.
 mkdir -p runs/hostile
 python3 - runs/seed1/summary.json runs/hostile/summary.json <<'END'
 import json, sys
@@ -60,7 +64,7 @@ cp runs/seed1/*.mcap runs/hostile/
 "$program" report runs/seed1 runs/seed2 -o compared.html
 "$program" report runs/small -o experiment.html
 "$program" report runs/hostile -o hostile.html
-# Of a drive of 3 s; each further timing diagram is half a megabyte.
+# For a drive of 3 s; each further timing diagram is half a megabyte.
 [[ $(stat -c %s run.html) -lt 3000000 ]] || { echo "FAILED: run.html is larger than 3 MB"; exit 1; }
 timeout 300 node page_check.mjs "$chromium" pictures run=run.html compared=compared.html experiment=experiment.html \
   hostile=hostile.html

@@ -83,7 +83,7 @@ TEST(Axes, TicksAreOneTwoFiveAndInside) {
   EXPECT_DOUBLE_EQ(odd.step, 5.0);
   EXPECT_EQ(odd.at, (std::vector<double>{0, 5}));
   EXPECT_EQ(nice_ticks({2, 2}, 5).at.size(), 1u);
-  // Steps that are lost in the numbers: one tick, and an end.
+  // Steps below the numbers' resolution: one tick, and an end.
   EXPECT_EQ(nice_ticks({1e300, 1e300 * (1 + 1e-15)}, 5).at.size(), 1u);
   EXPECT_EQ(nice_ticks({0, 5e-324}, 5).at.size(), 1u);
   EXPECT_EQ(tick_label(0.30000000000000004, 0.1), "0.3");

@@ -25,7 +25,7 @@ std::string point(int number, const std::string& noise, const std::string& mean)
   return text;
 }
 
-// Two points: at the first tt is less in every run by nearly the same, at the second by chance.
+// Two points: at the first, tt is less in every run by nearly the same amount; at the second, by chance.
 class ExperimentReport : public testing::Test {
  protected:
   ExperimentReport() {
@@ -115,7 +115,7 @@ TEST_F(ExperimentReport, AnExpectationMayFailNowhereInParticular) {
   EXPECT_NE(page().find("It does not hold for certain."), std::string::npos);
 }
 
-// The last page of the file is of rows that nobody reads to open it.
+// The last page of the file has rows that opening it does not read.
 TEST_F(ExperimentReport, ADamagedStoreIsRefused) {
   const std::string path = folder_ + "/results.sqlite";
   std::vector<experiments::results::Run> runs;

@@ -64,7 +64,7 @@ TEST(Page, ItsDataComeBackAsTheyWere) {
   const auto& curve = plots[0]["views"][0]["curves"][0];
   EXPECT_EQ(curve["label"], "</script>");
   EXPECT_EQ(curve["colour"], 3);
-  EXPECT_EQ(curve["y"][0], 0.1234568);  // as much as anybody sees
+  EXPECT_EQ(curve["y"][0], 0.1234568);  // the visible digits
   EXPECT_TRUE(curve["y"][1].is_null());
   EXPECT_EQ(curve["y"][2], 1e-9);
   EXPECT_EQ(curve["high"][2], 1);
@@ -186,7 +186,7 @@ TEST(TimingDiagram, InAPageEverythingThatStandsInTimeSaysWhen) {
   // The camera's third list: measured at 161 ms, on its way in the window.
   EXPECT_GT(count(page, "data-id=\"1:4\" data-since=\"211\""), 2u);
   EXPECT_EQ(count(page, "camera #4 is measured"), 1u);
-  // Texts that there is no room for yet are there.
+  // Texts without room are present, but hidden.
   EXPECT_GT(count(page, "display=\"none\""), 0u);
   expect_renders(page);
 }

@@ -1,4 +1,4 @@
-// An experiment's tables and scripts for papers, from summaries that say exactly what must come out.
+// An experiment's tables and scripts for papers, from summaries with an exactly known result.
 #include "report/paper/experiment.h"
 
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ TEST(PaperExperiment, OtherAxesAreCasesOfTheirOwnAndLabelsAreNumbered) {
   EXPECT_THAT(labelled.at("error.gp"), HasSubstr("set xtics (\"dry\" 0, \"icy\" 1)"));
 }
 
-// gnuplot has no range for what lies in one line, and says so.
+// gnuplot has no range for values on one line, and prints a warning.
 TEST(PaperExperiment, WhatNeverChangesHasARangeAllTheSame) {
   const auto files = paper(std::string("point,noise,") + kHead + "0,1,a,error,9,0,0,,\n1,2,a,error,9,0,0,,\n" +
                            "0,1,a,age,9,5,0,,\n1,2,a,age,9,5,,,\n");
@@ -105,7 +105,7 @@ TEST(PaperExperiment, WhoHasNoValueIsNotTheBaseline) {
   EXPECT_THAT(files.at("error.gp"), HasSubstr("difference from b"));
 }
 
-// Each kind of position has a name of its own.
+// Each kind of position has a distinct name.
 TEST(PaperRun, ASensorIsNoOtherKind) {
   EXPECT_EQ(sensor_kind("laser"), "laser");
   EXPECT_EQ(sensor_kind("sensor left"), "sensor left");

@@ -1,4 +1,4 @@
-// The picture of lateness: what the curves show is what the histograms say.
+// The picture of lateness: its curves show the histograms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,8 +48,8 @@ std::vector<DrawnCurve> curves_in(const std::string& svg) {
   return curves;
 }
 
-// 1000 wake-ups: 900 by 3 us, 90 by 30 us, 9 by 300 us, one by 5000 us. From 1 us to 10 ms are four decades, and from
-// all to one in 1000 three.
+// 1000 wake-ups: 900 by 3 us, 90 by 30 us, 9 by 300 us, one by 5000 us. From 1 us to 10 ms are four decades,
+// and from all to one in 1000 three.
 TEST(LatenessPicture, CurvesShowTheShareThatIsAsLate) {
   LatenessOfNodes nodes;
   nodes[NodeId{1}].wake_ups = late_by({{3, 900}, {30, 90}, {300, 9}, {5000, 1}});
@@ -60,10 +60,10 @@ TEST(LatenessPicture, CurvesShowTheShareThatIsAsLate) {
   EXPECT_FALSE(curve.dashed);
   EXPECT_NE(curve.hover.find("fusion: 1000 wake-ups, half of them later than 4 us"), std::string::npos) << curve.hover;
   const double left = 112, width = 860, decade_x = width / 4;
-  // The first point is at 1 us, from which on all are as late: the frame's upper left corner.
+  // The first point is at 1 us, where all are at least as late: the frame's upper left corner.
   const double top = curve.points.front().y, decade_y = 420.0 / 3;
   EXPECT_NEAR(curve.points.front().x, left, 0.01);
-  const auto share_at = [&](double us) {  // on the last point that is not beyond
+  const auto share_at = [&](double us) {  // on the last point inside
     double y = top;
     for (const drawing::Point& p : curve.points)
       if (p.x <= left + decade_x * std::log10(us) + 0.01) y = p.y;
@@ -112,7 +112,7 @@ TEST(LatenessPicture, WithoutWakeUpsItSaysSo) {
     EXPECT_TRUE(curves_in(svg).empty());
     expect_renders(svg);
   }
-  // Never late by a microsecond: nothing to draw on logarithmic axes, but said.
+  // Never late by a microsecond: logarithmic axes have no curve for it, but the text reports it.
   LatenessOfNodes nodes;
   nodes[NodeId{0}].wake_ups = late_by({{0, 10}, {-5, 3}});
   const std::string svg = lateness_svg(nodes, three_names());

@@ -90,7 +90,7 @@ TEST(PositionPlots, ShowEverythingTheyPromise) {
   EXPECT_EQ(plots.over_time_svg(), drive({.title = "A & B"}).over_time_svg());
 }
 
-// Passes on what happened but some of what the feature service did.
+// Passes all records on, except some of the feature service's.
 class FewerUses final : public recording::records::Sink {
  public:
   FewerUses(PositionPlots& out, std::uint32_t stale_from, std::uint32_t none_from)
@@ -131,7 +131,7 @@ TEST(PositionPlots, ImagesThatNobodyUsedAreNotShownAsUsed) {
   EXPECT_EQ(none.plane_svg().find("image at its instant of use"), std::string::npos);
 }
 
-// The number counts on from 0 where the fusion node starts anew: the image of long ago was not used again.
+// The number starts again from 0 with the fusion node: the image of long ago was not used again.
 TEST(PositionPlots, AUseBelongsToTheImageJustBefore) {
   PositionPlots plots(synthetic_names(), {});
   const SyntheticRun run;

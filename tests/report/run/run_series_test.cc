@@ -142,7 +142,7 @@ TEST(RunAnswer, OfOneDriveNothingIsCertain) {
   EXPECT_EQ(answer.more[0].find("One drive is one draw"), 0u);
 }
 
-// Paired: what all suffer from cancels.
+// Paired: common disturbances cancel.
 TEST(RunAnswer, OfSeveralSeedsDifferencesArePaired) {
   std::vector<Drive> drives;
   for (int seed = 1; seed <= 4; ++seed) {

@@ -11,8 +11,8 @@
 namespace ttf::report::startup {
 namespace {
 
-// A start-up by the book, in milliseconds: 5 ms cycles, cycle 0 from 20 ms on. Node 0 leads, node 1 follows, node 2
-// integrates; node 3 begins integrated and only sends.
+// A start-up by the book, in milliseconds: 5 ms cycles, cycle 0 from 20 ms on. Node 0 leads, node 1 follows,
+// node 2 integrates; node 3 begins integrated and only sends.
 struct SyntheticStartup {
   static constexpr std::int64_t kCycle0_us = 20'000;
 
@@ -246,7 +246,7 @@ TEST(StartupExtent, IsTheStartUpOrTheReturnOfANodeOrItsLoss) {
   EXPECT_FALSE(window([](recording::records::Sink& sink) { SyntheticStartup::frame(sink, 0, 1, 0, true, false); }));
 }
 
-// ---- what it is made of
+// ---- its parts
 
 StartupData::Change change(std::int64_t at, int node, std::uint8_t from, std::uint8_t to) {
   return {{at}, static_cast<NodeId>(node), from, to, "from", "to", "why", ""};
@@ -308,7 +308,7 @@ TEST(StartupStates, ANodeThatBeganIntegratedWasInItsFirstStateFromTheBeginningOn
   EXPECT_EQ(spans[1].state, kStateHalt);
 }
 
-// Two nodes send a CAS; the one that is active out of the consistency check leads, by its own CAS.
+// Two nodes send a CAS. The one that became active out of the consistency check leads, by its own CAS.
 TEST(StartupCycles, TheLeadingNodeIsTheOneThatWasActiveOutOfTheConsistencyCheck) {
   StartupData data;
   data.symbols = {{{90}, {100}, NodeId{1}, 0, recording::records::kSymbolCas},
@@ -323,8 +323,8 @@ TEST(StartupCycles, TheLeadingNodeIsTheOneThatWasActiveOutOfTheConsistencyCheck)
   EXPECT_FALSE(leading_node(StartupData{}).has_value());
 }
 
-// Cycles of nominally 1000; the node's clock is slow, so its frames, 70 into the cycle, come 1010 apart. Cycle 2 has
-// none.
+// Cycles of nominally 1000. The node's clock is slow, so its frames, 70 into the cycle, come 1010 apart.
+// Cycle 2 has no frame.
 TEST(StartupCycles, BeginWhereTheLeadingNodesFramesSay) {
   StartupData data;
   const LeadingNode leader{NodeId{0}, {500}};

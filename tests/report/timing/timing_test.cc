@@ -50,7 +50,7 @@ TEST(TimingDiagram, NumbersTheCyclesOfTheWindow) {
   EXPECT_EQ(count(svg, ">70</text>"), 0u);
 }
 
-// A startup frame of cycle 3, sent at 202 ms by a node that has no global time yet: its own once more.
+// A startup frame of cycle 3, sent at 202 ms by a node without global time: its local time stands in.
 TEST(TimingDiagram, FramesSentWithoutGlobalTimeSayNothingOfTheCycles) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
   recording::records::SlotFrameSent early;
@@ -66,7 +66,7 @@ TEST(TimingDiagram, FramesSentWithoutGlobalTimeSayNothingOfTheCycles) {
   EXPECT_EQ(count(svg, "fill=\"#444444\">3</text>"), 0u);
 }
 
-// Lets nodes start anew: from then on they count `rounds` of 64 cycles less.
+// Restarts nodes: from then on they count `rounds` of 64 cycles less.
 class Restarted final : public recording::records::Sink {
  public:
   Restarted(recording::records::Sink& out, std::vector<NodeId> nodes, TrueTime at, std::int64_t rounds)
@@ -88,7 +88,7 @@ class Restarted final : public recording::records::Sink {
   std::int64_t rounds_;
 };
 
-// Node 4 sends the first slot of every cycle: the numbers are those of the others all the same.
+// Node 4 sends the first slot of every cycle; the numbers are still those of the others.
 TEST(TimingDiagram, ARestartedNodeDoesNotNumberTheCycles) {
   for (const auto& nodes : {std::vector{NodeId{4}}, std::vector{NodeId{4}, NodeId{6}}})
     for (const int restarted_ms : {0, 100, 640, 720}) {
@@ -103,7 +103,7 @@ TEST(TimingDiagram, ARestartedNodeDoesNotNumberTheCycles) {
     }
 }
 
-// All of them: nobody has the old count any more, and there are no cycles before the new cycle 0 to be numbered.
+// All restart: the old count is gone, and cycles before the new cycle 0 have no number.
 TEST(TimingDiagram, WhereAllStartAnewTheNumbersAreTheirs) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(600'000), at_us(750'000));
   Restarted all(d, {NodeId{4}, NodeId{5}, NodeId{6}}, at_us(0), 2);
@@ -211,7 +211,7 @@ TEST(TimingDiagram, WhatIsFusedAloneMakesNoLane) {
   expect_renders(d.svg());
 }
 
-// A damaged log may say anything; what no run can have is left out, and the rest is drawn as before.
+// A damaged log may contain anything. Impossible times are left out, and the rest is drawn as before.
 TEST(TimingDiagram, ImpossibleTimesChangeNothing) {
   constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min(),
                          kHighest = std::numeric_limits<std::int64_t>::max();
@@ -235,7 +235,7 @@ TEST(TimingDiagram, ImpossibleTimesChangeNothing) {
   EXPECT_EQ(d.svg(), timing_diagram(200, 350));
 }
 
-// A frame that claims another cycle than its instant has: the lines of the cycles stay where they are, and end.
+// A frame claims a cycle other than its instant's: the cycles' lines stay in place, and end.
 TEST(TimingDiagram, AFrameOfAnotherCycleMovesNoLine) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
   SyntheticRun{}.drive(d, 1'500'000);
@@ -382,7 +382,7 @@ TEST_F(Ways, AWrappedCounterIsNotMistakenForAnOldList) {
   EXPECT_EQ(all[1].last.at, at_us(20'493'000));
 }
 
-// Number 259 is no 3, however near: on an eight-bit wire it would look like one.
+// Number 259 is no 3, however near: on an eight-bit wire they look equal.
 TEST_F(Ways, AnotherNumberIsAnotherList) {
   data_.measurements = {{at_us(0), {SensorId{0}, 3}}};
   data_.can_frames = {{0, at_us(1000), at_us(2000), PduId{0}, 3, 0, NodeId{0}, SensorId{0}},
@@ -394,7 +394,7 @@ TEST_F(Ways, AnotherNumberIsAnotherList) {
   EXPECT_EQ(all[0].last.lane, (LaneKey{LaneKey::Kind::kCan, 0, 0}));
 }
 
-// A task that ends as the next begins: what is written then is the first one's.
+// A task ends as the next begins: lists written then are the first one's.
 TEST_F(Ways, WhatIsWrittenIsOfTheRunThatEndsThen) {
   data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
   data_.runs = {{at_us(4000), at_us(4000), at_us(9000), NodeId{2}, 0, true},

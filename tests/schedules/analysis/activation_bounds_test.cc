@@ -138,7 +138,7 @@ TEST(ActivationBounds, WritersMayWaitForEachOther) {
   }
 }
 
-// A writer that is wrong itself: the reader's findings do not go round with it.
+// A writer with its own error (a cycle of activations): the reader's findings do not follow it round.
 TEST(ActivationBounds, OfAWriterThatGoesRoundAndRoundNothingIsKnown) {
   model::Cluster cluster = over_flexray(true);
   model::Task& preprocess = cluster.nodes[index_of(*cluster.find_node("camera_pre"))].tasks[0];

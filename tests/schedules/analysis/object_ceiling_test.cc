@@ -31,7 +31,7 @@ TEST(ObjectCeiling, OfTheShippedClusters) {
     EXPECT_EQ(ceiling.carried, expected.carried) << expected.name;
     EXPECT_EQ(ceiling.with_all_static_slots, expected.with_all_static_slots) << expected.name;
     ASSERT_EQ(ceiling.lists.size(), 3u) << expected.name;
-    // docs/tracker.md says the same.
+    // docs/tracker.md has the same numbers.
     std::ostringstream page;
     page << std::ifstream(TTF_SOURCE_DIR "/docs/tracker.md").rdbuf();
     const std::string row =

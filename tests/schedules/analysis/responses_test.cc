@@ -75,7 +75,7 @@ TEST(Responses, TasksOfMessagesWaitForEachOther) {
   EXPECT_EQ(r[0].worst, us(500));
   EXPECT_EQ(r[1].worst, us(500));
   EXPECT_EQ(r[0].gap, ms(20) - Duration{100});
-  EXPECT_EQ(r[0].written, ms(20) - Duration{100} - us(300));  // one late, the next at once
+  EXPECT_EQ(r[0].written, ms(20) - Duration{100} - us(300));  // one late, the next immediately
 }
 
 // One of 0.5 ms comes every 2 ms. Two of them and the first task precede the second, which is 2.1 ms later.

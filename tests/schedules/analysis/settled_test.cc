@@ -77,7 +77,7 @@ TEST(Settled, SlotsOfFewCycles) {
   }
 }
 
-// Read from the slots of either of two groups of cycles, whichever is sooner.
+// Read from the slots of the earlier of two groups of cycles.
 TEST(Settled, SlotsOfTwoGroupsOfCycles) {
   model::Cluster cluster = small(false);
   cluster.frames[0].base_cycle = 1;

@@ -33,7 +33,7 @@ TEST(RealTime, TheRoomIsWhatIsLeftOfTheStaticSegment) {
   EXPECT_EQ(arrival_room(cluster, 1'000'001), Duration{581'000});  // 581000.581 ns
 }
 
-// A macrotick that is no whole nanosecond: 20 slots of 84, 4 in use, 17 x 84 - 7 = 1421 macroticks.
+// A macrotick with a fraction of a nanosecond: 20 slots of 84, 4 in use, 17 x 84 - 7 = 1421 macroticks.
 TEST(RealTime, TheRoomIsExactInPicoseconds) {
   model::Cluster cluster = small(true);
   cluster.flexray.gdMacrotick_ps = 1'375'001;

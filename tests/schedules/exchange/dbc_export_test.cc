@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Clusters, DbcOfShipped,
                                          "laser_radar_synchronised"),
                          [](const auto& one) { return one.param; });
 
-// schedule export --format dbc makes them anew.
+// `schedule export --format dbc` makes them.
 TEST(Dbc, ShippedFilesAreWhatTheClustersSay) {
   for (const char* name : {"paper_synchronised", "laser_radar"})
     EXPECT_EQ(read_shipped(std::string(name) + ".dbc"), dbc_text(check::load_checked_cluster(shipped_path(name))))
@@ -125,7 +125,7 @@ TEST(Dbc, ShippedFilesAreWhatTheClustersSay) {
   }
 }
 
-// The comment of a list in fragments, and of one that is a frame.
+// The comments of a list in fragments, and of one in a single frame.
 TEST(Dbc, CommentsSayHowListsAreCut) {
   const DbcFile file = read_dbc(dbc_text(file::load_cluster(shipped_path("paper_synchronised"))));
   EXPECT_EQ(file.messages.at(256).comment,
@@ -139,7 +139,7 @@ TEST(Dbc, CommentsSayHowListsAreCut) {
     }
 }
 
-// tests/bus/socketcan holds it against the bytes that are sent.
+// tests/bus/socketcan compares it with the sent bytes.
 TEST(Dbc, TheChannelsSymbolsAreThereUnlessACanHasTheirIdentifier) {
   model::Cluster cluster = file::load_cluster(shipped_path("paper_synchronised"));
   const DbcMessage with = read_dbc(dbc_text(cluster)).messages.at(0);

@@ -17,7 +17,7 @@ namespace ttf::schedules::exchange {
 
 struct DbcSignal {
   std::string name, unit, receivers;
-  std::string multiplexed;  // "M": the multiplexor; "m4": there if that is 4; empty: always there
+  std::string multiplexed;  // "M": the multiplexor; "m4": present if that is 4; empty: always present
   bool is_signed = false;
   int start = 0, bits = 0;
   double factor = 0, offset = 0, low = 0, high = 0;

@@ -58,7 +58,7 @@ TEST(TimeBase, WithoutCorrectionItGrowsAsDriftTimesTime) {
   EXPECT_GT(sink.samples.back().precision, Duration::microseconds(100));
 }
 
-// With correction the same clocks hold together.
+// With correction the same clocks stay together.
 TEST(TimeBase, WithCorrectionTheSameClocksHoldTogether) {
   Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
   std::int64_t ppb = -1'500'000;  // the whole range the specification allows

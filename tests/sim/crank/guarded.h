@@ -67,7 +67,7 @@ struct Guarded {
         cluster, std::move(nodes), std::move(events),
         std::vector{oscillator(seed, cluster.nodes.size()), oscillator(seed, cluster.nodes.size() + 1)});
   }
-  // All at once, or at drawn times.
+  // All together, or at drawn times.
   Guarded(const schedules::model::Cluster& made, std::uint64_t seed, Duration within = {},
           const schedules::model::Cluster* view = nullptr)
       : Guarded(made, delays(made.nodes.size(), within, seed), seed, view) {}

@@ -1,6 +1,6 @@
 // In a star with guardians, a node's dynamic frame breaks off, or its clock jumps within one. All others and
-// the guardians still count alike to the segment's end (bus/guardian/guardian.h G9). Node 0 is faulty; its
-// frame is the segment's first, and the others' come behind it.
+// the guardians still count the same slots to the segment's end (bus/guardian/guardian.h G9). Node 0 is
+// faulty; its frame is the segment's first, and the others' come behind it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,7 +83,7 @@ struct BreakingOff {
         std::vector{Guarded::oscillator(seed, kEndsNodes), Guarded::oscillator(seed, kEndsNodes + 1)});
     run_to(Duration::microseconds(10));
   }
-  // Into the cycle that is under way.
+  // Into the present cycle.
   void run_to(Duration into) { simulation->run_until(kEndsBegin + cluster.cycle() * cycle + into); }
   void write_all() {
     for (std::size_t n = 0; n < kEndsNodes; ++n) {
@@ -164,7 +164,7 @@ TEST(GuardianEnds, WhereverATrailingSequenceEndsAllGoOnCountingAlike) {
     for (const Channel channel : kBothChannels) {
       held += run.coupler(channel).held();
       cut += run.coupler(channel).cut();
-      // Longer or shorter, it is the frame that it was, unless it was cut.
+      // Longer or shorter, it is the same frame unless it was cut.
       for (std::size_t receiver = 1; receiver < kEndsNodes; ++receiver)
         ASSERT_EQ(run.heard[receiver]->frames.contains({run.cycle, kFirstSlot, channel}),
                   run.coupler(channel).cut() == 0)

@@ -37,7 +37,7 @@ TEST(GuardianStartup, TheCyclesOfTheSpecification) {
   }
 }
 
-// Symbols of several nodes at once: the coupler's first one leads.
+// Simultaneous symbols of several nodes: the coupler's first one leads.
 TEST(GuardianStartup, OfNodesThatBeginTogetherOneLeads) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Guarded started(star_cluster(4, 4, 4), seed);

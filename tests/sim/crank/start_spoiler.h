@@ -24,9 +24,9 @@ class StartSpoiler final : public medium::Disturbance {
     kReactive,       // a symbol or a header as soon as another leads
     kSplit,          // leads on one channel, then on the other
     kWakeup,         // wake-up patterns, and leads
-    kNoSilentCycle,  // leads for five cycles, and begins anew without the silent one
+    kNoSilentCycle,  // leads for five cycles, and restarts without the silent one
     kFromTheMiddle,  // startup frames of cycles 2, 3, 4, a silent cycle, and again
-    kOneOfTwo,       // every other attempt is led as it should be, in between one ends early
+    kOneOfTwo,       // leads every other attempt properly, and ends those between early
     kAnything,
   };
   static constexpr std::array kPlans = {

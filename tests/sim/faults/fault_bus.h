@@ -119,7 +119,7 @@ class FaultBus final : public recording::records::Sink {
     std::string kind, text;
   };
   const std::vector<Activity>& activities() const { return activities_; }
-  // Everything that was said, faults included, as one text.
+  // All reports, faults included, as one text.
   std::string everything() const {
     std::string text;
     for (std::size_t n = 0; n < said_.size(); ++n)

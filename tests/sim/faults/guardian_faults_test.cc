@@ -17,7 +17,7 @@ FaultBusConfig star(ttf::faults::Fault fault) {
   return config;
 }
 
-// All others say the same of a slot.
+// Expects all others to report the same about a slot.
 void expect_agreement(const FaultBus& bus, int slot) {
   for (const unsigned status : {bus::controller::kSyntaxError, bus::controller::kContentError,
                                 bus::controller::kBoundaryViolation, bus::controller::kNoFrame}) {

@@ -181,7 +181,7 @@ TEST_F(Bytes, GivenBitsAreInvertedAndNoOthers) {
   } cases[] = {
       {FaultKind::kBitFlipHeader, {0, 39}, {0, 39}},
       {FaultKind::kBitFlipPayload, {0, 127}, {40, 167}},
-      {FaultKind::kBitFlipPayload, {127, 128}, {167}},  // the frame has no more
+      {FaultKind::kBitFlipPayload, {127, 128}, {167}},  // the frame ends here
       {FaultKind::kBitFlipTrailer, {0, 23}, {168, 191}},
   };
   for (const auto& one : cases) {

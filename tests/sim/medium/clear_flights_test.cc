@@ -213,7 +213,7 @@ TEST_P(ClearFlights, WhereThereAreMoreThanThereIsRoomForThereIsMoreRoom) {
     line.run(now);
     line.send({static_cast<NodeId>(sent % 4), Channel::kA, Signal::kCas, now, ends + Duration{10 * sent}, 0});
   }
-  // Beside it, on the other channel, something that is clear.
+  // Beside it, on the other channel, a clear signal.
   line.send({NodeId{1}, Channel::kB, Signal::kFrame, now, now + Duration{5'000}, 7});
   ASSERT_LT(now, ends);
   line.run(ends + Duration{100'000});

@@ -1,4 +1,4 @@
-// Sessions for tests: each its own, also when several test programs run at once.
+// Sessions for tests: each is different, even when several test programs run in parallel.
 #pragma once
 
 #include <unistd.h>

@@ -147,7 +147,7 @@ class DrawnDeparture {
     std::uint64_t reach = 0;                             // and the first that does not
     std::deque<Departure::Order> orders;                 // the supervisor's, not yet seen
     std::deque<std::pair<NodeId, std::uint64_t>> again;  // repetitions with their speakers, not yet seen
-    std::uint32_t confirm = 0;                           // the round that is to be confirmed
+    std::uint32_t confirm = 0;                           // the round to confirm
   };
 
   static void accept(Survivor& survivor, std::uint64_t number) {

@@ -21,8 +21,8 @@ constexpr std::int64_t kUs = 1'000, kMs = 1'000'000, kSecond = 1'000'000'000;
 constexpr std::int64_t kLeast = 60 * kUs;          // on the network
 constexpr std::int64_t kApart = -1'000 * kSecond;  // what the other clock shows beyond this one at the begin
 
-// A remote host, and this host's delay in taking its frames. The delay is never negative and exponential;
-// sometimes it is a slice of the scheduler. Frames come one after the other, in order, as from a socket.
+// A remote host, and this host's delay in taking its frames. The delay is exponential and never negative.
+// Sometimes it is a slice of the scheduler. Frames come one after the other, in order, as from a socket.
 class Afar {
  public:
   Afar(std::uint64_t seed, double drift_ppm, double jitter_us)
@@ -101,7 +101,7 @@ TEST_P(DdsArrivalInstant, DriftIsFollowedAndThenKnown) {
   }
 }
 
-// Set ahead: at the next frame that is hardly delayed. Set back: within a window.
+// Set ahead: noticed at the next frame with hardly any delay. Set back: within a window.
 TEST_P(DdsArrivalInstant, AClockThatIsSetIsFollowed) {
   for (const std::int64_t by : {5 * kSecond, 3 * kMs, -3 * kMs, -5 * kSecond}) {
     SCOPED_TRACE(by);

@@ -37,7 +37,7 @@ TEST(DdsLiveNumbering, CountsGapsButNotAcrossABeginning) {
   EXPECT_FALSE(numbering.missing_before(a, 7, 104));
   EXPECT_FALSE(numbering.missing_before(a, 7, 102));
   EXPECT_EQ(numbering.missing_before(b, 7, 5), 0u);
-  EXPECT_EQ(numbering.missing_before(a, 8, 0), 0u);  // started anew
+  EXPECT_EQ(numbering.missing_before(a, 8, 0), 0u);  // restarted
   EXPECT_EQ(numbering.missing_before(a, 8, 2), 1u);
   EXPECT_EQ(numbering.missing_before(b, 7, 6), 0u);
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Holds the .msg files of ttfusion_msgs, which ROS 2 users build, and the IDL that goes over DDS together: the same
-messages, the same fields in the same order, of the same types. The wire format has no names: a swap would go unseen.
+"""Compares the .msg files of ttfusion_msgs, which ROS 2 users build, with the IDL of DDS. Messages, fields, their order and
+types must be equal. The wire format has no names: a swap would go unseen.
 
     message_files_test.py FOLDER
 """

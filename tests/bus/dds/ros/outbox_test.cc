@@ -52,7 +52,7 @@ TEST(Outbox, WhatHasNoRoomIsDroppedAndCountedTheNewestFirst) {
   EXPECT_EQ(outbox.dropped().images, 2u);
   for (std::uint32_t i = 0; i < 3; ++i, outbox.images.pop()) EXPECT_EQ(outbox.images.first()->sequence, i);
   EXPECT_EQ(outbox.images.first(), nullptr);
-  EXPECT_TRUE(outbox.put(DrawnImage(9, 9, 1).record));  // there is room again
+  EXPECT_TRUE(outbox.put(DrawnImage(9, 9, 1).record));  // room again
   EXPECT_EQ(outbox.dropped().images, 2u);
   EXPECT_EQ(outbox.dropped().steps + outbox.dropped().truths + outbox.dropped().healths + outbox.dropped().cut, 0u);
 }

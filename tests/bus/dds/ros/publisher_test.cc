@@ -95,7 +95,7 @@ TEST(RosPublisher, AListenerThatStandsStillHoldsNobodyUp) {
   })) << "the writing thread stood still, too";
   EXPECT_EQ(publisher.counts().images.refused, 0u);
 
-  listener.signal(SIGCONT);  // and it hears the newest that is there
+  listener.signal(SIGCONT);  // and it hears the newest
   const std::uint32_t newest = sequence;
   EXPECT_TRUE(listener
                   .find(

@@ -24,7 +24,7 @@
 namespace ttf::bus::dds::ros {
 namespace {
 
-// A participant of its own in the publisher's domain, which reads raw bytes.
+// Another participant in the publisher's domain, which reads raw bytes.
 class Stranger {
  public:
   Stranger() : participant_(kRosDomain, std::chrono::seconds{3}) {}
@@ -93,7 +93,7 @@ class Stranger {
   dds_entity_t reader_ = 0;
 };
 
-// All of `expected`, and behind it no more than fills up four bytes.
+// Expects `expected`, followed only by padding to four bytes.
 void expect_bytes(const std::vector<std::uint8_t>& bytes, const Cdr& expected) {
   ASSERT_GE(bytes.size(), expected.bytes().size());
   EXPECT_LT(bytes.size() - expected.bytes().size(), 4u);

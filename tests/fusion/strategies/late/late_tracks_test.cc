@@ -29,7 +29,7 @@ class LateList : public testing::Test {
   }
 };
 
-// Where it is now, 4 m further on, it would be far outside.
+// At the track's present place, 4 m further on, it would be far outside.
 TEST_F(LateList, BelongsToWhereTheTrackWas) {
   LateUpdates late(taking_late(Kind::kAugmented), 4, in_turn());
   drive(late, 12);

@@ -185,7 +185,7 @@ TEST(FibexObjects, AListOfAnotherToolIsAList) {
   EXPECT_EQ(list.name, "objects");
   EXPECT_EQ(list.fragment_bytes, 8);
   EXPECT_EQ(list.elements_per_fragment, 2);
-  EXPECT_EQ(list.max_elements, 4);  // the file does not say: all that fits
+  EXPECT_EQ(list.max_elements, 4);  // absent in the file: as many as fit
   EXPECT_EQ(list.header_bits, 8);
   EXPECT_EQ(list.element_bits, 22);
   std::vector<std::string> names;
@@ -456,7 +456,7 @@ TEST(FibexImport, WhatIsLeftOutOftenIsSaidOnce) {
   EXPECT_EQ(links, 1) << sentences(import.left_out);
 }
 
-// Names that YAML would read as something else, or that hold its signs.
+// Names that YAML would misread, or that contain its signs.
 TEST(FibexImport, AnyPrintableNameSurvivesTheClusterFile) {
   for (const char* name :
        {"null", "true", "12", "- a", "a: b", "a \"quoted\" \\name", "#a", "äöü", "{x}", "'", "~", "yes"}) {
