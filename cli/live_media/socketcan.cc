@@ -66,7 +66,7 @@ const LiveMediumRow kSocketCan{
     .expectation = "socketcan: with one or two different interfaces, as in socketcan:vcan0,vcan1",
     .least_interfaces = 1,
     .most_interfaces = 2,
-    .not_in_virtual_time = "on CAN nobody can promise to be silent until an instant",
+    .not_in_virtual_time = "on CAN no node can promise to be silent until an instant",
     .needs_dds = false,
     .look_at = look_at_cans,
     .way_out =

@@ -108,7 +108,7 @@ void refuse_other_time(const NodeSetArguments& arguments, const live_media::Bus&
   if (arguments.start_at)
     refuse("--start-at", *arguments.start_at, "not be given with --virtual-time, which begins when all are there");
   if (arguments.rejoin)
-    refuse("--rejoin", "", "not be given with --virtual-time: nobody would wait for the node to catch up");
+    refuse("--rejoin", "", "not be given with --virtual-time: the other nodes would not wait for it to catch up");
   if (arguments.host)
     refuse("--host", *arguments.host, "not be given with --virtual-time, where no host's clock counts");
   if (const std::string_view why = bus.medium->not_in_virtual_time; !why.empty())

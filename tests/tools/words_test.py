@@ -65,7 +65,7 @@ class Words(unittest.TestCase):
                 words.measured_tree = lambda: value
                 self.assertEqual(words.check(update=False), 1)  # a room without a bound
                 words.check(update=True)
-                self.assertIn("core = { mean = 12.1, finds = 3 }", words.BOUNDS.read_text())
+                self.assertIn('"core" = { mean = 12.1, finds = 3 }', words.BOUNDS.read_text())
                 self.assertEqual(words.check(update=False), 0)
                 value["core"]["finds"] = 4
                 self.assertEqual(words.check(update=False), 1)
@@ -73,7 +73,7 @@ class Words(unittest.TestCase):
                 self.assertIn("finds = 3", words.BOUNDS.read_text())
                 value["core"].update(mean=9.0, finds=1)
                 words.check(update=True)
-                self.assertIn("core = { mean = 9.0, finds = 1 }", words.BOUNDS.read_text())
+                self.assertIn('"core" = { mean = 9.0, finds = 1 }', words.BOUNDS.read_text())
             finally:
                 words.BOUNDS, words.measured_tree = bounds, today
 
