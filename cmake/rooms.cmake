@@ -7,7 +7,7 @@ add_library(ttf_options INTERFACE)
 target_compile_options(ttf_options INTERFACE -mno-fma -ffp-contract=off -pthread)
 target_include_directories(ttf_options INTERFACE ${PROJECT_SOURCE_DIR})
 if(TTF_SANITIZE)
-  # Four checks of pointers are left out: AddressSanitizer sees the access itself, and they double the compile time of Eigen.
+  # Four pointer checks are off: AddressSanitizer sees the access itself. They would double Eigen's compile time.
   # Sanitizers keep g++ 12 from inlining; it then reports uninitialised reads inside the standard library.
   target_compile_options(ttf_options INTERFACE
     -fsanitize=${TTF_SANITIZE} -fno-sanitize=null,alignment,object-size,pointer-overflow
