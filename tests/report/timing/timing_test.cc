@@ -274,7 +274,7 @@ TEST_F(Ways, LeadFromTheSensorThroughEveryHop) {
   data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
   data_.can_frames = {{0, at_us(1000), at_us(2000), PduId{0}, 7, 0, NodeId{0}, SensorId{0}},
                       {0, at_us(2500), at_us(3000), PduId{0}, 7, 1, NodeId{0}, SensorId{0}}};
-  data_.hops = {{at_us(4000), NodeId{2}, recording::records::Hop::kRead, SensorId{0}, 7}};
+  data_.hops = {{at_us(4000), NodeId{2}, recording::records::Hop::kRead, SensorId{0}, 7, PduId{}}};
   data_.runs = {{at_us(3000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
                 {at_us(13000), at_us(13000), at_us(14000), NodeId{5}, 0, true}};
   for (std::uint8_t channel : {0, 1})
@@ -365,7 +365,7 @@ TEST_F(Ways, HoweverManyStepsHoldAListItWaitsOnce) {
 TEST_F(Ways, ADroppedOrOverwrittenListEndsThere) {
   data_.measurements = {{at_us(0), {SensorId{0}, 0}}, {at_us(80000), {SensorId{0}, 1}}};
   data_.fused = {fused(13000, 0, 0, Disposition::kDroppedTooOld)};
-  data_.hops = {{at_us(90000), NodeId{2}, recording::records::Hop::kOverwritten, SensorId{0}, 1}};
+  data_.hops = {{at_us(90000), NodeId{2}, recording::records::Hop::kOverwritten, SensorId{0}, 1, PduId{}}};
   const auto all = ways();
   EXPECT_TRUE(all[0].dropped);
   EXPECT_TRUE(all[1].dropped);
@@ -399,7 +399,7 @@ TEST_F(Ways, WhatIsWrittenIsOfTheRunThatEndsThen) {
   data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
   data_.runs = {{at_us(4000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
                 {at_us(9000), at_us(9000), at_us(9500), NodeId{2}, 1, true}};
-  data_.hops = {{at_us(9000), NodeId{2}, recording::records::Hop::kWritten, SensorId{0}, 7}};
+  data_.hops = {{at_us(9000), NodeId{2}, recording::records::Hop::kWritten, SensorId{0}, 7, PduId{}}};
   const auto all = ways();
   ASSERT_EQ(all[0].legs.size(), 1u);
   EXPECT_EQ(all[0].last.lane, (LaneKey{LaneKey::Kind::kTask, 2, 0}));
