@@ -44,7 +44,7 @@ class EndWatch {
  public:
   explicit EndWatch(std::size_t nodes) : endings_(nodes) {}
 
-  supervision::Hooks around(supervision::Hooks hooks);  // calls the given hooks as well; must outlive the result
+  supervision::Hooks around(supervision::Hooks hooks);  // calls `hooks` as well; the watch must outlive it
   bool begun() const { return begun_; }                 // whether the start barrier was passed
   // Returns the nodes with the states of their controllers.
   std::vector<NodeAtEnd> nodes(const schedules::model::Cluster& cluster, const std::vector<std::string>& states) const;

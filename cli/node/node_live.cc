@@ -107,8 +107,8 @@ Start start_of(supervision::ControlLine& supervisor) {
   }
 }
 
-// Returns a free name for the log: a restarted process keeps its predecessor's log, and a node started by
-// hand keeps the log of an earlier launch or node.
+// Returns a free name for the log. A restarted process keeps its predecessor's log; a node started by hand
+// keeps those of earlier launches and nodes.
 std::string free_log(const NodeOptions& options) {
   const std::filesystem::path path(options.log);
   std::string free = options.log;

@@ -14,8 +14,8 @@
 // the stop's signals nor their codes (130, 143) count. After the last other node has ended well, optional
 // nodes have optional_grace to end, before they are stopped.
 //
-// The exit code is that of the first required node that failed (128 + n for signal n); 1 if the barrier was
-// not passed or a hook threw; else 128 + n if signal n stopped the launch; else 0.
+// The exit code is that of the first required node that failed (128 + n for signal n). Otherwise it is 1 if
+// the barrier was not passed or a hook threw, 128 + n if signal n stopped the launch, or else 0.
 //
 // One thread runs one poll loop that sleeps until an event. Words and manifest use the real clock.
 #pragma once

@@ -18,13 +18,14 @@ struct ToldDrive {
 
 // Returns the number at the pointer ("/rmse_truth/position_m") of a drive's summary.
 std::optional<double> measure_at(const Drive& drive, const char* pointer);
-// Without a summary, the log gives the error over the whole drive.
+// Returns the position error [m] from the summary or, without one, from the log over the whole drive.
 double position_rmse(const ToldDrive& told);
 
 // Returns one column per drive; rows without a value in any drive are omitted.
 page::PageTable measure_table(const std::vector<ToldDrive>& drives);
-// Compares drives of one scenario with several seeds: each strategy's mean of each measure with its 95 % interval, and
-// its paired difference from the first strategy. Empty if fewer than two seeds have all strategies.
+// Compares drives of one scenario with several seeds. The tables have each strategy's mean of each measure
+// with its 95 % interval, and its paired difference from the first strategy. Empty if fewer than two seeds
+// have all strategies.
 std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drives);
 
 // The conclusion: first the answer, then further remarks.

@@ -38,7 +38,7 @@ std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, TrueT
   if (all.empty()) return all;
   const auto usual =
       std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  // Within a window clocks drift from true time by far less than a cycle, so a difference of a round is a count's.
+  // Within a window clocks drift by far less than a cycle: a difference of whole rounds comes from the counts.
   for (Told& told : all) told.rounds = rounded(told.count - usual->first, schedules::model::kCycles);
   return all;
 }

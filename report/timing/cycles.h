@@ -1,6 +1,6 @@
 // The communication cycles of a timing diagram: number -> start, in true time.
 //
-// Nodes agree on the cycle counter, not on the number of its wraps: a node that came back into a running
+// Nodes agree on the cycle counter, not on the number of its wraps. A node that came back into a running
 // cluster counts whole rounds fewer than the others. The numbers follow the oldest count among the window's
 // frames. Every frame shows when a cycle began, whatever its sender's count.
 #pragma once
