@@ -63,7 +63,7 @@ expect 0 '' experiment "$file" --merge "$work/ten_first" "$work/ten_second" --ou
 cmp "$work/ten.csv" "$work/ten/runs.csv" || fail "two shards of 10 replications put together are others"
 expect 1 '20 of 60 runs are missing' \
   experiment "$file" --merge "$work/ten_first" "$work/ten_second" --replications 15 --out "$work/fifteen"
-expect 2 'must be 10 at least' experiment "$file" --merge "$work/ten_first" --replications 5 --out "$work/never"
+expect 2 'must be at least 10' experiment "$file" --merge "$work/ten_first" --replications 5 --out "$work/never"
 expect 2 '--replications = 10000000: must make 100000000 runs at most' \
   experiment "$source/experiments/process_noise.yaml" --replications 10000000 --out "$work/never"
 expect 2 '--replications = 5: is for sweeps' experiment "$source/experiments/fault_campaign.yaml" --replications 5
