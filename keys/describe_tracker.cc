@@ -46,9 +46,8 @@ constexpr Description kTracker[] = {
     {"merge_probability", "Two confirmed tracks within this quantile of each other become one; 0: never."},
     {"merge_scans", "Two tracks become one after so many lists in a row that leave them so close."},
     {"late",
-     "ADVA takes a late list in by this method, and TT by this one where it is `clone`; other methods than `rewind` "
-     "need "
-     "straight motion, the extended filter, and no association, birth or bias beyond the defaults."},
+     "ADVA takes a late list in by this method, TT only if it is `clone`; other methods than `rewind` need straight "
+     "motion, the extended filter, and the default association, birth and `systematic`."},
 };
 
 }  // namespace

@@ -49,7 +49,7 @@ class MappingOutline {
     return run;
   }
 
-  // The cases below that of `at`, whose `settled` decisions are made.
+  // Adds the cases below that of `at`. The `settled` decisions have their answers of this run.
   void split(std::size_t at, std::vector<Condition> conditions, std::set<std::string> settled) {
     std::vector<std::size_t> branches;  // runs that decide the first decision that matters
     for (const std::size_t run : members_[at])
@@ -68,7 +68,7 @@ class MappingOutline {
     split(at, conditions, settled);
     for (const std::size_t branch : branches) {
       conditions.back() = condition(decision, branches, &runs_[branch].answers.at(decision.name));
-      split(branch, conditions, {});
+      split(branch, conditions, settled);
     }
   }
 

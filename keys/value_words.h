@@ -1,6 +1,7 @@
 // The values of a key, in words.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 

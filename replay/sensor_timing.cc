@@ -86,8 +86,9 @@ std::vector<fusion::strategies::SensorTiming> sensor_timings(const RecordedLists
     timings.push_back(timing);
   }
   if (needs_schedule && !any_scheduled)
-    throw InputError({config.file.empty() ? "command line" : config.file, 0, "strategy", std::string(name_of(strategy)),
-                      "needs the period of at least one sensor: none is given, and none measures at regular instants"});
+    throw InputError(
+        {config.file.empty() ? "command line" : config.file, 0, "strategy", std::string(name_of(strategy)),
+         "needs the period of at least one sensor: no period is given, and no sensor measures at regular instants"});
   const std::string refusal = fusion::strategies::late_refusal(strategy, late, timings, only_positions(recorded));
   if (!refusal.empty())
     throw InputError({config.file, config.late_line, "tracker.late", std::string(name_of(late)), refusal});

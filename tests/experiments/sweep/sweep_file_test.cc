@@ -154,7 +154,7 @@ TEST(SweepFile, FilesAreValues) {
   EXPECT_THAT(axis("{keys: [faults], uniform: [0, 1]}"), HasSubstr("must not name files if a number is drawn"));
   EXPECT_THAT(axis("{keys: [faults], values: [../scenarios/dynamics.yaml]}"), HasSubstr("dynamics.yaml:1: name"));
   EXPECT_THAT(axis("{settings: {x: {faults: faults/lists_5.yaml, scenario: ../scenarios/faulty_bus.yaml}}}"),
-              HasSubstr("faulty_bus.yaml: faults: must not be there where"));
+              HasSubstr("faulty_bus.yaml: faults: must be absent, since"));
 }
 
 // The grid's size is checked before it is made.
