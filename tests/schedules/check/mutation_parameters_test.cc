@@ -32,7 +32,7 @@ TEST(Mutations, OfParameters) {
        "\\bpWakeupPattern: [0-9.]+",
        "pWakeupPattern: 64",
        {"pWakeupPattern: 64", "node_parameters.pWakeupPattern", "64", "2..63"}},
-      global_parameter("gSyncNodeMax", "4", "there are 5"),
+      global_parameter("gSyncNodeMax", "4", "nodes with pKeySlotUsedForSync, 5"),
       global_parameter("gdCycle", "6000", "gMacroPerCycle * gdMacrotick", "6000 us"),
       global_parameter("baudrate", "5000000", "1 / gdBit"),
       global_parameter("gdActionPointOffset", "6", "at least 7 macroticks"),

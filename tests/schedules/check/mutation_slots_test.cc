@@ -23,7 +23,7 @@ TEST(Mutations, OfSlotsPdusAndCans) {
       {"fragment_without_slot",
        "pdu: image, fragments: 13",
        "pdu: image, fragments: 12",
-       {"pdu: image, fragments: 12", "frames.image", "", "fragment 12 has none"}},
+       {"pdu: image, fragments: 12", "frames.image", "", "fragment 12 has no slot"}},
       {"fragments_beyond",
        "pdu: image, fragments: 13",
        "pdu: image, fragments: 1010",

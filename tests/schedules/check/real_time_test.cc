@@ -94,7 +94,7 @@ TEST(RealTime, TheTimeScaleNamedIsTheSmallest) {
 TEST(RealTime, WhereNoTimeScaleDoesItSaysSo) {
   const auto findings = check_real_time(paper({}, Duration{581'000'001}), kLargestTimeScale);
   ASSERT_EQ(findings.size(), 1u);
-  EXPECT_NE(findings[0].expected.find("at most 581000 us at time scale 1000,"), std::string::npos)
+  EXPECT_NE(findings[0].expected.find("at most 581000 us at time scale 1000:"), std::string::npos)
       << findings[0].expected;
   EXPECT_TRUE(findings[0].expected.ends_with("; no --time-scale up to 1000 would do")) << findings[0].expected;
 }
