@@ -29,7 +29,7 @@ enum class KeyType : std::uint8_t {
   kNamedTexts,
 };
 
-// Durations count nanoseconds, decimals are times their scale, and a word is its place among the words.
+// A duration is in nanoseconds. A decimal is multiplied by its scale. A word is its index among the words.
 using KeyValue = std::variant<bool, std::int64_t, double, std::string>;
 
 struct KeyQuestion {
@@ -37,7 +37,7 @@ struct KeyQuestion {
   std::string key;
   KeyType type{};
   bool optional = false;             // a getter with a fallback
-  std::optional<KeyValue> fallback;  // may be missing even then
+  std::optional<KeyValue> fallback;  // absent where the default is not a value of the key
   KeyValue low, high;                // numbers and durations
   std::string unit;
   std::int64_t scale = 1;          // decimals

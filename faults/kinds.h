@@ -84,7 +84,7 @@ enum class FaultParameter : std::uint8_t {
 inline constexpr std::size_t kFaultParameters = static_cast<std::size_t>(FaultParameter::kEnd);
 constexpr std::size_t index_of(FaultParameter parameter) { return static_cast<std::size_t>(parameter); }
 
-// Whether a table has one row for every parameter, in their order. Rows begin with a `parameter`.
+// Returns whether a table has one row for every parameter, in their order. Rows begin with a `parameter`.
 template <class Table> constexpr bool is_one_row_a_parameter(const Table& table) {
   std::size_t row = 0;
   for (const auto& one : table)

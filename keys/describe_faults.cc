@@ -5,6 +5,7 @@ namespace {
 
 constexpr Description kFault[] = {
     {"kind", "The fault is of this kind; docs/faults.md describes them all.", "crash"},
+    {"node", "This node works; the others fail.", "gateway", "kind=lone_coldstart"},
     {"node", "This node fails.", "gateway"},
     {"from", "The fault begins this long after the start of cycle 0; in a cold drive, after its time zero."},
     {"duration", "The fault lasts this long.", "2 ms", "kind=transient"},

@@ -44,7 +44,7 @@ std::string DriveEnd::sentence() const {
     same->second.push_back(one.name);
   }
   std::string text =
-      nobody ? "nobody was in operation at the end: "
+      nobody ? "no node was in operation at the end: "
              : fmt::format("{} {} not in operation at the end: ", joined(names), names.size() == 1 ? "was" : "were");
   if (by_state.size() == 1) return text + by_state.front().first;
   for (const auto& [state, who] : by_state)

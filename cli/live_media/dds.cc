@@ -44,7 +44,7 @@ std::unique_ptr<bus::ports::LiveMedium> make_dds(const MediumSetting& setting) {
   try {
     if (setting.patience.count() > 0) medium->wait_ready(setting.patience);
   } catch (const bus::dds::common::NotReady& missing) {
-    print_warnings(std::string("goes on without those who are not there yet: ") + missing.what());
+    print_warnings(std::string("continues without the missing nodes: ") + missing.what());
   }
   return medium;
 }

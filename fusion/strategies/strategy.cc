@@ -286,7 +286,7 @@ static_assert(std::find(kMakers.begin(), kMakers.end(), nullptr) == kMakers.end(
 std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors,
                          bool only_positions) {
   const TakesLate takes_late = row_of(kind).takes_late;
-  if (takes_late == TakesLate::kByGoingBack || late == oosm::Kind::kRewind) return {};
+  if (takes_late == TakesLate::kByRewinding || late == oosm::Kind::kRewind) return {};
   if (takes_late == TakesLate::kByClones && late != oosm::Kind::kClone)
     return fmt::format("must be rewind or clone with strategy {}", name_of(kind));
   if (!only_positions) return "must be rewind if a sensor measures range and bearing: the other methods take positions";
@@ -299,11 +299,11 @@ std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const Sen
 
 std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const config::TrackerConfig& config,
                                         std::span<const SensorTiming> sensors) {
-  const bool goes_back = row_of(kind).takes_late == TakesLate::kByGoingBack || config.late == oosm::Kind::kRewind;
+  const bool rewinds = row_of(kind).takes_late == TakesLate::kByRewinding || config.late == oosm::Kind::kRewind;
   const std::string refusal = late_refusal(kind, config.late, sensors, true);
   TTF_CHECK(refusal.empty(), "late {}", refusal);
   std::unique_ptr<tracks::TrackHistory> history;
-  if (goes_back)
+  if (rewinds)
     history = std::make_unique<tracks::Timeline>(config, config.max_observations);
   else
     history = std::make_unique<late::LateUpdates>(config, config.max_observations, sensors);

@@ -63,7 +63,7 @@ enum class ReliesOn : std::uint8_t {
 // The methods (TrackerConfig::late) by which a strategy can take late lists in.
 enum class TakesLate : std::uint8_t {
   kUnsaid,         // not stated; no strategy has it
-  kByGoingBack,    // only rewinding, whatever the configuration says: by design no list is late
+  kByRewinding,    // only rewinding, whatever the configuration says: by design no list is late
   kByClones,       // rewinding, or clones where the schedule knows the instants
   kByEveryMethod,  // all methods
 };
@@ -76,7 +76,7 @@ struct StrategyRow {
 };
 // In the order of StrategyKind.
 inline constexpr std::array<StrategyRow, kStrategyCount> kStrategies{{
-    {StrategyKind::kBuff, "buff", ReliesOn::kDelays, TakesLate::kByGoingBack},
+    {StrategyKind::kBuff, "buff", ReliesOn::kDelays, TakesLate::kByRewinding},
     {StrategyKind::kAdva, "adva", ReliesOn::kNothing, TakesLate::kByEveryMethod},
     {StrategyKind::kTt, "tt", ReliesOn::kSchedule, TakesLate::kByClones},
 }};

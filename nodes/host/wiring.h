@@ -43,7 +43,7 @@ struct ListArrival {
 
 class Wiring {
  public:
-  // `cluster`, `time` and `records` outlive this. A task that uses a port to a medium outside `media` stops the program.
+  // `cluster`, `time` and `records` outlive this. A task that uses a port to a medium outside `media` stops the program when it does so.
   Wiring(const schedules::model::Cluster& cluster, const schedules::model::Node& node, std::vector<Connection> media,
          const NodeTime& time, NodeRecords& records);
 

@@ -43,7 +43,7 @@ void MeasurementWays::act(Act act) {
   acts_.push_back(std::move(act));
 }
 
-// kNoNode if it was not told.
+// Returns the writer of the list with this number that the user read last; kNoNode if unknown.
 NodeId MeasurementWays::writer_of(NodeId user, std::uint32_t image) const {
   const auto lists = read_.find(user);
   if (lists == read_.end()) return kNoNode;

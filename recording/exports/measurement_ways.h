@@ -84,7 +84,7 @@ class MeasurementWays {
   void run(NodeId node, TrueTime start, TrueTime end, const WayMark& mark);
 
   // A node writes or reads a list that belongs to no sensor: it may be an image. A use names the image's number alone;
-  // what the user read before, and who writes that, tell whose image it is.
+  // the user's last reads and their writers identify the image.
   void wrote(NodeId node, PduId pdu) { writers_[pdu] = node; }
   void read(NodeId node, PduId pdu, std::uint32_t sequence) { read_[node][pdu] = sequence; }
 

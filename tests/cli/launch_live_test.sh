@@ -185,10 +185,10 @@ for node in ("laser_pre", "camera_pre", "gateway", "fusion", "feature"):
 wait "$nobody"
 code=$?
 [[ $code -eq 1 ]] || fail "a launch at whose end nobody is there exits with $code: $(cat "$work/nobody.err")"
-grep -Eq '^error: nobody was in operation at the end: [a-z ]+' "$work/nobody.err" || fail "nobody says so: $(cat "$work/nobody.err")"
+grep -Eq '^error: no node was in operation at the end: [a-z ]+' "$work/nobody.err" || fail "nobody says so: $(cat "$work/nobody.err")"
 check "the manifest does not tell why a launch failed at whose end nobody is there" '
 manifest = read(sys.argv[1] + "/manifest.json")
-assert manifest["exit_code"] == 1 and manifest["why"].startswith("nobody was in operation at the end: "), manifest
+assert manifest["exit_code"] == 1 and manifest["why"].startswith("no node was in operation at the end: "), manifest
 assert len(manifest["not_in_operation_at_end"]) == 5, manifest' "$work/nobody"
 wait "$optional" || fail "a launch that can do without its dead node exits with $?: $(cat "$work/optional.err")"
 grep -q 'feature: signal 9 (Killed)' "$work/optional.err" || fail "nobody says that feature was killed"

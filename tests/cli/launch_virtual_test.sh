@@ -83,7 +83,7 @@ sentence=$(sed -n 's/^warning: \(feature was not in operation at the end: [a-z ]
 absent "$work/late_feature" warning "${sentence:-feature was not}" 0 feature
 launch "$work/too_late" "$work/too_late.yaml"
 [[ $? -eq 1 ]] || fail "a launch at whose end nobody is there does not exit with 1: $(cat "$work/too_late.err")"
-sentence=$(sed -n 's/^error: \(nobody was in operation at the end: [a-z _,();]*\)$/\1/p' "$work/too_late.err")
+sentence=$(sed -n 's/^error: \(no node was in operation at the end: [a-z _,();]*\)$/\1/p' "$work/too_late.err")
 absent "$work/too_late" error "${sentence:-nobody}" 1 laser_pre camera_pre fusion feature laser camera
 grep -q '^warning: no image was used from 1.5 s on' "$work/too_late.err" || fail "nobody says that nothing is compared"
 [[ $(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["not_in_operation_at_end"])' "$work/beside/summary.json") == '[]' ]] ||

@@ -78,8 +78,8 @@ def edit(text: str, file: pathlib.Path) -> None:
     """Replaces each group of - lines by the + lines behind it."""
     groups = []
     for line in text.splitlines():
-        if line[:1] not in "+-":
-            raise Failure(f"a diff block has a line without + or -: {line}")
+        if line[:1] not in ("+", "-") or (line[0] == "+" and not groups):
+            raise Failure(f"a diff block has a line without + or -, or + before -: {line}")
         if line[0] == "-" and (not groups or groups[-1][1]):
             groups.append(([], []))
         groups[-1][0 if line[0] == "-" else 1].append(line[1:] + "\n")

@@ -52,6 +52,7 @@ TEST(Documents, AMeaningIsOneSentence) {
       if (row.description == nullptr) continue;
       const std::string_view meaning = row.description->meaning;
       EXPECT_TRUE(meaning.ends_with('.')) << meaning;
+      EXPECT_EQ(meaning.find(". "), std::string_view::npos) << meaning;
       EXPECT_LE(meaning.size(), 200u) << meaning;
     }
 }

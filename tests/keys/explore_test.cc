@@ -145,8 +145,7 @@ TEST(Explore, AValueSharedByAllOrOwn) {
 }
 
 TEST(Explore, TheSameKeyReadAgainAsATextIsItsWord) {
-  std::string seen;
-  outline_of([&](YamlMap& m) {
+  outline_of([](YamlMap& m) {
     const int kind = m.choice<int>("kind", {{"a", 0}, {"b", 1}});
     EXPECT_EQ(m.text("kind"), kind == 0 ? "a" : "b");
     EXPECT_TRUE(m.has("kind"));

@@ -68,7 +68,7 @@ CAR = "scenarios/dynamics.yaml"
 PAPER = "schedules/paper_synchronised.yaml"
 NOISE = "experiments/process_noise.yaml"
 CAMPAIGN = "experiments/fault_campaign.yaml"
-TORN = "experiments/faults/camera_crash.yaml"
+CRASH = "experiments/faults/camera_crash.yaml"
 WRONG = [
     ("an unknown key", "scenario", CAR, "process_noise: 0.04", "proces_noise: 0.04", "proces_noise"),
     ("a missing key", "scenario", CAR, "seed: 1\n", "", "seed"),
@@ -84,8 +84,8 @@ WRONG = [
     ("an unknown measure", "experiment", NOISE, "measures: [", "measures: [speed, ", "measures"),
     ("a text instead of a list", "experiment", NOISE, "measures: [", "measures: nees #", "measures"),
     ("a weight of an unknown kind", "experiment", CAMPAIGN, "seed: 1\n", "seed: 1\nclasses: {crush: 1}\n", "crush"),
-    ("another kind's parameter", "faults", TORN, "from: 1600 ms", "from: 1600 ms, probability: 0.5", "probability"),
-    ("a time without a unit", "faults", TORN, "from: 1600 ms", "from: 1600", "from"),
+    ("another kind's parameter", "faults", CRASH, "from: 1600 ms", "from: 1600 ms, probability: 0.5", "probability"),
+    ("a time without a unit", "faults", CRASH, "from: 1600 ms", "from: 1600", "from"),
     ("too large a sigma", "track", None, "bearing: 0.03", "bearing: 0.9", "bearing"),
 ]
 
@@ -96,8 +96,8 @@ def program_says(kind: str, folder: pathlib.Path, text: str) -> tuple[int, str]:
     observations = folder / "observations.csv"
     observations.write_text("time,sensor,x,y\n0,laser,1,2\n1,laser,1,2\n")
     sweep = folder / "sweep.yaml"
-    sweep.write_text(f"kind: sweep\nname: torn\nquestion: none\nscenario: {SOURCE / CAR}\nseed: 1\nreplications: 1\n"
-                     "paradigms: {tt: {strategy: tt}}\naxes: {bus: {settings: {torn: {faults: wrong.yaml}}}}\n")
+    sweep.write_text(f"kind: sweep\nname: crash\nquestion: none\nscenario: {SOURCE / CAR}\nseed: 1\nreplications: 1\n"
+                     "paradigms: {tt: {strategy: tt}}\naxes: {bus: {settings: {crash: {faults: wrong.yaml}}}}\n")
     command = {"scenario": ["run", file, "--out", folder / "out"],
                "cluster": ["schedule", "check", file],
                "experiment": ["experiment", file, "--out", folder / "out"],

@@ -45,11 +45,11 @@ TEST(DriveEnd, NobodyIsNobodyOnFlexRay) {
   const DriveEnd same =
       drive_end({{"laser", false, kWell, ""}, {"fusion", true, kWell, kLost}, {"feature", true, kWell, kLost}});
   EXPECT_TRUE(same.nobody);
-  EXPECT_EQ(same.sentence(), "nobody was in operation at the end: integration listen");
+  EXPECT_EQ(same.sentence(), "no node was in operation at the end: integration listen");
   const DriveEnd different = drive_end({{"fusion", true, kWell, kLost}, {"feature", true, kKilled, kActive}});
   EXPECT_TRUE(different.nobody);
   EXPECT_EQ(different.sentence(),
-            "nobody was in operation at the end: integration listen (fusion); signal 9 (Killed) (feature)");
+            "no node was in operation at the end: integration listen (fusion); signal 9 (Killed) (feature)");
 }
 
 TEST(DriveEnd, InVirtualTimeTheRecordsSayTheStates) {

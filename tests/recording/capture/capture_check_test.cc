@@ -9,6 +9,7 @@
 namespace ttf::recording::capture {
 namespace {
 
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
