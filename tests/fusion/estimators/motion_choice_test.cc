@@ -172,7 +172,7 @@ class EveryChoice : public testing::TestWithParam<Choice> {
 };
 INSTANTIATE_TEST_SUITE_P(All, EveryChoice, every_choice(), name_of_choice);
 
-// Two cars, one turning, seen by a laser and a radar; three scans share an instant.
+// Two cars, one turning, seen by a laser and a radar; three lists share an instant.
 std::vector<OwnedList> lists_of_two_cars(std::uint32_t count) {
   RandomStream stream({.seed = 33});
   std::vector<OwnedList> lists;
