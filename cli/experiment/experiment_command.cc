@@ -69,7 +69,7 @@ void add_experiment(CLI::App& app, Action& action) {
   command->footer(
       "Examples: ttfusion experiment experiments/process_noise.yaml --out out/noise\n"
       "          ttfusion experiment experiments/process_noise.yaml --out out/noise --resume\n"
-      "          ttfusion experiment experiments/process_noise.yaml --replay 3/time_triggered/17 --out out/one\n"
+      "          ttfusion experiment experiments/process_noise.yaml --replay 3/tt/17 --out out/one\n"
       "          ttfusion experiment experiments/fault_campaign.yaml --replay 17\n"
       "          ttfusion experiment FILE --shard 1/2 --out a; ttfusion experiment FILE --shard 2/2 --out b;\n"
       "          ttfusion experiment FILE --merge a b --out both\n"
