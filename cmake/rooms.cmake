@@ -62,21 +62,24 @@ endfunction()
 
 if(TTF_BUILD_TESTS)
   find_package(GTest REQUIRED)
-  # Tests' own code is not optimised, which builds faster; the rooms that it calls are. Tests of arithmetic are an exception:
-  # the linker may take a template of Eigen from them. A folder chooses by TTF_TEST_OPTIONS and TTF_TEST_HEADERS.
+  # Tests' own code is not optimised, which builds faster; the rooms that it calls are. Tests of arithmetic (tests/fusion) are an
+  # exception: the linker may take a template of Eigen from them.
   ttf_common_headers(ttf_test_headers
     OPTIONS -O0 HEADERS <gtest/gtest.h> <gmock/gmock.h> DEPS GTest::gmock)
   ttf_common_headers(ttf_arithmetic_test_headers
     OPTIONS -O1 HEADERS <gtest/gtest.h> <gmock/gmock.h> DEPS GTest::gmock)
-  set(TTF_TEST_OPTIONS -O0)
-  set(TTF_TEST_HEADERS ttf_test_headers)
 endif()
 
 # ttf_as_test(<name>): compiles a program as a test is compiled, with the tests' headers.
 function(ttf_as_test name)
   target_compile_definitions(${name} PRIVATE GTEST_HAS_PTHREAD=1)
-  target_compile_options(${name} PRIVATE ${TTF_TEST_OPTIONS})
-  target_precompile_headers(${name} REUSE_FROM ${TTF_TEST_HEADERS})
+  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests/fusion")
+    target_compile_options(${name} PRIVATE -O1)
+    target_precompile_headers(${name} REUSE_FROM ttf_arithmetic_test_headers)
+  else()
+    target_compile_options(${name} PRIVATE -O0)
+    target_precompile_headers(${name} REUSE_FROM ttf_test_headers)
+  endif()
 endfunction()
 
 # Tests that take longest to build or to run are labelled slow: .ci/run has them, tools/test.sh has not. ttf_slow(<targets...>)
