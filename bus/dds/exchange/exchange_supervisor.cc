@@ -16,7 +16,7 @@
 #include "bus/dds/common/participant.h"
 #include "bus/dds/common/said.h"
 #include "bus/dds/exchange/channel.h"
-#include "bus/dds/exchange/departure.h"
+#include "bus/dds/exchange/end_agreement.h"
 #include "bus/dds/exchange/numbering.h"
 #include "bus/dds/exchange/waiter.h"
 #include "core/check.h"
@@ -50,10 +50,10 @@ class ExchangeSupervisor::Watch {
   void work();
   bool everybody_has_come() const;
   void on_control(const common::Said& said);
-  void begin_departure(NodeId node);
-  void give(NodeId about, const std::optional<Departure::Order>& order);
+  void begin_agreement(NodeId node);
+  void give(NodeId about, const std::optional<EndAgreement::Order>& order);
   void without(NodeId node);
-  void end_departures();
+  void finish_agreements();
   void look_for_lost();
   void tell(What what, NodeId node, std::uint64_t samples = 0);
 
@@ -66,7 +66,7 @@ class ExchangeSupervisor::Watch {
   // The thread's data.
   Numbering numbers_;
   std::set<NodeId> hello_, left_, dead_, lost_;
-  std::map<NodeId, Departure> departures_;  // dead members that some survivors do not know to be gone
+  std::map<NodeId, EndAgreement> agreements_;  // dead members that some survivors do not know to be gone
 
   std::mutex mutex_;
   std::condition_variable happened_;
@@ -114,8 +114,8 @@ void ExchangeSupervisor::Watch::work() {
       if (stop_) break;
       announcements.swap(announcements_);
     }
-    for (const NodeId node : announcements) begin_departure(node);
-    end_departures();
+    for (const NodeId node : announcements) begin_agreement(node);
+    finish_agreements();
     if (!ready && everybody_has_come()) {
       control_.say({.sender = common::kSupervisor, .kind = common::Kind::kReady});
       ready = true;
@@ -153,12 +153,12 @@ void ExchangeSupervisor::Watch::on_control(const common::Said& said) {
       tell(What::kLeft, node);
       return;
     case common::Kind::kReport:
-      if (const auto departure = departures_.find(said.about); departure != departures_.end())
-        give(said.about, departure->second.report(node, said.round, said.end));
+      if (const auto agreement = agreements_.find(said.about); agreement != agreements_.end())
+        give(said.about, agreement->second.report(node, said.round, said.end));
       return;
     case common::Kind::kClosed:
-      if (const auto departure = departures_.find(said.about); departure != departures_.end())
-        departure->second.closed(node, said.round);
+      if (const auto agreement = agreements_.find(said.about); agreement != agreements_.end())
+        agreement->second.closed(node, said.round);
       return;
     case common::Kind::kAgain:
     case common::Kind::kAllAgain:
@@ -171,17 +171,17 @@ void ExchangeSupervisor::Watch::on_control(const common::Said& said) {
   }
 }
 
-void ExchangeSupervisor::Watch::begin_departure(NodeId node) {
+void ExchangeSupervisor::Watch::begin_agreement(NodeId node) {
   if (!dead_.insert(node).second) return;
   without(node);
   std::set<NodeId> survivors;
   for (const NodeId member : members_)
     if (!dead_.contains(member) && !left_.contains(member)) survivors.insert(member);
-  auto& departure = departures_.try_emplace(node, std::move(survivors)).first->second;
-  give(node, departure.begin());
+  auto& agreement = agreements_.try_emplace(node, std::move(survivors)).first->second;
+  give(node, agreement.begin());
 }
 
-void ExchangeSupervisor::Watch::give(NodeId about, const std::optional<Departure::Order>& order) {
+void ExchangeSupervisor::Watch::give(NodeId about, const std::optional<EndAgreement::Order>& order) {
   if (order)
     control_.say({.sender = common::kSupervisor,
                   .kind = order->kind,
@@ -193,17 +193,17 @@ void ExchangeSupervisor::Watch::give(NodeId about, const std::optional<Departure
 }
 
 void ExchangeSupervisor::Watch::without(NodeId node) {
-  for (auto& [about, departure] : departures_) give(about, departure.without(node));
+  for (auto& [about, agreement] : agreements_) give(about, agreement.without(node));
 }
 
-void ExchangeSupervisor::Watch::end_departures() {
-  for (auto entry = departures_.begin(); entry != departures_.end();) {
+void ExchangeSupervisor::Watch::finish_agreements() {
+  for (auto entry = agreements_.begin(); entry != agreements_.end();) {
     if (!entry->second.done()) {
       ++entry;
       continue;
     }
     tell(What::kGone, entry->first, entry->second.end());
-    entry = departures_.erase(entry);
+    entry = agreements_.erase(entry);
   }
 }
 

@@ -169,7 +169,7 @@ TEST(Heard, WhatAllHaveHeardIsTheLeastOfThoseWhoAreStillThere) {
   EXPECT_EQ(table.by_all(c), 0u);  // a has not
   table.without(a);
   EXPECT_EQ(table.by_all(c), 3u);
-  EXPECT_EQ(table.by_all(a), 7u);  // also for a departed member: it may need repeating
+  EXPECT_EQ(table.by_all(a), 7u);  // also for a member that has gone: it may need repeating
   table.without(c);
   EXPECT_EQ(table.by_all(a), 10u);
 }

@@ -1,10 +1,10 @@
-#include "bus/dds/exchange/departure.h"
+#include "bus/dds/exchange/end_agreement.h"
 
 #include <algorithm>
 
 namespace ttf::bus::dds::exchange {
 
-Departure::Order Departure::begin() {
+EndAgreement::Order EndAgreement::begin() {
   ++round_;
   reports_.clear();
   closed_.clear();
@@ -13,17 +13,17 @@ Departure::Order Departure::begin() {
   return {common::Kind::kFence, round_};
 }
 
-std::optional<Departure::Order> Departure::report(NodeId survivor, std::uint32_t round, std::uint64_t end) {
+std::optional<EndAgreement::Order> EndAgreement::report(NodeId survivor, std::uint32_t round, std::uint64_t end) {
   if (closing_ || round != round_ || !survivors_.contains(survivor)) return {};
   reports_[survivor] = end;
   return decide();
 }
 
-void Departure::closed(NodeId survivor, std::uint32_t round) {
+void EndAgreement::closed(NodeId survivor, std::uint32_t round) {
   if (closing_ && round == round_ && survivors_.contains(survivor)) closed_.insert(survivor);
 }
 
-std::optional<Departure::Order> Departure::without(NodeId survivor) {
+std::optional<EndAgreement::Order> EndAgreement::without(NodeId survivor) {
   if (survivors_.erase(survivor) == 0) return {};
   reports_.erase(survivor);
   closed_.erase(survivor);
@@ -36,7 +36,7 @@ std::optional<Departure::Order> Departure::without(NodeId survivor) {
   return {};
 }
 
-std::optional<Departure::Order> Departure::decide() {
+std::optional<EndAgreement::Order> EndAgreement::decide() {
   if (reports_.size() < survivors_.size()) return {};
   const auto by_end = [](const auto& a, const auto& b) { return a.second < b.second; };
   const auto [least, most] = std::minmax_element(reports_.begin(), reports_.end(), by_end);

@@ -1,6 +1,6 @@
-// Survivors' agreement on the end of a dead member (bus/dds/exchange/departure.h), with its streams
+// Survivors' agreement on the end of a dead member (bus/dds/exchange/end_agreement.h), with its streams
 // (bus/dds/exchange/stream.h).
-#include "bus/dds/exchange/departure.h"
+#include "bus/dds/exchange/end_agreement.h"
 
 #include <gtest/gtest.h>
 
@@ -20,73 +20,73 @@ namespace {
 
 constexpr NodeId kA{1}, kB{2}, kC{3};
 
-TEST(Departure, EndsWhereTheBestInformedIsWhoSaysTheRestAgain) {
-  Departure departure({kA, kB, kC});
-  EXPECT_EQ(departure.begin().kind, common::Kind::kFence);
-  EXPECT_FALSE(departure.report(kA, 1, 5));
-  EXPECT_FALSE(departure.report(kB, 1, 9));
-  const auto close = departure.report(kC, 1, 7);
+TEST(EndAgreement, EndsWhereTheBestInformedIsWhoSaysTheRestAgain) {
+  EndAgreement agreement({kA, kB, kC});
+  EXPECT_EQ(agreement.begin().kind, common::Kind::kFence);
+  EXPECT_FALSE(agreement.report(kA, 1, 5));
+  EXPECT_FALSE(agreement.report(kB, 1, 9));
+  const auto close = agreement.report(kC, 1, 7);
   ASSERT_TRUE(close);
   EXPECT_EQ(close->kind, common::Kind::kClose);
   EXPECT_EQ(close->round, 1u);
   EXPECT_EQ(close->holder, kB);
   EXPECT_EQ(close->first, 5u);
   EXPECT_EQ(close->end, 9u);
-  departure.closed(kA, 1);
-  departure.closed(kB, 1);
-  EXPECT_FALSE(departure.done());
-  departure.closed(kC, 1);
-  EXPECT_TRUE(departure.done());
-  EXPECT_EQ(departure.end(), 9u);
+  agreement.closed(kA, 1);
+  agreement.closed(kB, 1);
+  EXPECT_FALSE(agreement.done());
+  agreement.closed(kC, 1);
+  EXPECT_TRUE(agreement.done());
+  EXPECT_EQ(agreement.end(), 9u);
 }
 
-TEST(Departure, WhereAllHeardTheSameNobodyHasToSayAnythingAgain) {
-  Departure departure({kA, kB});
-  departure.begin();
-  departure.report(kA, 1, 5);
-  const auto close = departure.report(kB, 1, 5);
+TEST(EndAgreement, WhereAllHeardTheSameNobodyHasToSayAnythingAgain) {
+  EndAgreement agreement({kA, kB});
+  agreement.begin();
+  agreement.report(kA, 1, 5);
+  const auto close = agreement.report(kB, 1, 5);
   ASSERT_TRUE(close);
   EXPECT_EQ(close->holder, kNoNode);
-  EXPECT_FALSE(departure.without(kA));  // so no end depends on it
+  EXPECT_FALSE(agreement.without(kA));  // so no end depends on it
 }
 
-TEST(Departure, BeginsAgainWhereTheHolderDies) {
-  Departure departure({kA, kB, kC});
-  departure.begin();
-  departure.report(kA, 1, 5);
-  departure.report(kB, 1, 9);
-  departure.report(kC, 1, 7);
-  const auto fence = departure.without(kB);
+TEST(EndAgreement, BeginsAgainWhereTheHolderDies) {
+  EndAgreement agreement({kA, kB, kC});
+  agreement.begin();
+  agreement.report(kA, 1, 5);
+  agreement.report(kB, 1, 9);
+  agreement.report(kC, 1, 7);
+  const auto fence = agreement.without(kB);
   ASSERT_TRUE(fence);
   EXPECT_EQ(fence->kind, common::Kind::kFence);
   EXPECT_EQ(fence->round, 2u);
-  departure.closed(kA, 1);  // late, of the round before
-  departure.closed(kC, 1);
-  EXPECT_FALSE(departure.done());
-  EXPECT_FALSE(departure.report(kA, 1, 9));
-  EXPECT_FALSE(departure.report(kA, 2, 6));
-  const auto close = departure.report(kC, 2, 8);
+  agreement.closed(kA, 1);  // late, of the round before
+  agreement.closed(kC, 1);
+  EXPECT_FALSE(agreement.done());
+  EXPECT_FALSE(agreement.report(kA, 1, 9));
+  EXPECT_FALSE(agreement.report(kA, 2, 6));
+  const auto close = agreement.report(kC, 2, 8);
   ASSERT_TRUE(close);
   EXPECT_EQ(close->holder, kC);
   EXPECT_EQ(close->first, 6u);
   EXPECT_EQ(close->end, 8u);
 }
 
-TEST(Departure, ADyingSurvivorsReportIsNotWaitedFor) {
-  Departure departure({kA, kB});
-  departure.begin();
-  departure.report(kA, 1, 5);
-  const auto close = departure.without(kB);
+TEST(EndAgreement, ADyingSurvivorsReportIsNotWaitedFor) {
+  EndAgreement agreement({kA, kB});
+  agreement.begin();
+  agreement.report(kA, 1, 5);
+  const auto close = agreement.without(kB);
   ASSERT_TRUE(close);
   EXPECT_EQ(close->end, 5u);
-  EXPECT_FALSE(departure.without(kC));  // was no survivor
+  EXPECT_FALSE(agreement.without(kC));  // was no survivor
 }
 
-TEST(Departure, WithoutSurvivorsThereIsNothingToAgreeUpon) {
-  Departure nobody({});
+TEST(EndAgreement, WithoutSurvivorsThereIsNothingToAgreeUpon) {
+  EndAgreement nobody({});
   nobody.begin();
   EXPECT_TRUE(nobody.done());
-  Departure last({kA});
+  EndAgreement last({kA});
   last.begin();
   last.without(kA);
   EXPECT_TRUE(last.done());
@@ -95,9 +95,9 @@ TEST(Departure, WithoutSurvivorsThereIsNothingToAgreeUpon) {
 // Survivors of one dead member: each heard it up to a drawn sample. They receive all messages late, in a
 // drawn order. Some die in between, and with them their repetitions. All remaining survivors must have heard
 // the same.
-class DrawnDeparture {
+class DrawnAgreement {
  public:
-  explicit DrawnDeparture(std::uint64_t seed) : draw_(seed) {
+  explicit DrawnAgreement(std::uint64_t seed) : draw_(seed) {
     const std::size_t members = 2 + below(5);
     std::set<NodeId> all;
     for (std::size_t i = 0; i < members; ++i) {
@@ -109,18 +109,18 @@ class DrawnDeparture {
       survivor.reach = heard + below(4);
       all.insert(node);
     }
-    departure_ = std::make_unique<Departure>(all);
+    agreement_ = std::make_unique<EndAgreement>(all);
   }
   void run() {
-    tell_all(departure_->begin());
-    for (int steps = 0; !departure_->done(); ++steps) {
+    tell_all(agreement_->begin());
+    for (int steps = 0; !agreement_->done(); ++steps) {
       ASSERT_LT(steps, 100'000) << "it never ends";
       if (survivors_.size() > 1 && below(12) == 0) {
         auto victim = std::next(survivors_.begin(), static_cast<std::ptrdiff_t>(below(survivors_.size())));
         const NodeId node = victim->first;
         survivors_.erase(victim);
         for (auto& other : survivors_) cut_off(node, other.second.again);
-        if (const auto order = departure_->without(node)) tell_all(*order);
+        if (const auto order = agreement_->without(node)) tell_all(*order);
         continue;
       }
       step(std::next(survivors_.begin(), static_cast<std::ptrdiff_t>(below(survivors_.size())))->second);
@@ -135,7 +135,7 @@ class DrawnDeparture {
         EXPECT_EQ(survivor.entries[i].number, i);
         EXPECT_EQ(survivor.entries[i].kind, i + 1 < first.size() ? common::Kind::kMessage : common::Kind::kBye);
       }
-      EXPECT_EQ(first.size(), departure_->end() + 1);
+      EXPECT_EQ(first.size(), agreement_->end() + 1);
     }
   }
 
@@ -145,7 +145,7 @@ class DrawnDeparture {
     std::vector<common::Entry> entries;
     std::uint64_t in_flight = 0;                         // the next sample that still comes from the dead itself
     std::uint64_t reach = 0;                             // and the first that does not
-    std::deque<Departure::Order> orders;                 // the supervisor's, not yet seen
+    std::deque<EndAgreement::Order> orders;              // the supervisor's, not yet seen
     std::deque<std::pair<NodeId, std::uint64_t>> again;  // repetitions with their speakers, not yet seen
     std::uint32_t confirm = 0;                           // the round to confirm
   };
@@ -154,7 +154,7 @@ class DrawnDeparture {
     const auto nothing = std::make_shared<const std::vector<std::byte>>();
     survivor.stream.accept({number, common::Kind::kMessage, nothing}, survivor.entries);
   }
-  void tell_all(const Departure::Order& order) {
+  void tell_all(const EndAgreement::Order& order) {
     for (auto& entry : survivors_) entry.second.orders.push_back(order);
   }
   void step(Survivor& survivor) {
@@ -171,13 +171,13 @@ class DrawnDeparture {
       default:
         if (!survivor.orders.empty()) obey(self, survivor);
     }
-    if (survivor.confirm != 0 && survivor.stream.closed()) departure_->closed(self, std::exchange(survivor.confirm, 0));
+    if (survivor.confirm != 0 && survivor.stream.closed()) agreement_->closed(self, std::exchange(survivor.confirm, 0));
   }
   void obey(NodeId self, Survivor& survivor) {
-    const Departure::Order order = survivor.orders.front();
+    const EndAgreement::Order order = survivor.orders.front();
     survivor.orders.pop_front();
     if (order.kind == common::Kind::kFence) {
-      if (const auto close = departure_->report(self, order.round, survivor.stream.fence())) tell_all(*close);
+      if (const auto close = agreement_->report(self, order.round, survivor.stream.fence())) tell_all(*close);
       return;
     }
     survivor.confirm = order.round;
@@ -202,13 +202,13 @@ class DrawnDeparture {
 
   std::uint64_t draw_;
   std::map<NodeId, Survivor> survivors_;
-  std::unique_ptr<Departure> departure_;
+  std::unique_ptr<EndAgreement> agreement_;
 };
 
-TEST(Departure, WhoeverDiesAtWhateverInstantTheSurvivorsHaveHeardTheSame) {
+TEST(EndAgreement, WhoeverDiesAtWhateverInstantTheSurvivorsHaveHeardTheSame) {
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
     SCOPED_TRACE(seed);
-    DrawnDeparture drawn(seed);
+    DrawnAgreement drawn(seed);
     drawn.run();
     drawn.expect_all_the_same();
     if (testing::Test::HasFailure()) return;

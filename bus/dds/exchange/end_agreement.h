@@ -17,7 +17,7 @@
 
 namespace ttf::bus::dds::exchange {
 
-class Departure {
+class EndAgreement {
  public:
   struct Order {
     common::Kind kind{};  // kFence or kClose
@@ -27,7 +27,7 @@ class Departure {
     std::uint64_t end = 0;
   };
 
-  explicit Departure(std::set<NodeId> survivors) : survivors_(std::move(survivors)) {}
+  explicit EndAgreement(std::set<NodeId> survivors) : survivors_(std::move(survivors)) {}
 
   // Each returns the order to send to all members now, if any. Events of an earlier round have no effect.
   Order begin();
