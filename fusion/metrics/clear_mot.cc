@@ -20,7 +20,7 @@ void order_by_name(std::span<const Identity> names, std::vector<std::size_t>& by
 }  // namespace
 
 ClearMot::ClearMot(const Capacity& capacity, double gate_m)
-    : capacity_(capacity), gate_(gate_m), pairing_(capacity.objects, capacity.tracks) {
+    : capacity_(capacity), gate_(gate_m), pairs_(capacity.objects, capacity.tracks) {
   TTF_CHECK(std::isfinite(gate_m) && gate_m > 0.0, "gate {} m", gate_m);
   last_.reserve(capacity.objects_ever);
   objects_by_name_.reserve(capacity.objects);
@@ -60,7 +60,7 @@ std::span<const Match> ClearMot::step(std::span<const Identity> objects, std::sp
 
   matches_.clear();
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (track_of_[i] == Pairing::kNone) continue;
+    if (track_of_[i] == LeastCostPairs::kNone) continue;
     const std::size_t object = objects_by_name_[i], track = tracks_by_name_[static_cast<std::size_t>(track_of_[i])];
     const Last* last = last_of(objects[object]);
     const bool switched = last != nullptr && last->track != tracks[track];
@@ -81,8 +81,8 @@ std::span<const Match> ClearMot::step(std::span<const Identity> objects, std::sp
 
 void ClearMot::keep(std::span<const Identity> objects, std::span<const Identity> tracks,
                     std::span<const double> distances) {
-  track_of_.assign(objects.size(), Pairing::kNone);
-  object_of_.assign(tracks.size(), Pairing::kNone);
+  track_of_.assign(objects.size(), LeastCostPairs::kNone);
+  object_of_.assign(tracks.size(), LeastCostPairs::kNone);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Last* last = last_of(objects[objects_by_name_[i]]);
     if (last == nullptr) continue;
@@ -91,10 +91,10 @@ void ClearMot::keep(std::span<const Identity> objects, std::span<const Identity>
     if (found == tracks_by_name_.end() || tracks[*found] != last->track) continue;
     if (!(distances[objects_by_name_[i] * tracks.size() + *found] <= gate_)) continue;
     int& owner = object_of_[static_cast<std::size_t>(found - tracks_by_name_.begin())];
-    if (owner != Pairing::kNone) {
+    if (owner != LeastCostPairs::kNone) {
       const auto other = static_cast<std::size_t>(owner);
       if (last_of(objects[objects_by_name_[other]])->instant > last->instant) continue;
-      track_of_[other] = Pairing::kNone;
+      track_of_[other] = LeastCostPairs::kNone;
     }
     owner = static_cast<int>(i);
     track_of_[i] = static_cast<int>(found - tracks_by_name_.begin());
@@ -102,16 +102,16 @@ void ClearMot::keep(std::span<const Identity> objects, std::span<const Identity>
 }
 
 void ClearMot::pair_others(std::size_t objects, std::size_t tracks, std::span<const double> distances) {
-  pairing_.begin(objects, tracks);
+  pairs_.begin(objects, tracks);
   for (std::size_t i = 0; i < objects; ++i)
     for (std::size_t j = 0; j < tracks; ++j) {
-      if (track_of_[i] != Pairing::kNone || object_of_[j] != Pairing::kNone) continue;
+      if (track_of_[i] != LeastCostPairs::kNone || object_of_[j] != LeastCostPairs::kNone) continue;
       const double distance = distances[objects_by_name_[i] * tracks + tracks_by_name_[j]];
-      if (distance <= gate_) pairing_.offer(i, j, distance / gate_);
+      if (distance <= gate_) pairs_.offer(i, j, distance / gate_);
     }
-  pairing_.solve(Pairing::most_pairs(objects, tracks));
+  pairs_.solve(LeastCostPairs::most_pairs(objects, tracks));
   for (std::size_t i = 0; i < objects; ++i)
-    if (track_of_[i] == Pairing::kNone) track_of_[i] = pairing_.column_of()[i];
+    if (track_of_[i] == LeastCostPairs::kNone) track_of_[i] = pairs_.column_of()[i];
 }
 
 const ClearMot::Last* ClearMot::last_of(Identity object) const {

@@ -4,7 +4,7 @@
 //   C1  An object keeps the track of its last match, however long ago, if both are present and within the gate, even
 //       if another track is closer. If several objects had that track, the one matched last keeps it.
 //   C2  The other objects and tracks are paired one to one within the gate: first as many as possible, then with the
-//       least sum of distances, ties by identity (pairing.h, P2: objects and tracks in the order of their names).
+//       least sum of distances, ties by identity (least_cost_pairs.h, P2: objects and tracks by name).
 //   C3  An object without a track is a miss, a track without an object a false positive. An object with another track
 //       than at its last match is a switch (a mismatch in the paper), also after misses.
 //   C4  The order in which objects and tracks are listed does not matter.
@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "fusion/metrics/identity.h"
-#include "fusion/metrics/pairing.h"
+#include "fusion/metrics/least_cost_pairs.h"
 
 namespace ttf::fusion::metrics {
 
@@ -80,11 +80,11 @@ class ClearMot {
   ClearMotCounts counts_;
   std::vector<Last> last_;  // by object
   std::vector<std::size_t> objects_by_name_, tracks_by_name_;
-  std::vector<int> track_of_, object_of_;  // by place in the order of names; Pairing::kNone
+  std::vector<int> track_of_, object_of_;  // by place in the order of names; LeastCostPairs::kNone
   std::vector<Identity> object_names_, track_names_;
   std::vector<double> distances_;
   std::vector<Match> matches_;
-  Pairing pairing_;
+  LeastCostPairs pairs_;
 };
 
 }  // namespace ttf::fusion::metrics

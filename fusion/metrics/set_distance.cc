@@ -8,7 +8,7 @@
 namespace ttf::fusion::metrics {
 
 SetMetric::SetMetric(std::size_t max_truths, std::size_t max_estimates, const CutOff& cut_off)
-    : cut_off_(cut_off), pairing_(max_truths, max_estimates) {
+    : cut_off_(cut_off), pairs_(max_truths, max_estimates) {
   TTF_CHECK(std::isfinite(cut_off.distance_m) && cut_off.distance_m > 0.0, "cut-off {} m", cut_off.distance_m);
   TTF_CHECK(cut_off.order >= 1.0 && cut_off.order <= 64.0, "order {}", cut_off.order);
 }
@@ -26,17 +26,17 @@ double SetMetric::root(double sum) const {
 
 SetDistance SetMetric::between(std::span<const Point> truths, std::span<const Point> estimates) {
   const double c = cut_off_.distance_m;
-  pairing_.begin(truths.size(), estimates.size());
+  pairs_.begin(truths.size(), estimates.size());
   for (std::size_t i = 0; i < truths.size(); ++i)
     for (std::size_t j = 0; j < estimates.size(); ++j)
-      if (const double d = distance_m(truths[i], estimates[j]); d < c) pairing_.offer(i, j, power(d / c));
-  pairing_.solve(Pairing::kLeastCost);
+      if (const double d = distance_m(truths[i], estimates[j]); d < c) pairs_.offer(i, j, power(d / c));
+  pairs_.solve(LeastCostPairs::kLeastCost);
 
   SetDistance result;
   double localisation = 0.0;
   for (std::size_t i = 0; i < truths.size(); ++i) {
-    const int j = pairing_.column_of()[i];
-    if (j == Pairing::kNone) continue;
+    const int j = pairs_.column_of()[i];
+    if (j == LeastCostPairs::kNone) continue;
     localisation += power(distance_m(truths[i], estimates[static_cast<std::size_t>(j)]));
     ++result.pairs;
   }

@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-#include "fusion/metrics/pairing.h"
+#include "fusion/metrics/least_cost_pairs.h"
 #include "fusion/metrics/point.h"
 
 namespace ttf::fusion::metrics {
@@ -53,15 +53,15 @@ class SetMetric {
 
   // Allocates nothing.
   SetDistance between(std::span<const Point> truths, std::span<const Point> estimates);
-  // Returns the estimate of each truth in the last two sets, or Pairing::kNone.
-  std::span<const int> estimate_of() const { return pairing_.column_of(); }
+  // Returns the estimate of each truth in the last two sets, or LeastCostPairs::kNone.
+  std::span<const int> estimate_of() const { return pairs_.column_of(); }
 
  private:
   double power(double base) const;
   double root(double sum) const;
 
   CutOff cut_off_;
-  Pairing pairing_;
+  LeastCostPairs pairs_;
 };
 
 }  // namespace ttf::fusion::metrics

@@ -13,7 +13,7 @@ namespace {
 
 double distance(const PlanePosition& a, const PlanePosition& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-TEST(Pairing, TheClosestPairComesFirstAndTakesBoth) {
+TEST(ClosestPairs, TheClosestPairComesFirstAndTakesBoth) {
   // The estimate at 1.0 is nearer to the second truth; the first one is left with the farther estimate.
   const std::vector<PlanePosition> truth{{0, 0}, {1.4, 0}}, estimates{{-0.9, 0}, {1.0, 0}};
   const auto pairs = closest_pairs(truth, estimates, 4.0);
@@ -24,14 +24,14 @@ TEST(Pairing, TheClosestPairComesFirstAndTakesBoth) {
   EXPECT_EQ(pairs[1].estimate, 0u);
 }
 
-TEST(Pairing, OneEstimateServesOneTruthOnly) {
+TEST(ClosestPairs, OneEstimateServesOneTruthOnly) {
   const std::vector<PlanePosition> truth{{0, 0}, {0.2, 0}}, estimates{{0.1, 0}};
   const auto pairs = closest_pairs(truth, estimates, 1.0);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].truth, 0u) << "equally far: the order of truth decides";
 }
 
-TEST(Pairing, NothingBeyondTheGate) {
+TEST(ClosestPairs, NothingBeyondTheGate) {
   const std::vector<PlanePosition> truth{{0, 0}};
   EXPECT_EQ(closest_pairs(truth, std::vector<PlanePosition>{{0, 1.5}}, 1.5).size(), 1u);
   EXPECT_TRUE(closest_pairs(truth, std::vector<PlanePosition>{{0, 1.5001}}, 1.5).empty());
@@ -40,7 +40,7 @@ TEST(Pairing, NothingBeyondTheGate) {
 }
 
 // Drawn scenes: each at most once, no pair beyond the gate, growing distances, and no possible pair left.
-TEST(Pairing, DrawnScenesAreOneToOneAndComplete) {
+TEST(ClosestPairs, DrawnScenesAreOneToOneAndComplete) {
   for (std::uint32_t scene = 0; scene < 200; ++scene) {
     RandomStream draw({7, 0, Purpose::kTest, 0, scene});
     std::vector<PlanePosition> truth(static_cast<std::size_t>(draw.integer(0, 12))),

@@ -1,4 +1,4 @@
-#include "fusion/metrics/pairing.h"
+#include "fusion/metrics/least_cost_pairs.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,13 +7,13 @@
 
 namespace ttf::fusion::metrics {
 
-Pairing::Pairing(std::size_t max_rows, std::size_t max_columns)
+LeastCostPairs::LeastCostPairs(std::size_t max_rows, std::size_t max_columns)
     : max_rows_(max_rows), max_columns_(max_columns), cost_(max_rows * max_columns), column_of_(max_rows),
       row_of_(max_columns), assignment_(max_rows, max_columns) {
   candidates_.reserve(max_rows * max_columns);
 }
 
-void Pairing::begin(std::size_t rows, std::size_t columns) {
+void LeastCostPairs::begin(std::size_t rows, std::size_t columns) {
   TTF_CHECK(rows <= max_rows_ && columns <= max_columns_, "{} x {} of at most {} x {}", rows, columns, max_rows_,
             max_columns_);
   rows_ = rows;
@@ -22,7 +22,7 @@ void Pairing::begin(std::size_t rows, std::size_t columns) {
   std::fill_n(cost_.begin(), rows * columns, std::numeric_limits<double>::infinity());
 }
 
-void Pairing::offer(std::size_t row, std::size_t column, double relative_cost) {
+void LeastCostPairs::offer(std::size_t row, std::size_t column, double relative_cost) {
   TTF_CHECK(row < rows_ && column < columns_, "row {} of {}, column {} of {}", row, rows_, column, columns_);
   TTF_CHECK(relative_cost >= 0.0 && relative_cost <= 1.0, "row {} column {} cost {}", row, column, relative_cost);
   TTF_CHECK(cost(row, column) > 1.0, "row {} column {} offered again", row, column);
@@ -30,7 +30,7 @@ void Pairing::offer(std::size_t row, std::size_t column, double relative_cost) {
   candidates_.push_back({static_cast<int>(row), static_cast<int>(column), 0.0});
 }
 
-void Pairing::solve(double bonus) {
+void LeastCostPairs::solve(double bonus) {
   TTF_CHECK(bonus > 0.0, "bonus {}", bonus);
   for (association::Candidate& pair : candidates_)
     pair.gain = bonus + (1.0 - cost(static_cast<std::size_t>(pair.row), static_cast<std::size_t>(pair.column)));
@@ -45,7 +45,7 @@ void Pairing::solve(double bonus) {
 
 // Ends, because every change makes the sequence of columns smaller, in lexicographic order with kNone as the
 // largest.
-void Pairing::settle_ties() {
+void LeastCostPairs::settle_ties() {
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t row = 0; row < rows_; ++row)
@@ -53,7 +53,7 @@ void Pairing::settle_ties() {
   }
 }
 
-bool Pairing::prefer_smaller_column(std::size_t row) {
+bool LeastCostPairs::prefer_smaller_column(std::size_t row) {
   const int now = column_of_[row];
   const std::size_t end = now == kNone ? columns_ : static_cast<std::size_t>(now);
   for (std::size_t column = 0; column < end; ++column) {

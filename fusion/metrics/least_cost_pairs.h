@@ -1,4 +1,4 @@
-// Pairs two lists one to one at least cost. A pair that is not offered, or too costly, stays apart.
+// Pairs two sets one to one at least cost. A pair that is not offered, or too costly, stays apart.
 //
 // The optimum is that of fusion/association/assignment.h, exact for dense and for square problems. With a
 // pair's gain 1 + bonus - cost it solves the cut-off problem of GOSPA and OSPA, or first takes as many pairs as
@@ -19,7 +19,7 @@
 
 namespace ttf::fusion::metrics {
 
-class Pairing {
+class LeastCostPairs {
  public:
   // Bonuses, added to the gain of every pair. The small one prefers more pairs among equal sums.
   static constexpr double kLeastCost = 1e-12;
@@ -28,7 +28,7 @@ class Pairing {
     return 1.0 + static_cast<double>(rows < columns ? rows : columns);
   }
 
-  Pairing(std::size_t max_rows, std::size_t max_columns);
+  LeastCostPairs(std::size_t max_rows, std::size_t max_columns);
 
   void begin(std::size_t rows, std::size_t columns);
   // Offers a pair, once. `cost` is in [0, 1]; 1 is the cut-off.
