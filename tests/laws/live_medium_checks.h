@@ -80,7 +80,7 @@ inline void hear_all_of(
       if (bench.on(member.self(), line)) member.hear_until(line, other, count, false, meanwhile);
 }
 
-// L1, and the port's promise about departures. Every member talks on all lines, in rounds, each member in its
+// L1, and the lateness that departures have. Every member talks on all lines, in rounds, each member in its
 // own thread or one after the other.
 inline std::string once_and_unchanged(LiveBench& bench, bool in_threads) {
   static constexpr std::size_t kRounds = 200, kEach = 2;

@@ -25,7 +25,7 @@ enum class Kind : std::uint8_t {
   kClose,     // control, supervisor: `about` ends before number `end`; `holder`, if any, repeats it from `first` on
   kAgain,     // control, holder: sample `first` of `about`, whose kind is `inner`
   kAllAgain,  // control, holder: all of `about` has been repeated in this `round`
-  kClosed,    // control, member: the sender has heard all of `about` that `round` promised
+  kClosed,    // control, member: the sender has heard all of `about` up to the end of this `round`
   kHeard,     // control, member, now and then: its counts of samples heard (bus/dds/exchange/heard.h)
 };
 inline constexpr std::uint8_t kKinds = 11;

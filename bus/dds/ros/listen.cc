@@ -5,7 +5,7 @@
 //
 // It prints one JSON object per line, until SIGINT or SIGTERM. An object is a publication of a known type, as
 // DDS announces it, a sample, or a publisher that misses its deadline, comes to life or goes. Readers request
-// the promises of the first publisher of their topic.
+// the quality of service (QoS) that the first publisher of their topic offers.
 #include <dds/dds.h>
 
 #include <array>

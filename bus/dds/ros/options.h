@@ -1,4 +1,4 @@
-// The options of a RosPublisher: its samples, their names, and its promises to listeners.
+// The options of a RosPublisher: its samples, their names, and the quality of service for listeners.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ struct RosOptions {
   std::int64_t time_scale_ppm = 1'000'000;  // real time per time of the drive, 100'000..1'000'000'000
   std::string frame_id = "sensor_car";      // of all messages: x forward, y left (ISO 8855, as REP 103)
 
-  // A new sample is promised within `deadline_slack` times the period, in real time. Zero: no promise.
+  // The deadline of a new sample is `deadline_slack` times the period, in real time. Zero: no deadline.
   Duration image_period{};  // of images, and of the boxes made of them
   Duration step_period{};   // of tracks: one sample for each step of the fusion
   Duration truth_period{};  // of each object

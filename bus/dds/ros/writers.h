@@ -19,7 +19,7 @@ class Writer {
   struct Counts {
     std::uint64_t written = 0;
     std::uint64_t refused = 0;           // by DDS, because its memory is full or for another reason
-    std::uint64_t deadlines_missed = 0;  // promised and not kept
+    std::uint64_t deadlines_missed = 0;  // a sample came later than its deadline, or never
   };
   Writer(const common::Participant& participant, const void* type, const std::string& topic, Duration period,
          bool kept_for_late_listeners, const RosOptions& options);

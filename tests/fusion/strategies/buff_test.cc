@@ -98,13 +98,13 @@ TEST(Buff, LetsGoWhenNothingOlderCanArriveAnyMore) {
   EXPECT_EQ(held(*strategy), 0u);
 }
 
-// sensor 0 breaks its promise of 60 ms:
+// A list of sensor 0 comes after the 60 ms in which it settles:
 //
 //   t [ms]    0     10    20    30    40    50    60    70    80    90
 //   sensor 0  x0 ------------------------------------------------>85
 //   sensor 1        x0 --------->30
 //   fused                                               1/0         0/0 late
-TEST(Buff, RepairsABrokenPromise) {
+TEST(Buff, RepairsAListThatComesAfterItsInstantWasSettled) {
   const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
   const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
   EXPECT_EQ(run(*strategy, {{85, list_of(0, 0, at_ms(0))}, {30, list_of(1, 0, at_ms(10))}}, 150),

@@ -34,7 +34,7 @@ TEST_P(EveryStrategy, EndsWithTheBitsOfInOrderProcessing) {
   if (GetParam() == StrategyKind::kAdva)
     EXPECT_GT(late, 5);
   else
-    EXPECT_EQ(late, 0) << "all promises were kept";
+    EXPECT_EQ(late, 0) << "all lists came before their instants were settled";
 
   std::vector<OwnedList> in_order;
   for (const Arrival& a : arrivals) in_order.push_back(a.list);

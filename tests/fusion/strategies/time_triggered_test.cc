@@ -41,7 +41,7 @@ TEST(TimeTriggered, DoesNotWaitForAMissingListBeyondItsDueInstant) {
 //   laser     x0 ------------------------------------------>75
 //   camera                x0 ------------>45
 //   fused                                         1/0         0/0 late
-TEST(TimeTriggered, RepairsABrokenPromise) {
+TEST(TimeTriggered, RepairsAListThatComesAfterItWasDue) {
   const Lanes lanes{.objects = 3};
   const OwnedList laser = list_of(0, 0, at_ms(0), lanes.see(at_ms(0), 0)),
                   camera = list_of(1, 0, at_ms(20), lanes.see(at_ms(20), 1));

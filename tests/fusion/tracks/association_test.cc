@@ -1,4 +1,4 @@
-// The accuracy of each kind of association and birth. Each keeps the tracker's promises: the same bits in
+// The accuracy of each kind of association and birth. Each keeps the tracker's laws: the same bits in
 // every order of arrival, no allocation.
 #include <gtest/gtest.h>
 

@@ -64,7 +64,7 @@ void expect_as_if_never_sent(strategies::StrategyKind kind, const std::vector<Ar
     const auto [measured, arrived] = times[f.id];
     const bool late = f.disposition == strategies::Disposition::kFusedLate;
     ASSERT_TRUE(f.disposition == strategies::Disposition::kFused || (late && kind == strategies::StrategyKind::kAdva))
-        << "promises were kept: " << f;
+        << "no list came after its instant was settled: " << f;
     // The first fusion instant, every 10 ms, after which no older list can arrive.
     ASSERT_LT(f.ms,
               (kind == strategies::StrategyKind::kAdva ? arrived : std::max(arrived, measured + kLongestWay)) + 10)

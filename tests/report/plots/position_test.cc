@@ -69,7 +69,7 @@ TEST(PositionPlots, ArrowsLeadToTheStepThatIntegratedTheMeasurement) {
   EXPECT_LT(late, s.laser_arrows.size());
 }
 
-TEST(PositionPlots, ShowEverythingTheyPromise) {
+TEST(PositionPlots, ShowEverythingThatTheySelect) {
   const PositionPlots plots = drive({.title = "A & B"});
   const PositionPlots::Selection s = plots.select();
   for (const std::string& svg : {plots.over_time_svg(), plots.plane_svg()}) {

@@ -87,7 +87,7 @@ TEST(ActivationBounds, NoDrawnListsComeMoreOftenThanTheirBounds) {
         for (std::size_t i = 1; i < arrivals.size(); ++i) closest = std::min(closest, arrivals[i] - arrivals[i - 1]);
       }
       EXPECT_GE(closest, *bounds.gap());
-      // No empty promise: sendings are cycles apart, so within one.
+      // The gap is not much too small either: sendings are cycles apart, so it is within one.
       EXPECT_LT(closest, *bounds.gap() + cluster.cycle().ns);
     }
   }

@@ -111,7 +111,7 @@ TEST_F(RosListen, TracksTruthAndHealthArriveAsTheyWereTold) {
                                                {"values", {{"says", "\"quoted\"\n"}}}}}));
 }
 
-TEST_F(RosListen, APublicationIsAnnouncedWithItsTypeAndItsPromises) {
+TEST_F(RosListen, APublicationIsAnnouncedWithItsTypeDeadlineAndLease) {
   const auto publication = event_of("publication", topic("tracks"));
   ASSERT_TRUE(publication.has_value());
   EXPECT_EQ(publication->at("type"), "ttfusion_msgs::msg::dds_::TrackArray_");

@@ -1,5 +1,5 @@
 // A publisher as a process: ros_talker DOMAIN NAME PERIOD_MS. Every period it publishes the drawn records of
-// one image, one step, one truth and one health. It promises that period, and runs until it is ended.
+// one image, one step, one truth and one health. Its deadlines follow from that period. It runs until it is ended.
 #include <chrono>
 #include <cstdint>
 #include <string>

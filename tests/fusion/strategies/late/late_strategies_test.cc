@@ -104,10 +104,10 @@ TEST_P(LateUnderAdva, AllocatesNothing) {
   EXPECT_GT(late, 5u);
 }
 
-// A list that misses its promise is taken in by rewinding: the bits of plain BUFF.
+// A list that comes after its instant was settled is taken in by rewinding: the bits of plain BUFF.
 TEST(LateUnderBuff, IsAlwaysRewinding) {
   std::vector<Arrival> arrivals = drawn_drive(5, 40);
-  for (std::size_t i = 10; i < arrivals.size(); i += 7) arrivals[i].ms += 100;  // broken promises
+  for (std::size_t i = 10; i < arrivals.size(); i += 7) arrivals[i].ms += 100;  // after their instants were settled
   const Ending rewinding = end_of(StrategyKind::kBuff, Kind::kRewind, arrivals);
   EXPECT_GT(rewinding.late, 5u);
   for (const Kind kind : {Kind::kAugmented, Kind::kClone, Kind::kC}) {
@@ -117,7 +117,7 @@ TEST(LateUnderBuff, IsAlwaysRewinding) {
   }
 }
 
-TEST(LateUnderTt, WithAllPromisesKeptClonesChangeNothing) {
+TEST(LateUnderTt, WhereAllListsComeBeforeTheyAreDueClonesChangeNothing) {
   const std::vector<Arrival> arrivals = drawn_drive(6, 40);
   const Ending rewinding = end_of(StrategyKind::kTt, Kind::kRewind, arrivals),
                clones = end_of(StrategyKind::kTt, Kind::kClone, arrivals);
@@ -125,7 +125,7 @@ TEST(LateUnderTt, WithAllPromisesKeptClonesChangeNothing) {
   EXPECT_TRUE(same_bits(clones.image, rewinding.image));
 }
 
-TEST(LateUnderTt, ABrokenPromiseIsForTheClone) {
+TEST(LateUnderTt, AListThatComesAfterItWasDueIsForTheClone) {
   std::vector<Arrival> arrivals = drawn_drive(6, 40);
   for (std::size_t i = 10; i < arrivals.size(); i += 7) arrivals[i].ms += 60;
   const Ending rewinding = end_of(StrategyKind::kTt, Kind::kRewind, arrivals),
