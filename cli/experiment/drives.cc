@@ -52,19 +52,19 @@ class ScratchFolder {
 };
 
 // Returns the drives of one replication by paradigm; empty if no replication has them all.
-std::vector<experiments::results::Run> first_done_by_all(const experiments::results::Store& store, std::uint32_t point,
+std::vector<experiments::results::Row> first_done_by_all(const experiments::results::Store& store, std::uint32_t point,
                                                          std::size_t paradigms) {
-  std::vector<experiments::results::Run> runs;
-  for (experiments::results::Run& run : store.of_point(point)) {
-    if (!runs.empty() && runs.front().key.replication != run.key.replication) runs.clear();
-    if (run.status != experiments::results::kDone || run.key.paradigm != runs.size()) continue;
-    runs.push_back(std::move(run));
-    if (runs.size() == paradigms) return runs;
+  std::vector<experiments::results::Row> rows;
+  for (experiments::results::Row& row : store.of_point(point)) {
+    if (!rows.empty() && rows.front().key.replication != row.key.replication) rows.clear();
+    if (row.status != experiments::results::kDone || row.key.paradigm != rows.size()) continue;
+    rows.push_back(std::move(row));
+    if (rows.size() == paradigms) return rows;
   }
   return {};
 }
 
-bool same(const experiments::results::Run& a, const experiments::results::Run& b) {
+bool same(const experiments::results::Row& a, const experiments::results::Row& b) {
   return a.status == b.status &&
          std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
@@ -86,7 +86,7 @@ void check_same_experiment(const SweepDrives& drives, const report::experiment::
     throw NoDrives(fmt::format("{}, or a file that it names, has changed since the experiment was driven", sweep.file));
 }
 
-report::run::Drive driven(const SweepDrives& drives, const experiments::results::Run& known) {
+report::run::Drive driven(const SweepDrives& drives, const experiments::results::Row& known) {
   const std::string& paradigm = drives.sweep().paradigms[known.key.paradigm].name;
   const ScratchFolder scratch;
   if (!same(drive_again(drives, known.key, scratch.path()), known))
@@ -103,28 +103,28 @@ std::vector<report::run::Drive> all_driven(const report::experiment::ExperimentF
   const SweepFile sweep = experiments::sweep::load_sweep(file);
   const SweepDrives drives(sweep);
   check_same_experiment(drives, folder);
-  const std::vector<experiments::results::Run> runs = first_done_by_all(*folder.store, point, folder.paradigms.size());
-  if (runs.empty()) throw NoDrives(fmt::format("point {} has no replication that every paradigm has done", point));
-  replication = runs.front().key.replication;
-  fmt::print(stderr, "{}: {} of point {}, replication {}, again ...\n", sweep.name, counted(runs.size(), "run"), point,
+  const std::vector<experiments::results::Row> rows = first_done_by_all(*folder.store, point, folder.paradigms.size());
+  if (rows.empty()) throw NoDrives(fmt::format("point {} has no replication that every paradigm has done", point));
+  replication = rows.front().key.replication;
+  fmt::print(stderr, "{}: {} of point {}, replication {}, again ...\n", sweep.name, counted(rows.size(), "run"), point,
              replication);
   std::vector<report::run::Drive> all;
-  for (const experiments::results::Run& run : runs) all.push_back(driven(drives, run));
+  for (const experiments::results::Row& row : rows) all.push_back(driven(drives, row));
   return all;
 }
 
 }  // namespace
 
-experiments::results::Run drive_again(const SweepDrives& drives, const experiments::results::RunKey& key,
+experiments::results::Row drive_again(const SweepDrives& drives, const experiments::results::RowKey& key,
                                       const std::string& folder) {
   const SweepFile& sweep = drives.sweep();
   const experiments::sweep::PreparedDrive drive = drives.prepare(key);
   const std::unique_ptr<recording::log::LogWriter> log = drive::begin_log(
       fmt::format("{}/{}.mcap", folder, sweep.paradigms[key.paradigm].name),
       drive::manifest_of(drive.scenario, drive.cluster, drive.strategy, sweep.seed, {}), drive.scenario, drive.cluster);
-  experiments::results::Run run = drives.run(key, drive, log.get());
+  experiments::results::Row row = drives.run(key, drive, log.get());
   log->close();
-  return run;
+  return row;
 }
 
 report::experiment::ExperimentDrives drives_of(const report::experiment::ExperimentFolder& folder,

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "experiments/results/store.h"
-#include "experiments/sweep/run.h"
+#include "experiments/sweep/drives.h"
 #include "report/experiment/folder.h"
 #include "report/experiment/report.h"
 
@@ -14,8 +14,8 @@ namespace ttf::cli::experiment {
 
 // Leaves the drive's log in the folder, under its paradigm's name. Throws InputError if the drive is
 // impossible, and std::runtime_error if the log cannot be written.
-experiments::results::Run drive_again(const experiments::sweep::SweepDrives& drives,
-                                      const experiments::results::RunKey& key, const std::string& folder);
+experiments::results::Row drive_again(const experiments::sweep::SweepDrives& drives,
+                                      const experiments::results::RowKey& key, const std::string& folder);
 
 // Drives each paradigm of the folder's experiment again, at one point (by default the folder's first) and
 // with the first replication that all paradigms have done. The results must equal the store's rows: a changed

@@ -8,7 +8,7 @@
 
 #include "experiments/mpi/ranks.h"
 #include "experiments/results/shard.h"
-#include "experiments/sweep/run.h"
+#include "experiments/sweep/drives.h"
 
 namespace ttf::cli::experiment {
 

@@ -6,8 +6,8 @@
 
 #include "cli/experiment/options.h"
 #include "core/errors.h"
+#include "experiments/sweep/drives.h"
 #include "experiments/sweep/file.h"
-#include "experiments/sweep/run.h"
 
 namespace ttf::cli::experiment {
 

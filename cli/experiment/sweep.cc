@@ -33,7 +33,7 @@ std::string folder_of(const ExperimentOptions& options, const SweepFile& sweep) 
 }
 std::string store_in(const std::string& folder) { return folder + "/results.sqlite"; }
 
-std::string key_text(const SweepFile& sweep, const experiments::results::RunKey& key) {
+std::string key_text(const SweepFile& sweep, const experiments::results::RowKey& key) {
   return fmt::format("{}/{}/{}", key.point, sweep.paradigms[key.paradigm].name, key.replication);
 }
 
@@ -43,9 +43,9 @@ std::string names_of(const SweepFile& sweep) {
   return joined(names);
 }
 
-experiments::results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
+experiments::results::RowKey key_of(const std::string& text, const SweepFile& sweep) {
   const std::size_t first = text.find('/'), second = text.rfind('/');
-  experiments::results::RunKey key;
+  experiments::results::RowKey key;
   const auto number = [](std::string_view part, std::size_t below, std::uint32_t& value) {
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
     return error == std::errc{} && end == part.data() + part.size() && value < below;
@@ -67,17 +67,17 @@ experiments::results::RunKey key_of(const std::string& text, const SweepFile& sw
 
 int replay(const ExperimentOptions& options, const SweepDrives& drives) {
   const SweepFile& sweep = drives.sweep();
-  const experiments::results::RunKey key = key_of(*options.replay, sweep);
+  const experiments::results::RowKey key = key_of(*options.replay, sweep);
   if (!options.out.empty()) create_folder(options.out);
-  const experiments::results::Run run =
+  const experiments::results::Row row =
       options.out.empty() ? drives.run(key, drives.prepare(key)) : drive_again(drives, key, options.out);
   if (!options.out.empty()) fmt::print(stderr, "written to {}\n", options.out);
   fmt::print("{}, {}, replication {}: {}\n", sweep.label_of(key.point), sweep.paradigms[key.paradigm].name,
-             key.replication, run.status);
+             key.replication, row.status);
   const std::vector<std::string> columns = drives.columns();
   for (std::size_t c = 0; c < columns.size(); ++c)
-    fmt::print("  {} {}\n", columns[c], std::isnan(run.values[c]) ? "-" : fmt::format("{}", run.values[c]));
-  return run.status == experiments::results::kDone ? 0 : 1;
+    fmt::print("  {} {}\n", columns[c], std::isnan(row.values[c]) ? "-" : fmt::format("{}", row.values[c]));
+  return row.status == experiments::results::kDone ? 0 : 1;
 }
 
 // Opens a store and checks that all of its drives belong to this experiment. Throws InputError.
@@ -88,7 +88,7 @@ Store opened(const SweepDrives& drives, const std::string& path) {
     throw InputError(
         {path, 0, "", "", "must belong to this experiment: the file, a file that it names or the program has changed"});
   const SweepFile& sweep = drives.sweep();
-  for (const experiments::results::RunKey& key : store.keys())
+  for (const experiments::results::RowKey& key : store.keys())
     if (key.point >= sweep.points() || key.replication >= sweep.replications || key.paradigm >= sweep.paradigms.size())
       throw InputError({path, 0, "runs", fmt::format("{}/{}/{}", key.point, key.paradigm, key.replication),
                         "must be a run of this experiment: point/paradigm/replication"});
@@ -110,14 +110,14 @@ Store store_of(const ExperimentOptions& options, const SweepDrives& drives, cons
 // Returns whether the merged store is complete.
 bool merge(const std::vector<Store>& shards, const SweepFile& sweep, Store& store) {
   for (const Store& shard : shards) {
-    std::vector<experiments::results::Run> some;
-    shard.for_each([&](const experiments::results::Run& run) {
-      some.push_back(run);
+    std::vector<experiments::results::Row> some;
+    shard.for_each([&](const experiments::results::Row& row) {
+      some.push_back(row);
       if (some.size() == 10'000) store.add(std::exchange(some, {}));
     });
     store.add(some);
   }
-  const std::uint64_t all = sweep.runs();
+  const std::uint64_t all = sweep.drives();
   if (sweep.stop || store.count() == all) return true;
   fmt::print(stderr, "error: {} of {} runs are missing: --resume drives them\n", all - store.count(), all);
   return false;
@@ -152,7 +152,7 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::sweep:
                               {"question", sweep.question},
                               {"seed", sweep.seed},
                               {"confidence", sweep.confidence},
-                              {"runs", answer.runs},
+                              {"runs", answer.drives},
                               {"failed", answer.failed},
                               {"baseline", sweep.paradigms[sweep.baseline].name},
                               {"answer", experiments::sweep::answer_sentences(sweep, answer)}};
@@ -189,11 +189,11 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::sweep:
 std::string failures_text(const ExperimentOptions& options, const SweepFile& sweep, const Store& store) {
   std::string text;
   std::size_t shown = 0;
-  store.for_each([&](const experiments::results::Run& run) {
-    if (run.status == experiments::results::kDone || ++shown > kShownFailures) return;
+  store.for_each([&](const experiments::results::Row& row) {
+    if (row.status == experiments::results::kDone || ++shown > kShownFailures) return;
     const std::string more = options.replications > 0 ? fmt::format(" --replications {}", options.replications) : "";
-    text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}{} --out one\n", sweep.label_of(run.key.point),
-                        run.status, options.file, key_text(sweep, run.key), more);
+    text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}{} --out one\n", sweep.label_of(row.key.point),
+                        row.status, options.file, key_text(sweep, row.key), more);
   });
   if (shown > kShownFailures) text += fmt::format("and {} more, in runs.csv\n", shown - kShownFailures);
   return text;
@@ -251,10 +251,10 @@ void settle_replications(ExperimentOptions& options, SweepFile& sweep) {
   const std::uint32_t files = sweep.replications;
   sweep.replications = options.replications > 0 ? options.replications : there > 0 ? there : files;
   options.replications = sweep.replications == files ? 0 : sweep.replications;
-  if (sweep.runs() > experiments::sweep::kMostRuns)
+  if (sweep.drives() > experiments::sweep::kMostDrives)
     throw InputError(
         {"command line", 0, "--replications", std::to_string(sweep.replications),
-         fmt::format("must make {} runs at most, and make {}", experiments::sweep::kMostRuns, sweep.runs())});
+         fmt::format("must make {} runs at most, and make {}", experiments::sweep::kMostDrives, sweep.drives())});
 }
 
 int run_sweep_experiment(const ExperimentOptions& given, experiments::mpi::Ranks& alone) {

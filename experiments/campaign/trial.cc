@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "evaluation/faults/reach.h"
-#include "experiments/campaign/trial_run.h"
+#include "experiments/campaign/trial_simulation.h"
 #include "faults/believed_schedule.h"
 #include "schedules/model/wire_times.h"
 #include "sim/medium/disturbance.h"
@@ -55,10 +55,10 @@ struct UsualStartup {
 };
 UsualStartup usual_startup(const TrialSetting& setting, evaluation::faults::JudgeSettings judge, TrueTime end) {
   judge.faulty.assign(setting.cluster.nodes.size(), false);
-  TrialRun run(setting, std::nullopt, judge);
-  const std::optional<TrueTime> all_active = run.run_until_all_active(end);
+  TrialSimulation simulation(setting, std::nullopt, judge);
+  const std::optional<TrueTime> all_active = simulation.run_until_all_active(end);
   UsualStartup usual{all_active.has_value(), all_active.value_or(end) + setting.cluster.cycle() * kCyclesToSettle, {}};
-  const evaluation::faults::Judgement& judgement = run.finish();
+  const evaluation::faults::Judgement& judgement = simulation.finish();
   for (std::size_t c = 0; c < evaluation::faults::kAllChecks.size(); ++c)
     usual.seen[c] = judgement.seen_by_others[c].has_value();
   return usual;
@@ -90,11 +90,11 @@ FaultOutcome run_trial(const CampaignFile& campaign, const schedules::model::Clu
   }
   judge.faulty = evaluation::faults::named_by(drawn.fault, cluster);
   set_window(judge, drawn.fault);
-  TrialRun run(setting, drawn.fault, judge, story);
-  run.run_until(end);
-  const evaluation::faults::Judgement& judgement = run.finish();
+  TrialSimulation simulation(setting, drawn.fault, judge, story);
+  simulation.run_until(end);
+  const evaluation::faults::Judgement& judgement = simulation.finish();
   if (story != nullptr) story->judged(judgement);
-  FaultOutcome outcome = outcome_of(judgement, run.activation());
+  FaultOutcome outcome = outcome_of(judgement, simulation.activation());
   outcome.starts_without = starts_without;
   return outcome;
 }

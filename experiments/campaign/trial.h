@@ -2,7 +2,7 @@
 // judge.
 //
 // Every host writes its lists anew in every cycle (trial_host.h), and restarts a halted controller after the
-// campaign's delay (trial_run.h). A trial is a pure function of campaign, wiring and index: clocks, times of
+// campaign's delay (trial_simulation.h). A trial is a pure function of campaign, wiring and index: clocks, times of
 // power-on (trial_draws.h) and the fault's draws come from streams of that index.
 #pragma once
 

@@ -15,10 +15,10 @@
 namespace ttf::experiments::mpi {
 namespace {
 
-using results::Run;
-using results::RunKey;
+using results::Row;
+using results::RowKey;
 
-constexpr int kRuns = 1;                       // to rank 0: results, perhaps none; the sender is idle
+constexpr int kRows = 1;                       // to rank 0: results, perhaps none; the sender is idle
 constexpr int kKeys = 2;                       // from rank 0: keys to drive; empty: the end
 constexpr std::chrono::milliseconds kLook{1};  // between two looks for a message; MPI itself would wait spinning
 
@@ -53,40 +53,40 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-void put(Bytes& bytes, const RunKey& key) {
+void put(Bytes& bytes, const RowKey& key) {
   put(bytes, key.point);
   put(bytes, key.replication);
   put(bytes, key.paradigm);
 }
-RunKey get_key(Reader& reader) {
-  RunKey key;
+RowKey get_key(Reader& reader) {
+  RowKey key;
   key.point = reader.get<std::uint32_t>();
   key.replication = reader.get<std::uint32_t>();
   key.paradigm = reader.get<std::uint32_t>();
   return key;
 }
 
-Bytes bytes_of(const std::vector<Run>& runs) {
+Bytes bytes_of(const std::vector<Row>& rows) {
   Bytes bytes;
-  for (const Run& run : runs) {
-    put(bytes, run.key);
-    put(bytes, static_cast<std::uint64_t>(run.status.size()));
-    bytes.insert(bytes.end(), run.status.begin(), run.status.end());
-    put(bytes, static_cast<std::uint64_t>(run.values.size()));
-    for (const double value : run.values) put(bytes, value);
+  for (const Row& row : rows) {
+    put(bytes, row.key);
+    put(bytes, static_cast<std::uint64_t>(row.status.size()));
+    bytes.insert(bytes.end(), row.status.begin(), row.status.end());
+    put(bytes, static_cast<std::uint64_t>(row.values.size()));
+    for (const double value : row.values) put(bytes, value);
   }
   return bytes;
 }
-std::vector<Run> runs_of(const Bytes& bytes) {
-  std::vector<Run> runs;
+std::vector<Row> rows_of(const Bytes& bytes) {
+  std::vector<Row> rows;
   for (Reader reader(bytes); !reader.at_end();) {
-    Run& run = runs.emplace_back();
-    run.key = get_key(reader);
-    run.status = reader.text(reader.get<std::uint64_t>());
-    run.values.resize(reader.get<std::uint64_t>());
-    for (double& value : run.values) value = reader.get<double>();
+    Row& row = rows.emplace_back();
+    row.key = get_key(reader);
+    row.status = reader.text(reader.get<std::uint64_t>());
+    row.values.resize(reader.get<std::uint64_t>());
+    for (double& value : row.values) value = reader.get<double>();
   }
-  return runs;
+  return rows;
 }
 
 void send(const Bytes& bytes, int to, int tag) {
@@ -135,7 +135,7 @@ Ranks::~Ranks() {
   // A rank that still drives reports its end; its results are dropped.
   while (served_ && idle_.size() + 1 < static_cast<std::size_t>(size_)) {
     MPI_Status status;
-    while (!is_there(MPI_ANY_SOURCE, kRuns, status)) std::this_thread::sleep_for(kLook);
+    while (!is_there(MPI_ANY_SOURCE, kRows, status)) std::this_thread::sleep_for(kLook);
     (void)receive(status);
     idle_.push_back(status.MPI_SOURCE);
   }
@@ -154,36 +154,36 @@ std::string Ranks::first_problem(const std::string& mine) const {
 bool Ranks::same_as_first(const std::string& text) const { return size_ == 1 || broadcast(text, 0) == text; }
 
 void Ranks::serve(const sweep::SweepDrives& drives) {
-  std::vector<Run> done;
+  std::vector<Row> done;
   sweep::Driver driver(drives);
   while (true) {
-    send(bytes_of(done), 0, kRuns);
+    send(bytes_of(done), 0, kRows);
     MPI_Status status;
     while (!is_there(0, kKeys, status)) std::this_thread::sleep_for(kLook);
     const Bytes keys = receive(status);
     if (keys.empty()) return;
-    std::vector<RunKey> wanted;
+    std::vector<RowKey> wanted;
     for (Reader reader(keys); !reader.at_end();) wanted.push_back(get_key(reader));
     done.clear();
-    driver.drive(wanted, [&](Run run) { done.push_back(std::move(run)); });
+    driver.drive(wanted, [&](Row row) { done.push_back(std::move(row)); });
   }
 }
 
-void Ranks::hand_out(int rank, std::span<const RunKey> keys) {
+void Ranks::hand_out(int rank, std::span<const RowKey> keys) {
   Bytes bytes;
-  for (const RunKey& key : keys) put(bytes, key);
+  for (const RowKey& key : keys) put(bytes, key);
   send(bytes, rank, kKeys);
   under_way_[static_cast<std::size_t>(rank)] = keys.size();
 }
 
 std::size_t Ranks::turn(const Grab& grab, const Deposit& deposit) {
-  for (MPI_Status status; is_there(MPI_ANY_SOURCE, kRuns, status);) {
-    deposit(runs_of(receive(status)));
+  for (MPI_Status status; is_there(MPI_ANY_SOURCE, kRows, status);) {
+    deposit(rows_of(receive(status)));
     under_way_[static_cast<std::size_t>(status.MPI_SOURCE)] = 0;
     idle_.push_back(status.MPI_SOURCE);
   }
   while (!idle_.empty()) {
-    const std::span<const RunKey> keys = grab();
+    const std::span<const RowKey> keys = grab();
     if (keys.empty()) break;
     hand_out(idle_.back(), keys);
     idle_.pop_back();

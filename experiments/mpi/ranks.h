@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/sweep/drives.h"
 #include "experiments/sweep/engine.h"
-#include "experiments/sweep/run.h"
 
 namespace ttf::experiments::mpi {
 
@@ -43,7 +43,7 @@ class Ranks final : public sweep::Elsewhere {
   std::size_t turn(const Grab& grab, const Deposit& deposit) override;
 
  private:
-  void hand_out(int rank, std::span<const results::RunKey> keys);
+  void hand_out(int rank, std::span<const results::RowKey> keys);
 
   int rank_ = 0, size_ = 1;
   bool served_ = false;

@@ -98,13 +98,13 @@ class Statement {
   sqlite3_stmt* handle_ = nullptr;
 };
 
-Run run_of(const Statement& statement, std::size_t measures) {
-  Run run;
-  run.key = {static_cast<std::uint32_t>(statement.integer(0)), static_cast<std::uint32_t>(statement.integer(1)),
+Row row_of(const Statement& statement, std::size_t measures) {
+  Row row;
+  row.key = {static_cast<std::uint32_t>(statement.integer(0)), static_cast<std::uint32_t>(statement.integer(1)),
              static_cast<std::uint32_t>(statement.integer(2))};
-  run.status = statement.text(3);
-  for (std::size_t m = 0; m < measures; ++m) run.values.push_back(statement.number(4 + static_cast<int>(m)));
-  return run;
+  row.status = statement.text(3);
+  for (std::size_t m = 0; m < measures; ++m) row.values.push_back(statement.number(4 + static_cast<int>(m)));
+  return row;
 }
 
 std::string columns(const StoreHead& head) {
@@ -172,9 +172,9 @@ Store Store::open(const std::string& path) {
     if (!measures) throw std::runtime_error(path + ": no measures");
     for (std::size_t begin = 0, end = 0; (end = measures->find('\n', begin)) != std::string::npos; begin = end + 1)
       store.head_.measures.push_back(measures->substr(begin, end - begin));
-    Statement runs(store.database_->handle, store.database_->path,
+    Statement rows(store.database_->handle, store.database_->path,
                    "SELECT " + columns(store.head_) + " FROM runs LIMIT 1");  // whether the columns are as stated
-    (void)runs.row();
+    (void)rows.row();
     return store;
   } catch (const std::runtime_error& error) {
     throw InputError({path, 0, "", "", std::string("must be a store of runs; SQLite says: ") + error.what()});
@@ -190,19 +190,19 @@ void Store::ask_for(std::uint32_t replications) {
   head_.replications = replications;
 }
 
-void Store::add(const std::vector<Run>& runs) {
+void Store::add(const std::vector<Row>& rows) {
   std::string marks = "?, ?, ?, ?";
   for (std::size_t m = 0; m < head_.measures.size(); ++m) marks += ", ?";
   database_->execute("BEGIN");
   try {
     Statement insert(database_->handle, database_->path,
                      "INSERT OR IGNORE INTO runs(" + columns(head_) + ") VALUES(" + marks + ")");
-    for (const Run& run : runs) {
-      insert.bind(1, std::int64_t{run.key.point});
-      insert.bind(2, std::int64_t{run.key.replication});
-      insert.bind(3, std::int64_t{run.key.paradigm});
-      insert.bind(4, std::string_view(run.status));
-      for (std::size_t m = 0; m < head_.measures.size(); ++m) insert.bind(5 + static_cast<int>(m), run.values.at(m));
+    for (const Row& row : rows) {
+      insert.bind(1, std::int64_t{row.key.point});
+      insert.bind(2, std::int64_t{row.key.replication});
+      insert.bind(3, std::int64_t{row.key.paradigm});
+      insert.bind(4, std::string_view(row.status));
+      for (std::size_t m = 0; m < head_.measures.size(); ++m) insert.bind(5 + static_cast<int>(m), row.values.at(m));
       insert.row();
       insert.again();
     }
@@ -219,26 +219,26 @@ std::uint64_t Store::count() const {
   return static_cast<std::uint64_t>(count.integer(0));
 }
 
-std::vector<RunKey> Store::keys() const {
-  std::vector<RunKey> keys;
-  Statement runs(database_->handle, database_->path,
+std::vector<RowKey> Store::keys() const {
+  std::vector<RowKey> keys;
+  Statement rows(database_->handle, database_->path,
                  "SELECT point, replication, paradigm, status FROM runs ORDER BY point, replication, paradigm");
-  while (runs.row()) keys.push_back(run_of(runs, 0).key);
+  while (rows.row()) keys.push_back(row_of(rows, 0).key);
   return keys;
 }
 
-void Store::for_each(const std::function<void(const ttf::experiments::results::Run&)>& use) const {
-  Statement runs(database_->handle, database_->path,
+void Store::for_each(const std::function<void(const ttf::experiments::results::Row&)>& use) const {
+  Statement rows(database_->handle, database_->path,
                  "SELECT " + columns(head_) + " FROM runs ORDER BY point, replication, paradigm");
-  while (runs.row()) use(run_of(runs, head_.measures.size()));
+  while (rows.row()) use(row_of(rows, head_.measures.size()));
 }
 
-std::vector<Run> Store::of_point(std::uint32_t point) const {
-  std::vector<Run> found;
-  Statement runs(database_->handle, database_->path,
+std::vector<Row> Store::of_point(std::uint32_t point) const {
+  std::vector<Row> found;
+  Statement rows(database_->handle, database_->path,
                  "SELECT " + columns(head_) + " FROM runs WHERE point = ? ORDER BY replication, paradigm");
-  runs.bind(1, std::int64_t{point});
-  while (runs.row()) found.push_back(run_of(runs, head_.measures.size()));
+  rows.bind(1, std::int64_t{point});
+  while (rows.row()) found.push_back(row_of(rows, head_.measures.size()));
   return found;
 }
 

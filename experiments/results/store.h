@@ -18,13 +18,13 @@
 
 namespace ttf::experiments::results {
 
-struct RunKey {
+struct RowKey {
   std::uint32_t point = 0, replication = 0, paradigm = 0;
-  auto operator<=>(const RunKey&) const = default;
+  auto operator<=>(const RowKey&) const = default;
 };
 
-struct Run {
-  RunKey key;
+struct Row {
+  RowKey key;
   std::string status;          // kDone, or the failure
   std::vector<double> values;  // by measure; NaN if the drive has none
 };
@@ -54,11 +54,11 @@ class Store {
   void ask_for(std::uint32_t replications);
   // Adds all of them, or none; a row that exists stays as it is. Throws std::runtime_error, for instance if the
   // disk is full; earlier rows remain.
-  void add(const std::vector<Run>& runs);
+  void add(const std::vector<Row>& rows);
   std::uint64_t count() const;
-  std::vector<RunKey> keys() const;                                                            // in order
-  void for_each(const std::function<void(const ttf::experiments::results::Run&)>& use) const;  // in order
-  std::vector<Run> of_point(std::uint32_t point) const;                                        // in order
+  std::vector<RowKey> keys() const;                                                            // in order
+  void for_each(const std::function<void(const ttf::experiments::results::Row&)>& use) const;  // in order
+  std::vector<Row> of_point(std::uint32_t point) const;                                        // in order
 
  private:
   struct Database;

@@ -10,7 +10,7 @@ namespace {
 
 using results::Interval;
 using results::Moments;
-using results::Run;
+using results::Row;
 
 // Sums a point's results, which come replication by replication.
 class Sums {
@@ -20,12 +20,12 @@ class Sums {
         means_(sweep.paradigms.size(), std::vector<Moments>(sweep.measures.size())), differences_(means_),
         of_replication_(sweep.paradigms.size(), nullptr) {}
 
-  void add(const Run& run) {
-    if (run.key.replication != replication_) end_replication();
-    replication_ = run.key.replication;
-    if (run.status != results::kDone) return;
-    kept_.push_back(run);
-    for (std::size_t m = 0; m < sweep_.measures.size(); ++m) means_[run.key.paradigm][m].add(run.values[first_ + m]);
+  void add(const Row& row) {
+    if (row.key.replication != replication_) end_replication();
+    replication_ = row.key.replication;
+    if (row.status != results::kDone) return;
+    kept_.push_back(row);
+    for (std::size_t m = 0; m < sweep_.measures.size(); ++m) means_[row.key.paradigm][m].add(row.values[first_ + m]);
   }
   PointAnswer finish(std::uint32_t point) {
     end_replication();
@@ -40,12 +40,12 @@ class Sums {
  private:
   void end_replication() {
     std::fill(of_replication_.begin(), of_replication_.end(), nullptr);
-    for (const Run& run : kept_) of_replication_[run.key.paradigm] = &run;
-    const Run* baseline = of_replication_[against_];
+    for (const Row& row : kept_) of_replication_[row.key.paradigm] = &row;
+    const Row* baseline = of_replication_[against_];
     for (std::size_t p = 0; p < differences_.size() && baseline != nullptr; ++p)
-      if (const Run* run = of_replication_[p]; run != nullptr && p != against_)
+      if (const Row* row = of_replication_[p]; row != nullptr && p != against_)
         for (std::size_t m = 0; m < sweep_.measures.size(); ++m)
-          differences_[p][m].add(run->values[first_ + m] - baseline->values[first_ + m]);
+          differences_[p][m].add(row->values[first_ + m] - baseline->values[first_ + m]);
     kept_.clear();
   }
   std::vector<Interval> intervals(const std::vector<Moments>& moments) const {
@@ -57,8 +57,8 @@ class Sums {
   const SweepFile& sweep_;
   std::size_t against_, first_;
   std::vector<std::vector<Moments>> means_, differences_;
-  std::vector<const Run*> of_replication_;
-  std::vector<Run> kept_;
+  std::vector<const Row*> of_replication_;
+  std::vector<Row> kept_;
   std::uint32_t replication_ = 0;
 };
 
@@ -71,10 +71,10 @@ std::size_t index_of(const SweepFile& sweep, const std::string& paradigm) {
 void add_points(const SweepFile& sweep, const results::Store& store, SweepAnswer& answer) {
   for (std::uint32_t point = 0; point < sweep.points(); ++point) {
     Sums sums(sweep, sweep.baseline);
-    for (const Run& run : store.of_point(point)) {
-      sums.add(run);
-      ++answer.runs;
-      answer.failed += run.status != results::kDone;
+    for (const Row& row : store.of_point(point)) {
+      sums.add(row);
+      ++answer.drives;
+      answer.failed += row.status != results::kDone;
     }
     answer.points.push_back(sums.finish(point));
   }
@@ -117,20 +117,20 @@ std::size_t measure_index(const SweepFile& sweep, const std::string& name) {
 }
 
 // At one point: compares the two measures drive by drive.
-bool agree(const SweepFile& sweep, const Expectation& expectation, const std::vector<Run>& runs) {
+bool agree(const SweepFile& sweep, const Expectation& expectation, const std::vector<Row>& rows) {
   const std::size_t paradigm = index_of(sweep, expectation.less), first = sweep.drawn().size();
   const std::size_t one = measure_index(sweep, expectation.measure), other = measure_index(sweep, expectation.agrees);
   Moments difference;
-  for (const Run& run : runs)
-    if (run.key.paradigm == paradigm && run.status == results::kDone)
-      difference.add(run.values[first + one] - run.values[first + other]);
+  for (const Row& row : rows)
+    if (row.key.paradigm == paradigm && row.status == results::kDone)
+      difference.add(row.values[first + one] - row.values[first + other]);
   const Interval interval = interval_of(difference, sweep.confidence);
   return interval.low() <= 0.0 && interval.high() >= 0.0;  // false if the interval is not a number
 }
 
-bool less(const SweepFile& sweep, const Expectation& expectation, const std::vector<Run>& runs) {
+bool less(const SweepFile& sweep, const Expectation& expectation, const std::vector<Row>& rows) {
   Sums sums(sweep, index_of(sweep, expectation.than));
-  for (const Run& run : runs) sums.add(run);
+  for (const Row& row : rows) sums.add(row);
   const PointAnswer answer = sums.finish(0);
   return answer.differences[index_of(sweep, expectation.less)][measure_index(sweep, expectation.measure)].below(0.0);
 }
@@ -145,8 +145,8 @@ ExpectationAnswer judge(const SweepFile& sweep, const Expectation& expectation, 
       if (const auto label = expectation.where.find(grid[a]->name); label != expectation.where.end())
         meant = meant && label->second == settings[a]->label;
     if (!meant) continue;
-    const std::vector<Run> runs = store.of_point(point);
-    if (expectation.agrees.empty() ? less(sweep, expectation, runs) : agree(sweep, expectation, runs)) continue;
+    const std::vector<Row> rows = store.of_point(point);
+    if (expectation.agrees.empty() ? less(sweep, expectation, rows) : agree(sweep, expectation, rows)) continue;
     answer.holds = false;
     answer.where_not.push_back(sweep.label_of(point));
   }
@@ -169,10 +169,10 @@ SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store) {
   return answer;
 }
 
-bool sure_enough(const SweepFile& sweep, const std::vector<Run>& runs, std::uint32_t to) {
+bool sure_enough(const SweepFile& sweep, const std::vector<Row>& rows, std::uint32_t to) {
   Sums sums(sweep, sweep.baseline);
-  for (const Run& run : runs)
-    if (run.key.replication < to) sums.add(run);
+  for (const Row& row : rows)
+    if (row.key.replication < to) sums.add(row);
   const PointAnswer answer = sums.finish(0);
   for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
     if (p != sweep.baseline && !(answer.differences[p].front().half_width <= sweep.stop->half_width)) return false;

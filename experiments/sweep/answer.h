@@ -39,7 +39,7 @@ struct ExpectationAnswer {
 };
 
 struct SweepAnswer {
-  std::uint64_t runs = 0, failed = 0;
+  std::uint64_t drives = 0, failed = 0;
   std::vector<PointAnswer> points;
   std::vector<Crossing> crossings;
   std::vector<ExpectationAnswer> expectations;
@@ -48,7 +48,7 @@ struct SweepAnswer {
 
 SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store);
 
-// Returns whether a point satisfies the stop rule with replications 0..to-1 of `runs`, which are in order.
-bool sure_enough(const SweepFile& sweep, const std::vector<results::Run>& runs, std::uint32_t to);
+// Returns whether a point satisfies the stop rule with replications 0..to-1 of `rows`, which are in order.
+bool sure_enough(const SweepFile& sweep, const std::vector<results::Row>& rows, std::uint32_t to);
 
 }  // namespace ttf::experiments::sweep

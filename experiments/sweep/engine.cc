@@ -16,10 +16,10 @@
 namespace ttf::experiments::sweep {
 namespace {
 
-using results::Run;
-using results::RunKey;
+using results::Row;
+using results::RowKey;
 
-constexpr std::uint32_t kRunsAtATime = 8;           // for a worker
+constexpr std::uint32_t kRowsAtATime = 8;           // for a worker
 constexpr std::chrono::milliseconds kWritten{500};  // the longest wait until a result is written
 constexpr std::chrono::milliseconds kTurn{2};       // between two looks at drives elsewhere
 constexpr std::size_t kMostWaiting = 100'000;       // results
@@ -30,13 +30,13 @@ class Ledger {
   Ledger(const SweepFile& sweep, const results::Store& store)
       : replications_(sweep.replications), paradigms_(sweep.paradigms.size()),
         there_(sweep.points() * replications_ * paradigms_, false) {
-    for (const RunKey& key : store.keys()) there_[index_of(key)] = true;
+    for (const RowKey& key : store.keys()) there_[index_of(key)] = true;
   }
-  bool has(const RunKey& key) const { return there_[index_of(key)]; }
-  void add(const RunKey& key) { there_[index_of(key)] = true; }
+  bool has(const RowKey& key) const { return there_[index_of(key)]; }
+  void add(const RowKey& key) { there_[index_of(key)] = true; }
 
  private:
-  std::size_t index_of(const RunKey& key) const {
+  std::size_t index_of(const RowKey& key) const {
     return (std::size_t{key.point} * replications_ + key.replication) * paradigms_ + key.paradigm;
   }
   std::size_t replications_, paradigms_;
@@ -44,7 +44,7 @@ class Ledger {
 };
 
 // Absent if preparation fails; run() reports the reason.
-std::optional<PreparedDrive> try_prepare(const SweepDrives& drives, const RunKey& key) {
+std::optional<PreparedDrive> try_prepare(const SweepDrives& drives, const RowKey& key) {
   try {
     return drives.prepare(key);
   } catch (const std::exception&) {
@@ -56,10 +56,10 @@ std::optional<PreparedDrive> try_prepare(const SweepDrives& drives, const RunKey
 // thread.
 class Workers {
  public:
-  Workers(const SweepDrives& drives, const std::vector<RunKey>& wanted, Elsewhere* elsewhere)
+  Workers(const SweepDrives& drives, const std::vector<RowKey>& wanted, Elsewhere* elsewhere)
       : drives_(drives), wanted_(wanted), elsewhere_(elsewhere) {}
 
-  void work(unsigned workers, const std::function<void(std::vector<Run>)>& take) {
+  void work(unsigned workers, const std::function<void(std::vector<Row>)>& take) {
     std::vector<std::thread> threads;
     threads.reserve(workers);
     std::exception_ptr failure;
@@ -73,16 +73,16 @@ class Workers {
       if (threads.empty()) throw;
     }
     for (bool last = false; !last;) {
-      const bool all_back = await_runs();
-      std::vector<Run> runs;
+      const bool all_back = await_rows();
+      std::vector<Row> rows;
       {
         const std::lock_guard lock(mutex_);
         last = all_back && running_ == 0;
-        runs.swap(waiting_);
+        rows.swap(waiting_);
       }
       changed_.notify_all();
       try {
-        if (!failure) take(std::move(runs));
+        if (!failure) take(std::move(rows));
       } catch (...) {
         failure = std::current_exception();
         next_ = wanted_.size();
@@ -109,19 +109,19 @@ class Workers {
   }
 
   // Returns the next few keys.
-  std::span<const RunKey> grab() {
-    const std::size_t first = next_.fetch_add(kRunsAtATime);
+  std::span<const RowKey> grab() {
+    const std::size_t first = next_.fetch_add(kRowsAtATime);
     if (first >= wanted_.size()) return {};
-    return std::span(wanted_).subspan(first, std::min<std::size_t>(kRunsAtATime, wanted_.size() - first));
+    return std::span(wanted_).subspan(first, std::min<std::size_t>(kRowsAtATime, wanted_.size() - first));
   }
 
   void drive_all() {
     Driver driver(drives_);
-    for (std::span<const RunKey> some = grab(); !some.empty(); some = grab())
-      driver.drive(some, [this](Run run) {
+    for (std::span<const RowKey> some = grab(); !some.empty(); some = grab())
+      driver.drive(some, [this](Row row) {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting; });
-        waiting_.push_back(std::move(run));
+        waiting_.push_back(std::move(row));
       });
   }
 
@@ -131,7 +131,7 @@ class Workers {
   }
 
   // Waits until results should be written, or all are there. Returns whether no result is pending elsewhere.
-  bool await_runs() {
+  bool await_rows() {
     if (elsewhere_ == nullptr) {
       std::unique_lock lock(mutex_);
       changed_.wait_for(lock, kWritten, [&] { return running_ == 0; });
@@ -141,9 +141,9 @@ class Workers {
     while (true) {
       const bool all_here = nobody_runs();
       const std::size_t away = elsewhere_->turn([this] { return grab(); },
-                                                [this](std::vector<Run> runs) {
+                                                [this](std::vector<Row> rows) {
                                                   const std::lock_guard lock(mutex_);
-                                                  for (Run& run : runs) waiting_.push_back(std::move(run));
+                                                  for (Row& row : rows) waiting_.push_back(std::move(row));
                                                 });
       if (away == 0 && all_here) return true;
       if (std::chrono::steady_clock::now() >= until) return away == 0;
@@ -152,21 +152,21 @@ class Workers {
   }
 
   const SweepDrives& drives_;
-  const std::vector<RunKey>& wanted_;
+  const std::vector<RowKey>& wanted_;
   Elsewhere* const elsewhere_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Run> waiting_;  // guarded, as the next two
+  std::vector<Row> waiting_;  // guarded, as the next two
   int running_ = 0;           // may be below 0 for a moment: a worker may end before it is counted
   std::exception_ptr failure_;
 };
 
 }  // namespace
 
-void Driver::drive(std::span<const RunKey> wanted, const std::function<void(Run)>& take) {
+void Driver::drive(std::span<const RowKey> wanted, const std::function<void(Row)>& take) {
   const bool shared = drives_.sweep().drawn().empty();
-  for (const RunKey& key : wanted) {
+  for (const RowKey& key : wanted) {
     const bool same = newest_ && key.point == newest_->point && key.paradigm == newest_->paradigm;
     if (!same) prepared_.reset();
     newest_ = key;
@@ -191,16 +191,16 @@ void run_sweep(const SweepDrives& drives, results::Store& store, results::Shard 
   const std::uint32_t batch = sweep.stop ? sweep.stop->batch : sweep.replications;
   for (std::uint32_t from = 0; from < sweep.replications; from += batch) {
     const std::uint32_t to = std::min(sweep.replications, from + batch);
-    std::vector<RunKey> wanted;
+    std::vector<RowKey> wanted;
     for (std::uint32_t point = 0; point < points; ++point)
       for (std::uint32_t paradigm = 0; paradigm < paradigms && !enough[point]; ++paradigm)
         for (std::uint32_t r = from; r < to; ++r)
-          if (const RunKey key{point, r, paradigm}; shard.has(r) && !ledger.has(key)) wanted.push_back(key);
-    Workers(drives, wanted, elsewhere).work(workers, [&](std::vector<Run> runs) {
-      store.add(runs);
-      for (const Run& run : runs) ledger.add(run.key);
-      now.done += runs.size();
-      now.driven += runs.size();
+          if (const RowKey key{point, r, paradigm}; shard.has(r) && !ledger.has(key)) wanted.push_back(key);
+    Workers(drives, wanted, elsewhere).work(workers, [&](std::vector<Row> rows) {
+      store.add(rows);
+      for (const Row& row : rows) ledger.add(row.key);
+      now.done += rows.size();
+      now.driven += rows.size();
       progress(now);
     });
     if (!sweep.stop) continue;

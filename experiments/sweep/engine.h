@@ -13,7 +13,7 @@
 
 #include "experiments/results/shard.h"
 #include "experiments/results/store.h"
-#include "experiments/sweep/run.h"
+#include "experiments/sweep/drives.h"
 
 namespace ttf::experiments::sweep {
 
@@ -26,8 +26,8 @@ struct SweepProgress {
 class Elsewhere {
  public:
   // Returns the next keys to drive, valid during the call; empty at the end.
-  using Grab = std::function<std::span<const results::RunKey>()>;
-  using Deposit = std::function<void(std::vector<ttf::experiments::results::Run>)>;
+  using Grab = std::function<std::span<const results::RowKey>()>;
+  using Deposit = std::function<void(std::vector<ttf::experiments::results::Row>)>;
 
   virtual ~Elsewhere() = default;
   // Hands out keys to idle processes, and deposits their results. Returns how many drives are still under way.
@@ -39,11 +39,11 @@ class Elsewhere {
 class Driver {
  public:
   explicit Driver(const SweepDrives& drives) : drives_(drives) {}
-  void drive(std::span<const results::RunKey> wanted, const std::function<void(ttf::experiments::results::Run)>& take);
+  void drive(std::span<const results::RowKey> wanted, const std::function<void(ttf::experiments::results::Row)>& take);
 
  private:
   const SweepDrives& drives_;
-  std::optional<results::RunKey> newest_;  // the key driven last
+  std::optional<results::RowKey> newest_;  // the key driven last
   std::optional<PreparedDrive> prepared_;  // for that key; absent if preparation failed, or if each replication draws
                                            // values
 };

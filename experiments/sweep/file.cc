@@ -68,7 +68,7 @@ class Reader {
     if (file_.axes.empty()) root_.fail("axes", "must have at least one");
     if (!file_.axes.empty() && file_.points() > kMostPoints)
       root_.fail("axes", fmt::format("must make at most {} points, not {}", kMostPoints, file_.points()));
-    check_runs();
+    check_drives();
     check_keys(file_, findings_);
     read_measures();
     read_comparison();
@@ -187,9 +187,9 @@ class Reader {
     axis.settings.push_back(std::move(setting));
   }
 
-  void check_runs() {
-    if (file_.runs() > kMostRuns)
-      root_.fail("replications", fmt::format("must make {} runs at most, and make {}", kMostRuns, file_.runs()));
+  void check_drives() {
+    if (file_.drives() > kMostDrives)
+      root_.fail("replications", fmt::format("must make {} runs at most, and make {}", kMostDrives, file_.drives()));
   }
 
   void read_measures() {

@@ -109,7 +109,7 @@ struct SweepFile {
   std::vector<const Axis*> grid() const;   // axes that are not random, in the file's order
   std::vector<const Axis*> drawn() const;  // random ones
   std::size_t points() const;              // of the grid
-  std::uint64_t runs() const;              // number of drives without a stop rule
+  std::uint64_t drives() const;            // number of drives without a stop rule
   // Returns the setting of every grid axis at a point; the last axis varies fastest.
   std::vector<const Setting*> settings_of(std::uint32_t point) const;
   // "noise 2, road icy".
@@ -117,7 +117,7 @@ struct SweepFile {
 };
 
 inline constexpr std::size_t kMostPoints = 10'000;
-inline constexpr std::uint64_t kMostRuns = 100'000'000;
+inline constexpr std::uint64_t kMostDrives = 100'000'000;
 inline constexpr std::uint32_t kMostReplications = 10'000'000;
 
 // All throw InputError with every finding.

@@ -25,7 +25,7 @@ std::size_t SweepFile::points() const {
   return count;
 }
 
-std::uint64_t SweepFile::runs() const { return std::uint64_t{replications} * paradigms.size() * points(); }
+std::uint64_t SweepFile::drives() const { return std::uint64_t{replications} * paradigms.size() * points(); }
 
 std::vector<const Setting*> SweepFile::settings_of(std::uint32_t point) const {
   const std::vector<const Axis*> axes_here = grid();

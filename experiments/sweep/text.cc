@@ -144,10 +144,10 @@ std::string runs_csv(const SweepFile& sweep, const results::Store& store) {
   std::string csv = "point," + axis_columns(sweep) + "replication,paradigm,status";
   for (const std::string& measure : store.head().measures) csv += ',' + quoted(measure);
   csv += '\n';
-  store.for_each([&](const results::Run& run) {
-    csv += fmt::format("{},{}{},{},{}", run.key.point, axis_cells(sweep, run.key.point), run.key.replication,
-                       sweep.paradigms[run.key.paradigm].name, quoted(run.status));
-    for (const double value : run.values) csv += ',' + cell(value);
+  store.for_each([&](const results::Row& row) {
+    csv += fmt::format("{},{}{},{},{}", row.key.point, axis_cells(sweep, row.key.point), row.key.replication,
+                       sweep.paradigms[row.key.paradigm].name, quoted(row.status));
+    for (const double value : row.values) csv += ',' + cell(value);
     csv += '\n';
   });
   return csv;

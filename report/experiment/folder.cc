@@ -123,7 +123,7 @@ void read_store(const std::string& path, ExperimentFolder& folder) {
   folder.store = experiments::results::Store::open(path);
   // Only reading shows damage behind the first rows.
   try {
-    folder.store->for_each([](const experiments::results::Run&) {});
+    folder.store->for_each([](const experiments::results::Row&) {});
   } catch (const std::runtime_error& error) {
     throw InputError({path, 0, "", "", std::string("must be a store of runs; SQLite says: ") + error.what()});
   }
@@ -143,7 +143,7 @@ ExperimentFolder parse_answer(std::string_view text, const std::string& file) {
   folder.baseline = reader.text(json, "", "baseline");
   if (json.contains("file")) folder.file = reader.text(json, "", "file");
   folder.seed = reader.count(json, "", "seed");
-  folder.runs = reader.count(json, "", "runs");
+  folder.drives = reader.count(json, "", "runs");
   folder.failed = reader.count(json, "", "failed");
   folder.confidence = reader.number(json, "", "confidence");
   if (!(folder.confidence > 0.0 && folder.confidence < 1.0)) reader.refuse("confidence", "must be above 0 and below 1");

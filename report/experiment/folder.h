@@ -45,7 +45,7 @@ struct ExperimentMeasure {
 struct ExperimentFolder {
   std::string path, name, question, answer, baseline;
   std::string file;  // the experiment's file, by its name then; "" in an older answer.json
-  std::uint64_t seed = 0, runs = 0, failed = 0;
+  std::uint64_t seed = 0, drives = 0, failed = 0;
   double confidence = 0.95;
   std::vector<std::string> axes, paradigms;  // in the file's order
   std::vector<ExperimentMeasure> measures;   // the first is the measure in question

@@ -134,11 +134,11 @@ page::Plot replications_plot(const ExperimentFolder& folder) {
   if (shown < folder.points.size())
     plot.caption += fmt::format(" {} of {} points are shown.", shown, folder.points.size());
   const std::vector<std::string>& columns = folder.store->head().measures;
-  std::vector<std::vector<experiments::results::Run>> runs;
+  std::vector<std::vector<experiments::results::Row>> rows;
   std::vector<const ExperimentPoint*> points;
   for (std::size_t s = 0; s < shown; ++s) {
     points.push_back(&folder.points[s * folder.points.size() / shown]);
-    runs.push_back(folder.store->of_point(points.back()->point));
+    rows.push_back(folder.store->of_point(points.back()->point));
   }
   for (const ExperimentMeasure& measure : folder.measures) {
     const auto column = static_cast<std::size_t>(std::ranges::find(columns, measure.name) - columns.begin());
@@ -146,9 +146,9 @@ page::Plot replications_plot(const ExperimentFolder& folder) {
       std::vector<run::NamedValues> values;
       for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
         values.push_back({folder.paradigms[p], static_cast<int>(p), {}});
-      for (const experiments::results::Run& run : runs[s])
-        if (run.status == experiments::results::kDone && run.key.paradigm < values.size())
-          values[run.key.paradigm].values.push_back(run.values[column]);
+      for (const experiments::results::Row& row : rows[s])
+        if (row.status == experiments::results::kDone && row.key.paradigm < values.size())
+          values[row.key.paradigm].values.push_back(row.values[column]);
       std::vector<std::string> settings;
       for (std::size_t a = 0; a < folder.axes.size(); ++a)
         settings.push_back(folder.axes[a] + " " + points[s]->settings[a]);

@@ -18,13 +18,13 @@ namespace {
 constexpr std::size_t kMostFailures = 50;
 
 // Returns the first measure's paired difference of two paradigms at a point, from the drives themselves.
-experiments::results::Interval paired(const std::vector<experiments::results::Run>& runs, std::size_t column,
+experiments::results::Interval paired(const std::vector<experiments::results::Row>& rows, std::size_t column,
                                       std::size_t paradigm, std::size_t against, double confidence) {
   std::map<std::uint32_t, std::pair<std::optional<double>, std::optional<double>>> by_replication;
-  for (const experiments::results::Run& run : runs) {
-    if (run.status != experiments::results::kDone) continue;
-    if (run.key.paradigm == paradigm) by_replication[run.key.replication].first = run.values[column];
-    if (run.key.paradigm == against) by_replication[run.key.replication].second = run.values[column];
+  for (const experiments::results::Row& row : rows) {
+    if (row.status != experiments::results::kDone) continue;
+    if (row.key.paradigm == paradigm) by_replication[row.key.replication].first = row.values[column];
+    if (row.key.paradigm == against) by_replication[row.key.replication].second = row.values[column];
   }
   experiments::results::Moments moments;
   for (const auto& [replication, both] : by_replication)
@@ -47,11 +47,11 @@ std::optional<Least> least_at(const ExperimentFolder& folder, const ExperimentPo
   if (!least || !folder.store || folder.paradigms.size() == 1) return least;
   const auto& columns = folder.store->head().measures;
   const auto column = static_cast<std::size_t>(std::ranges::find(columns, folder.measures[0].name) - columns.begin());
-  const std::vector<experiments::results::Run> runs = folder.store->of_point(point.point);
+  const std::vector<experiments::results::Row> rows = folder.store->of_point(point.point);
   least->certain = true;
   for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
     if (p != least->paradigm)
-      least->certain = least->certain && paired(runs, column, least->paradigm, p, folder.confidence).below(0.0);
+      least->certain = least->certain && paired(rows, column, least->paradigm, p, folder.confidence).below(0.0);
   return least;
 }
 
@@ -73,9 +73,9 @@ page::PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
   for (const std::string& paradigm : folder.paradigms) table.header.push_back(paradigm);
   for (const ExperimentPoint& point : folder.points) {
     std::vector<std::string> row = settings_of(point);
-    std::uint64_t runs = 0;
-    for (const auto& estimates : point.estimates) runs = std::max(runs, estimates[m].mean.count);
-    row.push_back(std::to_string(runs));
+    std::uint64_t drives = 0;
+    for (const auto& estimates : point.estimates) drives = std::max(drives, estimates[m].mean.count);
+    row.push_back(std::to_string(drives));
     for (const auto& estimates : point.estimates)
       row.push_back(drawing::with_interval(estimates[m].mean.mean, estimates[m].mean.half_width));
     table.rows.push_back(std::move(row));
@@ -136,15 +136,15 @@ void failures(page::Page& page, const ExperimentFolder& folder) {
                         {"point/paradigm/replication", "error"},
                         {}};
   std::uint64_t more = 0;
-  folder.store->for_each([&](const experiments::results::Run& run) {
-    if (run.status == experiments::results::kDone) return;
+  folder.store->for_each([&](const experiments::results::Row& row) {
+    if (row.status == experiments::results::kDone) return;
     if (table.rows.size() >= kMostFailures) {
       ++more;
       return;
     }
-    const std::string paradigm = run.key.paradigm < folder.paradigms.size() ? folder.paradigms[run.key.paradigm]
-                                                                            : std::to_string(run.key.paradigm);
-    table.rows.push_back({fmt::format("{}/{}/{}", run.key.point, paradigm, run.key.replication), run.status});
+    const std::string paradigm = row.key.paradigm < folder.paradigms.size() ? folder.paradigms[row.key.paradigm]
+                                                                            : std::to_string(row.key.paradigm);
+    table.rows.push_back({fmt::format("{}/{}/{}", row.key.point, paradigm, row.key.replication), row.status});
   });
   page.section("Failed runs");
   page.table(table);
@@ -254,7 +254,7 @@ std::string experiment_report_html(const ExperimentFolder& folder, const Experim
               {"baseline", folder.baseline},
               {"axes", axes.empty() ? "none" : joined(axes)},
               {"points", std::to_string(folder.points.size())},
-              {"runs", fmt::format("{}, of which {} failed", folder.runs, folder.failed)},
+              {"runs", fmt::format("{}, of which {} failed", folder.drives, folder.failed)},
               {"measure in question", folder.measures[0].with_unit()}});
   page.section("Answer");
   page.lead(experiment_answer(folder));

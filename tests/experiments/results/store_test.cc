@@ -24,16 +24,16 @@ class StoreTest : public testing::Test {
 
   std::string folder_;
   const StoreHead head_{"noise", "0123", "1.0", "kind: sweep\n", {"rmse", "a \"quoted\" one, with; all"}};
-  const results::Run first_{{0, 0, 1}, kDone, {1.5, -2.0}}, second_{{0, 1, 0}, kDone, {0.1, std::nan("")}},
+  const results::Row first_{{0, 0, 1}, kDone, {1.5, -2.0}}, second_{{0, 1, 0}, kDone, {0.1, std::nan("")}},
       third_{{2, 0, 0}, "it's broken: \"so\"", {std::nan(""), std::nan("")}};
 };
 
-void expect_same(const results::Run& run, const Run& other) {
-  EXPECT_EQ(run.key, other.key);
-  EXPECT_EQ(run.status, other.status);
-  ASSERT_EQ(run.values.size(), other.values.size());
-  for (std::size_t v = 0; v < run.values.size(); ++v)
-    EXPECT_TRUE(run.values[v] == other.values[v] || (std::isnan(run.values[v]) && std::isnan(other.values[v])));
+void expect_same(const results::Row& row, const Row& other) {
+  EXPECT_EQ(row.key, other.key);
+  EXPECT_EQ(row.status, other.status);
+  ASSERT_EQ(row.values.size(), other.values.size());
+  for (std::size_t v = 0; v < row.values.size(); ++v)
+    EXPECT_TRUE(row.values[v] == other.values[v] || (std::isnan(row.values[v]) && std::isnan(other.values[v])));
 }
 
 TEST_F(StoreTest, WhatWasAddedComesBackInOrder) {
@@ -50,12 +50,12 @@ TEST_F(StoreTest, WhatWasAddedComesBackInOrder) {
   EXPECT_EQ(store.head().measures, head_.measures);
   EXPECT_EQ(store.count(), 3u);
   EXPECT_THAT(store.keys(), testing::ElementsAre(first_.key, second_.key, third_.key));
-  std::vector<results::Run> runs;
-  store.for_each([&](const results::Run& run) { runs.push_back(run); });
-  ASSERT_EQ(runs.size(), 3u);
-  expect_same(runs[0], first_);
-  expect_same(runs[1], second_);
-  expect_same(runs[2], third_);
+  std::vector<results::Row> rows;
+  store.for_each([&](const results::Row& row) { rows.push_back(row); });
+  ASSERT_EQ(rows.size(), 3u);
+  expect_same(rows[0], first_);
+  expect_same(rows[1], second_);
+  expect_same(rows[2], third_);
   EXPECT_EQ(store.of_point(0).size(), 2u);
   EXPECT_EQ(store.of_point(1).size(), 0u);
 }
@@ -63,7 +63,7 @@ TEST_F(StoreTest, WhatWasAddedComesBackInOrder) {
 TEST_F(StoreTest, ARunThatIsThereStays) {
   Store store = Store::create(path(), head_);
   store.add({first_});
-  store.add({results::Run{first_.key, kDone, {9.0, 9.0}}, second_});
+  store.add({results::Row{first_.key, kDone, {9.0, 9.0}}, second_});
   EXPECT_EQ(store.count(), 2u);
   expect_same(store.of_point(0).front(), first_);
 }
@@ -106,7 +106,7 @@ TEST_F(StoreTest, WhereNothingCanBeWrittenItSaysSo) {
 TEST_F(StoreTest, AFullDiskTakesNothingThatWasThere) {
   Store store = Store::create(path(), head_);
   store.add({first_});
-  std::vector<results::Run> many;
+  std::vector<results::Row> many;
   for (std::uint32_t r = 0; r < 10'000; ++r) many.push_back({{1, r, 0}, kDone, {1.0, 2.0}});
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);

@@ -11,7 +11,7 @@
 
 #include "core/file_bytes.h"
 #include "experiments/results/statistics.h"
-#include "experiments/sweep/run.h"
+#include "experiments/sweep/drives.h"
 #include "tests/experiments/sweep/small_sweep.h"
 
 namespace ttf::experiments::sweep {
@@ -80,16 +80,16 @@ class Varied {
   static const std::string& name_of(const std::string& measure) { return measure; }
 
   double value(const std::string& measure, std::uint32_t point, const std::string& paradigm, int replication) {
-    const results::RunKey key{point, static_cast<std::uint32_t>(replication), place(sweep_.paradigms, paradigm)};
-    auto& run = runs_[{key.point, key.replication, key.paradigm}];
-    if (!run) run = std::make_unique<results::Run>(drives_.run(key));
-    EXPECT_EQ(run->status, results::kDone);
-    return run->values.at(place(sweep_.measures, measure));
+    const results::RowKey key{point, static_cast<std::uint32_t>(replication), place(sweep_.paradigms, paradigm)};
+    auto& row = rows_[{key.point, key.replication, key.paradigm}];
+    if (!row) row = std::make_unique<results::Row>(drives_.run(key));
+    EXPECT_EQ(row->status, results::kDone);
+    return row->values.at(place(sweep_.measures, measure));
   }
 
   SweepFile sweep_;
   SweepDrives drives_;
-  std::map<std::vector<std::uint32_t>, std::unique_ptr<results::Run>> runs_;
+  std::map<std::vector<std::uint32_t>, std::unique_ptr<results::Row>> rows_;
 };
 
 TEST(Axes, AllThatAreDocumentedAreTriedHere) {

@@ -10,7 +10,7 @@
 
 #include "core/file_bytes.h"
 #include "experiments/results/statistics.h"
-#include "experiments/sweep/run.h"
+#include "experiments/sweep/drives.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -36,9 +36,9 @@ TEST(ShippedSweeps, CanBeDriven) {
     const auto last = static_cast<std::uint32_t>(sweep.points() - 1);
     for (const std::uint32_t point : {std::uint32_t{0}, last})
       for (std::uint32_t paradigm = 0; paradigm < sweep.paradigms.size(); ++paradigm) {
-        const results::Run run = drives.run({point, sweep.replications - 1, paradigm});
-        EXPECT_EQ(run.status, results::kDone) << name << " " << sweep.label_of(point);
-        EXPECT_TRUE(std::isfinite(run.values.front())) << name << " " << sweep.label_of(point);
+        const results::Row row = drives.run({point, sweep.replications - 1, paradigm});
+        EXPECT_EQ(row.status, results::kDone) << name << " " << sweep.label_of(point);
+        EXPECT_TRUE(std::isfinite(row.values.front())) << name << " " << sweep.label_of(point);
       }
   }
 }
@@ -55,10 +55,10 @@ TEST(ShippedSweeps, TheErrorOfAWholeClusterIsTheExpectedOne) {
   for (const std::uint32_t point : {1u, 2u}) {
     results::Moments off, level;
     for (std::uint32_t replication = 0; replication < 80; ++replication) {
-      const results::Run run = drives.run({point, replication, 2});
-      ASSERT_EQ(run.status, results::kDone);
-      off.add(run.values[sampled] - run.values[expected]);
-      level.add(run.values[expected]);
+      const results::Row row = drives.run({point, replication, 2});
+      ASSERT_EQ(row.status, results::kDone);
+      off.add(row.values[sampled] - row.values[expected]);
+      level.add(row.values[expected]);
     }
     const results::Interval interval = results::interval_of(off, 0.99);
     EXPECT_LT(std::abs(interval.mean), interval.half_width) << sweep.label_of(point);
@@ -73,10 +73,10 @@ TEST(ShippedSweeps, WhatIsToBeExpectedSurvivesACrashOfTheFusionNode) {
   PreparedDrive drive = drives.prepare({0, 0, 2});
   std::string text = drive.scenario.text + "faults:\n  - {kind: crash, node: fusion, from: 700 ms, duration: 300 ms}\n";
   drive.scenario = drives::parse_scenario(std::move(text), sweep.scenario_file);
-  const results::Run run = drives.run({0, 0, 2}, drive);
-  ASSERT_EQ(run.status, results::kDone);
+  const results::Row row = drives.run({0, 0, 2}, drive);
+  ASSERT_EQ(row.status, results::kDone);
   const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), "position_mse_expected");
-  const double expected = run.values[static_cast<std::size_t>(found - sweep.measures.begin())];
+  const double expected = row.values[static_cast<std::size_t>(found - sweep.measures.begin())];
   EXPECT_GT(expected, 0.0);
   EXPECT_LT(expected, 10.0);
 }

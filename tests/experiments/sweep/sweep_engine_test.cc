@@ -47,30 +47,30 @@ TEST_F(SweepEngine, TheSameForAnyNumberOfWorkers) {
 // Clocks are compared only where their precision is asked for; nothing else changes.
 TEST_F(SweepEngine, PrecisionIsThereWhereItIsAskedFor) {
   SweepFile sweep = small_sweep(1);
-  const results::Run without = SweepDrives(sweep).run({0, 0, 0});
+  const results::Row without = SweepDrives(sweep).run({0, 0, 0});
   sweep.measures.push_back("precision");
-  const results::Run with = SweepDrives(sweep).run({0, 0, 0});
+  const results::Row with = SweepDrives(sweep).run({0, 0, 0});
   ASSERT_EQ(with.values.size(), 3u);
   EXPECT_EQ(std::vector(with.values.begin(), with.values.begin() + 2), without.values);
   EXPECT_GT(with.values[2], 0.01);
   EXPECT_LT(with.values[2], 10.0);
 }
 
-// A remote worker that takes some runs at a time, and returns them one turn later.
+// A remote worker that takes some keys at a time, and returns them one turn later.
 class OneElsewhere final : public Elsewhere {
  public:
   explicit OneElsewhere(const SweepDrives& drives) : driver_(drives) {}
   std::size_t turn(const Grab& grab, const Deposit& deposit) override {
     driven += done_.size();
     deposit(std::exchange(done_, {}));
-    driver_.drive(grab(), [this](results::Run run) { done_.push_back(std::move(run)); });
+    driver_.drive(grab(), [this](results::Row row) { done_.push_back(std::move(row)); });
     return done_.size();
   }
   std::size_t driven = 0;
 
  private:
   Driver driver_;
-  std::vector<results::Run> done_;
+  std::vector<results::Row> done_;
 };
 
 TEST_F(SweepEngine, TheSameWhereOthersDriveToo) {
@@ -95,7 +95,7 @@ TEST_F(SweepEngine, ShardsPutTogetherAreTheWhole) {
   run_sweep(drives, second, {1, 2}, 2, [](const SweepProgress&) {});
   EXPECT_EQ(first.count(), 12u);
   EXPECT_EQ(second.count(), 8u);
-  for (results::Store* part : {&second, &first}) part->for_each([&](const results::Run& run) { both.add({run}); });
+  for (results::Store* part : {&second, &first}) part->for_each([&](const results::Row& row) { both.add({row}); });
   EXPECT_EQ(runs_csv(sweep, both), whole);
 }
 
@@ -120,7 +120,7 @@ TEST_F(SweepEngine, DrawnAxesAreDrawnOnceAReplication) {
   const SweepFile with_draws = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
   const SweepDrives drives(with_draws);
   EXPECT_THAT(drives.columns(), testing::ElementsAre("q", "position_rmse_truth", "age_fused"));
-  const results::Run one = drives.run({0, 1, 0}), other = drives.run({1, 1, 1}), next = drives.run({0, 2, 0});
+  const results::Row one = drives.run({0, 1, 0}), other = drives.run({1, 1, 1}), next = drives.run({0, 2, 0});
   EXPECT_EQ(one.values[0], other.values[0]);
   EXPECT_NE(one.values[0], next.values[0]);
   EXPECT_GE(one.values[0], 0.1);
@@ -151,9 +151,9 @@ TEST_F(SweepEngine, AFullDiskEndsItAndLosesNothing) {
   EXPECT_GT(some.count(), 0u);
 }
 
-// ---- evaluation of made-up runs
+// ---- evaluation of made-up rows
 
-results::Run made_up(std::uint32_t point, std::uint32_t replication, std::uint32_t paradigm, double rmse) {
+results::Row made_up(std::uint32_t point, std::uint32_t replication, std::uint32_t paradigm, double rmse) {
   return {{point, replication, paradigm}, results::kDone, {rmse, 10.0}};
 }
 
@@ -237,7 +237,7 @@ TEST_F(SweepEngine, ACrossingMayBeAtAPoint) {
   EXPECT_TRUE(crossings("met", {1.0, 0.0, 0.0}).empty());
 }
 
-// A failed run is a row, and only removes its pair from the differences.
+// A failed drive is a row, and only removes its pair from the differences.
 TEST_F(SweepEngine, AFailedRunIsARow) {
   const SweepFile sweep = small_sweep(3);
   const SweepDrives drives(sweep);

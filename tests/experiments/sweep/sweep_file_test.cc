@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "experiments/sweep/run.h"
+#include "experiments/sweep/drives.h"
 #include "tests/experiments/sweep/small_sweep.h"
 
 namespace ttf::experiments::sweep {

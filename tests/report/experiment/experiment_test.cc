@@ -25,7 +25,7 @@ std::string point(int number, const std::string& noise, const std::string& mean)
   return text;
 }
 
-// Two points: at the first, tt is less in every run by nearly the same amount; at the second, by chance.
+// Two points: at the first, tt is less in every drive by nearly the same amount; at the second, by chance.
 class ExperimentReport : public testing::Test {
  protected:
   ExperimentReport() {
@@ -34,15 +34,15 @@ class ExperimentReport : public testing::Test {
     write(answer_of(point(0, "0.1 m", "1.0") + "," + point(1, "40 m", "1.9")));
     experiments::results::Store store =
         experiments::results::Store::create(folder_ + "/results.sqlite", {"e", "id", "v", "text <&>", {"error"}});
-    std::vector<experiments::results::Run> runs;
+    std::vector<experiments::results::Row> rows;
     for (std::uint32_t r = 0; r < 3; ++r) {
       const double draw = r;
-      runs.push_back({{0, r, 0}, experiments::results::kDone, {draw + 2.0}});
-      runs.push_back({{0, r, 1}, experiments::results::kDone, {draw + 1.0 + 0.001 * draw}});
-      runs.push_back({{1, r, 0}, experiments::results::kDone, {draw}});
-      runs.push_back({{1, r, 1}, experiments::results::kDone, {2.0 - draw}});
+      rows.push_back({{0, r, 0}, experiments::results::kDone, {draw + 2.0}});
+      rows.push_back({{0, r, 1}, experiments::results::kDone, {draw + 1.0 + 0.001 * draw}});
+      rows.push_back({{1, r, 0}, experiments::results::kDone, {draw}});
+      rows.push_back({{1, r, 1}, experiments::results::kDone, {2.0 - draw}});
     }
-    store.add(runs);
+    store.add(rows);
   }
   ~ExperimentReport() override { std::filesystem::remove_all(folder_); }
 
@@ -118,9 +118,9 @@ TEST_F(ExperimentReport, AnExpectationMayFailNowhereInParticular) {
 // The last page of the file has rows that opening it does not read.
 TEST_F(ExperimentReport, ADamagedStoreIsRefused) {
   const std::string path = folder_ + "/results.sqlite";
-  std::vector<experiments::results::Run> runs;
-  for (std::uint32_t r = 3; r < 2000; ++r) runs.push_back({{1, r, 0}, experiments::results::kDone, {0.5 + r}});
-  experiments::results::Store::open(path).add(runs);
+  std::vector<experiments::results::Row> rows;
+  for (std::uint32_t r = 3; r < 2000; ++r) rows.push_back({{1, r, 0}, experiments::results::kDone, {0.5 + r}});
+  experiments::results::Store::open(path).add(rows);
   EXPECT_EQ(refusal(), "");
   constexpr std::size_t kPage = 4096;
   ASSERT_GT(std::filesystem::file_size(path), 8 * kPage);

@@ -1,4 +1,4 @@
-#include "experiments/campaign/trial_run.h"
+#include "experiments/campaign/trial_simulation.h"
 
 #include <algorithm>
 #include <utility>
@@ -27,41 +27,41 @@ faults::FaultPlan plan_of(const CampaignFile& campaign, const std::optional<faul
 TrueTime trial_origin(bool starts_up) { return starts_up ? TrueTime{} : TrueTime{} + kBeforeFirstCycle; }
 
 // Passes a controller's events to the judge, and lets the host write its next lists.
-class TrialRun::Witness final : public bus::controller::ControllerEvents {
+class TrialSimulation::Witness final : public bus::controller::ControllerEvents {
  public:
-  Witness(TrialRun& run, NodeId node) : run_(run), node_(node), host_(run.setting_.cluster, node) {}
+  Witness(TrialSimulation& trial, NodeId node) : trial_(trial), node_(node), host_(trial.setting_.cluster, node) {}
 
   void cycle_started(std::int64_t cycle, Microticks) override {
-    host_.write(run_.simulation_->controller(node_), cycle);
+    host_.write(trial_.simulation_->controller(node_), cycle);
   }
   void slot_problem(std::int64_t, int, Channel, bus::controller::SlotStatus status, Microticks) override {
-    run_.judge_.slot_problem(node_, status, run_.now());
+    trial_.judge_.slot_problem(node_, status, trial_.now());
   }
   void frame_sent(const bus::ports::Transmission& sent, std::int64_t, bool, PduId, std::uint32_t, int, bool) override {
-    run_.judge_.frame_sent(node_, sent.slot, sent.channel, sent.content, run_.now());
+    trial_.judge_.frame_sent(node_, sent.slot, sent.channel, sent.content, trial_.now());
   }
   bool wants_bytes() const override { return false; }
   void frame_received(std::int64_t, int slot, Channel channel, const bus::wire::DecodedFrame& frame,
                       Microticks) override {
-    run_.judge_.frame_received(node_, slot, channel, frame, run_.now());
+    trial_.judge_.frame_received(node_, slot, channel, frame, trial_.now());
   }
   void clock_corrected(std::int64_t, const timebase::Correction& offset, const timebase::Correction& rate,
                        Microticks) override {
-    run_.judge_.clock_corrected(node_, offset.missing || rate.missing, offset.limit_reached || rate.limit_reached,
-                                run_.now());
+    trial_.judge_.clock_corrected(node_, offset.missing || rate.missing, offset.limit_reached || rate.limit_reached,
+                                  trial_.now());
   }
   void state_changed(PocKind from, const bus::poc::PocStep& step, Microticks) override {
-    run_.state_changed(node_, from, step);
+    trial_.state_changed(node_, from, step);
   }
 
  private:
-  TrialRun& run_;
+  TrialSimulation& trial_;
   NodeId node_;
   TrialHost host_;
 };
 
-TrialRun::TrialRun(const TrialSetting& setting, const std::optional<faults::Fault>& fault,
-                   const evaluation::faults::JudgeSettings& judge, TrialStory* story)
+TrialSimulation::TrialSimulation(const TrialSetting& setting, const std::optional<faults::Fault>& fault,
+                                 const evaluation::faults::JudgeSettings& judge, TrialStory* story)
     : setting_(setting), plan_(plan_of(setting.campaign, fault)), believed_(plan_, setting.cluster),
       faulty_(judge.faulty), judge_(setting.cluster, judge), story_(story),
       restart_at_(setting.cluster.nodes.size(), kNever<TrueTime>) {
@@ -90,9 +90,9 @@ TrialRun::TrialRun(const TrialSetting& setting, const std::optional<faults::Faul
       });
 }
 
-TrialRun::~TrialRun() = default;
+TrialSimulation::~TrialSimulation() = default;
 
-void TrialRun::run_until(TrueTime end) {
+void TrialSimulation::run_until(TrueTime end) {
   const Duration step{setting_.cluster.cycle().ns / kSamplesPerCycle};
   for (TrueTime at = now() + step; at <= end; at += step) {
     simulation_->run_until(at);
@@ -100,7 +100,7 @@ void TrialRun::run_until(TrueTime end) {
   }
 }
 
-std::optional<TrueTime> TrialRun::run_until_all_active(TrueTime end) {
+std::optional<TrueTime> TrialSimulation::run_until_all_active(TrueTime end) {
   const Duration step{setting_.cluster.cycle().ns / kSamplesPerCycle};
   for (TrueTime at = now() + step; at <= end; at += step) {
     simulation_->run_until(at);
@@ -109,7 +109,7 @@ std::optional<TrueTime> TrialRun::run_until_all_active(TrueTime end) {
   return std::nullopt;
 }
 
-void TrialRun::state_changed(NodeId node, PocKind from, const bus::poc::PocStep& step) {
+void TrialSimulation::state_changed(NodeId node, PocKind from, const bus::poc::PocStep& step) {
   judge_.state_changed(node, from, step.next.kind, now());
   if (story_ != nullptr) story_->state_changed(node, from, step, now());
   const int cycles = setting_.campaign.restart_halted_after;
@@ -117,7 +117,7 @@ void TrialRun::state_changed(NodeId node, PocKind from, const bus::poc::PocStep&
     restart_at_[index_of(node)] = now() + setting_.cluster.cycle() * cycles;
 }
 
-void TrialRun::sample_precision() {
+void TrialSimulation::sample_precision() {
   sim::crank::ClockSpread spread(setting_.cluster);
   for (std::size_t n = 0; n < setting_.cluster.nodes.size(); ++n) {
     const auto node = static_cast<NodeId>(n);
@@ -128,16 +128,16 @@ void TrialRun::sample_precision() {
   judge_.precision(spread.width(), now());
 }
 
-TrueTime TrialRun::next() const {
+TrueTime TrialSimulation::next() const {
   return std::min(injector_->next(), *std::min_element(restart_at_.begin(), restart_at_.end()));
 }
 
-void TrialRun::act(TrueTime at) {
+void TrialSimulation::act(TrueTime at) {
   if (injector_->next() <= at) injector_->act(at);
   restart_halted(at);
 }
 
-void TrialRun::restart_halted(TrueTime at) {
+void TrialSimulation::restart_halted(TrueTime at) {
   for (std::size_t n = 0; n < restart_at_.size(); ++n) {
     if (restart_at_[n] > at) continue;
     restart_at_[n] = kNever<TrueTime>;
@@ -148,12 +148,12 @@ void TrialRun::restart_halted(TrueTime at) {
   }
 }
 
-void TrialRun::power_off(NodeId node) {
+void TrialSimulation::power_off(NodeId node) {
   judge_.lost_supply(node, now());
   simulation_->power_off(node);
 }
 
-void TrialRun::on(const recording::records::FaultActivity& activity) {
+void TrialSimulation::on(const recording::records::FaultActivity& activity) {
   if (story_ != nullptr) story_->fault_acts(activity);
 }
 

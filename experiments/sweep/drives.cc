@@ -1,4 +1,4 @@
-#include "experiments/sweep/run.h"
+#include "experiments/sweep/drives.h"
 
 #include <fmt/format.h>
 
@@ -90,7 +90,7 @@ void SweepDrives::read_files() {
 }
 
 // Adds the point to the sentences of errors.
-void SweepDrives::prepare_at(const results::RunKey& key) const {
+void SweepDrives::prepare_at(const results::RowKey& key) const {
   try {
     std::vector<double> low, high;
     for (const Axis* axis : sweep_.drawn()) {
@@ -119,10 +119,10 @@ std::vector<double> SweepDrives::drawn(std::uint32_t replication) const {
   return values;
 }
 
-PreparedDrive SweepDrives::prepare(const results::RunKey& key) const { return prepare(key, drawn(key.replication)); }
+PreparedDrive SweepDrives::prepare(const results::RowKey& key) const { return prepare(key, drawn(key.replication)); }
 
 // In this order: the paradigm's own, the point's, and drawn values.
-std::vector<Edit> SweepDrives::edits_of(const results::RunKey& key, const std::vector<double>& drawn) const {
+std::vector<Edit> SweepDrives::edits_of(const results::RowKey& key, const std::vector<double>& drawn) const {
   const Paradigm& paradigm = sweep_.paradigms[key.paradigm];
   std::vector<Edit> edits = paradigm.edits;
   const auto add = [&](const Edit& edit, const std::string& value) {
@@ -164,7 +164,7 @@ void SweepDrives::plan_faults(const std::string& file, drives::Scenario& scenari
   scenario.text += "\n" + text;
 }
 
-PreparedDrive SweepDrives::prepare(const results::RunKey& key, const std::vector<double>& values) const {
+PreparedDrive SweepDrives::prepare(const results::RowKey& key, const std::vector<double>& values) const {
   const Paradigm& paradigm = sweep_.paradigms[key.paradigm];
   const std::vector<Edit> edits = edits_of(key, values);
   const std::string* scenario = file_of(edits, kScenarioFile);
@@ -183,21 +183,21 @@ PreparedDrive SweepDrives::prepare(const results::RunKey& key, const std::vector
   return drive;
 }
 
-results::Run SweepDrives::run(const results::RunKey& key) const {
+results::Row SweepDrives::run(const results::RowKey& key) const {
   try {
     return run(key, prepare(key));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    results::Run failed{key, error.what(), drawn(key.replication)};
+    results::Row failed{key, error.what(), drawn(key.replication)};
     failed.values.resize(columns().size(), evaluation::accuracy::kNotMeasured);
     return failed;
   }
 }
 
-results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& drive,
+results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& drive,
                               recording::records::Sink* listener) const {
-  results::Run run{key, results::kDone, drawn(key.replication)};
+  results::Row row{key, results::kDone, drawn(key.replication)};
   try {
     const auto asked_for = [this](std::string_view measure) {
       return std::find(sweep_.measures.begin(), sweep_.measures.end(), measure) != sweep_.measures.end();
@@ -217,14 +217,14 @@ results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& d
     summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -
                                                expected_square(drive.scenario.reference, summary.reference_weights);
     if (expected) summary.position_mse_expected = expected->position_mse();
-    for (const std::string& name : sweep_.measures) run.values.push_back(find_measure(name)->of(summary, outcome));
+    for (const std::string& name : sweep_.measures) row.values.push_back(find_measure(name)->of(summary, outcome));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    run.status = error.what();
-    run.values.resize(columns().size(), evaluation::accuracy::kNotMeasured);
+    row.status = error.what();
+    row.values.resize(columns().size(), evaluation::accuracy::kNotMeasured);
   }
-  return run;
+  return row;
 }
 
 std::vector<std::string> SweepDrives::columns() const {

@@ -22,7 +22,7 @@
 
 namespace ttf::experiments::campaign {
 
-// The setting, with or without a fault. All of it must outlive the TrialRun.
+// The setting, with or without a fault. All of it must outlive the TrialSimulation.
 struct TrialSetting {
   const CampaignFile& campaign;
   const schedules::model::Cluster& cluster;  // as wired
@@ -33,12 +33,14 @@ struct TrialSetting {
 // Returns when cycle 0 begins, in a start-up or in a running cluster.
 TrueTime trial_origin(bool starts_up);
 
-class TrialRun final : public sim::medium::Disturbance, public sim::crank::Plant, public recording::records::Sink {
+class TrialSimulation final : public sim::medium::Disturbance,
+                              public sim::crank::Plant,
+                              public recording::records::Sink {
  public:
   // `fault`: absent for the same simulation without one. `story` may be null.
-  TrialRun(const TrialSetting& setting, const std::optional<faults::Fault>& fault,
-           const evaluation::faults::JudgeSettings& judge, TrialStory* story = nullptr);
-  ~TrialRun() override;
+  TrialSimulation(const TrialSetting& setting, const std::optional<faults::Fault>& fault,
+                  const evaluation::faults::JudgeSettings& judge, TrialStory* story = nullptr);
+  ~TrialSimulation() override;
 
   void run_until(TrueTime end);
   // Returns the instant, to a quarter of a cycle; absent if some node is not active by `end`.

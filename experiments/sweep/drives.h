@@ -29,15 +29,15 @@ class SweepDrives {
   explicit SweepDrives(const SweepFile& sweep);
 
   // Throws InputError.
-  PreparedDrive prepare(const results::RunKey& key) const;
+  PreparedDrive prepare(const results::RowKey& key) const;
   // Returns values by random axis, in the file's order: a function of seed, axis and replication alone. Rounded
   // to six digits.
   std::vector<double> drawn(std::uint32_t replication) const;
   // Returns drawn axes and measures. A failed drive has the reason as its status; std::bad_alloc is thrown
   // instead, since it does not depend on the drive.
-  results::Run run(const results::RunKey& key) const;
+  results::Row run(const results::RowKey& key) const;
   // Drives a prepared drive, with one more listener.
-  results::Run run(const results::RunKey& key, const PreparedDrive& drive,
+  results::Row run(const results::RowKey& key, const PreparedDrive& drive,
                    recording::records::Sink* listener = nullptr) const;
 
   // The store's columns; a drawn axis has its name in the file.
@@ -47,10 +47,10 @@ class SweepDrives {
   const SweepFile& sweep() const { return sweep_; }
 
  private:
-  PreparedDrive prepare(const results::RunKey& key, const std::vector<double>& drawn) const;
+  PreparedDrive prepare(const results::RowKey& key, const std::vector<double>& drawn) const;
   void read_files();
-  void prepare_at(const results::RunKey& key) const;
-  std::vector<Edit> edits_of(const results::RunKey& key, const std::vector<double>& drawn) const;
+  void prepare_at(const results::RowKey& key) const;
+  std::vector<Edit> edits_of(const results::RowKey& key, const std::vector<double>& drawn) const;
   // Applies the edits of a cluster, or of a scenario, to the text of the file `name`.
   std::string edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const;
   void plan_faults(const std::string& file, drives::Scenario& scenario) const;
