@@ -213,9 +213,9 @@ std::vector<NodeId> fault_free_nodes(const FaultFindings& findings, const faults
   return sound;
 }
 
-std::string faults_text(std::string_view run, const FaultFindings& findings, const std::vector<NodeId>& fault_free,
+std::string faults_text(std::string_view drive, const FaultFindings& findings, const std::vector<NodeId>& fault_free,
                         const schedules::model::Cluster& cluster) {
-  std::string text = fmt::format("Faults, {}\n", run);
+  std::string text = fmt::format("Faults, {}\n", drive);
   if (findings.faults.empty()) return text + "No fault of the plan began.\n";
   return text + injected_text(findings, cluster) + "\n" + checks_text(findings, cluster) + "\n" +
          guardians_text(findings) + states_text(findings, cluster) + "\n" + harms_text(findings, fault_free, cluster);

@@ -17,8 +17,8 @@ namespace ttf::cli::drive {
 std::vector<NodeId> fault_free_nodes(const evaluation::faults::FaultFindings& findings, const faults::FaultPlan& plan,
                                      const schedules::model::Cluster& cluster);
 
-// `run` names the drive in the first line. Effects without a matching fault have lines of their own, "unattributed".
-std::string faults_text(std::string_view run, const evaluation::faults::FaultFindings& findings,
+// `drive` names it in the first line. Effects without a matching fault have lines of their own, "unattributed".
+std::string faults_text(std::string_view drive, const evaluation::faults::FaultFindings& findings,
                         const std::vector<NodeId>& fault_free, const schedules::model::Cluster& cluster);
 // Returns the same as JSON, with times in seconds from the start of the drive; absent times are null.
 nlohmann::ordered_json faults_json(const std::vector<evaluation::faults::FaultSeen>& faults,

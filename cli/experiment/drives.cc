@@ -86,20 +86,21 @@ void check_same_experiment(const SweepDrives& drives, const report::experiment::
     throw NoDrives(fmt::format("{}, or a file that it names, has changed since the experiment was driven", sweep.file));
 }
 
-report::run::Drive driven(const SweepDrives& drives, const experiments::results::Row& known) {
+report::drive::Drive driven(const SweepDrives& drives, const experiments::results::Row& known) {
   const std::string& paradigm = drives.sweep().paradigms[known.key.paradigm].name;
   const ScratchFolder scratch;
   if (!same(drive_again(drives, known.key, scratch.path()), known))
     throw NoDrives(fmt::format("{}, driven again, gave other numbers than in results.sqlite", paradigm));
-  report::run::ResultsFolder folder = report::run::read_results_folder(scratch.path());  // its logs are in memory now
-  report::run::Drive drive = std::move(folder.drives.front());
+  report::drive::ResultsFolder folder =
+      report::drive::read_results_folder(scratch.path());  // its logs are in memory now
+  report::drive::Drive drive = std::move(folder.drives.front());
   drive.folder.clear();
   drive.label = paradigm;
   return drive;
 }
 
-std::vector<report::run::Drive> all_driven(const report::experiment::ExperimentFolder& folder, const std::string& file,
-                                           std::uint32_t point, std::uint32_t& replication) {
+std::vector<report::drive::Drive> all_driven(const report::experiment::ExperimentFolder& folder,
+                                             const std::string& file, std::uint32_t point, std::uint32_t& replication) {
   const SweepFile sweep = experiments::sweep::load_sweep(file);
   const SweepDrives drives(sweep);
   check_same_experiment(drives, folder);
@@ -108,7 +109,7 @@ std::vector<report::run::Drive> all_driven(const report::experiment::ExperimentF
   replication = rows.front().key.replication;
   fmt::print(stderr, "{}: {} of point {}, replication {}, again ...\n", sweep.name, counted(rows.size(), "run"), point,
              replication);
-  std::vector<report::run::Drive> all;
+  std::vector<report::drive::Drive> all;
   for (const experiments::results::Row& row : rows) all.push_back(driven(drives, row));
   return all;
 }

@@ -40,7 +40,7 @@ drive::StrategyResult merged_result(const node_set::NodeSet& set, const std::vec
   recording::merge::write_merged(merged, result.log_path);
   result.content_hash = recording::log::ContentHash::text(merged.content_hash().value());
   drive::DriveJudge judge(set.scenario, set.cluster);
-  evaluation::lateness::LatenessAccount lateness(set.cluster, evaluation::lateness::real_time_run(merged));
+  evaluation::lateness::LatenessAccount lateness(set.cluster, evaluation::lateness::real_time_drive(merged));
   std::vector<recording::records::Sink*> sinks = judge.sinks();
   sinks.push_back(&lateness);
   sinks.insert(sinks.end(), others.begin(), others.end());

@@ -41,18 +41,18 @@ struct Extent final : recording::records::Sink {
 };
 
 // Merges the logs of each drive into one.
-std::vector<recording::merge::MergedLogs> runs_in(const std::vector<std::string>& paths) {
+std::vector<recording::merge::MergedLogs> drives_in(const std::vector<std::string>& paths) {
   std::vector<recording::merge::StoredLog> logs;
   for (const std::string& path : paths) logs.emplace_back(path);
-  std::vector<recording::merge::MergedLogs> runs = recording::merge::merge_by_run(std::move(logs));
-  for (const recording::merge::MergedLogs& run : runs) print_warnings(run.warnings());
-  return runs;
+  std::vector<recording::merge::MergedLogs> drives = recording::merge::merge_by_drive(std::move(logs));
+  for (const recording::merge::MergedLogs& drive : drives) print_warnings(drive.warnings());
+  return drives;
 }
 
-recording::merge::MergedLogs one_run(const std::vector<std::string>& paths) {
-  recording::merge::MergedLogs run(paths);
-  print_warnings(run.warnings());
-  return run;
+recording::merge::MergedLogs one_drive(const std::vector<std::string>& paths) {
+  recording::merge::MergedLogs drive(paths);
+  print_warnings(drive.warnings());
+  return drive;
 }
 
 // Draws a recorded laser scan and the vehicles that preprocessing finds in it.
@@ -84,15 +84,15 @@ std::string boxes(const DiagramOptions& options) {
 // Without options, shows the whole start-up and two cycles after it.
 std::string startup(const DiagramOptions& options) {
   const TimeWindow window = time_window(options.from_s, options.to_s);
-  const recording::merge::MergedLogs run = one_run(options.logs);
+  const recording::merge::MergedLogs drive = one_drive(options.logs);
   report::startup::StartupExtent extent;
-  run.read(extent);
-  const Duration cycle{run.manifest().cycle_ns};
+  drive.read(extent);
+  const Duration cycle{drive.manifest().cycle_ns};
   const auto whole = extent.window(cycle).value_or(std::pair(TrueTime{}, TrueTime{}));
-  report::startup::StartupDiagram diagram(report::drawing::names_of(run.manifest()), cycle,
+  report::startup::StartupDiagram diagram(report::drawing::names_of(drive.manifest()), cycle,
                                           options.from_s >= 0.0 ? window.from : whole.first,
                                           window.to.value_or(whole.second));
-  run.read(diagram);
+  drive.read(diagram);
   return diagram.svg();
 }
 
@@ -102,35 +102,36 @@ std::string lateness(const DiagramOptions& options) {
     if (seconds >= 0.0)
       throw InputError({"command line", 0, name, fmt::format("{:g} s", seconds),
                         "does not go with --kind lateness, which shows the whole run"});
-  const recording::merge::MergedLogs run = one_run(options.logs);
+  const recording::merge::MergedLogs drive = one_drive(options.logs);
   recording::exports::LatenessSums sums;
-  run.read(sums);
+  drive.read(sums);
   if (sums.nodes().empty())
     throw InputError({options.logs[0], 0, "", "", "has no lateness: the run was not in real time"});
-  return report::plots::lateness_svg(sums.nodes(), report::drawing::names_of(run.manifest()));
+  return report::plots::lateness_svg(sums.nodes(), report::drawing::names_of(drive.manifest()));
 }
 
-std::string timing(const recording::merge::MergedLogs& run, TrueTime from, TrueTime to) {
-  report::timing::TimingDiagram diagram(report::drawing::names_of(run.manifest()), {run.manifest().cycle_ns}, from, to);
-  run.read(diagram);
+std::string timing(const recording::merge::MergedLogs& drive, TrueTime from, TrueTime to) {
+  report::timing::TimingDiagram diagram(report::drawing::names_of(drive.manifest()), {drive.manifest().cycle_ns}, from,
+                                        to);
+  drive.read(diagram);
   return diagram.svg();
 }
 
 // Draws several drives side by side.
-std::string positions(const std::vector<recording::merge::MergedLogs>& runs, TrueTime from, TrueTime to, bool plane) {
+std::string positions(const std::vector<recording::merge::MergedLogs>& drives, TrueTime from, TrueTime to, bool plane) {
   std::vector<std::unique_ptr<report::plots::PositionPlots>> plots;
   std::vector<const report::plots::PositionPlots*> panels;
   std::vector<std::string> titles;
-  for (const recording::merge::MergedLogs& run : runs) {
+  for (const recording::merge::MergedLogs& drive : drives) {
     report::plots::PositionOptions position;
-    position.title = fmt::format("{}, {}", run.manifest().scenario_name, run.manifest().strategy);
+    position.title = fmt::format("{}, {}", drive.manifest().scenario_name, drive.manifest().strategy);
     position.from = from;
     position.to = to;
     plots.push_back(
-        std::make_unique<report::plots::PositionPlots>(report::drawing::names_of(run.manifest()), position));
-    run.read(*plots.back());
+        std::make_unique<report::plots::PositionPlots>(report::drawing::names_of(drive.manifest()), position));
+    drive.read(*plots.back());
     panels.push_back(plots.back().get());
-    titles.push_back(run.manifest().strategy);
+    titles.push_back(drive.manifest().strategy);
   }
   if (plots.size() > 1)
     return report::plots::comparison_svg(
@@ -156,13 +157,13 @@ int run_diagram(const DiagramOptions& options) {
   }
   const TimeWindow window = time_window(options.from_s, options.to_s);
   const bool as_timing = options.kind == "timing";
-  std::vector<recording::merge::MergedLogs> runs;
+  std::vector<recording::merge::MergedLogs> drives;
   if (as_timing)
-    runs.push_back(one_run(options.logs));
+    drives.push_back(one_drive(options.logs));
   else
-    runs = runs_in(options.logs);
+    drives = drives_in(options.logs);
   Extent extent;
-  for (const recording::merge::MergedLogs& run : runs) run.read(extent);
+  for (const recording::merge::MergedLogs& drive : drives) drive.read(extent);
   const TrueTime from = window.from;
   if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "has no execution of a task to draw"});
   if (from > extent.last)
@@ -170,7 +171,8 @@ int run_diagram(const DiagramOptions& options) {
                       fmt::format("must be before the end of the log, {:g} s", (extent.last - TrueTime{}).seconds())});
   // A timing diagram of a whole drive is unreadable: the default is 160 ms.
   const TrueTime to = window.to ? *window.to : as_timing ? from + Duration::milliseconds(160) : extent.last;
-  const std::string svg = as_timing ? timing(runs[0], from, to) : positions(runs, from, to, options.kind == "plane");
+  const std::string svg =
+      as_timing ? timing(drives[0], from, to) : positions(drives, from, to, options.kind == "plane");
   report::drawing::write_picture(svg, options.out);
   return 0;
 }

@@ -32,11 +32,11 @@ std::string converted(const std::string& format, const recording::exports::Frame
   return recording::exports::export_csv(collector, frames, names);
 }
 
-int export_perfetto(const ExportOptions& options, const recording::merge::MergedLogs& run) {
+int export_perfetto(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
   OutputFile file(options.out);
-  recording::exports::PerfettoExport trace(recording::exports::LogNames(run.manifest()),
+  recording::exports::PerfettoExport trace(recording::exports::LogNames(drive.manifest()),
                                            [&](std::string_view bytes) { file.write(bytes); });
-  run.read(trace);
+  drive.read(trace);
   const recording::exports::TraceCounts counts = trace.finish();
   file.finish();
   if (options.json)
@@ -64,12 +64,12 @@ int export_for_papers(const ExportOptions& options) {
 int run_export(const ExportOptions& options) {
   if (options.format == "gnuplot") return export_for_papers(options);
   for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
-  const recording::merge::MergedLogs run(options.logs);
-  print_warnings(run.warnings());
-  if (options.format == "perfetto") return export_perfetto(options, run);
+  const recording::merge::MergedLogs drive(options.logs);
+  print_warnings(drive.warnings());
+  if (options.format == "perfetto") return export_perfetto(options, drive);
   recording::exports::FrameCollector collector;
-  run.read(collector);
-  const recording::exports::LogNames names(run.manifest());
+  drive.read(collector);
+  const recording::exports::LogNames names(drive.manifest());
   const std::vector<recording::exports::LoggedFrame> frames = collector.in_order();
   write_file(options.out, converted(options.format, collector, frames, names));
   std::size_t flexray = 0, can = 0, symbols = 0;

@@ -20,8 +20,8 @@
 #include "recording/merge/stored_log.h"
 #include "recording/records/tee.h"
 #include "recording/rows/csv.h"
+#include "report/paper/drive.h"
 #include "report/paper/experiment.h"
-#include "report/paper/run.h"
 #include "report/plots/position_plot.h"
 
 namespace ttf::cli::logs {
@@ -41,19 +41,20 @@ std::string as_file_name(const std::string& text) {
 }
 
 // Writes the tables of one drive and notes their content in `has`.
-class RunTables {
+class DriveTables {
  public:
-  RunTables(const recording::merge::MergedLogs& run, report::paper::PaperRun& has) : names_(run.manifest()), has_(has) {
+  DriveTables(const recording::merge::MergedLogs& drive, report::paper::PaperDrive& has)
+      : names_(drive.manifest()), has_(has) {
     report::drawing::Names names;
-    names.sensors = run.manifest().sensor_names;
-    run.read(rows_);
+    names.sensors = drive.manifest().sensor_names;
+    drive.read(rows_);
     rows_.finish();
     const ObjectId object = rows_.referenced().value_or(ObjectId{0});
     has_.object = static_cast<int>(index_of(object));
     report::plots::PositionOptions options;
     options.object = object;
     report::plots::PositionPlots plots(names, options);
-    run.read(plots);
+    drive.read(plots);
     selection_ = plots.select();
   }
 
@@ -125,7 +126,7 @@ class RunTables {
   }
 
   recording::exports::LogNames names_;
-  report::paper::PaperRun& has_;
+  report::paper::PaperDrive& has_;
   evaluation::accuracy::DriveRows rows_;
   report::plots::PositionPlots::Selection selection_;
 };
@@ -134,20 +135,20 @@ std::vector<PaperFile> of_logs(const std::vector<std::string>& paths) {
   std::vector<recording::merge::StoredLog> logs;
   for (const std::string& path : paths) logs.emplace_back(path);
   std::vector<PaperFile> files;
-  std::vector<report::paper::PaperRun> runs;
+  std::vector<report::paper::PaperDrive> drives;
   std::set<std::string> labels;
-  for (const recording::merge::MergedLogs& run : recording::merge::merge_by_run(std::move(logs))) {
-    print_warnings(run.warnings());
-    const recording::log::LogManifest& manifest = run.manifest();
-    report::paper::PaperRun has;
+  for (const recording::merge::MergedLogs& drive : recording::merge::merge_by_drive(std::move(logs))) {
+    print_warnings(drive.warnings());
+    const recording::log::LogManifest& manifest = drive.manifest();
+    report::paper::PaperDrive has;
     const std::string label = as_file_name(manifest.strategy);
     has.label = label;
     for (int n = 2; !labels.insert(has.label).second; ++n) has.label = fmt::format("{}_{}", label, n);
     has.title = manifest.scenario_name + ", " + manifest.strategy;
-    for (PaperFile& file : RunTables(run, has).files()) files.push_back(std::move(file));
-    runs.push_back(std::move(has));
+    for (PaperFile& file : DriveTables(drive, has).files()) files.push_back(std::move(file));
+    drives.push_back(std::move(has));
   }
-  std::vector<PaperFile> scripts = report::paper::scripts_of_runs(runs);
+  std::vector<PaperFile> scripts = report::paper::scripts_of_drives(drives);
   if (scripts.empty())
     throw InputError({joined(paths), 0, "", "", "has no position, no use of an image and no fused measurement"});
   for (PaperFile& script : scripts) files.push_back(std::move(script));

@@ -17,8 +17,8 @@
 #include "cli/time_window.h"
 #include "core/errors.h"
 #include "core/time.h"
+#include "report/drive/report.h"
 #include "report/experiment/report.h"
-#include "report/run/report.h"
 
 namespace ttf::cli::logs {
 namespace {
@@ -35,7 +35,7 @@ struct ReportOptions {
 constexpr std::size_t kMostDrives = 10;                   // of an experiment that have timing diagrams
 constexpr Duration kDrawn = Duration::milliseconds(960);  // of all of them together, at most 160 ms each
 
-std::string experiment_html(const ReportOptions& options, report::run::DiagramWindow window) {
+std::string experiment_html(const ReportOptions& options, report::drive::DiagramWindow window) {
   const report::experiment::ExperimentFolder folder = report::experiment::read_experiment_folder(options.folders[0]);
   report::experiment::ExperimentDrives drives;
   if (!options.no_drives) drives = experiment::drives_of(folder, options.file, options.point);
@@ -48,24 +48,24 @@ std::string experiment_html(const ReportOptions& options, report::run::DiagramWi
 
 std::string html(const ReportOptions& options) {
   const TimeWindow asked = time_window(options.from_s, options.to_s);
-  report::run::DiagramWindow window;
+  report::drive::DiagramWindow window;
   if (options.from_s >= 0.0) window.from = asked.from;
   window.to = asked.to;
   std::size_t experiments = 0;
   for (const std::string& folder : options.folders)
-    experiments += report::run::kind_of_folder(folder) == report::run::FolderKind::kExperiment;
+    experiments += report::drive::kind_of_folder(folder) == report::drive::FolderKind::kExperiment;
   if (experiments == 0) {
     for (const auto& [name, given] :
          {std::pair("--file", options.file.has_value()), std::pair("--point", options.point.has_value()),
           std::pair("--no-drives", options.no_drives)})
       if (given) throw InputError({"command line", 0, name, "", "goes with an experiment, not with runs"});
-    std::vector<report::run::ResultsFolder> folders;
+    std::vector<report::drive::ResultsFolder> folders;
     for (const std::string& path : options.folders) {
-      folders.push_back(report::run::read_results_folder(path));
-      for (const report::run::Drive& drive : folders.back().drives)
+      folders.push_back(report::drive::read_results_folder(path));
+      for (const report::drive::Drive& drive : folders.back().drives)
         if (drive.log) print_warnings(drive.log->warnings());
     }
-    return report::run::run_report_html(std::move(folders), window);
+    return report::drive::drive_report_html(std::move(folders), window);
   }
   if (options.folders.size() > 1)
     throw InputError({"command line", 0, "folders", options.folders[0],

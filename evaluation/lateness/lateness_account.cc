@@ -29,12 +29,13 @@ std::uint64_t sum_over(const std::map<NodeId, NodeTiming>& timing, std::uint64_t
 
 }  // namespace
 
-RealTimeRun real_time_run(const recording::merge::MergedLogs& logs) {
-  RealTimeRun run;
-  run.time_scale_ppm = logs.manifest().time_scale_ppm;
+RealTimeDrive real_time_drive(const recording::merge::MergedLogs& logs) {
+  RealTimeDrive drive;
+  drive.time_scale_ppm = logs.manifest().time_scale_ppm;
   for (const recording::merge::StoredLog& log : logs.logs())
-    for (const recording::merge::SyncStamp& stamp : log.sync_stamps()) run.hosts[stamp.node] = log.info().manifest.host;
-  return run;
+    for (const recording::merge::SyncStamp& stamp : log.sync_stamps())
+      drive.hosts[stamp.node] = log.info().manifest.host;
+  return drive;
 }
 
 Duration in_real_time(Duration of_the_drive, std::int64_t time_scale_ppm) {
@@ -46,9 +47,9 @@ Duration in_real_time(Duration of_the_drive, std::int64_t time_scale_ppm) {
 std::uint64_t RealTimeFindings::frames_lost() const { return sum_over(timing, &NodeTiming::frames_lost); }
 std::uint64_t RealTimeFindings::late_frames() const { return sum_over(timing, &NodeTiming::late_frames); }
 
-LatenessAccount::LatenessAccount(const schedules::model::Cluster& cluster, RealTimeRun run)
-    : cluster_(cluster), run_(std::move(run)), missing_(cluster, run_.time_scale_ppm) {
-  for (const auto& [node, host] : run_.hosts) by_host_.try_emplace(host, cluster.cycle());
+LatenessAccount::LatenessAccount(const schedules::model::Cluster& cluster, RealTimeDrive drive)
+    : cluster_(cluster), drive_(std::move(drive)), missing_(cluster, drive_.time_scale_ppm) {
+  for (const auto& [node, host] : drive_.hosts) by_host_.try_emplace(host, cluster.cycle());
 }
 
 // A log may be of another cluster.
@@ -84,16 +85,17 @@ void LatenessAccount::on(const recording::records::ClockCorrected& corrected) {
   if (!is_ours(node)) return;
   const std::int64_t microtick_ps = cluster_.node(node).microtick_ps;
   const std::int64_t microticks = std::abs(std::int64_t{corrected.offset_microticks});
-  const Duration by = in_real_time(Duration{microticks * microtick_ps / 1000}, run_.time_scale_ppm);
+  const Duration by = in_real_time(Duration{microticks * microtick_ps / 1000}, drive_.time_scale_ppm);
   std::optional<Duration>& largest = timing_[node].largest_offset_correction;
   largest = largest ? std::max(*largest, by) : by;
-  if (const auto host = run_.hosts.find(node); host != run_.hosts.end()) by_host_.at(host->second).add(corrected.stamp);
+  if (const auto host = drive_.hosts.find(node); host != drive_.hosts.end())
+    by_host_.at(host->second).add(corrected.stamp);
 }
 
 std::optional<RealTimeFindings> LatenessAccount::finish() {
   if (!any_) return std::nullopt;
   RealTimeFindings findings;
-  findings.time_scale_ppm = run_.time_scale_ppm;
+  findings.time_scale_ppm = drive_.time_scale_ppm;
   findings.lateness = sums_.nodes();
   findings.timing = timing_;
   for (const auto& [node, count] : missing_.by_receiver()) findings.timing[node].missing = count;

@@ -27,11 +27,11 @@
 namespace ttf::evaluation::lateness {
 
 // Facts about the drive from the logs' manifests.
-struct RealTimeRun {
+struct RealTimeDrive {
   std::int64_t time_scale_ppm = 1'000'000;  // recording::LogManifest
   std::map<NodeId, std::string> hosts;      // the machine of each node; a node without one is not compared
 };
-RealTimeRun real_time_run(const recording::merge::MergedLogs& logs);
+RealTimeDrive real_time_drive(const recording::merge::MergedLogs& logs);
 
 // Rounded towards zero; a value beyond the type becomes its limit.
 Duration in_real_time(Duration of_the_drive, std::int64_t time_scale_ppm);
@@ -68,7 +68,7 @@ struct RealTimeFindings {
 
 class LatenessAccount final : public recording::records::Sink {
  public:
-  LatenessAccount(const schedules::model::Cluster& cluster, RealTimeRun run);
+  LatenessAccount(const schedules::model::Cluster& cluster, RealTimeDrive drive);
 
   // Returns the findings; absent if no record is of real time. Call it once, at the end.
   std::optional<RealTimeFindings> finish();
@@ -84,7 +84,7 @@ class LatenessAccount final : public recording::records::Sink {
   bool is_ours(NodeId node) const;
 
   const schedules::model::Cluster& cluster_;
-  RealTimeRun run_;
+  RealTimeDrive drive_;
   bool any_ = false;  // a record of real time
   recording::exports::LatenessSums sums_;
   MediumSums medium_;

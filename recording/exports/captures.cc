@@ -121,11 +121,11 @@ std::string export_pcapng(const FrameCollector& collector, const std::vector<Log
     if (!frame.flexray) buses = std::max<std::size_t>(buses, frame.channel + std::size_t{1});
   std::vector<CaptureInterface> interfaces{{capture::LinkType::kFlexRay, kFlexRayName}};
   for (std::size_t b = 0; b < buses; ++b) interfaces.push_back({capture::LinkType::kCan, names.can_bus(b)});
-  const log::LogManifest& run = names.manifest();
+  const log::LogManifest& drive = names.manifest();
   std::string out;
   CaptureWriter writer(out, interfaces,
-                       fmt::format("{} with {} on {}, seed {}; time 0 is the start of the drive", run.scenario_name,
-                                   run.strategy, run.cluster_name, run.seed));
+                       fmt::format("{} with {} on {}, seed {}; time 0 is the start of the drive", drive.scenario_name,
+                                   drive.strategy, drive.cluster_name, drive.seed));
   std::string packet;
   for (const LoggedFrame& frame : frames) {
     packet.clear();

@@ -169,30 +169,30 @@ void MergedLogs::read(records::Sink& sink) const {
   }
 }
 
-std::vector<MergedLogs> merge_by_run(std::vector<StoredLog> logs) {
-  std::vector<std::vector<StoredLog>> runs;
+std::vector<MergedLogs> merge_by_drive(std::vector<StoredLog> logs) {
+  std::vector<std::vector<StoredLog>> drives;
   std::vector<StoredLog> unknown;
   for (StoredLog& log : logs) {
     if (!log.info().manifest_sound) {
       unknown.push_back(std::move(log));
       continue;
     }
-    const auto run = std::find_if(runs.begin(), runs.end(),
-                                  [&](const std::vector<StoredLog>& other) { return !misfit(log, other.front()); });
-    if (run == runs.end())
-      runs.emplace_back().push_back(std::move(log));
+    const auto drive = std::find_if(drives.begin(), drives.end(),
+                                    [&](const std::vector<StoredLog>& other) { return !misfit(log, other.front()); });
+    if (drive == drives.end())
+      drives.emplace_back().push_back(std::move(log));
     else
-      run->push_back(std::move(log));
+      drive->push_back(std::move(log));
   }
-  const bool apart = runs.size() > 1;
+  const bool apart = drives.size() > 1;
   for (StoredLog& log : unknown) {
-    if (!apart && !runs.empty())
-      runs.front().push_back(std::move(log));
+    if (!apart && !drives.empty())
+      drives.front().push_back(std::move(log));
     else
-      runs.emplace_back().push_back(std::move(log));
+      drives.emplace_back().push_back(std::move(log));
   }
   std::vector<MergedLogs> merged;
-  for (std::vector<StoredLog>& run : runs) merged.emplace_back(std::move(run));
+  for (std::vector<StoredLog>& drive : drives) merged.emplace_back(std::move(drive));
   return merged;
 }
 

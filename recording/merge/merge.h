@@ -56,7 +56,7 @@ class MergedLogs {
 // Groups logs by drive, in the order in which each drive's first log is given, and merges each group. A log
 // with a damaged manifest joins the others if they are of one drive; else it stands alone. Throws as MergedLogs
 // does.
-std::vector<MergedLogs> merge_by_run(std::vector<StoredLog> logs);
+std::vector<MergedLogs> merge_by_drive(std::vector<StoredLog> logs);
 
 // Writes the records as one log, the same bytes for the same records. Throws as read() does, InputError if
 // `path` is one of the logs, and std::runtime_error if it cannot be written; then the file does not exist.

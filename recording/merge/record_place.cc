@@ -46,7 +46,7 @@ template <class Record> RecordPlace of_node(const Record& record, TrueTime at, N
 template <class Record> RecordPlace of_node(const Record& record, const records::Stamp& stamp) {
   return of_node(record, stamp.true_time, stamp.node);
 }
-template <class Record> RecordPlace of_run(const Record& record, TrueTime at, std::uint64_t about) {
+template <class Record> RecordPlace of_drive(const Record& record, TrueTime at, std::uint64_t about) {
   return {at, rank_of(record), false, about};
 }
 
@@ -57,7 +57,7 @@ RecordPlace place_of(const records::SlotProblem& r) { return of_node(r, r.stamp)
 RecordPlace place_of(const records::ListHop& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::TaskRun& r) { return of_node(r, r.start); }
 RecordPlace place_of(const records::ClockCorrected& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::PrecisionSample& r) { return of_run(r, r.at, 0); }
+RecordPlace place_of(const records::PrecisionSample& r) { return of_drive(r, r.at, 0); }
 RecordPlace place_of(const records::FusionInput& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::ListFused& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::FusionStep& r) { return of_node(r, r.stamp); }
@@ -65,20 +65,20 @@ RecordPlace place_of(const records::TrackState& r) { return of_node(r, r.stamp);
 RecordPlace place_of(const records::ObservationSeen& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::ImageWritten& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::FeatureUsed& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::ReferenceFix& r) { return of_run(r, r.measured_true, index_of(r.object)); }
+RecordPlace place_of(const records::ReferenceFix& r) { return of_drive(r, r.measured_true, index_of(r.object)); }
 RecordPlace place_of(const records::TruthState& r) { return of_node(r, r.at, r.node); }
 RecordPlace place_of(const records::StateChanged& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::SymbolSent& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::PowerChanged& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::FaultActivity& r) {
-  return of_run(r, TrueTime{std::max(r.at.ns, kEarliest + kMicroticks_ns) - kMicroticks_ns},
-                std::uint64_t{r.fault} << 8 | r.what);
+  return of_drive(r, TrueTime{std::max(r.at.ns, kEarliest + kMicroticks_ns) - kMicroticks_ns},
+                  std::uint64_t{r.fault} << 8 | r.what);
 }
 RecordPlace place_of(const records::GuardianIntervention& r) {
-  return of_run(r, r.at, std::uint64_t{r.channel} << 8 | index_of(r.branch));
+  return of_drive(r, r.at, std::uint64_t{r.channel} << 8 | index_of(r.branch));
 }
 RecordPlace place_of(const records::ChannelFrame& r) {
-  return of_run(r, r.start, std::uint64_t{r.channel} << 8 | index_of(r.sender));
+  return of_drive(r, r.start, std::uint64_t{r.channel} << 8 | index_of(r.sender));
 }
 RecordPlace place_of(const records::TimingProblem& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::LatenessHistogram& r) { return of_node(r, r.stamp); }

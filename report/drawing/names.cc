@@ -58,7 +58,7 @@ Names names_of(const schedules::model::Cluster& cluster) {
 
 Names names_of(const recording::log::LogManifest& manifest) {
   Names names;
-  names.run = fmt::format("{}, {}", manifest.scenario_name, manifest.strategy);
+  names.drive = fmt::format("{}, {}", manifest.scenario_name, manifest.strategy);
   names.nodes = manifest.node_names;
   names.tasks = manifest.task_names;
   names.pdus = manifest.pdu_names;

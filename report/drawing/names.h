@@ -12,7 +12,7 @@ namespace ttf::report::drawing {
 
 // The index is the id's value (for tasks: node, then task). Ids beyond a list appear as numbers.
 struct Names {
-  std::string run;  // the drive, for titles: "paper_scenario1, tt"
+  std::string drive;  // for titles: "paper_scenario1, tt"
   std::vector<std::string> nodes, pdus, sensors, can_buses;
   std::vector<std::vector<std::string>> tasks;
   // The sensor whose measurement each PDU's list descends from, kNoSensor if absent. If the vector is empty,

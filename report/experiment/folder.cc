@@ -11,7 +11,7 @@
 
 #include "core/errors.h"
 #include "core/file_bytes.h"
-#include "report/run/results_folder.h"
+#include "report/drive/results_folder.h"
 
 namespace ttf::report::experiment {
 namespace {
@@ -134,7 +134,7 @@ void read_store(const std::string& path, ExperimentFolder& folder) {
 }
 
 ExperimentFolder parse_answer(std::string_view text, const std::string& file) {
-  const Json json = run::parse_json(text, file);
+  const Json json = drive::parse_json(text, file);
   const AnswerReader reader(file);
   ExperimentFolder folder;
   folder.name = reader.text(json, "", "experiment");

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "core/counted.h"
-#include "report/run/plots.h"
+#include "report/drive/plots.h"
 
 namespace ttf::report::experiment {
 namespace {
@@ -143,7 +143,7 @@ page::Plot replications_plot(const ExperimentFolder& folder) {
   for (const ExperimentMeasure& measure : folder.measures) {
     const auto column = static_cast<std::size_t>(std::ranges::find(columns, measure.name) - columns.begin());
     for (std::size_t s = 0; s < shown; ++s) {
-      std::vector<run::NamedValues> values;
+      std::vector<drive::NamedValues> values;
       for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
         values.push_back({folder.paradigms[p], static_cast<int>(p), {}});
       for (const experiments::results::Row& row : rows[s])

@@ -176,7 +176,7 @@ void how_made(page::Page& page, const ExperimentFolder& folder) {
 
 // Adds the sections of a run's page for one drive of each paradigm.
 void one_of_each(page::Page& page, const ExperimentFolder& folder, const ExperimentDrives& drives,
-                 const run::DiagramWindow& window) {
+                 const drive::DiagramWindow& window) {
   if (drives.drives.empty() && drives.why_none.empty()) return;
   page.section("One drive of each paradigm");
   if (drives.drives.empty()) {
@@ -191,8 +191,8 @@ void one_of_each(page::Page& page, const ExperimentFolder& folder, const Experim
       "The runs of point {}{}, replication {}, driven again for their logs, with the very numbers in "
       "results.sqlite. All paradigms had the same draws. One replication of many makes no difference certain.",
       drives.point, settings.empty() ? "" : " (" + joined(settings) + ")", drives.replication));
-  std::vector<run::ToldDrive> all;
-  for (const run::Drive& drive : drives.drives) all.push_back(told_of(drive));
+  std::vector<drive::ToldDrive> all;
+  for (const drive::Drive& drive : drives.drives) all.push_back(told_of(drive));
   errors_section(page, all);
   timing_section(page, all, window);
   time_base_section(page, all, window.most);
@@ -242,7 +242,7 @@ std::string experiment_answer(const ExperimentFolder& folder) {
 }
 
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
-                                   const run::DiagramWindow& window) {
+                                   const drive::DiagramWindow& window) {
   page::Page page(folder.name, "Report of an experiment");
   page.section("Question");
   page.lead(folder.question);

@@ -5,21 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "report/drive/drive_sections.h"
+#include "report/drive/results_folder.h"
 #include "report/experiment/folder.h"
-#include "report/run/drive_sections.h"
-#include "report/run/results_folder.h"
 
 namespace ttf::report::experiment {
 
 // One drive of each paradigm, driven again for its log.
 struct ExperimentDrives {
   std::uint32_t point = 0, replication = 0;
-  std::vector<run::Drive> drives;  // with logs, in the order of the folder's paradigms; or empty
-  std::string why_none;            // a sentence; empty if no drives were requested
+  std::vector<drive::Drive> drives;  // with logs, in the order of the folder's paradigms; or empty
+  std::string why_none;              // a sentence; empty if no drives were requested
 };
 
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
-                                   const run::DiagramWindow& window);
+                                   const drive::DiagramWindow& window);
 
 // Names the paradigms with the least first measure, with the number of points of each. A point is certain if the paired
 // differences from all other paradigms are, by the drives in the store; without a store no point is certain.

@@ -112,7 +112,7 @@ LogFrame frame_around(const std::vector<Curve>& curves, double top) {
 }  // namespace
 
 std::string lateness_svg(const std::map<NodeId, recording::exports::NodeLateness>& nodes, const drawing::Names& names) {
-  const std::string title = names.run.empty() ? "Lateness of wake-ups" : names.run + ": lateness of wake-ups";
+  const std::string title = names.drive.empty() ? "Lateness of wake-ups" : names.drive + ": lateness of wake-ups";
   const std::vector<Curve> curves = curves_of(nodes, names);
   if (curves.empty())
     return drawing::empty_picture(title, "No node recorded its lateness: this run was not in real time.");

@@ -63,7 +63,7 @@ class StartupPainter {
     const double legend_top = plot_.y + plot_.height + 46;
     // A cluster that began integrated has no leader.
     const bool integrated = !leader_ && !active_from_the_start(data_).empty();
-    const std::string title = fmt::format("{}: {}, {} ms to {} ms", names_.run.empty() ? "Run" : names_.run,
+    const std::string title = fmt::format("{}: {}, {} ms to {} ms", names_.drive.empty() ? "Run" : names_.drive,
                                           integrated ? "changes of state" : "start-up", drawing::number(in_ms(from_)),
                                           drawing::number(in_ms(to_)));
     drawing::Svg svg(plot_.x + plot_.width + 24, legend_top + legend_height(legend_, legend_width) + 12, title);

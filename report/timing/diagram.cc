@@ -33,8 +33,8 @@ void TimingDiagram::on(const recording::records::CanFrameSent& r) {
         {r.bus, r.start.true_time, r.end.true_time, r.pdu, r.sequence, r.fragment, r.start.node, r.sensor});
 }
 void TimingDiagram::on(const recording::records::SlotFrameSent& r) {
-  const bool in_a_run = drawing::possible(r.stamp.global.ns) && drawing::possible_cycle(r.cycle);
-  if (in_a_run && near(r.stamp.true_time, r.end.true_time))
+  const bool in_a_drive = drawing::possible(r.stamp.global.ns) && drawing::possible_cycle(r.cycle);
+  if (in_a_drive && near(r.stamp.true_time, r.end.true_time))
     data_.slot_frames.push_back({r.stamp.true_time, r.end.true_time, r.stamp.global, r.stamp.node, r.cycle, r.slot,
                                  r.channel, r.null_frame, r.pdu, r.sequence, r.fragment, r.sensor,
                                  r.stamp.global.ns != r.stamp.local.ns});

@@ -56,7 +56,7 @@ class TimingPainter : TimingCanvas {
     const double legend_width = plot.width + plot.x - 24;
     const double legend_top = plot.y + plot.height + 46;
     const double height = legend_top + legend_height(legend_, legend_width) + 12;
-    const std::string title = fmt::format("{}: {} ms to {} ms", names.run.empty() ? "Timing diagram" : names.run,
+    const std::string title = fmt::format("{}: {} ms to {} ms", names.drive.empty() ? "Timing diagram" : names.drive,
                                           drawing::number(in_ms(from)), drawing::number(in_ms(to)));
     drawing::Svg svg(plot.x + plot.width + 24, height, title);
     svg_ = &svg;

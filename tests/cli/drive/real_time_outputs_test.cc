@@ -29,7 +29,7 @@ recording::records::BinnedDurations late_by(std::initializer_list<std::pair<std:
 }
 
 // Stretched ten times. Node 0 has 1000 wake-ups. Node 2 reported none, but had problems.
-StrategyResult a_run() {
+StrategyResult a_drive() {
   StrategyResult result;
   result.strategy = fusion::strategies::StrategyKind::kTt;
   result.cluster = schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
@@ -61,7 +61,7 @@ bool has_line(const std::string& text, const std::string& pattern) {
 }
 
 TEST(RealTimeOutputs, TablesTellTheHistogramsAndTheCounts) {
-  const StrategyResult result = a_run();
+  const StrategyResult result = a_drive();
   const std::string text = real_time_text(result);
   const std::string first = name_of_node(result, 0), third = name_of_node(result, 2);
   EXPECT_TRUE(has_line(text, "node wake-ups p50 p99 p99.9 longest floor p50 p99 p99.9 longest")) << text;
@@ -83,7 +83,7 @@ TEST(RealTimeOutputs, TablesTellTheHistogramsAndTheCounts) {
 }
 
 TEST(RealTimeOutputs, JsonTellsTheSame) {
-  const StrategyResult result = a_run();
+  const StrategyResult result = a_drive();
   const nlohmann::ordered_json json = real_time_json(result);
   EXPECT_EQ(json["time_scale"], 10.0);
   ASSERT_EQ(json["nodes"].size(), 2u);
@@ -123,13 +123,13 @@ TEST(RealTimeOutputs, JsonTellsTheSame) {
 }
 
 TEST(RealTimeOutputs, InVirtualTimeThereIsNothingToTell) {
-  StrategyResult result = a_run();
+  StrategyResult result = a_drive();
   result.real_time.reset();
   EXPECT_EQ(real_time_text(result), "");
   EXPECT_TRUE(real_time_json(result).is_null());
   const drives::Scenario scenario;
   EXPECT_FALSE(to_json(scenario, 1, {result})["strategies"][0].contains("real_time"));
-  EXPECT_EQ(to_json(scenario, 1, {a_run()})["strategies"][0]["real_time"], real_time_json(a_run()));
+  EXPECT_EQ(to_json(scenario, 1, {a_drive()})["strategies"][0]["real_time"], real_time_json(a_drive()));
 }
 
 TEST(RealTimeOutputs, ThePageShowsTableAndPicture) {
@@ -142,11 +142,11 @@ TEST(RealTimeOutputs, ThePageShowsTableAndPicture) {
     std::ifstream file(folder / "index.html");
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
-  StrategyResult without = a_run();
+  StrategyResult without = a_drive();
   without.real_time.reset();
   EXPECT_EQ(page_of(without).find("lateness"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "tt_lateness.svg"));
-  const std::string page = page_of(a_run());
+  const std::string page = page_of(a_drive());
   EXPECT_NE(page.find("<img src=\"tt_lateness.svg\""), std::string::npos);
   EXPECT_NE(page.find("lateness [us], in real time\nnode"), std::string::npos);
   for (const char* file : {"tt_lateness.svg", "tt_lateness.png", "tt_lateness.pdf"})

@@ -341,7 +341,7 @@ TEST(LatenessAccount, MergedLogsOfSeveralNodesTellOfTheWholeRun) {
   }
   const recording::merge::MergedLogs merged(paths);
   EXPECT_EQ(merged.warnings(), std::vector<std::string>{});
-  const RealTimeRun run = real_time_run(merged);
+  const RealTimeDrive run = real_time_drive(merged);
   EXPECT_EQ(run.time_scale_ppm, 10'000'000);
   EXPECT_EQ(run.hosts, (std::map<NodeId, std::string>{{NodeId{0}, "near"}, {NodeId{1}, "near"}, {NodeId{2}, "far"}}));
   LatenessAccount account(cluster, run);

@@ -215,7 +215,7 @@ TEST(Merge, ByRunLogsOfEachRunComeTogether) {
     const std::string name = logs_of(3, crowd())[i].name();
     logs.emplace_back(read_file(log::scratch(name)), "more " + name);
   }
-  const std::vector<MergedLogs> runs = merge_by_run(std::move(logs));
+  const std::vector<MergedLogs> runs = merge_by_drive(std::move(logs));
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_EQ(runs[0].manifest().strategy, "tt");
   ASSERT_EQ(runs[0].logs().size(), 3u);

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "report/drawing/figures.h"
+#include "report/drive/plots.h"
 #include "report/experiment/plots.h"
 #include "report/page/page.h"
-#include "report/run/plots.h"
 #include "report/timing/diagram.h"
 #include "tests/report/layout.h"
-#include "tests/report/synthetic_run.h"
+#include "tests/report/synthetic_drive.h"
 
 namespace ttf::report::page {
 namespace {
@@ -126,7 +126,7 @@ TEST(Figures, HaveTheDigitsTheirIntervalHas) {
 }
 
 TEST(Histogram, HoldsEveryValueOnceOverCommonBins) {
-  const auto curves = run::histogram({{"a", 0, {10, 11, 11, 40}}, {"none", 1, {}}, {"b", 2, {25, std::nan("")}}}, 10);
+  const auto curves = drive::histogram({{"a", 0, {10, 11, 11, 40}}, {"none", 1, {}}, {"b", 2, {25, std::nan("")}}}, 10);
   ASSERT_EQ(curves.size(), 2u);
   EXPECT_EQ(curves[0].x, curves[1].x);
   double sum = 0;
@@ -136,12 +136,12 @@ TEST(Histogram, HoldsEveryValueOnceOverCommonBins) {
   EXPECT_EQ(curves[0].y.back(), 0.0);
   EXPECT_GE(curves[0].x.back(), 40.0);
   EXPECT_EQ(curves[1].colour, 2);
-  EXPECT_EQ(run::histogram({{"same", 0, {5, 5, 5}}}, 10).at(0).y.front(), 100.0);
-  EXPECT_TRUE(run::histogram({{"none", 0, {}}}, 10).empty());
+  EXPECT_EQ(drive::histogram({{"same", 0, {5, 5, 5}}}, 10).at(0).y.front(), 100.0);
+  EXPECT_TRUE(drive::histogram({{"none", 0, {}}}, 10).empty());
 }
 
 TEST(Histogram, TakesValuesThatAreFarApart) {
-  const auto curves = run::histogram({{"a", 0, {-1.7e308, 0.0, 1.7e308}}, {"b", 1, {1e300, 1.0}}}, 10);
+  const auto curves = drive::histogram({{"a", 0, {-1.7e308, 0.0, 1.7e308}}, {"b", 1, {1e300, 1.0}}}, 10);
   ASSERT_EQ(curves.size(), 2u);
   for (const Curve& curve : curves) {
     double sum = 0;
@@ -176,7 +176,7 @@ TEST(ExperimentPlots, AnAxisIsNumericInOneUnitOnly) {
 
 TEST(TimingDiagram, InAPageEverythingThatStandsInTimeSaysWhen) {
   timing::TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
-  SyntheticRun{}.drive(d, 1'500'000);
+  SyntheticDrive{}.drive(d, 1'500'000);
   const std::string picture = d.svg(), page = d.svg(timing::TimingUse::kPage);
   EXPECT_EQ(picture, d.svg(timing::TimingUse::kPicture));
   EXPECT_EQ(count(picture, "data-"), 0u);

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "core/errors.h"
-#include "report/paper/run.h"
+#include "report/paper/drive.h"
 
 namespace ttf::report::paper {
 namespace {
@@ -106,7 +106,7 @@ TEST(PaperExperiment, WhoHasNoValueIsNotTheBaseline) {
 }
 
 // Each kind of position has a distinct name.
-TEST(PaperRun, ASensorIsNoOtherKind) {
+TEST(PaperDrive, ASensorIsNoOtherKind) {
   EXPECT_EQ(sensor_kind("laser"), "laser");
   EXPECT_EQ(sensor_kind("sensor left"), "sensor left");
   EXPECT_EQ(sensor_kind("truth"), "sensor truth");

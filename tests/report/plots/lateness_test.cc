@@ -16,7 +16,7 @@ using LatenessOfNodes = std::map<NodeId, recording::exports::NodeLateness>;
 
 drawing::Names three_names() {
   drawing::Names names;
-  names.run = "drive <1>";
+  names.drive = "drive <1>";
   names.nodes = {"laser", "fusion", "feature"};
   return names;
 }

@@ -13,7 +13,7 @@
 #include "report/timing/diagram.h"
 #include "schedules/file/loader.h"
 #include "tests/report/synthetic_cluster.h"
-#include "tests/report/synthetic_run.h"
+#include "tests/report/synthetic_drive.h"
 
 namespace ttf::report::plots {
 namespace {
@@ -23,14 +23,14 @@ TEST(Pictures, ForLookingAt) {
   if (dir == nullptr) GTEST_SKIP() << "TTF_PICTURES names no folder";
   const std::string to(dir);
   timing::TimingDiagram timing(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
-  SyntheticRun{}.drive(timing, 1'500'000);
+  SyntheticDrive{}.drive(timing, 1'500'000);
   drawing::write_picture(timing.svg(), to + "/timing.png");
   drawing::write_picture(timing.svg(), to + "/timing.pdf");
   timing::TimingDiagram close(synthetic_names(), Duration::milliseconds(5), at_us(230'000), at_us(260'000));
-  SyntheticRun{}.drive(close, 1'500'000);
+  SyntheticDrive{}.drive(close, 1'500'000);
   drawing::write_picture(close.svg(), to + "/timing_close.png");
   PositionPlots position(synthetic_names(), {.title = "Scenario 1, ADVA"});
-  SyntheticRun{}.drive(position, 1'500'000);
+  SyntheticDrive{}.drive(position, 1'500'000);
   drawing::write_picture(position.over_time_svg(), to + "/over_time.png");
   drawing::write_picture(position.plane_svg(), to + "/plane.png");
   const std::array<const PositionPlots*, 2> two{&position, &position};

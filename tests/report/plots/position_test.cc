@@ -8,7 +8,7 @@
 #include "schedules/file/loader.h"
 #include "tests/report/layout.h"
 #include "tests/report/synthetic_cluster.h"
-#include "tests/report/synthetic_run.h"
+#include "tests/report/synthetic_drive.h"
 
 namespace ttf::report::plots {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::int64_t kEnd = 1'500'000;
 
 PositionPlots drive(PositionOptions options = {}) {
   PositionPlots plots(synthetic_names(), std::move(options));
-  SyntheticRun{}.drive(plots, kEnd);
+  SyntheticDrive{}.drive(plots, kEnd);
   return plots;
 }
 
@@ -27,7 +27,7 @@ TEST(PositionPlots, TakeOfEachListTheObservationOfTheObject) {
   // Every list carries a second observation 20 m away, which is another object's.
   EXPECT_EQ(s.observations[0].size(), s.laser_arrows.size());
   for (const auto& list : s.observations)
-    for (const auto& o : list) EXPECT_LT(std::abs(o.x - SyntheticRun::x_at(o.t)), 1.0);
+    for (const auto& o : list) EXPECT_LT(std::abs(o.x - SyntheticDrive::x_at(o.t)), 1.0);
   EXPECT_EQ(s.reference.size(), 16u);
   EXPECT_EQ(s.truth.size(), 151u);
   EXPECT_GT(s.fusion.size(), 30u);
@@ -116,7 +116,7 @@ TEST(PositionPlots, ImagesThatNobodyUsedAreNotShownAsUsed) {
   for (const auto& [stale_from, none_from] : {std::pair{100u, 7u}, std::pair{7u, 100u}, std::pair{7u, 10u}}) {
     PositionPlots plots(synthetic_names(), {});
     FewerUses fewer(plots, stale_from, none_from);
-    SyntheticRun{}.drive(fewer, kEnd);
+    SyntheticDrive{}.drive(fewer, kEnd);
     const PositionPlots::Selection s = plots.select();
     EXPECT_EQ(s.fusion.size(), 7u);
     EXPECT_EQ(s.unused.size(), all - 7);
@@ -127,25 +127,25 @@ TEST(PositionPlots, ImagesThatNobodyUsedAreNotShownAsUsed) {
   }
   PositionPlots none(synthetic_names(), {});
   FewerUses fewer(none, 0, 0);
-  SyntheticRun{}.drive(fewer, kEnd);
+  SyntheticDrive{}.drive(fewer, kEnd);
   EXPECT_EQ(none.plane_svg().find("image at its instant of use"), std::string::npos);
 }
 
 // The number starts again from 0 with the fusion node: the image of long ago was not used again.
 TEST(PositionPlots, AUseBelongsToTheImageJustBefore) {
   PositionPlots plots(synthetic_names(), {});
-  const SyntheticRun run;
+  const SyntheticDrive made;
   recording::records::ImageObject object;
   recording::records::ImageWritten image;
   image.objects = {&object, 1};
   image.sequence = 3;
   for (const std::int64_t us : {100'000, 5'000'000}) {
-    image.stamp = run.stamp(us, 5);
+    image.stamp = made.stamp(us, 5);
     image.valid_at = {(us + 37'000) * 1000};
     plots.on(image);
   }
   recording::records::FeatureUsed used;
-  used.stamp = run.stamp(5'037'000, 6);
+  used.stamp = made.stamp(5'037'000, 6);
   used.image_sequence = 3;
   plots.on(used);
   const PositionPlots::Selection s = plots.select();
@@ -166,9 +166,9 @@ TEST(PositionPlots, KeepToTheWindow) {
 
 TEST(PositionPlots, WithoutTruthTheReferenceGuidesAndWithoutBothAllIsShown) {
   PositionPlots plots(synthetic_names(), {});
-  const SyntheticRun run;
+  const SyntheticDrive made;
   recording::records::ObservationSeen o;
-  o.stamp = run.stamp(60'000, 5);
+  o.stamp = made.stamp(60'000, 5);
   o.measured = {50'000'000};
   o.x = 30;
   plots.on(o);

@@ -82,7 +82,7 @@ struct SyntheticStartup {
 
 drawing::Names four() {
   drawing::Names names;
-  names.run = "cold_start, tt";
+  names.drive = "cold_start, tt";
   names.nodes = {"laser_pc", "camera_pc", "gateway", "fusion & co"};
   return names;
 }

@@ -3,18 +3,18 @@
 
 #include "report/timing/diagram.h"
 #include "tests/report/layout.h"
-#include "tests/report/synthetic_run.h"
+#include "tests/report/synthetic_drive.h"
 
 namespace ttf::report::timing {
 namespace {
 
 TEST(TimingDiagram, WhatWasNotInItsTimeIsMarked) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
-  SyntheticRun{}.drive(d, 500'000);
+  SyntheticDrive{}.drive(d, 500'000);
   const auto problem = [&](std::int64_t ms, int node, std::uint8_t what, std::int64_t late_us, std::uint16_t slot,
                            std::uint32_t count = 1) {
-    d.on(recording::records::TimingProblem{SyntheticRun{}.stamp(ms * 1000, node), what, Duration::microseconds(late_us),
-                                           43, slot, 1, count});
+    d.on(recording::records::TimingProblem{SyntheticDrive{}.stamp(ms * 1000, node), what,
+                                           Duration::microseconds(late_us), 43, slot, 1, count});
   };
   problem(210, 5, recording::records::kLateWakeUp, 812, 0);
   problem(215, 4, recording::records::kSlotMissed, 900, 1);
@@ -36,7 +36,7 @@ TEST(TimingDiagram, WhatWasNotInItsTimeIsMarked) {
   expect_no_overlaps(svg);
   expect_renders(svg);
   TimingDiagram clean(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
-  SyntheticRun{}.drive(clean, 500'000);
+  SyntheticDrive{}.drive(clean, 500'000);
   EXPECT_EQ(count_class(clean.svg(), "problem"), 0u);
   EXPECT_EQ(count(clean.svg(), "in real time"), 0u);
 }

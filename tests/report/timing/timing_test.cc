@@ -8,7 +8,7 @@
 #include "report/timing/transfers.h"
 #include "report/timing/ways.h"
 #include "tests/report/layout.h"
-#include "tests/report/synthetic_run.h"
+#include "tests/report/synthetic_drive.h"
 
 namespace ttf::report::timing {
 namespace {
@@ -17,7 +17,7 @@ using recording::records::Disposition;
 
 std::string timing_diagram(std::int64_t from_ms, std::int64_t to_ms) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(from_ms * 1000), at_us(to_ms * 1000));
-  SyntheticRun{}.drive(d, 1'500'000);
+  SyntheticDrive{}.drive(d, 1'500'000);
   return d.svg();
 }
 
@@ -59,7 +59,7 @@ TEST(TimingDiagram, FramesSentWithoutGlobalTimeSayNothingOfTheCycles) {
   early.cycle = 3;
   early.slot = 1;
   d.on(early);
-  SyntheticRun{}.drive(d, 1'500'000);
+  SyntheticDrive{}.drive(d, 1'500'000);
   const std::string svg = d.svg();
   for (int cycle = 40; cycle < 70; ++cycle)
     EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
@@ -95,7 +95,7 @@ TEST(TimingDiagram, ARestartedNodeDoesNotNumberTheCycles) {
       SCOPED_TRACE(restarted_ms);
       TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(600'000), at_us(750'000));
       Restarted some(d, nodes, at_us(restarted_ms * 1000), 2);
-      SyntheticRun{}.drive(some, 1'500'000);
+      SyntheticDrive{}.drive(some, 1'500'000);
       const std::string svg = d.svg();
       for (int cycle = 120; cycle < 150; ++cycle)
         EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
@@ -107,7 +107,7 @@ TEST(TimingDiagram, ARestartedNodeDoesNotNumberTheCycles) {
 TEST(TimingDiagram, WhereAllStartAnewTheNumbersAreTheirs) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(600'000), at_us(750'000));
   Restarted all(d, {NodeId{4}, NodeId{5}, NodeId{6}}, at_us(0), 2);
-  SyntheticRun{}.drive(all, 1'500'000);
+  SyntheticDrive{}.drive(all, 1'500'000);
   const std::string svg = d.svg();
   for (int cycle = 0; cycle < 22; ++cycle)  // 600 ms is 8 cycles before it
     EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
@@ -116,7 +116,7 @@ TEST(TimingDiagram, WhereAllStartAnewTheNumbersAreTheirs) {
 
 TEST(TimingDiagram, FaultsHaveLanesAndWhatBecameOfFramesIsMarked) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
-  SyntheticRun{}.drive(d, 1'500'000);
+  SyntheticDrive{}.drive(d, 1'500'000);
   const auto fault = [&](std::int64_t ms, std::uint32_t index, std::uint8_t what, const char* kind, const char* text) {
     d.on(
         recording::records::FaultActivity{at_us(ms * 1000), index, what, index == 1 ? kNoNode : NodeId{4}, kind, text});
@@ -194,9 +194,9 @@ TEST(TimingDiagram, AnEmptyWindowSaysSo) {
 
 TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
   TimingDiagram d({}, {}, at_us(0), at_us(100'000));
-  d.on(recording::records::Measured{SyntheticRun{}.stamp(5000, 0), {SensorId{1}, 0}, {}});
+  d.on(recording::records::Measured{SyntheticDrive{}.stamp(5000, 0), {SensorId{1}, 0}, {}});
   d.on(recording::records::ListFused{
-      SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
+      SyntheticDrive{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
   const std::string svg = d.svg();
   EXPECT_NE(svg.find(">sensor 1</text>"), std::string::npos);
   EXPECT_EQ(count_class(svg, "arrow"), 1u);
@@ -206,7 +206,7 @@ TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
 TEST(TimingDiagram, WhatIsFusedAloneMakesNoLane) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(0), at_us(100'000));
   d.on(recording::records::ListFused{
-      SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
+      SyntheticDrive{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
   EXPECT_NE(d.svg().find("no records"), std::string::npos);
   expect_renders(d.svg());
 }
@@ -216,9 +216,9 @@ TEST(TimingDiagram, ImpossibleTimesChangeNothing) {
   constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min(),
                          kHighest = std::numeric_limits<std::int64_t>::max();
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
-  SyntheticRun{}.drive(d, 1'500'000);
+  SyntheticDrive{}.drive(d, 1'500'000);
   for (const std::int64_t ns : {kLowest, kHighest}) {
-    const recording::records::Stamp inside = SyntheticRun{}.stamp(250'000, 1);
+    const recording::records::Stamp inside = SyntheticDrive{}.stamp(250'000, 1);
     const recording::records::Stamp beyond{{ns}, {ns}, {ns}, NodeId{1}};
     recording::records::SlotFrameSent frame;
     frame.stamp = inside;
@@ -238,10 +238,10 @@ TEST(TimingDiagram, ImpossibleTimesChangeNothing) {
 // A frame claims a cycle other than its instant's: the cycles' lines stay in place, and end.
 TEST(TimingDiagram, AFrameOfAnotherCycleMovesNoLine) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
-  SyntheticRun{}.drive(d, 1'500'000);
-  SyntheticRun{}.slot(d, 45, 1, 5, kNoPdu, 0, 0, true);
+  SyntheticDrive{}.drive(d, 1'500'000);
+  SyntheticDrive{}.slot(d, 45, 1, 5, kNoPdu, 0, 0, true);
   recording::records::SlotFrameSent frame;
-  frame.stamp = SyntheticRun{}.stamp(250'000, 5);
+  frame.stamp = SyntheticDrive{}.stamp(250'000, 5);
   frame.end.true_time = at_us(250'074);
   frame.cycle = 4000;
   d.on(frame);
@@ -253,7 +253,7 @@ TEST(TimingDiagram, AFrameOfAnotherCycleMovesNoLine) {
 TEST(TimingDiagram, CyclesNoBusCanHaveMakeNoGrid) {
   for (const Duration cycle : {Duration{1}, Duration{std::numeric_limits<std::int64_t>::max()}}) {
     TimingDiagram d(synthetic_names(), cycle, at_us(200'000), at_us(350'000));
-    SyntheticRun{}.drive(d, 1'500'000);
+    SyntheticDrive{}.drive(d, 1'500'000);
     EXPECT_EQ(count(d.svg(), "fill=\"#444444\">"), 0u) << cycle.ns;
   }
 }

@@ -26,7 +26,7 @@ inline drawing::Names synthetic_names() {
 
 inline TrueTime at_us(std::int64_t us) { return {us * 1000}; }
 
-struct SyntheticRun {
+struct SyntheticDrive {
   bool missed_deadline = true;
   std::int64_t global_offset_us = 3;  // global minus true time
 

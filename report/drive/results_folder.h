@@ -10,7 +10,7 @@
 
 #include "recording/merge/merge.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 
 enum class FolderKind : std::uint8_t { kRun, kExperiment };
 // Throws InputError if the folder is of neither kind.
@@ -36,8 +36,8 @@ struct ResultsFolder {
 ResultsFolder read_results_folder(const std::string& path);
 
 // Reads summary.json alone, into drives without logs. `file` is for messages. Throws InputError.
-ResultsFolder parse_run_summary(std::string_view text, const std::string& file);
+ResultsFolder parse_summary(std::string_view text, const std::string& file);
 // Throws InputError with the file and the error.
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& file);
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

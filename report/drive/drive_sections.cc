@@ -1,4 +1,4 @@
-#include "report/run/drive_sections.h"
+#include "report/drive/drive_sections.h"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <string>
 
 #include "core/counted.h"
-#include "report/run/plots.h"
-#include "report/run/scenario_words.h"
+#include "report/drive/plots.h"
+#include "report/drive/scenario_words.h"
 #include "report/timing/diagram.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 namespace {
 
 constexpr Duration kLongestDiagram = Duration::milliseconds(2000);
@@ -18,7 +18,7 @@ constexpr Duration kLongestDiagram = Duration::milliseconds(2000);
 }  // namespace
 
 ToldDrive told_of(const Drive& drive) {
-  RunSeriesSink sink;
+  DriveSeriesSink sink;
   if (drive.log) drive.log->read(sink);
   return {&drive, sink.finish()};
 }
@@ -104,4 +104,4 @@ void troubles_section(page::Page& page, const std::vector<ToldDrive>& drives) {
   if (!without.empty()) page.paragraph(fmt::format("There is no log of {}: {}", joined(without), elsewhere));
 }
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

@@ -6,7 +6,7 @@
 #include "core/time.h"
 #include "recording/merge/merge.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 
 struct ScenarioWords {
   std::string description, file, text;
@@ -16,4 +16,4 @@ struct ScenarioWords {
 // Returns empty words if the log has no scenario, or a damaged one.
 ScenarioWords scenario_in(const recording::merge::MergedLogs& log);
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

@@ -1,4 +1,4 @@
-#include "report/run/series.h"
+#include "report/drive/series.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "report/run/tables.h"
+#include "report/drive/tables.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 namespace {
 
 recording::records::Stamp stamp(std::int64_t us, int node = 0) {
@@ -27,7 +27,7 @@ recording::records::TruthState truth(std::int64_t us, int object, double x, doub
   return state;
 }
 
-void use(RunSeriesSink& sink, std::int64_t us, std::vector<std::pair<double, double>> positions,
+void use(DriveSeriesSink& sink, std::int64_t us, std::vector<std::pair<double, double>> positions,
          std::uint32_t image = 0, bool stale = false) {
   std::vector<recording::records::FeatureObject> objects;
   for (const auto& [x, y] : positions) {
@@ -43,15 +43,15 @@ void use(RunSeriesSink& sink, std::int64_t us, std::vector<std::pair<double, dou
   sink.on(used);
 }
 
-TEST(RunSeries, AnErrorIsTheRootMeanSquareOverPairsClosestFirst) {
-  RunSeriesSink sink;
+TEST(DriveSeries, AnErrorIsTheRootMeanSquareOverPairsClosestFirst) {
+  DriveSeriesSink sink;
   use(sink, 1000, {{10.3, 0.4}, {20.0, 1.0}, {80.0, 0.0}});
   sink.on(truth(1000, 0, 20.0, 0.0));
   sink.on(truth(1000, 1, 10.0, 0.0));
   sink.on(truth(1000, 0, 20.0, 0.0, 7));  // the same, as another node recorded it
   use(sink, 2000, {{30.0, 0.0}});
   sink.on(truth(2000, 0, 30.0, 0.25));
-  const RunSeries series = sink.finish();
+  const DriveSeries series = sink.finish();
   ASSERT_EQ(series.position_error.size(), 2u);
   EXPECT_NEAR(series.position_error[0].value, std::sqrt((0.25 + 1.0) / 2), 1e-12);
   EXPECT_EQ(series.position_error[0].t_s, 0.001);
@@ -61,19 +61,19 @@ TEST(RunSeries, AnErrorIsTheRootMeanSquareOverPairsClosestFirst) {
   EXPECT_EQ(series.missed, 0u);
 }
 
-TEST(RunSeries, WhatIsTooFarOrStaleIsNotCompared) {
-  RunSeriesSink sink(4.0);
+TEST(DriveSeries, WhatIsTooFarOrStaleIsNotCompared) {
+  DriveSeriesSink sink(4.0);
   use(sink, 1000, {{10.0, 4.5}});
   sink.on(truth(1000, 0, 10.0, 0.0));
   use(sink, 2000, {{10.0, 0.0}}, 0, true);
   sink.on(truth(2000, 0, 10.0, 0.0));
-  const RunSeries series = sink.finish();
+  const DriveSeries series = sink.finish();
   EXPECT_TRUE(series.position_error.empty());
   EXPECT_EQ(series.missed, 1u);
 }
 
-TEST(RunSeries, AgesAreOfWhatIsInTheImageThatIsUsed) {
-  RunSeriesSink sink;
+TEST(DriveSeries, AgesAreOfWhatIsInTheImageThatIsUsed) {
+  DriveSeriesSink sink;
   const auto fused = [&](int sensor, std::uint32_t sequence, std::int64_t measured_us, std::int64_t at_us) {
     sink.on(recording::records::ListFused{stamp(at_us),
                                           1,
@@ -93,7 +93,7 @@ TEST(RunSeries, AgesAreOfWhatIsInTheImageThatIsUsed) {
   sink.on(image);
   use(sink, 60'000, {}, 7);
   use(sink, 61'000, {}, 8);  // an image that nobody wrote
-  const RunSeries series = sink.finish();
+  const DriveSeries series = sink.finish();
   EXPECT_EQ(series.age_fused.at(SensorId{0}), std::vector<double>{30.0});
   EXPECT_EQ(series.age_used.at(SensorId{0}), std::vector<double>{50.0});
   EXPECT_EQ(series.age_used.at(SensorId{1}), std::vector<double>{35.0});
@@ -102,8 +102,8 @@ TEST(RunSeries, AgesAreOfWhatIsInTheImageThatIsUsed) {
   EXPECT_EQ(series.oldest_age[0].value, 50.0);
 }
 
-TEST(RunSeries, AFaultIsToldByItsFirstAct) {
-  RunSeriesSink sink;
+TEST(DriveSeries, AFaultIsToldByItsFirstAct) {
+  DriveSeriesSink sink;
   sink.on(recording::records::FaultActivity{TrueTime{1'000'000}, 3, recording::records::kFaultBegins, NodeId{2},
                                             "omission", "it begins"});
   sink.on(recording::records::FaultActivity{TrueTime{2'000'000}, 3, recording::records::kFaultActs, NodeId{2},
@@ -117,7 +117,7 @@ TEST(RunSeries, AFaultIsToldByItsFirstAct) {
   EXPECT_FALSE(fault.ends_s.has_value());
 }
 
-TEST(RunSeries, AThinnedSeriesKeepsItsExtremes) {
+TEST(DriveSeries, AThinnedSeriesKeepsItsExtremes) {
   std::vector<TimedValue> all;
   for (int i = 0; i < 10'000; ++i) all.push_back({i * 0.001, i == 4321 ? -9.0 : std::sin(i)});
   const auto some = thinned(all, 300);
@@ -133,9 +133,9 @@ Drive drive_of(std::uint64_t seed, const std::string& strategy, double error) {
   return drive;
 }
 
-TEST(RunAnswer, OfOneDriveNothingIsCertain) {
+TEST(DrivesAnswer, OfOneDriveNothingIsCertain) {
   const Drive a = drive_of(1, "buff", 0.2), b = drive_of(1, "tt", 0.1);
-  const RunAnswer answer = run_answer({{&a, {}}, {&b, {}}});
+  const DrivesAnswer answer = answer_of({{&a, {}}, {&b, {}}});
   EXPECT_EQ(answer.answer.find("tt has the smallest position error here: 0.100 m"), 0u) << answer.answer;
   EXPECT_NE(answer.answer.find("buff 0.200 m (+100.0 %)"), std::string::npos) << answer.answer;
   ASSERT_EQ(answer.more.size(), 1u);
@@ -143,7 +143,7 @@ TEST(RunAnswer, OfOneDriveNothingIsCertain) {
 }
 
 // Paired: common disturbances cancel.
-TEST(RunAnswer, OfSeveralSeedsDifferencesArePaired) {
+TEST(DrivesAnswer, OfSeveralSeedsDifferencesArePaired) {
   std::vector<Drive> drives;
   for (int seed = 1; seed <= 4; ++seed) {
     drives.push_back(drive_of(static_cast<std::uint64_t>(seed), "buff", 0.1 * seed + 0.01 + 0.001 * (seed % 2)));
@@ -152,7 +152,7 @@ TEST(RunAnswer, OfSeveralSeedsDifferencesArePaired) {
   drives.push_back(drive_of(5, "tt", 7.0));  // its partner is missing
   std::vector<ToldDrive> told;
   for (const Drive& drive : drives) told.push_back({&drive, {}});
-  const RunAnswer answer = run_answer(told);
+  const DrivesAnswer answer = answer_of(told);
   EXPECT_EQ(answer.answer.find("Over 4 runs of bend, tt has the smallest position error on average: 0.25 ± 0.21 m"), 0u)
       << answer.answer;
   EXPECT_NE(answer.answer.find("buff +0.01050 ± 0.00092 m, for certain"), std::string::npos) << answer.answer;
@@ -161,7 +161,7 @@ TEST(RunAnswer, OfSeveralSeedsDifferencesArePaired) {
   EXPECT_EQ(tables[0].rows[0].back(), "-0.01050 ± 0.00092 less");
 }
 
-TEST(RunAnswer, AStrategyWithoutAFigureWinsNothing) {
+TEST(DrivesAnswer, AStrategyWithoutAFigureWinsNothing) {
   std::vector<Drive> drives;
   for (const std::uint64_t seed : {1u, 2u}) {
     drives.push_back({"out", "bend", "adva", {}, "adva", seed, {}, nullptr});
@@ -171,12 +171,12 @@ TEST(RunAnswer, AStrategyWithoutAFigureWinsNothing) {
   }
   std::vector<ToldDrive> told;
   for (const Drive& drive : drives) told.push_back({&drive, {}});
-  const RunAnswer answer = run_answer(told);
+  const DrivesAnswer answer = answer_of(told);
   EXPECT_NE(answer.answer.find(", tt has the smallest position error"), std::string::npos) << answer.answer;
   EXPECT_NE(answer.answer.find("; adva has no value; buff +0.1"), std::string::npos) << answer.answer;
   EXPECT_TRUE(answer.more.empty());
-  EXPECT_EQ(run_answer({told[0], told[3]}).answer, "Over 2 runs of bend: No position was compared with the truth.");
+  EXPECT_EQ(answer_of({told[0], told[3]}).answer, "Over 2 runs of bend: No position was compared with the truth.");
 }
 
 }  // namespace
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "report/drive/results_folder.h"
+#include "report/drive/series.h"
 #include "report/page/page.h"
-#include "report/run/results_folder.h"
-#include "report/run/series.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 
 struct ToldDrive {
   const Drive* drive = nullptr;
-  RunSeries series;  // empty without a log
+  DriveSeries series;  // empty without a log
 };
 
 // Returns the number at the pointer ("/rmse_truth/position_m") of a drive's summary.
@@ -29,13 +29,13 @@ page::PageTable measure_table(const std::vector<ToldDrive>& drives);
 std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drives);
 
 // The conclusion: first the answer, then further remarks.
-struct RunAnswer {
+struct DrivesAnswer {
   std::string answer;
   std::vector<std::string> more;
 };
-RunAnswer run_answer(const std::vector<ToldDrive>& drives);
+DrivesAnswer answer_of(const std::vector<ToldDrive>& drives);
 
 // Returns tables of faults, slot problems and deadlines, each with at least one row.
 std::vector<page::PageTable> trouble_tables(const ToldDrive& told);
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

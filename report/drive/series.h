@@ -15,7 +15,7 @@
 
 #include "recording/records/records.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 
 struct TimedValue {
   double t_s = 0.0, value = 0.0;
@@ -28,7 +28,7 @@ struct FaultTold {
   std::uint64_t acts = 0;
 };
 
-struct RunSeries {
+struct DriveSeries {
   std::vector<TimedValue> position_error;  // [m] at each use of an image: root mean square over the objects matched
   std::vector<TimedValue> velocity_error;  // [m/s]
   std::vector<TimedValue> newest_age;      // [ms] of the newest measurement in an image, at its use
@@ -44,10 +44,10 @@ struct RunSeries {
   double end_s = 0.0;  // the end of the last task
 };
 
-class RunSeriesSink final : public recording::records::Sink {
+class DriveSeriesSink final : public recording::records::Sink {
  public:
-  explicit RunSeriesSink(double gate_m = 4.0) : gate_m_(gate_m) {}
-  RunSeries finish();
+  explicit DriveSeriesSink(double gate_m = 4.0) : gate_m_(gate_m) {}
+  DriveSeries finish();
 
   using recording::records::Sink::on;
   void on(const recording::records::ListFused& r) override;
@@ -81,7 +81,7 @@ class RunSeriesSink final : public recording::records::Sink {
   void judge(const Use& use);
 
   double gate_m_;
-  RunSeries series_;
+  DriveSeries series_;
   std::map<SensorId, Fused> newest_fused_;
   std::deque<Image> images_;    // the newest few
   std::optional<Use> pending_;  // waits for its truth
@@ -93,4 +93,4 @@ class RunSeriesSink final : public recording::records::Sink {
 // Thins to at most `most` values: keeps the largest magnitude of each group of neighbours, so that extremes stay.
 std::vector<TimedValue> thinned(const std::vector<TimedValue>& all, std::size_t most);
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

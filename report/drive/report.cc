@@ -1,4 +1,4 @@
-#include "report/run/report.h"
+#include "report/drive/report.h"
 
 #include <fmt/format.h>
 
@@ -10,14 +10,14 @@
 #include "core/counted.h"
 #include "recording/exports/lateness_sums.h"
 #include "recording/records/tee.h"
+#include "report/drive/scenario_words.h"
+#include "report/drive/tables.h"
 #include "report/page/page.h"
 #include "report/plots/lateness_picture.h"
 #include "report/plots/position_plot.h"
-#include "report/run/scenario_words.h"
-#include "report/run/tables.h"
 #include "report/startup/diagram.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 namespace {
 
 constexpr std::size_t kMostPictures = 6;  // drives
@@ -59,7 +59,7 @@ void asked(page::Page& page, const std::vector<ResultsFolder>& folders, const st
 }
 
 void answered(page::Page& page, const std::vector<ResultsFolder>& folders, const std::vector<ToldDrive>& drives) {
-  const RunAnswer answer = run_answer(drives);
+  const DrivesAnswer answer = answer_of(drives);
   page.section("Answer");
   page.lead(answer.answer);
   page.points(answer.more);
@@ -147,7 +147,7 @@ void made(page::Page& page, const std::vector<ToldDrive>& drives) {
 
 }  // namespace
 
-std::string run_report_html(std::vector<ResultsFolder> folders, const DiagramWindow& window) {
+std::string drive_report_html(std::vector<ResultsFolder> folders, const DiagramWindow& window) {
   label_drives(folders);
   std::vector<ToldDrive> drives;
   std::set<std::string> scenarios;
@@ -169,4 +169,4 @@ std::string run_report_html(std::vector<ResultsFolder> folders, const DiagramWin
   return page.html();
 }
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

@@ -1,4 +1,4 @@
-#include "report/run/plots.h"
+#include "report/drive/plots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,14 @@
 
 #include "report/drawing/axes.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 namespace {
 
 constexpr std::size_t kMostPoints = 3000;  // of a curve; a longer curve keeps the largest of neighbours
 constexpr int kBins = 40;
 constexpr std::string_view kTimeAxis = "true time [s]";
 
-using Series = std::vector<TimedValue> RunSeries::*;
+using Series = std::vector<TimedValue> DriveSeries::*;
 
 std::vector<page::Curve> curves_of(const std::vector<ToldDrive>& drives, Series series) {
   std::vector<page::Curve> curves;
@@ -39,7 +39,7 @@ std::string sensor_name(const std::vector<ToldDrive>& drives, SensorId sensor) {
   return "sensor " + std::to_string(index_of(sensor));
 }
 
-using Ages = std::map<SensorId, std::vector<double>> RunSeries::*;
+using Ages = std::map<SensorId, std::vector<double>> DriveSeries::*;
 
 // Adds one view of all sensors together, and one for each of several sensors.
 void add_age_views(page::Plot& plot, const std::vector<ToldDrive>& drives, Ages ages, const std::string& when) {
@@ -107,8 +107,8 @@ page::Plot error_plot(const std::vector<ToldDrive>& drives) {
                   false,
                   false,
                   {}};
-  add_view(plot, "position", "position error [m]", curves_of(drives, &RunSeries::position_error));
-  add_view(plot, "velocity", "velocity error [m/s]", curves_of(drives, &RunSeries::velocity_error));
+  add_view(plot, "position", "position error [m]", curves_of(drives, &DriveSeries::position_error));
+  add_view(plot, "velocity", "velocity error [m/s]", curves_of(drives, &DriveSeries::velocity_error));
   return plot;
 }
 
@@ -120,8 +120,8 @@ page::Plot age_plot(const std::vector<ToldDrive>& drives) {
                   false,
                   false,
                   {}};
-  add_view(plot, "newest of the sensors", "age [ms]", curves_of(drives, &RunSeries::newest_age));
-  add_view(plot, "oldest of the sensors", "age [ms]", curves_of(drives, &RunSeries::oldest_age));
+  add_view(plot, "newest of the sensors", "age [ms]", curves_of(drives, &DriveSeries::newest_age));
+  add_view(plot, "oldest of the sensors", "age [ms]", curves_of(drives, &DriveSeries::oldest_age));
   return plot;
 }
 
@@ -133,8 +133,8 @@ page::Plot age_histogram(const std::vector<ToldDrive>& drives) {
                   false,
                   false,
                   {}};
-  add_age_views(plot, drives, &RunSeries::age_used, "used");
-  add_age_views(plot, drives, &RunSeries::age_fused, "fused");
+  add_age_views(plot, drives, &DriveSeries::age_used, "used");
+  add_age_views(plot, drives, &DriveSeries::age_fused, "fused");
   return plot;
 }
 
@@ -146,7 +146,7 @@ page::Plot precision_plot(const std::vector<ToldDrive>& drives) {
                   false,
                   false,
                   {}};
-  add_view(plot, "precision", "clocks apart [us]", curves_of(drives, &RunSeries::precision));
+  add_view(plot, "precision", "clocks apart [us]", curves_of(drives, &DriveSeries::precision));
   return plot;
 }
 
@@ -172,4 +172,4 @@ page::Plot corrections_plot(const ToldDrive& told, const drawing::Names& names) 
   return plot;
 }
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

@@ -1,14 +1,14 @@
-// The plots of a run's report, with one curve per drive.
+// The plots of a report, with one curve per drive.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "report/drawing/names.h"
+#include "report/drive/tables.h"
 #include "report/page/page.h"
-#include "report/run/tables.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 
 page::Plot error_plot(const std::vector<ToldDrive>& drives);
 page::Plot age_plot(const std::vector<ToldDrive>& drives);  // over time
@@ -25,4 +25,4 @@ struct NamedValues {
 };
 std::vector<page::Curve> histogram(const std::vector<NamedValues>& all, int bins);
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "core/time.h"
+#include "report/drive/results_folder.h"
+#include "report/drive/tables.h"
 #include "report/page/page.h"
-#include "report/run/results_folder.h"
-#include "report/run/tables.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 
 // The part of each drive that is drawn as a timing diagram; 160 ms take half a megabyte.
 struct DiagramWindow {
@@ -30,4 +30,4 @@ void time_base_section(page::Page& page, const std::vector<ToldDrive>& drives,
                        std::size_t most);  // the most drives with a plot of corrections
 void troubles_section(page::Page& page, const std::vector<ToldDrive>& drives);
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

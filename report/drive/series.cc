@@ -1,4 +1,4 @@
-#include "report/run/series.h"
+#include "report/drive/series.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "report/drawing/log_limits.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 namespace {
 
 constexpr std::size_t kImagesKept = 8;
@@ -15,7 +15,7 @@ double seconds_of(TrueTime t) { return static_cast<double>(t.ns) * 1e-9; }
 
 }  // namespace
 
-void RunSeriesSink::on(const recording::records::ListFused& r) {
+void DriveSeriesSink::on(const recording::records::ListFused& r) {
   const bool fused = r.disposition == recording::records::Disposition::kFused ||
                      r.disposition == recording::records::Disposition::kFusedLate;
   if (!fused || !drawing::possible(r.stamp.global.ns) || !drawing::possible(r.measured.ns) ||
@@ -27,7 +27,7 @@ void RunSeriesSink::on(const recording::records::ListFused& r) {
   if (!first && measured > newest->second.measured) newest->second = {r.id, measured};
 }
 
-void RunSeriesSink::on(const recording::records::ImageWritten& r) {
+void DriveSeriesSink::on(const recording::records::ImageWritten& r) {
   Image& image = images_.emplace_back();
   image.sequence = r.sequence;
   for (const MeasurementId& id : r.newest)
@@ -36,7 +36,7 @@ void RunSeriesSink::on(const recording::records::ImageWritten& r) {
   while (images_.size() > kImagesKept) images_.pop_front();
 }
 
-void RunSeriesSink::on(const recording::records::FeatureUsed& r) {
+void DriveSeriesSink::on(const recording::records::FeatureUsed& r) {
   if (pending_) judge(*pending_);
   pending_.reset();
   if (r.stale || !drawing::possible(r.stamp.true_time)) return;
@@ -49,7 +49,7 @@ void RunSeriesSink::on(const recording::records::FeatureUsed& r) {
   }
 }
 
-void RunSeriesSink::judge_age(std::uint32_t sequence, TrueTime used) {
+void DriveSeriesSink::judge_age(std::uint32_t sequence, TrueTime used) {
   const auto image =
       std::find_if(images_.rbegin(), images_.rend(), [&](const Image& one) { return one.sequence == sequence; });
   if (image == images_.rend() || image->newest.empty()) return;
@@ -64,7 +64,7 @@ void RunSeriesSink::judge_age(std::uint32_t sequence, TrueTime used) {
   series_.oldest_age.push_back({seconds_of(used), in_ms(oldest)});
 }
 
-void RunSeriesSink::on(const recording::records::TruthState& r) {
+void DriveSeriesSink::on(const recording::records::TruthState& r) {
   if (!truth_.empty() && truth_at_ != r.at) {
     if (pending_ && truth_at_ == pending_->at) {
       judge(*pending_);
@@ -78,7 +78,7 @@ void RunSeriesSink::on(const recording::records::TruthState& r) {
   truth_.push_back({r.x, r.y, r.speed * std::cos(r.heading), r.speed * std::sin(r.heading)});
 }
 
-void RunSeriesSink::judge(const Use& use) {
+void DriveSeriesSink::judge(const Use& use) {
   if (truth_.empty() || truth_at_ != use.at) return;
   struct Pair {
     double distance;
@@ -111,24 +111,24 @@ void RunSeriesSink::judge(const Use& use) {
   series_.velocity_error.push_back({t, std::sqrt(velocity / n)});
 }
 
-void RunSeriesSink::on(const recording::records::PrecisionSample& r) {
+void DriveSeriesSink::on(const recording::records::PrecisionSample& r) {
   if (drawing::possible(r.at)) series_.precision.push_back({seconds_of(r.at), in_us(r.precision)});
 }
 
-void RunSeriesSink::on(const recording::records::ClockCorrected& r) {
+void DriveSeriesSink::on(const recording::records::ClockCorrected& r) {
   if (drawing::possible(r.stamp.true_time) && !r.offset_missing)
     series_.offset_corrections[r.stamp.node].push_back(
         {seconds_of(r.stamp.true_time), static_cast<double>(r.offset_microticks)});
 }
 
-void RunSeriesSink::on(const recording::records::SlotProblem& r) { ++series_.slot_problems[r.stamp.node][r.status]; }
+void DriveSeriesSink::on(const recording::records::SlotProblem& r) { ++series_.slot_problems[r.stamp.node][r.status]; }
 
-void RunSeriesSink::on(const recording::records::TaskRun& r) {
+void DriveSeriesSink::on(const recording::records::TaskRun& r) {
   if (drawing::possible(r.end.true_time)) series_.end_s = std::max(series_.end_s, seconds_of(r.end.true_time));
   if (!r.deadline_met) ++series_.deadlines_missed[{r.start.node, r.task}];
 }
 
-void RunSeriesSink::on(const recording::records::FaultActivity& r) {
+void DriveSeriesSink::on(const recording::records::FaultActivity& r) {
   const auto [entry, first] = series_.faults.try_emplace(r.fault);
   FaultTold& fault = entry->second;
   if (first) {
@@ -145,11 +145,11 @@ void RunSeriesSink::on(const recording::records::FaultActivity& r) {
   fault.text = r.text;
 }
 
-void RunSeriesSink::on(const recording::records::GuardianIntervention& r) {
+void DriveSeriesSink::on(const recording::records::GuardianIntervention& r) {
   ++series_.guardian[std::string(r.why) + (r.cut ? ": cut" : ": blocked")];
 }
 
-RunSeries RunSeriesSink::finish() {
+DriveSeries DriveSeriesSink::finish() {
   if (pending_) judge(*pending_);
   pending_.reset();
   return std::move(series_);
@@ -168,4 +168,4 @@ std::vector<TimedValue> thinned(const std::vector<TimedValue>& all, std::size_t 
   return some;
 }
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

@@ -1,4 +1,4 @@
-#include "report/run/results_folder.h"
+#include "report/drive/results_folder.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "core/file_bytes.h"
 #include "recording/merge/stored_log.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,7 +57,7 @@ Json parse_json(std::string_view text, const std::string& file) {
   }
 }
 
-ResultsFolder parse_run_summary(std::string_view text, const std::string& file) {
+ResultsFolder parse_summary(std::string_view text, const std::string& file) {
   ResultsFolder folder;
   folder.summary = parse_json(text, file);
   const auto bad = [&](const std::string& key, const std::string& expected) {
@@ -93,21 +93,21 @@ ResultsFolder read_results_folder(const std::string& path) {
   ResultsFolder folder;
   std::error_code none;
   if (const std::string summary = path + "/summary.json"; fs::exists(summary, none)) {
-    folder = parse_run_summary(read_file(summary), summary);
+    folder = parse_summary(read_file(summary), summary);
     folder.path = path;
     find_logs(folder);
   } else {
     folder.path = path;
     std::vector<recording::merge::StoredLog> logs;
     for (const std::string& log : recording::merge::logs_in(path)) logs.emplace_back(log);
-    for (recording::merge::MergedLogs& run : recording::merge::merge_by_run(std::move(logs))) {
-      const recording::log::LogManifest manifest = run.manifest();
+    for (recording::merge::MergedLogs& merged : recording::merge::merge_by_drive(std::move(logs))) {
+      const recording::log::LogManifest manifest = merged.manifest();
       Drive drive;
       drive.folder = path;
       drive.scenario = manifest.scenario_name;
       drive.strategy = manifest.strategy;
       drive.seed = manifest.seed;
-      drive.log = std::make_shared<const recording::merge::MergedLogs>(std::move(run));
+      drive.log = std::make_shared<const recording::merge::MergedLogs>(std::move(merged));
       folder.drives.push_back(std::move(drive));
     }
     folder.remarks.push_back("There is no summary.json: the numbers come from the log, over the whole drive.");
@@ -118,4 +118,4 @@ ResultsFolder read_results_folder(const std::string& path) {
   return folder;
 }
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

@@ -1,4 +1,4 @@
-#include "report/paper/run.h"
+#include "report/paper/drive.h"
 
 #include <fmt/format.h>
 
@@ -25,8 +25,8 @@ class Curves {
 
 bool is_sensor(std::string_view kind) { return kind != "truth" && kind != "reference" && kind != "image"; }
 
-std::string table_of(const PaperRun& run, const char* what) {
-  return gnuplot_text(run.label + "_" + what + ".csv") + " skip 1";
+std::string table_of(const PaperDrive& drive, const char* what) {
+  return gnuplot_text(drive.label + "_" + what + ".csv") + " skip 1";
 }
 
 std::string labels(const std::string& title, const std::string& x, const std::string& y) {
@@ -44,73 +44,73 @@ std::string style_of(const std::string& kind, std::size_t nth_sensor) {
 }
 
 // `x` and `y` are columns of the table: 2 is time, 3 and 4 are the plane.
-std::string positions_panel(const PaperRun& run, const std::string& title, int x, int y) {
+std::string positions_panel(const PaperDrive& drive, const std::string& title, int x, int y) {
   constexpr const char* kAxes[] = {"", "", "time [s]", "x [m]", "y [m]"};
   Curves curves;
   std::size_t sensors = 0;
-  for (const std::string& kind : run.kinds) {
+  for (const std::string& kind : drive.kinds) {
     const std::string style = style_of(kind, is_sensor(kind) ? sensors++ : 0);
-    curves.add(fmt::format("{} using (strcol(1) eq {} ? ${} : NaN):{} {} title {}", table_of(run, "positions"),
+    curves.add(fmt::format("{} using (strcol(1) eq {} ? ${} : NaN):{} {} title {}", table_of(drive, "positions"),
                            gnuplot_text(kind), x, y, style, gnuplot_text(kind)));
   }
   return labels(title, kAxes[x], kAxes[y]) + curves.command();
 }
 
-PaperFile positions(const PaperRun& run) {
+PaperFile positions(const PaperDrive& drive) {
   GnuplotFigure figure;
-  figure.name = run.label + "_positions";
-  figure.about = {run.title + ": the tracked car by sensors, fusion and reference",
-                  "axes follow ISO 8855: x forward, y left; from " + run.label + "_positions.csv"};
+  figure.name = drive.label + "_positions";
+  figure.about = {drive.title + ": the tracked car by sensors, fusion and reference",
+                  "axes follow ISO 8855: x forward, y left; from " + drive.label + "_positions.csv"};
   figure.columns = 1;
   figure.panel_width_cm = 17;
-  figure.panels = {positions_panel(run, run.title, 2, 3), positions_panel(run, "", 2, 4),
-                   positions_panel(run, "", 3, 4)};
+  figure.panels = {positions_panel(drive, drive.title, 2, 3), positions_panel(drive, "", 2, 4),
+                   positions_panel(drive, "", 3, 4)};
   return gnuplot_script(figure);
 }
 
 // Draws an error with the filter's own band of two standard deviations.
-std::string error_panel(const PaperRun& run, const std::string& axis, int error, int sigma) {
-  const std::string of_object = fmt::format("$2=={}", run.object), table = table_of(run, "errors");
+std::string error_panel(const PaperDrive& drive, const std::string& axis, int error, int sigma) {
+  const std::string of_object = fmt::format("$2=={}", drive.object), table = table_of(drive, "errors");
   Curves curves;
-  if (run.errors && run.sigmas)
+  if (drive.errors && drive.sigmas)
     curves.add(
         fmt::format("{0} using ({1} && valid({2}) ? $1 : NaN):(-2*${2}):(2*${2}) with filledcurves linecolor rgb "
                     "\"#cfe3f2\" title \"±2σ of the filter\"",
                     table, of_object, sigma));
-  if (run.errors)
+  if (drive.errors)
     curves.add(
         fmt::format("{} using ({} ? $1 : NaN):{} with linespoints pointtype 7 pointsize 0.2 linecolor rgb \"#0072b2\" "
                     "title \"error\"",
                     table, of_object, error));
   curves.add("0 with lines linecolor rgb \"#888888\" notitle");
-  return labels(run.title, "time [s]", axis) + curves.command();
+  return labels(drive.title, "time [s]", axis) + curves.command();
 }
 
 // For a single instant gnuplot has no range and complains. Each later panel sets its own range.
-std::string range_of_errors(const PaperRun& run, bool any_of_one) {
+std::string range_of_errors(const PaperDrive& drive, bool any_of_one) {
   if (!any_of_one) return "";
-  if (!run.errors || run.first_error_s < run.last_error_s) return "set xrange [*:*]\n";
-  return fmt::format("set xrange [{}:{}]\n", run.first_error_s - 0.5, run.first_error_s + 0.5);
+  if (!drive.errors || drive.first_error_s < drive.last_error_s) return "set xrange [*:*]\n";
+  return fmt::format("set xrange [{}:{}]\n", drive.first_error_s - 0.5, drive.first_error_s + 0.5);
 }
 
-PaperFile errors(const std::vector<PaperRun>& runs) {
-  const bool any_of_one = std::any_of(runs.begin(), runs.end(), [](const PaperRun& run) {
-    return run.errors && run.first_error_s == run.last_error_s;
+PaperFile errors(const std::vector<PaperDrive>& drives) {
+  const bool any_of_one = std::any_of(drives.begin(), drives.end(), [](const PaperDrive& drive) {
+    return drive.errors && drive.first_error_s == drive.last_error_s;
   });
   GnuplotFigure figure;
   figure.name = "errors";
   figure.about = {"error of the image of the tracked car when it was used, against the truth, and ±2σ of the filter",
                   "from <run>_errors.csv"};
   figure.columns = 2;
-  for (const PaperRun& run : runs) {
-    const std::string range = range_of_errors(run, any_of_one);
-    figure.panels.push_back(range + error_panel(run, "x error [m]", 3, 7));
-    figure.panels.push_back(range + error_panel(run, "y error [m]", 4, 8));
+  for (const PaperDrive& drive : drives) {
+    const std::string range = range_of_errors(drive, any_of_one);
+    figure.panels.push_back(range + error_panel(drive, "x error [m]", 3, 7));
+    figure.panels.push_back(range + error_panel(drive, "y error [m]", 4, 8));
   }
   return gnuplot_script(figure);
 }
 
-PaperFile nees(const std::vector<PaperRun>& runs) {
+PaperFile nees(const std::vector<PaperDrive>& drives) {
   GnuplotFigure figure;
   figure.name = "nees";
   figure.about = {
@@ -118,10 +118,10 @@ PaperFile nees(const std::vector<PaperRun>& runs) {
       "filter knows its own error. Grey is the band around 4 with 95 % of such averages, if samples were",
       "independent. They are not quite, so more lie outside. From <run>_nees.csv"};
   figure.settings = "set yrange [0:*]\nset autoscale xfix\n";
-  for (const PaperRun& run : runs) {
+  for (const PaperDrive& drive : drives) {
     Curves curves;
-    if (run.nees) {
-      const std::string table = table_of(run, "nees");
+    if (drive.nees) {
+      const std::string table = table_of(drive, "nees");
       curves.add(
           fmt::format("{} using (($1+$2)/2):(4):1:2:5:6 with boxxyerror fillstyle solid noborder linecolor rgb "
                       "\"#dddddd\" title \"95 % if consistent\", 4 with lines linecolor rgb \"#888888\" notitle",
@@ -131,25 +131,25 @@ PaperFile nees(const std::vector<PaperRun>& runs) {
           "\"mean\"",
           table));
     }
-    figure.panels.push_back(labels(run.title, "time [s]", "NEES, 4 degrees of freedom") + curves.command());
+    figure.panels.push_back(labels(drive.title, "time [s]", "NEES, 4 degrees of freedom") + curves.command());
   }
   figure.panel_width_cm = 17;
   return gnuplot_script(figure);
 }
 
-std::string ages_panel(const PaperRun& run, const char* of, const std::string& axis, const char* counted) {
+std::string ages_panel(const PaperDrive& drive, const char* of, const std::string& axis, const char* counted) {
   Curves curves;
   std::size_t nth = 0;
-  for (const auto& [what, sensor] : run.ages) {
+  for (const auto& [what, sensor] : drive.ages) {
     if (what != of) continue;
     curves.add(fmt::format(
         "{} using (strcol(1) eq \"{}\" && strcol(2) eq {} ? ($3+$4)/2 : NaN):5:($4-$3) with boxes title {}{}",
-        table_of(run, "ages"), of, gnuplot_text(sensor), gnuplot_text(sensor), gnuplot_colour(++nth)));
+        table_of(drive, "ages"), of, gnuplot_text(sensor), gnuplot_text(sensor), gnuplot_colour(++nth)));
   }
-  return labels(run.title, axis, counted) + curves.command();
+  return labels(drive.title, axis, counted) + curves.command();
 }
 
-PaperFile ages(const std::vector<PaperRun>& runs) {
+PaperFile ages(const std::vector<PaperDrive>& drives) {
   GnuplotFigure figure;
   figure.name = "ages";
   figure.about = {
@@ -157,14 +157,15 @@ PaperFile ages(const std::vector<PaperRun>& runs) {
       "from <run>_ages.csv"};
   figure.columns = 2;
   double least = 0.0, most = 0.0;
-  for (const PaperRun& run : runs) least = std::min(least, run.least_age_ms), most = std::max(most, run.most_age_ms);
+  for (const PaperDrive& drive : drives)
+    least = std::min(least, drive.least_age_ms), most = std::max(most, drive.most_age_ms);
   figure.settings = fmt::format(
       "set style fill transparent solid 0.5 noborder\nset yrange [0:*]\nset offsets 0,0,graph 0.05,0\n"
       "set xrange [{}:{}]\n",
       least, 1.03 * most);
-  for (const PaperRun& run : runs) {
-    figure.panels.push_back(ages_panel(run, "fused", "age when fused [ms]", "measurements"));
-    figure.panels.push_back(ages_panel(run, "used", "age when used [ms]", "uses of an image"));
+  for (const PaperDrive& drive : drives) {
+    figure.panels.push_back(ages_panel(drive, "fused", "age when fused [ms]", "measurements"));
+    figure.panels.push_back(ages_panel(drive, "used", "age when used [ms]", "uses of an image"));
   }
   return gnuplot_script(figure);
 }
@@ -177,14 +178,14 @@ std::string sensor_kind(const std::string& name) {
   return is_sensor(last) ? name : "sensor " + name;
 }
 
-std::vector<PaperFile> scripts_of_runs(const std::vector<PaperRun>& runs) {
+std::vector<PaperFile> scripts_of_drives(const std::vector<PaperDrive>& drives) {
   std::vector<PaperFile> files;
-  for (const PaperRun& run : runs)
-    if (!run.kinds.empty()) files.push_back(positions(run));
-  const auto any = [&](auto has) { return std::any_of(runs.begin(), runs.end(), has); };
-  if (any([](const PaperRun& run) { return run.errors; })) files.push_back(errors(runs));
-  if (any([](const PaperRun& run) { return run.nees; })) files.push_back(nees(runs));
-  if (any([](const PaperRun& run) { return !run.ages.empty(); })) files.push_back(ages(runs));
+  for (const PaperDrive& drive : drives)
+    if (!drive.kinds.empty()) files.push_back(positions(drive));
+  const auto any = [&](auto has) { return std::any_of(drives.begin(), drives.end(), has); };
+  if (any([](const PaperDrive& drive) { return drive.errors; })) files.push_back(errors(drives));
+  if (any([](const PaperDrive& drive) { return drive.nees; })) files.push_back(nees(drives));
+  if (any([](const PaperDrive& drive) { return !drive.ages.empty(); })) files.push_back(ages(drives));
   return files;
 }
 

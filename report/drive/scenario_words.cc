@@ -1,9 +1,9 @@
-#include "report/run/scenario_words.h"
+#include "report/drive/scenario_words.h"
 
 #include "core/errors.h"
 #include "core/strict_yaml.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 
 ScenarioWords scenario_in(const recording::merge::MergedLogs& log) {
   ScenarioWords words;
@@ -27,4 +27,4 @@ ScenarioWords scenario_in(const recording::merge::MergedLogs& log) {
   return words;
 }
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

@@ -5,9 +5,9 @@
 
 #include "recording/exports/slot_status.h"
 #include "report/drawing/names.h"
-#include "report/run/tables.h"
+#include "report/drive/tables.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 namespace {
 
 std::string seconds_cell(const std::optional<double>& t) { return t ? fmt::format("{:.6f}", *t) : "-"; }
@@ -17,7 +17,7 @@ std::string seconds_cell(const std::optional<double>& t) { return t ? fmt::forma
 std::vector<page::PageTable> trouble_tables(const ToldDrive& told) {
   const drawing::Names names = told.drive->log ? drawing::names_of(told.drive->log->manifest()) : drawing::Names{};
   const std::string& label = told.drive->label;
-  const RunSeries& series = told.series;
+  const DriveSeries& series = told.series;
   page::PageTable faults{label + ": injected faults",
                          {"fault", "node", "begins [s]", "first acts [s]", "acts", "ends [s]", "its first act"},
                          {}};
@@ -43,4 +43,4 @@ std::vector<page::PageTable> trouble_tables(const ToldDrive& told) {
   return tables;
 }
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

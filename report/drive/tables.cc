@@ -1,4 +1,4 @@
-#include "report/run/tables.h"
+#include "report/drive/tables.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "report/drawing/figures.h"
 #include "report/drawing/tables.h"
 
-namespace ttf::report::run {
+namespace ttf::report::drive {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -70,7 +70,7 @@ constexpr std::pair<const char*, const char*> kTroubles[] = {{"/deadlines_missed
 // The drives of every seed that all strategies share, strategy by strategy.
 struct Repeated {
   std::vector<std::string> strategies;
-  std::vector<std::vector<const Drive*>> runs;  // by seed, then strategy
+  std::vector<std::vector<const Drive*>> drives;  // by seed, then strategy
 };
 std::map<std::string, Repeated> repeated(const std::vector<ToldDrive>& drives) {
   std::map<std::string, std::map<std::uint64_t, std::map<std::string, const Drive*>>> by_scenario;
@@ -82,21 +82,21 @@ std::map<std::string, Repeated> repeated(const std::vector<ToldDrive>& drives) {
     if (std::ranges::find(known, told.drive->strategy) == known.end()) known.push_back(told.drive->strategy);
   }
   for (auto& [scenario, one] : all)
-    for (const auto& [seed, runs] : by_scenario[scenario]) {
-      if (runs.size() != one.strategies.size()) continue;
-      std::vector<const Drive*>& row = one.runs.emplace_back();
-      for (const std::string& strategy : one.strategies) row.push_back(runs.at(strategy));
+    for (const auto& [seed, by_strategy] : by_scenario[scenario]) {
+      if (by_strategy.size() != one.strategies.size()) continue;
+      std::vector<const Drive*>& row = one.drives.emplace_back();
+      for (const std::string& strategy : one.strategies) row.push_back(by_strategy.at(strategy));
     }
-  std::erase_if(all, [](const auto& entry) { return entry.second.runs.size() < 2; });
+  std::erase_if(all, [](const auto& entry) { return entry.second.drives.size() < 2; });
   return all;
 }
 
 experiments::results::Interval interval(const Repeated& repeated, const char* pointer, std::size_t strategy,
                                         std::optional<std::size_t> against) {
   experiments::results::Moments moments;
-  for (const std::vector<const Drive*>& run : repeated.runs) {
-    const auto value = measure_at(*run[strategy], pointer);
-    const auto other = against ? measure_at(*run[*against], pointer) : 0.0;
+  for (const std::vector<const Drive*>& row : repeated.drives) {
+    const auto value = measure_at(*row[strategy], pointer);
+    const auto other = against ? measure_at(*row[*against], pointer) : 0.0;
     if (value && other) moments.add(*value - *other);
   }
   return experiments::results::interval_of(moments, kConfidence);
@@ -133,29 +133,30 @@ std::string single_answer(const std::vector<ToldDrive>& drives) {
   return text + ".";
 }
 
-std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
+std::string repeated_answer(const std::string& scenario, const Repeated& repeated) {
   const char* const pointer = kMeasureRows[0].pointer;
   std::size_t best = 0;
   std::vector<double> means;
-  for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
-    means.push_back(interval(runs, pointer, s, std::nullopt).mean);
+  for (std::size_t s = 0; s < repeated.strategies.size(); ++s) {
+    means.push_back(interval(repeated, pointer, s, std::nullopt).mean);
     if (!(means[best] <= means[s]) && std::isfinite(means[s])) best = s;  // the first may have no value
   }
   if (!std::isfinite(means[best]))
-    return fmt::format("Over {} runs of {}: No position was compared with the truth.", runs.runs.size(), scenario);
-  const experiments::results::Interval least = interval(runs, pointer, best, std::nullopt);
-  std::string text =
-      fmt::format("Over {} runs of {}, {} has the smallest position error on average: {} m (95 %)", runs.runs.size(),
-                  scenario, runs.strategies[best], drawing::with_interval(least.mean, least.half_width));
-  for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
+    return fmt::format("Over {} runs of {}: No position was compared with the truth.", repeated.drives.size(),
+                       scenario);
+  const experiments::results::Interval least = interval(repeated, pointer, best, std::nullopt);
+  std::string text = fmt::format("Over {} runs of {}, {} has the smallest position error on average: {} m (95 %)",
+                                 repeated.drives.size(), scenario, repeated.strategies[best],
+                                 drawing::with_interval(least.mean, least.half_width));
+  for (std::size_t s = 0; s < repeated.strategies.size(); ++s) {
     if (s == best) continue;
-    const experiments::results::Interval more = interval(runs, pointer, s, best);
+    const experiments::results::Interval more = interval(repeated, pointer, s, best);
     if (!std::isfinite(more.mean)) {
-      text += fmt::format("; {} has no value", runs.strategies[s]);
+      text += fmt::format("; {} has no value", repeated.strategies[s]);
       continue;
     }
     text +=
-        fmt::format("; {} {} m, {}", runs.strategies[s], drawing::with_interval(more.mean, more.half_width, true),
+        fmt::format("; {} {} m, {}", repeated.strategies[s], drawing::with_interval(more.mean, more.half_width, true),
                     drawing::verdict(more.mean, more.half_width) == "more" ? "for certain" : "which is not certain");
   }
   return text + ".";
@@ -227,23 +228,23 @@ page::PageTable measure_table(const std::vector<ToldDrive>& drives) {
 
 std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drives) {
   std::vector<page::PageTable> tables;
-  for (const auto& [scenario, runs] : repeated(drives)) {
+  for (const auto& [scenario, one] : repeated(drives)) {
     page::PageTable table{fmt::format("{}: means of {} runs, 95 % intervals; differences are paired, run by run",
-                                      scenario, runs.runs.size()),
+                                      scenario, one.drives.size()),
                           {"measure"},
                           {}};
-    for (const std::string& strategy : runs.strategies) table.header.push_back(strategy);
-    for (std::size_t s = 1; s < runs.strategies.size(); ++s)
-      table.header.push_back(fmt::format("{} − {}", runs.strategies[s], runs.strategies[0]));
+    for (const std::string& strategy : one.strategies) table.header.push_back(strategy);
+    for (std::size_t s = 1; s < one.strategies.size(); ++s)
+      table.header.push_back(fmt::format("{} − {}", one.strategies[s], one.strategies[0]));
     for (const std::size_t index : kRepeatedRows) {
       const MeasureRow& row = kMeasureRows[index];
       std::vector<std::string> cells{row.name};
-      for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
-        const experiments::results::Interval mean = interval(runs, row.pointer, s, std::nullopt);
+      for (std::size_t s = 0; s < one.strategies.size(); ++s) {
+        const experiments::results::Interval mean = interval(one, row.pointer, s, std::nullopt);
         cells.push_back(drawing::with_interval(mean.mean, mean.half_width));
       }
-      for (std::size_t s = 1; s < runs.strategies.size(); ++s) {
-        const experiments::results::Interval difference = interval(runs, row.pointer, s, 0);
+      for (std::size_t s = 1; s < one.strategies.size(); ++s) {
+        const experiments::results::Interval difference = interval(one, row.pointer, s, 0);
         cells.push_back(fmt::format("{} {}", drawing::with_interval(difference.mean, difference.half_width, true),
                                     drawing::verdict(difference.mean, difference.half_width)));
       }
@@ -254,17 +255,17 @@ std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drive
   return tables;
 }
 
-RunAnswer run_answer(const std::vector<ToldDrive>& drives) {
-  RunAnswer answer;
+DrivesAnswer answer_of(const std::vector<ToldDrive>& drives) {
+  DrivesAnswer answer;
   const auto several = repeated(drives);
   std::map<std::string, std::vector<ToldDrive>> by_scenario;
   for (const ToldDrive& told : drives) by_scenario[told.drive->scenario].push_back(told);
   bool single = false;
   for (const auto& [scenario, of_one] : by_scenario) {
     std::string& place = answer.answer.empty() ? answer.answer : answer.more.emplace_back();
-    const auto runs = several.find(scenario);
-    if (runs != several.end()) {
-      place = repeated_answer(scenario, runs->second);
+    const auto found = several.find(scenario);
+    if (found != several.end()) {
+      place = repeated_answer(scenario, found->second);
     } else {
       place = (by_scenario.size() > 1 ? scenario + ": " : "") + single_answer(of_one);
       single = single || of_one.size() > 1;
@@ -278,4 +279,4 @@ RunAnswer run_answer(const std::vector<ToldDrive>& drives) {
   return answer;
 }
 
-}  // namespace ttf::report::run
+}  // namespace ttf::report::drive

@@ -25,7 +25,7 @@ inline constexpr const char kAgesHead[] = "of,sensor,from_ms,to_ms,count\n";
 std::string sensor_kind(const std::string& name);
 
 // The content of a drive's tables; absent content is not drawn.
-struct PaperRun {
+struct PaperDrive {
   std::string label;  // names its files
   std::string title;
   std::vector<std::string> kinds;                         // of positions
@@ -36,6 +36,6 @@ struct PaperRun {
   double least_age_ms = 0, most_age_ms = 0;               // 0 is within this range
 };
 
-std::vector<PaperFile> scripts_of_runs(const std::vector<PaperRun>& runs);
+std::vector<PaperFile> scripts_of_drives(const std::vector<PaperDrive>& drives);
 
 }  // namespace ttf::report::paper
