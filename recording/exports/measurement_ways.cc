@@ -39,16 +39,21 @@ void MeasurementWays::run(NodeId node, TrueTime start, TrueTime end, const WayMa
 }
 
 void MeasurementWays::act(Act act) {
+  if (act.deed == Deed::kImage) fuses_.insert(act.node);
   if (act.deed == Deed::kUsed) act.writer = writer_of(act.node, act.image);
   acts_.push_back(std::move(act));
 }
 
-// Returns the writer of the list with this number that the user read last; kNoNode if unknown.
+// Returns the fusing node that wrote the list with this number that the user read last; kNoNode if unknown. A list
+// of another node may have the same number: it is no image, or an image that a gateway passes on.
 NodeId MeasurementWays::writer_of(NodeId user, std::uint32_t image) const {
   const auto lists = read_.find(user);
   if (lists == read_.end()) return kNoNode;
-  for (const auto& [pdu, sequence] : lists->second)
-    if (const auto writer = writers_.find(pdu); sequence == image && writer != writers_.end()) return writer->second;
+  for (const auto& [pdu, sequence] : lists->second) {
+    if (sequence != image) continue;
+    const auto writer = writers_.find(pdu);
+    if (writer != writers_.end() && fuses_.contains(writer->second)) return writer->second;
+  }
   return kNoNode;
 }
 
@@ -110,7 +115,6 @@ std::optional<WayMark> MeasurementWays::perform(const Act& act) {
 }
 
 void MeasurementWays::write_image(const Act& act, const Stop& stop) {
-  fuses_.insert(act.node);
   FollowedImage image{{act.at, act.node, act.image, {stop}}, {}, {}};
   for (const MeasurementId& id : act.ids) {
     const auto followed = ways_.find(id);
@@ -134,8 +138,7 @@ void MeasurementWays::send_image(const Act& act) {
 }
 
 void MeasurementWays::use_image(const Act& act, const Stop& stop) {
-  // A gateway that passes an image on writes none itself: then the number alone decides.
-  const bool known = fuses_.contains(act.writer);
+  const bool known = act.writer != kNoNode;  // otherwise the number alone decides
   const auto used = std::find_if(images_.rbegin(), images_.rend(), [&](const FollowedImage& one) {
     return one.image.sequence == act.image && (!known || one.image.node == act.writer);
   });

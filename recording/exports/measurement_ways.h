@@ -84,7 +84,7 @@ class MeasurementWays {
   void run(NodeId node, TrueTime start, TrueTime end, const WayMark& mark);
 
   // A node writes or reads a list that belongs to no sensor: it may be an image. A use names the image's number alone;
-  // the user's last reads and their writers identify the image.
+  // the user's last reads identify the image, by their writers that fuse.
   void wrote(NodeId node, PduId pdu) { writers_[pdu] = node; }
   void read(NodeId node, PduId pdu, std::uint32_t sequence) { read_[node][pdu] = sequence; }
 
@@ -154,7 +154,7 @@ class MeasurementWays {
   Ways ways_;
   std::deque<std::pair<TrueTime, MeasurementId>> begun_;  // in order; includes those that have ended
   std::deque<FollowedImage> images_;
-  std::set<NodeId> fuses_;                                 // nodes that wrote images
+  std::set<NodeId> fuses_;                                 // nodes that have written images
   std::map<PduId, NodeId> writers_;                        // of lists that belong to no sensor
   std::map<NodeId, std::map<PduId, std::uint32_t>> read_;  // the last number of each list, by reader
   std::map<NodeId, std::deque<Run>> runs_;

@@ -55,6 +55,20 @@ TEST(MeasurementWays, OfEachListTheLastOneReadCounts) {
   EXPECT_EQ(cluster.used(), (std::vector<NodeId>{cluster.kSecond}));
 }
 
+// Another service's list, or one that a gateway passes on, may have the image's number. Its writer does not fuse.
+TEST(MeasurementWays, AListOfANodeThatDoesNotFuseIsNoImage) {
+  TwoFusionNodes cluster;
+  constexpr NodeId kService{3};
+  constexpr PduId kWarnings{3};
+  cluster.ways.wrote(kService, kWarnings);
+  cluster.write(cluster.kFirst, cluster.kOfFirst, 7, 1);
+  cluster.write(cluster.kSecond, cluster.kOfSecond, 7, 2);
+  cluster.ways.read(cluster.kUser, kWarnings, 7);
+  cluster.ways.read(cluster.kUser, cluster.kOfFirst, 7);
+  cluster.use(7, 3);
+  EXPECT_EQ(cluster.used(), (std::vector<NodeId>{cluster.kFirst}));
+}
+
 // A part of a log may lack the hops. For lists that a gateway passes on, the gateway is the writer.
 TEST(MeasurementWays, WhereTheWriterIsNotToldTheNumberDecides) {
   for (const bool by_gateway : {false, true}) {
