@@ -31,16 +31,19 @@ void Wiring::connect(const schedules::model::Cluster& cluster, const schedules::
   TaskPorts& ports = tasks_.emplace_back();
   for (const schedules::model::PortBinding& port : task.reads) {
     ListMedium* const lists = find(port.medium);
+    TTF_CHECK(lists != nullptr, "task {} reads from medium {}, which its node is not on", index, port.medium.number());
     Route* route = find_route(port.medium, port.pdu);
     if (route == nullptr) route = &routes_.emplace_back(Route{port.medium, port.pdu, {}, {}});
     route->readers.push_back({index, ports.inputs.size()});
     if (activates(task, port)) route->sets_off.push_back(index);
     ports.inputs.push_back({port.port, port.pdu, &cluster.pdu(port.pdu), std::nullopt, false});
-    ports.sources.push_back({port.medium, lists != nullptr ? &lists->incoming(port.pdu) : nullptr, std::nullopt});
+    ports.sources.push_back({port.medium, lists->incoming(port.pdu), std::nullopt});
   }
   for (const schedules::model::PortBinding& port : task.writes) {
+    ListMedium* const lists = find(port.medium);
+    TTF_CHECK(lists != nullptr, "task {} writes to medium {}, which its node is not on", index, port.medium.number());
     ports.outputs.emplace_back(port.port, port.pdu, cluster.pdu(port.pdu));
-    ports.drains.push_back({port.medium, find(port.medium)});
+    ports.drains.push_back({port.medium, *lists});
   }
 }
 
@@ -49,10 +52,8 @@ std::span<Input> Wiring::read(std::size_t task, const recording::records::Stamp&
   for (std::size_t i = 0; i < ports.inputs.size(); ++i) {
     Input& input = ports.inputs[i];
     Source& source = ports.sources[i];
-    TTF_CHECK(source.list != nullptr, "task {} reads from medium {}, which its node is not on", task,
-              source.medium.number());
-    input.list = source.list->latest();
-    input.fresh = source.list->mark_read();
+    input.list = source.list.latest();
+    input.fresh = source.list.mark_read();
     input.discarded = false;
     source.unread.reset();
     if (input.fresh) records_.hop(at, recording::records::Hop::kRead, input.pdu, input.list->sequence, source.medium);
@@ -77,10 +78,8 @@ void Wiring::write(std::size_t task, const recording::records::Stamp& at) {
     records_.counts().saturated_signals += static_cast<std::uint64_t>(output.take_saturated());
     if (!output.written()) continue;
     const Drain& drain = ports.drains[o];
-    TTF_CHECK(drain.lists != nullptr, "task {} writes to medium {}, which its node is not on", task,
-              drain.medium.number());
     records_.hop(at, recording::records::Hop::kWritten, output.pdu(), output.view().sequence, drain.medium);
-    drain.lists->send(output.pdu(), output.view());
+    drain.lists.send(output.pdu(), output.view());
     output.clear();
   }
 }

@@ -43,7 +43,7 @@ struct ListArrival {
 
 class Wiring {
  public:
-  // `cluster`, `time` and `records` outlive this. A task that uses a port to a medium outside `media` stops the program when it does so.
+  // `cluster`, `time` and `records` outlive this. A task with a port to a medium outside `media` stops the program.
   Wiring(const schedules::model::Cluster& cluster, const schedules::model::Node& node, std::vector<Connection> media,
          const NodeTime& time, NodeRecords& records);
 
@@ -61,12 +61,12 @@ class Wiring {
  private:
   struct Source {
     schedules::model::MediumId medium;
-    bus::cni::IncomingList* list = nullptr;
+    bus::cni::IncomingList& list;
     std::optional<std::uint32_t> unread;  // complete, not read yet
   };
   struct Drain {
     schedules::model::MediumId medium;
-    ListMedium* lists = nullptr;
+    ListMedium& lists;
   };
   struct TaskPorts {
     std::vector<Input> inputs;
