@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/check.h"
+
 namespace ttf::keys {
 namespace {
 
@@ -75,6 +77,8 @@ class MappingOutline {
   // The condition of one branch; without an answer, of all answers that have no branch.
   Condition condition(const Decision& decision, const std::vector<std::size_t>& branches,
                       const KeyValue* answer) const {
+    TTF_CHECK(decision.question.type != KeyType::kIsMap, "whether {} is a mapping decides which other keys there are",
+              decision.question.path());
     Condition condition;
     condition.key = decision.question.key;
     if (decision.question.type == KeyType::kIsThere) condition.of = Condition::Of::kPresence;

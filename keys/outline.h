@@ -44,6 +44,7 @@ struct Outline {
   const Mapping* find(const std::string& path) const;
 };
 
+// A key that is a word or a mapping must not decide which other keys its own mapping has: no condition says that.
 Outline outline(const Exploration& exploration);
 
 }  // namespace ttf::keys

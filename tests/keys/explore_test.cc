@@ -126,6 +126,20 @@ TEST(Explore, AWordOrAMapping) {
   EXPECT_THAT(cases(found, "start"), ElementsAre("-> v"));
 }
 
+// No condition could say it.
+TEST(Explore, AWordOrAMappingDecidesNoOtherKeys) {
+  const auto decides = [](YamlMap& m) {
+    YamlMap bus = m.map("bus");
+    if (bus.is_map("start")) {
+      bus.map("start").integer("v", {0, 1});
+      bus.integer("a", {1, 9});
+    } else {
+      bus.choice<int>("start", {{"cold", 0}});
+    }
+  };
+  EXPECT_DEATH(outline_of(decides), "whether bus.start is a mapping decides which other keys there are");
+}
+
 TEST(Explore, AKeyThatIsOnlyRefusedIsNone) {
   const Outline found = outline_of([](YamlMap& m) {
     m.integer("a", {1, 9});
