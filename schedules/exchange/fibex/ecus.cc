@@ -65,8 +65,9 @@ void read_attachment(XmlElement& connector, const ChannelIds& channels, unsigned
                      FibexReader& reader) {
   const bool wakes = connector.has("flexray:WAKE-UP-CHANNEL");
   const bool wakeup = reader.boolean(connector, "flexray:WAKE-UP-CHANNEL", false);
-  const auto channel = channels.find(connector.reference("fx:CHANNEL-REF"));
-  if (channel == channels.end()) return;
+  const std::string on = connector.reference("fx:CHANNEL-REF");
+  const auto channel = channels.find(on);
+  if (on.empty() || channel == channels.end()) return;
   attached |= 1u << static_cast<unsigned>(channel->second);
   if (!wakes) return;
   if (wakeup && out.given.contains("pWakeupChannel") && out.parameters.pWakeupChannel != channel->second)

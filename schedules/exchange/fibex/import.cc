@@ -122,7 +122,10 @@ class Importer {
       return out(fmt::format("slot {}", one.slot), "is left out: it is beyond the static slots and the minislots");
     if ((one.repetition & (one.repetition - 1)) != 0)
       return out(fmt::format("repetition {}", one.repetition), "is left out: cycles repeat by a power of two");
-    if (senders_.count(one.id) == 0) return out(one.id, "is left out: no ECU sends it");
+    const auto sender = senders_.find(one.id);
+    if (sender == senders_.end()) return out(one.id, "is left out: no ECU sends it");
+    if (!model::includes(ecus_[index_of(sender->second)]->parameters.pChannels, one.channel))
+      return out(one.id, "is left out: its sender has no connector to its channel");
     return true;
   }
 

@@ -415,6 +415,25 @@ TEST(FibexImport, TheChannelsAreThoseTheClusterRefersTo) {
   EXPECT_THAT(sentences(import.left_out), HasSubstr("X: is on no channel of the first FlexRay cluster"));
 }
 
+// A node cannot send where it is not attached, and no exported file could say that it does.
+TEST(FibexImport, AFrameOnAChannelWithoutItsSenderIsLeftOut) {
+  const std::string apart =
+      replaced(kPowertrain, "<fx:CONNECTOR ID=\"E2A\">", "<fx:CONNECTOR ID=\"E2A\"><fx:CHANNEL-REF ID-REF=\"B\"/>");
+  const FibexImport import = parse_fibex(apart, "demo.xml");
+  EXPECT_EQ(import.cluster.nodes[1].flexray->pChannels, model::Channels::kB);
+  EXPECT_THAT(sentences(import.left_out),
+              HasSubstr("FRAME-TRIGGERING = ft1: is left out: its sender has no connector to its channel"));
+  ASSERT_EQ(import.cluster.frames.size(), 2u);
+  EXPECT_EQ(import.cluster.frames[1].slot, 13);
+  EXPECT_EQ(import.cluster.frames[1].channels, model::Channels::kB);
+}
+
+// An ID is required. A connector without a channel is not on a channel that lacks its ID.
+TEST(FibexImport, AMissingReferenceIsNoReferenceToAMissingId) {
+  const std::string without = replaced(kPowertrain, "<fx:CHANNEL ID=\"B\"", "<fx:CHANNEL");
+  EXPECT_EQ(parse_fibex(without, "demo.xml").cluster.nodes[1].flexray->pChannels, model::Channels::kAB);
+}
+
 TEST(FibexImport, DamagedXmlIsRefusedInOneSentenceWithItsLine) {
   const std::string text = kPowertrain;
   const int lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
