@@ -16,7 +16,7 @@ std::optional<std::string> why_absent(const NodeAtEnd& node) {
   if (!node.ending) return "never started";
   if (!node.ending->success()) return node.ending->text();
   if (!node.on_flexray || node.state == bus::poc::to_text(bus::poc::PocKind::kNormalActive)) return std::nullopt;
-  return node.state.empty() ? "in a state that it never told" : node.state;
+  return node.state.empty() ? "no state reported" : node.state;
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ int tell_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::Str
   const bool failed = end.nobody && exit_code == 0;
   if (!absent.empty()) fmt::print(stderr, "{}: {}\n", failed ? "error" : "warning", absent);
   if (result != nullptr && result->summary.uses == result->summary.stale_uses)
-    print_warnings(fmt::format("no image was used from {} s on, where the drive is evaluated: nothing is compared",
+    print_warnings(fmt::format("no current image was used from {} s on (evaluate_from): there is nothing to evaluate",
                                scaled_text(set.scenario.evaluate_from.ns, 1'000'000'000)));
   folder.set(kNotInOperation, end.json());
   if (failed)
@@ -145,22 +145,20 @@ int run_launch(const LaunchArguments& arguments) {
 
 void add_launch(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<LaunchArguments>();
-  CLI::App* command = app.add_subcommand("launch", "The node set as separate processes, supervised");
+  CLI::App* command = app.add_subcommand("launch", "A drive with a process for each node, under a supervisor");
   command->footer(
       "Example: ttfusion launch scenarios/paper_scenario1.yaml --virtual-time --policy feature=optional --dry-run");
   add_node_set_options(*command, arguments->set);
   command
       ->add_option("--policy", arguments->policies,
-                   "NODE=required (default), NODE=restart or NODE=optional; for each node once")
+                   "NODE=required (default), NODE=restart or NODE=optional; once for each node")
       ->allow_extra_args(false);
-  command->add_flag("--dry-run", arguments->dry_run,
-                    "Only say what would be started, and whether what it needs is there");
+  command->add_flag("--dry-run", arguments->dry_run, "Show the plan and whether its needs are met, but start nothing");
   command
-      ->add_option("--out", arguments->set.out,
-                   "Folder of the run: logs, output, manifest (default: out/<scenario>/launch)")
+      ->add_option("--out", arguments->set.out, "Folder for logs, output and manifest (default: out/<scenario>/launch)")
       ->check(kNamed);
   command->add_flag("--json", arguments->json, "Summary, or with --dry-run the plan, as JSON on standard output");
-  command->add_flag("--no-pictures", arguments->no_pictures, "Leave logs and tables only");
+  command->add_flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
   command->callback([arguments, command, &action] {
     arguments->session_given = command->count("--session") > 0;
     action = [arguments] { return run_launch(*arguments); };

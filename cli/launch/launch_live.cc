@@ -52,7 +52,7 @@ supervision::Hooks LiveLaunch::hooks() {
   };
   hooks.on_done = [this](std::size_t, const nlohmann::json& facts) {
     if (!facts.is_object() || !facts.contains("counts"))
-      throw std::runtime_error("a node's outcome that is none: it has no counts");
+      throw std::runtime_error("the outcome of a node has no counts");
     node_set::add_counts(outcome_.counts, facts["counts"]);
   };
   return hooks;

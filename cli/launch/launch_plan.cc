@@ -55,7 +55,7 @@ void refuse_restart_in_virtual_time(const LaunchPlan& plan) {
   for (const supervision::NodeSpec& node : plan.nodes)
     if (plan.set.virtual_time && node.policy == supervision::Policy::kRestart)
       throw InputError({"command line", 0, "--policy", node.name + "=restart",
-                        "must not be given with --virtual-time: the other nodes would not wait for it to catch up"});
+                        "must not be given with --virtual-time: the other nodes do not wait for a restarted one"});
 }
 
 }  // namespace

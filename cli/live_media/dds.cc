@@ -13,8 +13,8 @@ namespace {
 std::vector<supervision::PreflightItem> look_at_loopback(const std::vector<std::string>&,
                                                          const std::vector<PrivateCan>&) {
   const bus::socketcan::InterfaceState lo = bus::socketcan::interface_state("lo");
-  if (!lo.there) return {{"lo", false, "is not there: DDS has no loopback interface to run over", {}}};
-  if (!lo.up) return {{"lo", false, "is down: DDS runs over loopback", {"ip link set lo up"}}};
+  if (!lo.there) return {{"lo", false, "is not there: DDS needs the loopback interface", {}}};
+  if (!lo.up) return {{"lo", false, "is down: DDS needs the loopback interface", {"ip link set lo up"}}};
   return {{"lo", true, "is up: DDS runs over loopback", {}}};
 }
 

@@ -22,7 +22,7 @@ namespace ttf::cli::live_media {
 namespace {
 
 [[noreturn]] void fail(const char* what) {
-  throw std::runtime_error(fmt::format("DDS: cannot be tried: {}: {}", what, std::strerror(errno)));
+  throw std::runtime_error(fmt::format("the DDS configuration cannot be tested: {}: {}", what, std::strerror(errno)));
 }
 
 // Tries to join and exits: code 0 on success.
@@ -69,8 +69,8 @@ void check_dds_configuration() {
     if (errno != EINTR) fail("waitpid");
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   throw InputError({"environment", 0, "CYCLONEDDS_URI", uri,
-                    fmt::format("must be a configuration that Cyclone DDS can run with here (bus/dds/loopback.xml is "
-                                "one), but it says: {}",
+                    fmt::format("must be a configuration that Cyclone DDS accepts on this machine, such as "
+                                "bus/dds/loopback.xml; Cyclone DDS says: {}",
                                 said.empty() ? "nothing" : words_of(std::move(said)))});
 }
 

@@ -66,12 +66,12 @@ const LiveMediumRow kSocketCan{
     .expectation = "socketcan: with one or two different interfaces, as in socketcan:vcan0,vcan1",
     .least_interfaces = 1,
     .most_interfaces = 2,
-    .not_in_virtual_time = "on CAN no node can promise to be silent until an instant",
+    .not_in_virtual_time = "a CAN does not carry the nodes' promises to be silent",
     .needs_dds = false,
     .look_at = look_at_cans,
     .way_out =
-        "without any CAN: --bus dds (the default); CANs on a kernel of one's own, without root: "
-        "tools/test_bed.sh (docs/socketcan_use.md)",
+        "to do without CANs: --bus dds (the default); to have CANs without root: tools/test_bed.sh "
+        "(docs/socketcan_use.md)",
     .make = make_socketcan,
 };
 

@@ -29,24 +29,24 @@ int run_node(const NodeArguments& arguments) {
 void add_node(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<NodeArguments>();
   CLI::App* command =
-      app.add_subcommand("node", "One node's process: what launch starts, and what is started by hand on other hosts");
+      app.add_subcommand("node", "One node as a process, started by launch, or by hand on other machines");
   command->footer(
       "Examples: ttfusion node fusion scenarios/paper_scenario1.yaml --virtual-time --out out/nodes\n"
       "          ttfusion node fusion scenarios/paper_scenario1.yaml --bus socketcan:can0,can1 \\\n"
       "            --can laser_can=can2 --can camera_can=can3 --can observation_can=can4 \\\n"
       "            --start-at $(($(date +%s) + 10)) --time-scale 4");
-  command->add_option("name", arguments->name, "The node, by its name in the cluster file")->required();
+  command->add_option("name", arguments->name, "Name of the node in the cluster file")->required();
   add_node_set_options(*command, arguments->set);
   command->add_option("--start-at", arguments->set.start_at,
-                      "UTC seconds since 1970 at which all nodes begin, where they have no supervisor; real time only");
+                      "Start of the drive, in UTC seconds since 1970, for nodes without a supervisor; real time only");
   command->add_flag("--rejoin", arguments->set.rejoin,
-                    "Begin cold and integrate into the cluster that runs; real time only");
+                    "Begin cold and integrate into the running cluster; real time only");
   command->add_option("--host", arguments->set.host,
-                      "Name of the clock that this process goes by, the same for all on one host and for no others "
-                      "(default: the host's name); real time only");
+                      "Name of this machine's clock, the same for all its processes and for no others (default: the "
+                      "machine's name); real time only");
   command->add_option("--out", arguments->set.out, "Folder for the node's log (default: out/<scenario>/launch)")
       ->check(kNamed);
-  command->add_flag("--json", arguments->json, "What came of it as JSON on standard output");
+  command->add_flag("--json", arguments->json, "Outcome as JSON on standard output");
   command->callback([arguments, &action] { action = [arguments] { return run_node(*arguments); }; });
 }
 

@@ -75,15 +75,15 @@ void check_told_start(const node_set::NodeSet& set) {
   if (!set.start_at_ns)
     throw InputError(
         {"command line", 0, "--start-at", "",
-         "must be given to a node in real time that has no supervisor: the instant, as UTC seconds since 1970, "
-         "at which the drive begins or, with --rejoin, began for all its nodes"});
+         "must be given to a node without a supervisor, in real time: the start of the drive for all its nodes, in "
+         "UTC seconds since 1970; with --rejoin it may be past"});
 }
 
 Start told_start(const node_set::NodeSet& set) {
   const bus::ports::MachineTime origin = from_utc(*set.start_at_ns);
   if (!set.rejoin && origin < bus::ports::host_now())
     throw InputError({"command line", 0, "--start-at", scaled_text(*set.start_at_ns, 1'000'000'000),
-                      "must be ahead: who comes into a drive that is under way is given --rejoin, too"});
+                      "must be in the future; a node that joins a running drive needs --rejoin, too"});
   return {origin, set.rejoin};
 }
 
@@ -92,18 +92,18 @@ void tell_wait(const Start& start) {
   const Duration ahead = start.origin - bus::ports::host_now();
   if (ahead.ns > 0)
     fmt::print(stderr, "the drive begins in {:.1f} s (--start-at){}\n", ahead.seconds(),
-               start.rejoins ? ": until then there is no cluster to rejoin" : "");
+               start.rejoins ? "; --rejoin finds no cluster before that" : "");
 }
 
 // Waits for the supervisor's start.
 Start start_of(supervision::ControlLine& supervisor) {
   supervisor.ready();
   const auto facts = supervisor.wait_for_start();
-  if (!facts) throw std::runtime_error("the supervisor has gone before the start");
+  if (!facts) throw std::runtime_error("the supervisor ended before the start");
   try {
     return {{facts->at("origin_ns").get<std::int64_t>()}, facts->at("rejoin").get<bool>()};
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(fmt::format("a start message that is none: {}", error.what()));
+    throw std::runtime_error(fmt::format("the supervisor sent an invalid start message: {}", error.what()));
   }
 }
 
@@ -114,7 +114,7 @@ std::string free_log(const NodeOptions& options) {
   std::string free = options.log;
   for (int n = 2; std::filesystem::exists(free); ++n)
     free = (path.parent_path() / fmt::format("{}.{}{}", path.stem().string(), n, path.extension().string())).string();
-  if (free != options.log) fmt::print(stderr, "{} is there already: this log is {}\n", options.log, free);
+  if (free != options.log) fmt::print(stderr, "{} exists already: this log is {}\n", options.log, free);
   return free;
 }
 

@@ -32,7 +32,7 @@ int run_node_virtual(const NodeOptions& options) {
   const auto take_log = [&] {
     if (!supervisor && !log && !(log = supervision::FileLock::take(options.log)))
       throw InputError({"command line", 0, "--out", set.folder,
-                        fmt::format("must be another folder: {} is being written", options.log)});
+                        fmt::format("must be another folder: another process writes {}", options.log)});
   };
   if (std::filesystem::exists(options.log)) take_log();
   bus::dds::exchange::Exchange exchange(session_of(set, supervisor.has_value()), options.node);
@@ -40,7 +40,7 @@ int run_node_virtual(const NodeOptions& options) {
   take_log();
   if (supervisor) {
     supervisor->ready();
-    if (!supervisor->wait_for_start()) throw std::runtime_error("the supervisor has gone before the start");
+    if (!supervisor->wait_for_start()) throw std::runtime_error("the supervisor ended before the start");
   }
   const drive::Recording none;
   const node_set::NodeDrive drive{&set.scenario, &set.cluster, set.strategy, set.seed,

@@ -28,8 +28,9 @@ std::map<std::string, std::string> interfaces_by_name(const schedules::model::Cl
     if (std::ranges::find(cluster.can_buses, name, &schedules::model::CanBus::name) == cluster.can_buses.end()) {
       std::vector<std::string> names;
       for (const schedules::model::CanBus& bus : cluster.can_buses) names.push_back(bus.name);
-      throw refused(option, fmt::format("must name a CAN of {}: {}", cluster.file,
-                                        names.empty() ? "it has none" : fmt::format("{}", fmt::join(names, ", "))));
+      throw refused(option, names.empty()
+                                ? fmt::format("must not be given: {} has no CAN", cluster.file)
+                                : fmt::format("must name a CAN of {}: {}", cluster.file, fmt::join(names, ", ")));
     }
     if (!named.emplace(name, interface).second) throw refused(option, "must be given once for each CAN");
   }
@@ -42,8 +43,9 @@ std::vector<std::string> can_interfaces(const schedules::model::Cluster& cluster
                                         const std::vector<std::string>& given) {
   if (!bus.medium->has_interfaces()) {
     if (!given.empty())
-      throw refused(given.front(), fmt::format("goes with --bus {} only: elsewhere private CANs have no interfaces",
-                                               live_media::forms_with_interfaces()));
+      throw refused(given.front(),
+                    fmt::format("goes with --bus {} only: other buses have no interfaces for private CANs",
+                                live_media::forms_with_interfaces()));
     return {};
   }
   const auto named = interfaces_by_name(cluster, given);
@@ -56,11 +58,11 @@ std::vector<std::string> can_interfaces(const schedules::model::Cluster& cluster
     const std::string interface = own == named.end() ? can.name : own->second;
     if (!live_media::is_interface_name(interface))
       throw InputError({cluster.file, can.line, fmt::format("can.{}", can.name), "",
-                        fmt::format("needs --can NAME=IF on SocketCAN, as its own name is none of an interface ({})",
+                        fmt::format("needs --can NAME=IF on SocketCAN, as its name cannot be an interface's ({})",
                                     live_media::kInterfaceNames)});
     if (const auto [user, only] = users.emplace(interface, can.name); !only)
       throw refused(fmt::format("{}={}", can.name, interface),
-                    fmt::format("must be another interface than that of {}", user->second));
+                    fmt::format("must differ from the interface of {}", user->second));
     interfaces.push_back(interface);
   }
   return interfaces;

@@ -47,7 +47,7 @@ void add_counts(ExecutiveCounts& sum, const nlohmann::json& one) {
   try {
     for (const auto& [name, member] : kCounts) sum.*member += one.at(name).get<std::uint64_t>();
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(std::string("a node's counts that are none: ") + error.what());
+    throw std::runtime_error(std::string("a node sent invalid counts: ") + error.what());
   }
 }
 
@@ -66,7 +66,7 @@ void add_outcome(drives::DriveOutcome& sum, const nlohmann::json& one) {
     sum.can_load = one.at("can_load").get<std::vector<double>>();
     sum.frames_sent = one.at("frames_sent").get<std::uint64_t>();
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(std::string("a node's outcome that is none: ") + error.what());
+    throw std::runtime_error(std::string("a node sent an invalid outcome: ") + error.what());
   }
 }
 

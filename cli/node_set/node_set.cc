@@ -93,7 +93,7 @@ std::string host_option(const std::string& host) {
   const auto printable = [](unsigned char c) { return c > 0x20 && c < 0x7f; };
   if (host.empty() || host.size() > kLongestHost || !std::all_of(host.begin(), host.end(), printable))
     throw InputError({"command line", 0, "--host", host,
-                      fmt::format("must be 1..{} letters, digits or signs, without blanks", kLongestHost)});
+                      fmt::format("must be 1..{} printable ASCII characters without blanks", kLongestHost)});
   return host;
 }
 
@@ -104,13 +104,14 @@ void refuse_other_time(const NodeSetArguments& arguments, const live_media::Bus&
   };
   if (!arguments.virtual_time) return;
   if (arguments.time_scale)
-    refuse("--time-scale", *arguments.time_scale, "not be given with --virtual-time, which has no pace");
+    refuse("--time-scale", *arguments.time_scale, "not be given with --virtual-time, which runs as fast as it can");
   if (arguments.start_at)
-    refuse("--start-at", *arguments.start_at, "not be given with --virtual-time, which begins when all are there");
+    refuse("--start-at", *arguments.start_at,
+           "not be given with --virtual-time, which begins when all nodes are ready");
   if (arguments.rejoin)
-    refuse("--rejoin", "", "not be given with --virtual-time: the other nodes would not wait for it to catch up");
+    refuse("--rejoin", "", "not be given with --virtual-time: the other nodes do not wait for a late one");
   if (arguments.host)
-    refuse("--host", *arguments.host, "not be given with --virtual-time, where no host's clock counts");
+    refuse("--host", *arguments.host, "not be given with --virtual-time, which uses no machine's clock");
   if (const std::string_view why = bus.medium->not_in_virtual_time; !why.empty())
     refuse("--bus", arguments.bus,
            fmt::format("be {} with --virtual-time: {}", live_media::kLiveMedia.front()->name, why));
@@ -121,7 +122,7 @@ void check_fit_for_real_time(const NodeSet& set) {
     throw InputError(std::move(findings));
   if (!set.scenario.faults.empty())
     throw InputError({set.scenario.file, set.scenario.faults.faults.front().line, "faults", "",
-                      "must be run in virtual time: only there faults can be injected"});
+                      "need --virtual-time: faults are injected in virtual time only"});
   const bool a_alone = !set.bus.carries(schedules::model::Channel::kB);
   for (const schedules::model::FrameSlot& frame : set.cluster.frames)
     if (a_alone && frame.channels == schedules::model::Channels::kB)
@@ -142,12 +143,13 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
   command.add_option("--bus", arguments.bus, live_media::bus_help());
   command
       .add_option("--can", arguments.cans,
-                  "NAME=IF: the interface of a private CAN on socketcan, for each once (default: IF is its NAME)")
+                  "NAME=IF: the interface of a private CAN on socketcan, once for each (default: its NAME)")
       ->allow_extra_args(false);
   command.add_option(
       "--session", arguments.session,
-      "Name that all nodes of one drive share on dds, and no others (default: ttfusion; launch: its own)");
-  command.add_flag("--virtual-time", arguments.virtual_time, "As fast as the processes can, instead of in real time");
+      "Name of the drive on dds, for all its nodes and no others (default: ttfusion; launch: a new one)");
+  command.add_flag("--virtual-time", arguments.virtual_time,
+                   "Drive in virtual time, as fast as possible, instead of in real time");
   command.add_flag("--no-topics", arguments.no_topics, "Publish nothing for ROS 2 (docs/ros.md) in real time");
   command.add_option("--time-scale", arguments.time_scale, "Stretch the schedule in real time, 0.1..1000");
   command.add_option("--duration", arguments.duration, "Seconds to drive, instead of the scenario's");
@@ -178,9 +180,8 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
     set.cluster = drive::checked_cluster(set.scenario, set.strategy);
   }
   if (drives::is_recorded(set.cluster))
-    throw InputError(
-        {set.file, 0, "clusters", set.cluster.file,
-         "must be a cluster with sensors: a recording is played by `ttfusion run --input`, in one process"});
+    throw InputError({set.file, 0, "clusters", set.cluster.file,
+                      "must be a cluster with sensors; recordings are for `ttfusion run --input`"});
   set.seed = arguments.seed ? drive::seed_of(*arguments.seed) : set.scenario.seed;
   if (arguments.duration) set_duration(set.scenario, drive, *arguments.duration);
   drives::check_fits(set.scenario, set.cluster, set.strategy, false);

@@ -46,22 +46,23 @@ void fill_standard_descriptors() {
 // Opening the slave through its master, not by its path, is right in any mount namespace.
 Pair raw_terminal() {
   Pair pair;
-  pair.ours = Descriptor(checked(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK), "no pseudo terminal"));
-  checked(unlockpt(pair.ours.get()), "no pseudo terminal");
-  pair.childs =
-      Descriptor(checked(ioctl(pair.ours.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY | O_CLOEXEC), "no pseudo terminal"));
+  pair.ours =
+      Descriptor(checked(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK), "cannot open a pseudo terminal"));
+  checked(unlockpt(pair.ours.get()), "cannot open a pseudo terminal");
+  pair.childs = Descriptor(
+      checked(ioctl(pair.ours.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY | O_CLOEXEC), "cannot open a pseudo terminal"));
   termios settings{};
-  checked(tcgetattr(pair.childs.get(), &settings), "pseudo terminal");
+  checked(tcgetattr(pair.childs.get(), &settings), "cannot set up a pseudo terminal");
   cfmakeraw(&settings);
-  checked(tcsetattr(pair.childs.get(), TCSANOW, &settings), "pseudo terminal");
+  checked(tcsetattr(pair.childs.get(), TCSANOW, &settings), "cannot set up a pseudo terminal");
   return pair;
 }
 
 Pair control_line() {
   int ends[2];
-  checked(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends), "no socket pair");
+  checked(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends), "cannot open a socket pair");
   Pair pair{Descriptor(ends[0]), Descriptor(ends[1])};
-  checked(fcntl(ends[0], F_SETFL, O_NONBLOCK), "socket pair");  // the child waits on its own end
+  checked(fcntl(ends[0], F_SETFL, O_NONBLOCK), "cannot set up a socket pair");  // the child waits on its own end
   return pair;
 }
 
@@ -138,7 +139,7 @@ Child::Child(const ChildCommand& command) {
   Pair control = control_line();
   const Descriptor nothing(checked(open("/dev/null", O_RDONLY | O_CLOEXEC), "/dev/null"));
   int pipe_ends[2];
-  checked(pipe2(pipe_ends, O_CLOEXEC), "no pipe");
+  checked(pipe2(pipe_ends, O_CLOEXEC), "cannot open a pipe");
   const Descriptor report(pipe_ends[0]);
   Descriptor report_in(pipe_ends[1]);
 
@@ -156,7 +157,7 @@ Child::Child(const ChildCommand& command) {
                       report_in.get(),
                       nothing.get(),
                       getpid()};
-  pid_ = checked(fork(), "no further process");
+  pid_ = checked(fork(), "cannot start a process");
   if (pid_ == 0) pad.run();
   report_in.close();
   // By its number, because the header of glibc 2.36 declares the function without C linkage.
@@ -168,7 +169,7 @@ Child::Child(const ChildCommand& command) {
   if (no_watch == 0 && reason == 0) return;
   kill(pid_, SIGKILL);
   waitpid(pid_, nullptr, 0);
-  if (reason == 0) throw std::runtime_error(fmt::format("no pidfd: {}", std::strerror(no_watch)));
+  if (reason == 0) throw std::runtime_error(fmt::format("cannot open a pidfd: {}", std::strerror(no_watch)));
   throw StartFailure(fmt::format("{}: cannot be started: {}", command.arguments[0], std::strerror(reason)),
                      {false, reason == ENOENT ? 127 : 126});
 }

@@ -36,9 +36,9 @@ std::string number_in(const std::string& path) {
 
 [[noreturn]] void refuse(const std::string& folder) {
   const std::string holder = number_in(lock_file(folder));  // empty if the holder has not written it yet
-  throw InputError({"command line", 0, "--out", folder,
-                    fmt::format("must be another folder: it is of a launch that still runs{}",
-                                holder.empty() ? "" : ", process " + holder)});
+  throw InputError(
+      {"command line", 0, "--out", folder,
+       fmt::format("must be another folder: a running launch uses it{}", holder.empty() ? "" : ", process " + holder)});
 }
 
 }  // namespace

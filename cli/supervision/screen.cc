@@ -37,7 +37,7 @@ void Screen::line(std::string_view text, std::string_view plain) {
 
 void Screen::admit_gap() {
   if (gap_ == 0) return;
-  queue_ += fmt::format("[{} lines left out: what reads this is too slow]\n", gap_);
+  queue_ += fmt::format("[{} lines left out: the reader is too slow]\n", gap_);
   gap_ = 0;
 }
 

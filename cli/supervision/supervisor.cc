@@ -108,7 +108,7 @@ void Supervisor::take_signals() {
     }
     const std::string why = *signal == SIGINT    ? "interrupted (SIGINT)"
                             : *signal == SIGTERM ? "SIGTERM"
-                                                 : "the terminal is gone (SIGHUP)";
+                                                 : "the terminal was closed (SIGHUP)";
     interruption_ = Outcome{128 + *signal, why};
     stop(why);
   }

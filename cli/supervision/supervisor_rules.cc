@@ -37,7 +37,7 @@ void Supervisor::record(const std::function<void()>& write) {
     write();
   } catch (const std::exception& error) {
     folder_fails_ = true;
-    say(fmt::format("{}; nothing more is kept there", error.what()));
+    say(fmt::format("{}; later output is not kept", error.what()));
   }
 }
 
@@ -110,10 +110,10 @@ bool Supervisor::restart_later(Node& node, std::string_view what) {
 
 void Supervisor::message(Node& node, const std::string& text) {
   const auto refuse = [&](std::string_view why) {
-    say(fmt::format("{}: a message on its control line is left out: {}", node.spec.name, why));
+    say(fmt::format("{}: sent an invalid message, which is ignored: {}", node.spec.name, why));
   };
   const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) return refuse(text.size() == kLongestMessage ? "it is too long" : "it is no JSON object");
+  if (!json.is_object()) return refuse(text.size() == kLongestMessage ? "too long" : "not a JSON object");
   if (const auto ready = json.find("ready"); ready != json.end() && *ready == true) became_ready(node);
   if (const auto health = json.find("health"); health != json.end()) {
     if (const auto wrong = health_.update(node.index, *health)) return refuse(*wrong);
@@ -149,14 +149,15 @@ void Supervisor::watch_barrier() {
   if (!barrier_at_ || !anybody_left()) return;
   const std::vector<std::string> all = missing(true);
   if (all.empty()) {
-    say("all are ready");
+    say("all nodes are ready");
     return pass_barrier();
   }
   if (now() < *barrier_at_) return;
   const std::vector<std::string> needed = missing(false);
   if (!needed.empty())
-    return fail(fmt::format("not ready within {}: {}", seconds_text(config_.ready_timeout), joined(needed)), 1);
-  say(fmt::format("not ready within {}, and optional: {}; the others start", seconds_text(config_.ready_timeout),
+    return fail(fmt::format("nodes are not ready within {}: {}", seconds_text(config_.ready_timeout), joined(needed)),
+                1);
+  say(fmt::format("optional nodes are not ready within {}: {}; the others start", seconds_text(config_.ready_timeout),
                   joined(all)));
   pass_barrier();
 }
@@ -222,7 +223,8 @@ void Supervisor::signal_all(int signal) {
       node->child->signal_group(signal);
       node->child->signal_group(SIGCONT);  // a stopped process takes only SIGKILL otherwise
     }
-  if (signal != SIGINT && !there.empty()) say(fmt::format("still there: {}: {}", joined(there), signal_name(signal)));
+  if (signal != SIGINT && !there.empty())
+    say(fmt::format("still running, {} is sent: {}", signal_name(signal), joined(there)));
 }
 
 void Supervisor::show_health() {

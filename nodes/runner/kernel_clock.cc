@@ -27,7 +27,7 @@ constexpr std::size_t kMostWatched =
 KernelClock::KernelClock(const DriveClock& drive)
     : floor_(kFloorPeriod, drive.next_turn(kFloorPeriod, kFloorPhase, bus::ports::host_now())),
       timer_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK)) {
-  if (timer_ < 0) throw std::system_error(errno, std::system_category(), "no timer");
+  if (timer_ < 0) throw std::system_error(errno, std::system_category(), "cannot open a timer");
   watched_.reserve(kMostWatched);
   watched_.push_back({timer_, POLLIN, 0});
 }

@@ -27,7 +27,8 @@ std::string pin(std::size_t place, std::size_t processes) {
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return "not pinned to a processor: " + words_of(errno);
   const auto count = static_cast<std::size_t>(CPU_COUNT(&allowed));
   if (count <= processes)
-    return fmt::format("not pinned to a processor: {} for {} processes, and one must be left", count, processes);
+    return fmt::format("not pinned to a processor: {} processes need {} processors, and {} are allowed", processes,
+                       processes + 1, count);
   // The first processor is left to all other processes.
   std::size_t nth = 0;
   for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
@@ -38,7 +39,7 @@ std::string pin(std::size_t place, std::size_t processes) {
     if (sched_setaffinity(0, sizeof one, &one) != 0) return "not pinned to a processor: " + words_of(errno);
     return {};
   }
-  return "not pinned to a processor: there are fewer than nodes";
+  return "not pinned to a processor: there are fewer processors than nodes";
 }
 
 // Tries it, because a container may show capabilities that have no effect: under a limit of zero, only a
@@ -71,11 +72,11 @@ std::string lock_memory() {
     return fmt::format("memory is not locked: {} {}", words_of(errno), kLockHelp);
   }
   // Without figures of this process: the same sentence from several processes is shown once.
-  const std::string most = fmt::format("{} KiB, the limit", limit.rlim_cur / 1024);
+  const std::string most = fmt::format("the limit of {} KiB", limit.rlim_cur / 1024);
   if (size_now() + kStackRoom > limit.rlim_cur)
-    return fmt::format("memory is not locked: it is more than {} {}", most, kLockHelp);
+    return fmt::format("memory is not locked: it exceeds {} {}", most, kLockHelp);
   if (mlockall(MCL_CURRENT) != 0) return fmt::format("memory is not locked: {} {}", words_of(errno), kLockHelp);
-  return fmt::format("memory is locked as it is at the start, not what comes later: it may be more than {} {}", most,
+  return fmt::format("only memory allocated before the start is locked: later memory may exceed {} {}", most,
                      kLockHelp);
 }
 
@@ -87,7 +88,8 @@ std::vector<std::string> ask_for_thread_privileges(std::size_t place, std::size_
   if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0)
     refused.push_back(
         fmt::format("no real-time priority: {} (allow it: ulimit -r {}, or CAP_SYS_NICE)", words_of(errno), kPriority));
-  if (prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) != 0) refused.push_back("timers have slack: " + words_of(errno));
+  if (prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) != 0)
+    refused.push_back("the slack of timers is not reduced: " + words_of(errno));
   if (std::string why = lock_memory(); !why.empty()) refused.push_back(std::move(why));
   if (std::string why = pin(place, processes); !why.empty()) refused.push_back(std::move(why));
   return refused;

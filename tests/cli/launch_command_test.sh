@@ -50,9 +50,9 @@ for command in launch "node fusion"; do
     done
     expect 2 '--can = lidar_can=can2: must name a CAN of .*: laser_can, camera_can, observation_can' $can lidar_can=can2
     expect 2 '--can = laser_can=can3: must be given once for each CAN' $can laser_can=can2 --can laser_can=can3
-    expect 2 '--can = laser_can=vcan1: must be another interface than that of channel B' $can laser_can=vcan1
-    expect 2 '--can = camera_can=laser_can: must be another interface than that of laser_can' $can camera_can=laser_can
-    expect 2 'a recording is played by `ttfusion run --input`' $command "$source/scenarios/laser_radar_recorded.yaml"
+    expect 2 '--can = laser_can=vcan1: must differ from the interface of channel B' $can laser_can=vcan1
+    expect 2 '--can = camera_can=laser_can: must differ from the interface of laser_can' $can camera_can=laser_can
+    expect 2 'recordings are for `ttfusion run --input`' $command "$source/scenarios/laser_radar_recorded.yaml"
   }
 done
 # In real time: the cluster's requirements at the time scale; no faults.
@@ -80,7 +80,7 @@ expect 2 \
   '--bus = socketcan:vcan0: must name an interface for channel B, too: slot 6 of .*edited.yaml is sent on B alone' \
   launch "$work/edited.yaml" --bus socketcan:vcan0 --dry-run
 expect 1 'node fusion' launch "$work/edited.yaml" --bus socketcan:vcan0,vcan_absent --dry-run
-expect 2 'faulty_bus.yaml:[0-9]+: faults: must be run in virtual time' launch "$source/scenarios/faulty_bus.yaml" \
+expect 2 'faulty_bus.yaml:[0-9]+: faults: need --virtual-time' launch "$source/scenarios/faulty_bus.yaml" \
   --dry-run
 expect 0 'node fusion' launch "$source/scenarios/faulty_bus.yaml" --virtual-time --dry-run
 
@@ -88,7 +88,7 @@ expect 0 'node fusion' launch "$source/scenarios/faulty_bus.yaml" --virtual-time
 expect 2 '--start-at = 1: must not be given with --virtual-time' node fusion "$drive" --start-at 1 --virtual-time
 expect 2 '--rejoin: must not be given with --virtual-time' node fusion "$drive" --rejoin --virtual-time
 expect 2 '--host = a: must not be given with --virtual-time' node fusion "$drive" --host a --virtual-time
-expect 2 '--host = two words: must be 1..255 letters, digits or signs, without blanks' node fusion "$drive" \
+expect 2 '--host = two words: must be 1..255 printable ASCII characters without blanks' node fusion "$drive" \
   --host 'two words'
 expect 2 '--host: 1 required TEXT missing' node fusion "$drive" "--host="
 expect 2 'not expected: .*--host' launch "$drive" --host a
@@ -97,10 +97,10 @@ for start in -1 1e9 4102444801 now 0.0000000001; do
 done
 for rejoin in '' --rejoin; do
   # shellcheck disable=SC2086
-  expect 2 'command line: --start-at: must be given to a node in real time that has no supervisor' \
+  expect 2 'command line: --start-at: must be given to a node without a supervisor' \
     node fusion "$drive" $rejoin --out "$work/by_hand"
 done
-expect 2 '--start-at = 1: must be ahead' node fusion "$drive" --start-at 1 --no-topics --session "refused-$$" \
+expect 2 '--start-at = 1: must be in the future' node fusion "$drive" --start-at 1 --no-topics --session "refused-$$" \
   --out "$work/by_hand"
 [[ $(ls "$work/by_hand" 2>/dev/null) == '' ]] || fail "a node that is refused leaves a log"
 expect 2 'not expected: --rejoin' launch "$drive" --rejoin
@@ -135,7 +135,7 @@ for dry in '' --dry-run; do
   # shellcheck disable=SC2086
   {
     expect 1 'ip link add dev vcan_absent type vcan' launch "$drive" --bus socketcan:vcan_absent $dry --out "$work/real"
-    expect 1 'without any CAN: --bus dds .* tools/test_bed.sh' launch "$drive" --bus socketcan:vcan_absent $dry \
+    expect 1 'to do without CANs: --bus dds .* tools/test_bed.sh' launch "$drive" --bus socketcan:vcan_absent $dry \
       --out "$work/real"
   }
 done
@@ -168,7 +168,7 @@ expect 0 'node fusion' launch "$drive" --dry-run --out "$work/there/run"
 mkdir "$work/written"
 exec 9>"$work/written/fusion.mcap"
 flock 9
-expect 2 '--out = .*/written: must be another folder: .*/written/fusion.mcap is being written' \
+expect 2 '--out = .*/written: must be another folder: another process writes .*/written/fusion.mcap' \
   node fusion "$drive" --virtual-time --session "written-$$" --out "$work/written"
 exec 9>&-
 
@@ -178,12 +178,12 @@ for arguments in "launch $drive" \
   "launch $drive --virtual-time" "launch $drive --dry-run" "node fusion $drive --virtual-time" \
   "node fusion $drive --start-at 4000000000"; do
   # shellcheck disable=SC2086
-  expect 2 "environment: CYCLONEDDS_URI = file://.*absent.xml: must be a configuration .* it says: can't open configuration file" \
+  expect 2 "environment: CYCLONEDDS_URI = file://.*absent.xml: must be a configuration .* Cyclone DDS says: can't open configuration file" \
     $arguments --out "$work/real"
   [[ -e $work/real ]] && fail "'$arguments' with a wrong CYCLONEDDS_URI leaves a folder"
 done
 CYCLONEDDS_URI='<CycloneDDS><Domain><Gneral/></Domain></CycloneDDS>'
-expect 2 'it says: config: //CycloneDDS/Domain: Gneral: unknown element' launch "$drive" --out "$work/real"
+expect 2 'Cyclone DDS says: config: //CycloneDDS/Domain: Gneral: unknown element' launch "$drive" --out "$work/real"
 CYCLONEDDS_URI=file://$source/bus/dds/loopback.xml
 expect 0 'node fusion' launch "$drive" --dry-run
 unset CYCLONEDDS_URI
@@ -204,7 +204,7 @@ expect 2 '--out: must not be empty' run "$drive" --out ''
 # A node that rejoins a drive before its start reports that it waits.
 timeout 3 "$program" node fusion "$drive" --no-topics --session "early-$$" --rejoin --start-at $(($(date +%s) + 100)) \
   --out "$work/early" >"$work/early.words" 2>&1
-grep -Eq '^the drive begins in (9[0-9]|100)\.[0-9] s \(--start-at\): until then there is no cluster to rejoin$' \
+grep -Eq '^the drive begins in (9[0-9]|100)\.[0-9] s \(--start-at\); --rejoin finds no cluster before that$' \
   "$work/early.words" ||
   fail "nobody says what is waited for: $(cat "$work/early.words")"
 

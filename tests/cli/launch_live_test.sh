@@ -170,7 +170,7 @@ sleep 1
 kill -9 "${pid[feature]}"
 for one in "${by_hand[@]}"; do wait "$one" || fail "a node that is started by hand exits with $?: $(cat "$work"/hand.*.err)"; done
 grep -qx "a launch's" "$work/hand/gateway.mcap" || fail "a node that is started by hand writes over another log"
-grep -q "gateway.mcap is there already: this log is .*/gateway.2.mcap" "$work/hand.gateway.err" ||
+grep -q "gateway.mcap exists already: this log is .*/gateway.2.mcap" "$work/hand.gateway.err" ||
   fail "nobody says where the gateway's log is: $(cat "$work/hand.gateway.err")"
 mv "$work/hand/gateway.2.mcap" "$work/hand/gateway.mcap"
 facts "$work/hand"

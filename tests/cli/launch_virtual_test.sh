@@ -85,7 +85,7 @@ launch "$work/too_late" "$work/too_late.yaml"
 [[ $? -eq 1 ]] || fail "a launch at whose end nobody is there does not exit with 1: $(cat "$work/too_late.err")"
 sentence=$(sed -n 's/^error: \(no node was in operation at the end: [a-z _,();]*\)$/\1/p' "$work/too_late.err")
 absent "$work/too_late" error "${sentence:-nobody}" 1 laser_pre camera_pre fusion feature laser camera
-grep -q '^warning: no image was used from 1.5 s on' "$work/too_late.err" || fail "nobody says that nothing is compared"
+grep -q '^warning: no current image was used from 1.5 s on' "$work/too_late.err" || fail "nobody says that nothing is compared"
 [[ $(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["not_in_operation_at_end"])' "$work/beside/summary.json") == '[]' ]] ||
   fail "somebody is missing from a sound drive's end"
 
@@ -116,7 +116,7 @@ wait_begun "$work/required"
 before=$(md5sum "$work/required/launch.log" "$work/required/laser.txt")
 for arguments in "launch" "launch --dry-run" "node fusion"; do
   # shellcheck disable=SC2086
-  expect 2 "--out = $work/required: must be another folder: it is of a launch that still runs, process $required\$" \
+  expect 2 "--out = $work/required: must be another folder: a running launch uses it, process $required\$" \
     $arguments "$drive" --virtual-time --out "$work/required"
 done
 [[ $(md5sum "$work/required/launch.log" "$work/required/laser.txt") == "$before" ]] || fail "who was refused has written over the folder"

@@ -17,7 +17,7 @@ begin() {
 # Until the nodes of the launch in FOLDER have begun.
 wait_begun() {
   for _ in $(seq 600); do
-    grep -q 'all are ready' "$1/launch.log" 2>/dev/null && return
+    grep -q 'all nodes are ready' "$1/launch.log" 2>/dev/null && return
     sleep 0.1
   done
   fail "the nodes of $1 do not begin: $(cat "$1.err")"

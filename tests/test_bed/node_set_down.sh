@@ -8,7 +8,7 @@ for channel in "$b" "$a"; do
   make_interfaces
   launch "$run/drive" &
   launch=$!
-  wait_for "all are ready" "$run/drive/launch.log"
+  wait_for "all nodes are ready" "$run/drive/launch.log"
   sleep 0.9
   ip link set "$channel" down
   code=0
@@ -17,7 +17,7 @@ for channel in "$b" "$a"; do
   [[ $code -eq 1 ]] || fail "exit code $code: $(cat "$words")"
   grep -q "error: $channel: the interface went down during the run: ip link set $channel up" "$words" ||
     fail "not a word of $channel: $(cat "$words")"
-  ! grep -q "still there" "$words" || fail "somebody does not stop: $(cat "$words")"
+  ! grep -q "still running" "$words" || fail "somebody does not stop: $(cat "$words")"
   ! grep -q "warning: .*mcap" "$words" || fail "a log is not whole: $(cat "$words")"
   judge "$run/drive" 'manifest["exit_code"] == 1 and manifest["why"].endswith(": exit 1")' "the manifest says something else" \
     'all(p["signal"] is None and p["exit"] in (0, 1) for n in manifest["nodes"] for p in n["processes"])' "who ended how?"

@@ -8,7 +8,7 @@ need python3
 make_interfaces
 launch "$run/drive" --duration 2 --policy camera_pre=restart &
 launch=$!
-wait_for "all are ready" "$run/drive/launch.log"
+wait_for "all nodes are ready" "$run/drive/launch.log"
 camera_pre=$(process_of camera_pre "$run/drive/manifest.json")
 sleep_to 1203400000   # 3.4 ms into a cycle, where little is done
 kill -KILL "$camera_pre"

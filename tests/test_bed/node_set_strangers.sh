@@ -18,7 +18,7 @@ wait_for_receivers "$a" 1
 wait_for_receivers "$laser_can" 1
 launch "$run/drive" &
 launch=$!
-wait_for "all are ready" "$run/drive/launch.log"
+wait_for "all nodes are ready" "$run/drive/launch.log"
 sleep 0.6
 quietly() { "$@" >/dev/null; }
 for interface in "$a" "$laser_can"; do

@@ -37,7 +37,7 @@ TEST(DriveEnd, SaysWhatEachWas) {
                                   {"e", true, kWell, ""}});
   EXPECT_EQ(end.sentence(),
             "laser, a, c, d, e were not in operation at the end: signal 9 (Killed) (laser, c); normal passive (a); "
-            "never started (d); in a state that it never told (e)");
+            "never started (d); no state reported (e)");
 }
 
 // Sensors' devices alone are no cluster.

@@ -156,9 +156,8 @@ TEST_F(Folder, IsOfOneLaunchAtATime) {
   const auto look = [&] { FolderLock::refuse_if_held(path("run")); };
   EXPECT_EQ(sentence_of(look), "");
   EXPECT_FALSE(std::filesystem::exists(path("run")));
-  const std::string expected =
-      fmt::format("command line: --out = {}: must be another folder: it is of a launch that still runs, process {}",
-                  path("run"), getpid());
+  const std::string expected = fmt::format(
+      "command line: --out = {}: must be another folder: a running launch uses it, process {}", path("run"), getpid());
   {
     const LaunchFolder run(path("run"), {{"seed", 7}}, at(0));
     EXPECT_EQ(sentence_of(another), expected);

@@ -71,8 +71,8 @@ TEST(Screen, LeavesOutWhatASlowReaderDoesNotTake) {
   for (std::string more = read_some(pipe.out.get()); !more.empty(); more = read_some(pipe.out.get())) seen += more;
   const auto lines = static_cast<std::uint64_t>(std::ranges::count(seen, '\n'));
   EXPECT_EQ(lines - 1 + screen.lines_left_out(), kLines);
-  EXPECT_TRUE(seen.ends_with("x\n[" + std::to_string(screen.lines_left_out()) +
-                             " lines left out: what reads this is too slow]\n"));
+  EXPECT_TRUE(
+      seen.ends_with("x\n[" + std::to_string(screen.lines_left_out()) + " lines left out: the reader is too slow]\n"));
   EXPECT_EQ(lseek(copy, 0, SEEK_END), static_cast<off_t>(kLines * 6));  // the copy is complete
   close(copy);
 }

@@ -37,7 +37,7 @@ TEST_F(Stopping, InterruptsEverybody) {
   EXPECT_THAT(shown(), HasSubstr("launch | stopping: interrupted (SIGINT)\n"));
   EXPECT_THAT(shown(), HasSubstr("a: signal 2 (Interrupt)\n"));
   EXPECT_THAT(shown(), HasSubstr("b: exit 0\n"));
-  EXPECT_THAT(shown(), Not(HasSubstr("still there")));
+  EXPECT_THAT(shown(), Not(HasSubstr("still running")));
 }
 
 TEST_F(Stopping, TakesOtherSignalsForTheSame) {
@@ -45,7 +45,7 @@ TEST_F(Stopping, TakesOtherSignalsForTheSame) {
     EXPECT_EQ(run_interrupted(config({{"a", Policy::kRequired, child({"ready", "wait"})}}), {}, signal).exit_code,
               128 + signal);
   EXPECT_THAT(shown(), HasSubstr("stopping: SIGTERM\n"));
-  EXPECT_THAT(shown(), HasSubstr("stopping: the terminal is gone (SIGHUP)\n"));
+  EXPECT_THAT(shown(), HasSubstr("stopping: the terminal was closed (SIGHUP)\n"));
 }
 
 TEST_F(Stopping, TerminatesWhoIgnoresInterrupts) {
@@ -53,7 +53,7 @@ TEST_F(Stopping, TerminatesWhoIgnoresInterrupts) {
                        {"b", Policy::kRequired, child({"ready", "wait"})}});
   given.grace.interrupt = kShort;
   EXPECT_EQ(run_interrupted(std::move(given)).exit_code, 130);
-  EXPECT_THAT(shown(), HasSubstr("still there: deaf: SIGTERM\n"));
+  EXPECT_THAT(shown(), HasSubstr("still running, SIGTERM is sent: deaf\n"));
   EXPECT_THAT(shown(), HasSubstr("deaf: signal 15 (Terminated)\n"));
   EXPECT_THAT(shown(), Not(HasSubstr("SIGKILL")));
 }
@@ -62,8 +62,8 @@ TEST_F(Stopping, KillsWhoIgnoresAll) {
   auto given = config({{"deaf", Policy::kRequired, child({"ignore:2", "ignore:15", "ready", "wait"})}});
   given.grace = {kShort, kShort};
   EXPECT_EQ(run_interrupted(std::move(given)).exit_code, 130);
-  EXPECT_THAT(shown(), HasSubstr("still there: deaf: SIGTERM\n"));
-  EXPECT_THAT(shown(), HasSubstr("still there: deaf: SIGKILL\n"));
+  EXPECT_THAT(shown(), HasSubstr("still running, SIGTERM is sent: deaf\n"));
+  EXPECT_THAT(shown(), HasSubstr("still running, SIGKILL is sent: deaf\n"));
   EXPECT_THAT(shown(), HasSubstr("deaf: signal 9 (Killed)\n"));
 }
 
@@ -106,7 +106,7 @@ TEST_F(Stopping, NobodyIsRestartedOnTheWayOut) {
   EXPECT_EQ(supervisor.run().exit_code, 1);
   EXPECT_TRUE(has_no_children());
   EXPECT_EQ(supervisor.health().json()[1]["process"], "not restarted");
-  EXPECT_THAT(shown(), HasSubstr("stopping: not ready within 0.5 s: waiting\n"));
+  EXPECT_THAT(shown(), HasSubstr("stopping: nodes are not ready within 0.5 s: waiting\n"));
 }
 
 TEST_F(Stopping, CanBeAskedFor) {

@@ -60,8 +60,8 @@ TEST_F(Supervising, ANodeSetFromStartToEnd) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.why, "");
   EXPECT_THAT(events, testing::ElementsAre("all ready", "0 health {\"drops\":2}", "0 done {\"frames\":3}", "0 exit 0"));
-  EXPECT_THAT(shown(),
-              testing::StartsWith("launch | all are ready\nfusion | start {\"at\":17}\nlaunch | fusion: exit 0\n"));
+  EXPECT_THAT(shown(), testing::StartsWith(
+                           "launch | all nodes are ready\nfusion | start {\"at\":17}\nlaunch | fusion: exit 0\n"));
   EXPECT_EQ(health_[0]["drops"], 2);
   EXPECT_EQ(health_[0]["process"], "exit 0");
 }
@@ -94,8 +94,8 @@ TEST_F(Supervising, TheBarriersTimeoutNamesWhoIsMissing) {
   };
   const auto outcome = run(std::move(given), hooks);
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.why, "not ready within 1.5 s: laser_pre, camera_pre");
-  EXPECT_THAT(shown(), HasSubstr("launch     | stopping: not ready within 1.5 s: laser_pre, camera_pre\n"));
+  EXPECT_EQ(outcome.why, "nodes are not ready within 1.5 s: laser_pre, camera_pre");
+  EXPECT_THAT(shown(), HasSubstr("launch     | stopping: nodes are not ready within 1.5 s: laser_pre, camera_pre\n"));
 }
 
 TEST_F(Supervising, OptionalOnesHoldUpNobodyBeyondTheBarrier) {
@@ -105,7 +105,7 @@ TEST_F(Supervising, OptionalOnesHoldUpNobodyBeyondTheBarrier) {
   given.optional_grace = kSoon;
   EXPECT_EQ(run(std::move(given)).exit_code, 0);
   EXPECT_THAT(shown(),
-              HasSubstr("not ready within 0.2 s, and optional: feature; the others start\nfusion  | start {}\n"));
+              HasSubstr("optional nodes are not ready within 0.2 s: feature; the others start\nfusion  | start {}\n"));
   EXPECT_THAT(shown(), HasSubstr("stopping: only optional nodes are left\nlaunch  | feature: signal 2 (Interrupt)\n"));
 }
 
@@ -301,9 +301,9 @@ TEST_F(Supervising, SaysWhatItDoesNotUnderstand) {
                                 "tell:{\"ready\":1}", "tell:{\"novelty\":1}", "ready", "ready"})}}))
                 .exit_code,
             0);
-  const std::string left_out = "launch | a: a message on its control line is left out: ";
-  EXPECT_THAT(shown(), HasSubstr(left_out + "it is no JSON object\n" + left_out + "it is no JSON object\n" + left_out +
-                                 "it is too long\n" + left_out + "health.drops: must be a whole number from 0\n"));
+  const std::string left_out = "launch | a: sent an invalid message, which is ignored: ";
+  EXPECT_THAT(shown(), HasSubstr(left_out + "not a JSON object\n" + left_out + "not a JSON object\n" + left_out +
+                                 "too long\n" + left_out + "health.drops: must be a whole number from 0\n"));
 }
 
 TEST_F(Supervising, WhatAHookThrowsEndsTheLaunch) {

@@ -104,7 +104,7 @@ TEST(ThreadPrivileges, UnderALimitThatIsTooSmallNothingIsLocked) {
     if (!give_up_locking() || !set_limit(64 << 10)) return 77;
     const std::string said = asked();
     if (said !=
-        "memory is not locked: it is more than 64 KiB, the limit (allow it: ulimit -l unlimited, or "
+        "memory is not locked: it exceeds the limit of 64 KiB (allow it: ulimit -l unlimited, or "
         "CAP_IPC_LOCK)")
       return failed(said);
     if (locked_kib() != 0) return failed("something is locked");
@@ -116,8 +116,8 @@ TEST(ThreadPrivileges, UnderALimitThatWillDoOnlyWhatIsThereIsLocked) {
   TRY_ALONE([] {
     if (!set_limit(512 << 20) || !give_up_locking()) return 77;
     const std::string said = asked();
-    if (!said.starts_with("memory is locked as it is at the start, not what comes later: it may be more than 524288 "
-                          "KiB, the limit (allow it:"))
+    if (!said.starts_with("only memory allocated before the start is locked: later memory may exceed the limit of "
+                          "524288 KiB (allow it:"))
       return failed(said);
     const std::uint64_t locked = locked_kib();
     if (locked == 0) return failed("nothing is locked");
