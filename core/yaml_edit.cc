@@ -38,7 +38,7 @@ YAML::Node parsed(const std::string& text, const std::string& name) {
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw InputError({name, error.mark.line + 1, "", "", "is no YAML: " + error.msg});
+    throw InputError({name, error.mark.line + 1, "", "", "is not YAML: " + error.msg});
   }
 }
 
@@ -48,7 +48,7 @@ std::string with_value(const std::string& text, const std::string& name, std::st
                        std::string_view value) {
   const YAML::Node found = at(parsed(text, name), path);
   if (!found.IsDefined())
-    throw InputError({name, 0, std::string(path), "", "must be in the file: only what is written there can be varied"});
+    throw InputError({name, 0, std::string(path), "", "must be in the file: only its written keys can be varied"});
   const int line = found.Mark().line + 1;
   const auto begin = static_cast<std::size_t>(found.Mark().pos);
   const bool plain = found.IsScalar() && text.compare(begin, found.Scalar().size(), found.Scalar()) == 0;

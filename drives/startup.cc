@@ -47,7 +47,7 @@ std::vector<nodes::host::NodeStart> node_starts(const Startup& startup, const sc
     if (const auto node = cluster.find_node(told.node))
       starts[index_of(*node)].after = told.after;
     else
-      findings.add({startup.file, told.line, "startup.power_on", told.node, "is no node of " + cluster.file});
+      findings.add({startup.file, told.line, "startup.power_on", told.node, "is not a node of " + cluster.file});
   }
   if (!startup.wake_up.empty()) {
     const auto refuse = [&](std::string why) {
@@ -56,7 +56,7 @@ std::vector<nodes::host::NodeStart> node_starts(const Startup& startup, const sc
     const auto waker = cluster.find_node(startup.wake_up);
     const auto& flexray = waker ? cluster.node(*waker).flexray : std::nullopt;
     if (!waker)
-      refuse("is no node of " + cluster.file);
+      refuse("is not a node of " + cluster.file);
     else if (!flexray)
       refuse("must be on FlexRay to wake others over it");
     else if (!schedules::model::includes(flexray->pChannels, flexray->pWakeupChannel))

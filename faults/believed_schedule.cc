@@ -63,8 +63,8 @@ std::string lengthen_slots(const Fault& fault, Cluster& believed) {
   // The segments precede both the network idle time and the instant of correction in it.
   const int room = std::min(g.gdNIT - kMinNit, before_correction);
   if (longer > room)
-    return fmt::format("must not make the network idle time shorter by more than {} macroticks: {} slots would take {}",
-                       room, g.gNumberOfStaticSlots, longer);
+    return fmt::format("must shorten the network idle time by at most {} macroticks: {} slots take {}", room,
+                       g.gNumberOfStaticSlots, longer);
   g.gdStaticSlot += fault.by;
   g.gdNIT -= longer;
   return {};
@@ -73,7 +73,8 @@ std::string lengthen_slots(const Fault& fault, Cluster& believed) {
 std::string lengthen_payload(const Fault& fault, Cluster& believed) {
   int& words = believed.flexray.gPayloadLengthStatic;
   if (words + fault.by > kMaxPayloadWords)
-    return fmt::format("must not make the {} words of a static frame more than {}", words, kMaxPayloadWords);
+    return fmt::format("must be at most {}: a static frame has {} words and room for {}", kMaxPayloadWords - words,
+                       words, kMaxPayloadWords);
   words += fault.by;
   return {};
 }
@@ -98,7 +99,7 @@ std::string believe(const Fault& fault, Cluster& believed) {
   TTF_CHECK(changes_schedule(fault), "a fault of kind {}", name_of(fault.kind));
   if (fault.kind == FaultKind::kDuplicateColdstart) {
     const int slot = fault.slot != 0 ? fault.slot : anothers_key_slot(fault.node, believed);
-    if (slot == 0) return "must be given: there is no other coldstart node to take it from";
+    if (slot == 0) return "must be given: there is no other coldstart node whose slot it could take";
     return take_key_slot(fault.node, slot, believed);
   }
   switch (fault.wrong) {

@@ -31,7 +31,7 @@ constexpr Description kExperiment[] = {
     {"axes.NAME.to", "The axis ends with this value.", "20"},
     {"axes.NAME.count", "The axis has so many values.", "4"},
     {"axes.NAME.scale", "The values have equal differences, or equal ratios."},
-    {"measures", "These measures are taken, the first being the one that is asked for; absent, all are.",
+    {"measures", "These measures are taken, and the answer is about the first; absent, all are.",
      "[position_rmse_truth, nees]"},
     {"compare", "The paradigms are compared like this."},
     {"compare.baseline", "The others are compared with this paradigm.", "event_triggered"},

@@ -12,7 +12,7 @@ constexpr Description kFault[] = {
     {"duration", "The fault lasts this long; absent, to the end of the drive.", "200 ms"},
     {"direction", "Frames are lost when the node sends, when it receives, or both."},
     {"channels", "The fault is on these channels."},
-    {"probability", "Each chosen frame is befallen with this probability."},
+    {"probability", "Each chosen frame is affected with this probability."},
     {"every", "Every n-th frame of the node is chosen, the first included."},
     {"receivers", "These nodes receive the frames so; absent, all do, or for `sos_value` a drawn half.",
      "[fusion, gateway]"},

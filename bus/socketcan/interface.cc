@@ -53,20 +53,20 @@ InterfaceState interface_state(const std::string& name) {
   std::memcpy(request.ifr_name, name.data(), name.size());
   const Descriptor any(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));  // any socket answers
   if (ioctl(any.value(), SIOCGIFHWADDR, &request) != 0) {
-    if (errno != ENODEV) unexpected(name, "no answer about its kind");
+    if (errno != ENODEV) unexpected(name, "cannot read its kind");
     return state;
   }
   state.there = true;
   state.can = request.ifr_hwaddr.sa_family == ARPHRD_CAN;
-  if (ioctl(any.value(), SIOCGIFFLAGS, &request) != 0) unexpected(name, "no answer about its flags");
+  if (ioctl(any.value(), SIOCGIFFLAGS, &request) != 0) unexpected(name, "cannot read its flags");
   state.up = (static_cast<unsigned short>(request.ifr_flags) & IFF_UP) != 0;
-  if (ioctl(any.value(), SIOCGIFMTU, &request) != 0) unexpected(name, "no answer about its MTU");
+  if (ioctl(any.value(), SIOCGIFMTU, &request) != 0) unexpected(name, "cannot read its MTU");
   state.mtu = request.ifr_mtu;
   return state;
 }
 
 Problem kernel_problem(const InterfaceState& state) {
-  const char* const host = "in a container the host's kernel counts";
+  const char* const host = "a container uses its host's kernel";
   switch (state.refused) {
     case 0: return {};
     case EAFNOSUPPORT:
@@ -77,16 +77,16 @@ Problem kernel_problem(const InterfaceState& state) {
 }
 
 Problem link_problem(const std::string& name, const InterfaceState& state, bool flexible_data_rate) {
-  const char* const others = "ip -details link show type can lists the CAN interfaces";
+  const char* const others = "`ip -details link show type can` lists the CAN interfaces";
   if (!state.there) {
     if (name.empty() || name.size() >= IFNAMSIZ)
-      return {fmt::format("is no interface name: a name has 1..{} bytes", IFNAMSIZ - 1), {}};
+      return {fmt::format("is not an interface name: a name has 1..{} bytes", IFNAMSIZ - 1), {}};
     if (!is_virtual(name)) return {fmt::format("is not there; {}", others), {}};
     return {"is not there",
             {fmt::format("ip link add dev {} type {}", name, name[1] == 'x' ? "vxcan" : "vcan"),
              bring_up(name, flexible_data_rate)}};
   }
-  if (!state.can) return {fmt::format("is no CAN interface; {}", others), {}};
+  if (!state.can) return {fmt::format("is not a CAN interface; {}", others), {}};
   if (flexible_data_rate && state.mtu < static_cast<int>(CANFD_MTU)) {
     Problem narrow{fmt::format("carries no CAN FD frames (MTU {}, needs {})", state.mtu, CANFD_MTU), {}};
     if (state.up) narrow.commands.push_back(fmt::format("ip link set {} down", name));

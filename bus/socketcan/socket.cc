@@ -59,25 +59,27 @@ void Socket::set_up(const SocketOptions& options) {
   const auto refuse = [&](const char* what) {
     throw InputError(Finding{interface_, 0, "", "", fmt::format("{}: {}", what, words_of(errno))});
   };
-  if (descriptor_ < 0) refuse("no CAN socket");
+  if (descriptor_ < 0) refuse("cannot open a CAN socket");
   const int on = 1;
-  if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on)) refuse("no CAN FD frames on this socket");
+  if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on)) refuse("cannot use CAN FD frames");
   if (options.own_frames && !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, on))
-    refuse("no frames of its own");
+    refuse("cannot receive its own frames");
   const can_err_mask_t all = CAN_ERR_MASK;
-  if (options.error_frames && !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, all)) refuse("no error frames");
+  if (options.error_frames && !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, all))
+    refuse("cannot receive error frames");
   if (!options.filters.empty() && setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, options.filters.data(),
                                              static_cast<socklen_t>(options.filters.size() * sizeof(can_filter))) != 0)
-    refuse("no filters");
-  if (!set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, on)) refuse("lost frames are not counted");
-  if (!set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, on)) refuse("no stamps");
+    refuse("cannot set filters");
+  if (!set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, on)) refuse("cannot count lost frames");
+  if (!set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, on)) refuse("cannot stamp frames");
   size_receive_buffer(options.receive_buffer_frames);
   index_ = static_cast<int>(if_nametoindex(interface_.c_str()));
-  if (index_ == 0) refuse("no such interface any more");
+  if (index_ == 0) refuse("the interface was removed");
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = index_;
-  if (bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) refuse("not bound");
+  if (bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+    refuse("cannot bind to the interface");
 }
 
 // The kernel doubles the size asked for. SO_RCVBUFFORCE exceeds net.core.rmem_max and needs CAP_NET_ADMIN.

@@ -72,7 +72,7 @@ std::string checks_text(const FaultFindings& findings, const schedules::model::C
                    seers(seen, cluster) + (faulty ? " (faulty)" : "")});
       }
   });
-  return table.rows() == 0 ? "No check saw anything.\n" : table.text();
+  return table.rows() == 0 ? "No check found a fault.\n" : table.text();
 }
 
 // Returns "" without guardians, or if they did not intervene.
@@ -104,13 +104,13 @@ std::string harm_words(Harm harm, const HarmSeen& harmed, const schedules::model
   const bool often = harmed.times > 1;
   switch (harm) {
     case Harm::kFrameLost:  // counts lost frames of all slots and senders
-      return often
-                 ? fmt::format("{}: {} lost, the first: {} on any channel", node, counted(harmed.times, "frame"), where)
-                 : fmt::format("{}: a frame lost: {} on any channel", node, where);
+      return often ? fmt::format("{}: {} lost on all channels, the first: {}", node, counted(harmed.times, "frame"),
+                                 where)
+                   : fmt::format("{}: a frame lost on all channels: {}", node, where);
     case Harm::kFrameForged:
-      return often ? fmt::format("{}: {} of another taken for valid, the first: {}", node,
+      return often ? fmt::format("{}: {} of wrong senders taken for valid, the first: {}", node,
                                  counted(harmed.times, "frame"), where)
-                   : fmt::format("{}: a frame of another taken for valid: {}", node, where);
+                   : fmt::format("{}: a frame of a wrong sender taken for valid: {}", node, where);
     case Harm::kLeftActive: return node + " left normal active" + (often ? fmt::format(" {} times", harmed.times) : "");
     case Harm::kNotStarted: return node + " never became normal active";
     case Harm::kPrecision:

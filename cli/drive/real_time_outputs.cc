@@ -57,9 +57,9 @@ std::string problems(const StrategyResult& result) {
          fmt::format("{}", timing.missing.away), fmt::format("{}", timing.lost_on_the_way()),
          timing.largest_offset_correction ? report::drawing::cell(in_us(*timing.largest_offset_correction), 1) : "-"});
   return table.text() +
-         "Slots missed: withheld by this node; frames: of others, not heard by it. Slot problems, in the table above: "
-         "every slot of every\nnode and channel whose frame was not there when the static segment ended "
-         "(docs/lateness.md).\n";
+         "Slots missed: frames that this node withheld. Frames: those of other nodes, as this node heard them. Slot "
+         "problems, in the\ntable above: slots, by node and channel, whose frame had not come when the static segment "
+         "ended (docs/lateness.md).\n";
 }
 
 // Returns "" if the nodes recorded no counts of a medium.

@@ -94,7 +94,7 @@ const Row kRows[] = {
     {"    torn on the way", [](const StrategyResult& r) { return number(r.outcome.counts.torn_lists); }, true},
     {"    overwritten before they were read",
      [](const StrategyResult& r) { return number(r.outcome.counts.overwritten_lists); }, true},
-    {"    discarded: no time of measuring",
+    {"    discarded: no time of measurement",
      [](const StrategyResult& r) { return number(r.outcome.counts.discarded_lists); }, true},
     {"fragments refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_fragments); }, true},
     {"uses of an image", [](const StrategyResult& r) { return number(uses(r)); }},
@@ -117,8 +117,8 @@ const Row kRows[] = {
     {"content hash of the log",
      [](const StrategyResult& r) { return r.content_hash.empty() ? std::string("-") : r.content_hash; }},
     {"CAN frames refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_can_frames); }, true},
-    {"fates of lists without a record", [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); },
-     true},
+    {"lists without a record of their fate",
+     [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); }, true},
 };
 
 nlohmann::ordered_json ages(const evaluation::accuracy::AgeStatistics& statistics) {

@@ -36,7 +36,7 @@ int replay(const ExperimentOptions& options, const CampaignFile& campaign, const
   const std::uint32_t fault = fault_of(*options.replay, campaign);
   const experiments::campaign::DrawnFault drawn = experiments::campaign::draw_fault(campaign, clusters.base, fault);
   fmt::print("fault {}: {}\n", fault, experiments::campaign::fault_text(drawn, clusters.base));
-  if (!experiments::campaign::in_hypothesis(drawn.fault)) fmt::print("It is outside of the fault hypothesis.\n");
+  if (!experiments::campaign::in_hypothesis(drawn.fault)) fmt::print("The fault is outside the fault hypothesis.\n");
   for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
     fmt::print("\nvariant {}\n", campaign.variants[v].name);
     ReplayStory story(clusters.variants[v]);
@@ -128,7 +128,8 @@ std::vector<FaultResult> results_of(const ExperimentOptions& options, const Camp
 
 int run_fault_campaign(const ExperimentOptions& options) {
   if (options.resume)
-    throw InputError({"command line", 0, "--resume", "", "is for sweeps: a campaign's faults are not kept one by one"});
+    throw InputError(
+        {"command line", 0, "--resume", "", "is for sweeps: a campaign does not keep its trials one by one"});
   const CampaignFile campaign = experiments::campaign::load_campaign(options.file);
   const CampaignClusters clusters(campaign);
   if (options.replay) return replay(options, campaign, clusters);
@@ -145,12 +146,13 @@ int run_fault_campaign(const ExperimentOptions& options) {
     json["variants"].push_back(to_json(coverage, cycle));
     if (coverage.guarded) harmed += coverage.harmed_in_hypothesis;
   }
-  text += "* outside of the fault hypothesis\n";
+  text += "* outside the fault hypothesis\n";
   const bool holds = !campaign.expected_harmed || harmed <= static_cast<std::uint64_t>(*campaign.expected_harmed);
   if (campaign.expected_harmed) {
-    text += fmt::format("expected: at most {} of the hypothesis {} in spite of guardian and two channels; {}: {}\n",
-                        counted(static_cast<std::uint64_t>(*campaign.expected_harmed), "fault"),
-                        *campaign.expected_harmed == 1 ? "harms" : "harm", harmed, holds ? "holds" : "does not hold");
+    text +=
+        fmt::format("expected: at most {} of the hypothesis {} harm with guardian and both channels; found {}: {}\n",
+                    counted(static_cast<std::uint64_t>(*campaign.expected_harmed), "fault"),
+                    *campaign.expected_harmed == 1 ? "does" : "do", harmed, holds ? "holds" : "does not hold");
     json["expectation"] = {{"harmed_with_guardian", *campaign.expected_harmed}, {"harmed", harmed}, {"holds", holds}};
   }
   text += harms_text(options, campaign, clusters, results);

@@ -54,7 +54,7 @@ int run_experiment(const ExperimentOptions& options) {
   if (kind_of(options) == ExperimentKind::kFaultCampaign) {
     if (options.replications > 0)
       throw InputError({"command line", 0, "--replications", std::to_string(options.replications),
-                        "is for sweeps: a campaign has faults, each once"});
+                        "is for sweeps: a campaign injects each fault once"});
     return run_fault_campaign(options);
   }
   return run_sweep_experiment(options, ranks);

@@ -121,7 +121,7 @@ Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 
 Store Store::create(const std::string& path, const StoreHead& head) {
-  if (std::filesystem::exists(path)) throw std::runtime_error(path + ": is there already");
+  if (std::filesystem::exists(path)) throw std::runtime_error(path + ": exists already");
   // Under another name until it is whole: a store needs its head.
   const std::string unfinished = path + ".new";
   std::filesystem::remove(unfinished);

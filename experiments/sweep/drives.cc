@@ -149,7 +149,7 @@ std::string SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster,
       if (error.findings().front().line != 0) throw;
       // The file lacks the key: the finding names the line that sets it.
       throw InputError({sweep_.file, edit.line, edit.key, "",
-                        fmt::format("must be in the file {}: only what is written there can be varied", name)});
+                        fmt::format("must be in the file {}: only its written keys can be varied", name)});
     }
   }
   return text;

@@ -159,7 +159,7 @@ class Reader {
     for (const Setting& setting : axis.settings)
       if (std::count_if(axis.settings.begin(), axis.settings.end(),
                         [&](const Setting& other) { return other.label == setting.label; }) > 1)
-        return map.fail("", "must not have a value twice: " + setting.label);
+        return map.fail("", fmt::format("must not have the value {} twice", setting.label));
     file_.axes.push_back(std::move(axis));
   }
 
@@ -189,7 +189,7 @@ class Reader {
 
   void check_drives() {
     if (file_.drives() > kMostDrives)
-      root_.fail("replications", fmt::format("must make {} runs at most, and make {}", kMostDrives, file_.drives()));
+      root_.fail("replications", fmt::format("must make at most {} drives, not {}", kMostDrives, file_.drives()));
   }
 
   void read_measures() {
@@ -198,7 +198,7 @@ class Reader {
     file_.measures = root_.has("measures") ? root_.words("measures", names) : names;
     for (const std::string& name : file_.measures)
       if (std::count(file_.measures.begin(), file_.measures.end(), name) > 1)
-        root_.fail("measures", "must not have one twice: " + name);
+        root_.fail("measures", fmt::format("must not have {} twice", name));
   }
 
   std::size_t paradigm(YamlMap& map, std::string_view key) {

@@ -77,9 +77,9 @@ std::string answer_sentences(const SweepFile& sweep, const SweepAnswer& answer) 
       const Interval& difference = point.differences[p].front();
       ++(difference.below(0.0) ? less : difference.above(0.0) ? more : undecided);
     }
-    text += fmt::format("{} of {} is less than of {} at {}, more at {}, undecided at {}.\n", sweep.measures.front(),
-                        sweep.paradigms[p].name, baseline, counted(static_cast<std::uint64_t>(less), "point"), more,
-                        undecided);
+    text += fmt::format("{} of {} is less than that of {} at {}, more at {}, undecided at {}.\n",
+                        sweep.measures.front(), sweep.paradigms[p].name, baseline,
+                        counted(static_cast<std::uint64_t>(less), "point"), more, undecided);
     for (const Crossing& crossing : answer.crossings)
       if (crossing.paradigm == p && crossing.certain)
         text += fmt::format("They cross at {} {:.4g}{}.\n", crossing.axis, crossing.at,

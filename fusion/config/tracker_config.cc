@@ -42,7 +42,7 @@ void load_association(YamlMap& yaml, TrackerConfig& c) {
   c.confirm_existence = yaml.number_or("confirm_existence", c.confirm_existence, {1e-5, 0.999999});
   c.delete_existence = yaml.number_or("delete_existence", c.delete_existence, {1e-9, 0.99});
   if (c.delete_existence >= c.initial_existence)
-    yaml.fail("delete_existence", "must be below initial_existence: a track would end as it begins");
+    yaml.fail("delete_existence", "must be below initial_existence: otherwise a track ends as it begins");
   if (c.delete_existence >= c.confirm_existence) yaml.fail("delete_existence", "must be below confirm_existence");
   c.merge_probability = yaml.number_or("merge_probability", c.merge_probability, {0.0, 0.999999});
   c.merge_scans = static_cast<int>(yaml.integer_or("merge_scans", c.merge_scans, {1, 255}, "lists"));
@@ -110,9 +110,10 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
   constexpr std::size_t kMostRemembered = 1'000'000;
   const std::size_t tracks = static_cast<std::size_t>(c.max_objects) + 3 * c.max_observations;
   if ((c.history_scans + 1) * tracks > kMostRemembered)
-    yaml.fail("history_scans",
-              "is too much to remember: (history_scans + 1) x (max_objects + 3 max_observations) "
-              "must be at most 1000000");
+    yaml.fail(
+        "history_scans",
+        "must keep (history_scans + 1) x (max_objects + 3 max_observations) at most 1000000: the tracker reserves "
+        "memory for it");
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
   load_systematic(yaml, c, sensors);

@@ -39,7 +39,7 @@ class CaptureParser {
   }
   std::string next_packet() const { return "packet " + std::to_string(capture_.packets.size() + 1); }
   void torn(const std::string& where) {
-    capture_.warning = name_ + ": " + where + ": the file ends within it and is read up to there";
+    capture_.warning = name_ + ": " + where + ": the file ends within it; everything before is read";
     at_ = bytes_.size();
   }
 

@@ -20,7 +20,7 @@ Capture parse_capture(std::string bytes, const std::string& name) {
   else if (any && (is_pcap(magic) || is_pcap(number_at<std::uint32_t>(capture.bytes, 0, true))))
     parse_pcap(capture, name);
   else
-    throw InputError({name, 0, "", "", "is no capture: neither pcap nor pcapng"});
+    throw InputError({name, 0, "", "", "is not a capture: neither pcap nor pcapng"});
   return capture;
 }
 

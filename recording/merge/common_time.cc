@@ -145,7 +145,7 @@ std::vector<CommonTime> common_times(const std::vector<StoredLog>& logs, std::ve
   for (const auto& [host, of_host] : stamps) {
     if (of_host.empty())
       warnings.push_back(
-          fmt::format("no node of machine {} was synchronised: its logs have its own clock's times", host));
+          fmt::format("no node of machine {} was synchronised: its logs keep the times of its own clock", host));
     else
       by_host[host] = CommonTime(points_of(of_host, reference->at.ns - reference->global.ns, round_ns));
   }

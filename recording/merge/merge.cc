@@ -46,7 +46,7 @@ std::optional<Finding> misfit(const StoredLog& log, const StoredLog& first) {
 
 Finding given_twice(const StoredLog& log, const StoredLog& other) {
   return {log.name(), 0, "", "",
-          fmt::format("holds the same records as {}: each log may be given once, and a merged one without its parts",
+          fmt::format("holds the same records as {}: give each log once, and a merged log without its parts",
                       other.name())};
 }
 

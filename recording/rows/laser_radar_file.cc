@@ -217,9 +217,10 @@ RecordingFormat sniff_recording(std::string_view text, const std::string& name) 
     decided = !comment || format.has_value();
   });
   if (!format)
-    throw InputError({name, 0, "", "",
-                      "is no known recording: rows of L or R (laser and radar), of frame, azimuth_rad, range_m, "
-                      "intensity (scanner), or an MCAP log"});
+    throw InputError(
+        {name, 0, "", "",
+         "is not a known recording: expected rows of L or R (laser and radar), of frame, azimuth_rad, range_m, "
+         "intensity (scanner), or an MCAP log"});
   return *format;
 }
 

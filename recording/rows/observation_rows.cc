@@ -221,7 +221,7 @@ class RowReader {
     for (std::size_t i = kCov11; i <= kCov33; ++i) any = any || value_[i].has_value();
     if (!any) return true;
     if (row_.kind == ObservationRow::Kind::kRangeBearing &&
-        !absent(kCov12, "where range and bearing alone were measured: their errors are taken as independent"))
+        !absent(kCov12, "where only range and bearing were measured: their errors are taken as independent"))
       return false;
     for (const NumberIndex diagonal : {kCov11, kCov22, kCov33})
       if (!value_[diagonal] && (three || diagonal != kCov33))
@@ -230,7 +230,7 @@ class RowReader {
     constexpr double kLargestBearingVariance = 0.25;  // [rad^2]
     if (row_.kind == ObservationRow::Kind::kRangeBearing && *value_[kCov22] > kLargestBearingVariance)
       return fail("cov_22", fmt::format("{}", *value_[kCov22]),
-                  "must be at most 0.25 rad^2 where range and bearing alone were measured");
+                  "must be at most 0.25 rad^2 where only range and bearing were measured");
     row_.covariance.emplace();
     for (std::size_t i = 0; i < 6; ++i) (*row_.covariance)[i] = value_[kCov11 + i].value_or(0.0);
     return true;

@@ -38,7 +38,7 @@ std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, True
   std::vector<StateSpan> spans;
   std::map<NodeId, StateSpan> now;
   for (const NodeId node : active_from_the_start(data))
-    now[node] = {node, kStateNormalActive, begin, end, "normal active", "the run began with the node integrated"};
+    now[node] = {node, kStateNormalActive, begin, end, "normal active", "integrated from the beginning of the drive"};
   const auto leave = [&](NodeId node, TrueTime at) {
     const auto found = now.find(node);
     if (found == now.end()) return;

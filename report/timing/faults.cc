@@ -85,7 +85,7 @@ void FaultLanes::draw(drawing::Svg& svg, const drawing::Area& plot, const std::f
 void FaultLanes::add_to(std::vector<drawing::LegendEntry>& legend) const {
   using K = drawing::LegendEntry::Kind;
   if (lanes_.empty()) return;
-  legend.push_back({K::kBox, "fault, from its begin to its end", std::string(kFaultSpan), {}, true});
+  legend.push_back({K::kBox, "fault, from begin to end", std::string(kFaultSpan), {}, true});
   if (std::ranges::any_of(lanes_, [](const auto& one) { return !one.second.acts.empty(); }))
     legend.push_back({K::kLine, "the fault acts", std::string(drawing::kVermilion)});
 }

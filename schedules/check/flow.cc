@@ -122,7 +122,7 @@ class RingFinder {
         if (state(end.node, *end.task) == State::kOnTheWay)
           findings_.at(binding.line, end_path(cluster_, {node, &task, &binding}, "writes"),
                        flow_name(cluster_, ends->first),
-                       fmt::format("leads back to {}: a sensor's lists must not go round in a ring",
+                       fmt::format("leads back to {}: the way of a sensor's lists must not form a ring",
                                    task_path(cluster_.node(end.node), *end.task)));
         visit(end.node, *end.task);
       }

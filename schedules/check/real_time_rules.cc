@@ -23,12 +23,12 @@ Int128 scaled_ps(Duration duration) { return static_cast<Int128>(duration.ns) * 
 
 std::string us_text(Duration duration) { return scaled_text(duration.ns, 1'000) + " us"; }
 
-// Returns for example "; --time-scale 1.2 or more would do".
+// Returns for example "; --time-scale 1.2 or more suffices".
 std::string remedy(const model::Cluster& cluster) {
   const std::int64_t needed = smallest_time_scale(cluster, *cluster.arrival_window);
   if (needed > kLargestTimeScale)
-    return fmt::format("; no --time-scale up to {} would do", time_scale_text(kLargestTimeScale));
-  return fmt::format("; --time-scale {} or more would do", time_scale_text(needed));
+    return fmt::format("; no --time-scale up to {} suffices", time_scale_text(kLargestTimeScale));
+  return fmt::format("; --time-scale {} or more suffices", time_scale_text(needed));
 }
 
 void check_window(const model::Cluster& cluster, std::int64_t time_scale_ppm, ClusterFindings& findings) {

@@ -154,7 +154,7 @@ void show_objects(const model::Cluster& cluster, std::string& text) {
     text +=
         fmt::format("  {:<16}{:>4} in {} slots, {} to a slot; its header counts to {}\n", cluster.pdu(room.pdu).name,
                     room.objects, room.slots, cluster.pdu(room.pdu).elements_per_fragment, room.countable);
-  text += fmt::format("  {} objects in every list; {} if all {} static slots without status frames were shared out\n",
+  text += fmt::format("  {} objects in every list; {} if the lists shared all {} static slots without status frames\n",
                       ceiling.carried, ceiling.with_all_static_slots, ceiling.free_for_lists);
 }
 
@@ -181,8 +181,8 @@ std::string show_text(const model::Cluster& cluster) {
           fmt::format("at {:.3f} ms + n*{:g} ms",
                       in_ms(time_of(g, sensor.at.base_cycle, sensor.at.offset) - GlobalTime{}), in_ms(sensor.period));
     if (sensor.follows())
-      when = fmt::format("when {} ends, {:g} to {:g} ms after the last time", sensor.after, in_ms(sensor.period),
-                         in_ms(sensor.longest));
+      when =
+          fmt::format("when {} ends, every {:g} to {:g} ms", sensor.after, in_ms(sensor.period), in_ms(sensor.longest));
     text += fmt::format("  {:<12}{} -> {}: {}\n", sensor.name, cluster.node(sensor.device).name,
                         cluster.node(sensor.host).name, when);
   }

@@ -125,7 +125,7 @@ expect 1 'cannot be written' schedule export "$work/cluster.xml" --format yaml -
 sed 's/<flexray:N-I-T>386/<flexray:N-I-T>900/' "$work/cluster.xml" >"$work/broken.xml"
 expect 2 'broken.xml:[0-9]+: .*N-I-T = 900: must be 2..805' schedule export "$work/broken.xml" --format yaml
 sed 's,</fx:CHANNELS>,</fx:CHANNEL>,' "$work/cluster.xml" >"$work/broken.xml"
-expect 2 'broken.xml:[0-9]+: is no well-formed XML' schedule export "$work/broken.xml" --format yaml
+expect 2 'broken.xml:[0-9]+: is not well-formed XML' schedule export "$work/broken.xml" --format yaml
 sed 's,<fx:MEDIUM>,<fx:NOVELTY/><fx:MEDIUM>,' "$work/cluster.xml" >"$work/novel.xml"
 expect 0 'note: .*novel.xml:[0-9]+: fx:FIBEX/fx:ELEMENTS/fx:CLUSTERS/fx:CLUSTER/fx:NOVELTY: is not understood' \
   schedule export "$work/novel.xml" --format yaml -o "$work/novel.yaml"
@@ -150,7 +150,7 @@ done
 expect 0 'byzantine_clock +laser_pre' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
 expect 0 '^1 fault-free node to the end: fusion$' run "$source/scenarios/faulty_bus.yaml" --strategy tt \
   --no-log --out "$work/f"
-expect 0 '^    discarded: no time of measuring +1$' run "$source/scenarios/faulty_bus.yaml" --strategy tt \
+expect 0 '^    discarded: no time of measurement +1$' run "$source/scenarios/faulty_bus.yaml" --strategy tt \
   --no-log --out "$work/f"
 expect 0 'No fault-free node was harmed' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
 python3 - "$work/f/summary.json" "$work/a/summary.json" <<'PY' || fail "the JSON does not say what the faults did"
@@ -291,7 +291,7 @@ expect 1 '^1 contradiction$|in [0-9]+ cycles: 1 contradiction$' schedule check "
 expect 1 'disturbed.pcapng: at packet [0-9]+: header CRC error: slot 2 on A' \
   schedule check "$schedule" --against "$work/disturbed.pcapng"
 expect 1 '"header CRC error": 1' schedule check "$schedule" --against "$work/disturbed.pcapng" --json
-expect 2 'README.md: is no capture' schedule check "$schedule" --against "$source/README.md"
+expect 2 'README.md: is not a capture' schedule check "$schedule" --against "$source/README.md"
 expect 2 'absent.pcapng: cannot be read' schedule check "$schedule" --against "$work/absent.pcapng"
 expect 2 'no FlexRay frame' schedule check "$schedule" --against "$work/drive.pcapng" --from 1000
 expect 2 '--against' schedule check "$schedule" --channels A
@@ -363,7 +363,7 @@ expect 2 'adva.mcap: cluster = paper_unsynchronised: must be paper_synchronised 
   diagram "$work/a/tt.mcap" "$work/a/adva.mcap" -o "$work/none.svg"
 expect 2 'c/tt.mcap: seed = 4: must be 3 as in .*a/tt.mcap' export "$work/a/tt.mcap" "$work/c/tt.mcap" --format csv \
   -o "$work/none"
-expect 2 'b/tt.mcap: holds the same records as .*a/tt.mcap: each log may be given once' \
+expect 2 'b/tt.mcap: holds the same records as .*a/tt.mcap: give each log once' \
   diagram "$work/a/tt.mcap" "$work/b/tt.mcap" --kind plane -o "$work/none.svg"
 expect 2 'holds the same records as' export "$work/a/tt.mcap" "$work/nodes/node2.mcap" --format csv -o "$work/none"
 expect 2 'must be another file than the input' export "$work"/nodes/node{0,1}.mcap --format csv \
@@ -390,7 +390,7 @@ done
 sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" >"$work/drowned.yaml"
 printf 'faults:\n  - {kind: transient, from: 1 s, duration: 4 ms}\n' >>"$work/drowned.yaml"
 expect 0 \
-  'HARMED by fault 0, 1\.0[0-9]+ s: fusion: [0-9]+ frames lost, the first: slot [0-9]+ of [a-z_]+ on any channel$' \
+  'HARMED by fault 0, 1\.0[0-9]+ s: fusion: [0-9]+ frames lost on all channels, the first: slot [0-9]+ of [a-z_]+$' \
   run "$work/drowned.yaml" --strategy tt --no-log --out "$work/drowned"
 
 # The pages' examples of a scenario load as they stand, and so do their keys.

@@ -78,7 +78,7 @@ expect 0 'tt.mcap: is ignored' export "$work"/tt/*.mcap --format csv -o "$work/a
 expect 0 '' export "$work/tt/tt.mcap" --format csv -o "$work/merged.csv"
 cmp "$work/all.csv" "$work/merged.csv" || fail "the frames of all logs in the folder are not the merged log's"
 expect 0 'tt.mcap: is ignored' diagram "$work"/tt/*.mcap --kind position -o "$work/all.svg"
-expect 2 'fusion.mcap: holds the same records as .*tt.mcap: each log may be given once, and a merged one without its parts' \
+expect 2 'fusion.mcap: holds the same records as .*tt.mcap: give each log once, and a merged log without its parts' \
   diagram "$work"/tt/{tt,fusion}.mcap --from 1 --to 1.04 -o "$work/none.svg"
 logs=$(for node in $nodes; do echo "$work/tt/$node.mcap"; done)
 # shellcheck disable=SC2086

@@ -45,11 +45,11 @@ TEST(YamlEdit, OneScalarIsReplacedAndNothingElse) {
 TEST(YamlEdit, OnlyWhatIsThereCanBeReplaced) {
   for (const char* path : {"world.speed", "world.objects[2].x", "world.objects[-1].x", "world.objects[x].x", "world[0]",
                            "world.noise.x", "world.objects[0", ""})
-    EXPECT_THAT(refusal(path, "1"), testing::AnyOf(testing::HasSubstr("only what is written there can be varied"),
+    EXPECT_THAT(refusal(path, "1"), testing::AnyOf(testing::HasSubstr("only its written keys can be varied"),
                                                    testing::HasSubstr("must be a plain scalar")))
         << path;
   EXPECT_EQ(refusal("world.speed", "1"),
-            "a.yaml: world.speed: must be in the file: only what is written there can be varied");
+            "a.yaml: world.speed: must be in the file: only its written keys can be varied");
   EXPECT_EQ(refusal("quoted", "1"), "a.yaml:9: quoted: must be a plain scalar to be varied");
   EXPECT_THAT(refusal("world", "1"), testing::HasSubstr("a.yaml:4: world: must be a plain scalar"));
 }

@@ -134,12 +134,12 @@ TEST(StartupScenario, NamesAreThoseOfTheCluster) {
   Startup startup;
   startup.file = "drive.yaml";
   startup.power_on = {{"nobody", {}, 7}, {"node0", {}, 7}};
-  EXPECT_NE(refusal(startup, five()).find("drive.yaml:7: startup.power_on = nobody: is no node of cluster.yaml"),
+  EXPECT_NE(refusal(startup, five()).find("drive.yaml:7: startup.power_on = nobody: is not a node of cluster.yaml"),
             std::string::npos)
       << refusal(startup, five());
   startup.power_on.clear();
   startup.wake_up = "nobody";
-  EXPECT_NE(refusal(startup, five()).find("is no node of cluster.yaml"), std::string::npos);
+  EXPECT_NE(refusal(startup, five()).find("is not a node of cluster.yaml"), std::string::npos);
   startup.wake_up = "device";
   EXPECT_NE(refusal(startup, five()).find("must be on FlexRay"), std::string::npos);
   startup.wake_up = "node1";

@@ -76,7 +76,7 @@ class MemoryExchange {
       std::unique_lock lock(mutex);
       Member& member = members.at(node);
       member.something.wait(lock, [&] { return member.gone || !member.waiting.empty() || alone(node); });
-      if (member.gone) throw std::runtime_error(name(node) + " has been announced gone");
+      if (member.gone) throw std::runtime_error(name(node) + " has been removed by the supervisor");
       if (member.waiting.empty()) throw std::runtime_error(name(node) + ": all other members are gone");
       Item item = std::move(member.waiting.front());
       member.waiting.pop_front();

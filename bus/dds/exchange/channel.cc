@@ -34,7 +34,7 @@ common::Qos qualities() {
 
 common::Said said_in(const ttf_ExchangeSample& sample) {
   if (sample.kind >= common::kKinds || sample.inner >= common::kKinds)
-    throw std::runtime_error(fmt::format("exchange: node {} sent a sample of an unknown kind ({}): another version?",
+    throw std::runtime_error(fmt::format("exchange: node {} sent a sample of unknown kind {}; its version may differ",
                                          sample.sender, sample.kind));
   return {.sender = NodeId{sample.sender},
           .kind = common::Kind{sample.kind},

@@ -139,7 +139,7 @@ void ExchangeSupervisor::Watch::on_control(const common::Said& said) {
     throw std::runtime_error(fmt::format("session {} on DDS domain {}: {}", session_.name, session_.domain,
                                          node == common::kSupervisor
                                              ? "there is a second supervisor"
-                                             : fmt::format("node {} is no member", index_of(node))));
+                                             : fmt::format("node {} is not a member", index_of(node))));
   if (dead_.contains(node) || !numbers_.is_new(node, said.number)) return;
   switch (said.kind) {
     case common::Kind::kHello:
@@ -249,7 +249,7 @@ void ExchangeSupervisor::Watch::wait_ready(std::chrono::milliseconds patience) {
 }
 
 void ExchangeSupervisor::Watch::announce_gone(NodeId node) {
-  TTF_CHECK(members_.contains(node), "node {} is no member", index_of(node));
+  TTF_CHECK(members_.contains(node), "node {} is not a member", index_of(node));
   {
     const std::scoped_lock lock(mutex_);
     announcements_.push_back(node);

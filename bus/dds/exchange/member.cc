@@ -36,7 +36,7 @@ Exchange::Member::Member(const common::Session& session, NodeId self)
       heard_table_(without(session.members, self)) {
   for (const NodeId id : session.members)
     if (id != self) others_.try_emplace(id, Stream(id, session.supervised ? kRetainBytes : 0));
-  TTF_CHECK(others_.size() + 1 == session.members.size(), "node {} is no member", index_of(self));
+  TTF_CHECK(others_.size() + 1 == session.members.size(), "node {} is not a member", index_of(self));
   say(data_, common::Kind::kHello);
   say(control_, common::Kind::kHello);
 }
@@ -52,7 +52,7 @@ void Exchange::Member::wait_ready(std::chrono::milliseconds patience) {
   bool said = false;
   while (!all_ready_) {
     if (take()) continue;
-    if (cut_off_) throw std::runtime_error("exchange: " + node(self_) + " has been announced gone");
+    if (cut_off_) throw std::runtime_error("exchange: " + node(self_) + " has been removed by the supervisor");
     const bool supervisor_heard = !session_.supervised || control_hello_.contains(common::kSupervisor);
     if (!said && supervisor_heard && everybody(data_hello_) && everybody(control_hello_)) {
       say(control_, common::Kind::kReady);
@@ -89,7 +89,7 @@ void Exchange::Member::send(std::span<const std::byte> message) {
 
 ports::Exchange::Heard Exchange::Member::receive() {
   for (;;) {
-    if (cut_off_) throw std::runtime_error("exchange: " + node(self_) + " has been announced gone");
+    if (cut_off_) throw std::runtime_error("exchange: " + node(self_) + " has been removed by the supervisor");
     if (!coming_.empty()) {
       const Coming next = std::move(coming_.front());
       coming_.pop_front();
@@ -111,7 +111,7 @@ std::optional<Exchange::Member::Clock::time_point> Exchange::Member::look_around
   for (const auto& [id, limit] : lost_) {
     if (gone_.contains(id)) continue;
     if (Clock::now() >= limit)
-      throw std::runtime_error(fmt::format("exchange: {} has fallen silent: DDS has lost it", node(id)));
+      throw std::runtime_error(fmt::format("exchange: DDS has lost contact with {}", node(id)));
     until = std::min(until.value_or(limit), limit);
   }
   return until;

@@ -36,7 +36,7 @@ Exchange::Member::Other& Exchange::Member::other(NodeId node) {
   const auto found = others_.find(node);
   if (found == others_.end())
     throw std::runtime_error(fmt::format("session {} on DDS domain {}: node {} {}", session_.name, session_.domain,
-                                         index_of(node), node == self_ ? "is there twice" : "is no member"));
+                                         index_of(node), node == self_ ? "is there twice" : "is not a member"));
   return found->second;
 }
 
@@ -92,7 +92,7 @@ void Exchange::Member::on_control(const common::Said& said) {
       return;
     case common::Kind::kReport:
     case common::Kind::kClosed: return;  // for the supervisor
-    case common::Kind::kMessage: throw std::runtime_error("exchange: a message among control samples");
+    case common::Kind::kMessage: throw std::runtime_error("exchange: a control sample carries a message");
   }
 }
 

@@ -58,7 +58,8 @@ std::string Stream::missing() const {
 
 std::vector<common::Entry> Stream::again(std::uint64_t first) const {
   const std::uint64_t oldest = next_ - kept_.size();
-  if (first < oldest) throw std::runtime_error(lost(sender_, first, oldest) + " to others, and no longer kept here");
+  if (first < oldest)
+    throw std::runtime_error(lost(sender_, first, oldest) + " to others, and this node no longer has them");
   if (first >= next_) return {};
   return {kept_.begin() + static_cast<std::ptrdiff_t>(first - oldest), kept_.end()};
 }

@@ -52,9 +52,9 @@ bool is_of_the_cluster(XmlElement& connector, const std::set<std::string>& contr
     return false;
   }
   if (!of.empty() && of != controller)
-    reader.leave_out(connector, of, "is of another controller than the ECU's first on FlexRay, and left out");
+    reader.leave_out(connector, of, "belongs to another controller than the ECU's first on FlexRay, and is left out");
   else if (!on.empty() && !channels.contains(on))
-    reader.leave_out(connector, on, "is on no channel of the first FlexRay cluster, and left out");
+    reader.leave_out(connector, on, "is on no channel of the first FlexRay cluster, and is left out");
   else
     return true;
   return false;
@@ -89,7 +89,7 @@ FibexEcu read_ecu(XmlElement& ecu, const ChannelIds& channels, FibexReader& read
     controllers.insert(id);
     if (one.has_controller || !reader.is_flexray(controller, "CONTROLLER-TYPE", "flexray:MICRO-PER-CYCLE"))
       reader.leave_out(controller, controller.attribute("ID"),
-                       "is not the ECU's first FlexRay controller, and left out");
+                       "is not the ECU's first FlexRay controller, and is left out");
     else
       read_controller(controller, one, reader);
     if (one.has_controller && used.empty()) used = id;

@@ -216,9 +216,9 @@ ChannelIds read_channels(XmlElement& elements, FibexFile& out, FibexReader& read
   for (XmlElement& channel : elements.children_of("fx:CHANNELS", "fx:CHANNEL")) {
     const std::string id = channel.attribute("ID");
     if (!reader.is_flexray(channel, "CHANNEL-TYPE", "flexray:FLEXRAY-CHANNEL-NAME")) {
-      reader.leave_out(channel, id, "is no FlexRay channel, and left out");
+      reader.leave_out(channel, id, "is not a FlexRay channel, and is left out");
     } else if (!out.channels.empty() && !out.channels.contains(id)) {
-      reader.leave_out(channel, id, "is no channel of the first FlexRay cluster, and left out");
+      reader.leave_out(channel, id, "is not a channel of the first FlexRay cluster, and is left out");
     } else {
       const auto which = read_channel(channel, out, reader);
       if (!which) continue;
@@ -253,7 +253,7 @@ FibexFile read_fibex(const XmlFile& file, Findings& wrong, Findings& left_out) {
   bool found = false;
   for (XmlElement& cluster : elements->children_of("fx:CLUSTERS", "fx:CLUSTER")) {
     if (found || !reader.is_flexray(cluster, "CLUSTER-TYPE", "flexray:MACRO-PER-CYCLE")) {
-      reader.leave_out(cluster, cluster.attribute("ID"), "is not the first FlexRay cluster, and left out");
+      reader.leave_out(cluster, cluster.attribute("ID"), "is not the first FlexRay cluster, and is left out");
       continue;
     }
     found = true;

@@ -79,7 +79,7 @@ class Importer {
       if (parts.count(pdu.id) != 0) continue;
       std::string reason = as_list(pdu, pdus_).reason;
       leave_out(pdu.line, "fx:PDU", pdu.name,
-                fmt::format("is not a list of a cluster file, and becomes a comment: {}", reason));
+                fmt::format("does not fit a list of a cluster file, and becomes a comment: {}", reason));
       out_.foreign.push_back({pdu, std::move(reason)});
     }
   }
@@ -93,7 +93,7 @@ class Importer {
       const auto in_cluster = [&](const std::string& id) { return triggered.count(id) != 0; };
       if (!ecu.has_controller && std::none_of(ecu.sends.begin(), ecu.sends.end(), in_cluster) &&
           std::none_of(ecu.receives.begin(), ecu.receives.end(), in_cluster)) {
-        leave_out(ecu.line, "fx:ECU", ecu.name, "is not on the FlexRay cluster, and left out");
+        leave_out(ecu.line, "fx:ECU", ecu.name, "is not on the FlexRay cluster, and is left out");
         continue;
       }
       if (!names.insert(ecu.name).second) fail(ecu.line, "fx:ECU", ecu.name, "must have a name of its own");
@@ -144,7 +144,7 @@ class Importer {
           slots[{one.slot, one.base_cycle, one.repetition, frame->second - file_.frames.data(), senders_.at(one.id)}];
       const unsigned channel = 1u << static_cast<unsigned>(one.channel);
       if ((channels & channel) != 0)
-        leave_out(one.line, "fx:FRAME-TRIGGERING", one.id, "is left out: it says the same as an earlier one");
+        leave_out(one.line, "fx:FRAME-TRIGGERING", one.id, "is left out: it repeats an earlier one");
       if (channels == 0) line = one.line;
       channels |= channel;
     }

@@ -109,19 +109,19 @@ std::string find_elements(const FibexMultiplexer& multiplexer, const std::map<st
       codes.size() != multiplexer.layouts.size() || codes.size() > model::kMostFragments)
     return fmt::format("its switch codes are not 0, 1, ..., at most {}", model::kMostFragments - 1);
   const auto found = by_id.find(multiplexer.layouts.front().second);
-  if (found == by_id.end()) return "its dynamic part is no PDU of this file";
+  if (found == by_id.end()) return "its dynamic part is not a PDU of this file";
   elements = found->second;
   return "";
 }
 
 std::string take_list(const FibexPdu& pdu, const std::map<std::string, const FibexPdu*>& by_id,
                       model::PduLayout& layout) {
-  if (!pdu.multiplexer) return "it has no multiplexer, hence no fragments";
+  if (!pdu.multiplexer) return "it has no multiplexer, thus no fragments";
   const FibexMultiplexer& multiplexer = *pdu.multiplexer;
   if (!multiplexer.unlike.empty()) return multiplexer.unlike;
   if (!pdu.signals.empty()) return "it has signals beside its multiplexer";
   const auto header = by_id.find(multiplexer.static_pdu);
-  if (header == by_id.end()) return "its static part is no PDU of this file";
+  if (header == by_id.end()) return "its static part is not a PDU of this file";
   const FibexPdu* elements = nullptr;
   if (std::string reason = find_elements(multiplexer, by_id, elements); !reason.empty()) return reason;
   if (header->second->multiplexer || elements->multiplexer) return "its parts have multiplexers themselves";

@@ -260,8 +260,7 @@ std::vector<FibexPdu> read_pdus(XmlElement& elements, const std::map<std::string
       signal.name = found->second.name;
       const auto coding = codings.find(found->second.coding);
       if (coding == codings.end()) {
-        reader.leave_out(instance, signal.name,
-                         "has a signal without coding, hence of unknown length, and is left out");
+        reader.leave_out(instance, signal.name, "has a signal without coding, thus of unknown length, and is left out");
         continue;
       }
       signal.meaning = coding->second.meaning;

@@ -96,20 +96,20 @@ XmlFile XmlFile::parse(std::string text, std::string name) {
     return InputError(Finding{content->file, content->line_at(offset), "", "", std::move(what)});
   };
   if (const std::size_t bad = first_bad_character(text); bad != std::string_view::npos)
-    throw damaged(static_cast<std::ptrdiff_t>(bad), "is no XML in UTF-8: a byte here is no character of it");
+    throw damaged(static_cast<std::ptrdiff_t>(bad), "is not XML in UTF-8: a byte here is invalid");
   // Keeps the document type and text outside the root element, to report them.
   const unsigned how = pugi::parse_default | pugi::parse_doctype | pugi::parse_fragment;
   const auto result = content->document.load_buffer(text.data(), text.size(), how, pugi::encoding_utf8);
-  if (!result) throw damaged(result.offset, fmt::format("is no well-formed XML: {}", result.description()));
+  if (!result) throw damaged(result.offset, fmt::format("is not well-formed XML: {}", result.description()));
   pugi::xml_node root;
   for (const pugi::xml_node& node : content->document.children()) {
     if (node.type() == pugi::node_doctype) throw damaged(node.offset_debug(), "has a document type; FIBEX has none");
-    if (is_text(node)) throw damaged(text_offset(node), "is no well-formed XML: text outside the root element");
+    if (is_text(node)) throw damaged(text_offset(node), "is not well-formed XML: text outside the root element");
     if (node.type() != pugi::node_element) continue;
-    if (root) throw damaged(node.offset_debug(), "is no well-formed XML: a second root element");
+    if (root) throw damaged(node.offset_debug(), "is not well-formed XML: a second root element");
     root = node;
   }
-  if (!root) throw damaged(0, "is no XML: it has no element");
+  if (!root) throw damaged(0, "is not XML: it has no element");
   for (const pugi::xml_attribute& attribute : root.attributes()) {
     const std::string_view key = attribute.name();
     if (key != "xmlns" && !key.starts_with("xmlns:")) continue;

@@ -28,10 +28,10 @@ TEST(InterfaceProblem, IsNoneWhereAllHolds) {
 
 TEST(InterfaceProblem, NamesWhatTheKernelLacks) {
   EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.refused = EAFNOSUPPORT; }), true),
-            "the kernel has no CAN sockets (AF_CAN; in a container the host's kernel counts): "
+            "the kernel has no CAN sockets (AF_CAN; a container uses its host's kernel): "
             "modprobe can_raw && modprobe vcan");
   EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.refused = EPROTONOSUPPORT; }), true),
-            "the kernel has no raw CAN sockets (CAN_RAW; in a container the host's kernel counts): "
+            "the kernel has no raw CAN sockets (CAN_RAW; a container uses its host's kernel): "
             "modprobe can_raw");
   EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.refused = EACCES; }), true),
             "the kernel gives no CAN socket: Permission denied");
@@ -65,10 +65,11 @@ TEST(InterfaceProblem, ComesWithTheCommandThatHelps) {
   EXPECT_EQ(interface_problem("vxcan1", absent, false),
             "is not there: ip link add dev vxcan1 type vxcan && ip link set vxcan1 mtu 16 up");
   EXPECT_EQ(interface_problem("can0", absent, true),
-            "is not there; ip -details link show type can lists the CAN interfaces");
-  EXPECT_EQ(interface_problem("a_name_of_20_bytes__", absent, true), "is no interface name: a name has 1..15 bytes");
+            "is not there; `ip -details link show type can` lists the CAN interfaces");
+  EXPECT_EQ(interface_problem("a_name_of_20_bytes__", absent, true),
+            "is not an interface name: a name has 1..15 bytes");
   EXPECT_EQ(interface_problem("lo", but([](auto& s) { s.can = false; }), true),
-            "is no CAN interface; ip -details link show type can lists the CAN interfaces");
+            "is not a CAN interface; `ip -details link show type can` lists the CAN interfaces");
   EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.up = false; }), true),
             "is down: ip link set vcan0 mtu 72 up");
   EXPECT_EQ(interface_problem("can0", but([](auto& s) { s.up = false; }), true),

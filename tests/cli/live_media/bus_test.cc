@@ -81,7 +81,7 @@ TEST(Preflight, SaysHowAMissingBusIsMade) {
   EXPECT_EQ(items[1].how, "is not there (channel A)");
   EXPECT_THAT(items[1].commands,
               ElementsAre("ip link add dev vcan_absent type vcan", "ip link set vcan_absent mtu 72 up"));
-  EXPECT_EQ(items[2].how, "is not there; ip -details link show type can lists the CAN interfaces (channel B)");
+  EXPECT_EQ(items[2].how, "is not there; `ip -details link show type can` lists the CAN interfaces (channel B)");
   EXPECT_THAT(items[2].commands, IsEmpty());  // hardware: its driver is unknown
   EXPECT_THAT(text_of(items), HasSubstr("not ready: vcan_absent is not there (channel A); as root:\n"
                                         "    ip link add dev vcan_absent type vcan\n"));
@@ -89,7 +89,8 @@ TEST(Preflight, SaysHowAMissingBusIsMade) {
 
 TEST(Preflight, TellsACanFromOtherInterfaces) {
   const auto items = look_at(Bus::parse("socketcan:lo"), {});
-  EXPECT_EQ(items[1].how, "is no CAN interface; ip -details link show type can lists the CAN interfaces (channel A)");
+  EXPECT_EQ(items[1].how,
+            "is not a CAN interface; `ip -details link show type can` lists the CAN interfaces (channel A)");
   EXPECT_FALSE(items[1].good);
 }
 
@@ -106,10 +107,10 @@ TEST(Preflight, LooksAtPrivateCans) {
   EXPECT_THAT(items[2].commands, ElementsAre("ip link add dev laser_can type vcan", "ip link set laser_can mtu 72 up"));
   EXPECT_THAT(items[3].commands,
               ElementsAre("ip link add dev camera_can type vcan", "ip link set camera_can mtu 16 up"));
-  EXPECT_EQ(items[4].how, "is not there; ip -details link show type can lists the CAN interfaces (radar_can)");
+  EXPECT_EQ(items[4].how, "is not there; `ip -details link show type can` lists the CAN interfaces (radar_can)");
   EXPECT_THAT(items[4].commands, IsEmpty());
   EXPECT_THAT(items[5].commands, ElementsAre("ip link add dev vcan_none type vcan", "ip link set vcan_none mtu 16 up"));
-  EXPECT_THAT(items[6].how, HasSubstr("is no CAN interface"));
+  EXPECT_THAT(items[6].how, HasSubstr("is not a CAN interface"));
   for (std::size_t i = 2; i < items.size(); ++i) EXPECT_FALSE(items[i].good) << items[i].what;
 }
 

@@ -186,7 +186,7 @@ TEST_F(SweepEngine, DifferencesArePaired) {
   EXPECT_FALSE(answer.holds());
   const std::string text = answer_text(sweep, answer);
   EXPECT_THAT(text, testing::HasSubstr(
-                        "position_rmse_truth of tt is less than of adva at 1 point, more at 1, undecided at 0."));
+                        "position_rmse_truth of tt is less than that of adva at 1 point, more at 1, undecided at 0."));
   EXPECT_THAT(text, testing::HasSubstr("They cross at noise 29.57."));
 }
 

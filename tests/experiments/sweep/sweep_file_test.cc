@@ -54,7 +54,7 @@ TEST(SweepFile, ListsRangesSettingsAndDraws) {
 
 TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
-  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], values: [1, 1]}"), HasSubstr("must not have a value twice: 1"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], values: [1, 1]}"), HasSubstr("must not have the value 1 twice"));
   EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 1}"), HasSubstr("count"));
   EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 3, scale: logarithmic}"),
               HasSubstr("both ends above 0"));
@@ -99,7 +99,7 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   head = kHead;
   head.replace(head.find("replications: 2"), 15, "replications: 10000000");
   EXPECT_THAT(refusal(head + "axes:\n  one: {keys: [tracker.process_noise], from: 1, to: 9, count: 9}\n"),
-              HasSubstr("must make 100000000 runs at most, and make 180000000"));
+              HasSubstr("must make at most 100000000 runs, not 180000000"));
 }
 
 TEST(SweepFile, AKeyMayBeOneParadigmsOnly) {
@@ -128,7 +128,7 @@ TEST(SweepFile, AKeyMayBeOneParadigmsOnly) {
   EXPECT_EQ(axes("  one: {keys: [a/duration], values: [3 s]}\n  two: {keys: [t/duration], values: [4 s]}\n"), "taken");
   EXPECT_THAT(axes("  one: {keys: [t/cluster.sensors.camera.period], values: [42 ms]}\n"),
               AllOf(HasSubstr("small.yaml:9: cluster.sensors.camera.period: must be in the file"),
-                    HasSubstr("synchronised.yaml: only what is written there can be varied (with t, one 42 ms)")));
+                    HasSubstr("synchronised.yaml: only its written keys can be varied (with t, one 42 ms)")));
 }
 
 TEST(SweepFile, FilesAreValues) {

@@ -199,8 +199,8 @@ TEST(CaptureReader, DamageIsOneSentenceThatNamesFileAndPacket) {
   bytes[bytes.size() - 4] ^= 4;  // the last block's second length
   EXPECT_THAT(refusal(bytes), StartsWith("bus.pcapng: block before packet 2 = "));
   EXPECT_THAT(refusal(bytes), HasSubstr("must state the same length at both ends"));
-  EXPECT_EQ(refusal("GIF89a"), "bus.pcapng: is no capture: neither pcap nor pcapng");
-  EXPECT_EQ(refusal(""), "bus.pcapng: is no capture: neither pcap nor pcapng");
+  EXPECT_EQ(refusal("GIF89a"), "bus.pcapng: is not a capture: neither pcap nor pcapng");
+  EXPECT_EQ(refusal(""), "bus.pcapng: is not a capture: neither pcap nor pcapng");
 
   Bytes pcap;
   pcap.u32(0xa1b2c3d4).u16(2).u16(4).u32(0).u32(0).u32(65535).u32(210).u32(0).u32(1'000'000).u32(0).u32(0);

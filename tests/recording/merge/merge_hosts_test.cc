@@ -168,8 +168,8 @@ TEST(MergeHosts, OnOneHostOrWithoutSynchronisationTimesStayAsTheyAre) {
                               {"elm", machine_clock(Duration::milliseconds(9), 0)}};
   const Hosts apart(drive, two, [&](NodeId node) { return node == off_flexray ? std::size_t{1} : std::size_t{0}; });
   const MergedLogs both(apart.paths);
-  EXPECT_EQ(both.warnings(),
-            std::vector<std::string>{"no node of machine elm was synchronised: its logs have its own clock's times"});
+  EXPECT_EQ(both.warnings(), std::vector<std::string>{
+                                 "no node of machine elm was synchronised: its logs keep the times of its own clock"});
   EXPECT_GT(apart.most_apart([&](records::Sink& sink) { both.read(sink); }), Duration::milliseconds(8));
 }
 

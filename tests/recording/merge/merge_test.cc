@@ -226,7 +226,7 @@ TEST(Merge, ByRunLogsOfEachRunComeTogether) {
 
 TEST(Merge, TheSameLogTwiceIsRefused) {
   const std::string kTwice =
-      "copy.mcap: holds the same records as part1.mcap: each log may be given once, and a merged one without its parts";
+      "copy.mcap: holds the same records as part1.mcap: give each log once, and a merged log without its parts";
   const auto copied = [](const std::string& bytes) {
     std::vector<StoredLog> logs = logs_of(2, crowd());
     logs.emplace_back(bytes.empty() ? read_file(log::scratch("part1.mcap")) : bytes, "copy.mcap");
@@ -266,7 +266,7 @@ TEST(Merge, TheWholeAmongItsPartsIsPassedOver) {
     overlapping.read(sink);
     ADD_FAILURE() << "read twice";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("and a merged one without its parts"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("and a merged log without its parts"), std::string::npos) << error.what();
   }
 }
 

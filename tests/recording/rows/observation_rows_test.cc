@@ -130,7 +130,7 @@ TEST(ObservationRows, EachBrokenLineIsOneSentenceAndLeftOut) {
                   "o.csv:11: cov_22: must be given where another part of the covariance is",
                   "o.csv:12: cov_11 = -0.1: must be a number in 1e-08..1e+08",
                   "o.csv:13: cov_33 = 0.1: must be empty where two numbers were measured",
-                  "o.csv:14: cov_12 = 0.01: must be empty where range and bearing alone were measured: their errors "
+                  "o.csv:14: cov_12 = 0.01: must be empty where only range and bearing were measured: their errors "
                   "are taken as "
                   "independent",
                   "o.csv:15: sensor: must be a name of 1..40 printable ASCII characters",

@@ -150,7 +150,7 @@ TEST(TimingDiagram, FaultsHaveLanesAndWhatBecameOfFramesIsMarked) {
        {"bit 7 is inverted", "slot 1 of gateway: frame CRC wrong", "sent by no node: undecodable",
         "feature, but its controller did not send it: sound", "slot 1 of gateway: it reached no receiver"})
     EXPECT_EQ(count(svg, words), 1u) << words;
-  for (const char* entry : {"fault, from its begin to its end", "the fault acts",
+  for (const char* entry : {"fault, from begin to end", "the fault acts",
                             "frame damaged, displaced or sent by no controller", "frame that reached no receiver"})
     EXPECT_EQ(count(svg, std::string(">") + entry + "</text>"), 1u) << entry;
   expect_no_overlaps(svg);

@@ -119,7 +119,7 @@ TEST(Mutations, OfTasksAndTheirFlow) {
        "reads: \\{raw: laser_scan on laser_can\\}",
        "reads: {raw: laser_scan on laser_can, back: laser_objects on flexray}",
        {"writes: {out: laser_objects on flexray}", "nodes.gateway.tasks.forward_laser.writes.out",
-        "laser_objects on flexray", "go round in a ring"}},
+        "laser_objects on flexray", "must not form a ring"}},
       {"sensor_period",
        inside("laser", "worst_case") + "500 us(.*\n.*\n.*deadline: )2 ms",
        "$01500 ms$02600 ms",

@@ -61,7 +61,7 @@ TEST(RealTime, LateMayBeAsLongAsTheRoom) {
   EXPECT_EQ(line_of(cluster.text, findings[0].line), "real_time: {early: 100 us, late: 500 us}");
   EXPECT_EQ(findings[0].expected,
             "must be at most 581 us at time scale 1: the time from the action point of slot 34, the last one in "
-            "use, to the end of the static segment; --time-scale 1.000002 or more would do");
+            "use, to the end of the static segment; --time-scale 1.000002 or more suffices");
 }
 
 TEST(RealTime, TheWindowsOfASlotInTwoCyclesMustNotOverlap) {
@@ -72,7 +72,7 @@ TEST(RealTime, TheWindowsOfASlotInTwoCyclesMustNotOverlap) {
   EXPECT_EQ(findings[0].value, "4500 us");
   EXPECT_EQ(findings[0].expected,
             "must be less than a cycle together with late (500 us), 5000 us at time scale 1: otherwise the "
-            "arrival windows of a slot in two cycles overlap; --time-scale 1.000001 or more would do");
+            "arrival windows of a slot in two cycles overlap; --time-scale 1.000001 or more suffices");
 }
 
 // For any window: the named scale suffices, and the one before does not.
@@ -96,7 +96,7 @@ TEST(RealTime, WhereNoTimeScaleDoesItSaysSo) {
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_NE(findings[0].expected.find("at most 581000 us at time scale 1000:"), std::string::npos)
       << findings[0].expected;
-  EXPECT_TRUE(findings[0].expected.ends_with("; no --time-scale up to 1000 would do")) << findings[0].expected;
+  EXPECT_TRUE(findings[0].expected.ends_with("; no --time-scale up to 1000 suffices")) << findings[0].expected;
 }
 
 TEST(RealTime, EachObstacleIsNamedAtItsLine) {

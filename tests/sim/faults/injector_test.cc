@@ -389,20 +389,19 @@ TEST(BelievedSchedules, WhatCannotBeIsSaidWhenThePlanIsResolved) {
     return fault;
   };
   EXPECT_EQ(refused({wrong(ttf::faults::WrongSchedule::kStaticSlot, 6)}), "");
-  EXPECT_EQ(
-      refused({wrong(ttf::faults::WrongSchedule::kStaticSlot, 11)}),
-      "drive.yaml:5: faults[0].by = 11: must not make the network idle time shorter by more than 644 macroticks: 64 "
-      "slots would take 704");
+  EXPECT_EQ(refused({wrong(ttf::faults::WrongSchedule::kStaticSlot, 11)}),
+            "drive.yaml:5: faults[0].by = 11: must shorten the network idle time by at most 644 macroticks: 64 slots "
+            "take 704");
   // Twice six is too much again.
   EXPECT_NE(
       refused({wrong(ttf::faults::WrongSchedule::kStaticSlot, 6), wrong(ttf::faults::WrongSchedule::kStaticSlot, 6)}),
       "");
   EXPECT_EQ(refused({wrong(ttf::faults::WrongSchedule::kPayloadLength, 120)}),
-            "drive.yaml:5: faults[0].by = 120: must not make the 8 words of a static frame more than 127");
+            "drive.yaml:5: faults[0].by = 120: must be at most 119: a static frame has 8 words and room for 127");
   ttf::faults::Fault same = fault_of(FaultKind::kDuplicateColdstart, 0, 0);
   same.duplicate = ttf::faults::DuplicateMode::kSameKeySlot;
   EXPECT_EQ(refused({same}),
-            "drive.yaml: faults[0].slot: must be given: there is no other coldstart node to take it from");
+            "drive.yaml: faults[0].slot: must be given: there is no other coldstart node whose slot it could take");
   ttf::faults::Fault masquerade = fault_of(FaultKind::kMasquerading, 3, 0);
   masquerade.slot = 4;
   EXPECT_EQ(refused({masquerade}), "drive.yaml: faults[0].slot = 4: must be another's slot of 4 nodes");

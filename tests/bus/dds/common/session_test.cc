@@ -139,7 +139,7 @@ TEST(DdsSession, AStrangerIsAnError) {
   larger.members.push_back(NodeId{9});
   session.supervised = larger.supervised = false;
   exchange::Exchange one(session, NodeId{1}), stranger(larger, NodeId{9});
-  EXPECT_EQ(error_of([&] { one.wait_ready(10s); }), called(session) + "node 9 is no member");
+  EXPECT_EQ(error_of([&] { one.wait_ready(10s); }), called(session) + "node 9 is not a member");
 }
 
 // Two members and their supervisor, ready.
@@ -158,7 +158,7 @@ class DdsPair : public testing::Test {
 TEST_F(DdsPair, WhoIsAnnouncedGoneAndLivesIsToldSo) {
   supervisor_->announce_gone(NodeId{1});
   EXPECT_TRUE(zero_->receive().gone);
-  EXPECT_EQ(error_of([this] { one_->receive(); }), "exchange: node 1 has been announced gone");
+  EXPECT_EQ(error_of([this] { one_->receive(); }), "exchange: node 1 has been removed by the supervisor");
   one_->send({});  // to no member
   EXPECT_EQ(error_of([this] { zero_->receive(); }), "exchange: node 0: all other members are gone");
 }

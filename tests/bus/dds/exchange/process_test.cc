@@ -156,7 +156,7 @@ TEST(DdsKill, WithoutSupervisorItIsAnErrorThatNamesTheDead) {
   launch.kill(1);
   for (const std::size_t survivor : {0, 2}) {
     EXPECT_EQ(launch.member(survivor).wait(), 1);
-    EXPECT_EQ(launch.member(survivor).said(), "ready\nerror: exchange: node 1 has fallen silent: DDS has lost it\n");
+    EXPECT_EQ(launch.member(survivor).said(), "ready\nerror: exchange: DDS has lost contact with node 1\n");
   }
 }
 

@@ -132,7 +132,7 @@ TEST_F(StreamTest, KeepsWhatNotEverybodyHasHeard) {
   EXPECT_EQ(stream_.again(9).size(), 1u);
   EXPECT_TRUE(stream_.again(10).empty());
   EXPECT_EQ(error_of([this] { stream_.again(2); }),
-            "exchange: samples 2 to 3 of node 3 are lost to others, and no longer kept here");
+            "exchange: samples 2 to 3 of node 3 are lost to others, and this node no longer has them");
 }
 
 TEST_F(StreamTest, KeepsNoMoreThanItMay) {

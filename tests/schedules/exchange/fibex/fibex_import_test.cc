@@ -411,7 +411,7 @@ TEST(FibexImport, TheChannelsAreThoseTheClusterRefersTo) {
                                    "<fx:CHANNEL-REF ID-REF=\"X\"/><fx:CONTROLLER-REF ID-REF=\"E1C\"/></fx:CONNECTOR>");
   const FibexImport import = parse_fibex(two, "demo.xml");
   EXPECT_EQ(FibexDifference::of(import.cluster, parse_fibex(kPowertrain, "demo.xml").cluster), "");
-  EXPECT_THAT(sentences(import.left_out), HasSubstr("X: is no channel of the first FlexRay cluster"));
+  EXPECT_THAT(sentences(import.left_out), HasSubstr("X: is not a channel of the first FlexRay cluster"));
   EXPECT_THAT(sentences(import.left_out), HasSubstr("X: is on no channel of the first FlexRay cluster"));
 }
 
@@ -439,15 +439,15 @@ TEST(FibexImport, DamagedXmlIsRefusedInOneSentenceWithItsLine) {
   const int lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
   const std::pair<std::string, std::string> damages[] = {
       {replaced(text, "</fx:GATEWAYS>", "</fx:GATEWAY>"),
-       fmt::format("demo.xml:{}: is no well-formed XML: ", line_of(text, "</fx:GATEWAYS>"))},
-      {text + "<fx:FIBEX/>", fmt::format("demo.xml:{}: is no well-formed XML: a second root element", lines + 1)},
-      {text + "more", fmt::format("demo.xml:{}: is no well-formed XML: text outside", lines + 1)},
+       fmt::format("demo.xml:{}: is not well-formed XML: ", line_of(text, "</fx:GATEWAYS>"))},
+      {text + "<fx:FIBEX/>", fmt::format("demo.xml:{}: is not well-formed XML: a second root element", lines + 1)},
+      {text + "more", fmt::format("demo.xml:{}: is not well-formed XML: text outside", lines + 1)},
       {replaced(text, "<fx:FIBEX", "<!DOCTYPE FIBEX [<!ENTITY a \"b\">]>\n<fx:FIBEX"),
        "demo.xml:2: has a document type"},
       {replaced(text, "Powertrain", std::string("Power\0train", 11)),
-       fmt::format("demo.xml:{}: is no XML in UTF-8", line_of(text, "Powertrain"))},
+       fmt::format("demo.xml:{}: is not XML in UTF-8", line_of(text, "Powertrain"))},
       {replaced(text, "Powertrain", "Power\xfftrain"),
-       fmt::format("demo.xml:{}: is no XML in UTF-8", line_of(text, "Powertrain"))},
+       fmt::format("demo.xml:{}: is not XML in UTF-8", line_of(text, "Powertrain"))},
       {"", "demo.xml:1: is no"},
       {"name: a\n", "demo.xml:1: is no"},
       {"<a/>", "demo.xml:1: a: must be fx:FIBEX"},
