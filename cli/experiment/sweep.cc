@@ -252,9 +252,9 @@ void settle_replications(ExperimentOptions& options, SweepFile& sweep) {
   sweep.replications = options.replications > 0 ? options.replications : there > 0 ? there : files;
   options.replications = sweep.replications == files ? 0 : sweep.replications;
   if (sweep.drives() > experiments::sweep::kMostDrives)
-    throw InputError({"command line", 0, "--replications", std::to_string(sweep.replications),
-                      fmt::format("must make at most {} drives, not {}", experiments::sweep::kMostDrives,
-                                  sweep.drives())});
+    throw InputError(
+        {"command line", 0, "--replications", std::to_string(sweep.replications),
+         fmt::format("must make at most {} drives, not {}", experiments::sweep::kMostDrives, sweep.drives())});
 }
 
 int run_sweep_experiment(const ExperimentOptions& given, experiments::mpi::Ranks& alone) {

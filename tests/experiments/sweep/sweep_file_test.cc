@@ -99,7 +99,7 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   head = kHead;
   head.replace(head.find("replications: 2"), 15, "replications: 10000000");
   EXPECT_THAT(refusal(head + "axes:\n  one: {keys: [tracker.process_noise], from: 1, to: 9, count: 9}\n"),
-              HasSubstr("must make at most 100000000 runs, not 180000000"));
+              HasSubstr("must make at most 100000000 drives, not 180000000"));
 }
 
 TEST(SweepFile, AKeyMayBeOneParadigmsOnly) {
