@@ -13,11 +13,21 @@
 namespace ttf::schedules {
 
 inline const std::vector<std::string>& shipped_clusters() {
-  static const std::vector<std::string> kNames{"paper_unsynchronised", "paper_synchronised", "paper_event_triggered",
-                                               "paper_free_running",   "paper_free_flexray", "paper_fitted",
-                                               "paper_dynamic",        "laser_radar",        "laser_radar_synchronised",
-                                               "flexray_demo",         "twin_cameras",       "thousand_unsynchronised",
-                                               "thousand_synchronised"};
+  static const std::vector<std::string> kNames{"paper_unsynchronised",
+                                               "paper_synchronised",
+                                               "paper_event_triggered",
+                                               "paper_free_running",
+                                               "paper_free_flexray",
+                                               "paper_fitted",
+                                               "paper_dynamic",
+                                               "laser_radar",
+                                               "laser_radar_synchronised",
+                                               "flexray_demo",
+                                               "twin_cameras",
+                                               "thousand_unsynchronised",
+                                               "thousand_synchronised",
+                                               "two_lasers_synchronised",
+                                               "two_lasers_unsynchronised"};
   return kNames;
 }
 

@@ -100,7 +100,7 @@ TEST_P(DbcOfShipped, OneCanAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Clusters, DbcOfShipped,
                          testing::Values("paper_unsynchronised", "paper_synchronised", "laser_radar",
-                                         "laser_radar_synchronised"),
+                                         "laser_radar_synchronised", "two_lasers_synchronised"),
                          [](const auto& one) { return one.param; });
 
 // `schedule export --format dbc` makes them.
