@@ -315,12 +315,26 @@ std::vector<std::pair<std::string, YamlMap>> YamlMap::named_maps(std::string_vie
     return {{kAnyName, described_map(fmt::format("{}.{}", key_path(key), kAnyName))}};
   }
   YamlMap outer = map(key);
+  auto list = outer.other_maps();
+  outer.finish();
+  return list;
+}
+
+std::vector<std::pair<std::string, YamlMap>> YamlMap::other_maps() {
+  if (is_described()) {
+    KeyQuestion asked = question(kAnyName, KeyType::kMap);
+    asked.optional = true;
+    ask(asked);
+    return {{kAnyName, described_map(key_path(kAnyName))}};
+  }
   std::vector<std::pair<std::string, YamlMap>> list;
-  if (!outer.content_->node.IsDefined() || !outer.content_->node.IsMap()) return list;
-  for (const auto& entry : outer.content_->node) {
+  if (!content_->node.IsDefined() || !content_->node.IsMap()) return list;
+  const auto known = content_->asked;
+  for (const auto& entry : content_->node) {
     const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
-    const std::string path = outer.key_path(name);
-    outer.content_->asked.insert(name);
+    if (known.contains(name)) continue;
+    const std::string path = key_path(name);
+    content_->asked.insert(name);
     if (!entry.second.IsMap()) {
       findings_->add({content_->file, line_of(entry.first), path, "", "must be a mapping"});
       continue;
@@ -330,7 +344,6 @@ std::vector<std::pair<std::string, YamlMap>> YamlMap::named_maps(std::string_vie
     content->node.reset(entry.second);
     list.emplace_back(name, YamlMap(std::move(content), path, findings_));
   }
-  outer.finish();
   return list;
 }
 

@@ -84,6 +84,8 @@ class YamlMap {
   std::vector<std::int64_t> integers(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   std::vector<std::pair<std::string, YamlMap>> named_maps(std::string_view key);       // name: {...}, in file order
   std::vector<std::pair<std::string, std::string>> named_texts(std::string_view key);  // name: text, in file order
+  // The keys of this mapping that were not asked for yet: name: {...}, in file order.
+  std::vector<std::pair<std::string, YamlMap>> other_maps();
 
   // Adds a finding about `key` (about this mapping when `key` is empty), with its line and value.
   void fail(std::string_view key, std::string expected);

@@ -102,6 +102,7 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
   check_recording(scenario, cluster, recording_given);
   check_late(scenario, cluster, strategy);
   check_fusion(cluster, strategy);
+  check_sensors(scenario, cluster);
   const faults::FaultPlan faults = faults::resolve(scenario.faults, cluster);
   const faults::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)node_starts(scenario.startup, cluster, scenario.seed, 0);
@@ -114,6 +115,7 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   check_recording(scenario, cluster, config.recorded != nullptr);
   check_late(scenario, cluster, config.strategy);
   check_fusion(cluster, config.strategy);
+  check_sensors(scenario, cluster);
   std::optional<sim::processes::Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
   recording::records::Sink& sink = share ? static_cast<recording::records::Sink&>(*share) : out;

@@ -37,14 +37,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
   scenario.world.duration = scenario.duration;
   world.finish();
   if (auto sensors = root.map_if("sensors")) {
-    if (auto laser = sensors->map_if("laser")) {
-      scenario.laser = sim::world::load_laser(*laser);
-      laser->finish();
-    }
-    if (auto camera = sensors->map_if("camera")) {
-      scenario.camera = sim::world::load_camera(*camera);
-      camera->finish();
-    }
+    scenario.sensors = load_sensors(*sensors);
     sensors->finish();
   }
   if (auto reference = root.map_if("reference")) {
@@ -52,14 +45,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
     reference->finish();
   }
   if (auto preprocessing = root.map_if("preprocessing")) {
-    if (auto laser = preprocessing->map_if("laser")) {
-      scenario.laser_preprocessing = nodes::laser::load_laser_preprocessing(*laser);
-      laser->finish();
-    }
-    if (auto camera = preprocessing->map_if("camera")) {
-      scenario.camera_calibration = nodes::camera::load_camera_calibration(*camera);
-      camera->finish();
-    }
+    load_preprocessing(*preprocessing, scenario.sensors);
     preprocessing->finish();
   }
   if (auto tracker = root.map_if("tracker")) {

@@ -9,17 +9,14 @@
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
+#include "drives/sensors.h"
 #include "drives/startup.h"
 #include "faults/plan.h"
 #include "fusion/config/tracker_config.h"
 #include "fusion/strategies/strategy.h"
-#include "nodes/camera/triangulation.h"
-#include "nodes/laser/laser_preprocessor.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
 #include "schedules/model/cluster.h"
-#include "sim/world/camera.h"
-#include "sim/world/laser.h"
 #include "sim/world/reference.h"
 #include "sim/world/world.h"
 
@@ -37,11 +34,8 @@ struct Scenario {
   // By StrategyKind, as paths that can be opened.
   std::array<std::string, fusion::strategies::kStrategyCount> cluster_files;
   sim::world::WorldConfig world;
-  sim::world::LaserConfig laser;
-  sim::world::CameraConfig camera;
+  Sensors sensors;
   sim::world::ReferenceConfig reference;
-  nodes::laser::LaserPreprocessingConfig laser_preprocessing;
-  nodes::camera::CameraCalibration camera_calibration;
   fusion::config::TrackerConfig tracker;
   nodes::sensing::RecordedNoise recorded_noise;
   nodes::service::FeatureConfig feature;

@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "nodes/fusion/fusion_host.h"
+#include "nodes/host/signals.h"
 #include "nodes/sensing/emulators.h"
 #include "nodes/sensing/gateway.h"
 #include "nodes/sensing/preprocessing.h"
@@ -11,6 +12,17 @@
 #include "nodes/service/feature_service.h"
 
 namespace ttf::drives {
+namespace {
+
+std::string_view name_of(const schedules::model::Cluster& cluster, SensorId sensor) {
+  return sensor == kNoSensor ? std::string_view() : cluster.sensor(sensor).name;
+}
+// Returns the name of the sensor whose raw list the task reads.
+std::string_view name_read(const schedules::model::Cluster& cluster, const schedules::model::Task& task) {
+  return name_of(cluster, cluster.pdu(nodes::host::binding_of(task.reads, "raw").pdu).sensor);
+}
+
+}  // namespace
 
 std::span<const schedules::model::StepPorts> step_ports() {
   static const std::vector<schedules::model::StepPorts> kPorts{
@@ -51,9 +63,11 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
     const nodes::sensing::EmulatorConfig emulator{&cluster,     &task,       task.activation.sensor,
                                                   config.scene, config.seed, config.replication};
     if (task.step == "laser_emulator") {
-      steps.push_back(std::make_shared<nodes::sensing::LaserEmulator>(emulator, scenario.laser));
+      steps.push_back(std::make_shared<nodes::sensing::LaserEmulator>(
+          emulator, scenario.sensors.lasers.of(name_of(cluster, emulator.sensor)).model));
     } else if (task.step == "camera_emulator") {
-      steps.push_back(std::make_shared<nodes::sensing::CameraEmulator>(emulator, scenario.camera));
+      steps.push_back(std::make_shared<nodes::sensing::CameraEmulator>(
+          emulator, scenario.sensors.cameras.of(name_of(cluster, emulator.sensor)).model));
     } else if (task.step == "recorded_source") {
       if (!config.recorded)
         throw InputError({cluster.file, task.line, "nodes." + node.name + "." + task.name, task.step,
@@ -61,11 +75,11 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
       steps.push_back(
           std::make_shared<nodes::sensing::RecordedSource>(cluster, task, task.activation.sensor, config.recorded));
     } else if (task.step == "laser_preprocessing") {
-      steps.push_back(
-          std::make_shared<nodes::sensing::LaserPreprocessing>(cluster, task, scenario.laser_preprocessing));
+      steps.push_back(std::make_shared<nodes::sensing::LaserPreprocessing>(
+          cluster, task, scenario.sensors.lasers.preprocessing_of(name_read(cluster, task))));
     } else if (task.step == "camera_preprocessing") {
-      steps.push_back(
-          std::make_shared<nodes::sensing::CameraPreprocessing>(cluster, task, scenario.camera_calibration));
+      steps.push_back(std::make_shared<nodes::sensing::CameraPreprocessing>(
+          cluster, task, scenario.sensors.cameras.preprocessing_of(name_read(cluster, task))));
     } else if (task.step == "recorded_preprocessing") {
       steps.push_back(std::make_shared<nodes::sensing::RecordedPreprocessing>(cluster, task, scenario.recorded_noise));
     } else if (task.step == "gateway") {

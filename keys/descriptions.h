@@ -16,8 +16,11 @@ struct Description {
 using Descriptions = std::span<const Description>;
 
 Descriptions scenario_descriptions();
-Descriptions sensor_descriptions();  // below `sensors` of a scenario
-Descriptions preprocessing_descriptions();
+Descriptions sensor_descriptions();  // below a sensor of a scenario, whatever its kind
+Descriptions laser_descriptions();
+Descriptions camera_descriptions();
+Descriptions laser_preprocessing_descriptions();
+Descriptions camera_preprocessing_descriptions();
 Descriptions mounting_descriptions();
 Descriptions tracker_descriptions();
 Descriptions known_sensor_descriptions();  // below a sensor of the tracker's

@@ -25,23 +25,34 @@ void load_experiment(const StrictYaml& yaml) {
     experiments::campaign::read_campaign(yaml);
 }
 
+std::vector<Chapter> scenario_chapters() {
+  std::vector<Chapter> chapters{{"", scenario_descriptions()},
+                                {"preprocessing.laser", laser_preprocessing_descriptions()},
+                                {"preprocessing.camera", camera_preprocessing_descriptions()},
+                                {"tracker", tracker_descriptions()},
+                                {"tracker.sensors.NAME", known_sensor_descriptions()},
+                                {"tracker.sensors.NAME.mounting", mounting_descriptions()},
+                                {"faults[]", fault_descriptions()}};
+  const auto add_sensor = [&](const std::string& name, bool laser, bool camera, bool any) {
+    const std::string place = "sensors." + name;
+    chapters.push_back({place, sensor_descriptions()});
+    chapters.push_back({place + ".mounting", mounting_descriptions()});
+    if (camera) chapters.push_back({place, camera_descriptions(), any ? "kind=camera" : ""});
+    if (camera) chapters.push_back({place + ".preprocessing", camera_preprocessing_descriptions()});
+    if (laser) chapters.push_back({place, laser_descriptions(), any ? "kind=laser" : ""});
+    if (laser) chapters.push_back({place + ".preprocessing", laser_preprocessing_descriptions()});
+  };
+  add_sensor("laser", true, false, false);
+  add_sensor("camera", false, true, false);
+  add_sensor(kAnyName, true, true, true);
+  return chapters;
+}
+
 std::vector<Document> all() {
-  const Chapter mounted_laser{"sensors.laser.mounting", mounting_descriptions()};
-  const Chapter mounted_camera{"sensors.camera.mounting", mounting_descriptions()};
   return {
-      {"scenario",
-       "Scenario",
+      {"scenario", "Scenario",
        "A scenario says what happens in a drive: world, sensors, tracker, faults, and the cluster of each strategy.",
-       [](const StrictYaml& yaml) { drives::read_scenario(yaml); },
-       {{"", scenario_descriptions()},
-        {"sensors", sensor_descriptions()},
-        mounted_laser,
-        mounted_camera,
-        {"preprocessing", preprocessing_descriptions()},
-        {"tracker", tracker_descriptions()},
-        {"tracker.sensors.NAME", known_sensor_descriptions()},
-        {"tracker.sensors.NAME.mounting", mounting_descriptions()},
-        {"faults[]", fault_descriptions()}}},
+       [](const StrictYaml& yaml) { drives::read_scenario(yaml); }, scenario_chapters()},
       {"cluster",
        "Cluster",
        "A cluster file says what happens in a cluster, and when: nodes, tasks, sensors, lists, FlexRay and CAN.",
@@ -86,7 +97,7 @@ bool holds(std::string_view when, const std::vector<Condition>& conditions) {
 const Description* Document::describe(const std::string& path, const std::vector<Condition>& conditions) const {
   for (const Chapter& chapter : chapters) {
     const std::string start = chapter.place.empty() ? "" : chapter.place + ".";
-    if (!path.starts_with(start)) continue;
+    if (!path.starts_with(start) || !holds(chapter.when, conditions)) continue;
     for (const Description& row : chapter.rows)
       if (row.key == std::string_view(path).substr(start.size()) && holds(row.when, conditions)) return &row;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "keys/descriptions.h"
@@ -14,6 +15,7 @@ namespace ttf::keys {
 struct Chapter {
   std::string place;
   Descriptions rows;
+  std::string_view when = "";  // as of a description, for all of them
 };
 
 struct Document {

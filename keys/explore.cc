@@ -41,9 +41,10 @@ const KeyQuestion* find(const DescribedReading::Map& map, const std::string& key
 
 bool same_bounds(const KeyQuestion& a, const KeyQuestion& b) { return a.low == b.low && a.high == b.high; }
 
-bool same_kind(const KeyQuestion& a, const KeyQuestion& b) {
-  return a.type == b.type && a.optional == b.optional && a.unit == b.unit && a.scale == b.scale && a.words == b.words;
+bool same_values(const KeyQuestion& a, const KeyQuestion& b) {
+  return a.type == b.type && a.optional == b.optional && a.scale == b.scale && a.words == b.words;
 }
+bool same_kind(const KeyQuestion& a, const KeyQuestion& b) { return same_values(a, b) && a.unit == b.unit; }
 
 // Whether two readings know the same keys of a mapping, except `apart`. A key whose value was not asked for matches any.
 bool same_keys(const DescribedReading::Map& a, const DescribedReading::Map& b, const std::string& apart) {
@@ -82,7 +83,8 @@ class Explorer {
     if (run.changed) {
       const Run& parent = found_.runs[run.parent];
       run.changes_keys = changes_keys(run, parent);
-      if (!run.changes_keys) note_changes(parent.usual(), run.usual(), run.changed->question.path());
+      note_changes(parent.usual(), run.usual(), run.changed->question.path(),
+                   run.changes_keys ? &run.changed->question.map : nullptr);
     }
     found_.runs.push_back(std::move(run));
   }
@@ -140,11 +142,14 @@ class Explorer {
     return map == reading.maps().end() ? nullptr : find(map->second, key);
   }
 
-  void note_changes(const DescribedReading& before, const DescribedReading& after, const std::string& cause) {
+  // Skips `apart`. Its cases tell.
+  void note_changes(const DescribedReading& before, const DescribedReading& after, const std::string& cause,
+                    const std::string* apart = nullptr) {
     for (const auto& [path, map] : after.maps())
       for (const KeyQuestion& question : map.questions) {
         const KeyQuestion* other = usual_of(before, path, question.key);
-        if (other == nullptr || !same_kind(question, *other) || question.path() == cause) continue;
+        if (other == nullptr || !same_values(question, *other) || question.path() == cause) continue;
+        if (apart != nullptr && path == *apart) continue;
         if (!same_bounds(question, *other)) found_.bounds_by[question.path()].insert(cause);
         if (question.fallback != other->fallback) found_.default_by[question.path()].insert(cause);
       }

@@ -63,7 +63,7 @@ class Schema {
       const Case& one = mapping->cases.front();
       schema["properties"] = properties(one);
       if (Json needed = required(one); !needed.empty()) schema["required"] = std::move(needed);
-      schema["additionalProperties"] = false;
+      schema["additionalProperties"] = others(one);
       return schema;
     }
     Json common = shared_properties(*mapping);
@@ -75,7 +75,7 @@ class Schema {
       for (auto& [key, value] : then["properties"].items())
         if (common.contains(key)) value = true;
       if (Json needed = required(one); needed != everywhere && !needed.empty()) then["required"] = std::move(needed);
-      then["additionalProperties"] = false;
+      then["additionalProperties"] = others(one);
       schema["allOf"].push_back({{"if", conditions(one)}, {"then", std::move(then)}});
     }
     return schema;
@@ -83,9 +83,19 @@ class Schema {
 
   Json properties(const Case& one) const {
     Json all = Json::object();
-    for (const Key& key : one.keys) all[key.question.key] = property(key, one.conditions);
+    for (const Key& key : one.keys)
+      if (!is_any_name(key)) all[key.question.key] = property(key, one.conditions);
     return all;
   }
+
+  // Returns the schema of all other keys. False refuses them.
+  Json others(const Case& one) const {
+    for (const Key& key : one.keys)
+      if (is_any_name(key)) return property(key, one.conditions);
+    return false;
+  }
+
+  static bool is_any_name(const Key& key) { return key.question.key == kAnyName; }
 
   static Json required(const Case& one) {
     Json needed = Json::array();

@@ -123,6 +123,7 @@ class MappingOutline {
     }
     if (known->question.type == KeyType::kMap && question.type == KeyType::kWord) known->words = question.words;
     if (known->question.type != question.type) return;
+    if (known->question.unit != question.unit) known->question.unit.clear();
     const auto causes = [&](const std::map<std::string, std::set<std::string>>& by) {
       const auto found = by.find(question.path());
       return found == by.end() ? std::set<std::string>{} : found->second;

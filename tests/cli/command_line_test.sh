@@ -40,7 +40,7 @@ expect 2 '^error: command line: --format = json-schema: goes with one kind' keys
 expect 0 '' keys faults --format json-schema -o "$work/faults.json"
 cmp -s "$work/faults.json" "$source/schemas/faults.schema.json" || fail "keys writes another schema than the one kept"
 expect 0 '' keys --format markdown -o "$work/keys"
-[[ -s $work/keys/scenario_tracker.md ]] || fail "keys --format markdown writes no page of the tracker"
+[[ -s $work/keys/scenario_sensors.md ]] || fail "keys --format markdown writes no page of the sensors"
 
 for seed in 12x 010x 4611686018427387905 99999999999999999999999; do
   expect 2 '--seed.*must be a whole number 0..4611686018427387904' run "$source/scenarios/paper_scenario1.yaml" \

@@ -222,6 +222,12 @@ TEST(StrictYaml, EachGetterNamesWhatItWants) {
        },
        "a.yaml:3: v[1] = medium: must be one of slow, fast"},
       {"v:\n  a: 7", [](YamlMap& m) { EXPECT_TRUE(m.named_maps("v").empty()); }, "a.yaml:2: v.a: must be a mapping"},
+      {"v: 1\na: 7",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.integer("v", {0, 5}), 1);
+         EXPECT_TRUE(m.other_maps().empty());
+       },
+       "a.yaml:2: a: must be a mapping"},
       {"v:\n  a: {b: 1}", [](YamlMap& m) { EXPECT_TRUE(m.named_texts("v").empty()); }, "a.yaml:2: v.a: must be a text"},
       {"v:\n  a: x\n  a: y", [](YamlMap& m) { EXPECT_EQ(m.named_texts("v").size(), 2u); },
        "a.yaml:3: v.a: is given twice in one mapping"},
@@ -285,6 +291,23 @@ TEST(StrictYaml, FallbacksStandForWhatIsAbsentOnly) {
         EXPECT_THAT(values, ElementsAre(1, 2, 3, 4));  // in file order
       });
   EXPECT_TRUE(sentences.empty()) << testing::PrintToString(sentences);
+}
+
+TEST(StrictYaml, OtherMapsAreThoseOfTheNamesNotAskedFor) {
+  const auto sentences = read("known: {v: 1}\nb: {v: 2}\na: {w: 3}\n", [](YamlMap& map) {
+    EXPECT_TRUE(map.map_if("known"));
+    EXPECT_FALSE(map.map_if("unknown"));
+    std::vector<std::string> names;
+    for (auto& [name, item] : map.other_maps()) {
+      names.push_back(name);
+      EXPECT_EQ(item.path(), name);
+      item.integer_or("v", 0, {0, 9});
+      item.finish();
+    }
+    EXPECT_THAT(names, ElementsAre("b", "a"));
+    EXPECT_TRUE(map.other_maps().empty()) << "all were asked for";
+  });
+  EXPECT_THAT(sentences, ElementsAre(HasSubstr("a.yaml:3: a.w: is not a known key here")));
 }
 
 TEST(StrictYaml, TimesAreExactToTheNanosecond) {

@@ -60,7 +60,7 @@ TEST(BiasedDrive, EveryStrategyHasTheSameDrawAndEveryDriveItsOwn) {
     LaserSightings exact;
     drive.run(exact);
     plain[s] = exact.mean_x();
-    drive.scenario.laser.range_bias.sigma = 1.0;
+    drive.scenario.sensors.lasers.usual.model.range_bias.sigma = 1.0;
     drive.run(of[s]);
     const double drawn = sim::world::in_drive({0.0, 1.0}, sim::world::ErrorOf::kRange, {1, 0, 0}).fixed;
     EXPECT_GT(std::abs(drawn), 0.05);
@@ -78,7 +78,7 @@ TEST(BiasedDrive, AStampsErrorMovesWhatMoves) {
   drive.scenario.world.objects[0].speed = 10.0;
   LaserSightings exact, early;
   drive.run(exact);
-  drive.scenario.laser.device.time.fixed = 0.05;
+  drive.scenario.sensors.lasers.usual.model.device.time.fixed = 0.05;
   drive.run(early);
   EXPECT_NEAR(early.mean_x() - exact.mean_x(), 0.5, 0.05);
 }
@@ -107,8 +107,9 @@ TEST(BiasedDrive, ConsideredItIsConsistentIgnoredItIsNot) {
   constexpr std::uint64_t kDrives = 150;
   Drive drive = standing_car(StrategyKind::kTt);
   drive.scenario.tracker.process_noise = 0.1;
-  drive.scenario.laser.range_bias.sigma = 0.4;
-  drive.scenario.laser.azimuth_bias.sigma = drive.scenario.camera.bearing_bias.sigma = 0.015;
+  drive.scenario.sensors.lasers.usual.model.range_bias.sigma = 0.4;
+  drive.scenario.sensors.lasers.usual.model.azimuth_bias.sigma =
+      drive.scenario.sensors.cameras.usual.model.bearing_bias.sigma = 0.015;
   std::vector<fusion::sensors::KnownSensor>& sensors = drive.scenario.tracker.sensors;
   sensors.resize(2);
   sensors[0].name = "laser";
@@ -145,7 +146,8 @@ TEST(MountedDrive, BackwardsIsForwardsTurned) {
     car.x = -car.x;
     car.y = -car.y;
     car.heading += std::numbers::pi;
-    behind.scenario.laser.device.placement.heading = behind.scenario.camera.device.placement.heading = std::numbers::pi;
+    behind.scenario.sensors.lasers.usual.model.device.placement.heading =
+        behind.scenario.sensors.cameras.usual.model.device.placement.heading = std::numbers::pi;
     for (const char* name : {"laser", "camera"}) {
       fusion::sensors::KnownSensor& sensor = behind.scenario.tracker.sensors.emplace_back();
       sensor.name = name;
@@ -239,18 +241,22 @@ TEST(BiasedDrive, TheDocumentedKeysLoad) {
   };
   std::string scenario = whole("scenarios/paper_scenario1.yaml");
   const std::string page = whole("docs/sensors.md"), begin = "```yaml\n";
-  int blocks = 0;
-  for (std::size_t from = page.find(begin); from != std::string::npos; from = page.find(begin, from), ++blocks) {
+  std::vector<std::string> blocks;
+  for (std::size_t from = page.find(begin); from != std::string::npos; from = page.find(begin, from)) {
     from += begin.size();
-    scenario += page.substr(from, page.find("```", from) - from);
+    blocks.push_back(page.substr(from, page.find("```", from) - from));
   }
-  ASSERT_EQ(blocks, 2);
+  ASSERT_EQ(blocks.size(), 3u);
+  const std::string by_name = blocks[1];
+  EXPECT_NE(whole("scenarios/two_lasers.yaml").find(by_name.substr(by_name.find("  right_laser"))), std::string::npos);
+  EXPECT_EQ(parse_scenario(scenario + by_name, "by_name.yaml").sensors.lasers.own.size(), 2u);
+  scenario += blocks[0] + blocks[2];
   const Scenario loaded = parse_scenario(scenario, shipped("scenarios/documented.yaml"));
-  EXPECT_EQ(loaded.laser.device.placement.x, 3.5);
-  EXPECT_EQ(loaded.laser.range_bias.sigma, 0.3);
-  EXPECT_EQ(loaded.laser.device.time.fixed, 0.005);
-  EXPECT_EQ(loaded.camera.bearing_bias.fixed, -0.005);
-  EXPECT_EQ(loaded.camera.disparity_bias.sigma, 0.1);
+  EXPECT_EQ(loaded.sensors.lasers.usual.model.device.placement.x, 3.5);
+  EXPECT_EQ(loaded.sensors.lasers.usual.model.range_bias.sigma, 0.3);
+  EXPECT_EQ(loaded.sensors.lasers.usual.model.device.time.fixed, 0.005);
+  EXPECT_EQ(loaded.sensors.cameras.usual.model.bearing_bias.fixed, -0.005);
+  EXPECT_EQ(loaded.sensors.cameras.usual.model.disparity_bias.sigma, 0.1);
   EXPECT_EQ(loaded.tracker.systematic, fusion::config::SystematicErrorsAre::kConsidered);
   Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
   const fusion::config::TrackerConfig tracker =

@@ -44,14 +44,15 @@ TEST(ScenarioFiles, EveryShippedOneLoadsAndItsClustersAreThere) {
 TEST(ScenarioFiles, SensorAndCalibrationDefaultsAgree) {
   // Preprocessing assumes the sensors' real parameters, unless a drive says otherwise.
   const Scenario s;
-  EXPECT_EQ(s.camera_calibration.baseline_m, s.camera.baseline_m);
-  EXPECT_EQ(s.camera_calibration.focal_px, s.camera.focal_px);
-  EXPECT_EQ(s.camera_calibration.disparity_sigma_px, s.camera.disparity_sigma_px);
-  EXPECT_EQ(s.camera_calibration.bearing_sigma_rad, s.camera.bearing_sigma_rad);
-  EXPECT_EQ(s.camera_calibration.width_sigma_px, s.camera.width_sigma_px);
-  EXPECT_EQ(s.laser_preprocessing.segmentation.azimuth_step_rad, s.laser.azimuth_step_rad);
-  EXPECT_EQ(s.laser_preprocessing.rectangle.azimuth_step_rad, s.laser.azimuth_step_rad);
-  EXPECT_EQ(s.laser_preprocessing.rectangle.range_noise_m, s.laser.range_sigma_m);
+  EXPECT_EQ(s.sensors.cameras.preprocessing.baseline_m, s.sensors.cameras.usual.model.baseline_m);
+  EXPECT_EQ(s.sensors.cameras.preprocessing.focal_px, s.sensors.cameras.usual.model.focal_px);
+  EXPECT_EQ(s.sensors.cameras.preprocessing.disparity_sigma_px, s.sensors.cameras.usual.model.disparity_sigma_px);
+  EXPECT_EQ(s.sensors.cameras.preprocessing.bearing_sigma_rad, s.sensors.cameras.usual.model.bearing_sigma_rad);
+  EXPECT_EQ(s.sensors.cameras.preprocessing.width_sigma_px, s.sensors.cameras.usual.model.width_sigma_px);
+  EXPECT_EQ(s.sensors.lasers.preprocessing.segmentation.azimuth_step_rad,
+            s.sensors.lasers.usual.model.azimuth_step_rad);
+  EXPECT_EQ(s.sensors.lasers.preprocessing.rectangle.azimuth_step_rad, s.sensors.lasers.usual.model.azimuth_step_rad);
+  EXPECT_EQ(s.sensors.lasers.preprocessing.rectangle.range_noise_m, s.sensors.lasers.usual.model.range_sigma_m);
 }
 
 TEST(ScenarioFiles, TheWorldHasAsManyObjectsAsSaid) {

@@ -140,6 +140,16 @@ TEST(Explore, AWordOrAMappingDecidesNoOtherKeys) {
   EXPECT_DEATH(outline_of(decides), "whether bus.start is a mapping decides which other keys there are");
 }
 
+TEST(Explore, AnyOtherNameIsAKeyBesideTheKnownOnes) {
+  const Outline found = outline_of([](YamlMap& m) {
+    if (auto usual = m.map_if("usual")) usual->integer("v", {0, 1});
+    for (auto& [name, entry] : m.other_maps())
+      if (entry.choice<int>("kind", {{"a", 0}, {"b", 1}}) == 1) entry.integer("of_b", {0, 1});
+  });
+  EXPECT_THAT(cases(found, ""), ElementsAre("-> usual? NAME?"));
+  EXPECT_THAT(cases(found, "NAME"), ElementsAre("kind: a -> kind", "kind: b -> kind of_b"));
+}
+
 TEST(Explore, AKeyThatIsOnlyRefusedIsNone) {
   const Outline found = outline_of([](YamlMap& m) {
     m.integer("a", {1, 9});

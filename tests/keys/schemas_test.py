@@ -65,6 +65,7 @@ TRACKS = [
 
 # Name of the mistake, kind of file, a right file (none: a track configuration), a text in it, its replacement, the wrong key.
 CAR = "scenarios/dynamics.yaml"
+LASERS = "scenarios/two_lasers.yaml"
 PAPER = "schedules/paper_synchronised.yaml"
 NOISE = "experiments/process_noise.yaml"
 CAMPAIGN = "experiments/fault_campaign.yaml"
@@ -75,6 +76,9 @@ WRONG = [
     ("out of range", "scenario", CAR, "speed: 10.0", "speed: 120.0", "speed"),
     ("a wrong unit", "scenario", CAR, "duration: 3 s", "duration: 3 min", "duration"),
     ("an unknown word", "scenario", CAR, "process_noise: 0.04", "motion: ctrw", "motion"),
+    ("a sensor without its kind", "scenario", LASERS, "left_laser: {kind: laser, ", "left_laser: {", "kind"),
+    ("another kind's key", "scenario", LASERS, "half_field: 0.9, period", "focal: 900.0, period", "focal"),
+    ("an unknown colour", "scenario", LASERS, "colour: green", "colour: pink", "colour"),
     ("a flag that is a number", "cluster", PAPER, "synchronisation: true", "synchronisation: 1", "synchronisation"),
     ("a parameter below its range", "cluster", PAPER, "gdStaticSlot: 84", "gdStaticSlot: 3", "gdStaticSlot"),
     ("a key of another measurement", "cluster", PAPER, "measurement: scheduled", "measurement: scheduled, period: 80 ms",

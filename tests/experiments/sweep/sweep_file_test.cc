@@ -157,6 +157,23 @@ TEST(SweepFile, FilesAreValues) {
               HasSubstr("faulty_bus.yaml: faults: must be absent, since"));
 }
 
+TEST(SweepFile, AKeyReachesASensorByItsName) {
+  const SweepFile sweep = parse_sweep(
+      "kind: sweep\nname: small\nquestion: q\nscenario: ../scenarios/two_lasers.yaml\nseed: 1\nreplications: 1\n"
+      "paradigms: {t: {strategy: tt}}\n"
+      "axes:\n  noise: {keys: [sensors.right_laser.range_sigma], values: [0.1, 0.3]}\n"
+      "  place: {keys: [sensors.left_laser.mounting.y], values: [1.2]}\n",
+      TTF_SOURCE_DIR "/experiments/small.yaml");
+  const drives::Sensors sensors = SweepDrives(sweep).prepare({1, 0, 0}).scenario.sensors;
+  EXPECT_EQ(sensors.lasers.of("right_laser").model.range_sigma_m, 0.3);
+  EXPECT_EQ(sensors.lasers.of("left_laser").model.range_sigma_m, 0.06);
+  EXPECT_EQ(sensors.lasers.of("left_laser").model.device.placement.y, 1.2);
+  const std::string nowhere = "axes: {noise: {keys: [sensors.laser2.range_sigma], values: [0.1]}}\n";
+  EXPECT_THAT(refusal(kHead + nowhere), HasSubstr("sensors.laser2.range_sigma: must be in the file"));
+  EXPECT_THAT(refusal(kHead + "axes: {noise: {keys: [cluster.sensors.laser2.period], values: [80 ms]}}\n"),
+              HasSubstr("cluster.sensors.laser2.period: must be in the file"));
+}
+
 // The grid's size is checked before it is made.
 TEST(SweepFile, TooManyPointsAreRefused) {
   std::string axes = "axes:\n";

@@ -1,0 +1,109 @@
+// Two lasers and a camera, each with its own place, noise and errors, in whole drives.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+#include "evaluation/accuracy/drive_measures.h"
+#include "tests/drives/drive_fixture.h"
+
+namespace ttf::drives {
+namespace {
+
+using fusion::strategies::StrategyKind;
+using Laser = SensorEntry<sim::world::LaserConfig, nodes::laser::LaserPreprocessingConfig>;
+
+// The sightings of each sensor, in the vehicle's axes, as the fusion node takes them.
+struct Sightings final : recording::records::Sink {
+  using recording::records::Sink::on;
+  using Sighting = std::tuple<std::uint32_t, double, double, double>;  // list, x, y, variance of x
+  std::vector<Sighting> of[3];
+  void on(const recording::records::ObservationSeen& seen) override {
+    of[index_of(seen.id.sensor)].push_back({seen.id.sequence, seen.x, seen.y, seen.sxx});
+  }
+};
+
+class TwoLasers : public testing::TestWithParam<StrategyKind> {
+ protected:
+  enum : std::size_t { kLeft, kRight, kCamera };
+
+  TwoLasers() {
+    drive_.scenario.world.acceleration_noise = drive_.scenario.world.yaw_rate_noise = 0.0;
+    sim::world::ObjectConfig& car = drive_.scenario.world.objects[0];
+    car.x = 25.0, car.y = 0.0, car.heading = 0.0, car.speed = 0.0;
+  }
+
+  Laser& laser(std::size_t which) { return drive_.scenario.sensors.lasers.own.at(which); }
+  Sightings sightings() const {
+    Sightings seen;
+    drive_.run(seen);
+    return seen;
+  }
+  static double mean(const std::vector<Sightings::Sighting>& all, std::size_t axis) {
+    double sum = 0.0;
+    for (const auto& [list, x, y, sxx] : all) sum += axis == 0 ? x : y;
+    return sum / static_cast<double>(all.size());
+  }
+
+  Drive drive_{"scenarios/two_lasers.yaml", GetParam()};
+};
+
+TEST_P(TwoLasers, EachSeesTheCarFromItsOwnPlace) {
+  const Sightings seen = sightings();
+  for (const std::size_t sensor : {kLeft, kRight}) {
+    EXPECT_GE(seen.of[sensor].size(), 30u);
+    EXPECT_NEAR(mean(seen.of[sensor], 0), 25.0, 0.3) << sensor;
+    EXPECT_NEAR(mean(seen.of[sensor], 1), 0.0, 0.3) << sensor;
+  }
+  EXPECT_NE(seen.of[kLeft], seen.of[kRight]);
+  // The tracker still takes the left laser to be where it was.
+  laser(kLeft).model.device.placement.y += 2.0;
+  const Sightings moved = sightings();
+  EXPECT_GT(std::abs(mean(moved.of[kLeft], 1) - mean(seen.of[kLeft], 1)), 1.5);
+  EXPECT_EQ(moved.of[kRight], seen.of[kRight]);
+  EXPECT_EQ(moved.of[kCamera], seen.of[kCamera]);
+}
+
+TEST_P(TwoLasers, ABiasIsInTheListsOfItsSensorAlone) {
+  const Sightings right = sightings();
+  laser(kLeft).model.range_bias.fixed = 1.0;
+  const Sightings biased = sightings();
+  EXPECT_NEAR(mean(biased.of[kLeft], 0) - mean(right.of[kLeft], 0), 1.0, 0.1);
+  EXPECT_EQ(biased.of[kRight], right.of[kRight]);
+  EXPECT_EQ(biased.of[kCamera], right.of[kCamera]);
+}
+
+TEST_P(TwoLasers, NoiseAndPreprocessingAreItsOwn) {
+  const Sightings before = sightings();
+  laser(kRight).model.range_sigma_m = 0.4;
+  const Sightings noisy = sightings();
+  EXPECT_NE(noisy.of[kRight], before.of[kRight]);
+  EXPECT_EQ(noisy.of[kLeft], before.of[kLeft]);
+  laser(kRight).preprocessing->rectangle.range_noise_m = 0.4;
+  const Sightings known = sightings();
+  ASSERT_EQ(known.of[kRight].size(), noisy.of[kRight].size());
+  EXPECT_GT(std::get<3>(known.of[kRight].front()), std::get<3>(noisy.of[kRight].front()));
+  EXPECT_EQ(known.of[kLeft], before.of[kLeft]);
+  EXPECT_EQ(known.of[kCamera], before.of[kCamera]);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryStrategy, TwoLasers, testing::ValuesIn(fusion::strategies::kAllStrategies),
+                         [](const auto& one) { return std::string(name_of(one.param)); });
+
+TEST(ShippedTwoLasers, AreTrackedByEveryStrategy) {
+  for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
+    const Drive drive("scenarios/two_lasers.yaml", strategy);
+    check_fits(drive.scenario, drive.cluster, strategy, false);
+    evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
+    drive.run(measures);
+    const evaluation::accuracy::DriveSummary summary = measures.finish();
+    EXPECT_LT(summary.position_rmse_truth, 0.4) << name_of(strategy);
+    EXPECT_GT(summary.matched, 40u) << name_of(strategy);
+    EXPECT_EQ(summary.missed, 0u) << name_of(strategy);
+    EXPECT_EQ(summary.age_fused_by_sensor.size(), 3u) << name_of(strategy);
+  }
+}
+
+}  // namespace
+}  // namespace ttf::drives
