@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/ids.h"
+#include "recording/log/sensor_style.h"
 
 namespace ttf::recording::log {
 
@@ -29,6 +30,7 @@ struct LogManifest {
   std::vector<std::string> pdu_names;
   std::vector<SensorId> pdu_sensors;  // the sensor of the PDU's measurements; kNoSensor: no single one
   std::vector<std::string> sensor_names;
+  std::vector<SensorStyle> sensor_styles;  // by SensorId, up to the last one that the scenario styles
   std::vector<std::string> can_bus_names;
   std::string clock;                        // empty: true times are the simulator's; else as below
   std::string host;                         // machine that wrote the log, if its clock is the wall's

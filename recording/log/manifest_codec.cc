@@ -36,6 +36,23 @@ bool append(std::vector<std::string>& names, std::string_view index, const std::
   return true;
 }
 
+// The words of a style in the manifest, by the beginnings of their keys.
+constexpr std::pair<std::string_view, std::string SensorStyle::*> kStyleWords[] = {
+    {"sensor_kind.", &SensorStyle::kind},
+    {"sensor_colour.", &SensorStyle::colour},
+    {"sensor_marker.", &SensorStyle::marker},
+};
+constexpr std::size_t kMostSensors = 256;  // as many as sensor ids exist
+
+bool read_style(std::string SensorStyle::*word, std::string_view index, const std::string& value,
+                std::vector<SensorStyle>& styles) {
+  const auto sensor = whole<std::size_t>(index);
+  if (!sensor || *sensor >= kMostSensors) return false;
+  if (styles.size() <= *sensor) styles.resize(*sensor + 1);
+  styles[*sensor].*word = value;
+  return true;
+}
+
 bool read_entry(std::string_view key, const std::string& value, LogManifest& manifest) {
   const auto rest_after = [key](std::string_view prefix) -> std::optional<std::string_view> {
     if (key.substr(0, prefix.size()) != prefix) return std::nullopt;
@@ -76,6 +93,8 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
     return manifest.pdu_sensors.push_back(SensorId{*sensor}), true;
   }
   if (const auto index = rest_after("sensor.")) return append(manifest.sensor_names, *index, value);
+  for (const auto& [prefix, word] : kStyleWords)
+    if (const auto index = rest_after(prefix)) return read_style(word, *index, value, manifest.sensor_styles);
   if (const auto index = rest_after("can_bus.")) return append(manifest.can_bus_names, *index, value);
   if (key == "task_lists") {
     const auto count = whole<std::size_t>(value);
@@ -121,6 +140,10 @@ ManifestEntries manifest_entries(const LogManifest& manifest) {
   for (std::size_t i = 0; i < manifest.pdu_sensors.size(); ++i)
     entries.emplace_back(fmt::format("pdu_sensor.{}", i), std::to_string(index_of(manifest.pdu_sensors[i])));
   list("sensor", manifest.sensor_names);
+  for (std::size_t i = 0; i < manifest.sensor_styles.size(); ++i)
+    for (const auto& [prefix, word] : kStyleWords)
+      if (const std::string& value = manifest.sensor_styles[i].*word; !value.empty())
+        entries.emplace_back(fmt::format("{}{}", prefix, i), value);
   list("can_bus", manifest.can_bus_names);
   entries.emplace_back("crc32", checksum(entries));
   return entries;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
+#include <string_view>
 
 #include "report/drawing/axes.h"
 
@@ -18,6 +20,36 @@ std::string at(const std::vector<std::string>& list, std::size_t i, const char* 
 std::string lower(std::string s) {
   std::ranges::transform(s, s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return s;
+}
+
+// By the places of their words in recording/log/sensor_style.h.
+constexpr std::array<std::string_view, recording::log::kSensorColours.size()> kColours{
+    kVermilion, kBlue, kGreen, kOrange, kSkyBlue, kPurple, kGrey};
+constexpr std::array<Marker, recording::log::kSensorMarkers.size()> kMarkers{
+    Marker::kCross, Marker::kPlus, Marker::kTriangle, Marker::kDownTriangle, Marker::kDiamond};
+
+// A word that a later version of the program wrote has no place here.
+template <std::size_t kCount>
+std::optional<std::size_t> place_of(std::string_view word, const std::array<std::string_view, kCount>& words) {
+  const auto found = std::ranges::find(words, word);
+  return found == words.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - words.begin()));
+}
+
+const recording::log::SensorStyle* style_of(const Names& names, SensorId sensor) {
+  return index_of(sensor) < names.sensor_styles.size() ? &names.sensor_styles[index_of(sensor)] : nullptr;
+}
+
+// Returns the number of sensors of the same kind before this one.
+std::size_t place_in_kind(const Names& names, SensorId sensor) {
+  std::size_t before = 0;
+  for (std::size_t s = 0; s < index_of(sensor); ++s)
+    before += look_of(names, SensorId(s)) == look_of(names, sensor) ? 1u : 0u;
+  return before;
+}
+
+// The two colours in turn, lighter with every turn.
+std::string one_of_kind(const std::array<std::string_view, 2>& colours, std::size_t place) {
+  return tint(colours[place % 2], std::min(0.3 * static_cast<double>(place / 2), 0.6));
 }
 
 }  // namespace
@@ -65,11 +97,13 @@ Names names_of(const recording::log::LogManifest& manifest) {
   names.sensors = manifest.sensor_names;
   names.can_buses = manifest.can_bus_names;
   names.pdu_sensors = manifest.pdu_sensors;
+  names.sensor_styles = manifest.sensor_styles;
   return names;
 }
 
-SensorLook look_of(const std::string& sensor_name) {
-  const std::string name = lower(sensor_name);
+SensorLook look_of(const Names& names, SensorId sensor) {
+  const recording::log::SensorStyle* style = style_of(names, sensor);
+  const std::string name = lower(style != nullptr && !style->kind.empty() ? style->kind : names.sensor(sensor));
   const auto contains = [&](const char* part) { return name.find(part) != std::string::npos; };
   if (contains("laser") || contains("lidar") || contains("lsc")) return SensorLook::kLaser;
   if (contains("camera") || contains("stereo") || contains("scabor")) return SensorLook::kCamera;
@@ -77,14 +111,30 @@ SensorLook look_of(const std::string& sensor_name) {
 }
 
 std::string sensor_colour(const Names& names, SensorId sensor) {
-  switch (look_of(names.sensor(sensor))) {
-    case SensorLook::kLaser: return std::string(kVermilion);
-    case SensorLook::kCamera: return std::string(kBlue);
-    case SensorLook::kRadar: return std::string(kGreen);
+  if (const recording::log::SensorStyle* style = style_of(names, sensor))
+    if (const auto place = place_of(style->colour, recording::log::kSensorColours))
+      return std::string(kColours[*place]);
+  switch (look_of(names, sensor)) {
+    case SensorLook::kLaser: return one_of_kind({kVermilion, kOrange}, place_in_kind(names, sensor));
+    case SensorLook::kCamera: return one_of_kind({kBlue, kSkyBlue}, place_in_kind(names, sensor));
+    case SensorLook::kRadar: return one_of_kind({kGreen, kOrange}, place_in_kind(names, sensor));
     case SensorLook::kOther: break;
   }
   const std::string others[] = {std::string(kPurple), std::string(kSkyBlue), std::string(kOrange)};
   return others[index_of(sensor) % 3];
+}
+
+Marker sensor_marker(const Names& names, SensorId sensor) {
+  if (const recording::log::SensorStyle* style = style_of(names, sensor))
+    if (const auto place = place_of(style->marker, recording::log::kSensorMarkers)) return kMarkers[*place];
+  const bool first = place_in_kind(names, sensor) % 2 == 0;
+  switch (look_of(names, sensor)) {
+    case SensorLook::kLaser: return first ? Marker::kCross : Marker::kPlus;
+    case SensorLook::kCamera: return first ? Marker::kTriangle : Marker::kDownTriangle;
+    case SensorLook::kRadar: return Marker::kDiamond;
+    case SensorLook::kOther: break;
+  }
+  return Marker::kDownTriangle;
 }
 
 // A PDU without a sensor gets a colour that the sensors leave free.

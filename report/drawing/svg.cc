@@ -178,6 +178,13 @@ void Svg::marker(Marker kind, Point at, double size, const Paint& paint, std::st
       add_paint(body_, paint);
       finish_element("path", hover);
       break;
+    case Marker::kPlus:
+      body_ += fmt::format("<path d=\"M{0} {2}L{1} {2}M{3} {4}L{3} {5}\"", number(at.x - r), number(at.x + r),
+                           number(at.y), number(at.x), number(at.y - r), number(at.y + r));
+      add_class(body_, css_class);
+      add_paint(body_, paint);
+      finish_element("path", hover);
+      break;
     case Marker::kTriangle: shape({{0, -1.1}, {1, 0.8}, {-1, 0.8}}); break;
     case Marker::kSquare: shape({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}}); break;
     case Marker::kDiamond: shape({{0, -1.2}, {1.2, 0}, {0, 1.2}, {-1.2, 0}}); break;

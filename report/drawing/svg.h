@@ -54,7 +54,7 @@ struct TextStyle {
 // Returns the area of a text drawn unrotated at `at`, which lies on the baseline.
 Area text_area(Point at, std::string_view text, const TextStyle& style);
 
-enum class Marker : std::uint8_t { kCircle, kCross, kTriangle, kSquare, kDiamond, kDownTriangle };
+enum class Marker : std::uint8_t { kCircle, kCross, kTriangle, kSquare, kDiamond, kDownTriangle, kPlus };
 
 class Svg {
  public:

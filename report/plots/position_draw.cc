@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "core/check.h"
 #include "report/drawing/axes.h"
@@ -31,16 +33,6 @@ drawing::Point coordinates(const Sample& s, PositionView view) {
     case PositionView::kPlane: break;
   }
   return {s.x, s.y};
-}
-
-drawing::Marker marker_of(drawing::SensorLook look) {
-  switch (look) {
-    case drawing::SensorLook::kLaser: return drawing::Marker::kCross;
-    case drawing::SensorLook::kCamera: return drawing::Marker::kTriangle;
-    case drawing::SensorLook::kRadar: return drawing::Marker::kDiamond;
-    case drawing::SensorLook::kOther: break;
-  }
-  return drawing::Marker::kDownTriangle;
 }
 
 template <class Visit> void every_sample(const Selection& s, const Visit& visit) {
@@ -83,8 +75,7 @@ std::vector<drawing::LegendEntry> legend_of(std::span<const Selection> selection
     const SensorId id{static_cast<std::uint8_t>(i)};
     if (std::ranges::any_of(
             selections, [&](const Selection& s) { return i < s.observations.size() && !s.observations[i].empty(); }))
-      legend.push_back(
-          {K::kMarker, names.sensor(id), sensor_colour(names, id), marker_of(drawing::look_of(names.sensor(id)))});
+      legend.push_back({K::kMarker, names.sensor(id), sensor_colour(names, id), sensor_marker(names, id)});
   }
   if (any(&Selection::fusion))
     legend.push_back(
@@ -96,9 +87,14 @@ std::vector<drawing::LegendEntry> legend_of(std::span<const Selection> selection
   const auto late = [](const auto& a) { return a.late; };
   const bool any_late =
       std::ranges::any_of(selections, [&](const Selection& s) { return std::ranges::any_of(s.laser_arrows, late); });
-  if (any(&Selection::laser_arrows))
-    legend.push_back({K::kArrow, "laser measurement to its integration", std::string(drawing::kVermilion)});
-  if (any_late) legend.push_back({K::kArrow, "the same, late", std::string(drawing::kVermilion), {}, false, "5 3"});
+  std::set<SensorId> lasers;
+  for (const Selection& s : selections)
+    for (const auto& a : s.laser_arrows) lasers.insert(a.measured.id.sensor);
+  for (const SensorId id : lasers)
+    legend.push_back({K::kArrow, (lasers.size() == 1 ? "laser" : names.sensor(id)) + " measurement to its integration",
+                      sensor_colour(names, id)});
+  if (any_late)
+    legend.push_back({K::kArrow, "the same, late", sensor_colour(names, *lasers.begin()), {}, false, "5 3"});
   return legend;
 }
 
@@ -189,11 +185,15 @@ void draw_data(drawing::Svg& svg, const drawing::PlotFrame& frame, const Selecti
   for (const Sample& sample : s.truth) line.push_back(at(sample));
   svg.open_group("data", frame.area());
   svg.polyline(line, {.stroke = kTruth, .width = 1.0}, false, "truth", "truth");
-  for (const auto& a : s.laser_arrows)
+  std::map<SensorId, std::string> colours;
+  for (const auto& a : s.laser_arrows) {
+    std::string& colour = colours[a.measured.id.sensor];
+    if (colour.empty()) colour = sensor_colour(names, a.measured.id.sensor);
     svg.arrow(
-        at(a.measured), at(a.fused), {.stroke = drawing::kVermilion, .width = 0.9, .dash = a.late ? "5 3" : ""},
+        at(a.measured), at(a.fused), {.stroke = colour, .width = 0.9, .dash = a.late ? "5 3" : ""},
         fmt::format("{} #{}{}", names.sensor(a.measured.id.sensor), a.measured.id.sequence, a.late ? ", late" : ""),
         a.late ? "arrow late" : "arrow");
+  }
   const auto hover = [](const std::string& what, const Sample& v) {
     return fmt::format("{}: t {:.4f} s, x {:.2f} m, y {:.2f} m", what, v.t, v.x, v.y);
   };
@@ -203,8 +203,9 @@ void draw_data(drawing::Svg& svg, const drawing::PlotFrame& frame, const Selecti
   for (std::size_t i = 0; i < s.observations.size(); ++i) {
     const SensorId id{static_cast<std::uint8_t>(i)};
     const std::string colour = sensor_colour(names, id), name = names.sensor(id);
+    const drawing::Marker marker = sensor_marker(names, id);
     for (const Sample& v : s.observations[i])
-      svg.marker(marker_of(drawing::look_of(name)), at(v), kMarker, {.stroke = colour, .width = 1.3},
+      svg.marker(marker, at(v), kMarker, {.stroke = colour, .width = 1.3},
                  hover(fmt::format("{} #{}", name, v.id.sequence), v), "observation");
   }
   for (const Sample& v : s.unused)

@@ -1,7 +1,7 @@
 // The paper's figures 5 to 8 from the records of a drive: the object's x and y over time, and y over x. They show DGPS
-// fixes of the reference (circles), the observations of laser (crosses), camera (triangles) and radar (diamonds), and
-// the fused image (squares; grey if unused). They also show the truth (thin line), numbered fusion instants (boxed),
-// and arrows from each laser measurement to the fusion instant that fused it.
+// fixes of the reference (circles), the observations of each sensor (its marker: report/drawing/names.h), and the fused
+// image (squares; grey if unused). They also show the truth (thin line), numbered fusion instants (boxed), and arrows
+// from each laser measurement to the fusion instant that fused it.
 //
 // Axes follow ISO 8855 (x forward, y left, metres), and the pictures say so. Times are true times in seconds.
 // The stamp of its record converts a global time.

@@ -157,7 +157,7 @@ class PositionPlots::Selector {
       std::optional<Sample> at = result_at(f.step, t->second, observation);
       if (!at) continue;
       at->t = t->second;
-      const bool laser = drawing::look_of(plots_.names_.sensor(f.id.sensor)) == drawing::SensorLook::kLaser;
+      const bool laser = look_of(plots_.names_, f.id.sensor) == drawing::SensorLook::kLaser;
       instants.try_emplace(f.step, Instant{f.step, *at, false}).first->second.laser |= laser;
       if (laser && observation != nullptr) out_.laser_arrows.push_back({*observation, *at, f.late});
     }

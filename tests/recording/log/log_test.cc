@@ -204,6 +204,18 @@ TEST(Log, WithoutATimeScaleRealTimeWasTheDrives) {
   }
 }
 
+TEST(Log, KeepsHowPicturesShowItsSensors) {
+  LogManifest manifest = sample_manifest();
+  for (const auto& [key, value] : manifest_entries(manifest)) EXPECT_FALSE(key.starts_with("sensor_")) << key;
+  manifest.sensor_styles = {{}, {"camera", "green", ""}, {"", "", "plus"}};
+  LogManifest read;
+  EXPECT_TRUE(read_manifest(manifest_entries(manifest), read));
+  EXPECT_EQ(read, manifest);
+  LogManifest other;
+  EXPECT_FALSE(read_manifest({{"sensor_colour.256", "green"}}, other)) << "there are no so many sensors";
+  EXPECT_TRUE(other.sensor_styles.empty());
+}
+
 TEST(Log, AHistogramHasNoMoreBinsThanThereAre) {
   const std::vector<std::uint64_t> counts(records::kLatenessBins + 1, 1);
   Payloads payloads;
