@@ -73,7 +73,16 @@ expect 2 'broken.yaml:5: tracker.late = clone: must not be clone if a sensor mea
   launch "$drive" --strategy adva --dry-run --out "$work/none"
 late 'augmented\n  motion: ctrv'
 expect 2 'broken.yaml:5: tracker.late = augmented: must be rewind unless motion is constant_velocity' run "$drive"
+mutate scenarios/paper_scenario1.yaml 's/^reference: .*/&\nsensors:\n  laser2: {kind: laser, mounting: {y: 0.9}}/' "$drive"
+for command in run 'launch --dry-run'; do
+  expect 2 'broken.yaml:[0-9]+: sensors.laser2: must be a sensor of .*/paper_synchronised.yaml: laser or camera' \
+    $command "$drive" --strategy tt --out "$work/none"
+done
 [[ ! -e $work/none ]] || fail "what is refused leaves a folder behind"
+
+expect 0 '' run "$source/scenarios/two_lasers.yaml" --strategy tt --no-pictures --out "$work/named"
+expect 0 '' diagram "$work/named/tt.mcap" --kind plane -o "$work/named.svg"
+grep -q '#009e73' "$work/named.svg" || fail "the right laser of two_lasers.yaml is not green"
 
 cluster=$work/schedules/broken.yaml
 mutate schedules/paper_synchronised.yaml 's/gdNIT: [0-9]*/gdNIT: 100/' "$cluster"

@@ -133,6 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Buff", "scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kBuff, 700},
         Case{"Adva", "scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva, 700},
         Case{"Tt", "scenarios/paper_scenario2.yaml", fusion::strategies::StrategyKind::kTt, 700},
+        Case{"NamedSensors", "scenarios/two_lasers.yaml", fusion::strategies::StrategyKind::kTt, 700},
         Case{"ColdStart", "scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kTt, 700},
         Case{"GuardedColdStart", "scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kTt, 700, true},
         Case{"Faults", "scenarios/faulty_bus.yaml", fusion::strategies::StrategyKind::kTt, 2700},
