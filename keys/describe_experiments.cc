@@ -8,7 +8,7 @@ constexpr Description kExperiment[] = {
     {"name", "The experiment has this name; the results of a sweep go to `out/NAME` unless `--out` says otherwise.",
      "process_noise"},
     {"seed", "The seed starts all random streams of the experiment.", "1"},
-    {"question", "The answer begins with this question.", "From which noise on is it better to know when?"},
+    {"question", "The answer begins with this question.", "From which process noise on does a schedule win?"},
     {"scenario", "Each drive has this scenario, named from the experiment's folder.", "../scenarios/dynamics.yaml"},
     {"replications", "Each point is driven so often, every time with other draws.", "1000"},
     {"paradigms", "These paradigms are compared; each drives every point and replication."},

@@ -66,9 +66,9 @@ std::string_view to_text(PocReason reason) {
     case PocReason::kConfigured: return "the host completed the configuration";
     case PocReason::kRunCommand: return "the host commanded RUN";
     case PocReason::kReadyCommand: return "the host commanded READY, which ends wake-up and start-up at once";
-    case PocReason::kReadyRequested: return "the host commanded READY: it acts at the end of the cycle";
+    case PocReason::kReadyRequested: return "the host commanded READY: it takes effect at the end of the cycle";
     case PocReason::kReadyAtCycleEnd: return "the cycle in which the host commanded READY has ended";
-    case PocReason::kHaltRequested: return "the host commanded HALT: it acts at the end of the cycle";
+    case PocReason::kHaltRequested: return "the host commanded HALT: it takes effect at the end of the cycle";
     case PocReason::kHaltAtCycleEnd: return "the cycle in which the host commanded HALT has ended";
     case PocReason::kFreezeCommand: return "the host commanded FREEZE";
     case PocReason::kFatalError: return "the controller found a fatal error";
@@ -80,23 +80,22 @@ std::string_view to_text(PocReason reason) {
     case PocReason::kWakeupAfterSilence: return "the channels were idle for the listen timeout: the pattern is sent";
     case PocReason::kWakeupAfterNoise:
       return "neither a frame nor a wake-up pattern came within the noise listen timeout: the pattern is sent";
-    case PocReason::kWakeupPatternHeard: return "somebody else sent a wake-up pattern first";
+    case PocReason::kWakeupPatternHeard: return "another node sent a wake-up pattern first";
     case PocReason::kWakeupHeaderHeard: return "a frame header was heard: the cluster is awake";
     case PocReason::kWakeupSent: return "the wake-up pattern was sent completely";
-    case PocReason::kWakeupCollision: return "somebody else was on the channel while the pattern was sent";
+    case PocReason::kWakeupCollision: return "another node sent on the channel during the pattern";
     case PocReason::kCollisionWithPattern: return "the pattern collided with another node's wake-up pattern";
     case PocReason::kCollisionWithHeader: return "the pattern collided with running communication";
-    case PocReason::kCollisionUnexplained:
-      return "what the pattern collided with did not show within the listen timeout";
+    case PocReason::kCollisionUnexplained: return "the cause of the collision did not show within the listen timeout";
 
-    case PocReason::kMayColdstart: return "it may start the cluster if nobody else does";
-    case PocReason::kNotAColdstartNode: return "it is no coldstart node and waits for a running schedule";
+    case PocReason::kMayColdstart: return "it may start the cluster if no other node does";
+    case PocReason::kNotAColdstartNode: return "it is not a coldstart node and waits for a running schedule";
     case PocReason::kColdstartInhibited: return "coldstart is inhibited until the host allows it";
     case PocReason::kAttemptsExhausted: return "its coldstart attempts are exhausted: it can only join others";
 
     case PocReason::kListenTimerStopped: return "a channel became active: the listen timer stops";
-    case PocReason::kListenTimerRestarted: return "the channels are idle again: the listen timer starts anew";
-    case PocReason::kNoiseTimerRestarted: return "a symbol or frame header was heard: the noise timer starts anew";
+    case PocReason::kListenTimerRestarted: return "the channels are idle again: the listen timer starts again";
+    case PocReason::kNoiseTimerRestarted: return "a symbol or frame header was heard: the noise timer starts again";
     case PocReason::kStartupFrameHeard:
       return "a startup frame of an even cycle was heard: its sender's schedule is tried";
 
@@ -104,7 +103,7 @@ std::string_view to_text(PocReason reason) {
       return "the channels were idle for the listen timeout: it sends a collision avoidance symbol to start the "
              "cluster";
     case PocReason::kColdstartAfterNoise:
-      return "nothing but noise came within the noise listen timeout: it sends a collision avoidance symbol to start "
+      return "only noise came within the noise listen timeout: it sends a collision avoidance symbol to start "
              "the cluster";
     case PocReason::kCollisionResolutionGoesOn: return "no other node has tried to start the cluster so far";
     case PocReason::kCollisionCas: return "another node's collision avoidance symbol was heard: it gives way";
@@ -152,7 +151,7 @@ std::string_view to_text(PocReason reason) {
     case PocReason::kBackToActive:
       return "clock correction was in order for pAllowPassiveToActive double cycles in a row";
     case PocReason::kCycleGoesOn: return "the next cycle begins";
-    case PocReason::kStaysPassive: return "the next cycle begins, without leave to send yet";
+    case PocReason::kStaysPassive: return "the next cycle begins, and the node may not send yet";
 
     case PocReason::kCommandNotAccepted: return "the command is not accepted in this state";
     case PocReason::kAlreadyFrozen: return "it is frozen already";
@@ -162,14 +161,14 @@ std::string_view to_text(PocReason reason) {
     case PocReason::kNotDerivingSchedule: return "no schedule is being derived in this state";
     case PocReason::kNotSendingWakeup: return "no wake-up pattern is being sent in this state";
     case PocReason::kNoSchedule: return "no schedule runs in this state";
-    case PocReason::kNoWakeupWanted: return "the node is awake: a wake-up pattern says nothing new";
-    case PocReason::kSymbolWithoutMeaning: return "a collision avoidance symbol says nothing in this state";
-    case PocReason::kHeaderWithoutMeaning: return "a single frame says nothing in this state";
+    case PocReason::kNoWakeupWanted: return "the node is awake: a wake-up pattern has no effect";
+    case PocReason::kSymbolWithoutMeaning: return "a collision avoidance symbol has no effect in this state";
+    case PocReason::kHeaderWithoutMeaning: return "a single frame has no effect in this state";
     case PocReason::kEvenFrameAwaited: return "a schedule begins with a startup frame of an even cycle";
     case PocReason::kOddFrameAwaited: return "only the odd cycle's startup frame of the same node completes the pair";
     case PocReason::kHeaderCameFirst: return "the frame's header has been judged already";
     case PocReason::kJudgedAtCycleEnd: return "startup frames are judged together at the end of the cycle";
-    case PocReason::kOwnClockOnly: return "its own frame alone is no measure for its clock";
+    case PocReason::kOwnClockOnly: return "its own frame alone does not measure its clock";
     case PocReason::kNotYetWholeCycle: return "the checks begin with the first whole double cycle";
   }
   return "";

@@ -31,7 +31,7 @@ recording::records::GuardianIntervention record_of(const medium::StarCoupler::In
           static_cast<std::uint8_t>(one.reason),
           cut,
           one.until,
-          cut ? "longer than one of its kind may last" : bus::guardian::to_text(one.reason)};
+          cut ? "it lasts longer than its kind may" : bus::guardian::to_text(one.reason)};
 }
 
 void add(nodes::host::ExecutiveCounts& sum, const nodes::host::ExecutiveCounts& one) {

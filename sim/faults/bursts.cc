@@ -153,7 +153,7 @@ class RogueStartup final : public ActiveFault {
     for (const Channel channel : kBothChannels) {
       if (!on(channel) || !can_send(channel)) continue;
       const std::size_t size = bus::wire::encode_frame(header, channel, payload, frame_);
-      acted("{} sends a startup frame of cycle {} on {}, on a grid of its own", name(fault().node), header.cycle,
+      acted("{} sends a startup frame of cycle {} on {}, by a schedule of its own", name(fault().node), header.cycle,
             letter(channel));
       emit({fault().node, channel, Signal::kFrame, now, end, std::span<const std::byte>(frame_).first(size)},
            fault().node);

@@ -25,7 +25,7 @@ class WrongFrameId final : public FrameFault {
       return true;
     bus::wire::FrameHeader header = decoded.header;
     header.frame_id = static_cast<std::uint16_t>(fault().slot);
-    acted("a frame of {} on {} says frame id {} in slot {}", name(signal.sender), letter(signal.channel), fault().slot,
+    acted("a frame of {} on {} has frame id {} in slot {}", name(signal.sender), letter(signal.channel), fault().slot,
           decoded.header.frame_id);
     const std::size_t size = bus::wire::encode_frame(header, signal.channel, decoded.payload, frame_);
     signal.bytes = std::span<const std::byte>(frame_).first(size);
@@ -80,7 +80,7 @@ class InAnothersSlot final : public FrameFault {
     for (const Channel channel : kBothChannels) {
       if (!on(channel) || !can_send(channel)) continue;
       const std::size_t size = bus::wire::encode_frame(header, channel, payload, frame_);
-      acted("{} sends a frame of slot {}, which is not its own, on {}", name(fault().node), fault().slot,
+      acted("{} sends a frame of slot {}, which another node owns, on {}", name(fault().node), fault().slot,
             letter(channel));
       emit({fault().node, channel, bus::ports::Signal::kFrame, now, now + bus::wire::frame_duration(flexray(), words),
             std::span<const std::byte>(frame_).first(size)},
@@ -118,7 +118,7 @@ class WrongBelief final : public ActiveFault {
 
   bool leaving(medium::Leaving& signal) override {
     if (signal.sender == fault().node && signal.signal == bus::ports::Signal::kFrame)
-      acted("{} sends a frame on {} by the schedule it believes in", name(signal.sender), letter(signal.channel));
+      acted("{} sends a frame on {} by its wrong schedule", name(signal.sender), letter(signal.channel));
     return true;
   }
 };

@@ -47,7 +47,7 @@ class SosValue final : public FrameFault {
 
   bool leaving(medium::Leaving& signal) override {
     if (befalls(signal))
-      acted("a frame of {} on {} can be made out by some receivers only", name(signal.sender), letter(signal.channel));
+      acted("only some receivers can decode a frame of {} on {}", name(signal.sender), letter(signal.channel));
     return true;
   }
   bool arriving(medium::Arriving& signal) override {
@@ -69,7 +69,7 @@ class ByzantineClock final : public FrameFault {
     if (!befalls(signal)) return true;
     // The cycle counter is the last six bits of the header.
     other_way_ = (static_cast<unsigned>(signal.bytes[bus::wire::kHeaderBytes - 1]) & 1U) != 0;
-    acted("a frame of {} on {} says another time to every receiver", name(signal.sender), letter(signal.channel));
+    acted("a frame of {} on {} tells every receiver another time", name(signal.sender), letter(signal.channel));
     return true;
   }
   bool arriving(medium::Arriving& signal) override {

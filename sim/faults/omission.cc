@@ -16,14 +16,14 @@ class Omission final : public ActiveFault {
     if (fault().direction == FaultDirection::kReceive || signal.sender != fault().node ||
         !befalls(signal.channel, signal.start, signal.sender))
       return true;
-    acted("what {} sends on {} does not leave it", name(signal.sender), letter(signal.channel));
+    acted("a signal of {} on {} is not sent", name(signal.sender), letter(signal.channel));
     return false;
   }
   bool arriving(medium::Arriving& signal) override {
     if (fault().direction == FaultDirection::kSend || signal.receiver != fault().node ||
         !befalls(signal.channel, signal.start, signal.sender))
       return true;
-    acted("what arrives at {} on {} is not received", name(signal.receiver), letter(signal.channel));
+    acted("{} does not receive a signal on {}", name(signal.receiver), letter(signal.channel));
     return false;
   }
 

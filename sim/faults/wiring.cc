@@ -21,7 +21,7 @@ class ChannelSwap final : public ActiveFault {
     if (signal.sender != fault().node || !active(signal.start) || !can_send(other) ||
         !occasions_.chosen(plant().now(), signal.sender, [this](std::uint32_t index) { return draws(index); }))
       return true;
-    acted("what {} sends on {} appears on {}", name(signal.sender), letter(signal.channel), letter(other));
+    acted("a signal of {} on {} appears on {}", name(signal.sender), letter(signal.channel), letter(other));
     signal.channel = other;
     return true;
   }
@@ -43,7 +43,7 @@ class Transient final : public ActiveFault {
     last_ = plant().now();
     last_sender_ = signal.sender;
     last_channel_ = signal.channel;
-    acted("what is on {} is destroyed", letter(signal.channel));
+    acted("a signal on {} is destroyed", letter(signal.channel));
     return true;
   }
 

@@ -41,12 +41,12 @@ TEST(StartupAccount, WhoNeverBecameActiveSaysWhatItWaitsFor) {
   StartupAccount account(Duration{5 * kMs});
   account.on(recording::records::StateChanged{at(3 * kMs, 2, 3 * kMs), 0x01, 0x27, "ready", "integration listen",
                                               "the host commanded RUN",
-                                              "it is no coldstart node and waits for a running schedule"});
+                                              "it is not a coldstart node and waits for a running schedule"});
   const NodeStartup node = account.nodes()[0];
   EXPECT_FALSE(node.active.has_value());
   EXPECT_FALSE(node.powered.has_value());
   EXPECT_EQ(node.state, "integration listen");
-  EXPECT_EQ(node.why, "the host commanded RUN; it is no coldstart node and waits for a running schedule");
+  EXPECT_EQ(node.why, "the host commanded RUN; it is not a coldstart node and waits for a running schedule");
   EXPECT_TRUE(StartupAccount(Duration{}).nodes().empty());
 }
 

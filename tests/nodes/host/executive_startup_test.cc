@@ -87,7 +87,7 @@ TEST(ExecutiveStartup, EveryChangeOfStateIsReportedWithItsReason) {
                                    {0, 0x00, 0x0F, "default config", "config", "the host commanded CONFIG", ""},
                                    {0, 0x0F, 0x01, "config", "ready", "the host completed the configuration", ""},
                                    {0, 0x01, 0x21, "ready", "coldstart listen", "the host commanded RUN",
-                                    "it may start the cluster if nobody else does"},
+                                    "it may start the cluster if no other node does"},
                                    {2'006, 0x21, 0x22, "coldstart listen", kResolution, kTimeout, ""},
                                    {6'010, 0x22, 0x23, kResolution, kCheck, kLeads, ""},
                                    {7'010, 0x23, 0x24, kCheck, "coldstart gap", kNobody, ""},
@@ -140,7 +140,7 @@ TEST(ExecutiveStartup, WhoWakesStartsUpAtOnceWhenSomebodyElseWasFaster) {
   node.run_to(1'000);
   node.executive->receive(heard_until(1'000, bus::ports::Signal::kWakeup));
   ASSERT_EQ(node.told.changes.size(), 5u);
-  EXPECT_EQ(node.told.changes[3].why, "somebody else sent a wake-up pattern first");
+  EXPECT_EQ(node.told.changes[3].why, "another node sent a wake-up pattern first");
   EXPECT_EQ(node.told.changes[4].to_name, "coldstart listen");
   EXPECT_EQ(node.told.changes[4].at, 1'000);
 }

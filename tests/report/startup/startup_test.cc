@@ -49,7 +49,7 @@ struct SyntheticStartup {
     powered(sink, 5'000, 1);
     change(sink, 5'000, 1, 0x01, "ready", 0x21, "coldstart listen", "RUN", "it may start the cluster");
     powered(sink, 12'000, 2);
-    change(sink, 12'000, 2, 0x01, "ready", 0x27, "integration listen", "RUN", "it is no coldstart node");
+    change(sink, 12'000, 2, 0x01, "ready", 0x27, "integration listen", "RUN", "it is not a coldstart node");
     for (std::uint8_t channel = 0; channel < 2; ++channel)
       sink.on(recording::records::SymbolSent{stamp(cycle(0) - 4, 0), stamp(cycle(0), 0), channel,
                                              recording::records::kSymbolCas});
