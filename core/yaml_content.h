@@ -14,7 +14,7 @@ namespace ttf {
 struct YamlMap::Content {
   std::string file;
   YAML::Node node;                // a map, or null for a missing one
-  int line = 0;                   // of the mapping around a missing one
+  int line = 0;                   // for a missing one, the mapping's around it
   KeyAnswers* answers = nullptr;  // in place of the node
   std::set<std::string, std::less<>> asked;
 };

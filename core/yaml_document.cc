@@ -24,7 +24,7 @@ void check_characters(const std::string& text, const std::string& name) {
 
 // Notes the line where a document begins, and builds no nodes.
 struct DocumentStart final : YAML::EventHandler {
-  int line = 0;  // of the last one; 0 before the first
+  int line = 0;  // the last one's; 0 before the first
   void OnDocumentStart(const YAML::Mark& mark) override { line = mark.line + 1; }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark&, YAML::anchor_t) override {}

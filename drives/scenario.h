@@ -28,7 +28,7 @@ struct Scenario {
   std::string file;
   std::string text;  // the YAML as read, attached to logs
   std::uint64_t seed = 1;
-  Duration duration{};       // of the drive, from its start (drives/drive.h)
+  Duration duration{};       // the drive's, from its start (drives/drive.h)
   Duration evaluate_from{};  // from the same start; the tracker warms up before measures and pictures begin
   Startup startup;
   // By StrategyKind, as paths that can be opened.

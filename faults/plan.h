@@ -72,7 +72,7 @@ struct Fault {
   // Signals without a schedule: bursts, the first at `from`. From start to start they are `interval` plus an
   // evenly drawn 0..`jitter` apart.
   FaultSignal signal = FaultSignal::kNoise;       // babbling_idiot
-  Duration length = Duration::microseconds(30);   // of a burst of noise; frames have their own length
+  Duration length = Duration::microseconds(30);   // a burst's; frames have their own length
   Duration interval = Duration::milliseconds(1);  // shorter than the burst: back to back
   Duration jitter{};
 

@@ -22,7 +22,7 @@ namespace ttf::keys {
 class DescribedReading final : public KeyAnswers {
  public:
   using Answers = std::map<std::string, KeyValue>;
-  enum class Numbers : unsigned char { kUsual, kLeast, kLargest };  // of the questions without an answer of their own
+  enum class Numbers : unsigned char { kUsual, kLeast, kLargest };  // for questions without an answer of their own
 
   struct Decision {
     std::string name;
@@ -39,7 +39,7 @@ class DescribedReading final : public KeyAnswers {
   KeyValue answer(const KeyQuestion& question) override;
 
   const std::map<std::string, Map>& maps() const { return maps_; }  // by their path
-  const std::vector<std::string>& order() const { return order_; }  // of the maps: as they were met
+  const std::vector<std::string>& order() const { return order_; }  // the maps' order, as they were met
   const std::vector<Decision>& decisions() const { return decisions_; }
 
  private:

@@ -46,7 +46,7 @@ struct ReplayConfig {
   std::string file;  // empty: no file
   fusion::strategies::StrategyKind strategy = fusion::strategies::StrategyKind::kAdva;
   fusion::config::TrackerConfig tracker;                     // with the known sensors
-  int late_line = 0;                                         // of tracker.late; 0: absent
+  int late_line = 0;                                         // tracker.late's; 0: absent
   std::vector<std::pair<std::string, SensorSetup>> sensors;  // by SensorId; empty: all of the recording
 };
 

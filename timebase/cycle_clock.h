@@ -84,7 +84,7 @@ class CycleClock {
   std::int64_t correction_phase() const;             // in microticks, the correction included
 
   CycleGeometry geometry_;
-  Divisor macroticks_, late_macroticks_;  // of the cycle, and of its part from gOffsetCorrectionStart on
+  Divisor macroticks_, late_macroticks_;  // for the cycle, and for its part from gOffsetCorrectionStart on
   std::int64_t cycle_ps_, late_ps_;       // the same of global time
   std::int64_t most_cycles_;              // fewer cycles cannot overflow
   std::int64_t first_, cycle_;

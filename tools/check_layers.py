@@ -182,7 +182,7 @@ def namespace_problems(name: str, text: str) -> list[str]:
     """A source declares names of its own path's namespace alone; of others it may only say what there is."""
     parts = name.split("/")[:-1]
     if parts[0] == "tests" and parts[1:2] and parts[1] in SHARED_TESTS:
-        return []   # what tests share stands beside what it serves
+        return []   # shared helpers stand beside the code they serve
     own = {"::".join(["ttf"] + (parts[1:] if parts[0] in ("core", "tests") else parts))}
     if parts[0] == "tests":
         own.add("ttf::laws")   # laws are instantiated where they are

@@ -2,9 +2,8 @@
 # Builds the fuzz targets (clang, libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer: the preset asan-ubsan) and runs
 # each for a while, two at a time. Exits with 1 if one of them finds something; the input is then in build/fuzz/findings.
 #   tools/fuzz.sh [--keep] [SECONDS_PER_TARGET] [TARGET...]   default: 20 s of every target (tests/fuzz/*_fuzz.cc)
-# A run begins with the seeds, the inputs that earlier runs in this tree found (build/fuzz/corpus), and the kept corpus
-# (tests/fuzz/corpus, an archive per target). --keep writes the kept corpus anew: the fewest inputs that reach the same code as
-# all three together.
+# A run begins with the seeds, the inputs that earlier runs found (build/fuzz/corpus), and the kept corpus
+# (tests/fuzz/corpus, an archive per target). --keep writes the kept corpus anew: the fewest inputs that reach the same code.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 keep=0

@@ -12,7 +12,7 @@ clang_warnings() {                                                     # everyth
   cmake --preset release -B build/clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
   cmake --build build/clang --target all benchmarks slow_tests
 }
-sanitizers() { tools/sanitize.sh --slow; }                             # what is slow, and by the wall clock, too
+sanitizers() { tools/sanitize.sh --slow; }                             # slow tests, and those by the wall clock
 threads() {                                                            # the thread sanitizer
   local tests=(test_sweep test_experiments test_runner test_recording test_dds test_dds_live)
   tools/build.sh tsan --target "${tests[@]}"

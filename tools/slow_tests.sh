@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the tests that tools/test.sh leaves out: those labelled slow, then, one at a time, those that run by the wall clock. A
-# machine that stalls for longer than their arrival window makes the latter fail, so each has three tries.
+# Runs the tests that tools/test.sh leaves out: the slow ones, then, one at a time, those that run by the wall clock. A
+# machine that stalls for longer than their arrival window makes the latter fail: each has three tries.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install_deps.sh

@@ -45,7 +45,7 @@ build() {
     return 1
   fi
   make -C "$work/$package" O="$work/out" "${options[@]}" -j"$(nproc)" linux
-  rm -f "$cache"/linux-*   # of earlier versions
+  rm -f "$cache"/linux-*   # kernels of earlier versions
   mv "$work/out/linux" "$kernel"
   rm -rf "$work"
 }
@@ -56,7 +56,7 @@ if [[ ! -x $kernel ]]; then
   flock 9   # one builds, the others wait for it
   if [[ ! -x $kernel ]]; then
     echo "test bed: building the kernel, $package $version (its words: $cache/build.log)" >&2
-    set +e   # of which `build || ...` would make nothing inside build
+    set +e   # `build || ...` would switch off -e inside build
     (set -e; build) >"$cache/build.log" 2>&1 9>&-
     built=$?
     set -e

@@ -19,13 +19,14 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 BOUNDS = ROOT / "tools" / "words.toml"
 
-# A phrase, and the reason why a reader stumbles over it.
+# A phrase, in any case of letters, and the reason why a reader stumbles over it. Only "Not" needs its capital: "not
+# stated" behind code describes a name.
 PHRASES = [
-    (r"^(Of|That|Not|Nor|Lest|Hence) ", "a fragment"),
-    (r"^(What|Who|Whoever|Whatever|Whichever|Which) [^?]*$", "a clause as a subject"),
-    (r"\b[Ww]ho(so)?ever\b", "name the actor"),
-    (r"\b[Nn]obody\b", "say what is empty or absent"),
-    (r"\b[Nn]one (is|are|was|were|the)\b", "say what is empty or absent"),
+    (r"^(of|that|nor|lest|hence|(?-i:Not)) ", "a fragment"),
+    (r"^(what|who|whoever|whatever|whichever|which) [^?]*$", "a clause as a subject"),
+    (r"\bwho(so)?ever\b", "name the actor"),
+    (r"\bnobody\b", "say what is empty or absent"),
+    (r"\bnone (is|are|was|were|the)\b", "say what is empty or absent"),
     (r"\b(and|or|of|from|for|to|by|with|in|on|than) what\b", "a clause as a noun"),
     (r"\b(that|those|them|he|she|they) who\b", "name the actor"),
     (r"\b(be it|but for|none the less|nonetheless|lest|whence|thereof|therein|wherein|whereof)\b", "an old word"),
@@ -124,7 +125,7 @@ def measure(path):
     finds = [(line, reason, match[0], sentence)
              for line, sentence in said
              for phrase, reason in PHRASES
-             if (match := re.search(phrase, sentence))]
+             if (match := re.search(phrase, sentence, re.IGNORECASE))]
     return said, lengths, finds
 
 

@@ -36,7 +36,7 @@ class CanController {
   struct Arrival {
     PduId pdu{};
     ArrivalEffect effect{};
-    std::uint32_t sequence = 0;         // of the fragment's list
+    std::uint32_t sequence = 0;         // the number of the fragment's list
     std::optional<std::uint32_t> torn;  // the incomplete list that it displaced
   };
   // Returns no value for a refused frame.

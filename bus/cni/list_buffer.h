@@ -55,7 +55,7 @@ enum class ArrivalEffect : std::uint8_t {
   kCompleted,   // the list is complete now and readable
   kDuplicate,   // this fragment of this sequence was there already (second channel, or repetition)
   kTorn,        // stored, incomplete; it displaced an incomplete list, which is lost: torn()
-  kStale,       // of a list older than the newest begun (L2); ignored
+  kStale,       // its list is older than the newest begun one (L2); ignored
   kMalformed,   // values that no sender of this layout produces (L4); ignored
 };
 
@@ -103,7 +103,7 @@ class IncomingList {
   int collecting_count_ = 0, collecting_fragments_ = 0, collecting_present_ = 0, complete_fragments_ = 0;
   std::optional<std::uint32_t> torn_;
   bool collecting_ = false, complete_ = false, read_ = false;
-  std::uint32_t stale_raw_ = 0;  // of the newest consecutive stale list
+  std::uint32_t stale_raw_ = 0;  // the newest consecutive stale list's
   int stale_lists_ = 0;
 };
 

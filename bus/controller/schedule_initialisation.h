@@ -31,7 +31,7 @@ struct StartupFrame {
 
 // The data that start the clock in the middle of an odd cycle.
 struct InitialSchedule {
-  int frame_id = 0;          // of the node whose schedule is taken
+  int frame_id = 0;          // identifies the node whose schedule is taken
   int cycle = 0;             // the running odd cycle
   Microticks cycle_start{};  // when that cycle began
   int rate = 0;              // rate correction in force [uT per cycle]

@@ -62,7 +62,7 @@ class SlotBoard {
     return noted_[slot - 1];
   }
   const Seen& at(int slot) const { return noted_[slot - 1]; }
-  // The common case: one valid frame on both channels in slot after slot. hear_a() and hear_b() are its
+  // The common case: a valid frame on both channels in each slot. hear_a() and hear_b() are its
   // halves, for a slot without activity so far (nothing()). tests/bus/controller/fast_ways_test.cc compares with at().
   bool nothing(int slot) const { return at(slot).nothing(); }
   void hear_a(int slot) { noted_[slot - 1].element[0] = noted_[slot - 1].valid[0] = true; }

@@ -56,7 +56,7 @@ struct FlexRayController::State {
   struct SlotAt {
     int slot = 0;
     Microticks from{}, to{};                                       // [from, to); empty: no slot
-    int counter = 0;                                               // of the cycle
+    int counter = 0;                                               // the cycle's
     std::array<const schedules::model::FrameSlot*, 2> expected{};  // by channel, from SlotTable
   };
   SlotAt slot_at;
@@ -66,7 +66,7 @@ struct FlexRayController::State {
   };
   std::vector<GridLine> grid;    // by slot - 1; after the last slot, its end
   std::optional<int> grid_rate;  // the clock's rate for which the grid was made
-  int counter = 0;               // of the clock's cycle: 0..gCycleCountMax
+  int counter = 0;               // the clock's cycle: 0..gCycleCountMax
 
   // The part of the cycle that is under way. kBefore: the first cycle has not started. kDynamic includes the
   // symbol window.

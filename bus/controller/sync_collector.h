@@ -42,7 +42,7 @@ class SyncCollector {
   bool even_ = true;
   timebase::SyncMeasurements measurements_;
   std::array<int, 2> valid_{};  // by channel
-  std::array<Ids, 2> startup_;  // of the double cycle's even and odd cycle
+  std::array<Ids, 2> startup_;  // the double cycle's even and odd cycle
 };
 
 }  // namespace ttf::bus::controller

@@ -189,7 +189,7 @@ class PocActions {
 struct PocStep {
   PocState next;
   PocActions actions;
-  PocReason reason{};                        // of the step
+  PocReason reason{};                        // the step's
   PocReason consequence = PocReason::kNone;  // the listen state that was entered, and why
 };
 

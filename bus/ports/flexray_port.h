@@ -37,8 +37,8 @@ struct Transmission {
   Microticks start{};                // the action point: the first bit leaves
   Microticks end{};                  // the last bit has left, a dynamic frame's trailing sequence included
   int slot = 0;                      // for the log
-  std::span<const std::byte> bytes;  // of a frame: header, payload, trailer; empty if unwanted
-  wire::DecodedFrame content{};      // of a frame: the decoded bytes, except the header CRC
+  std::span<const std::byte> bytes;  // a frame's header, payload, trailer; empty if unwanted
+  wire::DecodedFrame content{};      // a frame's decoded bytes, except the header CRC
 };
 
 struct Reception {

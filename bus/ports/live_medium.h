@@ -52,9 +52,9 @@ enum class LiveStatus : std::uint8_t {
 struct LiveSignal {
   schedules::model::Channel channel{};
   Signal signal = Signal::kFrame;    // kUndecodable: noise
-  int slot = 0;                      // of a frame: 1..2047
-  Duration duration{};               // of anything else: its time on the wire
-  std::span<const std::byte> bytes;  // of a frame: header, payload, trailer; 8..262
+  int slot = 0;                      // a frame's: 1..2047
+  Duration duration{};               // for all but frames: the time on the wire
+  std::span<const std::byte> bytes;  // a frame's header, payload, trailer; 8..262
   bool tells_late = false;           // a sync frame: receivers learn how late it left
 };
 
@@ -69,7 +69,7 @@ struct LiveArrival {
   MachineTime received{};           // when the medium got it on this machine: the kernel's lateness included
   std::optional<MachineTime> left;  // when its sender gave it to the medium, if stated; by this machine's clock
   LiveSignal signal;
-  std::uint8_t cycle_counter = 0;  // of a follow-up
+  std::uint8_t cycle_counter = 0;  // for a follow-up
   std::optional<Duration> late;    // lateness of the departure against `due`: of a follow-up, or of a sync frame that
                                    // states it
   std::size_t can_bus = 0;
@@ -81,7 +81,7 @@ struct LiveCounts {
   std::uint64_t sent = 0, received = 0;  // signals and CAN frames
   std::uint64_t not_sent = 0;            // no room
   std::uint64_t lost = 0;                // known to the medium, but never heard
-  std::uint64_t foreign = 0;             // of other senders than ours
+  std::uint64_t foreign = 0;             // from other senders than ours
   std::uint64_t malformed = 0;           // in our form, but wrong
 };
 

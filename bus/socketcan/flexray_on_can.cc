@@ -58,9 +58,9 @@ bool goes_whole(int slot, std::span<const std::byte> frame) {
 // A CAN FD frame in the form of a fragment, its own three bytes checked.
 struct Fragment {
   std::size_t index = 0;
-  std::size_t length = 0;  // of the whole frame
+  std::size_t length = 0;  // the whole frame's
   unsigned cycle = 0;
-  std::span<const std::byte> bytes;  // of the whole frame
+  std::span<const std::byte> bytes;  // the whole frame
 };
 
 std::optional<Fragment> fragment_of(int slot, std::span<const std::byte> data) {

@@ -81,12 +81,12 @@ inline constexpr std::size_t kOutcomes = 5;
 struct Arrival {
   Outcome outcome{};
   bool abandoned = false;               // a frame with its first fragments here will stay incomplete
-  int slot = 0;                         // of a complete frame or a fragment, displaced or not
-  ports::Signal signal{};               // of a complete frame or symbol
+  int slot = 0;                         // for a complete frame or a fragment, displaced or not
+  ports::Signal signal{};               // for a complete frame or symbol
   Duration duration{};                  // of a symbol
-  std::span<const std::byte> frame{};   // of a complete frame: valid as long as the received CAN frame, until the
+  std::span<const std::byte> frame{};   // a complete frame: valid like the received CAN frame, until the
                                         // next arrival
-  std::optional<FollowUp> follow_up{};  // of a follow-up
+  std::optional<FollowUp> follow_up{};  // for a follow-up
 };
 
 // One channel's receiver, one per interface.

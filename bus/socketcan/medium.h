@@ -65,7 +65,7 @@ class SocketCanMedium final : public ports::LiveMedium {
   struct OnLine {
     Socket socket;
     std::optional<FlexRay> flexray;            // of a channel
-    std::uint64_t foreign = 0, malformed = 0;  // of a private CAN
+    std::uint64_t foreign = 0, malformed = 0;  // on a private CAN
   };
 
   OnLine& on(ports::Line line);

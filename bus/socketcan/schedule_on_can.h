@@ -27,7 +27,7 @@ struct SlotOnCan {
   int slot = 0;
   schedules::model::Channels channels{};  // all channels on which such a frame is sent
   bool dynamic = false;
-  int can_frames = 0;  // of the longest frame, its follow-up included
+  int can_frames = 0;  // for the longest frame, its follow-up included
   Duration frame{};    // the longest frame without its follow-up, rounded up
   Duration needs{};    // the longest frame with its follow-up
   Duration has{};      // as scheduled, rounded down

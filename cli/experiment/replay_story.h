@@ -24,7 +24,7 @@ class ReplayStory final : public experiments::campaign::TrialStory {
   void finish();
 
  private:
-  static constexpr std::uint64_t kShown = 12;  // of the fault's acts, and of the guardians'
+  static constexpr std::uint64_t kShown = 12;  // for the fault's acts, and for the guardians'
   enum class Of : std::uint8_t { kOthers, kFault, kGuardians };
   struct Line {
     TrueTime at;

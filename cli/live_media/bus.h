@@ -13,7 +13,7 @@ namespace ttf::cli::live_media {
 
 struct Bus {
   const LiveMediumRow* medium = kLiveMedia.front();
-  std::vector<std::string> interfaces;  // of channel A, and of channel B
+  std::vector<std::string> interfaces;  // for channel A, and for channel B
 
   // Throws InputError with --bus.
   static Bus parse(const std::string& text);

@@ -32,8 +32,8 @@ struct ReportOptions {
   std::string out;
 };
 
-constexpr std::size_t kMostDrives = 10;                   // of an experiment that have timing diagrams
-constexpr Duration kDrawn = Duration::milliseconds(960);  // of all of them together, at most 160 ms each
+constexpr std::size_t kMostDrives = 10;                   // an experiment's with timing diagrams
+constexpr Duration kDrawn = Duration::milliseconds(960);  // all of them together, at most 160 ms each
 
 std::string experiment_html(const ReportOptions& options, report::drive::DiagramWindow window) {
   const report::experiment::ExperimentFolder folder = report::experiment::read_experiment_folder(options.folders[0]);

@@ -11,7 +11,7 @@ namespace ttf::cli::node {
 struct NodeOptions {
   node_set::NodeSet set;
   NodeId node{};
-  std::string log;    // of this node alone
+  std::string log;    // this node's alone
   bool json = false;  // prints the result as JSON on standard output
 };
 

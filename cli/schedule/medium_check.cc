@@ -58,7 +58,7 @@ struct Verdict {
   std::int64_t time_scale = kTimeScaleOne,
                smallest = kTimeScaleOne;  // ppm; `smallest` is the least at which every slot holds
   std::vector<SlotOnCan> slots, not_holding;
-  Duration longest{};  // of all frames
+  Duration longest{};  // among all frames
   std::optional<schedules::model::ArrivalWindow> window;
 
   bool window_holds() const { return !window || longest <= window->late; }

@@ -15,7 +15,7 @@ namespace ttf::cli::supervision {
 struct NodeHealth {
   std::optional<std::uint64_t> missed_slots;  // own slots without a frame
   std::optional<std::uint64_t> late_wakeups;  // the task began too late, beyond its allowance
-  std::optional<double> lateness_p50_us;      // of all wake-ups
+  std::optional<double> lateness_p50_us;      // over all wake-ups
   std::optional<double> lateness_p99_us;
   std::optional<double> lateness_max_us;
   std::optional<double> sync_precision_us;  // the largest deviation in clock synchronisation

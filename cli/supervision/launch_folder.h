@@ -61,7 +61,7 @@ class LaunchFolder {
   std::string log_path(std::string_view node) const { return folder_ + "/" + file_stem(node) + ".mcap"; }
   // Returns a node's existing logs: NODE.mcap, and NODE.2.mcap, NODE.3.mcap and so on of later processes.
   std::vector<std::string> logs_of(std::string_view node) const;
-  std::vector<std::string> logs() const;  // of all nodes, in the order of the launch
+  std::vector<std::string> logs() const;  // for all nodes, in the order of the launch
   void remove_logs(std::string_view node) const;
   // Removes a file of a launch; a missing file, or one that is no plain file, stays as it is.
   void remove(const std::string& name) const;

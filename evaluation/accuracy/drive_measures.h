@@ -1,7 +1,7 @@
 // Measures of a drive from its records alone: errors, ages, order of arrival and consistency.
 //
 // The sink sees a drive as its log does, so a live drive and its log have the same measures. Position and
-// velocity are judged when the feature service uses an image: against the truth at that true time, and against
+// velocity are judged when the feature service uses an image: against the truth at that time, and against
 // the DGPS reference interpolated to it.
 #pragma once
 
@@ -37,8 +37,8 @@ inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 struct DriveSummary {
   // Root mean square over all matched objects and uses; x, y [m], vx, vy [m/s].
   std::array<double, 4> rmse_truth{kNotMeasured, kNotMeasured, kNotMeasured, kNotMeasured};
-  double position_rmse_truth = kNotMeasured;      // of the plane distance [m]
-  double velocity_rmse_truth = kNotMeasured;      // of the plane velocity difference [m/s]
+  double position_rmse_truth = kNotMeasured;      // plane distance [m]
+  double velocity_rmse_truth = kNotMeasured;      // plane velocity difference [m/s]
   double position_rmse_reference = kNotMeasured;  // against the DGPS [m]
   double velocity_rmse_reference = kNotMeasured;  // against the DGPS' Doppler velocity [m/s]
   std::uint64_t matched = 0;                      // objects at uses, compared with the truth
@@ -47,7 +47,7 @@ struct DriveSummary {
   std::uint64_t reference_compared = 0;
   ReferenceWeights reference_weights;
   std::uint64_t uses = 0;        // images that the feature service used or refused
-  std::uint64_t stale_uses = 0;  // of them refused: the image was too old
+  std::uint64_t stale_uses = 0;  // uses that were refused: the image was too old
   // Normalised estimation error squared of (x, y, vx, vy) predicted to the use, averaged over the same pairs at
   // the first uses of images. The average lies in the band with 95 % if the samples are independent and the
   // model is right.
@@ -64,7 +64,7 @@ struct DriveSummary {
   recording::records::BinnedDurations age_used_newest;
   // Lists of observations over the whole drive.
   std::uint64_t received = 0;         // lists that the fusion node took in
-  std::uint64_t out_of_sequence = 0;  // of them older than a list of an earlier fusion step
+  std::uint64_t out_of_sequence = 0;  // lists older than a list of an earlier fusion step
   std::uint64_t fused = 0;
   std::uint64_t fused_late = 0;  // fused after a younger list
   std::uint64_t held = 0;        // counts a list at every fusion instant that holds it

@@ -1,5 +1,5 @@
 // Finds the uses of images in a drive's records, with the ages of their measurements and the errors of their
-// objects against the truth at that very time. DriveMeasures sums them up; DriveRows lists them one by one.
+// objects against the truth at that time. DriveMeasures sums them up; DriveRows lists them one by one.
 //
 // The truth of an instant may precede or follow the use. A use is judged when the next one comes, when the
 // truth of its instant is complete, or at the end.
@@ -99,7 +99,7 @@ class ImageUses : public recording::records::Sink {
   std::vector<Predicted> predicted_;  // for the next image
   std::deque<Image> images_;          // the last few, in the order of writing
   std::optional<Use> pending_;
-  std::vector<recording::records::TruthState> truth_;  // of one instant
+  std::vector<recording::records::TruthState> truth_;  // at one instant
 };
 
 }  // namespace ttf::evaluation::accuracy

@@ -57,10 +57,10 @@ class FaultCauses {
  private:
   struct Suspect {
     FaultReach reach;
-    schedules::model::Channels channels{};  // of its acts
+    schedules::model::Channels channels{};  // on which it acts
     std::vector<bool> named, out;           // by NodeId; `out`: left by this fault
     std::optional<TrueTime> began, ended;
-    std::deque<TrueTime> acts;  // of the last cycles, and one before
+    std::deque<TrueTime> acts;  // in the last cycles, and one before
   };
   static bool begun(const Suspect& suspect, TrueTime by);
   static bool acting(const Suspect& suspect, TrueTime since) { return !suspect.ended || *suspect.ended >= since; }
@@ -70,7 +70,7 @@ class FaultCauses {
   template <class Fits> Cause latest(TrueTime until, Fits fits) const;
 
   const schedules::model::Cluster& cluster_;
-  Duration patience_;              // of a controller without sync frames
+  Duration patience_;              // for a controller without sync frames
   std::vector<Suspect> suspects_;  // by index in the plan
 };
 

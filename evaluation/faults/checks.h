@@ -31,9 +31,9 @@ enum class Check : std::uint8_t {
   kContent,
   kBoundary,
   kConflict,
-  kNoFrame,  // of a slot: bus::controller::SlotStatus
+  kNoFrame,  // in a slot: bus::controller::SlotStatus
   kMissingTerm,
-  kLimit,  // of clock correction
+  kLimit,  // in clock correction
   kPassive,
   kHalt,      // states
   kGuardian,  // blocked or cut a bus signal

@@ -95,7 +95,7 @@ std::int64_t FaultAccount::cycle_at(TrueTime at) const {
 }
 
 void FaultAccount::on(const recording::records::FaultActivity& activity) {
-  if (activity.fault >= place_.size()) return;  // of another plan
+  if (activity.fault >= place_.size()) return;  // from another plan
   const ttf::faults::Fault& fault = plan_.faults[activity.fault];
   auto& place = place_[activity.fault];
   if (!place) {

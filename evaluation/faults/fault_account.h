@@ -59,7 +59,7 @@ struct GuardianSeen {
 struct HarmSeen {
   NodeId node = kNoNode;  // kNoNode: the precision is harmed
   TrueTime first{};
-  NodeId sender = kNoNode;  // of the frame, if the harm is about one
+  NodeId sender = kNoNode;  // the frame's, if the harm is about one
   int slot = 0;
   std::uint64_t times = 0;
 };

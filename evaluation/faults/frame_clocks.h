@@ -41,7 +41,7 @@ class FrameClocks {
   };
   struct Clock {
     Reading first;                // the first frame of the newest even cycle
-    std::optional<TrueTime> end;  // of the newest known double cycle
+    std::optional<TrueTime> end;  // the newest known double cycle's
   };
   Duration cycle_;
   std::vector<Clock> clocks_;  // by NodeId

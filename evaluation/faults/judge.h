@@ -25,11 +25,11 @@ struct Judgement {
   struct Harmed {
     TrueTime first{};
     NodeId node = kNoNode;    // kNoNode: the precision is harmed
-    NodeId sender = kNoNode;  // of the frame
+    NodeId sender = kNoNode;  // the frame's
     int slot = 0;
   };
   std::array<std::optional<Harmed>, kAllHarms.size()> harms{};  // by Harm
-  Since passive, halt;                                          // of any node, the faulty one included
+  Since passive, halt;                                          // any node's, the faulty one included
   // Nodes that lost normal active or their supply: the longest time until one was normal active again, and the
   // number of nodes that did not come back. The time counts from the loss or the end of the fault, whichever
   // was later.

@@ -18,7 +18,7 @@ std::uint64_t* counter_of(NodeTiming& timing, std::uint8_t what) {
     case recording::records::kEarlyFrame: return &timing.early_frames;
     case recording::records::kFramesLost: return &timing.frames_lost;
   }
-  return nullptr;  // of a later version
+  return nullptr;  // from a later version
 }
 
 std::uint64_t sum_over(const std::map<NodeId, NodeTiming>& timing, std::uint64_t NodeTiming::*count) {

@@ -42,7 +42,7 @@ struct NodeTiming {
   std::uint64_t late_frames = 0;
   std::uint64_t early_frames = 0;
   std::uint64_t frames_lost = 0;  // never came
-  MissingFramesCount missing;     // of these: by their senders' logs
+  MissingFramesCount missing;     // these, by their senders' logs
   std::uint64_t lost_on_the_way() const { return frames_lost - missing.withheld - missing.away; }
   // By size, in real time; absent if the node's clock was never corrected.
   std::optional<Duration> largest_offset_correction;
@@ -56,10 +56,10 @@ struct HostPrecision {
 
 struct RealTimeFindings {
   std::int64_t time_scale_ppm = 1'000'000;
-  std::map<NodeId, recording::exports::NodeLateness> lateness;  // of nodes with histograms
-  std::map<NodeId, NodeTiming> timing;                          // of nodes with such records, corrections or problems
-  std::map<NodeId, recording::records::MediumCounts> medium;    // of nodes with counts
-  std::vector<HostPrecision> precision;                         // of machines with two synchronised nodes or more, by
+  std::map<NodeId, recording::exports::NodeLateness> lateness;  // for nodes with histograms
+  std::map<NodeId, NodeTiming> timing;                          // for nodes with such records, corrections or problems
+  std::map<NodeId, recording::records::MediumCounts> medium;    // for nodes with counts
+  std::vector<HostPrecision> precision;                         // for machines with two synchronised nodes or more, by
                                                                 // name
 
   std::uint64_t frames_lost() const;

@@ -21,8 +21,8 @@ class MediumSums final : public recording::records::Sink {
 
  private:
   struct Told {
-    recording::records::MediumCounts before;  // of the node's former processes
-    recording::records::MediumCounts newest;  // of its present process
+    recording::records::MediumCounts before;  // from the node's former processes
+    recording::records::MediumCounts newest;  // from its present process
   };
   std::map<NodeId, Told> told_;
 };

@@ -86,7 +86,7 @@ void MissingFrames::add(const recording::records::SlotFrameSent& frame) {
 
 // Returns how many cycles the first missing frame was before the one that came.
 std::int64_t MissingFrames::reach_of(const Lost& lost) const {
-  std::vector<std::int64_t> turns;  // of one round, backwards
+  std::vector<std::int64_t> turns;  // one round's, backwards
   for (std::int64_t back = 1; back <= kCycles; ++back) {
     const auto counter = static_cast<std::int64_t>(cycle_counter(Int128{lost.came.cycle} - back));
     if (std::any_of(cluster_.frames.begin(), cluster_.frames.end(), [&](const FrameSlot& frame) {

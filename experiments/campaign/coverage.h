@@ -29,7 +29,7 @@ struct ClassCoverage {
   faults::FaultKind kind{};
   bool in_hypothesis = true;
   std::uint64_t injected = 0, activated = 0;
-  std::uint64_t detected = 0;  // of the activated, by another node or a guardian
+  std::uint64_t detected = 0;  // activated and detected by another node or a guardian
   std::array<std::uint64_t, evaluation::faults::kAllChecks.size()> by_check{};  // a fault may count for several
                                                                                 // checks
   std::uint64_t by_itself = 0;                                                  // noticed by its own controller

@@ -48,7 +48,7 @@ struct CampaignFile {
   int restart_halted_after = 0;                                       // [cycles]
   std::array<std::int64_t, faults::kAllFaultKinds.size()> weights{};  // in the order of the kinds
   std::vector<Variant> variants;
-  std::optional<std::int64_t> expected_harmed;  // of the hypothesis, with guardian and two channels
+  std::optional<std::int64_t> expected_harmed;  // faults of the hypothesis, with guardian and two channels
 };
 
 // All throw InputError.

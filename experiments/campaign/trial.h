@@ -22,7 +22,7 @@ struct FaultOutcome {
   std::uint16_t seen_by_others = 0;  // bits by Check
   std::uint16_t seen_by_itself = 0;
   std::uint8_t harms = 0;                     // bits by Harm
-  NodeId harmed = kNoNode, sender = kNoNode;  // of the first harm, as in Judgement
+  NodeId harmed = kNoNode, sender = kNoNode;  // those in the first harm, as in Judgement
   int slot = 0;
   std::int16_t still_out = 0;  // nodes that lost normal active and did not come back
   std::optional<std::int64_t> detected_after, passive_after, halt_after;  // after the fault's first act

@@ -14,7 +14,7 @@ using bus::poc::PocKind;
 using schedules::model::Channel;
 
 constexpr Duration kBeforeFirstCycle = Duration::milliseconds(1);  // in a running cluster
-constexpr int kSamplesPerCycle = 4;                                // of the precision
+constexpr int kSamplesPerCycle = 4;                                // for the precision
 
 faults::FaultPlan plan_of(const CampaignFile& campaign, const std::optional<faults::Fault>& fault) {
   faults::FaultPlan plan{campaign.file, {}};

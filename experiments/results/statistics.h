@@ -13,7 +13,7 @@ class Moments {
   void add(double x);
   std::uint64_t count() const { return count_; }
   double mean() const { return count_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }
-  double variance() const;  // of the samples, unbiased; not a number for fewer than two
+  double variance() const;  // the samples', unbiased; not a number for fewer than two
 
  private:
   std::uint64_t count_ = 0;

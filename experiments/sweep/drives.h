@@ -56,7 +56,7 @@ class SweepDrives {
   void plan_faults(const std::string& file, drives::Scenario& scenario) const;
 
   const SweepFile& sweep_;
-  std::map<std::string, std::string> texts_;  // of scenarios, clusters and fault plans, by path
+  std::map<std::string, std::string> texts_;  // scenarios, clusters and fault plans, by path
   std::string identity_;
 };
 

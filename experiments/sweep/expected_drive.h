@@ -53,7 +53,7 @@ class ExpectedError final : public recording::records::Sink {
   ErrorRecursion recursion_;
   GlobalTime fusing_{};                               // instant at which the newest list was fused
   std::deque<recording::records::TruthState> truth_;  // the last few instants
-  std::deque<Seen> seen_;                             // of lists not fused yet: the observation next to the object
+  std::deque<Seen> seen_;                             // in lists not fused yet: the observation next to the object
   std::deque<Image> images_;                          // the last few
   double sum_ = 0.0;
   std::uint64_t uses_ = 0;

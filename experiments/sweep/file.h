@@ -64,7 +64,7 @@ struct Setting {
 
 struct Axis {
   std::string name;
-  std::vector<Setting> settings;  // of a random axis: empty
+  std::vector<Setting> settings;  // empty for a random axis
   bool logarithmic = false;
   // Random: drawn uniformly from `low` to `high`, for all keys.
   std::vector<Edit> keys;  // without values
@@ -81,7 +81,7 @@ struct Paradigm {
 };
 
 struct StopRule {
-  double half_width = 0.0;  // of the intervals of differences from the baseline, in the measure's unit
+  double half_width = 0.0;  // for the intervals of differences from the baseline, in the measure's unit
   std::uint32_t batch = 0;  // replications between two judgements
 };
 
@@ -97,7 +97,7 @@ struct SweepFile {
   std::string name, question, file, text;
   std::string scenario_file;
   std::uint64_t seed = 0;
-  std::uint32_t replications = 0;   // of every point; the caller may change it
+  std::uint32_t replications = 0;   // at every point; the caller may change it
   std::vector<Paradigm> paradigms;  // the baseline is one of them
   std::vector<Axis> axes;
   std::vector<std::string> measures;
@@ -108,7 +108,7 @@ struct SweepFile {
 
   std::vector<const Axis*> grid() const;   // axes that are not random, in the file's order
   std::vector<const Axis*> drawn() const;  // random ones
-  std::size_t points() const;              // of the grid
+  std::size_t points() const;              // in the grid
   std::uint64_t drives() const;            // number of drives without a stop rule
   // Returns the setting of every grid axis at a point; the last axis varies fastest.
   std::vector<const Setting*> settings_of(std::uint32_t point) const;

@@ -20,7 +20,7 @@ Assignment::Assignment(std::size_t max_rows, std::size_t max_columns)
   column_of_.resize(max_rows);
   sorted_.reserve(max_rows * max_columns);
   component_rows_.reserve(max_rows);
-  component_columns_.reserve(max_rows * max_columns);  // of every candidate, before duplicates go
+  component_columns_.reserve(max_rows * max_columns);  // every candidate's, before duplicates go
   local_column_.resize(max_columns);
   const std::size_t width = max_columns + max_rows;
   cost_ = std::make_unique_for_overwrite<double[]>(max_rows * width);  // only the used part is touched

@@ -54,7 +54,7 @@ class Assignment {
 
   std::size_t rows_ = 0, max_rows_;
   std::vector<int> column_of_;
-  Components components_;          // of rows, then columns
+  Components components_;          // rows, then columns
   std::vector<Candidate> sorted_;  // by component, row, column
 
   // The component being solved. Its rows and columns are renumbered in ascending order. Behind its columns,
@@ -62,11 +62,11 @@ class Assignment {
   std::vector<int> component_rows_, component_columns_, local_column_;
   std::unique_ptr<double[]> cost_;  // by row, numbered from 0
   // The matching, with rows and columns numbered from 1. Row 0 means no row; column 0 holds the waiting row.
-  std::vector<int> row_of_;  // of each column
+  std::vector<int> row_of_;  // by column
   std::vector<double> row_potential_, column_potential_;
   // The search for a free column.
   std::vector<char> reached_;
-  std::vector<double> distance_;  // of unreached columns, from the nearest reached one
+  std::vector<double> distance_;  // by unreached column, from the nearest reached one
   std::vector<int> before_;       // the column before each on its shortest path
 };
 

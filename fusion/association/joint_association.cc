@@ -34,7 +34,7 @@ JointAssociation::JointAssociation(std::size_t max_rows, std::size_t max_columns
   const std::size_t most = max_rows * max_columns;
   sorted_.reserve(most);
   shared_.reserve(most);
-  cluster_rows_.reserve(most);  // of every pair, before duplicates go
+  cluster_rows_.reserve(most);  // every pair's, before duplicates go
   cluster_columns_.reserve(most);
 }
 

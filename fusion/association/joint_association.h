@@ -87,7 +87,7 @@ class JointAssociation {
   void solve_cheaply(std::span<Sorted> cluster);
 
   std::size_t rows_ = 0;
-  Components components_;                                    // of rows, then columns
+  Components components_;                                    // rows, then columns
   std::vector<Sorted> sorted_;                               // by cluster, row, column; in the end by column, row
   std::vector<int> cluster_rows_, cluster_columns_, local_;  // local_: of rows, then of columns
   std::vector<double> weights_;                              // by step and bit; after go_backward() probabilities

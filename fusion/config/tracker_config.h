@@ -52,7 +52,7 @@ struct TrackerConfig {
   double initial_velocity_sigma = 8.0;      // [m/s] of a new track, per axis
   double initial_acceleration_sigma = 2.0;  // [m/s^2]
   double initial_turn_rate_sigma = 0.3;     // [rad/s]
-  double gate_probability = 0.9973;         // of the right observation in its gate (three sigma in 1D)
+  double gate_probability = 0.9973;         // for the right observation to be in its gate (three sigma in 1D)
   int confirm_hits = 3;                     // M of the last N lists confirm a track
   int confirm_window = 5;
   // An image calls a track coasting after so many lists in a row without an observation. A slower sensor may be
@@ -76,7 +76,7 @@ struct TrackerConfig {
   // than rewind require straight motion and the extended filter.
   oosm::Kind late = oosm::Kind::kRewind;
   double heading_noise = 0.05;  // spectral density of the heading's random walk [rad^2/s]
-  double extent_noise = 0.01;   // of length and width [m^2/s]
+  double extent_noise = 0.01;   // for length and width [m^2/s]
 
   // kConsidered requires constant velocity or acceleration and the extended filter.
   SystematicErrorsAre systematic = SystematicErrorsAre::kIgnored;

@@ -35,7 +35,7 @@ template <class F, motion::Model M> struct Single {
   static constexpr bool kNeedsCourse = !M::kCartesian;
 
   M model{};
-  Own prior{};  // of an object before its first observation
+  Own prior{};  // an object's before its first observation
   [[no_unique_address]] F filter{};
 
   // Starts from position and velocity; the other components come from the prior.

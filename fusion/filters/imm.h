@@ -175,7 +175,7 @@ template <class F, motion::Model... Ms> class Imm {
     constexpr int kN = To::kStates;
     const linear::Gaussian<kN> own = std::get<J>(before);
     std::array<linear::Gaussian<kN>, static_cast<std::size_t>(kModes)> in_own;
-    linear::Vector<kN> shift = linear::Vector<kN>::Zero();  // of the mean, from this mode's own mean
+    linear::Vector<kN> shift = linear::Vector<kN>::Zero();  // from this mode's own mean to the mean
     each([&]<std::size_t I>() {
       using From = std::tuple_element_t<I, std::tuple<Ms...>>;
       const double weight = weights(static_cast<int>(I));

@@ -32,7 +32,7 @@ struct ClearMotCounts {
   std::uint64_t objects = 0, tracks = 0;  // summed over the instants
   std::uint64_t matches = 0;              // switched ones too
   std::uint64_t misses = 0, false_positives = 0, switches = 0;
-  double distance_sum_m = 0.0;  // of the matches
+  double distance_sum_m = 0.0;  // over the matches
 
   // MOTA and MOTP are not a number without objects or matches.
   double mota() const {

@@ -45,7 +45,7 @@ struct LifeSummary {
   std::uint64_t fragmentations = 0, switches = 0;
   // Both are not a number without a value: no object confirmed, or no object at all.
   double mean_confirmed_after_s = 0.0, mean_fraction_tracked = 0.0;
-  Duration worst_confirmed_after{};  // of the confirmed objects
+  Duration worst_confirmed_after{};  // among the confirmed objects
 };
 
 class TrackLives {

@@ -18,7 +18,7 @@ namespace ttf::fusion::motion {
 struct PlanarMotion {
   linear::Vector<2> translation = linear::Vector<2>::Zero();  // [m]
   double yaw = 0.0;                                           // [rad]
-  linear::Matrix<3> covariance = linear::Matrix<3>::Zero();   // of (x, y, yaw), the error of the odometry
+  linear::Matrix<3> covariance = linear::Matrix<3>::Zero();   // for (x, y, yaw), the error of the odometry
 };
 
 template <Model M> void compensate(linear::Gaussian<M::kStates>& state, const PlanarMotion& ego) {

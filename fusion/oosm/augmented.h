@@ -114,7 +114,7 @@ template <int N, int M, Motion<N> Model, int Capacity> class Augmented {
 
   Model motion_;
   States joint_;
-  std::array<Stamp, Capacity> stamps_{};  // of the slots
+  std::array<Stamp, Capacity> stamps_{};  // by slot
   Stamp last_;
 };
 

@@ -117,7 +117,7 @@ template <int N, int M, Motion<N> Model, int Clones> class Clone {
 
   Model motion_;
   Joint<N, M, Clones> joint_;
-  std::array<Stamp, Clones> stamps_{};     // of the clones
+  std::array<Stamp, Clones> stamps_{};     // by clone
   std::array<Stamp, Clones> announced_{};  // not passed yet, in order
   int pending_ = 0;
   Stamp last_, gone_;

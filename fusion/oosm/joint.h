@@ -174,7 +174,7 @@ template <int N, int M, int Slots> class Joint {
   std::array<linear::Vector<N>, Slots> x_{};
   std::array<linear::Matrix<N>, Slots> cross_{};
   std::array<linear::Matrix<N>, kBlocks> blocks_{};
-  std::array<linear::Matrix<N, M>, Slots> gains_{};  // of the current correction
+  std::array<linear::Matrix<N, M>, Slots> gains_{};  // for the current correction
 };
 
 }  // namespace ttf::fusion::oosm

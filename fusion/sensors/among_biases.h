@@ -24,7 +24,7 @@ namespace ttf::fusion::sensors {
 // The indices of a sensor's biases among all, and the sensor's mounting. Index -1 means that it has no such
 // error.
 struct OwnBiases {
-  std::array<int, 4> index{-1, -1, -1, -1};  // of the components (SystematicErrors::sigma), the time stamp last
+  std::array<int, 4> index{-1, -1, -1, -1};  // by component (SystematicErrors::sigma), the time stamp last
   ErrorAxes axes = ErrorAxes::kPolar;
   Mounting mounting{};
   double time_variance = 0.0;  // [s^2]

@@ -29,13 +29,13 @@ enum class ErrorAxes : unsigned char { kPolar, kCartesian };
 struct SystematicErrors {
   ErrorAxes axes = ErrorAxes::kPolar;
   linear::Vector<3> known =
-      linear::Vector<3>::Zero();  // of range [m], bearing [rad], range rate [m/s]; or of x, y [m] and unused
-  linear::Vector<4> sigma = linear::Vector<4>::Zero();  // of the rest of these, and of the time stamp [s]
+      linear::Vector<3>::Zero();  // range [m], bearing [rad], range rate [m/s]; or x, y [m] and unused
+  linear::Vector<4> sigma = linear::Vector<4>::Zero();  // for the rest of these, and for the time stamp [s]
 };
 
 struct KnownSensor {
   std::string name;
-  int line = 0;  // of the file that names the sensor; 0 without such a file
+  int line = 0;  // in the file that names the sensor; 0 without such a file
   sensors::Mounting mounting{};
   SystematicErrors errors;
 

@@ -27,7 +27,7 @@ class TrackHistory {
   virtual Insertion insert(const sensors::ObservationList& list) = 0;
   // Returns the newest tracks; confirmed ones have their ids.
   virtual const TrackSet& current() const = 0;
-  virtual const estimators::Estimator& estimator() const = 0;  // of the tracks' estimates
+  virtual const estimators::Estimator& estimator() const = 0;  // for the tracks' estimates
   // Returns whether this measurement is in the history. The instant counts too: a restarted sensor reuses its
   // numbers.
   virtual bool contains(const MeasurementId& id, GlobalTime measured) const = 0;

@@ -35,7 +35,7 @@ namespace ttf::fusion::tracks {
 
 struct TrackSet {
   std::vector<Track> tracks;  // in order of birth
-  GlobalTime time{};          // of the tracks' states
+  GlobalTime time{};          // the time of the tracks' states
   bool started = false;
 
   explicit TrackSet(std::size_t capacity = 0) { tracks.reserve(capacity); }

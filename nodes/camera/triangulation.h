@@ -30,7 +30,7 @@ CameraCalibration load_camera_calibration(YamlMap& yaml);
 
 // An object; its position is that of its centre.
 struct CameraObject : ttf::fusion::sensors::PlanePosition {
-  double width = 0, sigma_width = 0;  // of the silhouette, across the line of sight [m]
+  double width = 0, sigma_width = 0;  // the silhouette's, across the line of sight [m]
   double span = 0, sigma_span = 0;    // the angle under which it is seen [rad]
 };
 

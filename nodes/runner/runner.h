@@ -46,7 +46,7 @@ struct RunnerConfig {
   DriveClock clock{{}, 1'000'000};
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
-  TrueTime first_cycle{};            // of a node that begins integrated; off FlexRay, its power-on
+  TrueTime first_cycle{};            // for a node that begins integrated; off FlexRay, its power-on
   std::optional<TrueTime> power_on;  // begins cold, then or at once if that time has passed
   host::NodeStart cold{};
   TrueTime end{};            // events due later are not done

@@ -12,7 +12,7 @@
 namespace ttf::nodes::service {
 
 struct FeatureConfig {
-  double own_speed_mps = 0.0;          // of the sensor car along x, over ground; zero in the paper's drives
+  double own_speed_mps = 0.0;          // the sensor car's along x, over ground; zero in the paper's drives
   double corridor_half_width_m = 1.8;  // objects farther off the line of travel cause no warning: half a 3.6 m lane
   double warning_time_s = 2.7;         // warns below this time to collision (ISO 15623 class forward collision warning)
   // The largest difference between an image's predicted instant and its use. An image is predicted to its first use.
@@ -44,7 +44,7 @@ class FeatureService final : public host::Step {
   FeatureConfig config_;
   Duration round_;
   fusion::ImageSignals signals_;
-  GlobalTime valid_at_{};  // of the newest image, computed on arrival: later, its stamp could mean another round
+  GlobalTime valid_at_{};  // the newest image's, computed on arrival: later, its stamp could mean another round
   std::vector<recording::records::FeatureObject> objects_;
 };
 

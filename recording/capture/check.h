@@ -46,7 +46,7 @@ struct CaptureFinding {
 struct CaptureVerdict {
   std::uint64_t frames = 0;  // FlexRay frames compared with the schedule
   std::uint64_t symbols = 0;
-  std::uint64_t other_packets = 0;  // of other link types or channels, or outside the time window
+  std::uint64_t other_packets = 0;  // from other link types or channels, or outside the time window
   std::int64_t cycles = 0;          // from the cycle of the first frame to that of the last
   std::array<std::uint64_t, kContradictions> counts{};
   std::vector<CaptureFinding> findings;  // by packet; the first kMostFindings

@@ -43,7 +43,7 @@ class CaptureCoverage {
   Missing missing_;
   int counters_;
   std::vector<std::vector<Owned>> owned_;  // by cycle counter, in the order of slots
-  std::vector<std::uint64_t> packets_;     // of the current cycle, by slot and channel; 0: no packet
+  std::vector<std::uint64_t> packets_;     // in the current cycle, by slot and channel; 0: no packet
   std::vector<Claim> damaged_;
   std::int64_t cycle_ = -1;  // running, from 0
   int counter_ = 0;

@@ -48,10 +48,10 @@ class CycleTracker {
   std::int64_t cycle_ns_;
   int counters_;  // gCycleCountMax + 1
   bool started_ = false;
-  int counter_ = 0;                    // of the current cycle
-  std::optional<std::int64_t> start_;  // of the current cycle, by the capture's clock
+  int counter_ = 0;                    // the current cycle's
+  std::optional<std::int64_t> start_;  // the current cycle's, by the capture's clock
   int astray_ = 0;                     // frames in a row whose stamps do not fit `start_`
-  std::optional<int> disagreement_;    // of the previous frames: counter minus the correct value
+  std::optional<int> disagreement_;    // in the previous frames: counter minus the correct value
   std::int64_t disagreed_cycles_ = 0;
 };
 

@@ -60,7 +60,7 @@ struct FlexRayPacket {
   schedules::model::Channel channel{};
   std::uint8_t errors = 0;    // FlexRayErrors of a frame
   int symbol_bits = 0;        // of a symbol
-  bool whole_header = false;  // of a frame; if false, the fields below are zero
+  bool whole_header = false;  // true if the frame has one; if false, the fields below are zero
   bus::wire::FrameHeader header;
   bool header_crc_holds = false;  // recomputed
   std::span<const std::byte> payload;

@@ -175,10 +175,10 @@ class PcapngParser : CaptureParser {
     add(0, std::nullopt, 12, snap_bytes_ == 0 ? original : std::min(original, snap_bytes_), original);
   }
 
-  std::uint32_t type_ = 0, size_ = 0;  // of the block
-  std::size_t first_interface_ = 0;    // of the section
+  std::uint32_t type_ = 0, size_ = 0;  // the block's
+  std::size_t first_interface_ = 0;    // the section's
   std::vector<Clock> clocks_;          // by interface of the section
-  std::uint32_t snap_bytes_ = 0;       // of its first interface
+  std::uint32_t snap_bytes_ = 0;       // its first interface's
 };
 
 }  // namespace

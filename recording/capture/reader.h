@@ -1,5 +1,5 @@
 // Reads captures of other programs: pcap (either byte order, microseconds or nanoseconds) and pcapng (sections
-// of either byte order; interfaces, enhanced, simple and obsolete packet blocks; all other blocks are skipped).
+// of either byte order; interfaces, enhanced, simple and obsolete packet blocks; others are skipped).
 //
 // The file is not trusted. Damage is an error, one sentence that names the file and the packet. Only a file
 // that ends within a packet or block, as after the capturing program was killed, is read up to there, with a
@@ -33,8 +33,8 @@ struct CapturedPacket {
 };
 
 struct Capture {
-  std::string bytes;                      // of the file
-  std::vector<CaptureSource> interfaces;  // of all sections
+  std::string bytes;                      // the file's
+  std::vector<CaptureSource> interfaces;  // from all sections
   std::vector<CapturedPacket> packets;
   std::string warning;  // one line, empty for a whole file
 

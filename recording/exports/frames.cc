@@ -39,7 +39,7 @@ SymbolName name_of_symbol(std::uint8_t symbol) {
     case records::kSymbolCas: return {"cas", "collision avoidance symbol"};
     case records::kSymbolWakeup: return {"wakeup", "wake-up pattern"};
     case records::kSymbolMediaTest: return {"media_test", "media access test symbol"};
-    default: return {"", "symbol"};  // of a damaged log
+    default: return {"", "symbol"};  // from a damaged log
   }
 }
 

@@ -14,7 +14,7 @@ bool is_of_another_process(const records::BinnedDurations& newer, const records:
 }  // namespace
 
 void LatenessSums::on(const records::LatenessHistogram& record) {
-  if (record.of < 1 || record.of > kKinds) return;  // of a later version
+  if (record.of < 1 || record.of > kKinds) return;  // from a later version
   Told& told = told_[record.stamp.node][record.of - 1u];
   const records::BinnedDurations newest(record.counts, record.longest);
   if (record.stamp.local < told.at || is_of_another_process(newest, told.newest)) told.before.add(told.newest);

@@ -17,10 +17,10 @@ namespace ttf::recording::exports {
 
 // In real time.
 struct NodeLateness {
-  records::BinnedDurations wake_ups;    // of the acts of the node's process
-  records::BinnedDurations floor;       // of a plain periodic thread beside it
-  records::BinnedDurations departures;  // of its frames, behind their action points
-  records::BinnedDurations arrivals;    // of others' frames, behind their action points on its clock
+  records::BinnedDurations wake_ups;    // the acts of the node's process
+  records::BinnedDurations floor;       // a plain periodic thread beside it
+  records::BinnedDurations departures;  // its frames, behind their action points
+  records::BinnedDurations arrivals;    // others' frames, behind their action points on its clock
   records::BinnedDurations transits;    // from sender to process, for frames of the same machine
 };
 
@@ -35,8 +35,8 @@ class LatenessSums final : public records::Sink {
  private:
   static constexpr std::size_t kKinds = records::kLatenessOfTransits;
   struct Told {
-    records::BinnedDurations before;  // of the node's former processes
-    records::BinnedDurations newest;  // of its present process
+    records::BinnedDurations before;  // from the node's former processes
+    records::BinnedDurations newest;  // from its present process
     LocalTime at{};                   // local time of the newest histogram
   };
   std::map<NodeId, std::array<Told, kKinds>> told_;

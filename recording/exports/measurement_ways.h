@@ -154,8 +154,8 @@ class MeasurementWays {
   Ways ways_;
   std::deque<std::pair<TrueTime, MeasurementId>> begun_;  // in order; includes those that have ended
   std::deque<FollowedImage> images_;
-  std::set<NodeId> fuses_;                                 // nodes that have written images
-  std::map<PduId, NodeId> writers_;                        // of lists that belong to no sensor
+  std::set<NodeId> fuses_;                                 // nodes that wrote images
+  std::map<PduId, NodeId> writers_;                        // for lists that belong to no sensor
   std::map<NodeId, std::map<PduId, std::uint32_t>> read_;  // the last number of each list, by reader
   std::map<NodeId, std::deque<Run>> runs_;
   std::deque<Act> acts_;

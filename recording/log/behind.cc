@@ -35,7 +35,7 @@ void LogBehind::add(const LogMessage& message) {
   filling_.append(bytes, sizeof bytes);
   filling_.append(message.payload);
   if (full_.load(std::memory_order_acquire)) return;
-  filling_.swap(between_);  // which is empty
+  filling_.swap(between_);  // it is empty
   full_.store(true, std::memory_order_release);
 }
 

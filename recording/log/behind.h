@@ -48,7 +48,7 @@ class LogBehind {
   std::string between_;            // belongs to that thread while empty, to the writer while full
   std::string writing_;            // belongs to the writer
   std::atomic<bool> full_{false};  // whether between_ is full
-  std::mutex mutex_;               // of close() and the writer only
+  std::mutex mutex_;               // for close() and the writer only
   std::condition_variable wake_;
   bool closing_ = false;  // guarded by mutex_
   std::thread thread_;

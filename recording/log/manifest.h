@@ -16,7 +16,7 @@ namespace ttf::recording::log {
 // `hashes` are pairs of a name and hex digits, e.g. ("cluster", "6f0c..."); names are unique. The name lists
 // are indexed by NodeId, (NodeId, task), PduId, SensorId and the index in Cluster::can_buses.
 struct LogManifest {
-  std::string version;  // of the program that wrote the log
+  std::string version;  // the version that wrote the log
   std::uint64_t seed = 0;
   std::string scenario_name;
   std::string cluster_name;

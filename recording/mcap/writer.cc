@@ -26,7 +26,7 @@ struct McapWriter::Impl {
 
   std::string path;
   std::FILE* file = nullptr;
-  std::string error;         // of the first failed write
+  std::string error;         // the first failed write's
   std::uint64_t offset = 0;  // bytes written so far
   std::uint32_t data_crc = 0;
   bool closed = false;

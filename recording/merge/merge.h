@@ -1,8 +1,8 @@
 // Merges the logs of one drive: the records of all, in one canonical order.
 //
 // Each process of a node set writes a log of its own nodes' records; merged, these are the log of the drive.
-// The sequence of records is the same for one process with one log and for many logs in any order, as both go
-// through the merge. recording/merge/record_place.h and docs/log_merging.md define the order.
+// One log and many logs, in any order, give the same sequence of records, as both go through the merge.
+// recording/merge/record_place.h and docs/log_merging.md define the order.
 // recording/merge/common_time.h puts the true times of different machines on one scale.
 //
 // The merge is exact for any order within the logs. Logs have the order of reports, not of true time. A task's
@@ -39,8 +39,8 @@ class MergedLogs {
   const std::vector<StoredLog>& logs() const { return logs_; }  // as given, without an ignored one
   const log::LogManifest& manifest() const { return manifest_; }
   std::vector<log::Attachment> attachments() const;  // each once, in the order of the logs, then by name and bytes
-  log::ContentHash content_hash() const;             // of all records, as the logs have them
-  std::vector<std::string> warnings() const;         // of all logs, as given, then of their merge
+  log::ContentHash content_hash() const;             // over all records, as the logs have them
+  std::vector<std::string> warnings() const;         // the logs', as given, then the merge's
 
   // Passes every record to the sink, at each call. Throws InputError if one log is a part of another: both hold
   // the same record of a node.
@@ -50,7 +50,7 @@ class MergedLogs {
   std::vector<StoredLog> logs_;
   log::LogManifest manifest_;
   std::vector<CommonTime> times_;      // by log
-  std::vector<std::string> warnings_;  // of the merge
+  std::vector<std::string> warnings_;  // the merge's
 };
 
 // Groups logs by drive, in the order in which each drive's first log is given, and merges each group. A log

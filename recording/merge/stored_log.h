@@ -28,7 +28,7 @@ class StoredLog {
 
   // A chunk, with the first and last true time of its records.
   struct Chunk {
-    std::size_t begin = 0, size = 0;  // of its record's content, within the bytes
+    std::size_t begin = 0, size = 0;  // its record's content, within the bytes
     TrueTime first{}, last{};
   };
   const std::vector<Chunk>& chunks() const { return chunks_; }  // in file order, each with a readable record

@@ -279,7 +279,7 @@ struct ImageWritten {
   Stamp stamp;
   std::uint32_t sequence = 0;
   GlobalTime valid_at{};            // the instant of use, to which the image is predicted
-  GlobalTime newest_measurement{};  // of all measurements fused in it
+  GlobalTime newest_measurement{};  // the newest measurement fused in it
   std::span<const ImageObject> objects;
   std::span<const MeasurementId> newest;  // per sensor, the newest measurement fused in it
 };
@@ -340,10 +340,10 @@ struct TimingProblem {
 
 // How often a process was late, by bins of recording/records/lateness_bins.h, since it began. Recorded at its
 // end, and now and then before.
-inline constexpr std::uint8_t kLatenessOfWakeUps = 1;     // of the acts of the node's process
-inline constexpr std::uint8_t kLatenessOfFloor = 2;       // of a plain periodic thread beside it: the machine's own
-inline constexpr std::uint8_t kLatenessOfDepartures = 3;  // of its frames, behind their action points
-inline constexpr std::uint8_t kLatenessOfArrivals = 4;    // of others' frames, behind their action points on its
+inline constexpr std::uint8_t kLatenessOfWakeUps = 1;     // the acts of the node's process
+inline constexpr std::uint8_t kLatenessOfFloor = 2;       // a plain periodic thread beside it: the machine's own
+inline constexpr std::uint8_t kLatenessOfDepartures = 3;  // its frames, behind their action points
+inline constexpr std::uint8_t kLatenessOfArrivals = 4;    // others' frames, behind their action points on its
                                                           // clock
 inline constexpr std::uint8_t kLatenessOfTransits = 5;    // from sender to process, for frames of the same machine
 struct LatenessHistogram {
@@ -362,7 +362,7 @@ struct MediumCounts {
   std::uint64_t not_sent = 0;   // no room
   std::uint64_t lost = 0;       // never received, as the medium knows
   std::uint64_t foreign = 0;    // not of this program
-  std::uint64_t malformed = 0;  // of this program's form, but wrong
+  std::uint64_t malformed = 0;  // in this program's form, but wrong
   std::uint64_t dropped = 0;    // no room in the process itself, inwards or outwards
 };
 

@@ -9,7 +9,7 @@
 namespace ttf::report::drive {
 namespace {
 
-constexpr std::size_t kMostPoints = 3000;  // of a curve; a longer curve keeps the largest of neighbours
+constexpr std::size_t kMostPoints = 3000;  // a curve's most; a longer curve keeps the largest of neighbours
 constexpr int kBins = 40;
 constexpr std::string_view kTimeAxis = "true time [s]";
 

@@ -28,7 +28,7 @@ struct Drive {
 
 struct ResultsFolder {
   std::string path;
-  nlohmann::ordered_json summary;    // of the folder; null if it has only logs
+  nlohmann::ordered_json summary;    // the folder's; null if it has only logs
   std::vector<Drive> drives;         // at least one
   std::vector<std::string> remarks;  // sentences about missing or damaged files
 };

@@ -14,7 +14,7 @@ namespace ttf::report::experiment {
 namespace {
 
 constexpr std::size_t kValueColumns = 7;
-constexpr std::size_t kMostCellsARow = 64;  // of the grid; most points need a row each
+constexpr std::size_t kMostCellsARow = 64;  // in the grid; most points need a row each
 constexpr const char* kNameOfAFile = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 
 }  // namespace

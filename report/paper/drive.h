@@ -30,8 +30,8 @@ struct PaperDrive {
   std::string title;
   std::vector<std::string> kinds;                         // of positions
   int object = 0;                                         // whose errors are drawn
-  bool errors = false, sigmas = false, nees = false;      // of that object; of all
-  double first_error_s = 0, last_error_s = 0;             // of that object
+  bool errors = false, sigmas = false, nees = false;      // for that object; for all
+  double first_error_s = 0, last_error_s = 0;             // for that object
   std::vector<std::pair<std::string, std::string>> ages;  // (of, sensor)
   double least_age_ms = 0, most_age_ms = 0;               // 0 is within this range
 };

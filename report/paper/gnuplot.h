@@ -17,7 +17,7 @@ struct PaperFile {
 
 // A picture of panels, row by row.
 struct GnuplotFigure {
-  std::string name;                // of the script and of its pictures
+  std::string name;                // names the script and its pictures
   std::vector<std::string> about;  // a description of the picture, one entry per line, as comments
   std::string settings;            // commands for all panels
   int columns = 1;

@@ -63,8 +63,8 @@ class PositionPlots : public recording::records::Sink {
   };
   struct Selection {
     std::vector<Sample> truth, reference;
-    std::vector<Sample> fusion;                     // of used images, at the instants they were predicted to
-    std::vector<Sample> unused;                     // of unused images, or of images refused as too old
+    std::vector<Sample> fusion;                     // used images, at the instants they were predicted to
+    std::vector<Sample> unused;                     // unused images, or images refused as too old
     std::vector<std::vector<Sample>> observations;  // per sensor
     std::vector<Integration> laser_arrows;
     std::vector<Instant> instants;

@@ -149,7 +149,7 @@ class Followed {
 
   const TimingData& data_;
   std::vector<Stay> stays_;
-  std::vector<std::size_t> records_;  // of the measurements, by number - 1
+  std::vector<std::size_t> records_;  // the measurements', by number - 1
   std::vector<MeasurementWays::Way> ways_ = std::vector<MeasurementWays::Way>(data_.measurements.size());
   std::vector<MeasurementWays::Image> images_;
   MeasurementWays follower_{{[this](const MeasurementWays::Way& way) { ways_[records_[way.number - 1]] = way; },

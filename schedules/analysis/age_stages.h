@@ -33,7 +33,7 @@ struct Path {
   std::size_t fused = 0;              // until the fusing task starts
   std::size_t used = 0;               // until the image's reader starts; 0: no reader
   bool on_arrival = false;            // the fusing task is activated by this list
-  model::CycleInstant use{0, 0, {}};  // of that reader; repetition 0 if time does not activate it
+  model::CycleInstant use{0, 0, {}};  // the reader's; repetition 0 if time does not activate it
 };
 
 // Returns the path of a sensor's lists; without stages if they reach no fusing task. The cluster must have

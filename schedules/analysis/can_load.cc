@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kStuffedClassic = 34;        // SOF to the end of the CRC, without data
 constexpr int kUnstuffed = 13;             // CRC delimiter to the end of the intermission
-constexpr std::int64_t kIntermission = 3;  // of the unstuffed bits
+constexpr std::int64_t kIntermission = 3;  // part of the unstuffed bits
 constexpr int kArbitrationFd = 17;         // SOF, identifier, RRS, IDE, FDF, res, BRS
-constexpr int kStuffedFd = 14;             // of these, SOF to IDE: FDF, res and BRS alternate, so a run ends there
+constexpr int kStuffedFd = 14;             // part of these, SOF to IDE: FDF, res and BRS alternate, so a run ends there
 constexpr int kControlFd = 5;              // ESI, DLC
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace ttf::schedules::analysis {
 
 struct ClockBounds {
   std::int64_t apart_ns = 0;   // between any two nodes' global times: the assumed precision and a macrotick
-  std::int64_t drift_ppb = 0;  // of any oscillator against true time
+  std::int64_t drift_ppb = 0;  // any oscillator's against true time
 
   // The largest difference when one oscillator measures a time and another judges it; rounded up.
   std::int64_t drift_ns(std::int64_t ns) const;

@@ -14,7 +14,7 @@ namespace ttf::schedules::analysis {
 struct DynamicLoad {
   model::Channel channel{};
   std::int64_t minislots = 0;  // to the end of the last frame, with idle phase and unused slots before it; 0: no frames
-  double share = 0.0;          // of gNumberOfMinislots; above one: not all frames fit
+  double share = 0.0;          // part of gNumberOfMinislots; above one: not all frames fit
 };
 
 // A row of slots with one list's fragments, and the turns of these slots.

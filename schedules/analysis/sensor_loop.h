@@ -21,9 +21,9 @@ namespace ttf::schedules::analysis {
 
 struct SensorLoop {
   SensorId sensor{};
-  const model::Task* measuring = nullptr;   // of the device
-  const model::PortBinding* raw = nullptr;  // that `measuring` writes and `after` reads
-  const model::Task* after = nullptr;       // of the host
+  const model::Task* measuring = nullptr;   // the device's
+  const model::PortBinding* raw = nullptr;  // written by `measuring` and read by `after`
+  const model::Task* after = nullptr;       // the host's
 };
 
 // Returns nullopt for a sensor that does not follow, or with a loop that is not closed; check_loops() reports

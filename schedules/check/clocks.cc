@@ -44,7 +44,7 @@ constexpr std::int64_t kSamples[] = {1, 2, 4};
 struct Controller {
   const model::Cluster& cluster;
   NodeId id;
-  std::int64_t worst_drift;  // of any controller, in parts per billion
+  std::int64_t worst_drift;  // any controller's, in parts per billion
   const model::GlobalParameters& g = cluster.flexray;
   const model::Node& node = cluster.node(id);
   const model::NodeParameters& p = *node.flexray;

@@ -79,7 +79,7 @@ constexpr int frame_bits(const GlobalParameters& flexray, int payload_words) {
 
 // The parameters of one controller.
 struct NodeParameters {
-  Channels pChannels = Channels::kAB;    // that the controller is attached to
+  Channels pChannels = Channels::kAB;    // channels to which the controller is attached
   Channel pWakeupChannel = Channel::kA;  // for its wake-up pattern
   std::int64_t pdMicrotick_ps = 25'000;
   int pSamplesPerMicrotick = 2;

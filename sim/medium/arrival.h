@@ -43,7 +43,7 @@ using FlightNumber = std::uint32_t;
 // The parts of a flight's place in the queue.
 struct FlightPlace {
   NodeId sender{};
-  schedules::model::Channel channel{};  // of the next stop
+  schedules::model::Channel channel{};  // the next stop's
   std::uint64_t sequence = 0;           // its number in the order of scheduling
 };
 

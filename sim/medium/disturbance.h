@@ -29,7 +29,7 @@ struct Arriving {
   bus::ports::Signal signal{};
   TrueTime start{}, end{};
   bool regenerated = false;          // by the coupler: faults of the sender cannot make receivers disagree about it
-  std::span<const std::byte> bytes;  // of a frame: may be pointed elsewhere, as above
+  std::span<const std::byte> bytes;  // a frame's; they may be pointed elsewhere, as above
   bool emitted = false;              // as above, on either leg through a coupler
 };
 

@@ -70,7 +70,7 @@ class FramePool {
     std::array<std::byte, kMaxBytes> bytes;
     std::size_t size = 0;
     int uses = 0;
-    bus::wire::DecodedFrame decoded;  // of a FlexRay frame
+    bus::wire::DecodedFrame decoded;  // for a FlexRay frame
   };
   std::vector<Frame> frames_;
   std::vector<std::uint32_t> free_;

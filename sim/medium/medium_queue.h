@@ -25,12 +25,12 @@ struct MediumEvent {
   std::uint8_t node = 0;  // receiver; sender of a sent frame; the bus for an arbitration
   std::uint8_t channel_or_bus = 0;
   std::uint8_t sensor = 0;
-  std::uint8_t sender = 0;  // of a CAN frame
+  std::uint8_t sender = 0;  // for a CAN frame
   bool flexible_data_rate = false;
   bool at_coupler = false;       // a FlexRay arrival at the star coupler, from that node
   std::uint32_t identifier = 0;  // CAN identifier, or a measurement's sequence
   std::uint32_t frame = 0;       // in the pool; on FlexRay the number of the flight
-  TrueTime start{};              // of a CAN frame
+  TrueTime start{};              // for a CAN frame
 };
 using MediumQueue = EventQueue<MediumEvent>;
 

@@ -28,7 +28,7 @@ class FlexRayWays {
  public:
   explicit FlexRayWays(const schedules::model::Cluster& cluster);
 
-  std::size_t nodes() const { return position_.size(); }  // of the cluster
+  std::size_t nodes() const { return position_.size(); }  // in the cluster
   std::size_t nodes_on_bus() const { return static_cast<std::size_t>(ends_ + 1); }
   bool is_on_bus(NodeId node) const { return position_[index_of(node)] >= 0; }
   // Returns whether both channels have the same nodes.

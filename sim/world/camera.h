@@ -43,7 +43,7 @@ CameraConfig in_drive(CameraConfig config, const DriveKey& key);
 struct CameraDetection {
   double bearing = 0;    // [rad]
   double disparity = 0;  // [px]
-  double width_px = 0;   // of the silhouette
+  double width_px = 0;   // the silhouette's
 };
 
 // Replaces `detections` by those of `objects`, which are in the sensor's axes. `truth` has the object of each,

@@ -87,7 +87,7 @@ assert (first["clock"], second["clock"], facts["clock"]) == ("wall", "wall", "co
 
 ROUND = 64 * 5_000_000
 SCALE = int(sys.argv[2])
-APART = 100_000                 # of real time; a few microseconds on a quiet machine
+APART = 100_000                 # ns of real time; a few microseconds on a quiet machine
 START = 1_500_000 / SCALE       # in the drive's time: by so much less has passed of it on the second host
 
 # Each node's clock reading, less its host's. Within a host they agree up to the cluster's precision. Between hosts they

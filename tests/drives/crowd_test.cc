@@ -85,7 +85,7 @@ class Coverage final : public recording::records::Sink {
 
   TrueTime from_;
   std::optional<Use> use_;
-  std::vector<recording::records::TruthState> truth_;  // of one instant
+  std::vector<recording::records::TruthState> truth_;  // at one instant
 };
 
 // The measures remember the newest 256 lists: seven seconds' worth.

@@ -41,7 +41,7 @@ class Wire {
 // Fills a fragment; the sequence number, fragment, count and time stamp stay.
 inline void fill(std::span<std::byte> fragment, const schedules::model::PduLayout& layout, std::uint32_t identifier,
                  Filling filling) {
-  const auto data_code = [](int bytes) {  // of the CAN FD frame around them
+  const auto data_code = [](int bytes) {  // the CAN FD frame around them
     constexpr int kLengths[] = {12, 16, 20, 24, 32, 48, 64};
     return bytes <= 8 ? bytes
                       : static_cast<int>(std::lower_bound(std::begin(kLengths), std::end(kLengths), bytes) -

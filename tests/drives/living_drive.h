@@ -25,7 +25,7 @@ struct SeenImage {
   GlobalTime valid_at{}, newest_measurement{};
   std::vector<MeasurementId> newest;
   std::vector<recording::records::ImageObject> objects;
-  std::vector<double> traces;  // of the objects' covariances, in their order
+  std::vector<double> traces;  // the objects' covariances, in their order
   bool shows(SensorId sensor, std::uint32_t sequence_number) const {
     return std::find(newest.begin(), newest.end(), MeasurementId{sensor, sequence_number}) != newest.end();
   }

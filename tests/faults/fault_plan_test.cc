@@ -159,7 +159,7 @@ TEST(FaultPlan, AKindTakesNoKeyOfAnother) {
     std::set<std::string> own;
     for (const std::string& key : keys) own.insert(key.substr(0, key.find(':')));
     if (kind.starts_with("bit_flip")) own.insert({"bits", "flips"});
-    if (kind == "duplicate_coldstart" || kind == "wrong_schedule") own.insert("slot");  // of other modes
+    if (kind == "duplicate_coldstart" || kind == "wrong_schedule") own.insert("slot");  // for other modes
     for (const std::string& foreign : all) {
       if (own.contains(foreign.substr(0, foreign.find(':')))) continue;
       std::vector<std::string> keys_and_it = keys;

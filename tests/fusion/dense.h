@@ -9,6 +9,6 @@ namespace ttf::fusion {
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);                          // by LU with partial pivoting
 Eigen::MatrixXd solve(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);  // A^-1 B of a symmetric A, by LDLT
 double norm_squared(const Eigen::VectorXd& e, const Eigen::MatrixXd& p);    // e' P^-1 e, by LDLT
-double least_eigenvalue(const Eigen::MatrixXd& a);                          // of a symmetric A: its lower triangle
+double least_eigenvalue(const Eigen::MatrixXd& a);                          // A is symmetric: its lower triangle
 
 }  // namespace ttf::fusion

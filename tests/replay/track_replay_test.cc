@@ -198,7 +198,7 @@ TEST(TrackReplay, ClassAndThirdAxisGoWithTheTrackForEveryOrderOfArrival) {
     if (near) row.height = 2.0;
     ++seen;
   }
-  rows.back().class_name = "zebra";  // of the radar's last list, with which the tracks end
+  rows.back().class_name = "zebra";  // in the radar's last list, with which the tracks end
   rows.back().score = 0.0;
   const RecordedLists in_order = recorded_lists_of_rows(rows, config);
   EXPECT_THAT(in_order.classes, testing::ElementsAre("car", "van", "zebra"));

@@ -52,6 +52,19 @@ class Words(unittest.TestCase):
         self.assertIn((5, "a fragment"), finds)
         self.assertEqual({line for line, _ in finds}, {3, 5})
 
+    def test_finds_do_not_depend_on_capitals(self):
+        for text, reason in [("of the whole frame", "a fragment"), ("Of the whole frame", "a fragment"),
+                             ("that others may hear", "a fragment"), ("which carries no frame", "a clause as a subject"),
+                             ("so WHOEVER sends it", "name the actor"), ("Those who send it", "name the actor"),
+                             ("None of it. NONE ARE kept here", "say what is empty or absent"),
+                             ("But for the last one", "an old word")]:
+            _, _, finds = self.measured("a.h", f"int a;  // {text}\n")
+            self.assertEqual([found for _, found in finds], [reason], text)
+
+    def test_not_is_a_fragment_only_at_the_start_of_a_sentence(self):
+        _, _, finds = self.measured("a.h", "// Not of this program, but of another.\nint a;  // not stated in any file\n")
+        self.assertEqual(finds, [(1, "a fragment")])
+
     def test_a_question_is_no_find(self):
         _, _, finds = self.measured("a.md", "What does it cost?\n")
         self.assertEqual(finds, [])

@@ -22,7 +22,7 @@ class EndAgreement {
   struct Order {
     common::Kind kind{};  // kFence or kClose
     std::uint32_t round = 0;
-    NodeId holder = kNoNode;  // of kClose: repeats samples [first, end); kNoNode: no survivor lacks any
+    NodeId holder = kNoNode;  // in kClose: repeats samples [first, end); kNoNode: no survivor lacks any
     std::uint64_t first = 0;
     std::uint64_t end = 0;
   };
@@ -46,7 +46,7 @@ class EndAgreement {
   std::set<NodeId> survivors_;
   std::uint32_t round_ = 0;
   bool closing_ = false;
-  std::map<NodeId, std::uint64_t> reports_;  // of this round
+  std::map<NodeId, std::uint64_t> reports_;  // this round's
   std::set<NodeId> closed_;                  // in this round
   NodeId holder_ = kNoNode;
   std::uint64_t end_ = 0;

@@ -61,7 +61,7 @@ void Exchange::Member::wait_ready(std::chrono::milliseconds patience) {
     all_ready_ = said && everybody(ready_) && (!session_.supervised || ready_.contains(common::kSupervisor));
     if (all_ready_) return;
     if (Clock::now() >= deadline) give_up(patience);
-    note_lost();  // of no interest yet
+    note_lost();  // a lost member does not matter yet
     wait(deadline);
   }
 }

@@ -40,8 +40,8 @@ class Exchange::Member {
   struct Other {
     explicit Other(Stream its_stream) : stream(std::move(its_stream)) {}
     Stream stream;
-    std::uint32_t round = 0;  // of the last kClose; 0: none
-    bool confirmed = false;   // that round's kClosed has been said
+    std::uint32_t round = 0;  // the last kClose's; 0: none
+    bool confirmed = false;   // whether kClosed has been said for `round`
   };
   // A result of receive() to come; no bytes: gone.
   struct Coming {

@@ -15,12 +15,12 @@ struct RosOptions {
   std::string node_name = "ttfusion";       // topics are /<node_name>/...; up to 64 letters, digits and single '_'
   std::int64_t origin_realtime_ns = 0;      // CLOCK_REALTIME at true time 0 of the drive: stamps are on ROS' clock
   std::int64_t time_scale_ppm = 1'000'000;  // real time per time of the drive, 100'000..1'000'000'000
-  std::string frame_id = "sensor_car";      // of all messages: x forward, y left (ISO 8855, as REP 103)
+  std::string frame_id = "sensor_car";      // the frame of all messages: x forward, y left (ISO 8855, as REP 103)
 
   // The deadline of a new sample is `deadline_slack` times the period, in real time. Zero: no deadline.
-  Duration image_period{};  // of images, and of the boxes made of them
-  Duration step_period{};   // of tracks: one sample for each step of the fusion
-  Duration truth_period{};  // of each object
+  Duration image_period{};  // for images, and for the boxes made of them
+  Duration step_period{};   // for tracks: one sample for each step of the fusion
+  Duration truth_period{};  // for each object
   Duration health_period{};
   double deadline_slack = 1.5;                       // at least 1
   std::chrono::milliseconds liveliness_lease{1000};  // a publisher silent for so long counts as dead; 100 ms to 1 h

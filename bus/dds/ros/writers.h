@@ -44,7 +44,7 @@ class Writers {
   Writer::Counts images() const { return images_.counts(); }
   Writer::Counts boxes() const { return boxes_.counts(); }
   Writer::Counts tracks() const { return tracks_.counts(); }
-  Writer::Counts truths() const;  // of all objects
+  Writer::Counts truths() const;  // for all objects
   Writer::Counts healths() const { return healths_.counts(); }
 
  private:

@@ -60,7 +60,7 @@ class LateUpdates final : public tracks::TrackHistory {
   // The additional state of a track.
   struct Object {
     tracks::ObservationId birth;
-    std::size_t slot = 0;            // of its past
+    std::size_t slot = 0;            // its past's
     GlobalTime z_at{}, height_at{};  // when the carried values of the third axis were measured
   };
   void step(const sensors::ObservationList& list);
@@ -74,10 +74,10 @@ class LateUpdates final : public tracks::TrackHistory {
   std::unique_ptr<Pasts> pasts_;
   Announcements announcements_;
   tracks::TrackSet set_;
-  std::vector<Object> objects_;      // of the set's tracks, in the same order
+  std::vector<Object> objects_;      // the set's tracks, in the same order
   std::vector<std::size_t> free_;    // slots
   tracks::TrackSet then_;            // the tracks that take part in the current late list, at its instant
-  std::vector<std::size_t> places_;  // of then_'s tracks in the set
+  std::vector<std::size_t> places_;  // then_'s tracks in the set
   std::vector<Taken> lists_;         // chronological
   std::optional<Taken> forgotten_;   // the newest forgotten list
 };

@@ -18,7 +18,7 @@
 namespace ttf::fusion::strategies::late {
 
 inline constexpr int kRemembered = 16;  // measurements of an object that a method can reach behind, birth included
-inline constexpr int kClones = 8;       // of an object at a time
+inline constexpr int kClones = 8;       // an object's at a time
 
 // The measurement happened `after` the stamp's instant, or before it if negative: the clock's deviation from
 // the schedule. The position is taken as H F(after) x + v of the instant's state. The object's noise within

@@ -37,7 +37,7 @@ struct ByTime {};  // at the chain's instants in TaskChains::timed
 
 // Activation by a sensor that waits for the end of the chain's first task.
 struct ByFollower {
-  std::int64_t best = 0, worst = 0;  // that task's execution
+  std::int64_t best = 0, worst = 0;  // the other task's execution
   std::int64_t pause = 0;            // least time from its end to the next activation; above zero
 
   std::int64_t shortest_round() const { return best + pause; }

@@ -12,7 +12,7 @@
 namespace ttf::schedules::exchange::fibex {
 namespace {
 
-constexpr std::size_t kLongestName = 128;  // of a SHORT-NAME
+constexpr std::size_t kLongestName = 128;  // for a SHORT-NAME
 
 }  // namespace
 

@@ -43,7 +43,7 @@ struct FibexSignal {
 struct FibexMultiplexer {
   int switch_position = 0, switch_bits = 0;
   bool switch_high_low = true;
-  int dynamic_position = 0;                                   // of its one segment
+  int dynamic_position = 0;                                   // its one segment's
   std::vector<std::pair<std::int64_t, std::string>> layouts;  // switch code, PDU
   std::string static_pdu;
   std::string unlike;  // parts that this struct cannot hold, or empty

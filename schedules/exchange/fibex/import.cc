@@ -324,8 +324,8 @@ class Importer {
   std::map<std::string, const FibexPdu*> pdus_;  // by id
   std::map<std::string, const FibexFrame*> frames_;
   std::map<std::string, PduId> lists_;     // by id
-  std::map<std::string, NodeId> senders_;  // of triggerings, by id
-  std::vector<const FibexEcu*> ecus_;      // of the cluster's nodes
+  std::map<std::string, NodeId> senders_;  // the triggerings', by id
+  std::vector<const FibexEcu*> ecus_;      // the cluster's nodes
   std::map<std::tuple<std::size_t, std::size_t, int, int>, int> next_fragment_;
 };
 

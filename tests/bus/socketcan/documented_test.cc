@@ -50,7 +50,7 @@ TEST(DocumentedExamples, AreWhatTheyAreSaidToBe) {
     ports::Signal signal;
     int slot, cycle, words;
     bool sync, null_frame;
-    int first_byte;  // of the payload
+    int first_byte;  // the payload's
     std::int64_t ns;
   };
   const std::vector<Said> said{

@@ -31,7 +31,7 @@ TEST(Bus, IsReadAndWritten) {
 
 TEST(Bus, CarriesAChannelThatItHasAnInterfaceFor) {
   using schedules::model::Channel;
-  EXPECT_TRUE(Bus::parse("dds").carries(Channel::kB));  // which has no interfaces
+  EXPECT_TRUE(Bus::parse("dds").carries(Channel::kB));  // it has no interfaces
   EXPECT_TRUE(Bus::parse("socketcan:a").carries(Channel::kA));
   EXPECT_FALSE(Bus::parse("socketcan:a").carries(Channel::kB));
   EXPECT_TRUE(Bus::parse("socketcan:a,b").carries(Channel::kB));

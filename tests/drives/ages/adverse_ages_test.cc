@@ -33,12 +33,12 @@ struct Followed final : recording::records::Sink {
   TrueTime camera_before{};                 // the camera's lists queued next to it
   std::optional<TrueTime> camera_after;
   recording::records::CanFrameSent camera_frame;         // the last one of the camera that began before
-  std::vector<std::pair<std::int64_t, TrueTime>> slots;  // of its first fragment: cycle, action point
+  std::vector<std::pair<std::int64_t, TrueTime>> slots;  // for its first fragment: cycle, action point
   Duration missing{};                                    // margin of its frames to their worst case
   Duration fused{}, used{};                              // its ages
   std::optional<GlobalTime> measured;
   std::optional<std::uint32_t> image;                                        // the first one with the measurement in it
-  std::pair<Duration, Duration> extremes{Duration::milliseconds(1000), {}};  // of all the laser's ages when fused
+  std::pair<Duration, Duration> extremes{Duration::milliseconds(1000), {}};  // all the laser's ages when fused
 
   Followed(const schedules::model::Cluster& c, std::uint32_t sequence)
       : cluster(c), raw(*c.find_pdu("laser_scan")), objects(*c.find_pdu("laser_objects")),

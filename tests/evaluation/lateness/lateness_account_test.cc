@@ -181,8 +181,8 @@ TEST(LatenessAccount, CountsWhatWasNotInItsTimeByNodeAndKind) {
   account.on(problem(1, recording::records::kEarlyFrame, 3));
   account.on(problem(1, recording::records::kFramesLost, 7));
   account.on(problem(2, recording::records::kFramesLost, 2));
-  account.on(problem(2, 200, 9));                               // of a later version
-  account.on(problem(77, recording::records::kFramesLost, 9));  // of another cluster
+  account.on(problem(2, 200, 9));                               // from a later version
+  account.on(problem(77, recording::records::kFramesLost, 9));  // from another cluster
   const auto found = account.finish();
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->timing.size(), 3u);
@@ -217,7 +217,7 @@ TEST(LatenessAccount, WhatMediaCountedIsOfTheWholeRun) {
   account.on(counted(1, 300, 90));
   account.on(counted(2, 200, 5));
   account.on(counted(2, 100, 50));  // another, whose clock began again
-  account.on(counted(77, 1, 1));    // of another cluster
+  account.on(counted(77, 1, 1));    // from another cluster
   const auto found = account.finish();
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->timing.size(), 3u);

@@ -60,7 +60,7 @@ sensors::Observation seen(const State& x, int sensor, const sensors::KnownSensor
 }
 
 struct BiasedDrive {
-  std::vector<OwnedList> lists;  // of one object, laser and radar in turn, 40 ms apart; `first` is the first
+  std::vector<OwnedList> lists;  // for one object, laser and radar in turn, 40 ms apart; `first` is the first
   std::vector<State> truth;      // at the stamps
 };
 BiasedDrive drawn_biased(std::uint64_t seed, int run, int lists,

@@ -16,7 +16,7 @@ namespace {
 
 struct Statistics {
   double nees = 0.0, nis = 0.0;                  // means over the runs
-  double nees_degrees = 0.0, nis_degrees = 0.0;  // of the sums
+  double nees_degrees = 0.0, nis_degrees = 0.0;  // the sums'
   int runs = 0;
   double low(double degrees) const { return metrics::chi_square_quantile(0.025, degrees) / runs; }
   double high(double degrees) const { return metrics::chi_square_quantile(0.975, degrees) / runs; }

@@ -52,7 +52,7 @@ std::vector<Seen> read_drive(const std::string& path) {
 struct Result {
   linear::Vector<4> rmse = linear::Vector<4>::Zero();
   double laser_nis = 0.0, radar_nis = 0.0;  // means
-  double log_likelihood = 0.0;              // of all innovations
+  double log_likelihood = 0.0;              // over all innovations
 };
 
 template <class F> Result follow(const F& filter, const motion::Ctrv& model, const std::vector<Seen>& drive) {

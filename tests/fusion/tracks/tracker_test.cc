@@ -45,7 +45,7 @@ TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
   config.initial_velocity_sigma = 0.1;
   for (unsigned pattern = 0; pattern < 1u << 10; ++pattern) {
     Bench bench(config);
-    std::optional<std::string> history;  // of the living track
+    std::optional<std::string> history;  // the living track's
     bool is_confirmed = false;
     unsigned born = 0;
     for (int k = 0; k < 10; ++k) {

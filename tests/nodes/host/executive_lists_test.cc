@@ -78,7 +78,7 @@ TEST(ExecutiveLists, AListWithoutAStrobeIsDiscardedCountedAndRecorded) {
   CameraHost host;
   host.executive->strobe(host.camera, 0, host.now);
   host.wait(Duration::milliseconds(1));
-  host.frame(1);  // of which the strobe was lost
+  host.frame(1);  // its strobe was lost
   host.wait(Duration::milliseconds(60));
   EXPECT_EQ(host.hops(recording::records::Hop::kRead), 1);
   EXPECT_EQ(host.hops(recording::records::Hop::kWritten), 0);

@@ -166,7 +166,7 @@ TEST_F(ArrivalWindowTest, WhatTheDeviationsOfADoubleCycleDifferByIsKept) {
 TEST_F(ArrivalWindowTest, ASyncFrameWaitsForItsFollowUp) {
   arrive(1, action_point(1) + 2000, true);
   EXPECT_FALSE(take(action_point(1) + 2000 + 15'000));
-  follow_up(2, 1999);  // of another slot
+  follow_up(2, 1999);  // for another slot
   EXPECT_FALSE(take(action_point(1) + 2000 + 15'000));
   follow_up(1, 1990);
   const auto due = take(action_point(1) + 2000 + 15'000);

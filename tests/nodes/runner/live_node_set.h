@@ -30,7 +30,7 @@ namespace ttf::nodes::runner {
 
 constexpr Duration ms(std::int64_t n) { return Duration::milliseconds(n); }
 constexpr Duration us(std::int64_t n) { return Duration::microseconds(n); }
-inline constexpr bus::ports::MachineTime kOrigin{1'000'000'000'000};  // of the drives by a turned clock
+inline constexpr bus::ports::MachineTime kOrigin{1'000'000'000'000};  // for drives by a turned clock
 
 // A node's records, as far as the tests need them.
 struct Recorded final : recording::records::Sink {
@@ -106,7 +106,7 @@ struct Recorded final : recording::records::Sink {
   LocalTime last_frame{std::numeric_limits<std::int64_t>::min()};
   std::vector<Told> problems;
   std::map<std::int64_t, Correction> corrections;  // by cycle
-  std::vector<std::string> states;                 // of the controller, in order
+  std::vector<std::string> states;                 // the controller's, in order
   std::vector<recording::records::Stamp> changes;
   std::map<int, Histogram> lateness;        // the last, by its subject
   recording::records::MediumCounts medium;  // the last

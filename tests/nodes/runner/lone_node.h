@@ -119,7 +119,7 @@ class RunnerTest : public LiveNodeSet {
       std::size_t can_bus = 0;
       std::uint32_t identifier = 0;
       bus::ports::MachineTime at{};
-      Duration duration{};  // of the frame on a real bus, in the drive's time
+      Duration duration{};  // the frame's on a real bus, in the drive's time
     };
     std::vector<CanArrival> heard_on_can() {
       std::vector<CanArrival> heard;

@@ -89,7 +89,7 @@ TEST(CaptureCheck, AFrameOnTheWrongChannel) {
 TEST(CaptureCheck, AFrameInACycleThatIsNotItsOwn) {
   std::vector<BusFrame> frames = scheduled_frames(paper(), 4);
   const std::size_t at = place_of(frames, 1, Channel::kA, 3);
-  BusFrame stray = frames[at - 1];  // of cycle 2; the image is sent in cycle 1, 9, ...
+  BusFrame stray = frames[at - 1];  // from cycle 2; the image is sent in cycle 1, 9, ...
   stray.header.frame_id = 22;
   frames.insert(frames.begin() + static_cast<std::ptrdiff_t>(at), stray);
   const CaptureVerdict verdict = verdict_on(frames);

@@ -22,7 +22,7 @@ class FaultyExpectation final : public Expectation {
     Flags flags;
   };
   int nowhere = 0, foreign = 0, broken_off = 0;
-  std::map<std::string, int> acts;  // of faults, by kind
+  std::map<std::string, int> acts;  // faults, by kind
 
   void on(const records::SlotFrameSent& record) override {
     collector_.on(record);

@@ -94,7 +94,7 @@ void drive_one_way(Drive& drive) {
   drive.hop(kLaser, records::Hop::kRead, 3, 3 * kMs);
   drive.run(kLaser, 0, 3 * kMs, 5 * kMs);
   drive.hop(kLaser, records::Hop::kWritten, 3, 5 * kMs);
-  drive.run(kLaser, 0, 5 * kMs, 6 * kMs);  // of another list: lists written then are not its output
+  drive.run(kLaser, 0, 5 * kMs, 6 * kMs);  // for another list: lists written then are not its output
   for (const std::int64_t when : {6, 8})
     for (const std::uint8_t channel : {0, 1}) drive.slot(kLaser, kList, kSensor, 3, channel, when * kMs);
   drive.fused(3, records::Disposition::kHeld, 10 * kMs);

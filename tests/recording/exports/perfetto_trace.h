@@ -16,7 +16,7 @@ namespace ttf::recording::exports {
 struct PerfettoTrace {
   struct Slice {
     std::string group, lane, name;
-    std::uint64_t begin = 0, end = 0;  // of an instant the same
+    std::uint64_t begin = 0, end = 0;  // the same for an instant
     std::map<std::string, std::string> notes;
   };
   struct Value {
@@ -27,7 +27,7 @@ struct PerfettoTrace {
   std::vector<Slice> slices;  // in the order of their begins
   std::vector<Value> values;
   std::map<std::uint64_t, std::vector<std::size_t>> flows;  // through which slices, in order
-  std::vector<std::string> problems;                        // of the trace as a trace
+  std::vector<std::string> problems;                        // the trace's as a trace
 
   explicit PerfettoTrace(std::string_view bytes) {
     ttfusion::perfetto::Trace trace;

@@ -24,7 +24,7 @@ struct Mutation {
   std::string name;
   std::string pattern;      // its first match in the shipped file ...
   std::string replacement;  // ... becomes this
-  Wanted wanted;            // of some finding
+  Wanted wanted;            // in some finding
 };
 
 // The header of a node or task, up to a key inside it.

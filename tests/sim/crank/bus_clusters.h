@@ -58,7 +58,7 @@ struct StateLog final : bus::controller::ControllerEvents {
     bus::poc::PocKind from{}, to{};
     bus::poc::PocReason reason{}, consequence{};
     Microticks at{};
-    std::int64_t cycle = -1;  // that started then, if one did
+    std::int64_t cycle = -1;  // the cycle that started then, if one did
   };
   std::vector<Change> changes;
   void state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) override {

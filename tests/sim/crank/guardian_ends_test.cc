@@ -21,7 +21,7 @@ using schedules::model::Channel;
 constexpr NodeId kBreaksOff{0};
 constexpr int kEndsNodes = 5, kFirstSlot = 65, kFirstSequence = 3;
 constexpr TrueTime kEndsBegin{1'000'000};
-constexpr Duration kLongFrame = Duration::microseconds(75);        // of node 0, and some more than it
+constexpr Duration kLongFrame = Duration::microseconds(75);        // node 0's, and some more
 constexpr Duration kSegmentIsOver = Duration::microseconds(4900);  // in its cycle
 
 // As schedules/flexray_demo.yaml has it: 0.6 us between the farthest, minislots of 7 us with their action point 3 us

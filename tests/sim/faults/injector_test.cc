@@ -231,8 +231,8 @@ TEST_F(Bytes, WhatTheDecoderSaysOfThem) {
     Injector injector(plan(fault), cluster_, plant_, 1, 0, nobody_);
     return bus::wire::decode_frame(Channel::kB, left(injector)).error;
   };
-  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {12}), bus::wire::FrameError::kHeaderCrc);  // of the frame id
-  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {36}), bus::wire::FrameError::kFrameCrc);   // of the cycle count
+  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {12}), bus::wire::FrameError::kHeaderCrc);  // in the frame id
+  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {36}), bus::wire::FrameError::kFrameCrc);   // in the cycle count
   EXPECT_EQ(says(FaultKind::kBitFlipPayload, {64}), bus::wire::FrameError::kFrameCrc);
   EXPECT_EQ(says(FaultKind::kBitFlipTrailer, {7}), bus::wire::FrameError::kFrameCrc);
 }

@@ -120,7 +120,7 @@ TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
   malformed(on_a, 0, [](Sample& s) { s.kind = 1; });  // a symbol of no duration
   malformed(on_a, 0, [](Sample& s) { s.kind = 2, s.duration = 9, s.tells_late = 1; });
   malformed(on_a, 1, [](Sample& s) { s.kind = 3, s.duration = 9; });
-  malformed(on_a, 8, [](Sample& s) { s.sent = -1; });  // of no clock
+  malformed(on_a, 8, [](Sample& s) { s.sent = -1; });  // by no clock
   malformed(on_a, 8, [](Sample& s) { s.sent = INT64_MAX; });
   malformed(on_a, 8, [](Sample& s) { s.tells_late = 1, s.late = INT64_MIN; });
   malformed(on_a, 8, [](Sample& s) { s.tells_late = 1, s.late = INT64_MAX; });

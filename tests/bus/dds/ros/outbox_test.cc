@@ -89,7 +89,7 @@ TEST(Outbox, TracksWaitForTheirStep) {
 
 TEST(Outbox, AStepHasItsOwnTracksOnly) {
   Outbox outbox(small());
-  outbox.put(DrawnTrack(0, 5, 31).record);  // of a step that never ended: its node lost its supply
+  outbox.put(DrawnTrack(0, 5, 31).record);  // for a step that never ended: its node lost its supply
   outbox.put(DrawnTrack(1, 6, 41).record);
   outbox.put(recording::records::FusionStep{stamp_at(1), 6, 1, 0});
   outbox.put(recording::records::FusionStep{stamp_at(2), 7, 0, 0});

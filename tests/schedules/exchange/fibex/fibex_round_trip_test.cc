@@ -40,7 +40,7 @@ TEST_P(FibexShipped, IsTheSameAfterExportAndImport) { expect_round_trip(cluster_
 TEST_P(FibexShipped, SaysWhoReceivesWhat) {
   const FibexImport import = parse_fibex(fibex_text(cluster_), "cluster.xml");
   for (std::size_t i = 0; i < import.cluster.nodes.size(); ++i) {
-    std::vector<std::string> expected;  // of FlexRay, in the order of their slots
+    std::vector<std::string> expected;  // on FlexRay, in the order of their slots
     const model::Node& node = cluster_.node(*cluster_.find_node(import.cluster.nodes[i].name));
     for (const model::FrameSlot& frame : cluster_.frames)
       for (const model::Task& task : node.tasks)
