@@ -41,8 +41,8 @@ template <class Model, class Preprocessing> struct SensorEntry {
 template <class Model, class Preprocessing> struct SensorsOfKind {
   using Entry = SensorEntry<Model, Preprocessing>;
 
-  Entry usual;                  // of every sensor of the kind without an entry of its own
-  Preprocessing preprocessing;  // of every sensor of the kind without its own
+  Entry usual;                  // for every sensor of the kind without an entry of its own
+  Preprocessing preprocessing;  // for every sensor of the kind without its own
   std::vector<Entry> own;
 
   const Entry& of(std::string_view name) const {
