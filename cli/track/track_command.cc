@@ -43,7 +43,7 @@ replay::SensorSetup usual_sensor(bool laser_radar) {
 
 std::vector<recording::rows::ObservationRow> read_rows(const TrackOptions& options, Findings& findings) {
   if (options.format == "csv") return recording::rows::read_observation_rows(options.observations, findings);
-  return recording::rows::observation_rows_of(recording::rows::read_laser_radar(options.observations),
+  return recording::rows::observation_rows_of(recording::rows::read_laser_radar(options.observations, findings),
                                               options.observations);
 }
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -13,6 +13,7 @@
 #include "core/errors.h"
 #include "core/file_bytes.h"
 #include "recording/mcap/bytes.h"
+#include "recording/rows/leaping_stamps.h"
 
 namespace ttf::recording::rows {
 namespace {
@@ -112,40 +113,73 @@ constexpr std::array<Column, 6> kTruthColumns{{{"gt_x", -kFar, kFar, "m"},
 constexpr std::array<Column, 3> kScanColumns{
     {{"azimuth_rad", -kTurns, kTurns, "rad"}, {"range_m", 0, kFar, "m"}, {"intensity", 0, 1e9, ""}}};
 
+// A row with its truth; both times are the file's own stamp until all rows are known.
+struct LaserRadarRow {
+  RecordedObservation seen;
+  RecordedTruth truth;
+};
+
+std::int64_t stamp_of(const LaserRadarRow& row) { return row.seen.time_us_from_start; }
+
+// The rows by time; rows of one time in the order of the file. A stamp that leaps is a finding.
+RecordedInput in_time_order(std::vector<LaserRadarRow> rows, const std::string& name, Findings& findings) {
+  constexpr std::int64_t kSecond_us = 1'000'000;
+  std::vector<RowStamps> stamps;
+  for (const LaserRadarRow& row : rows) stamps.push_back({stamp_of(row), stamp_of(row)});
+  std::vector<bool> leaps(rows.size(), false);
+  for (const Leap& leap : leaping_stamps(stamps, kSecond_us)) {
+    leaps[leap.row] = true;
+    findings.add({name, rows[leap.row].seen.line, "t_us", std::to_string(stamp_of(rows[leap.row])),
+                  fmt::format("must be near the stamps above and below it, {} us and {} us: a single stamp that leaps "
+                              "is damaged",
+                              leap.above, leap.below)});
+  }
+  std::vector<LaserRadarRow> kept;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!leaps[i]) kept.push_back(std::move(rows[i]));
+  std::stable_sort(kept.begin(), kept.end(),
+                   [](const LaserRadarRow& a, const LaserRadarRow& b) { return stamp_of(a) < stamp_of(b); });
+  RecordedInput input;
+  input.name = name;
+  if (!kept.empty()) input.first_time_us = stamp_of(kept.front());
+  for (LaserRadarRow& row : kept) {
+    row.seen.time_us_from_start -= input.first_time_us;
+    row.truth.time_us_from_start = row.seen.time_us_from_start;
+    input.observations.push_back(std::move(row.seen));
+    input.truth.push_back(row.truth);
+  }
+  return input;
+}
+
 }  // namespace
 
-RecordedInput parse_laser_radar(const std::string& text, const std::string& name) {
-  Findings findings;
-  Rows rows(name, findings);
-  RecordedInput input;
-  std::int64_t last_time = std::numeric_limits<std::int64_t>::min();
+RecordedInput parse_laser_radar(const std::string& text, const std::string& name, Findings& findings) {
+  Rows table(name, findings);
+  std::vector<LaserRadarRow> rows;
   for_each_line(text, [&](int line, std::string_view raw) {
     if (trim(raw).empty() || trim(raw).front() == '#') return;
-    rows.at_line(line);
+    table.at_line(line);
     const std::vector<std::string_view> fields = split(raw, '\t');
     const bool laser = fields[0] == "L";
-    if (!laser && fields[0] != "R") return rows.fail("sensor", fields[0], "must be L (laser) or R (radar)");
+    if (!laser && fields[0] != "R") return table.fail("sensor", fields[0], "must be L (laser) or R (radar)");
     const std::size_t values = laser ? 2 : 3, columns = values + 8;
     if (fields.size() != columns)
-      return rows.fail("columns", std::to_string(fields.size()),
-                       fmt::format("must be {} columns, separated by tabs, in a row of {}", columns, fields[0]));
+      return table.fail("columns", std::to_string(fields.size()),
+                        fmt::format("must be {} columns, separated by tabs, in a row of {}", columns, fields[0]));
 
     std::array<double, 3> seen{};
     std::array<double, 6> truth{};
     const std::span<const std::string_view> all(fields);
     const std::span<const Column> seen_columns =
         laser ? std::span<const Column>(kLaserColumns) : std::span<const Column>(kRadarColumns);
-    if (!rows.numbers(all.subspan(1), seen_columns, seen)) return;
-    const std::optional<std::int64_t> time = rows.whole("t_us", fields[values + 1], " us");
-    if (!time || !rows.numbers(all.subspan(values + 2), kTruthColumns, truth)) return;
-    if (*time < last_time)
-      return rows.fail("t_us", fields[values + 1], fmt::format("must not be before the row above, {} us", last_time));
-    last_time = *time;
+    if (!table.numbers(all.subspan(1), seen_columns, seen)) return;
+    const std::optional<std::int64_t> time = table.whole("t_us", fields[values + 1], " us");
+    if (!time || !table.numbers(all.subspan(values + 2), kTruthColumns, truth)) return;
 
-    if (input.observations.empty()) input.first_time_us = *time;
-    const std::int64_t since = *time - input.first_time_us;
-    RecordedObservation& out = input.observations.emplace_back();
-    out.time_us_from_start = since;
+    LaserRadarRow& row = rows.emplace_back();
+    RecordedObservation& out = row.seen;
+    out.line = line;
+    out.time_us_from_start = *time;
     out.sensor = laser ? "laser" : "radar";
     if (laser) {
       out.kind = RecordedObservation::Kind::kPosition;
@@ -157,10 +191,19 @@ RecordedInput parse_laser_radar(const std::string& text, const std::string& name
       out.bearing = seen[1];
       out.range_rate = seen[2];
     }
-    input.truth.push_back({since, truth[0], truth[1], truth[2], truth[3], truth[4], truth[5]});
+    row.truth = {*time, truth[0], truth[1], truth[2], truth[3], truth[4], truth[5]};
   });
-  if (findings.empty() && input.observations.empty())
-    findings.add({name, 0, "", "", "holds no rows; expected rows that begin with L or R"});
+  RecordedInput input = in_time_order(std::move(rows), name, findings);
+  if (input.observations.empty()) {
+    findings.throw_if_any();
+    throw InputError({name, 0, "", "", "holds no rows; expected rows that begin with L or R"});
+  }
+  return input;
+}
+
+RecordedInput parse_laser_radar(const std::string& text, const std::string& name) {
+  Findings findings;
+  RecordedInput input = parse_laser_radar(text, name, findings);
   findings.throw_if_any();
   return input;
 }
@@ -195,6 +238,9 @@ std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::
 }
 
 RecordedInput read_laser_radar(const std::string& path) { return parse_laser_radar(read_file(path), path); }
+RecordedInput read_laser_radar(const std::string& path, Findings& findings) {
+  return parse_laser_radar(read_file(path), path, findings);
+}
 std::vector<RecordedScan> read_lidar_scans(const std::string& path) { return parse_lidar_scans(read_file(path), path); }
 
 RecordingFormat sniff_recording(const std::string& path) {

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/errors.h"
+
 namespace ttf::recording::rows {
 
 // One sensor's observation at one instant. Position: x, y in metres. Range-bearing-rate: range in metres,
@@ -22,6 +24,7 @@ struct RecordedObservation {
   Kind kind = Kind::kPosition;
   double x = 0, y = 0;                            // kPosition
   double range = 0, bearing = 0, range_rate = 0;  // kRangeBearingRate
+  int line = 0;                                   // in the file; 0 if the row is not from a file
 };
 
 // The truth that the recording has for the same instant.
@@ -30,8 +33,10 @@ struct RecordedTruth {
   double x = 0, y = 0, vx = 0, vy = 0, yaw = 0, yaw_rate = 0;
 };
 
-// observations[i] and truth[i] belong together; times never decrease.
+// observations[i] and truth[i] belong together. Rows are sorted by time. Those of one time stay in the order of the
+// file.
 struct RecordedInput {
+  std::string name = "recording";  // the file's, for messages
   std::int64_t first_time_us = 0;  // the first row's own time stamp
   std::vector<RecordedObservation> observations;
   std::vector<RecordedTruth> truth;
@@ -40,8 +45,12 @@ struct RecordedInput {
 // Tab-separated rows, times in microseconds:
 //   L  px  py  t_us  gt_x  gt_y  gt_vx  gt_vy  gt_yaw  gt_yawrate
 //   R  range  bearing  range_rate  t_us  gt_x  gt_y  gt_vx  gt_vy  gt_yaw  gt_yawrate
+// Rows may have any order. A single stamp that leaps is a finding (recording/rows/leaping_stamps.h). With `findings`,
+// each broken row is left out and has one finding. Only a file without any sound row throws then.
 RecordedInput read_laser_radar(const std::string& path);
+RecordedInput read_laser_radar(const std::string& path, Findings& findings);
 RecordedInput parse_laser_radar(const std::string& text, const std::string& name);
+RecordedInput parse_laser_radar(const std::string& text, const std::string& name, Findings& findings);
 
 // One turn of a laser scanner: returns in order of the file, azimuth 0 ahead, positive left.
 struct RecordedReturn {

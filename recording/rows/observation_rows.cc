@@ -11,6 +11,7 @@
 #include "core/decimal.h"
 #include "core/file_bytes.h"
 #include "recording/rows/csv.h"
+#include "recording/rows/leaping_stamps.h"
 
 namespace ttf::recording::rows {
 namespace {
@@ -150,7 +151,6 @@ class RowReader {
       fail("columns", std::to_string(fields_->size()), fmt::format("must be {}, as in the heading", heading_.columns));
     } else if (numbers() && measurement() && covariance() && names() && times()) {
       rest();
-      newest_[row_.sensor] = row_.time_ns;
       return row_;
     }
     return std::nullopt;
@@ -250,11 +250,6 @@ class RowReader {
     const std::optional<std::int64_t> time = nanoseconds_of(text(kTime));
     if (!time) return fail("time", text(kTime), "must be a number in -4e+09..4e+09 s");
     row_.time_ns = row_.arrival_ns = *time;
-    const auto newest = newest_.find(row_.sensor);
-    if (newest != newest_.end() && *time < newest->second)
-      return fail("time", text(kTime),
-                  fmt::format("must not be before the row above of {}, {} s", row_.sensor,
-                              scaled_text(newest->second, kNsPerSecond)));
     if (text(kArrival).empty()) return true;
     const std::optional<std::int64_t> arrival = nanoseconds_of(text(kArrival));
     if (!arrival || *arrival < *time || *arrival > *time + kLongestWay)
@@ -283,8 +278,31 @@ class RowReader {
   const std::vector<std::string>* fields_ = nullptr;
   std::array<std::optional<double>, kNumbers> value_;
   ObservationRow row_;
-  std::map<std::string, std::int64_t> newest_;  // by sensor, the time of its previous row
 };
+
+// Leaves out the rows whose stamps leap among those of their sensor, each with a finding.
+void leave_out_leaps(std::vector<ObservationRow>& rows, const std::string& name, Findings& findings) {
+  std::map<std::string, std::vector<std::size_t>> of_sensor;
+  for (std::size_t i = 0; i < rows.size(); ++i) of_sensor[rows[i].sensor].push_back(i);
+  std::map<std::size_t, Leap> leaps;  // by row
+  for (const auto& [sensor, places] : of_sensor) {
+    std::vector<RowStamps> stamps;
+    for (const std::size_t i : places) stamps.push_back({rows[i].time_ns, rows[i].arrival_ns});
+    for (const Leap& leap : leaping_stamps(stamps, kNsPerSecond)) leaps.emplace(places[leap.row], leap);
+  }
+  if (leaps.empty()) return;
+  for (const auto& [i, leap] : leaps)
+    findings.add(
+        {name, rows[i].line, "time", scaled_text(rows[i].time_ns, kNsPerSecond),
+         fmt::format("must be near the stamps of {} above and below it, {} s and {} s: a single stamp that "
+                     "leaps is damaged",
+                     rows[i].sensor, scaled_text(leap.above, kNsPerSecond), scaled_text(leap.below, kNsPerSecond))});
+  std::vector<ObservationRow> kept;
+  kept.reserve(rows.size() - leaps.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!leaps.contains(i)) kept.push_back(std::move(rows[i]));
+  rows = std::move(kept);
+}
 
 }  // namespace
 
@@ -301,6 +319,7 @@ std::vector<ObservationRow> parse_observation_rows(const std::string& text, cons
     if (std::optional<ObservationRow> row = reader.read(lines)) rows.push_back(std::move(*row));
   }
   if (!any) throw InputError({name, 0, "", "", "holds no row below its heading"});
+  leave_out_leaps(rows, name, findings);
   return rows;
 }
 
@@ -314,15 +333,16 @@ std::vector<ObservationRow> observation_rows_of(const RecordedInput& input, cons
   for (const RecordedObservation& seen : input.observations) {
     const std::int64_t at = input.first_time_us + seen.time_us_from_start;
     if (at > kLatestUs)
-      throw InputError({name, 0, "t_us", std::to_string(at), fmt::format("must be at most {} us", kLatestUs)});
+      throw InputError({name, seen.line, "t_us", std::to_string(at), fmt::format("must be at most {} us", kLatestUs)});
     ObservationRow& row = rows.emplace_back();
+    row.line = seen.line;
     row.time_ns = row.arrival_ns = at * 1000;
     row.sensor = seen.sensor;
     if (seen.kind == RecordedObservation::Kind::kPosition) {
       row.z = {seen.x, seen.y, 0.0};
     } else {
       if (seen.range < kNumberColumns[kRange].low)
-        throw InputError({name, 0, "range", fmt::format("{:g}", seen.range),
+        throw InputError({name, seen.line, "range", fmt::format("{:g}", seen.range),
                           fmt::format("must be at least {:g} m", kNumberColumns[kRange].low)});
       row.kind = ObservationRow::Kind::kRangeBearingRate;
       row.z = {seen.range, seen.bearing, seen.range_rate};

@@ -17,8 +17,10 @@
 //   class, score                 class of the object, and the weight of that (default 1)
 //
 // * in every row, with one of the two kinds of measurement. Columns that begin with gt_ (truth) are ignored;
-//   other unknown columns are refused. Rows of one sensor at one time are one list. A sensor's rows are in the
-//   order of its measurements; sensors may be mixed, and arrivals may have any order.
+//   other unknown columns are refused. Rows of one sensor at one time are one list. Rows may have any order. A
+//   single stamp that leaps is a finding (recording/rows/leaping_stamps.h).
+//
+// The whole file is read: rows in any order have no other bound.
 #pragma once
 
 #include <array>
@@ -34,7 +36,7 @@ namespace ttf::recording::rows {
 
 struct ObservationRow {
   enum class Kind : std::uint8_t { kPosition = 1, kRangeBearing = 2, kRangeBearingRate = 3 };
-  int line = 0;  // in the file; 0 if the row is not from such a file
+  int line = 0;  // in the file; 0 if the row is not from a file
   std::int64_t time_ns = 0, arrival_ns = 0;
   std::string sensor;
   Kind kind = Kind::kPosition;

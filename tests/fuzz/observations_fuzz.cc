@@ -55,11 +55,7 @@ std::string written(const std::vector<ObservationRow>& rows) {
 }
 
 void check_rows(const std::vector<ObservationRow>& rows) {
-  std::map<std::string, std::int64_t> newest;
   for (const ObservationRow& row : rows) {
-    const auto [last, first] = newest.emplace(row.sensor, row.time_ns);
-    TTF_CHECK(first || last->second <= row.time_ns, "line {} goes back in time", row.line);
-    last->second = row.time_ns;
     TTF_CHECK(row.line > 1 && !row.sensor.empty() && row.arrival_ns >= row.time_ns, "line {}", row.line);
     for (const double value : row.z) TTF_CHECK(std::abs(value) <= 1e7, "line {}: {}", row.line, value);
     TTF_CHECK(row.score >= 0.0 && row.score <= 1e6, "line {}: score {}", row.line, row.score);

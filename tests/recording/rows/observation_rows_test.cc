@@ -109,7 +109,7 @@ TEST(ObservationRows, EachBrokenLineIsOneSentenceAndLeftOut) {
       "1,,a,1,1,,,0.1,,0.1,0.1,,\n"   // 13
       "1,,a,,,5,1,0.1,0.01,0.1,,,\n"  // 14
       "1,,,1,1,,,,,,,,\n"             // 15
-      "0.999,,a,1,1,,,,,,,,\n"        // 16
+      "0.999,,a,1,1,,,,,,,,\n"        // 16: sound, though out of order
       "soon,,a,1,1,,,,,,,,\n"         // 17
       "2,1.5,a,1,1,,,,,,,,\n"         // 18
       "2,3602.5,a,1,1,,,,,,,,\n"      // 19
@@ -134,7 +134,6 @@ TEST(ObservationRows, EachBrokenLineIsOneSentenceAndLeftOut) {
                   "are taken as "
                   "independent",
                   "o.csv:15: sensor: must be a name of 1..40 printable ASCII characters",
-                  "o.csv:16: time = 0.999: must not be before the row above of a, 1 s",
                   "o.csv:17: time = soon: must be a number in -4e+09..4e+09 s",
                   "o.csv:18: arrival = 1.5: must be a number in 2..3602 s, from the measurement to an hour after it",
                   "o.csv:19: arrival = 3602.5: must be a number in 2..3602 s, from the measurement to an hour after it",
@@ -142,10 +141,11 @@ TEST(ObservationRows, EachBrokenLineIsOneSentenceAndLeftOut) {
                   "o.csv:21: line = car,: must end its quoted field on the same line",
                   "o.csv:22: range = inf: must be a number in 0.001..1e+07 m",
                   "o.csv:23: sensor = b\\x01: must be a name of 1..40 printable ASCII characters"));
-  ASSERT_EQ(broken.rows.size(), 2u);
+  ASSERT_EQ(broken.rows.size(), 3u);
   EXPECT_EQ(broken.rows[0].line, 2);
-  EXPECT_EQ(broken.rows[1].line, 24);
-  EXPECT_EQ(broken.rows[1].score, 1.0);
+  EXPECT_EQ(broken.rows[1].line, 16);
+  EXPECT_EQ(broken.rows[2].line, 24);
+  EXPECT_EQ(broken.rows[2].score, 1.0);
 }
 
 TEST(ObservationRows, AHeadingThatIsWrongIsRefused) {
@@ -162,9 +162,32 @@ TEST(ObservationRows, AHeadingThatIsWrongIsRefused) {
   EXPECT_THAT(read("\"time\n").sentences, ElementsAre("o.csv:1: heading: must end its quoted field on the same line"));
 }
 
-TEST(ObservationRows, SensorsMayStandInAnyOrderTheirOwnRowsMayNot) {
+TEST(ObservationRows, RowsMayStandInAnyOrder) {
   EXPECT_THAT(read("time,sensor,x,y\n2,a,0,0\n1,b,0,0\n2,a,1,1\n1,b,1,1\n").sentences, ElementsAre());
-  EXPECT_EQ(read("time,sensor,x,y\n2,a,0,0\n1,b,0,0\n1.5,a,0,0\n").sentences.size(), 1u);
+  const Read back = read("time,sensor,x,y\n2,a,0,0\n1,b,0,0\n1.5,a,0,0\n");
+  EXPECT_THAT(back.sentences, ElementsAre());
+  EXPECT_EQ(back.rows.size(), 3u);
+}
+
+// 10 Hz from 100 s on, with a sensor of its own beside it, and one stamp that leaps ahead.
+std::string ten_hertz(const std::string& leaping) {
+  std::string text = "time,arrival,sensor,x,y\n";
+  for (int i = 0; i < 40; ++i) {
+    text += (i == 20 ? leaping : std::to_string(100 + i / 10) + "." + std::to_string(i % 10) + ",") + ",a,1,2\n";
+    if (i % 4 == 0) text += std::to_string(100 + i / 10) + ".05,,b,1,2\n";
+  }
+  return text;
+}
+
+TEST(ObservationRows, OneStampThatLeapsCostsItsOwnRowOnly) {
+  const Read leap = read(ten_hertz("9102,"));
+  EXPECT_THAT(leap.sentences, ElementsAre("o.csv:27: time = 9102: must be near the stamps of a above and below it, "
+                                          "101.9 s and 102.1 s: a single stamp that leaps is damaged"));
+  EXPECT_EQ(leap.rows.size(), 49u);
+  EXPECT_EQ(read(ten_hertz("12,")).rows.size(), 49u) << "back";
+  EXPECT_EQ(read(ten_hertz("101.2,")).rows.size(), 50u) << "within a second: late in the file, but sound";
+  EXPECT_THAT(read(ten_hertz("12,102")).sentences, ElementsAre()) << "a list that was long under way";
+  EXPECT_EQ(read(ten_hertz("12,102")).rows.size(), 50u);
 }
 
 TEST(ObservationRows, LaserAndRadarRecordingsAreSuchRows) {

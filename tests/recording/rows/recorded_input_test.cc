@@ -74,10 +74,34 @@ TEST(LaserRadar, EachBrokenLineIsOneSentence) {
                                           "m.txt:5: py = nan: must be a number in -10000..10000 m",
                                           "m.txt:6: range = -1.5: must be a number in 0..10000 m",
                                           "m.txt:7: t_us = 1.5e3: must be a whole number of at least 0 us",
-                                          "m.txt:8: t_us = 999: must not be before the row above, 1000 us",
                                           "m.txt:9: gt_yawrate = 1e400: must be a number in -100..100 rad/s"};
   EXPECT_EQ(sentences(text), expected);
   EXPECT_EQ(sentences(""), std::vector<std::string>{"m.txt: holds no rows; expected rows that begin with L or R"});
+}
+
+TEST(LaserRadar, RowsInAnyOrderAreSorted) {
+  const std::string earlier = "L\t7\t0\t51000\t1\t0\t1\t0\t0\t0\n";
+  const RecordedInput input = parse_laser_radar(kRadarRow + earlier + kLaserRow, "m.txt");
+  ASSERT_EQ(input.observations.size(), 3u);
+  EXPECT_EQ(input.first_time_us, 1000);
+  EXPECT_EQ(input.observations[0].sensor, "laser");
+  EXPECT_EQ(input.observations[0].line, 3);
+  EXPECT_EQ(input.observations[1].line, 1) << "of equal stamps in the order of the file";
+  EXPECT_EQ(input.observations[2].line, 2);
+  EXPECT_EQ(input.truth[0].x, 0.6);
+  EXPECT_EQ(input.truth[2].x, 1.0);
+}
+
+TEST(LaserRadar, OneStampThatLeapsIsTheDamagedOne) {
+  std::string text;
+  for (int i = 0; i < 20; ++i)
+    text += "L\t7\t0\t" + std::to_string(i == 9 ? 99'000'000 : 50'000 * i) + "\t1\t0\t1\t0\t0\t0\n";
+  EXPECT_EQ(sentences(text),
+            std::vector<std::string>{"m.txt:10: t_us = 99000000: must be near the stamps above and below it, 400000 us "
+                                     "and 500000 us: a single stamp that leaps is damaged"});
+  Findings findings;
+  EXPECT_EQ(parse_laser_radar(text, "m.txt", findings).observations.size(), 19u);
+  EXPECT_EQ(findings.size(), 1u);
 }
 
 TEST(LaserRadar, RandomBytesNeverCrash) {
