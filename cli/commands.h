@@ -1,5 +1,5 @@
 // The commands of the program. Each registers itself and runs when the command line names it. Exit codes: 0
-// done, 1 a stated condition does not hold, 2 bad usage or input.
+// done, 1 failed, did nothing, or a stated condition does not hold, 2 bad usage or input.
 #pragma once
 
 #include <CLI/CLI.hpp>

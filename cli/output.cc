@@ -98,6 +98,11 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) print_warnings(warning);
 }
 
+int print_reasons(std::string_view file, std::string_view headline, const std::vector<std::string>& reasons) {
+  for (const std::string& reason : reasons) fmt::print(stderr, "error: {}: {}: {}\n", file, headline, reason);
+  return reasons.empty() ? 0 : 1;
+}
+
 void finish_standard_output() {
   // The stream keeps an error of an earlier, implicit flush.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail("standard output");

@@ -41,6 +41,10 @@ void try_folder(const std::string& path);
 void print_warnings(std::string_view text);
 void print_warnings(const std::vector<std::string>& warnings);
 
+// Prints one line on standard error for each reason why a command did nothing with its input, or too little. Returns
+// the exit code: 0 without reasons, else 1.
+int print_reasons(std::string_view file, std::string_view headline, const std::vector<std::string>& reasons);
+
 // Flushes standard output. Throws std::runtime_error with the reason on failure (disk full, closed).
 void finish_standard_output();
 

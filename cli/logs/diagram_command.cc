@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/commands.h"
+#include "cli/logs/scan_verdict.h"
 #include "cli/output.h"
 #include "cli/time_window.h"
 #include "core/counted.h"
@@ -55,8 +56,9 @@ recording::merge::MergedLogs one_drive(const std::vector<std::string>& paths) {
   return drive;
 }
 
-// Draws a recorded laser scan and the vehicles that preprocessing finds in it.
-std::string boxes(const DiagramOptions& options) {
+// Draws a recorded laser scan and the vehicles that preprocessing finds in it. Returns the exit code: without any
+// vehicle there is a picture, and the reasons.
+int draw_boxes(const DiagramOptions& options) {
   if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "boxes", "takes one recording"});
   const auto scans = recording::rows::read_lidar_scans(options.logs[0]);
   const int frame = options.frame.value_or(0);
@@ -72,13 +74,16 @@ std::string boxes(const DiagramOptions& options) {
     drawn.push_back({hit.range_m * std::cos(hit.azimuth_rad), hit.range_m * std::sin(hit.azimuth_rad)});
   }
   std::vector<nodes::laser::LaserObject> objects;
-  nodes::laser::LaserPreprocessor(nodes::laser::LaserPreprocessingConfig{}, points.size()).process(points, objects);
+  const nodes::laser::LaserPreprocessingConfig config;
+  nodes::laser::LaserPreprocessor preprocessor(config, points.size());
+  preprocessor.process(points, objects);
   std::vector<report::plots::Box> rectangles;
   for (const nodes::laser::LaserObject& object : objects)
     rectangles.push_back({object.x, object.y, object.heading, object.length, object.width, ""});
-  return report::plots::boxes_svg(drawn, rectangles,
-                                  fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"),
-                                              objects.size(), objects.size() == 1 ? "" : "es"));
+  const std::string title = fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"),
+                                        objects.size(), objects.size() == 1 ? "" : "es");
+  report::drawing::write_picture(report::plots::boxes_svg(drawn, rectangles, title), options.out);
+  return print_reasons(options.logs[0], title, reasons_for_no_box(scan, config, preprocessor.fates()));
 }
 
 // Without options, shows the whole start-up and two cycles after it.
@@ -141,10 +146,7 @@ std::string positions(const std::vector<recording::merge::MergedLogs>& drives, T
 
 int run_diagram(const DiagramOptions& options) {
   report::drawing::check_picture_path(options.out);
-  if (options.kind == "boxes") {
-    report::drawing::write_picture(boxes(options), options.out);
-    return 0;
-  }
+  if (options.kind == "boxes") return draw_boxes(options);
   if (options.frame)
     throw InputError({"command line", 0, "--frame", fmt::format("{}", *options.frame), "goes with --kind boxes only"});
   if (options.kind == "startup") {

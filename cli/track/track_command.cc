@@ -20,6 +20,7 @@
 #include "replay/recorded_lists.h"
 #include "replay/replay.h"
 #include "replay/sensor_timing.h"
+#include "replay/verdict.h"
 
 namespace ttf::cli::track {
 namespace {
@@ -73,7 +74,7 @@ int run_track(const TrackOptions& options) {
   tell_damage(findings, options.skip_damaged, recorded.lists.size());
   replay::simulate(recorded, simulated);
 
-  TrackResult result{std::string(name_of(config.strategy)), recorded.sensors, {}, findings.size()};
+  TrackResult result{std::string(name_of(config.strategy)), recorded.sensors, {}, findings.size(), {}};
   const replay::ReplaySetup setup{config.strategy, config.tracker,
                                   replay::sensor_timings(recorded, config, config.strategy), options.predict};
   std::string tracks(recording::rows::track_heading());
@@ -83,17 +84,18 @@ int run_track(const TrackOptions& options) {
           tracks += recording::rows::track_line(replay::track_row_of(view, known, recorded.classes));
       });
 
+  result.verdict = replay::judge(rows, findings.size(), recorded, setup, result.account);
   if (options.out.empty()) {
     fmt::print("{}", tracks);
     std::fflush(stdout);  // both streams may share one file
     fmt::print(stderr, "{}", track_table(result));
-    return 0;
+  } else {
+    write_file(options.out, tracks);
+    fmt::print("{}", options.json ? to_json(result).dump(2) + '\n' : track_table(result));
+    std::fflush(stdout);
+    fmt::print(stderr, "written to {}\n", options.out);
   }
-  write_file(options.out, tracks);
-  fmt::print("{}", options.json ? to_json(result).dump(2) + '\n' : track_table(result));
-  std::fflush(stdout);
-  fmt::print(stderr, "written to {}\n", options.out);
-  return 0;
+  return print_reasons(options.observations, result.verdict.headline, result.verdict.reasons);
 }
 
 void add_sensor_options(CLI::App& command, TrackOptions& options) {

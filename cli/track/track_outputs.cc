@@ -73,6 +73,8 @@ nlohmann::ordered_json to_json(const TrackResult& result) {
   }
   json["tracks"] = result.account.tracks;
   json["rows"] = result.account.rows;
+  json["did_its_work"] = result.verdict.did_its_work();
+  json["reasons"] = result.verdict.reasons;
   return json;
 }
 

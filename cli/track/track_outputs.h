@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "replay/replay.h"
+#include "replay/verdict.h"
 
 namespace ttf::cli::track {
 
@@ -15,6 +16,7 @@ struct TrackResult {
   std::vector<std::string> sensors;
   replay::ReplayAccount account;
   std::size_t damaged = 0;  // number of damaged rows, which are left out
+  replay::ReplayVerdict verdict;
 };
 
 std::string track_table(const TrackResult& result);

@@ -35,12 +35,19 @@ LaserPreprocessor::LaserPreprocessor(const LaserPreprocessingConfig& config, std
 
 void LaserPreprocessor::process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out) {
   out.clear();
+  fates_ = {};
   segment_scan(config_.segmentation, scan, points_, segments_);
   for (const Segment& segment : segments_) {
-    if (segment.count < static_cast<std::size_t>(config_.fewest_points)) continue;
+    if (segment.count < static_cast<std::size_t>(config_.fewest_points)) {
+      ++fates_.small;
+      continue;
+    }
     const std::span<const PlanePoint> points(points_.data() + segment.first, segment.count);
     // A single beam with all its layers is a post, or a side seen too flatly: it has no usable extent.
-    if (points.back().azimuth - points.front().azimuth < 0.5 * config_.segmentation.azimuth_step_rad) continue;
+    if (points.back().azimuth - points.front().azimuth < 0.5 * config_.segmentation.azimuth_step_rad) {
+      ++fates_.single_beam;
+      continue;
+    }
     double low_x = points[0].x, high_x = low_x, low_y = points[0].y, high_y = low_y;
     for (const PlanePoint& point : points) {
       low_x = std::min(low_x, point.x);
@@ -48,8 +55,12 @@ void LaserPreprocessor::process(std::span<const ScanPoint> scan, std::vector<Las
       low_y = std::min(low_y, point.y);
       high_y = std::max(high_y, point.y);
     }
-    if (std::hypot(high_x - low_x, high_y - low_y) > config_.longest_extent_m) continue;
+    if (std::hypot(high_x - low_x, high_y - low_y) > config_.longest_extent_m) {
+      ++fates_.large;
+      continue;
+    }
     out.push_back(fit_rectangle(config_.rectangle, points));
+    ++fates_.objects;
   }
 }
 

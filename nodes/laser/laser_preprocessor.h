@@ -19,6 +19,15 @@ struct LaserPreprocessingConfig {
 };
 LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml);
 
+// Counts the fates of a scan's segments: each is an object, or is left out for one reason.
+struct SegmentFates {
+  std::size_t objects = 0;
+  std::size_t small = 0;        // fewer points than fewest_points
+  std::size_t single_beam = 0;  // no usable extent
+  std::size_t large = 0;        // longer than longest_extent_m
+  std::size_t segments() const { return objects + small + single_beam + large; }
+};
+
 class LaserPreprocessor {
  public:
   // Reserves room for `most_points`, the points of the largest scan. A scan never has more segments than points.
@@ -26,6 +35,7 @@ class LaserPreprocessor {
   // Fills `out` with the scan's objects by azimuth, right to left. Allocates only if `out` lacks room for
   // most_objects().
   void process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out);
+  const SegmentFates& fates() const { return fates_; }  // of the last scan
   std::size_t most_objects() const { return most_points_ / static_cast<std::size_t>(config_.fewest_points); }
 
  private:
@@ -33,6 +43,7 @@ class LaserPreprocessor {
   std::size_t most_points_;
   std::vector<PlanePoint> points_;
   std::vector<Segment> segments_;
+  SegmentFates fates_;
 };
 
 }  // namespace ttf::nodes::laser

@@ -137,7 +137,8 @@ expect 2 'bare.csv: holds no row' track "$work/bare.csv"
 printf 'time,x,y\n0,1,1\n' >"$work/nameless.csv"
 expect 2 'nameless.csv:1: sensor: is missing' track "$work/nameless.csv"
 printf 'time,sensor,x,y\n1,a,0,0\n0,a,0,0\n' >"$work/backwards.csv"
-expect 0 '' track "$work/backwards.csv"
+expect 1 '^error: .*backwards.csv: no track came of 2 lists: 2 lists were used, and a track is confirmed by 3 hits' \
+  track "$work/backwards.csv"
 printf 'time,sensor,x,y,cov_11,cov_12,cov_22\n1,a,0,0,1,2,1\n' >"$work/indefinite.csv"
 expect 2 'indefinite.csv:2: covariance: must be positive definite' track "$work/indefinite.csv"
 expect 2 'indefinite.csv:2: covariance' track "$work/indefinite.csv" --skip-damaged
@@ -166,7 +167,31 @@ expect 2 'must be another file than the input' "${cars[@]}" -o "$work/cars.csv"
 expect 1 'cannot be written' "${cars[@]}" -o "$work/no/such/folder.csv"
 printf 'time,sensor,x,y\n1,a,0,0\n' >"$work/once.csv"
 expect 2 'command line: strategy = tt: needs the period of at least one sensor' track "$work/once.csv" --strategy tt
-expect 0 '^0 tracks by tt, 0 rows written$' track "$work/once.csv" --strategy tt --period a=50ms
+expect 1 '^0 tracks by tt, 0 rows written$' track "$work/once.csv" --strategy tt --period a=50ms
+
+# Rows in any order, and one stamp that leaps: the rest counts.
+(head -1 "$work/cars.csv"; tail -n +2 "$work/cars.csv" | sort -t, -k3,3) >"$work/by_place.csv"
+awk -F, -v OFS=, 'NR == 101 { $1 = 9999 } 1' "$work/cars.csv" >"$work/leap.csv"
+expect 0 '^3 tracks by adva, ' track "$work/by_place.csv" "${cars[@]:2}" -o "$work/by_place_tracks.csv"
+expect 2 '^error: .*leap.csv:101: time = 9999: must be near the stamps of (lidar|radar) above and below it' track "$work/leap.csv"
+expect 0 '^1 damaged row left out$' track "$work/leap.csv" "${cars[@]:2}" --skip-damaged -o "$work/leap_tracks.csv"
+[[ $(last "$work/leap_tracks.csv") == 9.95,* ]] || fail "the rows after a leap are lost: $(last "$work/leap_tracks.csv")"
+
+# Nothing came of it: the reasons, and exit code 1.
+awk 'BEGIN { print "time,sensor,x,y"; for (i = 0; i < 40; ++i) printf "%d,a,%g,2\n", i, 10 + i }' >"$work/seconds.csv"
+expect 1 'error: .*seconds.csv: no track came of 40 lists: the middle gap .* is 1 s: .*delete_position_sigma' \
+  track "$work/seconds.csv"
+"$program" track "$work/seconds.csv" -o "$work/none_tracks.csv" --json 2>/dev/null | python3 -c '
+import json, sys
+s = json.load(sys.stdin)
+assert s["did_its_work"] is False and len(s["reasons"]) == 1, s
+' || fail "--json does not say that nothing was done"
+awk 'BEGIN { for (k = -320; k <= 320; ++k) printf "0,%.2f,%.3f,1\n", k / 4, 20 + (k > 0) }' >"$work/degrees.csv"
+awk -F, -v OFS=, '{ $2 *= 3.14159265 / 180 } 1' "$work/degrees.csv" |
+  awk -F, '$2 > -0.05 && $2 < 0.05' >"$work/radians.csv"
+expect 1 'error: .*: Scan 0: 641 returns, 0 boxes: 5[0-9][0-9] of 641 azimuths are beyond a whole turn .* degrees' \
+  diagram "$work/degrees.csv" --kind boxes -o "$work/degrees.svg"
+expect 0 '' diagram "$work/radians.csv" --kind boxes -o "$work/radians.svg"
 
 # A recording of laser and radar.
 printf 'L\t1.0\t0.1\t1000000\t1.0\t0.1\t5.0\t0.0\t0.0\t0.0\nX\t1\n' >"$work/short.txt"

@@ -44,8 +44,12 @@ TEST(LaserPreprocessor, WallsAndSpecksAreNoObjects) {
   const std::vector<ScanPoint> specks = {{0, -0.3, 30.0}, {1, -0.3, 30.05}, {2, 0.2, 12.0}};
   preprocessor.process(specks, objects);
   EXPECT_TRUE(objects.empty()) << "two returns are fewer than fewest_points; the list is replaced";
+  EXPECT_EQ(preprocessor.fates().small, 2U);
+  EXPECT_EQ(preprocessor.fates().segments(), 2U);
   preprocessor.process(emulated_scan({}, {car_at(20.0, 0.0, 0.0, 1.0, 25.0)}, 0), objects);
   EXPECT_TRUE(objects.empty()) << "a wall of 25 m";
+  EXPECT_EQ(preprocessor.fates().large, 1U);
+  EXPECT_EQ(preprocessor.fates().objects, 0U);
   preprocessor.process({}, objects);
   EXPECT_TRUE(objects.empty());
 }

@@ -1,0 +1,29 @@
+// Judges the use that a replay made of its input, by its account. A replay without any track has not done its work, nor
+// has one that dropped most of its input. Every cause that applies gives one sentence with numbers. The causes are
+// rows of one table.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "recording/rows/observation_rows.h"
+#include "replay/recorded_lists.h"
+#include "replay/replay.h"
+
+namespace ttf::replay {
+
+struct ReplayVerdict {
+  bool made_nothing = false;         // no track was confirmed
+  bool dropped_most = false;         // more than half of the rows or of the lists
+  std::string headline;              // for example "no track came of 41 lists"
+  std::vector<std::string> reasons;  // in the order of the table; empty only if the work was done
+
+  bool did_its_work() const { return !made_nothing && !dropped_most; }
+};
+
+// `rows` are those that were read, `damaged` counts the rows that are in no list.
+ReplayVerdict judge(const std::vector<recording::rows::ObservationRow>& rows, std::size_t damaged,
+                    const RecordedLists& recorded, const ReplaySetup& setup, const ReplayAccount& account);
+
+}  // namespace ttf::replay
