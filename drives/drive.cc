@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/strict_yaml.h"
+#include "drives/played_recording.h"
 #include "drives/step_catalog.h"
 #include "drives/surroundings.h"
 #include "faults/believed_schedule.h"
@@ -44,11 +45,7 @@ DriveOutcome outcome_of(const sim::crank::ClusterSimulation& simulation, const s
 TrueTime drive_start(const schedules::model::Cluster& cluster) {
   if (!is_recorded(cluster)) return sim::crank::kFirstCycle;
   // Row 0 of the recording is the first measurement of the first sensor.
-  const schedules::model::Sensor& sensor = cluster.sensors.front();
-  const GlobalTime first = sensor.scheduled
-                               ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
-                               : GlobalTime{} + sensor.phase.value_or(Duration{});
-  return sim::crank::kFirstCycle + (first - GlobalTime{});
+  return sim::crank::kFirstCycle + nodes::sensing::first_measurement(cluster, cluster.sensors.front());
 }
 
 TrueTime evaluation_start(const Scenario& scenario) { return sim::crank::kFirstCycle + scenario.evaluate_from; }
@@ -110,9 +107,12 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
 }
 
 DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out) {
-  const schedules::model::Cluster& cluster = *config.cluster;
   const Scenario& scenario = *config.scenario;
-  check_recording(scenario, cluster, config.recorded != nullptr);
+  check_recording(scenario, *config.cluster, config.recorded != nullptr);
+  // The devices' instants may be the recording's.
+  std::optional<schedules::model::Cluster> played;
+  if (config.recorded) played = cluster_that_plays(scenario, *config.cluster, *config.recorded);
+  const schedules::model::Cluster& cluster = played ? *played : *config.cluster;
   check_late(scenario, cluster, config.strategy);
   check_fusion(cluster, config.strategy);
   check_sensors(scenario, cluster);

@@ -54,6 +54,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
   }
   if (auto recorded = root.map_if("recorded")) {
     scenario.recorded_noise = nodes::sensing::load_recorded_noise(*recorded);
+    scenario.recorded_playing = nodes::sensing::load_recorded_playing(*recorded);
     recorded->finish();
   }
   if (auto feature = root.map_if("feature_service")) {

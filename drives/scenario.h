@@ -14,6 +14,7 @@
 #include "faults/plan.h"
 #include "fusion/config/tracker_config.h"
 #include "fusion/strategies/strategy.h"
+#include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
 #include "schedules/model/cluster.h"
@@ -38,6 +39,7 @@ struct Scenario {
   sim::world::ReferenceConfig reference;
   fusion::config::TrackerConfig tracker;
   nodes::sensing::RecordedNoise recorded_noise;
+  nodes::sensing::RecordedPlaying recorded_playing;
   nodes::service::FeatureConfig feature;
   faults::FaultPlan faults;  // names as written: resolve() looks them up in the drive's cluster
 };

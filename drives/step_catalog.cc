@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "drives/played_recording.h"
 #include "nodes/fusion/fusion_host.h"
 #include "nodes/host/signals.h"
 #include "nodes/sensing/emulators.h"
@@ -72,8 +73,9 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
       if (!config.recorded)
         throw InputError({cluster.file, task.line, "nodes." + node.name + "." + task.name, task.step,
                           "needs a recording: give one with --input"});
-      steps.push_back(
-          std::make_shared<nodes::sensing::RecordedSource>(cluster, task, task.activation.sensor, config.recorded));
+      steps.push_back(std::make_shared<nodes::sensing::RecordedSource>(
+          cluster, task, task.activation.sensor,
+          rows_of(scenario, cluster, *config.recorded, task.activation.sensor).at));
     } else if (task.step == "laser_preprocessing") {
       steps.push_back(std::make_shared<nodes::sensing::LaserPreprocessing>(
           cluster, task, scenario.sensors.lasers.preprocessing_of(name_read(cluster, task))));

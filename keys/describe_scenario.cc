@@ -78,6 +78,10 @@ constexpr Description kScenario[] = {
     {"recorded.range", "A recorded range of a radar has this standard deviation."},
     {"recorded.bearing", "A recorded bearing of a radar has this standard deviation."},
     {"recorded.range_rate", "A recorded range rate of a radar has this standard deviation."},
+    {"recorded.rows",
+     "A row is played at the schedule's instant at which it was measured, or a device that runs freely measures at the "
+     "stamps of its rows, or each list is interpolated between two rows."},
+    {"recorded.tolerance", "A row belongs to an instant of the schedule that is this near to its stamp."},
     {"feature_service", "The feature service warns of objects ahead by these parameters."},
     {"feature_service.own_speed", "The sensor vehicle drives at this speed along x."},
     {"feature_service.corridor_half_width", "Objects further off the line of travel do not warn."},

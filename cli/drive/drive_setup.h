@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,7 +57,9 @@ std::string folder_of(const drives::Scenario& scenario);
 // Turns a drive's records into the findings for tables and JSON.
 class DriveJudge {
  public:
-  DriveJudge(const drives::Scenario& scenario, const schedules::model::Cluster& cluster);
+  // `until`: the end of the recording that the drive plays, if it plays one.
+  DriveJudge(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
+             std::optional<TrueTime> until = std::nullopt);
   std::vector<recording::records::Sink*> sinks();
   // Fills in summary, startup and faults. Called once, at the end of the drive.
   void finish(StrategyResult& result);

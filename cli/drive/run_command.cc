@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/drive/drive_setup.h"
 #include "cli/drive/fault_tables.h"
+#include "cli/drive/recording_outputs.h"
 #include "cli/drive/run_outputs.h"
 #include "cli/drive/startup_outputs.h"
 #include "cli/output.h"
@@ -36,7 +37,12 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
   StrategyResult result;
   result.strategy = strategy;
   result.cluster = checked_cluster(scenario, strategy);
-  DriveJudge judge(scenario, result.cluster);
+  std::optional<TrueTime> until;
+  if (recording.rows) {
+    result.recording = drives::recording_use(scenario, result.cluster, *recording.rows);
+    until = result.recording->end;
+  }
+  DriveJudge judge(scenario, result.cluster, until);
   std::vector<recording::records::Sink*> sinks = judge.sinks();
   std::unique_ptr<recording::log::LogWriter> log;
   if (!options.no_log) {
@@ -63,8 +69,11 @@ int run_scenario(const RunOptions& options) {
   const Recording recording = read_recording(options.input);
   const std::string folder = options.out.empty() ? folder_of(scenario) : options.out;
   // Checks the input before any simulation, and before an earlier log is overwritten.
-  for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy))
-    drives::check_fits(scenario, checked_cluster(scenario, strategy), strategy, recording.rows != nullptr);
+  for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
+    const schedules::model::Cluster cluster = checked_cluster(scenario, strategy);
+    drives::check_fits(scenario, cluster, strategy, recording.rows != nullptr);
+    if (recording.rows) (void)drives::recording_use(scenario, cluster, *recording.rows);
+  }
   create_folder(folder);
 
   std::vector<StrategyResult> results;
@@ -78,8 +87,8 @@ int run_scenario(const RunOptions& options) {
   if (options.json) {
     fmt::print("{}\n", json.dump(2));
   } else {
-    fmt::print("{}\n{}{}", scenario.description, startup_text(results, scenario.startup.cold),
-               comparison_table(results));
+    fmt::print("{}\n{}{}{}", scenario.description, recordings_text(results),
+               startup_text(results, scenario.startup.cold), comparison_table(results));
     if (!scenario.faults.empty())
       for (const StrategyResult& result : results)
         fmt::print("\n{}", faults_text(name_of(result.strategy), result.faults, result.fault_free, result.cluster));

@@ -8,6 +8,7 @@
 
 #include "cli/drive/fault_tables.h"
 #include "cli/drive/real_time_outputs.h"
+#include "cli/drive/recording_outputs.h"
 #include "cli/drive/startup_outputs.h"
 #include "recording/log/reader.h"
 #include "recording/records/tee.h"
@@ -229,6 +230,7 @@ nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t s
       one["can_load"][result.cluster.can_buses[b].name] = result.outcome.can_load[b];
     one["content_hash"] = result.content_hash;
     one["log"] = result.log_path;
+    if (result.recording) one["recording"] = recording_json(*result.recording);
     if (result.real_time) one["real_time"] = real_time_json(result);
     if (!scenario.faults.empty()) {
       one["faults"] = faults_json(result.faults.faults, result.cluster);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drives/drive.h"
+#include "drives/played_recording.h"
 #include "drives/scenario.h"
 #include "evaluation/accuracy/drive_measures.h"
 #include "evaluation/cluster/startup_account.h"
@@ -27,6 +28,7 @@ struct StrategyResult {
   evaluation::faults::FaultFindings faults;
   std::vector<NodeId> fault_free;                                   // until the end; nodes on FlexRay only
   std::optional<evaluation::lateness::RealTimeFindings> real_time;  // only for a drive in real time
+  std::optional<drives::RecordingUse> recording;                    // only for a drive that plays one
   std::string log_path;
   std::string content_hash;
 };

@@ -14,7 +14,8 @@ void AgeStatistics::add(Duration age) {
 }
 
 // Twice the gate: the reference itself may be off by metres.
-DriveMeasures::DriveMeasures(TrueTime from, double gate_m) : ImageUses(gate_m), from_(from), reference_(2.0 * gate_m) {}
+DriveMeasures::DriveMeasures(TrueTime from, double gate_m, std::optional<TrueTime> until)
+    : ImageUses(gate_m), from_(from), until_(until), reference_(2.0 * gate_m) {}
 
 void DriveMeasures::on(const recording::records::FusionInput& input) {
   ++summary_.received;
@@ -66,7 +67,7 @@ void DriveMeasures::on(const recording::records::ReferenceFix& fix) { reference_
 
 bool DriveMeasures::used(const recording::records::FeatureUsed& use, std::span<const PlaneEstimate> objects,
                          std::span<const SensorAge> ages) {
-  if (use.stamp.true_time < from_) return false;
+  if (use.stamp.true_time < from_ || (until_ && use.stamp.true_time > *until_)) return false;
   ++summary_.uses;
   summary_.stale_uses += use.stale;
   summary_.warnings += std::any_of(use.objects.begin(), use.objects.end(),

@@ -80,8 +80,9 @@ struct DriveSummary {
 
 class DriveMeasures final : public ImageUses {
  public:
-  // Ignores uses before `from`. `gate_m`: the largest distance of matched objects.
-  explicit DriveMeasures(TrueTime from, double gate_m = kGate_m);
+  // Ignores uses before `from`, and after `until`. `until` is the end of a recording. `gate_m` is the largest distance of
+  // matched objects.
+  explicit DriveMeasures(TrueTime from, double gate_m = kGate_m, std::optional<TrueTime> until = std::nullopt);
 
   // Judges the last use and returns the summary. Call it once, at the end.
   DriveSummary finish();
@@ -101,6 +102,7 @@ class DriveMeasures final : public ImageUses {
   void note_ages(std::span<const SensorAge> ages);
 
   TrueTime from_;
+  std::optional<TrueTime> until_;
   DriveSummary summary_;
   std::array<double, 4> squares_{};
   double nees_sum_ = 0.0;

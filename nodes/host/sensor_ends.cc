@@ -31,7 +31,7 @@ std::size_t followed_task(const schedules::model::Node& node, const schedules::m
 }
 
 Duration phase_of(const schedules::model::Sensor& sensor, SensorId id, const PhaseKey& key) {
-  if (sensor.scheduled) return {};
+  if (sensor.scheduled || !sensor.instants.empty()) return {};
   if (sensor.phase) return *sensor.phase;
   RandomStream phase({key.seed, key.replication, Purpose::kSensorPhase, static_cast<std::uint16_t>(index_of(id)), 0});
   return Duration{phase.integer(0, sensor.period.ns - 1)};
@@ -81,7 +81,10 @@ void SensorEnds::disarm() {
 }
 
 Microticks SensorEnds::next_by_itself(const End& end) const {
-  return time_.ticks((end.device->first - LocalTime{}) + end.sensor->period * end.device->measured);
+  const std::vector<Duration>& instants = end.sensor->instants;
+  if (!instants.empty() && end.device->measured >= instants.size()) return kNever<Microticks>;
+  const Duration since = instants.empty() ? end.sensor->period * end.device->measured : instants[end.device->measured];
+  return time_.ticks((end.device->first - LocalTime{}) + since);
 }
 
 std::span<const std::size_t> SensorEnds::act(Microticks now) {

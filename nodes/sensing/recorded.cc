@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 #include "nodes/host/signals.h"
@@ -34,11 +35,6 @@ RecordedNoise load_recorded_noise(YamlMap& yaml) {
   noise.bearing_rad = yaml.number_or("bearing", noise.bearing_rad, {0.0001, 0.5}, "rad");
   noise.range_rate_mps = yaml.number_or("range_rate", noise.range_rate_mps, {0.001, 4.0}, "m/s");
   return noise;
-}
-
-RecordedTrack::RecordedTrack(const recording::rows::RecordedInput& input, std::string_view sensor) {
-  for (const recording::rows::RecordedObservation& row : input.observations)
-    if (row.sensor == sensor) rows_.push_back(row);
 }
 
 RecordedScene::RecordedScene(const recording::rows::RecordedInput& input, TrueTime start)
@@ -82,14 +78,14 @@ void RecordedScene::states_at(TrueTime at, std::vector<sim::world::ObjectState>&
 }
 
 RecordedSource::RecordedSource(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
-                               SensorId sensor, std::shared_ptr<const recording::rows::RecordedInput> input)
-    : sensor_(sensor), track_(*input, cluster.sensor(sensor).name),
+                               SensorId sensor, Rows rows)
+    : sensor_(sensor), rows_(std::move(rows)),
       signals_(bind_raw(cluster, cluster.pdu(host::binding_of(task.writes, "raw").pdu))) {
-  if (track_.size() == 0)
+  if (std::none_of(rows_.begin(), rows_.end(), [](const auto& row) { return row.has_value(); }))
     throw InputError({cluster.file, cluster.sensor(sensor).line, "sensors." + cluster.sensor(sensor).name, "",
-                      "the recording has no row of this sensor"});
-  for (std::size_t i = 0; i < track_.size(); ++i)
-    if (signals_of(track_.row(i)) != signals_.size()) {
+                      "the recording has no row of this sensor within the drive"});
+  for (const auto& row : rows_)
+    if (row && signals_of(*row) != signals_.size()) {
       const schedules::model::PduLayout& raw = cluster.pdu(host::binding_of(task.writes, "raw").pdu);
       throw InputError({cluster.file, raw.line, "pdus." + raw.name, "",
                         "must have the signals of the recording's rows of this sensor: x and y of a laser, range, "
@@ -98,8 +94,8 @@ RecordedSource::RecordedSource(const schedules::model::Cluster& cluster, const s
 }
 
 void RecordedSource::run(host::StepContext& context) {
-  if (context.measurement >= track_.size()) return;  // after the recording's end the device is silent
-  const recording::rows::RecordedObservation& row = track_.row(context.measurement);
+  if (context.measurement >= rows_.size() || !rows_[context.measurement]) return;  // nothing was measured then
+  const recording::rows::RecordedObservation& row = *rows_[context.measurement];
   host::Output& raw = context.outputs[0];
   raw.begin(context.measurement, 1, GlobalTime{});
   const bool radar = signals_of(row) == 3;

@@ -1,12 +1,11 @@
 // Recorded observations replace the sensor models; the rest of the cluster is the same.
 //
-// A `recorded_source` device sends the n-th recorded row of its sensor at its n-th measurement. The host's
-// `recorded_preprocessing` adds the documented noise of the recording as the observation's covariance.
+// A `recorded_source` device sends at each measurement the row that was measured then (nodes/sensing/played_rows.h).
+// The host's `recorded_preprocessing` adds the documented noise of the recording as the observation's covariance.
 #pragma once
 
 #include <array>
-#include <memory>
-#include <string_view>
+#include <optional>
 #include <vector>
 
 #include "core/strict_yaml.h"
@@ -27,17 +26,6 @@ struct RecordedNoise {
 };
 RecordedNoise load_recorded_noise(YamlMap& yaml);
 
-// The rows of one sensor, in time order.
-class RecordedTrack {
- public:
-  RecordedTrack(const recording::rows::RecordedInput& input, std::string_view sensor);
-  std::size_t size() const { return rows_.size(); }
-  const recording::rows::RecordedObservation& row(std::size_t index) const { return rows_[index]; }
-
- private:
-  std::vector<recording::rows::RecordedObservation> rows_;
-};
-
 // The recording's ground truth as the scene: cubic Hermite interpolation between its rows (position and velocity).
 // Outside its first and last row the truth is unknown: the scene is empty, and measures skip these times.
 class RecordedScene final : public Scene {
@@ -55,13 +43,16 @@ class RecordedScene final : public Scene {
 // Port `raw`.
 class RecordedSource final : public host::Step {
  public:
+  // The rows by measurement; without a row the device is silent. Throws InputError if there is no row at all, or if
+  // rows and raw PDU have other signals.
+  using Rows = std::vector<std::optional<recording::rows::RecordedObservation>>;
   RecordedSource(const schedules::model::Cluster& cluster, const schedules::model::Task& task, SensorId sensor,
-                 std::shared_ptr<const recording::rows::RecordedInput> input);
+                 Rows rows);
   void run(host::StepContext& context) override;
 
  private:
   SensorId sensor_;
-  RecordedTrack track_;
+  Rows rows_;
   std::vector<std::size_t> signals_;
 };
 

@@ -172,6 +172,9 @@ struct Sensor {
   std::string after;   // following: the task of the host (schedules/analysis/sensor_loop.h); else empty
   Duration longest{};  // following: longest time between two measurements, on the device's own clock
   int line = 0;
+  // Free, in a drive that plays a recording: the instants of all measurements from power-on, in place of phase and
+  // period; never nearer to each other than the period. No file has them.
+  std::vector<Duration> instants;
 
   bool follows() const { return !after.empty(); }
   Duration longest_period() const { return follows() ? longest : period; }

@@ -56,8 +56,8 @@ void check_time_scale(const schedules::model::Cluster& cluster) {
 }
 
 recording::rows::RecordedInput some_recording() {
-  return recording::rows::parse_laser_radar("L\t10\t0\t1000\t10\t0\t1\t0\t0\t0\nR\t10\t0\t1\t2000\t10\t0\t1\t0\t0\t0\n",
-                                            "rows.txt");
+  return recording::rows::parse_laser_radar(
+      "L\t10\t0\t1000\t10\t0\t1\t0\t0\t0\nR\t10\t0\t1\t51000\t10\t0\t1\t0\t0\t0\n", kClusterFile);
 }
 
 }  // namespace
@@ -76,7 +76,8 @@ void check_cluster(const std::string& text) {
   }
   check_ages(cluster);
   check_fibex_round_trip(cluster);
-  const drives::Scenario scenario;
+  drives::Scenario scenario;
+  scenario.duration = Duration::milliseconds(1'000);
   const auto rows = std::make_shared<const recording::rows::RecordedInput>(some_recording());
   for (std::size_t node = 0; node < cluster.nodes.size(); ++node)
     accepted(kClusterFile, [&] {

@@ -204,9 +204,13 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const schedules::model::Cluster kClusters[] = {
       schedules::file::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "paper"),
       schedules::file::parse_cluster(fuzz::shipped("schedules/laser_radar_synchronised.yaml"), "recorded")};
-  static const drives::Scenario kScenario;
+  static const drives::Scenario kScenario = [] {
+    drives::Scenario scenario;
+    scenario.duration = Duration::milliseconds(1'000);
+    return scenario;
+  }();
   static const auto kRows = std::make_shared<const recording::rows::RecordedInput>(recording::rows::parse_laser_radar(
-      "L\t10\t0\t1000\t10\t0\t1\t0\t0\t0\nR\t10\t0\t1\t2000\t10\t0\t1\t0\t0\t0\n", "rows.txt"));
+      "L\t10\t0\t1000\t10\t0\t1\t0\t0\t0\nR\t10\t0\t1\t51000\t10\t0\t1\t0\t0\t0\n", "rows.txt"));
   fuzz::Source source(data, size);
   const schedules::model::Cluster& described = kClusters[source.take<std::uint8_t>() % 2];
   const auto strategy =

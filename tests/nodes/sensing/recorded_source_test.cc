@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <string>
+#include <utility>
 
 #include "nodes/sensing/recorded.h"
 #include "schedules/file/loader.h"
@@ -23,13 +23,16 @@ RecordedInput one_row(const std::string& sensor, RecordedObservation::Kind kind)
 }
 
 // The refusal of this recording as the source of the shipped cluster's sensor; empty if it fits.
-std::string refusal(const std::string& sensor, RecordedInput input) {
+std::string refusal(const std::string& sensor, const RecordedInput& input) {
   static const schedules::model::Cluster cluster =
       schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/laser_radar.yaml");
   const SensorId id = *cluster.find_sensor(sensor);
   const schedules::model::Task& task = cluster.node(cluster.sensor(id).device).tasks.front();
   try {
-    const RecordedSource source(cluster, task, id, std::make_shared<const RecordedInput>(std::move(input)));
+    RecordedSource::Rows rows;
+    for (const RecordedObservation& row : input.observations)
+      if (row.sensor == sensor) rows.emplace_back(row);
+    const RecordedSource source(cluster, task, id, std::move(rows));
   } catch (const InputError& error) {
     return error.what();
   }
