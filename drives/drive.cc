@@ -94,8 +94,16 @@ void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::
                  name_of(strategy))});
 }
 
+void check_described(const schedules::model::Cluster& cluster) {
+  if (cluster.describes_tasks()) return;
+  const auto line = cluster.parameter_lines.find("nodes");
+  throw InputError({cluster.file, line == cluster.parameter_lines.end() ? 0 : line->second, "nodes", "",
+                    "must have tasks for a drive: no node has any"});
+}
+
 void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,
                 fusion::strategies::StrategyKind strategy, bool recording_given) {
+  check_described(cluster);
   check_recording(scenario, cluster, recording_given);
   check_late(scenario, cluster, strategy);
   check_fusion(cluster, strategy);
@@ -108,6 +116,7 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
 
 DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out) {
   const Scenario& scenario = *config.scenario;
+  check_described(*config.cluster);
   check_recording(scenario, *config.cluster, config.recorded != nullptr);
   // The devices' instants may be the recording's.
   std::optional<schedules::model::Cluster> played;

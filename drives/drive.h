@@ -53,6 +53,9 @@ void check_late(const Scenario& scenario, const schedules::model::Cluster& clust
 // Checks that the strategy works with the activation of the cluster's fusion task: TT does not if lists activate
 // it. Throws InputError; run_drive() calls it too.
 void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::StrategyKind strategy);
+// Checks that the cluster describes tasks: a bus description passes the schedule's checks, but no node could run it. Throws
+// InputError; run_drive() calls it too.
+void check_described(const schedules::model::Cluster& cluster);
 // Checks the scenario's demands on the cluster's nodes and the recording before anything starts: faults,
 // start-up, late lists. Throws InputError.
 void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,

@@ -96,6 +96,8 @@ constexpr Description kCluster[] = {
     {"frames[].base_cycle", "The frame is sent in cycles c with c mod repetition = base_cycle.", "0"},
     {"frames[].repetition", "The frame is sent in every so many cycles; a power of two.", "1"},
     {"frames[].pdu", "The frame carries a fragment of this PDU; absent, it is a status frame.", "laser_objects"},
+    {"frames[].bytes",
+     "A dynamic frame without PDU has a payload of so many bytes; only in a cluster that describes no tasks."},
     {"frames[].fragments", "The entry stands for so many slots in a row, each with the next fragment.", "9"},
     {"frames[].first_fragment", "The first of these slots carries this fragment."},
     {"frames[].fragment_step", "The slots carry every fragment, or with 2 every other one."},

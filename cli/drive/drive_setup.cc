@@ -10,6 +10,7 @@
 #include "core/file_bytes.h"
 #include "core/hash.h"
 #include "core/strict_yaml.h"
+#include "drives/drive.h"
 #include "drives/step_catalog.h"
 #include "schedules/check/checker.h"
 #include "schedules/file/loader.h"
@@ -19,6 +20,7 @@ namespace ttf::cli::drive {
 schedules::model::Cluster checked_cluster(const std::string& file) {
   schedules::model::Cluster cluster = schedules::file::load_cluster(file);
   if (auto findings = schedules::check::check(cluster); !findings.empty()) throw InputError(std::move(findings));
+  drives::check_described(cluster);
   schedules::model::bind_ports(cluster, drives::step_ports());
   return cluster;
 }

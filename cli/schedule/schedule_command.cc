@@ -8,13 +8,14 @@
 #include "cli/output.h"
 #include "cli/schedule/capture_against.h"
 #include "cli/schedule/medium_check.h"
+#include "cli/schedule/schedule_input.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
 #include "report/drawing/render.h"
 #include "report/plots/schedule_picture.h"
 #include "schedules/analysis/ages.h"
 #include "schedules/analysis/dynamic_load.h"
-#include "schedules/check/checker.h"
+#include "schedules/check/rules.h"
 #include "schedules/exchange/dbc.h"
 #include "schedules/exchange/fibex/export.h"
 #include "schedules/exchange/fibex/import.h"
@@ -39,7 +40,7 @@ struct ScheduleOptions {
 nlohmann::ordered_json dynamic_json(const schedules::model::Cluster& cluster) {
   nlohmann::ordered_json json;
   for (const schedules::analysis::DynamicList& list : schedules::analysis::dynamic_lists(cluster))
-    json["lists"].push_back({{"pdu", cluster.pdu(list.pdu).name},
+    json["lists"].push_back({{"pdu", list.pdu == kNoPdu ? "" : cluster.pdu(list.pdu).name},
                              {"sender", cluster.node(list.sender).name},
                              {"slots", {list.first_slot, list.last_slot}},
                              {"channels", schedules::model::channels_text(list.channels)},
@@ -66,9 +67,16 @@ void print_findings(const InputError& error) {
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
+// Reads a cluster file or a FIBEX file, and prints what was assumed or left out.
+schedules::model::Cluster consistent_cluster(const std::string& file) {
+  ScheduleInput input = checked_input(file);
+  for (const std::string& note : input.notes) fmt::print(stderr, "note: {}\n", note);
+  return std::move(input.cluster);
+}
+
 schedules::model::Cluster checked_schedule(const ScheduleOptions& options) {
   try {
-    schedules::model::Cluster cluster = schedules::check::load_checked_cluster(options.file);
+    schedules::model::Cluster cluster = consistent_cluster(options.file);
     schedules::model::bind_ports(cluster, drives::step_ports());
     return cluster;
   } catch (const InputError& error) {
@@ -84,11 +92,16 @@ int check(const ScheduleOptions& options) {
   if (!options.json) {
     fmt::print("{}: consistent\n{}{}", cluster.name, schedules::analysis::dynamic_text(cluster),
                schedules::analysis::ages_text(cluster));
+    if (const std::string skipped = schedules::check::skipped_text(cluster); !skipped.empty())
+      fmt::print("{}; measurements have no ages\n", skipped);
     return 0;
   }
   nlohmann::ordered_json json;
   json["cluster"] = cluster.name;
   json["consistent"] = true;
+  json["describes_tasks"] = cluster.describes_tasks();
+  for (const schedules::check::ClusterRule& rule : schedules::check::rules())
+    if (is_skipped(rule, cluster)) json["not_checked"].push_back(rule.name);
   if (auto dynamic = dynamic_json(cluster); !dynamic.is_null()) json["dynamic_segment"] = std::move(dynamic);
   for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(cluster)) {
     nlohmann::ordered_json one{{"sensor", cluster.sensor(path.sensor).name},
@@ -109,7 +122,7 @@ int check(const ScheduleOptions& options) {
 
 int show(const ScheduleOptions& options) {
   if (!options.out.empty()) report::drawing::check_picture_path(options.out);
-  const schedules::model::Cluster cluster = schedules::check::load_checked_cluster(options.file);
+  const schedules::model::Cluster cluster = consistent_cluster(options.file);
   if (options.out.empty())
     fmt::print("{}", schedules::exchange::show_text(cluster));
   else
@@ -129,13 +142,14 @@ int export_cluster(const ScheduleOptions& options) {
   if (!options.can.empty() && options.format != "dbc")
     throw InputError(Finding{"command line", 0, "--can", options.can, "goes with --format dbc only"});
   if (options.format == "dbc") {
-    write_text(schedules::exchange::dbc_text(schedules::check::load_checked_cluster(options.file), options.can),
-               options.out);
+    write_text(schedules::exchange::dbc_text(consistent_cluster(options.file), options.can), options.out);
     return 0;
   }
   if (options.format == "fibex") {
-    write_text(schedules::exchange::fibex::fibex_text(schedules::check::load_checked_cluster(options.file)),
-               options.out);
+    const schedules::model::Cluster cluster = consistent_cluster(options.file);
+    if (const std::string note = without_tasks(cluster, "the file says of no node what it receives"); !note.empty())
+      fmt::print(stderr, "note: {}\n", note);
+    write_text(schedules::exchange::fibex::fibex_text(cluster), options.out);
     return 0;
   }
   const schedules::exchange::fibex::FibexImport import = schedules::exchange::fibex::import_fibex(options.file);
@@ -159,7 +173,7 @@ void add_schedule(CLI::App& app, Action& action) {
       "Example: ttfusion schedule check schedules/paper_synchronised.yaml\n"
       "         ttfusion schedule check schedules/paper_synchronised.yaml --against drive.pcapng\n"
       "         ttfusion schedule check schedules/paper_synchronised.yaml --medium can-fd:1M/5M --time-scale 3");
-  checking->add_option("file", options->file, "Cluster file")->required();
+  checking->add_option("file", options->file, "Cluster file, or FIBEX file")->required();
   checking->add_flag("--json", options->json, "Result as JSON on standard output");
   add_capture_arguments(*checking, options->capture);
   add_medium_arguments(*checking, options->medium);
@@ -167,7 +181,7 @@ void add_schedule(CLI::App& app, Action& action) {
   checking->callback([options, &action] { action = [options] { return check(*options); }; });
   CLI::App* showing = command->add_subcommand("show", "Draw one communication cycle as text, or as a picture with -o");
   showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");
-  showing->add_option("file", options->file, "Cluster file")->required();
+  showing->add_option("file", options->file, "Cluster file, or FIBEX file")->required();
   showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf");
   showing->callback([options, &action] { action = [options] { return show(*options); }; });
   CLI::App* exporting = command->add_subcommand("export",
@@ -177,7 +191,7 @@ void add_schedule(CLI::App& app, Action& action) {
       "Examples: ttfusion schedule export schedules/paper_synchronised.yaml --format fibex -o cluster.xml\n"
       "          ttfusion schedule export schedules/paper_synchronised.yaml --format dbc -o cluster.dbc\n"
       "          ttfusion schedule export cluster.xml --format yaml -o cluster.yaml");
-  exporting->add_option("file", options->file, "Cluster file (fibex, dbc), or FIBEX file (yaml)")->required();
+  exporting->add_option("file", options->file, "Cluster file (fibex, dbc), or FIBEX file (yaml, fibex)")->required();
   exporting->add_option("--format", options->format, "fibex, dbc: from a cluster file; yaml: from a FIBEX file")
       ->required()
       ->check(CLI::IsMember({"fibex", "dbc", "yaml"}));

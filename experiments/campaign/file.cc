@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/strict_yaml.h"
+#include "drives/drive.h"
 #include "schedules/check/checker.h"
 #include "schedules/file/loader.h"
 
@@ -95,6 +96,7 @@ schedules::model::Cluster cluster_of(const CampaignFile& campaign, const Variant
   if (variant.channels == Channels::kA)
     for (schedules::model::FrameSlot& frame : cluster.frames) frame.channels = Channels::kA;
   if (auto wrong = schedules::check::check(cluster); !wrong.empty()) throw InputError(std::move(wrong));
+  drives::check_described(cluster);
   return cluster;
 }
 

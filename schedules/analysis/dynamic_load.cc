@@ -70,8 +70,9 @@ std::string dynamic_text(const model::Cluster& cluster) {
         "{:>9}  {:<2}  {:<12}{:<24}{:>15}  {}-{}{}\n",
         one ? fmt::format("{}", list.first_slot) : fmt::format("{}-{}", list.first_slot, list.last_slot),
         channels_text(list.channels), cluster.node(list.sender).name,
-        fmt::format("{} {}{}", cluster.pdu(list.pdu).name, list.first_fragment,
-                    one ? "" : fmt::format("-{}", list.last_fragment)),
+        list.pdu == kNoPdu ? "frame"
+                           : fmt::format("{} {}{}", cluster.pdu(list.pdu).name, list.first_fragment,
+                                         one ? "" : fmt::format("-{}", list.last_fragment)),
         list.minislots_each, list.earliest_turn, list.latest_turn, list.always_in_time ? "" : ", or in a later cycle");
   }
   return text;

@@ -17,7 +17,7 @@ struct DynamicLoad {
   double share = 0.0;          // part of gNumberOfMinislots; above one: not all frames fit
 };
 
-// A row of slots with one list's fragments, and the turns of these slots.
+// A row of slots with one list's fragments, or one slot without a PDU, and the turns of these slots.
 struct DynamicList {
   PduId pdu{};
   NodeId sender{};

@@ -36,7 +36,7 @@ Macroticks minislot_start(const model::GlobalParameters& g, std::int64_t minislo
 }
 
 int dynamic_words(const model::Cluster& cluster, const model::FrameSlot& frame) {
-  return frame.pdu == kNoPdu ? 0
+  return frame.pdu == kNoPdu ? (frame.payload_bytes + 1) / 2
                              : (preamble_bytes(cluster.flexray, frame) + cluster.pdu(frame.pdu).fragment_bytes + 1) / 2;
 }
 

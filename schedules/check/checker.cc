@@ -112,19 +112,6 @@ void check_cycle(const model::Cluster& cluster, ClusterFindings& findings) {
           fmt::format("must be below gdMinislot = {} macroticks", g.gdMinislot));
 }
 
-std::vector<Finding> check(const model::Cluster& cluster) {
-  ClusterFindings findings(cluster);
-  check_cycle(cluster, findings);
-  check_clocks(cluster, findings);
-  check_slots(cluster, findings);
-  check_dynamic(cluster, findings);
-  check_can(cluster, findings);
-  check_tasks(cluster, findings);
-  check_flow(cluster, findings);
-  check_loops(cluster, findings);
-  return findings.take();
-}
-
 model::Cluster load_checked_cluster(const std::string& path) {
   model::Cluster cluster = file::load_cluster(path);
   if (auto findings = check(cluster); !findings.empty()) throw InputError(std::move(findings));

@@ -32,7 +32,8 @@
 
 namespace ttf::schedules::check {
 
-// Returns all findings in a fixed order; empty for a cluster that may run.
+// Returns all findings in a fixed order; empty for a consistent cluster. A bus description is checked as far as the bus
+// goes (schedules/check/rules.h); it cannot run.
 std::vector<Finding> check(const model::Cluster& cluster);
 
 // Reads a cluster file (schedules/file/loader.h) and checks it. Throws InputError with the findings of either.

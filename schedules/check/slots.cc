@@ -105,7 +105,7 @@ void check_segment(const model::Cluster& cluster, const model::FrameSlot& frame,
                     ? fmt::format("must be 1..{} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots)
                     : fmt::format("must be 1..{} (gNumberOfStaticSlots and a dynamic one per minislot)",
                                   g.gNumberOfStaticSlots + g.gNumberOfMinislots));
-  else if (is_dynamic(g, frame) && frame.pdu == kNoPdu)
+  else if (is_dynamic(g, frame) && frame.pdu == kNoPdu && cluster.describes_tasks())
     findings.at(
         frame.line, key, cluster.node(frame.sender).name,
         fmt::format("needs a PDU in the dynamic segment (slots above {}): a frame without a PDU would never be sent",

@@ -110,7 +110,7 @@ void show_slots(const model::Cluster& cluster, std::string& text) {
     const model::FrameSlot& last = *run.last;
     const bool alone = &first == &last;
     const std::string slots = alone ? fmt::format("{}", first.slot) : fmt::format("{}-{}", first.slot, last.slot);
-    std::string frame = "status";
+    std::string frame = is_dynamic(g, first) ? fmt::format("{} bytes", first.payload_bytes) : "status";
     if (first.pdu != kNoPdu)
       frame = fmt::format("{} {}{}{}", cluster.pdu(first.pdu).name, first.fragment,
                           alone ? "" : fmt::format("-{}", last.fragment), run.step == 2 ? ", every other" : "");
@@ -173,6 +173,7 @@ std::string show_text(const model::Cluster& cluster) {
   if (sent) text += "\n" + analysis::dynamic_text(cluster);
   show_objects(cluster, text);
   show_real_time(cluster, text);
+  if (!cluster.describes_tasks()) return text + "\nno tasks, sensors and CANs are described\n";
   text += "\nsensors\n";
   for (const model::Sensor& sensor : cluster.sensors) {
     std::string when = fmt::format("runs freely, every {:g} ms", in_ms(sensor.period));

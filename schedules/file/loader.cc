@@ -361,6 +361,10 @@ class Loader {
       fragments = map.integer("fragments", {1, model::kLastStaticSlot});
       frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, model::kLastStaticSlot - 1}));
       step = static_cast<int>(map.integer_or("fragment_step", step, {1, 2}));
+    } else {
+      frame.payload_bytes = static_cast<int>(map.integer_or("bytes", 0, {0, model::kMostFragmentBytes}, "bytes"));
+      if (frame.payload_bytes > 0 && !is_dynamic(cluster_.flexray, frame))
+        map.fail("bytes", "must not be given in a static slot: its payload has gPayloadLengthStatic words");
     }
     frame.network_management = map.boolean_or("network_management", false);
     if (map.has("message_id")) frame.message_id = static_cast<std::uint16_t>(map.integer("message_id", {0, 65535}));

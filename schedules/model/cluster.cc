@@ -39,6 +39,12 @@ bool continues(const FrameSlot& before, const FrameSlot& frame, int step) {
          frame.message_id == before.message_id;
 }
 
+bool Cluster::describes_tasks() const {
+  return !sensors.empty() ||
+         std::any_of(nodes.begin(), nodes.end(), [](const Node& node) { return !node.tasks.empty(); }) ||
+         std::any_of(can_buses.begin(), can_buses.end(), [](const CanBus& bus) { return !bus.messages.empty(); });
+}
+
 std::optional<NodeId> Cluster::find_node(std::string_view node_name) const {
   return find_named<NodeId>(nodes, node_name);
 }

@@ -31,8 +31,9 @@ struct CycleInstant {
 };
 
 // One fragment of a PDU in one slot, or a status frame without PDU (pdu == kNoPdu). Static slots are
-// 1..gNumberOfStaticSlots, higher ones are dynamic. A dynamic frame always carries a PDU. It is sent once per
-// list, as long as its fragment, and not at all without a list (schedules/analysis/minislots.h).
+// 1..gNumberOfStaticSlots, higher ones are dynamic. A dynamic frame carries a PDU, unless the cluster describes no
+// tasks. It is sent once per list, as long as its fragment, and not at all without a list
+// (schedules/analysis/minislots.h).
 struct FrameSlot {
   int slot = 0;  // frame id
   Channels channels = Channels::kAB;
@@ -48,6 +49,8 @@ struct FrameSlot {
   // Dynamic frames only: this message id (two bytes) precedes the fragment, and the payload preamble indicator
   // is set. Receivers accept the frame only with this id.
   std::optional<std::uint16_t> message_id = std::nullopt;
+  // Dynamic frames without a PDU only, which a bus description may have: the length of the whole payload.
+  int payload_bytes = 0;
 };
 
 inline constexpr int kMessageIdBytes = 2;
@@ -212,6 +215,9 @@ struct Cluster {
   // Keyed by "nodes", "guardian", "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId".
   std::map<std::string, int, std::less<>> parameter_lines;
 
+  // False for a bus description, which has no tasks, no sensors and no messages on CANs. It can be checked as far as the
+  // bus goes, drawn and exported. No node can run it.
+  bool describes_tasks() const;
   const Node& node(NodeId id) const { return nodes[index_of(id)]; }
   const PduLayout& pdu(PduId id) const { return pdus[index_of(id)]; }
   const Sensor& sensor(SensorId id) const { return sensors[index_of(id)]; }

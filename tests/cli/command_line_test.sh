@@ -122,12 +122,32 @@ expect 2 '--can = no_can: must be one of' schedule export "$source/schedules/pap
 expect 2 'command line: --can = laser_can: goes with --format dbc only' \
   schedule export "$source/schedules/paper_synchronised.yaml" --format fibex --can laser_can
 
-# A cluster to FIBEX and back; it loads, and the checker misses the tasks.
+# A cluster to FIBEX and back: a bus description, of which all is checked that needs no tasks.
 expect 0 '' schedule export "$source/schedules/paper_synchronised.yaml" --format fibex -o "$work/cluster.xml"
 expect 0 '' schedule export "$work/cluster.xml" --format yaml -o "$work/imported.yaml"
 grep -q 'slot: 22, channels: AB, sender: fusion, base_cycle: 1, repetition: 8, pdu: image, fragments: 13' \
   "$work/imported.yaml" || fail "the imported cluster lacks the image's slots"
-expect 2 'imported.yaml' schedule check "$work/imported.yaml"
+for bus in imported.yaml cluster.xml; do
+  expect 0 '^paper_synchronised describes no tasks, so these are not checked: activations and deadlines of tasks, ' \
+    schedule check "$work/$bus"
+  expect 0 'no tasks, sensors and CANs are described' schedule show "$work/$bus"
+  expect 0 'note: paper_synchronised describes no tasks, so the file says of no node what it receives' \
+    schedule export "$work/$bus" --format fibex -o "$work/again.xml"
+  expect 0 '' schedule export "$work/again.xml" --format yaml -o "$work/again.yaml"
+  diff <(grep -v '^#\|# receives' "$work/imported.yaml") <(grep -v '^#' "$work/again.yaml") ||
+    fail "$bus is another one after it was exported again"
+done
+sed 's,<flexray:MAX-WITHOUT-CLOCK-CORRECTION-FATAL>4</[^>]*>,,; s,CORRECTION-PASSIVE>2<,CORRECTION-PASSIVE>5<,' \
+  "$work/cluster.xml" >"$work/unstated.xml"
+expect 0 'note: .*Fatal = 4: must be 5..15: .* \(assumed: the file does not state it\)' schedule check "$work/unstated.xml"
+"$program" schedule check "$work/imported.yaml" --json | python3 -c '
+import json, sys
+s = json.load(sys.stdin)
+assert s["consistent"] and not s["describes_tasks"] and s["not_checked"] == ["tasks", "flow", "loops"], s
+' || fail "--json does not say what was not checked"
+sed "s,\(adva: \).*,\1$work/imported.yaml," "$source/scenarios/paper_scenario1.yaml" >"$work/no_tasks.yaml"
+expect 2 'imported.yaml:[0-9]+: nodes: must have tasks for a drive' \
+  run "$work/no_tasks.yaml" --strategy adva --out "$work/no_tasks"
 expect 2 'gdNIT|cannot be read' schedule export "$work/nothing.yaml" --format fibex
 expect 2 '--format' schedule export "$work/cluster.xml"
 expect 1 'cannot be written' schedule export "$work/cluster.xml" --format yaml -o "$work/no/such/folder.yaml"
@@ -286,6 +306,9 @@ grep -Evq '^\([0-9]{10}\.[0-9]{6}\) [a-z_]+ [0-9A-F]{3}#(#1)?([0-9A-F]{2})*$' "$
 schedule=$source/schedules/paper_synchronised.yaml
 expect 0 'frames on AB in [0-9]+ cycles: as scheduled' schedule check "$schedule" --against "$work/drive.pcapng"
 expect 0 '"consistent": true' schedule check "$schedule" --against "$work/drive.pcapng" --json
+for bus in imported.yaml cluster.xml; do
+  expect 0 'frames on AB in [0-9]+ cycles: as scheduled' schedule check "$work/$bus" --against "$work/drive.pcapng"
+done
 head -c 100000 "$work/drive.pcapng" >"$work/cut.pcapng"
 expect 0 'warning: .*cut.pcapng: block before packet [0-9]+' schedule check "$schedule" --against "$work/cut.pcapng"
 python3 - "$work/cut.pcapng" "$work/disturbed.pcapng" <<'END'

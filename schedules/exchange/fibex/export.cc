@@ -188,11 +188,13 @@ class Exporter {
                                      fmt::format("{}_slot_{}_cycle_{}", what, frame.slot, frame.base_cycle));
       const int words = is_dynamic(cluster_.flexray, frame) ? analysis::dynamic_words(cluster_, frame)
                                                             : cluster_.flexray.gPayloadLengthStatic;
-      put(one, "fx:BYTE-LENGTH", std::to_string(2 * words));
+      put(one, "fx:BYTE-LENGTH", std::to_string(frame.payload_bytes > 0 ? frame.payload_bytes : 2 * words));
       put(one, "fx:FRAME-TYPE", status ? "OTHER" : "APPLICATION");
-      if (status && !frame.network_management) continue;
+      if (status && !frame.network_management && !frame.message_id) continue;
       if (status) {
-        put(one.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:NETWORK-MANAGEMENT", "true");
+        pugi::xml_node extension = one.append_child("fx:MANUFACTURER-EXTENSION");
+        if (frame.network_management) put(extension, "ttf:NETWORK-MANAGEMENT", "true");
+        if (frame.message_id) put(extension, "ttf:MESSAGE-ID", std::to_string(*frame.message_id));
         continue;
       }
       pugi::xml_node instance = one.append_child("fx:PDU-INSTANCES").append_child("fx:PDU-INSTANCE");

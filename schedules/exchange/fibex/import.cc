@@ -159,7 +159,7 @@ class Importer {
       out.line = found.second;
       const FibexFrame& contents = file_.frames[static_cast<std::size_t>(frame)];
       std::string words = take_contents(contents, out);
-      if (is_dynamic(out_.cluster.flexray, out) && !fits_dynamic(contents, out)) continue;
+      if (is_dynamic(out_.cluster.flexray, out)) take_dynamic(contents, out);
       out_.cluster.frames.push_back(out);
       out_.contents.push_back(std::move(words));
     }
@@ -186,21 +186,16 @@ class Importer {
     out_.contents = std::move(contents);
   }
 
-  // A dynamic frame of a cluster file is a fragment of a list, and as long as that.
-  bool fits_dynamic(const FibexFrame& frame, const model::FrameSlot& out) {
-    if (out.pdu == kNoPdu) {
-      leave_out(out.line, "fx:FRAME-TRIGGERING", fmt::format("slot {}", out.slot),
-                fmt::format("is left out: a frame of the dynamic segment carries a list, and {} does not", frame.name));
-      return false;
-    }
+  // A dynamic frame with a list is a fragment of it, and as long as that. Any other keeps its length.
+  void take_dynamic(const FibexFrame& frame, model::FrameSlot& out) {
+    if (out.pdu == kNoPdu) out.payload_bytes = frame.bytes;
     const int bytes = 2 * analysis::dynamic_words(out_.cluster, out);
-    if (frame.bytes != bytes)
+    if (out.pdu != kNoPdu && frame.bytes != bytes)
       leave_out(frame.line, "fx:FRAME", fmt::format("{} bytes", frame.bytes),
                 fmt::format("is left out: in the dynamic segment {} is as long as its fragment, {} bytes", frame.name,
                             bytes));
     if (frame.network_management)
       leave_out(frame.line, "ttf:NETWORK-MANAGEMENT", "true", "is left out: the vector is sent in the static segment");
-    return true;
   }
 
   // Sets the frame's part of a list; the returned text describes any other content.

@@ -3,8 +3,8 @@
 //
 // Content that a cluster file cannot express is kept beside it and named: PDUs other than our lists
 // (schedules/exchange/fibex/lists.h) with their meanings, and unknown elements. Values that FIBEX omits and a
-// cluster file needs are assumed and marked, by a rule if the parameter follows from others. Tasks, sensors and
-// CANs are left to the author.
+// cluster file needs are assumed and marked, by a rule if the parameter follows from others. The cluster describes no
+// tasks (model::Cluster::describes_tasks()): tasks, sensors and CANs are left to the author.
 #pragma once
 
 #include <set>

@@ -87,7 +87,9 @@ class Writer {
         fmt::format("# From the FIBEX file {}: the timing of the cluster, its controllers, slots, PDUs and signals.",
                     cluster_.file)));
     line("# To be added before this cluster can run, as FIBEX does not have it: the tasks of each node with the lists");
-    line("# they read and write, sensors, CANs, oscillator drifts. Values marked as assumed are to be confirmed.");
+    line(
+        "# they read and write, sensors, CANs, oscillator drifts. Values marked as assumed are to be confirmed. Until");
+    line("# then it can be checked as far as the bus goes, drawn, exported, and held against a capture.");
     if (in_.left_out.empty()) return;
     line("# Left out or changed:");
     for (const Finding& finding : in_.left_out) line(comment("#   " + finding.sentence()));
@@ -203,6 +205,7 @@ class Writer {
         text += fmt::format(", pdu: {}, fragments: {}", scalar(cluster_.pdu(first.pdu).name), end - i);
         if (first.fragment != 0) text += fmt::format(", first_fragment: {}", first.fragment);
       }
+      if (first.payload_bytes > 0) text += fmt::format(", bytes: {}", first.payload_bytes);
       if (first.network_management) text += ", network_management: true";
       if (first.message_id) text += fmt::format(", message_id: {}", *first.message_id);
       text += "}";

@@ -74,6 +74,24 @@ TEST(CaptureCheck, AFrameInASlotNobodyOwns) {
   EXPECT_THAT(texts(verdict_on(frames)), ElementsAre(packet(at) + "slot 38 on B, cycle 1: the slot has no owner"));
 }
 
+// Another tool's schedule: a dynamic frame that carries no list of ours.
+TEST(CaptureCheck, AForeignFrameOfTheDynamicSegmentHasAnOwner) {
+  schedules::model::Cluster foreign = paper();
+  schedules::model::FrameSlot slot;
+  slot.slot = foreign.flexray.gNumberOfStaticSlots + 5;
+  slot.payload_bytes = 8;
+  foreign.frames.push_back(slot);
+  std::vector<BusFrame> frames = scheduled_frames(paper(), 4);
+  const std::size_t at = place_of(frames, 1, Channel::kA, 2);
+  BusFrame sent = frames[at - 1];
+  sent.header.frame_id = static_cast<std::uint16_t>(slot.slot);
+  sent.payload.resize(8);
+  sent.time_ns = frames[at].time_ns - 1'000'000;
+  frames.insert(frames.begin() + static_cast<std::ptrdiff_t>(at), sent);
+  EXPECT_THAT(texts(verdict_on(frames)), ElementsAre(HasSubstr("the slot has no owner")));
+  EXPECT_THAT(texts(check_capture(capture_of(frames), "bus.pcapng", foreign, {})), IsEmpty());
+}
+
 TEST(CaptureCheck, AFrameOnTheWrongChannel) {
   schedules::model::Cluster one_channel = paper();
   for (schedules::model::FrameSlot& frame : one_channel.frames)

@@ -91,11 +91,13 @@ class FibexDifference {
   }
 
   static std::string frame_text(const model::Cluster& cluster, const model::FrameSlot& frame) {
-    return fmt::format("slot {} channels {} cycle {} of {} by {}{}{}: {} {}", frame.slot,
-                       static_cast<int>(frame.channels), frame.base_cycle, frame.repetition,
-                       cluster.node(frame.sender).name, frame.network_management ? " with vector" : "",
-                       frame.message_id ? fmt::format(" as message {}", *frame.message_id) : "",
-                       frame.pdu == kNoPdu ? "status" : cluster.pdu(frame.pdu).name, frame.fragment);
+    return fmt::format(
+        "slot {} channels {} cycle {} of {} by {}{}{}: {} {}", frame.slot, static_cast<int>(frame.channels),
+        frame.base_cycle, frame.repetition, cluster.node(frame.sender).name,
+        frame.network_management ? " with vector" : "",
+        frame.message_id ? fmt::format(" as message {}", *frame.message_id) : "",
+        frame.pdu == kNoPdu ? fmt::format("status of {} bytes", frame.payload_bytes) : cluster.pdu(frame.pdu).name,
+        frame.fragment);
   }
 
   // Frames of one slot and cycle, channel A first.

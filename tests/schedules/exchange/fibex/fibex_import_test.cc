@@ -88,7 +88,7 @@ TEST_F(Powertrain, ControllersHaveTheirKeySlotsAndWhatFollowsFromTheCycle) {
 }
 
 TEST_F(Powertrain, SlotsHaveTheirCyclesChannelsAndSenders) {
-  ASSERT_EQ(cluster_.frames.size(), 2u);
+  ASSERT_EQ(cluster_.frames.size(), 3u);
   const model::FrameSlot& startup = cluster_.frames[0];
   EXPECT_EQ(startup.slot, 1);
   EXPECT_EQ(startup.base_cycle, 7);  // CYCLE-COUNTER: this one of the 64 cycles
@@ -103,7 +103,11 @@ TEST_F(Powertrain, SlotsHaveTheirCyclesChannelsAndSenders) {
   EXPECT_EQ(torque.channels, model::Channels::kAB);  // one frame on both
   EXPECT_EQ(cluster_.node(torque.sender).name, "ESP");
   EXPECT_EQ(torque.pdu, kNoPdu);
-  EXPECT_THAT(import_.contents, ElementsAre("", "TorqueInfo carries CrankTorque at byte 0, Reserve at byte 4"));
+  const model::FrameSlot& dynamic = cluster_.frames[2];  // it carries no list, and has its length
+  EXPECT_EQ(dynamic.slot, 61);
+  EXPECT_EQ(dynamic.pdu, kNoPdu);
+  EXPECT_EQ(dynamic.payload_bytes, 42);
+  EXPECT_THAT(import_.contents, ElementsAre("", "TorqueInfo carries CrankTorque at byte 0, Reserve at byte 4", ""));
 }
 
 TEST_F(Powertrain, ConnectorsSayWhatANodeIsAttachedTo) {
@@ -149,10 +153,9 @@ TEST_F(Powertrain, WhatIsNotUnderstoodIsNamedWithItsLine) {
   const Expected expected[] = {
       {elements + "fx:CLUSTERS/fx:CLUSTER/flexray:MAX-INITIALIZATION-ERROR", "<flexray:MAX-INIT", "not understood"},
       {elements + "fx:CLUSTERS/fx:CLUSTER", "<fx:CLUSTER ID=\"C2\">", "FlexRay cluster"},
-      {"fx:FRAME-TRIGGERING = slot 61", "<fx:FRAME-TRIGGERING ID=\"ft4\">", "carries a list, and Startup does not"},
       {elements + "fx:GATEWAYS", "<fx:GATEWAYS>", "not understood"},
       {"flexray:MAX-DYNAMIC-PAYLOAD-LENGTH = 127", "<fx:CONTROLLER ID=\"E1C\"",
-       "the length of Engine's longest dynamic frame, 0"},
+       "the length of Engine's longest dynamic frame, 21"},
       {"fx:PDU", "<fx:PDU ID=\"pdu1\">", "CrankTorque"},
       {"fx:PDU", "<fx:PDU ID=\"pdu2\">", "Reserve"},
       {elements + "fx:CODINGS/fx:CODING/ho:COMPU-METHODS/ho:COMPU-METHOD/ho:PHYS-CONSTRS/ho:SCALE-CONSTR",
@@ -171,6 +174,9 @@ TEST_F(Powertrain, BecomesAClusterFileThatLoads) {
   const std::string yaml = skeleton_yaml(import_);
   const model::Cluster again = file::parse_cluster(yaml, "cluster.yaml");
   EXPECT_EQ(FibexDifference::of(cluster_, again), "");
+  EXPECT_FALSE(again.describes_tasks());
+  const FibexImport twice = parse_fibex(fibex_text(again), "again.xml");
+  EXPECT_EQ(FibexDifference::of(cluster_, twice.cluster), "") << "exported again, nothing of the bus is lost";
   for (const char* said :
        {"gdBit: 0.1   # us, assumed", "gdMacrotick: 1.25   # us\n", "# receives Startup", "tasks: {}   # to be added",
         "# CrankTorque: 4 bytes, no list", "#   bit 0, low byte first: {name: TorqueReq, unit: Nm, bits: 16, low: -0.5",

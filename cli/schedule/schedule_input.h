@@ -1,0 +1,24 @@
+// The cluster that the schedule commands read: a cluster file, or the FlexRay cluster of a FIBEX file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schedules/model/cluster.h"
+
+namespace ttf::cli::schedule {
+
+struct ScheduleInput {
+  schedules::model::Cluster cluster;
+  std::vector<std::string> notes;  // what was assumed or left out of a FIBEX file
+};
+
+// A file that begins with `<` is FIBEX. The cluster has passed the checks; those that need tasks are skipped where it
+// describes none (schedules/check/rules.h). A value that a FIBEX file does not state may break a rule: that is a note.
+// Throws InputError.
+ScheduleInput checked_input(const std::string& path);
+
+// Returns the note for a result that needs tasks; empty for a cluster that describes them.
+std::string without_tasks(const schedules::model::Cluster& cluster, const std::string& left_out);
+
+}  // namespace ttf::cli::schedule
