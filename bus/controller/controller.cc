@@ -308,7 +308,8 @@ SlotSeen FlexRayController::slot_status(int slot, schedules::model::Channel chan
   const SlotBoard::Seen& seen = s.board.kept(slot);
   const std::uint8_t errors = seen.errors[index_of(channel)];
   return {seen.valid[index_of(channel)], (errors & kSyntaxError) != 0, (errors & kContentError) != 0,
-          (errors & kBoundaryViolation) != 0, (errors & kTransmissionConflict) != 0};
+          (errors & kBoundaryViolation) != 0, (errors & kTransmissionConflict) != 0,
+          (errors & kUnexpectedFrame) != 0};
 }
 
 SyncStatus FlexRayController::sync_status() const {

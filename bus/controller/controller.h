@@ -14,6 +14,12 @@
 //       only what has not left yet; elsewhere never, and never against protocol operation control
 //   L4  nothing here allocates after construction
 //
+// A valid frame decodes without error (FlexRay 2.1A, chapter 6). It lies within one slot. Its header has that slot's
+// frame id and the present cycle count. A static frame has gPayloadLengthStatic words. A startup frame is a sync
+// frame. A dynamic frame is no sync, startup or null frame. The schedule has no say. So a valid sync frame of any
+// sender enters clock synchronisation and start-up. The host's schedule judges apart. A valid frame that it lacks is
+// unexpected. It reaches no list.
+//
 // Interpretations where the sources leave room: a startup frame sent before normal operation is a null frame.
 // A second communication element in a static slot is a syntax error of that slot, even after a valid frame.
 // Activity that began outside every slot is reported under slot 0. Activity across slot boundaries violates
@@ -40,7 +46,8 @@
 
 namespace ttf::bus::controller {
 
-// The status of a slot on a channel (FlexRay 2.1A vSS). The values are the bits of records::SlotProblem.
+// The status of a slot on a channel (FlexRay 2.1A vSS), and at the end the host's view of a valid frame. The values
+// are the bits of records::SlotProblem.
 enum SlotStatus : std::uint8_t {
   kValidFrame = 0,
   kSyntaxError = 1,
@@ -48,6 +55,9 @@ enum SlotStatus : std::uint8_t {
   kBoundaryViolation = 4,
   kTransmissionConflict = 8,
   kNoFrame = 16,
+  // A valid frame that is not in the schedule's slot, cycle and channel. Or its message id, its length or its payload
+  // is not that of the slot's list.
+  kUnexpectedFrame = 32,
 };
 
 // The same status as a host reads it, of one static slot on one channel in one cycle. No flag set: the channel
@@ -58,6 +68,7 @@ struct SlotSeen {
   bool content_error = false;
   bool boundary_violation = false;
   bool transmission_conflict = false;
+  bool unexpected_frame = false;  // valid, but not as the schedule has it
 
   bool operator==(const SlotSeen&) const = default;
 };
@@ -100,7 +111,8 @@ class ControllerEvents {
   virtual void static_segment_ended(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
   // Returns whether the host wants every frame received, and every fragment even if known.
   virtual bool wants_receptions() const { return true; }
-  // A valid frame in the slot that its header states; not during start-up. `frame` is valid only during the call.
+  // A valid frame in the slot that its header states, also an unexpected one; not during start-up. `frame` is valid
+  // only during the call.
   virtual void frame_received(std::int64_t cycle, int slot, schedules::model::Channel channel,
                               const wire::DecodedFrame& frame, Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)frame, (void)at;

@@ -93,14 +93,14 @@ bool FlexRayController::State::judge_on_both(const ports::Reception& reception) 
   const int slot = expected->slot;
   const bool under_way = board.under_way();
   board.hear_a(slot);
-  accept(reception, Channel::kA, slot, *expected);
+  accept(reception, Channel::kA, slot, expected);
   // The host may act on that event.
   if (!in_operation() || board.under_way() != under_way) {
     receive(on_b(reception));
     return true;
   }
   board.hear_b(slot);
-  accept(reception, Channel::kB, slot, *expected);
+  accept(reception, Channel::kB, slot, expected);
   return true;
 }
 
@@ -222,7 +222,6 @@ void FlexRayController::State::judge_elsewhere(const ports::Reception& reception
 
 void FlexRayController::State::judge_static(const ports::Reception& reception, int slot, std::uint8_t errors) {
   const auto c = index_of(reception.channel);
-  const FrameSlot* expected = slot_at.expected[c];  // static_slot_at() has just looked it up
   SlotBoard::Seen& status = board.at(slot);
   if (const int last = last_static_slot_of(reception); last != slot) {
     cross_slots(reception, slot, last);
@@ -230,8 +229,7 @@ void FlexRayController::State::judge_static(const ports::Reception& reception, i
   }
   if (status.element[c]) errors |= kSyntaxError;  // a second communication element
   status.element[c] = true;
-  if (errors == 0 && (expected == nullptr || !is_of_slot(reception.frame.header, slot, slot_at.counter)))
-    errors |= kContentError;
+  if (errors == 0 && !is_of_slot(reception.frame.header, slot, slot_at.counter)) errors |= kContentError;
   status.errors[c] |= errors;
   if (errors != 0) {
     // Activity that outlasts the segment is judged after the segment has been closed.
@@ -240,20 +238,22 @@ void FlexRayController::State::judge_static(const ports::Reception& reception, i
     return;
   }
   status.valid[c] = true;
-  accept(reception, reception.channel, slot, *expected);
+  accept(reception, reception.channel, slot, slot_at.expected[c]);  // static_slot_at() has just looked it up
 }
 
-// Takes in a valid frame in its slot, as this node's schedule expects it.
 void FlexRayController::State::accept(const ports::Reception& reception, Channel channel, int slot,
-                                      const FrameSlot& expected) {
+                                      const FrameSlot* expected) {
   const wire::FrameHeader& header = reception.frame.header;
   if (!in_startup(poc.kind)) events.frame_received(clock->cycle(), slot, channel, reception.frame, reception.end);
   if (header.sync)
     hear_sync(reception, slot,
               channel == Channel::kA ? schedules::model::Channels::kA : schedules::model::Channels::kB);
   if (header.payload_preamble) network_management.combine(reception.frame.payload);
-  if (expected.pdu != kNoPdu && !store(expected, reception))
-    board.at(slot).errors[index_of(channel)] |= kContentError;  // a valid frame, but not of this slot's list
+  if (expected != nullptr && (expected->pdu == kNoPdu || store(*expected, reception))) return;
+  board.at(slot).errors[index_of(channel)] |= kUnexpectedFrame;
+  // As of activity that outlasts the segment, the segment's own report is out.
+  if (!board.under_way() && !in_startup(poc.kind))
+    events.slot_problem(clock->cycle(), slot, channel, kUnexpectedFrame, reception.end);
 }
 
 // The medium reports the arrival of the TSS's first bit, so there is no decoding time to subtract
@@ -288,18 +288,23 @@ void FlexRayController::State::judge_dynamic(const ports::Reception& reception, 
   const int slot = dynamic[index_of(reception.channel)].counter.slot_in(minislot);
   if (count_minislots(reception) > minislots.count()) errors |= kBoundaryViolation;
 
-  const FrameSlot* expected = slots.expected(slot, counter, reception.channel, wire::message_id(reception.frame));
-  if (errors == 0 &&
-      (header.frame_id != slot || header.cycle != counter || header.sync || header.startup || expected == nullptr ||
-       expected->pdu == kNoPdu || header.null_frame || header.payload_preamble != expected->message_id.has_value() ||
-       reception.frame.payload.size() <
-           preamble_bytes(*expected) + static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes)))
-    errors |= kContentError;
-  if (errors == 0 && !store(*expected, reception)) errors |= kContentError;
-  if (errors == 0 && !in_startup(poc.kind))
-    events.frame_received(clock->cycle(), slot, reception.channel, reception.frame, reception.end);
+  if (errors == 0 && !is_of_dynamic_slot(header, slot)) errors |= kContentError;
+  if (errors == 0) {
+    if (!in_startup(poc.kind))
+      events.frame_received(clock->cycle(), slot, reception.channel, reception.frame, reception.end);
+    const FrameSlot* expected = slots.expected(slot, counter, reception.channel, wire::message_id(reception.frame));
+    if (!is_as_expected(reception.frame, expected) || !store(*expected, reception)) errors |= kUnexpectedFrame;
+  }
   if (errors != 0 && !in_startup(poc.kind))
     events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
+}
+
+// Returns whether a valid dynamic frame may hold the fragment that the schedule has there.
+bool FlexRayController::State::is_as_expected(const wire::DecodedFrame& heard, const FrameSlot* expected) const {
+  return expected != nullptr && expected->pdu != kNoPdu &&
+         heard.header.payload_preamble == expected->message_id.has_value() &&
+         heard.payload.size() >=
+             preamble_bytes(*expected) + static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes);
 }
 
 // Returns false if the frame's payload is no fragment of this slot's list.

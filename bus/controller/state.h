@@ -160,8 +160,7 @@ struct FlexRayController::State {
   void hear(const ports::Reception& reception);                            // without a schedule
   void judge(const ports::Reception& reception, bool conflict);            // within the schedule
   void judge_static(const ports::Reception& reception, int slot, std::uint8_t errors);
-  // A frame is valid in its slot if it decodes without error, lies within the slot and is expected there. Its
-  // header must be that slot's, with the present cycle counter.
+  // A valid frame decodes without error, lies within its slot, and has a header that is right there.
   static bool is_frame(const ports::Reception& reception) {
     return reception.signal == ports::Signal::kFrame && reception.frame.error == wire::FrameError::kNone;
   }
@@ -169,8 +168,13 @@ struct FlexRayController::State {
     return header.frame_id == slot && header.cycle == of_counter && header.payload_words == g.gPayloadLengthStatic &&
            (header.sync || !header.startup);
   }
+  bool is_of_dynamic_slot(const wire::FrameHeader& header, int slot) const {
+    return header.frame_id == slot && header.cycle == counter && !header.sync && !header.startup && !header.null_frame;
+  }
+  // Takes in a valid static frame; `expected` is the one that the schedule has there, null without one.
   void accept(const ports::Reception& reception, schedules::model::Channel channel, int slot,
-              const schedules::model::FrameSlot& expected);
+              const schedules::model::FrameSlot* expected);
+  bool is_as_expected(const wire::DecodedFrame& heard, const schedules::model::FrameSlot* expected) const;
   void judge_elsewhere(const ports::Reception& reception, int slot, std::uint8_t errors, bool conflict);
   void cross_slots(const ports::Reception& reception, int slot, int last);
   void judge_dynamic(const ports::Reception& reception, int minislot, std::uint8_t errors);

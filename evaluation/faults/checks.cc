@@ -11,6 +11,7 @@ std::string_view name_of(Check check) {
     case Check::kBoundary: return "boundary";
     case Check::kConflict: return "conflict";
     case Check::kNoFrame: return "no_frame";
+    case Check::kUnexpected: return "unexpected";
     case Check::kMissingTerm: return "missing_term";
     case Check::kLimit: return "limit";
     case Check::kPassive: return "passive";

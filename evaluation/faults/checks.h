@@ -31,16 +31,17 @@ enum class Check : std::uint8_t {
   kContent,
   kBoundary,
   kConflict,
-  kNoFrame,  // in a slot: bus::controller::SlotStatus
+  kNoFrame,
+  kUnexpected,  // in a slot: bus::controller::SlotStatus
   kMissingTerm,
   kLimit,  // in clock correction
   kPassive,
   kHalt,      // states
   kGuardian,  // blocked or cut a bus signal
 };
-inline constexpr std::array kAllChecks = {Check::kSyntax,  Check::kContent,     Check::kBoundary, Check::kConflict,
-                                          Check::kNoFrame, Check::kMissingTerm, Check::kLimit,    Check::kPassive,
-                                          Check::kHalt,    Check::kGuardian};
+inline constexpr std::array kAllChecks = {Check::kSyntax,  Check::kContent,    Check::kBoundary,    Check::kConflict,
+                                          Check::kNoFrame, Check::kUnexpected, Check::kMissingTerm, Check::kLimit,
+                                          Check::kPassive, Check::kHalt,       Check::kGuardian};
 std::string_view name_of(Check check);
 
 enum class Harm : std::uint8_t { kLeftActive, kNotStarted, kPrecision, kFrameLost, kFrameForged };
@@ -61,12 +62,13 @@ template <class All> std::string names_of(unsigned bits, const All& all) {
 
 // Calls `seen` with every check in the status of a slot (bus::controller::SlotStatus).
 template <class Seen> void for_each_check(std::uint8_t status, Seen seen) {
-  constexpr std::array<std::pair<bus::controller::SlotStatus, Check>, 5> kOfSlots{
+  constexpr std::array<std::pair<bus::controller::SlotStatus, Check>, 6> kOfSlots{
       {{bus::controller::kSyntaxError, Check::kSyntax},
        {bus::controller::kContentError, Check::kContent},
        {bus::controller::kBoundaryViolation, Check::kBoundary},
        {bus::controller::kTransmissionConflict, Check::kConflict},
-       {bus::controller::kNoFrame, Check::kNoFrame}}};
+       {bus::controller::kNoFrame, Check::kNoFrame},
+       {bus::controller::kUnexpectedFrame, Check::kUnexpected}}};
   for (const auto& [bit, check] : kOfSlots)
     if ((status & bit) != 0) seen(check);
 }

@@ -17,6 +17,7 @@ std::string_view short_name(evaluation::faults::Check check) {
     case evaluation::faults::Check::kBoundary: return "bound.";
     case evaluation::faults::Check::kConflict: return "confl.";
     case evaluation::faults::Check::kNoFrame: return "no fr.";
+    case evaluation::faults::Check::kUnexpected: return "unexp.";
     case evaluation::faults::Check::kMissingTerm: return "missing";
     case evaluation::faults::Check::kGuardian: return "guard";
     case evaluation::faults::Check::kSyntax:

@@ -96,8 +96,8 @@ struct ChannelFrame {
 };
 
 // Status of a slot on one channel as one receiver saw it. Recorded if the slot had an error, or if the frame that
-// is expected there did not come. Bits: 1 syntax error, 2 content error, 4 boundary violation, 8 transmission
-// conflict, 16 no frame.
+// is expected there did not come. An unexpected frame is valid. Bits: 1 syntax error, 2 content error, 4 boundary
+// violation, 8 transmission conflict, 16 no frame, 32 unexpected frame.
 struct SlotProblem {
   Stamp stamp;
   std::int64_t cycle = 0;

@@ -47,8 +47,8 @@ TEST(DynamicMultiplexing, ASlotIsSharedByBaseCycleAndRepetition) {
   expect_no_problems(rig, 3);
 }
 
-// A frame with the right id in a cycle that is not its own belongs to no node.
-TEST(DynamicMultiplexing, TheWrongCycleIsAContentError) {
+// A frame with the right id in a cycle that is not its own belongs to no node. Its header is right, so it is valid.
+TEST(DynamicMultiplexing, TheWrongCycleIsUnexpected) {
   schedules::model::Cluster cluster = dynamic_cluster(2);
   dynamic_slot(cluster, 1).base_cycle = 1;
   dynamic_slot(cluster, 1).repetition = 2;
@@ -67,7 +67,7 @@ TEST(DynamicMultiplexing, TheWrongCycleIsAContentError) {
     frame.arrive(node);
     ASSERT_EQ(node.heard.problems.size(), cycle == 0 ? 1u : 0u);
     if (cycle == 0) {
-      EXPECT_EQ(node.heard.problems[0].status, kContentError);
+      EXPECT_EQ(node.heard.problems[0].status, kUnexpectedFrame);
     }
     EXPECT_EQ(node.heard.arrived.size(), cycle == 0 ? 0u : 1u);
   }
@@ -192,16 +192,16 @@ TEST(MessageId, StandsFirstInThePayloadAndTellsListsApart) {
   expect_no_problems(rig, 3);
 }
 
-TEST(MessageId, AnUnknownMissingOrUnexpectedOneIsAContentError) {
+TEST(MessageId, AnUnknownMissingOrUnexpectedOneMakesTheFrameUnexpected) {
   struct Case {
     int slot;
     bool preamble;
     std::vector<int> first;
     int status;
   };
-  for (const Case& one : {Case{12, true, {0x12, 0x34}, kValidFrame}, Case{12, true, {0x34, 0x12}, kContentError},
-                          Case{12, false, {}, kContentError}, Case{12, false, {0x12, 0x34}, kContentError},
-                          Case{13, false, {}, kValidFrame}, Case{13, true, {0x12, 0x34}, kContentError}}) {
+  for (const Case& one : {Case{12, true, {0x12, 0x34}, kValidFrame}, Case{12, true, {0x34, 0x12}, kUnexpectedFrame},
+                          Case{12, false, {}, kUnexpectedFrame}, Case{12, false, {0x12, 0x34}, kUnexpectedFrame},
+                          Case{13, false, {}, kValidFrame}, Case{13, true, {0x12, 0x34}, kUnexpectedFrame}}) {
     Alone node(0, with_message_ids());
     const MadeList list(node.cluster.pdus[one.slot == 12 ? 3 : 4], 1, 3, 0);
     Frame frame;

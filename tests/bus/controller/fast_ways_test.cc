@@ -109,6 +109,7 @@ class Drawn {
     if (odd()) frame.header.frame_id = static_cast<std::uint16_t>(draw_.integer(1, 10));
     if (odd()) frame.header.payload_preamble = !frame.header.null_frame;
     if (odd()) frame.payload.resize(14);
+    if (odd()) frame.header.sync = true;
     frame.start = std::max(frame.start, free_from_);
     free_from_ = frame.start + frame.length;
     const auto bytes = frame.bytes();

@@ -84,12 +84,52 @@ TEST(ControllerJudges, ContentErrors) {
   startup_only.header.sync = false;
   EXPECT_EQ(wire::decode_frame(Channel::kA, startup_only.bytes()).error, wire::FrameError::kNone);
   EXPECT_EQ(status_of(startup_only, 2), kContentError);
-  EXPECT_EQ(status_of(Frame::status(10, 0), 10), kContentError);  // an unassigned slot
   // The receiver's own slot: it is sending, and cannot decode anything.
   EXPECT_EQ(status_of(Frame::status(5, 0), 5), kTransmissionConflict | kSyntaxError);
-  EXPECT_EQ(status_of(Frame::status(9, 0), 9), kContentError);                  // not in even cycles
-  EXPECT_EQ(status_of(Frame::status(9, 1, Channel::kB), 9, 1), kContentError);  // not on B
+}
+
+// The schedule has no say in validity. It calls a valid frame unexpected.
+TEST(ControllerJudges, AValidFrameThatTheScheduleHasNotIsUnexpected) {
+  EXPECT_EQ(status_of(Frame::status(10, 0), 10), kUnexpectedFrame);                // an unassigned slot
+  EXPECT_EQ(status_of(Frame::status(9, 0), 9), kUnexpectedFrame);                  // not in even cycles
+  EXPECT_EQ(status_of(Frame::status(9, 1, Channel::kB), 9, 1), kUnexpectedFrame);  // not on B
   EXPECT_EQ(status_of(Frame::status(9, 1), 9, 1), kValidFrame);
+  // A content error is the only verdict where a frame has one.
+  Frame other_cycle = Frame::status(10, 0);
+  other_cycle.header.cycle = 1;
+  EXPECT_EQ(status_of(other_cycle, 10), kContentError);
+}
+
+// In 2.1A clock synchronisation asks only whether a sync frame is valid.
+TEST(ControllerJudges, AnUnexpectedSyncFrameEntersClockSynchronisation) {
+  Alone node;
+  for (const std::int64_t cycle : {0, 1}) {
+    Frame rogue = Frame::status(10, cycle);
+    rogue.header.sync = true;
+    rogue.start += 60;
+    rogue.arrive(node);
+    Frame same = rogue;
+    same.channel = Channel::kB;
+    same.arrive(node);
+  }
+  node.run_to(2);
+  EXPECT_EQ(node.controller.slot_status(10, Channel::kA), (SlotSeen{.valid_frame = true, .unexpected_frame = true}));
+  EXPECT_EQ(node.controller.sync_status().VSAO, 2);  // with its own
+  ASSERT_EQ(node.heard.corrected.size(), 1u);
+  EXPECT_EQ(node.heard.corrected[0].offset.value, 30);  // half way between its own and the other
+}
+
+// The segment's report is out when its last frame ends. The frame is told by itself.
+TEST(ControllerJudges, AnUnexpectedFrameAtTheSegmentsEndIsTold) {
+  Alone node;
+  Frame last = Frame::status(10, 0);
+  last.start = Alone::at(0, 840).value - last.length;
+  node.controller.advance({last.start + last.length});
+  const auto bytes = last.bytes();
+  node.controller.receive(received(Channel::kA, {last.start}, {last.start + last.length}, bytes));
+  EXPECT_EQ(std::ranges::count_if(node.heard.problems,
+                                  [](const auto& one) { return one.slot == 10 && one.status == kUnexpectedFrame; }),
+            1);
 }
 
 // A frame must lie within the receiver's own slot, both ends included.
@@ -138,8 +178,8 @@ TEST(ControllerJudges, WrongFramesReachNeitherTheHostNorTheClock) {
   EXPECT_EQ(node.heard.corrected[0].offset.value, 0);  // only its own sync frame counts
 }
 
-// Slot 5 is for fragment 0 of the list, slot 6 for fragment 1.
-TEST(ControllerJudges, AFragmentInAnotherOnesSlotIsAContentError) {
+// Slot 5 is for fragment 0 of the list, slot 6 for fragment 1. The frame is valid, its payload not the slot's.
+TEST(ControllerJudges, AFragmentInAnotherOnesSlotIsUnexpected) {
   Alone node(1);
   MadeList list(node.cluster.pdus[0], 1, 6, 0);
   const auto carry = [&](int slot, int fragment) {
@@ -157,7 +197,7 @@ TEST(ControllerJudges, AFragmentInAnotherOnesSlotIsAContentError) {
   int errors = 0;
   for (const auto& problem : node.heard.problems) {
     if (problem.slot == 5 && problem.channel == Channel::kA) {
-      EXPECT_EQ(problem.status, kContentError);
+      EXPECT_EQ(problem.status, kUnexpectedFrame);
       ++errors;
     }
     if (problem.slot == 6) {

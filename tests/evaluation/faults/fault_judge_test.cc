@@ -220,7 +220,7 @@ TEST(FaultNames, AreThoseWhoseBitsAreSetJoinedByPlus) {
   EXPECT_EQ(names_of(0, kAllHarms), "");
   EXPECT_EQ(names_of(1u << 3, kAllHarms), "frame_lost");
   EXPECT_EQ(names_of(1u | 1u << 2 | 1u << 4, kAllHarms), "left_active+precision+frame_forged");
-  EXPECT_EQ(names_of(1u << 9, kAllChecks), "guardian");
+  EXPECT_EQ(names_of(1u << 10, kAllChecks), "guardian");
 }
 
 TEST(NamedBy, IsTheFaultyNodeAndWhoseSupplyItTakes) {

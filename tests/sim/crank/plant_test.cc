@@ -20,7 +20,7 @@ constexpr TrueTime kSlotOne{1'000'000 + 7'000};  // cycle 0's action point of sl
 
 // Counts by slot the problems that a controller saw.
 struct Problems final : bus::controller::ControllerEvents {
-  std::array<int, 65> syntax{}, content{}, missing{};
+  std::array<int, 65> syntax{}, content{}, missing{}, unexpected{};
   void slot_problem(std::int64_t, int slot, schedules::model::Channel, bus::controller::SlotStatus status,
                     Microticks) override {
     if (slot > 64) return;  // dynamic
@@ -28,6 +28,7 @@ struct Problems final : bus::controller::ControllerEvents {
     syntax[s] += (status & bus::controller::kSyntaxError) != 0;
     content[s] += (status & bus::controller::kContentError) != 0;
     missing[s] += status == bus::controller::kNoFrame;
+    unexpected[s] += status == bus::controller::kUnexpectedFrame;
   }
 };
 
@@ -175,7 +176,7 @@ TEST(Plant, ANodeMayBelieveInAnotherSchedule) {
   plant.run_to(Duration{1'000'000 + 10 * kCycle_ns});
   for (std::size_t n = 0; n < 3; ++n) {
     EXPECT_EQ(plant.seen[n].missing[4], 20);
-    EXPECT_EQ(plant.seen[n].content[9], 20) << "a frame in a slot that is nobody's";
+    EXPECT_EQ(plant.seen[n].unexpected[9], 20) << "a valid frame in a slot that has no owner";
     EXPECT_EQ(plant.kind(static_cast<int>(n)), PocKind::kNormalActive);
   }
 }

@@ -29,7 +29,7 @@ struct Sum final : recording::records::Sink {
   void on(const recording::records::SlotProblem& problem) override {
     add(problem.stamp.true_time.ns), add(problem.status);
     if ((problem.status & bus::controller::kNoFrame) != 0) ++empty[problem.slot];
-    for (unsigned bit = 1; bit <= 16; bit *= 2) problems[bit] += (problem.status & bit) != 0 ? 1 : 0;
+    for (unsigned bit = 1; bit <= 32; bit *= 2) problems[bit] += (problem.status & bit) != 0 ? 1 : 0;
   }
   void on(const recording::records::ImageWritten& image) override { ++images, add(image.valid_at.ns); }
   void on(const recording::records::FaultActivity& activity) override {

@@ -160,13 +160,16 @@ TEST(FrameFaults, MasqueradingAsACrashedNodeIsNotSeen) {
   }
 }
 
-TEST(FrameFaults, MasqueradingInAFreeSlotIsAContentError) {
+TEST(FrameFaults, MasqueradingInAFreeSlotIsAValidFrameThatIsUnexpected) {
   ttf::faults::Fault fault = fault_of(FaultKind::kMasquerading, 2, 10, 10);
   fault.slot = 40;
   const FaultBus bus(fault, 30);
   EXPECT_EQ(bus.acts(), 20U);
   expect_only_slot(bus, 40);
-  for (const int n : {0, 1, 3}) EXPECT_EQ(bus.said(n).count(40, bus::controller::kContentError), 20) << n;
+  for (const int n : {0, 1, 3}) {
+    EXPECT_EQ(bus.said(n).count(40, bus::controller::kUnexpectedFrame), 20) << n;
+    EXPECT_EQ(bus.said(n).count(40, kAnything & ~bus::controller::kUnexpectedFrame), 0) << n;
+  }
 }
 
 TEST(FrameFaults, SosTimingDividesTheReceivers) {

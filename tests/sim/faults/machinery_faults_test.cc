@@ -193,7 +193,8 @@ TEST(MachineryFaults, ShiftedSlotsAreEmptyHereAndUnexpectedThere) {
   bus.run(5 * 10);
   for (const int n : {0, 1, 2}) {
     EXPECT_EQ(bus.said(n).count(4, bus::controller::kNoFrame), 2 * 10) << n;
-    EXPECT_EQ(bus.said(n).count(7, bus::controller::kContentError), 2 * 10) << n;
+    EXPECT_EQ(bus.said(n).count(7, bus::controller::kUnexpectedFrame), 2 * 10) << n;
+    EXPECT_EQ(bus.said(n).count(7, bus::controller::kContentError), 0) << n;
   }
 }
 

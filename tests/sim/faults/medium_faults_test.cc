@@ -54,7 +54,7 @@ TEST(MediumFaults, FramesAtIntervalsAreContentErrorsOrCollisions) {
   int content = 0;
   for (const int slot : {20, 25, 30, 35, 40, 45, 50, 55, 60})
     content += bus.said(0).count(slot, bus::controller::kContentError);
-  EXPECT_GT(content, 0) << "a valid frame in a slot that is nobody's";
+  EXPECT_GT(content, 0) << "a frame with another slot's id";
   EXPECT_GT(bus.said(0).count(0, bus::controller::kBoundaryViolation), 0);
 }
 
