@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bus/controller/state.h"
+#include "bus/wire/symbols.h"
 #include "core/check.h"
 
 namespace ttf::bus::controller {
@@ -29,8 +30,9 @@ FlexRayController::State::State(const schedules::model::Cluster& c, NodeId n, po
       poc_parameters(poc::poc_parameters(c.flexray, parameters(c, n))), slots(c, n),
       minislots(c.flexray), geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
       told_of_receptions(host.wants_receptions()), nominal_slot(controller::nominal_slot(g, p)),
-      static_frame(bits(schedules::model::frame_bits(g, g.gPayloadLengthStatic))), poc(poc_power_on(poc_parameters)),
-      cni(c, n), network_management(c.flexray.gNetworkManagementVectorLength), sync(c.flexray.gSyncNodeMax),
+      static_frame(bits(schedules::model::frame_bits(g, g.gPayloadLengthStatic))), longest_cas(bits(g.gdCASRxLowMax)),
+      pattern_wakes(wire::wakes(g)), poc(poc_power_on(poc_parameters)), cni(c, n),
+      network_management(c.flexray.gNetworkManagementVectorLength), sync(c.flexray.gSyncNodeMax),
       initialisation(c.flexray, parameters(c, n)), board(g.gNumberOfStaticSlots),
       grid(static_cast<std::size_t>(g.gNumberOfStaticSlots + 1)), dynamic{Dynamic{DynamicSlotCounter(c.flexray)},
                                                                           Dynamic{DynamicSlotCounter(c.flexray)}} {}
@@ -307,9 +309,8 @@ SlotSeen FlexRayController::slot_status(int slot, schedules::model::Channel chan
   TTF_CHECK(slot >= 1 && slot <= s.g.gNumberOfStaticSlots, "static slot {} of {}", slot, s.g.gNumberOfStaticSlots);
   const SlotBoard::Seen& seen = s.board.kept(slot);
   const std::uint8_t errors = seen.errors[index_of(channel)];
-  return {seen.valid[index_of(channel)], (errors & kSyntaxError) != 0, (errors & kContentError) != 0,
-          (errors & kBoundaryViolation) != 0, (errors & kTransmissionConflict) != 0,
-          (errors & kUnexpectedFrame) != 0};
+  return {seen.valid[index_of(channel)],      (errors & kSyntaxError) != 0,          (errors & kContentError) != 0,
+          (errors & kBoundaryViolation) != 0, (errors & kTransmissionConflict) != 0, (errors & kUnexpectedFrame) != 0};
 }
 
 SyncStatus FlexRayController::sync_status() const {

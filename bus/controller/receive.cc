@@ -128,8 +128,8 @@ void FlexRayController::State::hear_in_startup(const ports::Reception& reception
   if (conflict && wakeup_sent != kNever<Microticks>) {
     tell({poc::PocEventKind::kWakeupCollision}, reception.end);
   } else if (!conflict) {
-    if (reception.signal == ports::Signal::kCas) tell({poc::PocEventKind::kCasReceived}, reception.end);
-    if (reception.signal == ports::Signal::kWakeup && reception.channel == p.pWakeupChannel)
+    if (is_cas(reception)) tell({poc::PocEventKind::kCasReceived}, reception.end);
+    if (reception.signal == ports::Signal::kWakeup && pattern_wakes && reception.channel == p.pWakeupChannel)
       tell({poc::PocEventKind::kWakeupPatternReceived}, reception.end);
     if (reception.signal == ports::Signal::kFrame && wire::has_header(reception.frame))
       tell({poc::PocEventKind::kHeaderReceived}, reception.end);
@@ -214,7 +214,7 @@ void FlexRayController::State::judge_elsewhere(const ports::Reception& reception
   const Macroticks window = window_start();
   const bool in_window = g.gdSymbolWindow > 0 && slot != 0 && reception.start >= clock->start_of(window) &&
                          reception.end <= clock->start_of(window + Macroticks{g.gdSymbolWindow});
-  if (in_startup(poc.kind) || (in_window && reception.signal == ports::Signal::kCas && !conflict)) return;
+  if (in_startup(poc.kind) || (in_window && is_cas(reception) && !conflict)) return;
   if (!in_window) errors |= kBoundaryViolation;
   events.slot_problem(clock->cycle(), 0, reception.channel, static_cast<SlotStatus>(errors | kSyntaxError),
                       reception.end);

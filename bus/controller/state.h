@@ -32,6 +32,8 @@ struct FlexRayController::State {
   const bool told_of_receptions;         // the host wants every reception
   const timebase::Divisor nominal_slot;  // a static slot's microticks, give or take one
   const Microticks static_frame;         // a static frame's length
+  const Microticks longest_cas;          // a longer low phase is no collision avoidance symbol
+  const bool pattern_wakes;              // a receiver recognises this cluster's wake-up pattern
 
   // --- the present state
   poc::PocState poc;
@@ -163,6 +165,10 @@ struct FlexRayController::State {
   // A valid frame decodes without error, lies within its slot, and has a header that is right there.
   static bool is_frame(const ports::Reception& reception) {
     return reception.signal == ports::Signal::kFrame && reception.frame.error == wire::FrameError::kNone;
+  }
+  // A longer low phase is no symbol (FlexRay 2.1A, chapter 3.2). Overlapping symbols may make one.
+  bool is_cas(const ports::Reception& reception) const {
+    return reception.signal == ports::Signal::kCas && reception.end - reception.start <= longest_cas;
   }
   bool is_of_slot(const wire::FrameHeader& header, int slot, int of_counter) const {
     return header.frame_id == slot && header.cycle == of_counter && header.payload_words == g.gPayloadLengthStatic &&

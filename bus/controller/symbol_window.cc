@@ -48,7 +48,7 @@ void FlexRayController::State::judge_symbol_window(const ports::Reception& recep
   if (!begins || !ends) status.boundary_violation = true;
   if (conflict) status.transmission_conflict = true;
   if (!begins) return;
-  if (reception.signal != ports::Signal::kCas || conflict || window_element[c])  // another signal, or a second symbol
+  if (!is_cas(reception) || conflict || window_element[c])  // another signal, or a second symbol
     status.syntax_error = true;
   else if (ends)
     status.valid_mts = true;

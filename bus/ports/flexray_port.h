@@ -9,8 +9,8 @@
 //   L3  receptions reach one controller in the order of their end; ties: channel (on one channel there are none: L6)
 //   L4  a signal is delivered at its end, never before it has left completely
 //   L5  the medium keeps no reference to the bytes after transmit() returns, the controller none after receive()
-//   L6  signals that overlap at a receiver reach it as one undecodable signal from the first start to the last end;
-//       overlapping collision avoidance symbols remain one such symbol
+//   L6  signals that overlap at a receiver reach it as one undecodable signal from the first start to the last end.
+//       Collision avoidance symbols remain one symbol. Wake-up patterns remain one if they wake (bus/wire/symbols.h)
 //   L7  carrier() is true from the start of a reception (not before it) until it is delivered
 #pragma once
 

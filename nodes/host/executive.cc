@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bus/wire/symbols.h"
 #include "core/check.h"
 
 namespace ttf::nodes::host {
@@ -194,7 +195,8 @@ void Executive::finish(Microticks now) {
 
 void Executive::receive(const bus::ports::Reception& reception) {
   if (asleep_) {
-    if (reception.signal == bus::ports::Signal::kWakeup && !rises_) rises_ = reception.end + time_.ticks(config_.boots);
+    if (reception.signal == bus::ports::Signal::kWakeup && !rises_ && bus::wire::wakes(config_.cluster->flexray))
+      rises_ = reception.end + time_.ticks(config_.boots);
     return;
   }
   flexray_->receive(reception);

@@ -26,7 +26,7 @@ Arriving on_last_metre(const Leaving& signal, NodeId receiver, Duration delay) {
 }  // namespace
 
 FlexRayMedium::FlexRayMedium(const schedules::model::Cluster& cluster, MediumQueue& queue, FramePool& pool)
-    : ways_(cluster), queue_(queue), pool_(pool), flights_(ways_, queue, pool, kFlights),
+    : ways_(cluster), queue_(queue), pool_(pool), flights_(cluster.flexray, ways_, queue, pool, kFlights),
       clear_flights_(ways_, flights_, queue, pool), sent_until_(2 * cluster.nodes.size()),
       spoken_(2 * cluster.nodes.size()) {
   reached_.reserve(cluster.nodes.size());

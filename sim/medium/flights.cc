@@ -12,22 +12,25 @@ using schedules::model::Channel;
 
 bool overlap(const Arrival& a, const Arrival& b) { return a.start < b.end && b.start < a.end; }
 
-// Merges two signals, without their frames.
-Arrival drawn_together(const Arrival& a, const Arrival& b) {
-  const bool cas = a.signal == Signal::kCas && b.signal == Signal::kCas;
+}  // namespace
+
+Flights::Flights(const schedules::model::GlobalParameters& flexray, const FlexRayWays& ways, MediumQueue& queue,
+                 FramePool& pool, std::size_t room)
+    : flexray_(flexray), queue_(queue), pool_(pool), lanes_(2 * ways.nodes()), most_stops_(ways.nodes_on_bus()) {
+  add_flights(room);
+}
+
+// Merges two signals, without their frames. Symbols of one kind may remain one.
+Arrival Flights::drawn_together(const Arrival& a, const Arrival& b, const Lane& at) const {
+  const auto both = [&](Signal signal) { return a.signal == signal && b.signal == signal; };
   Arrival one = a;
   one.logged = ChannelLog::kNone;
-  one.signal = cas ? Signal::kCas : Signal::kUndecodable;
+  one.signal = Signal::kUndecodable;
+  if (both(Signal::kCas)) one.signal = Signal::kCas;
+  if (both(Signal::kWakeup) && bus::wire::wakes(flexray_, at.wakeups())) one.signal = Signal::kWakeup;
   one.start = std::min(a.start, b.start);
   one.end = std::max(a.end, b.end);
   return one;
-}
-
-}  // namespace
-
-Flights::Flights(const FlexRayWays& ways, MediumQueue& queue, FramePool& pool, std::size_t room)
-    : queue_(queue), pool_(pool), lanes_(2 * ways.nodes()), most_stops_(ways.nodes_on_bus()) {
-  add_flights(room);
 }
 
 void Flights::add_flights(std::size_t count) {
@@ -61,6 +64,7 @@ void Flights::take_over(FlightNumber number, const FlightPlace& place, ChannelLo
 void Flights::put(FlightNumber number, NodeId receiver, const Arrival& arrival) {
   Flight& flight = flights_[number];
   Lane& pending = lane(receiver, arrival.channel);
+  if (arrival.signal == Signal::kWakeup) pending.note_wakeup(arrival);
   Pending made{arrival, next_id_++, flight.place.sender, false};
   const Stop own{arrival.end, receiver, made.id};
   if (flight.last_heard.receiver == kNoNode || own.end > flight.last_heard.end) flight.last_heard = own;
@@ -71,7 +75,7 @@ void Flights::put(FlightNumber number, NodeId receiver, const Arrival& arrival) 
     release(pool_, made.arrival);
     if (log_ != nullptr) log_->lost(made.arrival.logged), log_->lost(other->arrival.logged);
     if (other->arrival.end >= made.arrival.end) made.id = other->id;  // else the other's stop finds nothing
-    made.arrival = drawn_together(made.arrival, other->arrival);
+    made.arrival = drawn_together(made.arrival, other->arrival, pending);
     made.merged = true;
   }
   pending.add(made);

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "bus/wire/symbols.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "sim/medium/arrival.h"
@@ -30,7 +31,8 @@ namespace ttf::sim::medium {
 class Flights {
  public:
   // Has room for `room` flights from the beginning, and grows.
-  Flights(const FlexRayWays& ways, MediumQueue& queue, FramePool& pool, std::size_t room);
+  Flights(const schedules::model::GlobalParameters& flexray, const FlexRayWays& ways, MediumQueue& queue,
+          FramePool& pool, std::size_t room);
   Flights(const Flights&) = delete;
   Flights& operator=(const Flights&) = delete;
 
@@ -93,9 +95,18 @@ class Flights {
     }
     void clear() { room_.clear(); }
 
+    // Notes a wake-up pattern, before it is added.
+    void note_wakeup(const Arrival& pattern) {
+      if (room_.empty()) wakeups_.clear();
+      wakeups_.push_back({pattern.start - TrueTime{}, pattern.end - TrueTime{}});
+    }
+    // The wake-up patterns noted since the lane was empty; any overlap is of these.
+    std::span<const bus::wire::WakeupPattern> wakeups() const { return wakeups_; }
+
    private:
     static constexpr std::size_t kRoom = 64;
     std::vector<Pending> room_;
+    std::vector<bus::wire::WakeupPattern> wakeups_;
   };
   struct Stop {
     TrueTime end{};
@@ -110,6 +121,7 @@ class Flights {
   };
 
   void add_flights(std::size_t count);
+  Arrival drawn_together(const Arrival& a, const Arrival& b, const Lane& at) const;
   void land(FlightNumber number);
   std::span<Stop> stops_of(FlightNumber number) { return std::span(stops_).subspan(number * most_stops_, most_stops_); }
   static std::size_t lane_of(NodeId node, schedules::model::Channel channel) {
@@ -117,6 +129,7 @@ class Flights {
   }
   Lane& lane(NodeId node, schedules::model::Channel channel) { return lanes_[lane_of(node, channel)]; }
 
+  const schedules::model::GlobalParameters flexray_;
   MediumQueue& queue_;
   FramePool& pool_;
   ChannelLog* log_ = nullptr;

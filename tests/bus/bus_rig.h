@@ -17,6 +17,7 @@
 
 #include "bus/controller/controller.h"
 #include "bus/ports/flexray_port.h"
+#include "bus/wire/symbols.h"
 #include "schedules/model/cluster.h"
 #include "tests/bus/layouts.h"
 #include "timebase/oscillator.h"
@@ -151,6 +152,7 @@ class TestMedium {
     std::size_t sender, receiver;
     ports::Signal signal = ports::Signal::kFrame;
     std::vector<std::byte> bytes;
+    std::vector<wire::WakeupPattern> patterns = {};  // they overlap here
     auto order() const { return std::tuple(end, channel, sender, receiver); }
   };
 
@@ -181,14 +183,18 @@ class TestMedium {
   }
   // An arrival at one receiver, or at all except its sender.
   void put(Arrival arrival) {
+    if (arrival.signal == ports::Signal::kWakeup)
+      arrival.patterns = {{arrival.start - TrueTime{}, arrival.end - TrueTime{}}};
     for (auto other = pending_.begin(); other != pending_.end();) {
       if (other->receiver != arrival.receiver || other->channel != arrival.channel || other->end <= arrival.start ||
           other->start >= arrival.end) {
         ++other;
         continue;
       }
-      if (other->signal != ports::Signal::kCas || arrival.signal != ports::Signal::kCas)
-        arrival.signal = ports::Signal::kUndecodable;
+      arrival.patterns.insert(arrival.patterns.end(), other->patterns.begin(), other->patterns.end());
+      const bool symbols = arrival.signal == other->signal && arrival.signal != ports::Signal::kFrame;
+      const bool wakes = arrival.signal != ports::Signal::kWakeup || wire::wakes(flexray_, arrival.patterns);
+      if (!symbols || !wakes) arrival.signal = ports::Signal::kUndecodable;
       arrival.start = std::min(arrival.start, other->start);
       arrival.end = std::max(arrival.end, other->end);
       arrival.sender = std::min(arrival.sender, other->sender);
@@ -223,6 +229,7 @@ class TestMedium {
                             [](const Arrival& a, const Arrival& b) { return a.order() < b.order(); });
   }
 
+  schedules::model::GlobalParameters flexray_;  // the defaults of wake-up, as in all clusters of these tests
   std::vector<timebase::Oscillator> oscillators_;
   Duration delay_;
   TrueTime now_{};

@@ -216,6 +216,34 @@ TYPED_TEST_P(FlexRayPortLaws, L6_OverlappingCollisionAvoidanceSymbolsRemainOne) 
   EXPECT_NEAR(static_cast<double>((this->at(1)[0].end - this->at(1)[0].start).value), 200.0, 1.0);
 }
 
+// Two patterns of two symbols each, apart by anything up to twice their length. No shift of two makes them unreadable,
+// and any noise does.
+TYPED_TEST_P(FlexRayPortLaws, L6_OverlappingWakeupPatternsRemainOne) {
+  const bus::ports::Signal kWakeup = bus::ports::Signal::kWakeup;
+  const auto& g = this->bench_.parameters();
+  const std::int64_t symbol = this->ticks((g.gdWakeupSymbolTxLow + g.gdWakeupSymbolTxIdle) * g.gdBit_ps);
+  const std::int64_t pause = 4 * symbol + this->longest_delay();
+  std::int64_t start = this->kFirst;
+  std::vector<Reached> before;
+  for (std::int64_t shift = 1; shift < 2 * symbol; shift += symbol / 37, start += 2 * pause) {
+    const auto send = [&](std::size_t sender, bus::ports::Signal signal, std::int64_t from, std::int64_t to) {
+      this->bench_.port(sender).transmit({Channel::kA, signal, Microticks{from}, Microticks{to}, 0, {}});
+    };
+    before = this->at(1);
+    send(0, kWakeup, start, start + 2 * symbol);
+    send(2, kWakeup, start + shift, start + shift + 2 * symbol);
+    this->bench_.run_until(Microticks{start + pause});
+    ASSERT_EQ(this->at(1).size(), before.size() + 1) << "shift " << shift;
+    EXPECT_EQ(this->at(1).back().signal, kWakeup) << "shift " << shift;
+    EXPECT_NEAR(static_cast<double>((this->at(1).back().end - this->at(1).back().start).value),
+                static_cast<double>(shift + 2 * symbol), 1.0);
+  }
+  this->bench_.port(0).transmit({Channel::kA, kWakeup, Microticks{start}, Microticks{start + 2 * symbol}, 0, {}});
+  this->transmit_cas(2, Channel::kA, start + 10, start + 20);
+  this->bench_.run_until(Microticks{start + pause});
+  EXPECT_EQ(this->at(1).back().signal, bus::ports::Signal::kUndecodable);
+}
+
 TYPED_TEST_P(FlexRayPortLaws, L7_TheCarrierIsSensedFromStartToDelivery) {
   this->transmit(0, Channel::kA, this->kFirst, this->frame(0, 1, 8, Channel::kA));
   EXPECT_FALSE(this->bench_.port(1).carrier(Channel::kA)) << "before anything has arrived";
@@ -232,6 +260,7 @@ REGISTER_TYPED_TEST_SUITE_P(FlexRayPortLaws, L1_EveryTransmissionReachesEveryOth
                             L2_AControllerDoesNotHearItself, L3_ReceptionsComeInTheOrderOfTheirEnd, L3_TiesGoByChannel,
                             L4_AFrameIsDeliveredAtItsEnd, L5_TheMediumKeepsNoReferenceToTheBytes,
                             L6_SignalsThatOverlapArriveAsOneUndecodable, L6_ABridgeBetweenTwoSignalsMakesThemOne,
-                            L6_OverlappingCollisionAvoidanceSymbolsRemainOne, L7_TheCarrierIsSensedFromStartToDelivery);
+                            L6_OverlappingCollisionAvoidanceSymbolsRemainOne, L6_OverlappingWakeupPatternsRemainOne,
+                            L7_TheCarrierIsSensedFromStartToDelivery);
 
 }  // namespace ttf::laws

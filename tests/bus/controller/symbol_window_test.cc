@@ -186,6 +186,15 @@ TEST(SymbolWindow, AnythingButASymbolIsASyntaxError) {
   EXPECT_EQ(spoilt.seen(), error);
 }
 
+// gdCASRxLowMax is 91 bits of four microticks.
+TEST(SymbolWindow, ALowPhaseThatIsTooLongIsNoSymbol) {
+  Single longest, longer;
+  longest.hear(ports::Signal::kCas, 100, 91 * 4);
+  longer.hear(ports::Signal::kCas, 100, 91 * 4 + 1);
+  EXPECT_EQ(longest.seen(), SymbolWindowSeen{.valid_mts = true});
+  EXPECT_EQ(longer.seen(), SymbolWindowSeen{.syntax_error = true});
+}
+
 TEST(SymbolWindow, BothEndsAreBoundaries) {
   constexpr std::int64_t kLength = (kWindowEnd - kWindow) * 40;
   const SymbolWindowSeen valid{.valid_mts = true}, violation{.boundary_violation = true};

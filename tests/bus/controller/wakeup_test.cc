@@ -1,6 +1,7 @@
 // A controller's wake-up: its timers run as specified, and it always ends.
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "tests/bus/alone.h"
@@ -12,12 +13,12 @@ namespace {
 // A coldstart node whose host commanded WAKEUP at 0. Its listen time-out ends after two cycles of silence.
 // Then it sends its pattern on channel A.
 struct Waking {
-  schedules::model::Cluster cluster = patient_cluster();
+  schedules::model::Cluster cluster;
   NoPort port;
   Heard heard;
   FlexRayController controller{cluster, NodeId{0}, port, heard};
 
-  Waking() {
+  explicit Waking(schedules::model::Cluster made = patient_cluster()) : cluster(std::move(made)) {
     for (const auto command :
          {poc::PocEventKind::kConfig, poc::PocEventKind::kConfigComplete, poc::PocEventKind::kWakeup})
       controller.command(command, {});
@@ -34,6 +35,10 @@ struct Waking {
   void hear_noise(Microticks start, Microticks end) {
     controller.advance(end - Microticks{1});
     controller.receive({Channel::kA, ports::Signal::kUndecodable, start, end, {}});
+  }
+  void hear_pattern() {
+    controller.advance({10'000});
+    controller.receive({Channel::kA, ports::Signal::kWakeup, {10'000 - 1'920}, {10'000}, {}});
   }
   // Noise into the pattern: a collision, heard until the end of that noise.
   Microticks collide() {
@@ -71,6 +76,43 @@ TEST(Wakeup, WhileListeningTheTimerFollowsTheChannels) {
   EXPECT_EQ(node.kind(), poc::PocKind::kWakeupListen);  // since channel idle was recognised: some bits later
   node.controller.advance(end + node.timeout() + Microticks{11 * 4});
   EXPECT_EQ(node.kind(), poc::PocKind::kWakeupSend);
+}
+
+TEST(Wakeup, AnotherNodesPatternEndsTheWakeUp) {
+  Waking node;
+  node.hear_pattern();
+  EXPECT_EQ(node.kind(), poc::PocKind::kReady);
+  EXPECT_EQ(node.status(), poc::WakeupStatus::kReceivedPattern);
+}
+
+// The idle phases of the senders are shorter than this receiver asks for.
+TEST(Wakeup, APatternThatTheReceiverDoesNotRecogniseIsNone) {
+  schedules::model::Cluster cluster = Waking::patient_cluster();
+  cluster.flexray.gdWakeupSymbolTxIdle = 45;
+  Waking node(cluster);
+  node.hear_pattern();
+  EXPECT_EQ(node.kind(), poc::PocKind::kWakeupListen);
+}
+
+// A leading node gives way to another node's collision avoidance symbol, up to gdCASRxLowMax = 91 bits of four
+// microticks. So long are two that overlap. A longer low phase is none.
+TEST(CollisionAvoidanceSymbol, IsNoneIfItIsTooLong) {
+  for (const std::int64_t length : {39 * 4, 91 * 4, 91 * 4 + 1, 2'000}) {
+    const schedules::model::Cluster cluster = startup_cluster(2);
+    NoPort port;
+    Heard heard;
+    FlexRayController controller(cluster, NodeId{0}, port, heard);
+    controller.start_cold({});
+    const Microticks sent{cluster.nodes[0].flexray->pdListenTimeout};
+    controller.advance(sent);
+    ASSERT_EQ(controller.state().kind, poc::PocKind::kColdstartCollisionResolution);
+    const Microticks start = sent + Microticks{20'000};
+    controller.advance(start);
+    controller.receive({Channel::kA, ports::Signal::kCas, start, start + Microticks{length}, {}});
+    EXPECT_EQ(controller.state().kind,
+              length <= 91 * 4 ? poc::PocKind::kColdstartListen : poc::PocKind::kColdstartCollisionResolution)
+        << length;
+  }
 }
 
 TEST(Wakeup, ACollisionThatNothingExplainsEndsWithTheListenTimer) {
