@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/int128.h"
+#include "schedules/check/constraints.h"
 #include "schedules/file/loader.h"
 #include "schedules/model/limits.h"
 #include "schedules/model/wire_times.h"
@@ -41,6 +42,7 @@ std::string task_path(const model::Node& node, const model::Task& task) {
 }
 
 std::string ms(Duration duration) { return fmt::format("{} ms", static_cast<double>(duration.ns) / 1e6); }
+std::string number(std::int64_t value) { return fmt::format("{}", value); }
 std::string us(std::int64_t ps) { return fmt::format("{} us", static_cast<double>(ps) / 1e6); }
 std::string ns(std::int64_t ps) { return fmt::format("{} ns", static_cast<double>(ps) / 1e3); }
 
@@ -48,62 +50,29 @@ std::int64_t shortest_static_slot(const model::GlobalParameters& g) {
   return around_action_points(g, frame_bits(g, g.gPayloadLengthStatic) + model::kIdleDelimiterBits, 0);
 }
 
+std::int64_t shortest_symbol_window(const model::GlobalParameters& g) {
+  return around_action_points(g, g.gdTSSTransmitter + model::kCasBits + model::kIdleDelimiterBits, kDriverReaction_ps);
+}
+
 void check_cycle(const model::Cluster& cluster, ClusterFindings& findings) {
   const model::GlobalParameters& g = cluster.flexray;
   const auto wrong = [&](const char* name, std::int64_t value, const std::string& expected) {
     findings.parameter(fmt::format("flexray.{}", name), fmt::format("{}", value), expected);
   };
-  // Constraint 18.
-  const int difference = action_point_difference(g);
-  const int sum = g.gdStaticSlot * g.gNumberOfStaticSlots + difference + g.gdMinislot * g.gNumberOfMinislots +
-                  g.gdSymbolWindow + g.gdNIT;
-  if (sum != g.gMacroPerCycle)
-    wrong(
-        "gMacroPerCycle", g.gMacroPerCycle,
-        fmt::format("must be {} macroticks: {} slots x {} + {} (action point difference) + {} minislots x {} + symbol "
-                    "window {} + gdNIT {} (constraint 18)",
-                    sum, g.gNumberOfStaticSlots, g.gdStaticSlot, difference, g.gNumberOfMinislots, g.gdMinislot,
-                    g.gdSymbolWindow, g.gdNIT));
-  if (g.cycle_ps() != g.gdCycle_ps)
-    findings.parameter("flexray.gdCycle", us(g.gdCycle_ps),
-                       fmt::format("must be gMacroPerCycle * gdMacrotick = {}", us(g.cycle_ps())));
+  const model::NodeParameters none;
+  check_constraints(Constraint::On::kCluster, {cluster, none}, "flexray.", findings);
   if (g.cycle_ps() % 1000 != 0)
     findings.parameter("flexray.gdCycle", us(g.cycle_ps()), "must be a whole number of nanoseconds");
   if (!is_one_of(kBits_ps, g.gdBit_ps))
     findings.parameter("flexray.gdBit", us(g.gdBit_ps), "must be one of 0.1, 0.2, 0.4 us");
-  if (const auto needed = shortest_static_slot(g); g.gdStaticSlot < needed)
-    wrong("gdStaticSlot", g.gdStaticSlot,
-          fmt::format("must be at least {} macroticks to hold a frame of {} words between its action points", needed,
-                      g.gPayloadLengthStatic));
-  const std::int64_t precision = assumed_precision_ps(g);
-  const std::int64_t action_point =
-      model::ceil_div(std::max<std::int64_t>(precision - g.gdMinPropagationDelay_ps, 0), g.gdMacrotick_ps);
-  if (g.gdActionPointOffset < action_point)
-    wrong("gdActionPointOffset", g.gdActionPointOffset,
-          fmt::format("must be at least {} macroticks: the assumed precision is {}", action_point, us(precision)));
-  if (g.gdSymbolWindow > 0) {
-    const std::int64_t needed =
-        around_action_points(g, g.gdTSSTransmitter + model::kCasBits + model::kIdleDelimiterBits, kDriverReaction_ps);
-    if (g.gdSymbolWindow < needed)
-      wrong("gdSymbolWindow", g.gdSymbolWindow,
-            fmt::format("must be 0 (none) or at least {} macroticks (constraint 16)", needed));
-  }
   if (cluster.guardian && cluster.topology != model::Topology::kStar)
     findings.parameter("guardian", "true", "needs topology: star; a guardian sits in the middle of a star");
-  if (g.gOffsetCorrectionStart < g.gMacroPerCycle - g.gdNIT || g.gOffsetCorrectionStart >= g.gMacroPerCycle)
-    wrong("gOffsetCorrectionStart", g.gOffsetCorrectionStart,
-          fmt::format("must lie in the network idle time, {}..{} macroticks", g.gMacroPerCycle - g.gdNIT,
-                      g.gMacroPerCycle - 1));
   if (static_cast<Int128>(g.gdBit_ps) * g.baudrate != 1'000'000'000'000)
     wrong("baudrate", g.baudrate, fmt::format("must be 1 / gdBit, with gdBit = {}", us(g.gdBit_ps)));
   if (g.gNumberOfStaticSlots + g.gNumberOfMinislots > model::kLastSlot)
     wrong("gNumberOfMinislots", g.gNumberOfMinislots,
           fmt::format("must be at most {}: frame ids end at {}", model::kLastSlot - g.gNumberOfStaticSlots,
                       model::kLastSlot));
-  if (g.gMaxWithoutClockCorrectionFatal < g.gMaxWithoutClockCorrectionPassive)
-    wrong("gMaxWithoutClockCorrectionFatal", g.gMaxWithoutClockCorrectionFatal,
-          fmt::format("must be {}..15: not below gMaxWithoutClockCorrectionPassive",
-                      g.gMaxWithoutClockCorrectionPassive));
   if (g.gdMinPropagationDelay_ps > g.gdMaxPropagationDelay_ps)
     findings.parameter("flexray.gdMinPropagationDelay", us(g.gdMinPropagationDelay_ps),
                        fmt::format("must be at most gdMaxPropagationDelay = {}", us(g.gdMaxPropagationDelay_ps)));

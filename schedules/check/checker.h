@@ -1,10 +1,10 @@
 // Proves a cluster consistent before anything runs, beyond the key-by-key tests of the loader.
 //
 // The rules and their sources:
-//   cycle        constraints 16 and 18, static slot length, action point against the assumed precision, durations of
-//                cycle, macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
+//   constraints  those of FlexRay 2.1A, annex B, on single parameters: one table (schedules/check/constraints.h)
+//   cycle        bit and baud rate, propagation delays, frame ids
 //   star         a guardian needs a star
-//   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
+//   clocks       drifts, sync and startup nodes, key slots, wake-up channels
 //   slots        one owner per slot, cycle and channel; a sender is attached to the frame's channels; the payload has
 //                room for the fragment and any network management vector; a PDU's fragments are complete
 //   dynamic      minislots that all clocks count alike, frames that end within the segment
@@ -58,6 +58,7 @@ class ClusterFindings {
 std::string task_path(const model::Node& node, const model::Task& task);
 // Returns for example "2.5 ms".
 std::string ms(Duration duration);
+std::string number(std::int64_t value);
 // Return picoseconds as text: "0.1 us", "12.5 ns".
 std::string us(std::int64_t ps);
 std::string ns(std::int64_t ps);
@@ -78,7 +79,9 @@ void check_responses(const model::Cluster& cluster, NodeId node, ClusterFindings
 void check_flow(const model::Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
 void check_loops(const model::Cluster& cluster, ClusterFindings& findings);  // after all others
 
-// Returns the shortest static slot for a frame of gPayloadLengthStatic words, in macroticks.
+// Return the shortest static slot for a frame of gPayloadLengthStatic words, and the shortest symbol window (constraint
+// 16), in macroticks.
 std::int64_t shortest_static_slot(const model::GlobalParameters& flexray);
+std::int64_t shortest_symbol_window(const model::GlobalParameters& flexray);
 
 }  // namespace ttf::schedules::check

@@ -1,14 +1,14 @@
 // The checker's rules about clocks and start-up nodes: one table for nodes, one for controllers, one for the
-// cluster. A finding is about one parameter, in the order of the tables.
+// cluster. A finding is about one parameter, in the order of the tables. The constraints of FlexRay's annex B have a
+// table of their own (constraints.h).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "core/int128.h"
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/check/checker.h"
-#include "schedules/model/wire_times.h"
+#include "schedules/check/constraints.h"
 
 namespace ttf::schedules::check {
 namespace {
@@ -27,7 +27,6 @@ void check_rules(const Rule<Subject> (&rules)[count], const Subject& subject, co
     if (!rule.holds(subject)) findings.parameter(path + rule.parameter, rule.value(subject), rule.sentence(subject));
 }
 
-std::string number(std::int64_t value) { return fmt::format("{}", value); }
 std::string ppm(std::int64_t ppb) { return fmt::format("{}", static_cast<double>(ppb) / 1e3); }
 
 using N = const model::Node&;
@@ -44,29 +43,10 @@ constexpr std::int64_t kSamples[] = {1, 2, 4};
 struct Controller {
   const model::Cluster& cluster;
   NodeId id;
-  std::int64_t worst_drift;  // any controller's, in parts per billion
   const model::GlobalParameters& g = cluster.flexray;
   const model::Node& node = cluster.node(id);
   const model::NodeParameters& p = *node.flexray;
 };
-
-// Assumes the other node with the largest opposite drift; counted in own microticks.
-std::int64_t least_rate_correction(const Controller& c) {
-  return model::ceil_div(static_cast<Int128>(c.p.pMicroPerCycle) * (analysis::worst_drift_ppb(c.node) + c.worst_drift),
-                         1'000'000'000 - c.worst_drift);
-}
-
-std::int64_t least_offset_correction(const Controller& c) {
-  return model::ceil_div(assumed_precision_ps(c.g), c.p.pdMicrotick_ps);
-}
-
-// Returns the largest offset correction that leaves a microtick to each macrotick after gOffsetCorrectionStart,
-// in the shortest cycle after rate correction. Both corrections include their external terms.
-std::int64_t most_offset_correction(const Controller& c) {
-  const std::int64_t macroticks = c.g.gMacroPerCycle - c.g.gOffsetCorrectionStart;
-  return macroticks * (c.p.pMicroPerCycle - c.p.pRateCorrectionOut - c.p.pExternRateCorrection) / c.g.gMacroPerCycle -
-         macroticks - c.p.pExternOffsetCorrection;
-}
 
 // Checks that the key slot is static and the node's own, on all its channels, in every cycle.
 bool owns_its_key_slot(const Controller& c) {
@@ -84,15 +64,6 @@ const model::FrameSlot* frame_in_another_slot(const Controller& c) {
 
 using C = const Controller&;
 constexpr Rule<Controller> kControllerRules[] = {
-    {"pMicroPerCycle",
-     [](C c) { return static_cast<Int128>(c.p.pMicroPerCycle) * c.p.pdMicrotick_ps == c.g.gdCycle_ps; },
-     [](C c) { return number(c.p.pMicroPerCycle); },
-     [](C c) {
-       return fmt::format("must make gdCycle = {} out of microticks of {}", us(c.g.gdCycle_ps), ns(c.p.pdMicrotick_ps));
-     }},
-    {"pdMicrotick", [](C c) { return c.p.pdMicrotick_ps <= c.g.gdMaxMicrotick_ps; },
-     [](C c) { return ns(c.p.pdMicrotick_ps); },
-     [](C c) { return fmt::format("must be at most gdMaxMicrotick = {}", ns(c.g.gdMaxMicrotick_ps)); }},
     {"pdMicrotick", [](C c) { return is_one_of(kMicroticks_ps, c.p.pdMicrotick_ps); },
      [](C c) { return ns(c.p.pdMicrotick_ps); }, [](C) -> std::string { return "must be one of 12.5, 25, 50 ns"; }},
     {"pSamplesPerMicrotick", [](C c) { return is_one_of(kSamples, c.p.pSamplesPerMicrotick); },
@@ -106,33 +77,6 @@ constexpr Rule<Controller> kControllerRules[] = {
      [](C c) {
        return fmt::format("must be pdMicrotick = {1} divided by a sample, gdBit / 8 = {0}",
                           ns(c.g.gdBit_ps / model::kSamplesPerBit), ns(c.p.pdMicrotick_ps));
-     }},
-    {"pRateCorrectionOut", [](C c) { return c.p.pRateCorrectionOut >= least_rate_correction(c); },
-     [](C c) { return number(c.p.pRateCorrectionOut); },
-     [](C c) {
-       return fmt::format("must be at least {} microticks to follow the worst drift between two nodes",
-                          least_rate_correction(c));
-     }},
-    {"pOffsetCorrectionOut",
-     [](C c) {
-       return c.p.pOffsetCorrectionOut >= least_offset_correction(c) &&
-              c.p.pOffsetCorrectionOut <= most_offset_correction(c);
-     },
-     [](C c) { return number(c.p.pOffsetCorrectionOut); },
-     [](C c) {
-       return fmt::format(
-           "must be {}..{} microticks: from the assumed precision to the room after gOffsetCorrectionStart at the "
-           "fastest rate",
-           least_offset_correction(c), most_offset_correction(c));
-     }},
-    {"pClusterDriftDamping",
-     [](C c) {
-       return static_cast<std::int64_t>(c.p.pClusterDriftDamping) * c.p.pdMicrotick_ps <=
-              static_cast<std::int64_t>(c.g.gClusterDriftDamping) * c.g.gdMaxMicrotick_ps;
-     },
-     [](C c) { return number(c.p.pClusterDriftDamping); },
-     [](C c) {
-       return fmt::format("must not exceed gClusterDriftDamping = {} longest microticks", c.g.gClusterDriftDamping);
      }},
     {"pLatestTx", [](C c) { return c.p.pLatestTx <= c.g.gNumberOfMinislots; },
      [](C c) { return number(c.p.pLatestTx); },
@@ -202,9 +146,11 @@ void check_clocks(const model::Cluster& cluster, ClusterFindings& findings) {
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     const model::Node& node = cluster.nodes[n];
     check_rules(kNodeRules, node, fmt::format("nodes.{}.", node.name), findings);
-    if (node.flexray)
-      check_rules(kControllerRules, Controller{cluster, static_cast<NodeId>(n), worst_drift},
-                  fmt::format("nodes.{}.flexray.", node.name), findings);
+    if (!node.flexray) continue;
+    const std::string path = fmt::format("nodes.{}.flexray.", node.name);
+    check_constraints(Constraint::On::kController,
+                      {cluster, *node.flexray, analysis::worst_drift_ppb(node), worst_drift}, path, findings);
+    check_rules(kControllerRules, Controller{cluster, static_cast<NodeId>(n)}, path, findings);
   }
   check_rules(kClusterRules, members, "", findings);
 }

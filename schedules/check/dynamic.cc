@@ -8,43 +8,10 @@
 
 #include "schedules/analysis/minislots.h"
 #include "schedules/check/checker.h"
-#include "schedules/model/wire_times.h"
+#include "schedules/check/constraints.h"
 
 namespace ttf::schedules::check {
 namespace {
-
-// Checks that a transmission begins and ends in the same minislot on every receiver's clock. Also checks that
-// receivers see the channel idle before the next slot may begin. (Annex B: gdMinislotActionPointOffset,
-// gdMinislot, gdDynamicSlotIdlePhase.)
-void check_grid(const model::Cluster& cluster, ClusterFindings& findings) {
-  const model::GlobalParameters& g = cluster.flexray;
-  const auto wrong = [&](const char* name, std::int64_t value, const std::string& expected) {
-    findings.parameter(fmt::format("flexray.{}", name), fmt::format("{}", value), expected);
-  };
-  const std::int64_t precision = assumed_precision_ps(g);
-  const std::int64_t offset = model::ceil_div(
-      model::scaled(std::max<std::int64_t>(precision - g.gdMinPropagationDelay_ps, 0)), shortest_macroticks(g, 1));
-  if (g.gdMinislotActionPointOffset < offset)
-    wrong("gdMinislotActionPointOffset", g.gdMinislotActionPointOffset,
-          fmt::format("must be at least {} macroticks, the assumed precision, if the dynamic segment is used", offset));
-  const std::int64_t length =
-      g.gdMinislotActionPointOffset +
-      model::ceil_div(model::scaled(precision + g.gdMaxPropagationDelay_ps), shortest_macroticks(g, 1));
-  if (g.gdMinislot < length)
-    wrong("gdMinislot", g.gdMinislot,
-          fmt::format("must be at least {} macroticks if the dynamic segment is used: its action point, the longest "
-                      "propagation delay and the assumed precision",
-                      length));
-  const Int128 idle = longest_bits(g, model::kIdleDelimiterBits) +
-                      model::scaled(precision + g.gdMaxPropagationDelay_ps) -
-                      shortest_macroticks(g, g.gdMinislot - g.gdMinislotActionPointOffset);
-  const std::int64_t phase = idle <= 0 ? 0 : model::ceil_div(idle, shortest_macroticks(g, g.gdMinislot));
-  if (g.gdDynamicSlotIdlePhase < phase)
-    wrong("gdDynamicSlotIdlePhase", g.gdDynamicSlotIdlePhase,
-          fmt::format("must be at least {} minislots if the dynamic segment is used: receivers must see the channel "
-                      "idle after a frame",
-                      phase));
-}
 
 // Checks that the longest frame of a node ends in the segment if it begins in minislot pLatestTx. Also checks
 // that each of its frames can have its turn by that minislot.
@@ -113,7 +80,9 @@ void check_dynamic(const model::Cluster& cluster, ClusterFindings& findings) {
   for (const model::FrameSlot& frame : cluster.frames)
     if (is_dynamic(g, frame) && frame.pdu != kNoPdu && cluster.node(frame.sender).flexray) senders.insert(frame.sender);
   if (senders.empty()) return;
-  check_grid(cluster, findings);
+  // A transmission begins and ends in the same minislot on every receiver's clock.
+  const model::NodeParameters none;
+  check_constraints(Constraint::On::kDynamicSegment, {cluster, none}, "flexray.", findings);
   for (const NodeId sender : senders) check_sender(cluster, sender, findings);
   std::set<PduId> unbounded;  // reported once per list
   for (const model::FrameSlot& frame : cluster.frames) {

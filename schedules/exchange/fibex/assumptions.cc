@@ -46,6 +46,16 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
     set_next_to(g, file::kGlobalIntegers, "gMacroPerCycle", g.gdCycle_ps / g.gdMacrotick_ps);
   if (of_three < 3 && g.cycle_ps() != g.gdCycle_ps) missing("a flexray:CYCLE of a whole number of macroticks");
   if (!given("gdBit")) g.gdBit_ps = kPicosecondsPerSecond / g.baudrate;
+  // Wake-up symbols last for times that are the same at every bit rate.
+  const auto assume = [&](std::string_view parameter, std::int64_t value) {
+    if (!given(parameter)) set_next_to(g, file::kGlobalIntegers, parameter, value);
+  };
+  const std::int64_t tenth_us = std::max<std::int64_t>(g.gdBit_ps / 100'000, 1);
+  assume("gdWakeupSymbolTxLow", 60 / tenth_us);
+  assume("gdWakeupSymbolTxIdle", 180 / tenth_us);
+  assume("gdWakeupSymbolRxLow", 55 / tenth_us);
+  assume("gdWakeupSymbolRxIdle", (60 - 1) / tenth_us);
+  assume("gdWakeupSymbolRxWindow", 300 / tenth_us + 1);
   for (const auto& p : file::kGlobalScaled)
     if (!given(p.name) && (g.*p.member < p.low || g.*p.member > p.high))
       missing(fmt::format("parameters from which {} follows in {}..{} {}", p.name, scaled_text(p.low, p.scale),
@@ -90,10 +100,13 @@ model::NodeParameters assume_local(const FibexEcu& ecu, const model::GlobalParam
   // after one cycle.
   const std::int64_t drift = ecu.max_drift.value_or(model::ceil_div(std::int64_t{p.pMicroPerCycle} * 6, 1997));
   assume("pRateCorrectionOut", drift);
-  assume("pdListenTimeout", 2 * (p.pMicroPerCycle + drift));
+  assume("pdListenTimeout", 2 * (std::int64_t{p.pMicroPerCycle} + p.pRateCorrectionOut));
   const std::int64_t precision = model::ceil_div(assumed_precision_ps(global), p.pdMicrotick_ps);
   assume("pOffsetCorrectionOut", precision);
-  assume("pdAcceptedStartupRange", precision);
+  assume("pdAcceptedStartupRange", model::ceil_div(model::scaled(assumed_precision_ps(global)),
+                                                   p.pdMicrotick_ps * (model::kWhole - model::kDeviation)));
+  assume("pDelayCompensationA", global.gdMinPropagationDelay_ps / p.pdMicrotick_ps);
+  assume("pDelayCompensationB", global.gdMinPropagationDelay_ps / p.pdMicrotick_ps);
   const auto initial_offset = [&](int delay) {
     return global.gdActionPointOffset +
            model::ceil_div((p.pDecodingCorrection + delay) * p.pdMicrotick_ps, global.gdMacrotick_ps);
