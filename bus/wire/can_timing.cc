@@ -101,8 +101,8 @@ constexpr std::array<int, 16> kLengths{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24
 
 }  // namespace
 
-Duration can_frame_duration(const schedules::model::CanBus& bus, std::uint32_t identifier,
-                            std::span<const std::byte> data) {
+CanFrameTimes can_frame_times(const schedules::model::CanBus& bus, std::uint32_t identifier,
+                              std::span<const std::byte> data) {
   const int bytes = static_cast<int>(data.size());
   const auto code =
       static_cast<std::uint32_t>(std::lower_bound(kLengths.begin(), kLengths.end(), bytes) - kLengths.begin());
@@ -127,7 +127,14 @@ Duration can_frame_duration(const schedules::model::CanBus& bus, std::uint32_t i
     stuffing.bytes(crc << 1 | (~crc & 1u), 2);
     bits.nominal += stuffing.count();
   }
-  return schedules::analysis::can_duration(bus, bits);
+  const schedules::analysis::CanBits until_accepted{bits.nominal - schedules::analysis::kBitsAfterAcceptance,
+                                                    bits.data};
+  return {schedules::analysis::can_duration(bus, until_accepted), schedules::analysis::can_duration(bus, bits)};
+}
+
+Duration can_frame_duration(const schedules::model::CanBus& bus, std::uint32_t identifier,
+                            std::span<const std::byte> data) {
+  return can_frame_times(bus, identifier, data).idle;
 }
 
 }  // namespace ttf::bus::wire

@@ -11,9 +11,17 @@
 
 namespace ttf::bus::wire {
 
-// Returns the time from the start of frame to the end of the intermission (bus idle again), rounded up to
-// whole nanoseconds. Frames are base frames: only the identifier's low 11 bits count. The data must have a
-// length that a frame can have.
+// Times since the start of frame, rounded up to whole nanoseconds.
+struct CanFrameTimes {
+  Duration accepted{};  // the receivers have the frame: the last but one bit of its end of frame is over
+  Duration idle{};      // the bus is idle again: the intermission is over
+};
+// Frames are base frames: only the identifier's low 11 bits count. The data must have a length that a frame can
+// have.
+CanFrameTimes can_frame_times(const schedules::model::CanBus& bus, std::uint32_t identifier,
+                              std::span<const std::byte> data);
+
+// Returns the time until the bus is idle again.
 Duration can_frame_duration(const schedules::model::CanBus& bus, std::uint32_t identifier,
                             std::span<const std::byte> data);
 

@@ -31,8 +31,10 @@ void PacedCan::begin_first(TrueTime at) {
   const Waiting& waiting = ring_[first_];
   began_ = now_();
   began_.true_time = at;
-  through_ = began_.true_time +
-             bus::wire::can_frame_duration(bus_, waiting.identifier, std::span(waiting.data).first(waiting.size));
+  const bus::wire::CanFrameTimes times =
+      bus::wire::can_frame_times(bus_, waiting.identifier, std::span(waiting.data).first(waiting.size));
+  through_ = at + times.accepted;
+  idle_from_ = at + times.idle;
 }
 
 TrueTime PacedCan::next() const { return count_ == 0 ? TrueTime{std::numeric_limits<std::int64_t>::max()} : through_; }
@@ -49,7 +51,6 @@ PacedCan::Departure PacedCan::leave() {
   departure.sent.identifier = waiting.identifier;
   departure.sent.flexible_data_rate = waiting.flexible_data_rate;
   departure.sent.data = data;
-  idle_from_ = through_;
   first_ = (first_ + 1) % ring_.size();
   // A late departure does not delay the next frame, which was already waiting.
   if (--count_ > 0) begin_first(idle_from_);

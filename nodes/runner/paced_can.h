@@ -1,5 +1,5 @@
-// A node's place on a private CAN in real time. Frames leave one after the other, each when a CAN of the
-// cluster's bit rates would have carried it. Media such as vcan carry a hundred frames in no time, so a task
+// A node's place on a private CAN in real time. Frames leave one after the other, each when the receivers on a CAN of
+// the cluster's bit rates would have accepted it. Media such as vcan carry a hundred frames in no time, so a task
 // that a list activates would run milliseconds too early. Frames of other nodes do not delay them here; a real
 // bus delays them by itself.
 #pragma once
@@ -25,7 +25,7 @@ class PacedCan final : public bus::ports::CanPort {
   // Queues a frame; drops and counts it if there is no room.
   void send(const bus::ports::CanFrame& frame) override;
 
-  // Returns the end of the first waiting frame; far in the future if no frame waits.
+  // Returns the acceptance of the first waiting frame; far in the future if no frame waits.
   TrueTime next() const;
   struct Departure {
     bus::ports::CanFrame frame;
@@ -50,8 +50,8 @@ class PacedCan final : public bus::ports::CanPort {
   const std::function<recording::records::Stamp()> now_;
   std::vector<Waiting> ring_;
   std::size_t first_ = 0, count_ = 0;
-  recording::records::Stamp began_;  // start of the first waiting frame
-  TrueTime through_{}, idle_from_{};
+  recording::records::Stamp began_;   // start of the first waiting frame
+  TrueTime through_{}, idle_from_{};  // the first waiting frame is accepted; the bus is idle behind it
   std::uint64_t dropped_ = 0;
 };
 

@@ -48,7 +48,7 @@ inline constexpr ObjectId kClutterObject{0xffff};
 struct CanFrameSent {
   std::uint8_t bus = 0;  // index in Cluster::can_buses
   Stamp start{};         // the frame won the arbitration
-  Stamp end{};           // the frame has left, intermission included
+  Stamp end{};           // its receivers have accepted it; the bus is idle four bit times later
   std::uint32_t identifier = 0;
   bool flexible_data_rate = false;
   PduId pdu = kNoPdu;

@@ -54,7 +54,7 @@ class BoundFinder {
       if (message.pdu != pdu) continue;
       const auto worst = can_worst_response(cluster_, bus, message);
       if (!worst) return;
-      const Duration best = can_best_case(bus, cluster_.pdu(pdu).fragment_bytes);
+      const Duration best = can_soonest_arrival(bus, cluster_.pdu(pdu).fragment_bytes);
       return found_.all.push_back(
           {own(message.shortest_period.ns), std::max<std::int64_t>(0, (*worst - best).ns) + model::kGranularity_ns});
     }

@@ -10,12 +10,11 @@
 namespace ttf::schedules::analysis {
 namespace {
 
-constexpr int kStuffedClassic = 34;        // SOF to the end of the CRC, without data
-constexpr int kUnstuffed = 13;             // CRC delimiter to the end of the intermission
-constexpr std::int64_t kIntermission = 3;  // part of the unstuffed bits
-constexpr int kArbitrationFd = 17;         // SOF, identifier, RRS, IDE, FDF, res, BRS
-constexpr int kStuffedFd = 14;             // part of these, SOF to IDE: FDF, res and BRS alternate, so a run ends there
-constexpr int kControlFd = 5;              // ESI, DLC
+constexpr int kStuffedClassic = 34;  // SOF to the end of the CRC, without data
+constexpr int kUnstuffed = 13;       // CRC delimiter to the end of the intermission
+constexpr int kArbitrationFd = 17;   // SOF, identifier, RRS, IDE, FDF, res, BRS
+constexpr int kStuffedFd = 14;       // part of these, SOF to IDE: FDF, res and BRS alternate, so a run ends there
+constexpr int kControlFd = 5;        // ESI, DLC
 
 }  // namespace
 
@@ -61,7 +60,13 @@ Duration can_best_case(const model::CanBus& bus, int bytes) {
 }
 
 Duration can_soonest_arrival(const model::CanBus& bus, int bytes) {
-  return can_best_case(bus, bytes) - Duration{kIntermission * 1'000'000'000 / bus.nominal_bit_rate};
+  CanBits bits = can_unstuffed_bits(bus, bytes);
+  bits.nominal -= kBitsAfterAcceptance;
+  return can_duration(bus, bits);
+}
+
+Duration can_after_acceptance(const model::CanBus& bus) {
+  return {kBitsAfterAcceptance * 1'000'000'000 / bus.nominal_bit_rate};
 }
 
 Duration can_list_worst_case(const model::CanBus& bus, const model::PduLayout& layout) {
@@ -94,7 +99,7 @@ std::optional<Duration> can_worst_response(const model::Cluster& cluster, const 
       if (other.identifier < message.identifier)
         next += can_list_worst_case(bus, cluster.pdu(other.pdu)) * (response.ns / other.shortest_period.ns + 1);
     next.ns = static_cast<std::int64_t>(std::ceil(static_cast<double>(next.ns) / (1.0 - bus.other_load)));
-    if (next == response) return response;
+    if (next == response) return response - can_after_acceptance(bus);
     response = next;
   }
 }

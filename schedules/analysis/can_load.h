@@ -39,11 +39,17 @@ CanBits can_unstuffed_bits(const model::CanBus& bus, int bytes);
 // Rounded up to whole nanoseconds.
 Duration can_duration(const model::CanBus& bus, CanBits bits);
 
+// The bits behind a frame's acceptance by its receivers: the last bit of its end of frame, which they do not wait
+// for, and the intermission (ISO 11898-1:2015, 10.9).
+inline constexpr std::int64_t kBitsAfterAcceptance = 1 + 3;
+// Returns their time, rounded down.
+Duration can_after_acceptance(const model::CanBus& bus);
+
 // Times from start of frame to the end of the intermission; `bytes` must fit a frame.
 Duration can_worst_case(const model::CanBus& bus, int bytes);  // any data
 Duration can_best_case(const model::CanBus& bus, int bytes);   // without stuff bits except the fixed ones
 
-// Returns the time from start of frame to its arrival: can_best_case() without the intermission.
+// Returns the time from start of frame to its acceptance, without stuff bits except the fixed ones.
 Duration can_soonest_arrival(const model::CanBus& bus, int bytes);
 
 // Returns the time of all fragments of a full list of this message.
@@ -53,7 +59,7 @@ Duration can_list_worst_case(const model::CanBus& bus, const model::PduLayout& l
 // included.
 double can_worst_load(const model::Cluster& cluster, const model::CanBus& bus);
 
-// Returns the time from the queueing of a full list of `message` to the end of its last frame. It includes one
+// Returns the time from the queueing of a full list of `message` to the acceptance of its last frame. It includes one
 // frame of lower priority that has just begun, and every list of higher priority (lower identifier) at its
 // shortest period. The bus' other load counts as having the highest priority, with one longest frame beyond its
 // share. Returns nullopt if the response has no bound.

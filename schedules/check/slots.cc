@@ -210,13 +210,15 @@ void check_can(const model::Cluster& cluster, ClusterFindings& findings) {
       continue;  // responses may have no bound
     }
     for (const model::CanMessage& message : bus.messages) {
-      // The response is a bound only if no second list of the message is queued while the first is on its way.
+      // The response is a bound only if no second list of the message is queued while the first is on its way, or the
+      // bus is not idle yet behind it.
       const auto response = analysis::can_worst_response(cluster, bus, message);
-      if (response && *response > message.shortest_period)
+      const auto until_idle = response ? std::optional(*response + analysis::can_after_acceptance(bus)) : std::nullopt;
+      if (until_idle && *until_idle > message.shortest_period)
         findings.at(
             message.line, fmt::format("{}.messages.{}.shortest_period", path, cluster.pdu(message.pdu).name),
             ms(message.shortest_period),
-            fmt::format("must be at least {}: from queueing a full list to its last frame's end", ms(*response)));
+            fmt::format("must be at least {}: from queueing a full list to its last frame's end", ms(*until_idle)));
     }
   }
 }

@@ -68,11 +68,11 @@ void CanMedium::arbitrate(TrueTime now) {
   });
   const Pending frame = *winner;
   pending_.erase(winner);
-  const Duration length =
-      bus::wire::can_frame_duration(cluster_.can_buses[bus_], frame.identifier, pool_.bytes(frame.frame));
-  const TrueTime end = now + length;
-  busy_ += length;
-  idle_from_ = end;
+  const bus::wire::CanFrameTimes times =
+      bus::wire::can_frame_times(cluster_.can_buses[bus_], frame.identifier, pool_.bytes(frame.frame));
+  const TrueTime accepted = now + times.accepted;
+  busy_ += times.idle;
+  idle_from_ = now + times.idle;
   for (const NodeId node : nodes_) {
     if (node == frame.sender) continue;
     MediumEvent event;
@@ -84,11 +84,11 @@ void CanMedium::arbitrate(TrueTime now) {
     event.frame = frame.frame;
     event.sender = static_cast<std::uint8_t>(frame.sender);
     event.start = now;
-    queue_.schedule(end, Phase::kArrival, event.node, event);
+    queue_.schedule(accepted, Phase::kArrival, event.node, event);
   }
-  report(frame, now, end);
+  report(frame, now, accepted);
   pool_.release(frame.frame);
-  if (!pending_.empty()) arbitrate_at(end);
+  if (!pending_.empty()) arbitrate_at(idle_from_);
 }
 
 void CanMedium::power_off(NodeId node) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "core/random.h"
@@ -95,9 +96,11 @@ class WireFrame {
   }
 
   const std::vector<Bit>& bits() const { return bits_; }
-  Duration at(std::int64_t nominal, std::int64_t data) const {  // rates that divide a second's nanoseconds
+  // The duration without the last bits; the rates divide a second's nanoseconds.
+  Duration at(std::int64_t nominal, std::int64_t data, std::size_t without = 0) const {
     std::int64_t ns = 0;
-    for (const Bit& bit : bits_) ns += 1'000'000'000 / (bit.fast ? data : nominal);
+    for (const Bit& bit : std::span(bits_).first(bits_.size() - without))
+      ns += 1'000'000'000 / (bit.fast ? data : nominal);
     return {ns};
   }
 
@@ -229,6 +232,24 @@ TEST(CanTiming, RatesSwitchAtBrsAndBackAtTheCrcDelimiter) {
   EXPECT_EQ(can_frame_duration(fast(), 0x555, twenty), Duration{30'000 + (5 + 160 + 32) * 200});
 }
 
+// Of the thirteen bits behind the CRC, the receivers wait for nine: its delimiter, two of the acknowledgement and six
+// of seven of the end of frame.
+TEST(CanTiming, ReceiversAcceptAtTheLastButOneBitOfTheEndOfFrame) {
+  RandomStream stream({6, 0, Purpose::kTest, 4, 0});
+  for (int run = 0; run < 2000; ++run) {
+    const auto id = static_cast<std::uint32_t>(stream.integer(0, 2047));
+    for (const schedules::model::CanBus& bus : {classic(), fast()}) {
+      const auto data = drawn_data(
+          stream, bus.flexible_data_rate ? kFdLengths[stream.integer(0, 15)] : static_cast<int>(stream.integer(0, 8)));
+      const CanFrameTimes times = can_frame_times(bus, id, data);
+      const WireFrame frame =
+          bus.flexible_data_rate ? WireFrame::fd_frame(id, data) : WireFrame::classic_frame(id, data);
+      ASSERT_EQ(times.idle, frame.at(1'000'000, bus.data_bit_rate));
+      ASSERT_EQ(times.accepted, frame.at(1'000'000, bus.data_bit_rate, 4));
+    }
+  }
+}
+
 TEST(CanTiming, RoundsUpToWholeNanoseconds) {
   schedules::model::CanBus odd = classic();
   odd.nominal_bit_rate = odd.data_bit_rate = 300'000;  // 3333.3 ns
@@ -237,6 +258,7 @@ TEST(CanTiming, RoundsUpToWholeNanoseconds) {
     const auto bits = static_cast<std::int64_t>(WireFrame::classic_frame(id, {}).bits().size());
     rounded += bits % 3 != 0;
     EXPECT_EQ(can_frame_duration(odd, id, {}), Duration{(bits * 10'000 + 2) / 3}) << id;
+    EXPECT_EQ(can_frame_times(odd, id, {}).accepted, Duration{((bits - 4) * 10'000 + 2) / 3}) << id;
   }
   EXPECT_GT(rounded, 10);
 }

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "bus/wire/can_timing.h"
 #include "drives/step_catalog.h"
 #include "schedules/analysis/age_stages.h"
 #include "schedules/analysis/ages.h"
@@ -80,8 +81,9 @@ struct Followed final : recording::records::Sink {
     if (image && use.image_sequence == *image && used == Duration{}) used = use.stamp.global - *measured;
   }
   Duration under_worst(const recording::records::CanFrameSent& sent) const {
-    return schedules::analysis::can_worst_case(cluster.can_buses[sent.bus], static_cast<int>(sent.data.size())) -
-           (sent.end.true_time - sent.start.true_time);
+    const schedules::model::CanBus& bus = cluster.can_buses[sent.bus];
+    return schedules::analysis::can_worst_case(bus, static_cast<int>(sent.data.size())) -
+           bus::wire::can_frame_duration(bus, sent.identifier, sent.data);
   }
   TrueTime action_point(std::int64_t cycle) const {
     for (const auto& [in, at] : slots)

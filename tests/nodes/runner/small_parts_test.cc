@@ -52,8 +52,8 @@ TEST(DriveClock, TurnsAreWhereTheyAreFromTheOrigin) {
 class PacedCanTest : public testing::Test {
  protected:
   recording::records::Stamp now() const { return {now_, {}, {}, NodeId{}}; }
-  Duration length(std::uint32_t identifier, std::span<const std::byte> data) const {
-    return bus::wire::can_frame_duration(cluster_.can_buses[0], identifier, data);
+  bus::wire::CanFrameTimes times(std::uint32_t identifier) const {
+    return bus::wire::can_frame_times(cluster_.can_buses[0], identifier, data_);
   }
   const schedules::model::Cluster cluster_ =
       schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
@@ -65,19 +65,19 @@ class PacedCanTest : public testing::Test {
 TEST_F(PacedCanTest, FramesLeaveWhenABusWouldHaveBroughtThem) {
   can_.send({256, true, data_});
   can_.send({257, true, data_});
-  const Duration first = length(256, data_), second = length(257, data_);
-  EXPECT_EQ(can_.next(), now_ + first);
+  const bus::wire::CanFrameTimes first = times(256), second = times(257);
+  EXPECT_EQ(can_.next(), now_ + first.accepted);
   now_ = TrueTime{9'000'000};  // late: those behind it are no later for it
   const auto one = can_.leave();
   EXPECT_EQ(one.frame.identifier, 256u);
   EXPECT_EQ(one.sent.start.true_time, TrueTime{1'000});
-  EXPECT_EQ(one.sent.end.true_time, TrueTime{1'000} + first);
-  EXPECT_EQ(can_.next(), TrueTime{1'000} + first + second);
+  EXPECT_EQ(one.sent.end.true_time, TrueTime{1'000} + first.accepted);
+  EXPECT_EQ(can_.next(), TrueTime{1'000} + first.idle + second.accepted);  // its intermission comes between
   const auto two = can_.leave();
-  EXPECT_EQ(two.sent.start.true_time, TrueTime{1'000} + first);
+  EXPECT_EQ(two.sent.start.true_time, TrueTime{1'000} + first.idle);
   EXPECT_EQ(two.frame.data.size(), 64u);
   can_.send({258, true, data_});  // the bus had been idle
-  EXPECT_EQ(can_.next(), now_ + length(258, data_));
+  EXPECT_EQ(can_.next(), now_ + times(258).accepted);
 }
 
 TEST_F(PacedCanTest, WhatThereIsNoRoomForIsCounted) {

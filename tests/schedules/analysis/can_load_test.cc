@@ -76,7 +76,15 @@ TEST(CanFrames, BoundTheFramesOnTheWire) {
     }
 }
 
-// Three classic messages of one 8-byte frame each (135 us), by hand.
+// The last bit of the end of frame and the three of the intermission lie behind a frame's acceptance.
+TEST(CanFrames, AreAcceptedFourBitsBeforeTheBusIsIdle) {
+  EXPECT_EQ(can_soonest_arrival(classic(), 8), Duration::microseconds(107));
+  EXPECT_EQ(can_soonest_arrival(fast(), 64), Duration{26'000 + 549 * 200});
+  EXPECT_EQ(can_soonest_arrival(classic(300'000), 0), Duration{143'334});  // 43 / 300 kHz = 143'333.3 ns
+  EXPECT_EQ(can_after_acceptance(classic(300'000)), Duration{13'333});
+}
+
+// Three classic messages of one 8-byte frame each (135 us, accepted after 131 us), by hand.
 TEST(CanResponse, BlockingAndHigherPriorities) {
   model::Cluster cluster;
   model::PduLayout layout;
@@ -88,19 +96,19 @@ TEST(CanResponse, BlockingAndHigherPriorities) {
                   {PduId{1}, 20, NodeId{0}, Duration::milliseconds(1), 0},
                   {PduId{2}, 30, NodeId{0}, Duration::milliseconds(1), 0}};
   EXPECT_DOUBLE_EQ(can_worst_load(cluster, bus), 3 * 0.135);
-  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(270));  // one below, itself
-  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[1]), Duration::microseconds(405));  // all three
-  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[2]), Duration::microseconds(405));  // two above, itself
+  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(266));  // one below, itself
+  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[1]), Duration::microseconds(401));  // all three
+  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[2]), Duration::microseconds(401));  // two above, itself
   // Other traffic takes half of the bus: a longest frame of it, too, and everything at half the speed.
   bus.other_load = 0.5;
-  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(810));
+  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(806));
   bus.other_load = 0.0;
   // Short periods: the highest comes every 200 us. It comes three times in 405 us, four times in 675 us, five
   // times in 810 us. 945 us have no more than five.
   bus.messages[0].shortest_period = Duration::microseconds(200);
   bus.messages[1].shortest_period = Duration::milliseconds(2);
   bus.messages[2].shortest_period = Duration::milliseconds(2);
-  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[2]), Duration::microseconds(945));
+  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[2]), Duration::microseconds(941));
   bus.messages[1].shortest_period = Duration::microseconds(300);
   EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[2]), std::nullopt);
 }

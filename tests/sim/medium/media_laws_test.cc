@@ -52,20 +52,20 @@ schedules::model::Cluster on_can(bool flexible_data_rate) {
   return cluster;
 }
 
-// The medium's reports agree with its acts: frames one after the other, each with its duration. The frame's
-// sender gives its meaning (nodes/host/executive.h).
+// The medium's reports agree with its acts: frames one after the other, each with its duration until it is accepted;
+// the bus is busy for four more bits of 1 us. The frame's sender gives its meaning (nodes/host/executive.h).
 struct Reported final : recording::records::Sink {
   using recording::records::Sink::on;
   std::size_t frames = 0;
   Duration busy{};
-  TrueTime end{};
+  TrueTime idle{};
   void on(const recording::records::CanFrameSent& sent) override {
     EXPECT_EQ(sent.pdu, kNoPdu);
     ++frames;
-    EXPECT_GE(sent.start.true_time, end);
+    EXPECT_GE(sent.start.true_time, idle);
     EXPECT_LT(sent.start.true_time, sent.end.true_time);
-    end = sent.end.true_time;
-    busy += sent.end.true_time - sent.start.true_time;
+    idle = sent.end.true_time + Duration::microseconds(4);
+    busy += idle - sent.start.true_time;
   }
 };
 
