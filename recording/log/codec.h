@@ -49,6 +49,8 @@ template <> struct PayloadOf<records::ChannelFrame> : std::type_identity<ttfusio
 template <> struct PayloadOf<records::TimingProblem> : std::type_identity<ttfusion::TimingProblem> {};
 template <> struct PayloadOf<records::LatenessHistogram> : std::type_identity<ttfusion::Lateness> {};
 template <> struct PayloadOf<records::MediumCounts> : std::type_identity<ttfusion::Medium> {};
+template <> struct PayloadOf<records::CanErrorFrame> : std::type_identity<ttfusion::CanError> {};
+template <> struct PayloadOf<records::CanStateChanged> : std::type_identity<ttfusion::CanState> {};
 template <class Record> using Payload = typename PayloadOf<Record>::type;
 
 // One message per kind, for reuse.

@@ -290,6 +290,24 @@ records::LatenessHistogram record_of(const ttfusion::Lateness& in, Reading& read
           Duration{in.longest()}, read.lists.counts};
 }
 
+records::CanErrorFrame record_of(const ttfusion::CanError& in, Reading& read) {
+  return {read.stamp(in.stamp()),
+          read.to<std::uint8_t>(in.bus()),
+          read.to<std::uint8_t>(in.error(), records::kCanBitError, records::kCanAcknowledgementError),
+          in.as_transmitter(),
+          read.to<std::uint16_t>(in.transmit_errors()),
+          read.to<std::uint16_t>(in.receive_errors())};
+}
+
+records::CanStateChanged record_of(const ttfusion::CanState& in, Reading& read) {
+  return {read.stamp(in.stamp()),
+          read.to<std::uint8_t>(in.bus()),
+          read.to<std::uint8_t>(in.from(), records::kCanErrorActive, records::kCanBusOff),
+          read.to<std::uint8_t>(in.to(), records::kCanErrorActive, records::kCanBusOff),
+          read.to<std::uint16_t>(in.transmit_errors()),
+          read.to<std::uint16_t>(in.receive_errors())};
+}
+
 records::MediumCounts record_of(const ttfusion::Medium& in, Reading& read) {
   return {read.stamp(in.stamp()), in.sent(),      in.received(), in.not_sent(), in.lost(),
           in.foreign(),           in.malformed(), in.dropped()};

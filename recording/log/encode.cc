@@ -332,6 +332,26 @@ LogTimes encode(const records::LatenessHistogram& in, ttfusion::Lateness& out) {
   return times_of(in.stamp);
 }
 
+LogTimes encode(const records::CanErrorFrame& in, ttfusion::CanError& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_bus(in.bus);
+  out.set_error(in.error);
+  out.set_as_transmitter(in.as_transmitter);
+  out.set_transmit_errors(in.transmit_errors);
+  out.set_receive_errors(in.receive_errors);
+  return times_of(in.stamp);
+}
+
+LogTimes encode(const records::CanStateChanged& in, ttfusion::CanState& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_bus(in.bus);
+  out.set_from(in.from);
+  out.set_to(in.to);
+  out.set_transmit_errors(in.transmit_errors);
+  out.set_receive_errors(in.receive_errors);
+  return times_of(in.stamp);
+}
+
 LogTimes encode(const records::MediumCounts& in, ttfusion::Medium& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_sent(in.sent);

@@ -63,6 +63,8 @@ template <class... Instants> void rescale_all(const CommonTime& time, Instants&.
 // Rescales all instants of true time that a record holds.
 void put_on(const CommonTime& time, records::Measured& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::CanFrameSent& r) { rescale_all(time, r.start, r.end); }
+void put_on(const CommonTime& time, records::CanErrorFrame& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::CanStateChanged& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::SlotFrameSent& r) { rescale_all(time, r.stamp, r.end); }
 void put_on(const CommonTime& time, records::SlotProblem& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::ListHop& r) { rescale_all(time, r.stamp); }

@@ -23,11 +23,12 @@ template <class... Records> struct Order {
 // Causes before effects.
 using CausalOrder =
     Order<records::FaultActivity, records::PowerChanged, records::GuardianIntervention, records::ChannelFrame,
-          records::SlotFrameSent, records::SymbolSent, records::CanFrameSent, records::TimingProblem,
-          records::SlotProblem, records::ClockCorrected, records::StateChanged, records::ListHop, records::Measured,
-          records::FusionInput, records::ObservationSeen, records::ListFused, records::TrackState, records::FusionStep,
-          records::ReferenceFix, records::ImageWritten, records::FeatureUsed, records::TruthState, records::TaskRun,
-          records::PrecisionSample, records::LatenessHistogram, records::MediumCounts>;
+          records::SlotFrameSent, records::SymbolSent, records::CanErrorFrame, records::CanStateChanged,
+          records::CanFrameSent, records::TimingProblem, records::SlotProblem, records::ClockCorrected,
+          records::StateChanged, records::ListHop, records::Measured, records::FusionInput, records::ObservationSeen,
+          records::ListFused, records::TrackState, records::FusionStep, records::ReferenceFix, records::ImageWritten,
+          records::FeatureUsed, records::TruthState, records::TaskRun, records::PrecisionSample,
+          records::LatenessHistogram, records::MediumCounts>;
 static_assert(CausalOrder::kNone == records::kKindCount, "each kind of record has one rank");
 
 // Nodes stamp a fault's effects in whole microticks of their own; these may seem to precede it by less than
@@ -52,6 +53,8 @@ template <class Record> RecordPlace of_drive(const Record& record, TrueTime at, 
 
 RecordPlace place_of(const records::Measured& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::CanFrameSent& r) { return of_node(r, r.end); }
+RecordPlace place_of(const records::CanErrorFrame& r) { return of_node(r, r.stamp); }
+RecordPlace place_of(const records::CanStateChanged& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::SlotFrameSent& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::SlotProblem& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::ListHop& r) { return of_node(r, r.stamp); }

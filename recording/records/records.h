@@ -58,6 +58,32 @@ struct CanFrameSent {
   std::span<const std::byte> data;
 };
 
+// A controller on a private CAN detected an error, and its error flag is the first of an error frame. The frame is
+// sent again.
+inline constexpr std::uint8_t kCanBitError = 1;
+inline constexpr std::uint8_t kCanStuffError = 2;
+inline constexpr std::uint8_t kCanFormError = 3;
+inline constexpr std::uint8_t kCanCrcError = 4;
+inline constexpr std::uint8_t kCanAcknowledgementError = 5;
+struct CanErrorFrame {
+  Stamp stamp;           // the end of the bit with the error
+  std::uint8_t bus = 0;  // index in Cluster::can_buses
+  std::uint8_t error = kCanBitError;
+  bool as_transmitter = false;
+  std::uint16_t transmit_errors = 0, receive_errors = 0;  // its counters behind it
+};
+
+// A controller on a private CAN changed its state of error confinement.
+inline constexpr std::uint8_t kCanErrorActive = 0;
+inline constexpr std::uint8_t kCanErrorPassive = 1;
+inline constexpr std::uint8_t kCanBusOff = 2;
+struct CanStateChanged {
+  Stamp stamp;
+  std::uint8_t bus = 0;
+  std::uint8_t from = kCanErrorActive, to = kCanErrorActive;
+  std::uint16_t transmit_errors = 0, receive_errors = 0;
+};
+
 // One FlexRay frame on one channel.
 struct SlotFrameSent {
   Stamp stamp;  // start of transmission
@@ -405,6 +431,8 @@ inline constexpr std::tuple kKinds{
     Kind<TimingProblem>{"/timing_problem", kNotInHash},
     Kind<LatenessHistogram>{"/lateness", kNotInHash},
     Kind<MediumCounts>{"/medium", kNotInHash},
+    Kind<CanErrorFrame>{"/can_error"},
+    Kind<CanStateChanged>{"/can_state"},
 };
 inline constexpr std::size_t kKindCount = std::tuple_size_v<decltype(kKinds)>;
 template <std::size_t number> using RecordAt = typename std::tuple_element_t<number - 1, decltype(kKinds)>::Type;

@@ -218,6 +218,12 @@ std::string text_of(const records::TimingProblem& r) {
 std::string text_of(const records::LatenessHistogram& r) {
   return line("lateness", r.stamp, r.of, r.longest, r.counts);
 }
+std::string text_of(const records::CanErrorFrame& r) {
+  return line("can_error", r.stamp, r.bus, r.error, r.as_transmitter, r.transmit_errors, r.receive_errors);
+}
+std::string text_of(const records::CanStateChanged& r) {
+  return line("can_state", r.stamp, r.bus, r.from, r.to, r.transmit_errors, r.receive_errors);
+}
 std::string text_of(const records::MediumCounts& r) {
   return line("medium", r.stamp, r.sent, r.received, r.not_sent, r.lost, r.foreign, r.malformed, r.dropped);
 }
@@ -349,6 +355,14 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
     case 26:
       return sink.on(records::MediumCounts{stamp, d.get<U64>(), d.get<U64>(), d.get<U64>(), d.get<U64>(), d.get<U64>(),
                                            d.get<U64>(), d.get<U64>()});
+    case 27:
+      return sink.on(records::CanErrorFrame{stamp, d.get<U8>(),
+                                            d.choice(records::kCanBitError, records::kCanAcknowledgementError),
+                                            d.get<bool>(), d.get<U16>(), d.get<U16>()});
+    case 28:
+      return sink.on(records::CanStateChanged{
+          stamp, d.get<U8>(), d.choice(records::kCanErrorActive, records::kCanBusOff),
+          d.choice(records::kCanErrorActive, records::kCanBusOff), d.get<U16>(), d.get<U16>()});
   }
   TTF_CHECK(false, "nothing to draw of kind {}", kind);
 }

@@ -232,8 +232,8 @@ TEST(CanTiming, RatesSwitchAtBrsAndBackAtTheCrcDelimiter) {
   EXPECT_EQ(can_frame_duration(fast(), 0x555, twenty), Duration{30'000 + (5 + 160 + 32) * 200});
 }
 
-// Of the thirteen bits behind the CRC, the receivers wait for nine: its delimiter, two of the acknowledgement and six
-// of seven of the end of frame.
+// The receivers wait for nine of the thirteen bits behind the CRC: its delimiter, two of the acknowledgement and six
+// of the end of frame.
 TEST(CanTiming, ReceiversAcceptAtTheLastButOneBitOfTheEndOfFrame) {
   RandomStream stream({6, 0, Purpose::kTest, 4, 0});
   for (int run = 0; run < 2000; ++run) {
