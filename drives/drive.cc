@@ -147,6 +147,7 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   simulation_config.view = [&](NodeId node) { return believed.of(node); };
   simulation_config.others = config.others;
   simulation_config.compares_clocks = config.compares_clocks;
+  simulation_config.cans_bit_by_bit = config.cans_bit_by_bit;
   sim::crank::ClusterSimulation simulation(simulation_config, tee);
   std::optional<sim::faults::Injector> injector;
   if (!faults.empty()) {

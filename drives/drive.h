@@ -31,6 +31,8 @@ struct DriveConfig {
   sim::processes::TurnTaking* others = nullptr;
   // Whether to compare the clocks; the records are the same otherwise, except for PrecisionSample.
   bool compares_clocks = true;
+  // Whether the private CANs go bit by bit; the records are the same otherwise.
+  bool cans_bit_by_bit = false;
 };
 
 // Results that only the whole drive has; for one node among others, that node's counts and no precision.

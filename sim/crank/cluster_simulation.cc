@@ -86,35 +86,42 @@ struct ClusterSimulation::CanLog final : recording::records::Sink {
     std::array<std::byte, 64> bytes{};
   };
   ClusterSimulation& simulation;
-  std::vector<InFlight> in_flight;  // by bus
-  CanLog(ClusterSimulation& s, std::size_t buses) : simulation(s), in_flight(buses) {}
+  std::vector<std::vector<InFlight>> in_flight;  // by bus and node
+  CanLog(ClusterSimulation& s, std::size_t buses, std::size_t nodes)
+      : simulation(s), in_flight(buses, std::vector<InFlight>(nodes)) {}
 
   using recording::records::Sink::on;
   void on(const recording::records::CanFrameSent& began) override {
     const NodeId sender = began.start.node;
     if (!simulation.is_here(index_of(sender))) return;
     const nodes::host::Executive& executive = *simulation.nodes_[index_of(sender)];
-    InFlight& entry = in_flight[began.bus];
+    InFlight& entry = in_flight[began.bus][index_of(sender)];
     entry.frame = began;
     std::copy(began.data.begin(), began.data.end(), entry.bytes.begin());
     entry.frame.data = std::span<const std::byte>(entry.bytes).first(began.data.size());
     entry.frame.start = executive.stamp(executive.oscillator().ticks_at(began.start.true_time));
     entry.frame.start.true_time = began.start.true_time;
-    medium::MediumEvent event;
-    event.kind = medium::MediumEvent::Kind::kCanSent;
-    event.node = static_cast<std::uint8_t>(sender);
-    event.sender = event.node;
-    event.channel_or_bus = began.bus;
-    event.start = began.start.true_time;
-    simulation.queue_.schedule(began.end.true_time, medium::Phase::kArrival, event.node, event);
+  }
+  void on(const recording::records::CanErrorFrame& error) override { stamped(error); }
+  void on(const recording::records::CanStateChanged& change) override { stamped(change); }
+
+ private:
+  // A node that has just lost its supply says nothing.
+  template <class Record> void stamped(Record record) const {
+    const std::size_t node = index_of(record.stamp.node);
+    if (!simulation.is_here(node) || !simulation.nodes_[node]) return;
+    const TrueTime at = record.stamp.true_time;
+    record.stamp = simulation.nodes_[node]->stamp(simulation.ticks(node));
+    record.stamp.true_time = at;
+    simulation.sink_.on(record);
   }
 };
 
 ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::records::Sink& sink)
     : CrankOf(*config.cluster, kPendingEvents), config_(config), others_(config.others), sink_(sink),
       can_ports_(cluster_.nodes.size(), std::vector<bus::ports::CanPort*>(cluster_.can_buses.size())),
-      can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())), watches_(cluster_.nodes.size()),
-      no_spread_(cluster_) {
+      can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size(), cluster_.nodes.size())),
+      watches_(cluster_.nodes.size()), no_spread_(cluster_) {
   if (sink.wants_frames())
     medium_.set_log(&channel_log_.emplace(cluster_.flexray, medium::FlexRayMedium::kMostLogged, sink));
   else
@@ -125,6 +132,7 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::
       if (is_on_can(cluster_.nodes[n], b)) members.push_back(static_cast<NodeId>(n));
     cans_.push_back(std::make_unique<medium::CanMedium>(cluster_, b, members, queue_, pool_, *can_log_, config_.seed,
                                                         config_.replication));
+    cans_.back()->set_bit_by_bit(config_.cans_bit_by_bit);
   }
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
     const schedules::model::Node& node = cluster_.nodes[n];
@@ -138,7 +146,10 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::
     const std::optional<TrueTime> power_on = config_.power_on ? config_.power_on(id) : std::nullopt;
     const timebase::Oscillator crystal = nodes::host::drawn_oscillator(node, n, config.seed, config.replication);
     seat(crystal, power_on);
-    if (power_on) continue;
+    if (power_on) {
+      for (auto& can : cans_) can->power_off(id, TrueTime{});
+      continue;
+    }
     if (others_ != nullptr) others_->outlook(n).begins(crystal.ticks_at(TrueTime{}));
     if (is_here(n))
       make_node(n,
@@ -188,9 +199,10 @@ void ClusterSimulation::make_node(std::size_t node, std::optional<bus::controlle
 }
 
 void ClusterSimulation::start(std::size_t node, Microticks now) {
+  const auto id = static_cast<NodeId>(node);
+  for (auto& can : cans_) can->power_on(id, this->now());
   if (others_ != nullptr) others_->outlook(node).begins(now);
   if (!is_here(node)) return;
-  const auto id = static_cast<NodeId>(node);
   // At a later power-on the other nodes are awake.
   const bool first = powered_since(node) < TrueTime{};
   const nodes::host::NodeStart cold = first && config_.cold ? config_.cold(id) : nodes::host::NodeStart{};
@@ -203,7 +215,7 @@ void ClusterSimulation::start(std::size_t node, Microticks now) {
 
 void ClusterSimulation::stop(std::size_t node) {
   if (others_ != nullptr) others_->outlook(node).ends();
-  for (auto& can : cans_) can->power_off(static_cast<NodeId>(node));
+  for (auto& can : cans_) can->power_off(static_cast<NodeId>(node), now());
   if (!is_here(node)) return;
   // A sleeping node's supply was not recorded.
   if (!nodes_[node]->asleep()) sink_.on(recording::records::PowerChanged{nodes_[node]->stamp(ticks(node)), false});
@@ -246,6 +258,10 @@ void ClusterSimulation::drifts(std::size_t node) {
   if (is_here(node)) nodes_[node]->drift(oscillator(static_cast<NodeId>(node)));
 }
 
+void ClusterSimulation::disturbs_cans(medium::CanDisturbance* disturbance) {
+  for (auto& can : cans_) can->set_disturbance(disturbance);
+}
+
 const nodes::host::Executive& ClusterSimulation::node(NodeId id) const {
   TTF_CHECK(powered(id) && is_here(index_of(id)), "{} is without supply or elsewhere", cluster_.node(id).name);
   return *nodes_[index_of(id)];
@@ -262,8 +278,9 @@ bool ClusterSimulation::arrives(const medium::MediumEvent& event) const {
 }
 
 void ClusterSimulation::happen(const medium::MediumEvent& event) {
-  // These two are not at a node.
+  // These three are not at a node.
   if (event.kind == medium::MediumEvent::Kind::kCanArbitration) return cans_[event.channel_or_bus]->arbitrate(now());
+  if (event.kind == medium::MediumEvent::Kind::kCanBits) return cans_[event.channel_or_bus]->end_bits(now());
   if (event.kind == medium::MediumEvent::Kind::kObservation) return observe();
   const std::size_t node = event.node;
   const bool arrives = this->arrives(event);
@@ -284,10 +301,15 @@ void ClusterSimulation::happen(const medium::MediumEvent& event) {
       if (arrives && others_ != nullptr) others_->outlook(node).hears_trigger(ticks(node));
       break;
     case medium::MediumEvent::Kind::kCanSent:
-      if (arrives) nodes_[node]->can_frame_sent(can_log_->in_flight[event.channel_or_bus].frame, ticks(node));
+      if (arrives && is_here(node)) {
+        recording::records::CanFrameSent& sent = can_log_->in_flight[event.channel_or_bus][node].frame;
+        sent.end.true_time = now();
+        nodes_[node]->can_frame_sent(sent, ticks(node));
+      }
       return;
     case medium::MediumEvent::Kind::kFlexRayArrival:
     case medium::MediumEvent::Kind::kCanArbitration:
+    case medium::MediumEvent::Kind::kCanBits:
     case medium::MediumEvent::Kind::kObservation: return;
   }
   refresh(node);

@@ -3,7 +3,7 @@
 //
 // A node that loses its supply loses everything: its executive is dropped, and power-on makes a new one with
 // new steps. A CAN frame does not arrive if its sender or receiver lacked supply at any time since the frame
-// began; it still takes the bus until its end.
+// began; one that travels as a whole (sim/medium/can_medium.h) still takes the bus until its end.
 //
 // With a process for each node (sim/processes/turn_taking.h), only the own node has its executive and its records here.
 #pragma once
@@ -49,6 +49,8 @@ struct SimulationConfig {
   processes::TurnTaking* others = nullptr;
   // False: precision() is neither computed nor recorded. All else stays the same.
   bool compares_clocks = true;
+  // The private CANs go bit by bit. The records stay the same.
+  bool cans_bit_by_bit = false;
 };
 
 class ClusterSimulation final : public CrankOf<nodes::host::Executive>, private nodes::host::SensorLines {
@@ -65,6 +67,7 @@ class ClusterSimulation final : public CrankOf<nodes::host::Executive>, private 
   // Returns the sum over the nodes simulated here, with those that have lost their supply.
   nodes::host::ExecutiveCounts counts() const;
   Duration can_busy(std::size_t bus) const { return cans_[bus]->busy(); }
+  medium::CanMedium* can(std::size_t bus) override { return cans_[bus].get(); }
   std::uint64_t frames_sent() const { return frames_sent_; }  // on FlexRay, counted per channel
   // Returns how long the busier channel has been in use.
   Duration flexray_busy() const {
@@ -92,6 +95,7 @@ class ClusterSimulation final : public CrankOf<nodes::host::Executive>, private 
   void receive(std::size_t node, const bus::ports::Reception& reception) override;
   bool receive_on_both(std::size_t node, const bus::ports::Reception& reception) override;
   void drifts(std::size_t node) override;
+  void disturbs_cans(medium::CanDisturbance* disturbance) override;
   void happen(const medium::MediumEvent& event) override;
 
   void trigger(SensorId sensor) override;

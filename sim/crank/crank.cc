@@ -52,6 +52,7 @@ void Crank::seat_guardians(const std::function<timebase::Oscillator(schedules::m
 void Crank::set_disturbance(medium::Disturbance* disturbance) {
   disturbance_ = disturbance;
   medium_.set_disturbance(disturbance);
+  disturbs_cans(disturbance);
 }
 
 void Crank::power_off(NodeId node) {

@@ -89,6 +89,8 @@ class Crank : public Plant {
   virtual bool knows(std::size_t node, const bus::ports::Reception& reception) = 0;
   virtual void hear_known(std::size_t node, const bus::ports::Reception& reception) = 0;
   virtual void drifts(std::size_t node) { (void)node; }  // its oscillator has changed
+  // The private CANs have this disturbance, too; null: none.
+  virtual void disturbs_cans(medium::CanDisturbance* disturbance) { (void)disturbance; }
   // Handles an event other than an arrival on FlexRay.
   virtual void happen(const medium::MediumEvent& event) = 0;
 

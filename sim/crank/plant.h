@@ -9,6 +9,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "sim/medium/can_medium.h"
 #include "sim/medium/disturbance.h"
 
 namespace ttf::sim::crank {
@@ -31,6 +32,8 @@ class Plant {
   // Emits a signal that no controller transmits; it reaches all nodes on the channel at once. `source` is the
   // sender, if there is one. The signal's start is not before now().
   virtual void emit(const medium::Leaving& signal, std::optional<NodeId> source) = 0;
+  // Returns a private CAN; null if the simulation has none.
+  virtual medium::CanMedium* can(std::size_t bus) { return (void)bus, nullptr; }
 };
 
 }  // namespace ttf::sim::crank

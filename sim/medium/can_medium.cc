@@ -9,20 +9,60 @@
 #include "schedules/analysis/can_load.h"
 
 namespace ttf::sim::medium {
+namespace {
+
+constexpr std::size_t kListsWaiting = 4;  // for each message of a node, each of the largest size
+constexpr std::size_t kOthersWaiting = 64;
+
+std::size_t room_of(const schedules::model::Cluster& cluster, const schedules::model::CanBus& can, NodeId node) {
+  std::size_t frames = kOthersWaiting;
+  for (const schedules::model::CanMessage& message : can.messages)
+    if (message.sender == node)
+      frames += kListsWaiting * static_cast<std::size_t>(cluster.pdu(message.pdu).max_fragments());
+  return frames;
+}
+
+}  // namespace
 
 CanMedium::CanMedium(const schedules::model::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,
                      MediumQueue& queue, FramePool& pool, recording::records::Sink& sink, std::uint64_t seed,
                      std::uint32_t replication)
-    : cluster_(cluster), bus_(bus), nodes_(nodes.begin(), nodes.end()), queue_(queue), pool_(pool), sink_(sink) {
-  pending_.reserve(1024);
-  const schedules::model::CanBus& can = cluster.can_buses[bus];
-  if (can.other_load <= 0.0) return;
-  other_length_ = schedules::analysis::can_worst_case(can, can.flexible_data_rate ? 64 : 8);
+    : cluster_(cluster), bus_(bus), queue_(queue), pool_(pool), sink_(sink),
+      line_(cluster.can_buses[bus], nodes.size() + (cluster.can_buses[bus].other_load > 0.0 ? 1 : 0)),
+      inverted_for_(line_.size()) {
+  std::size_t room = 0;
+  for (const NodeId node : nodes) {
+    Member& member = members_.emplace_back();
+    member.node = node;
+    member.room = room_of(cluster, can(), node);
+    room += member.room;
+  }
+  pending_.reserve(room);
+  for (std::size_t m = 0; m < line_.size(); ++m) line_.power_on(m, true, TrueTime{});
+  if (can().other_load <= 0.0) return;
+  other_length_ = schedules::analysis::can_worst_case(can(), can().flexible_data_rate ? 64 : 8);
   constexpr double kSeldom_ns = 1e15;  // eleven days
-  const double period = std::ceil(static_cast<double>(other_length_.ns) / can.other_load);
+  const double period = std::ceil(static_cast<double>(other_length_.ns) / can().other_load);
   other_period_ = {static_cast<std::int64_t>(std::min(period, kSeldom_ns))};
   RandomStream phase({seed, replication, Purpose::kOtherTraffic, static_cast<std::uint16_t>(bus), 0});
   next_other_ = TrueTime{} + Duration{phase.integer(0, other_period_.ns - 1)};
+}
+
+std::optional<std::size_t> CanMedium::member_of(NodeId node) const {
+  for (std::size_t m = 0; m < members_.size(); ++m)
+    if (members_[m].node == node) return m;
+  return std::nullopt;
+}
+
+bool CanMedium::has(NodeId node) const {
+  const auto m = member_of(node);
+  return m && members_[*m].on;
+}
+
+int CanMedium::waiting(NodeId node, std::uint32_t identifier) const {
+  return static_cast<int>(std::count_if(pending_.begin(), pending_.end(), [&](const Pending& frame) {
+    return members_[frame.sender].node == node && frame.identifier == identifier;
+  }));
 }
 
 // Counts other traffic up to now while no frame here waited, with its frame that is on the bus.
@@ -44,15 +84,33 @@ void CanMedium::arbitrate_at(TrueTime when) {
 }
 
 void CanMedium::send(NodeId sender, TrueTime now, const bus::ports::CanFrame& frame) {
-  TTF_CHECK(pending_.size() < pending_.capacity(), "{} frames wait on {}", pending_.size(),
-            cluster_.can_buses[bus_].name);
-  const int receivers = static_cast<int>(nodes_.size()) - 1;
-  // One use more than there are receivers: the medium keeps the frame until it has been sent.
-  pending_.push_back(
-      {sender, next_order_++, frame.identifier, frame.flexible_data_rate, pool_.put(frame.data, receivers + 1)});
+  const auto m = member_of(sender);
+  TTF_CHECK(m.has_value(), "{} is not on {}", cluster_.node(sender).name, can().name);
+  Member& member = members_[*m];
+  if (touched(now + Duration{1}) && !disturbance_->queues_on_can(bus_, sender)) return;
+  if (!member.on || member.waiting == member.room) {
+    ++dropped_;
+    return;
+  }
+  ++member.waiting;
+  pending_.push_back({*m, next_order_++, frame.identifier, pool_.put(frame.data, 1)});
   if (arbitration_due_) return;
+  if (bits_ && (!is_idle(*m) || !line_.recessive())) return;  // the end of a bit will tell
   pass_others(now);
   arbitrate_at(std::max(now, idle_from_));
+}
+
+bool CanMedium::goes_before(const Pending& a, const Pending& b) {
+  if (a.identifier != b.identifier) return a.identifier < b.identifier;
+  if (a.sender != b.sender) return a.sender < b.sender;
+  return a.order < b.order;
+}
+
+// Returns whether some other controller will answer the sender's frame.
+bool CanMedium::acknowledged(std::size_t sender) const {
+  for (std::size_t m = 0; m < line_.size(); ++m)
+    if (m != sender && is_idle(m)) return true;
+  return false;
 }
 
 void CanMedium::arbitrate(TrueTime now) {
@@ -60,53 +118,102 @@ void CanMedium::arbitrate(TrueTime now) {
   if (pending_.empty()) return;
   pass_others(now);
   if (idle_from_ > now) return arbitrate_at(idle_from_);
+  leave_bits(now);
+  if (bits_ && !line_.recessive()) return;
   // A node offers its oldest frame of an identifier first; across nodes the lowest identifier wins.
-  const auto winner = std::min_element(pending_.begin(), pending_.end(), [](const Pending& a, const Pending& b) {
-    if (a.identifier != b.identifier) return a.identifier < b.identifier;
-    if (a.sender != b.sender) return a.sender < b.sender;
-    return a.order < b.order;
-  });
-  const Pending frame = *winner;
-  pending_.erase(winner);
-  const bus::wire::CanFrameTimes times =
-      bus::wire::can_frame_times(cluster_.can_buses[bus_], frame.identifier, pool_.bytes(frame.frame));
+  auto winner = pending_.end();
+  for (auto frame = pending_.begin(); frame != pending_.end(); ++frame)
+    if (is_idle(frame->sender) && (winner == pending_.end() || goes_before(*frame, *winner))) winner = frame;
+  if (winner == pending_.end()) return;
+  if (!bits_ && send_whole(*winner, now)) {
+    forget(winner);
+    if (!pending_.empty()) arbitrate_at(idle_from_);
+    return;
+  }
+  if (!bits_) begin_bits(now);
+  start_frames(now);
+}
+
+// Sends a frame to its end, unless bits have to be looked at before.
+bool CanMedium::send_whole(const Pending& frame, TrueTime now) {
+  const bus::wire::CanFrameTimes times = bus::wire::can_frame_times(can(), frame.identifier, pool_.bytes(frame.frame));
+  if (bit_by_bit_ || !acknowledged(frame.sender) || touched(now + times.idle)) return false;
   const TrueTime accepted = now + times.accepted;
   busy_ += times.idle;
   idle_from_ = now + times.idle;
-  for (const NodeId node : nodes_) {
-    if (node == frame.sender) continue;
-    MediumEvent event;
-    event.kind = MediumEvent::Kind::kCanArrival;
-    event.node = static_cast<std::uint8_t>(node);
-    event.channel_or_bus = static_cast<std::uint8_t>(bus_);
-    event.flexible_data_rate = frame.flexible_data_rate;
-    event.identifier = frame.identifier;
-    event.frame = frame.frame;
-    event.sender = static_cast<std::uint8_t>(frame.sender);
-    event.start = now;
-    queue_.schedule(accepted, Phase::kArrival, event.node, event);
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (m == frame.sender || !is_idle(m)) continue;
+    pool_.use(frame.frame, 1);
+    schedule_arrival(accepted, {m, frame.sender, frame.identifier, frame.frame}, now);
   }
-  report(frame, now, accepted);
-  pool_.release(frame.frame);
-  if (!pending_.empty()) arbitrate_at(idle_from_);
+  report_begin(frame, now, accepted);
+  schedule_sent(accepted, frame.sender, now);
+  return true;
 }
 
-void CanMedium::power_off(NodeId node) {
-  std::erase_if(pending_, [&](const Pending& frame) {
-    if (frame.sender != node) return false;
-    for (std::size_t use = 0; use < nodes_.size(); ++use) pool_.release(frame.frame);
-    return true;
-  });
+void CanMedium::schedule_arrival(TrueTime at, const Arrival& arrival, TrueTime start) {
+  MediumEvent event;
+  event.kind = MediumEvent::Kind::kCanArrival;
+  event.node = static_cast<std::uint8_t>(members_[arrival.receiver].node);
+  event.channel_or_bus = static_cast<std::uint8_t>(bus_);
+  event.flexible_data_rate = can().flexible_data_rate;
+  event.identifier = arrival.identifier;
+  event.frame = arrival.frame;
+  event.sender = static_cast<std::uint8_t>(members_[arrival.sender].node);
+  event.start = start;
+  queue_.schedule(at, Phase::kArrival, event.node, event);
 }
 
-void CanMedium::report(const Pending& frame, TrueTime start, TrueTime end) {
+void CanMedium::schedule_sent(TrueTime at, std::size_t sender, TrueTime start) {
+  MediumEvent event;
+  event.kind = MediumEvent::Kind::kCanSent;
+  event.node = event.sender = static_cast<std::uint8_t>(members_[sender].node);
+  event.channel_or_bus = static_cast<std::uint8_t>(bus_);
+  event.start = start;
+  queue_.schedule(at, Phase::kArrival, event.node, event);
+}
+
+void CanMedium::forget(std::vector<Pending>::iterator frame) {
+  --members_[frame->sender].waiting;
+  pool_.release(frame->frame);
+  pending_.erase(frame);
+}
+
+void CanMedium::power_off(NodeId node, TrueTime now) {
+  const auto m = member_of(node);
+  if (!m || !members_[*m].on) return;
+  members_[*m].on = false;
+  members_[*m].sends.reset();
+  for (auto frame = pending_.begin(); frame != pending_.end();)
+    if (frame->sender == *m)
+      forget(frame);  // erases it
+    else
+      ++frame;
+  if (bits_) wake(now);
+  line_.power_off(*m);
+  if (bits_) go_on(now);
+}
+
+void CanMedium::power_on(NodeId node, TrueTime now) {
+  const auto m = member_of(node);
+  if (!m || members_[*m].on) return;
+  members_[*m].on = true;
+  members_[*m].state = bus::can::ErrorState::kActive;
+  // Behind a frame that travels as a whole there are eleven recessive bits.
+  const bool behind_frame = !bits_ && idle_from_ > now;
+  if (!behind_frame) wake(now);
+  line_.power_on(*m, behind_frame, now);
+  if (bits_) go_on(now);
+}
+
+void CanMedium::report_begin(const Pending& frame, TrueTime start, TrueTime end) {
   recording::records::CanFrameSent sent;
   sent.bus = static_cast<std::uint8_t>(bus_);
   sent.start.true_time = start;
   sent.end.true_time = end;
-  sent.start.node = sent.end.node = frame.sender;
+  sent.start.node = sent.end.node = members_[frame.sender].node;
   sent.identifier = frame.identifier;
-  sent.flexible_data_rate = frame.flexible_data_rate;
+  sent.flexible_data_rate = can().flexible_data_rate;
   sent.data = pool_.bytes(frame.frame);
   sink_.on(sent);
 }

@@ -1,21 +1,32 @@
 // A simulated private CAN in virtual time: arbitration by identifier whenever the bus falls idle, durations
-// with the exact stuff bits of the data.
+// with the exact stuff bits of the data, and controllers that detect errors and send again (bus/can/).
+//
+// The fast way: while no controller has counted an error and nothing disturbs the bus, a frame travels as a whole. Its
+// receivers accept it at the last but one bit of its end of frame; the bus is idle behind the intermission. The plain
+// way goes bit by bit: from an instant at which that does not hold, until all controllers are idle again without an
+// error. tests/sim/medium/can_ways_test.cc holds the two to the same.
 //
 // Other traffic (CanBus::other_load) is as bad as the checker assumes: the longest frames, at equal distances,
 // which take that share of the bus. It begins at a drawn instant, and wins over all frames of the cluster. It
-// has no receiver and no records here; it counts as busy time.
+// has no receiver and no records here; it counts as busy time, and its nodes acknowledge the cluster's frames. No
+// disturbance touches it.
+//
+// A host's frames wait in its controller. It has room for four lists of all its messages and some more frames; the
+// frames beyond are dropped. Two frames of one identifier do not collide: the lower node's goes first.
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "bus/can/line.h"
 #include "bus/ports/can_port.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
+#include "sim/medium/can_disturbance.h"
 #include "sim/medium/frame_pool.h"
 #include "sim/medium/medium_queue.h"
 
@@ -23,46 +34,117 @@ namespace ttf::sim::medium {
 
 class CanMedium {
  public:
-  // `sink` gets each frame at its begin, as the wire carries it, in true time; the sender knows the rest. Seed
-  // and replication draw the instant at which other traffic begins.
+  // All nodes have their supply and are idle. `sink` gets each frame at its begin, as the wire carries it, and each
+  // error frame and change of a controller's state, all in true time; the node knows the rest. On the plain way a
+  // frame's end is not known at its begin. At its acceptance the sender has an event (kCanSent). Seed and replication
+  // draw the instant at which other traffic begins.
   CanMedium(const schedules::model::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,
             MediumQueue& queue, FramePool& pool, recording::records::Sink& sink, std::uint64_t seed,
             std::uint32_t replication);
   void send(NodeId sender, TrueTime now, const bus::ports::CanFrame& frame);
-  // Drops the waiting frames of a node that has lost its supply. Its frame on the bus goes on to its end; the
-  // reader of the queue drops that arrival.
-  void power_off(NodeId node);
+  // A node that gets its supply waits for eleven recessive bits.
+  void power_on(NodeId node, TrueTime now);
+  // Drops the waiting frames of a node that has lost its supply. If its frame travels as a whole, that goes on to its
+  // end; the reader of the queue drops its arrivals.
+  void power_off(NodeId node, TrueTime now);
+
+  // Null: no disturbance.
+  void set_disturbance(CanDisturbance* disturbance) { disturbance_ = disturbance; }
+  // Always goes the plain way.
+  void set_bit_by_bit(bool does) { bit_by_bit_ = does; }
+  // Takes a controller off the bus, and lets it recover.
+  void hold_off(NodeId node, TrueTime now);
+  void release(NodeId node, TrueTime now);
+  // Looks at single bits from now on: a disturbance begins.
+  void look(TrueTime now);
+  // Returns how many frames of the identifier wait at the node, the one on the bus included.
+  int waiting(NodeId node, std::uint32_t identifier) const;
+  // Returns whether the node has its supply and is on this bus.
+  bool has(NodeId node) const;
+
   // Decides the arbitration on an idle bus, and sends the winner.
   void arbitrate(TrueTime now);
-  // Returns how long the bus has carried frames, with the present one counted to its end. Other traffic counts
-  // up to the last instant at which a frame here was queued or begun.
+  // Ends the bits that are over.
+  void end_bits(TrueTime now);
+  // Returns how long the bus has carried frames. On the fast way the present one counts to its end. Other traffic
+  // counts up to the last instant at which a frame here was queued or begun.
   Duration busy() const { return busy_; }
+  std::uint64_t dropped() const { return dropped_; }  // frames without room
 
  private:
   struct Pending {
-    NodeId sender{};
+    std::size_t sender = 0;  // among the members, which are in the order of their nodes
     std::uint64_t order = 0;
     std::uint32_t identifier = 0;
-    bool flexible_data_rate = false;
     std::uint32_t frame = 0;
   };
-  void report(const Pending& frame, TrueTime start, TrueTime end);
+  struct Member {
+    NodeId node{};
+    bool on = true;                      // has its supply
+    std::size_t room = 0, waiting = 0;   // frames
+    std::optional<std::uint64_t> sends;  // this frame
+    TrueTime began{};                    // its frame
+    bus::can::ErrorState state{};        // as reported
+  };
+  static bool goes_before(const Pending& a, const Pending& b);
+  const schedules::model::CanBus& can() const { return cluster_.can_buses[bus_]; }
+  std::optional<std::size_t> member_of(NodeId node) const;
+  bool touched(TrueTime until) const { return disturbance_ != nullptr && disturbance_->touches_can(bus_, until); }
+  bool acknowledged(std::size_t sender) const;
+  void report_begin(const Pending& frame, TrueTime start, TrueTime end);
   void pass_others(TrueTime now);
   void arbitrate_at(TrueTime when);
+  struct Arrival {
+    std::size_t receiver = 0, sender = 0;
+    std::uint32_t identifier = 0, frame = 0;
+  };
+  void schedule_arrival(TrueTime at, const Arrival& arrival, TrueTime start);
+  void schedule_sent(TrueTime at, std::size_t sender, TrueTime start);
+  bool is_idle(std::size_t member) const { return line_[member].phase() == bus::can::Protocol::Phase::kIdle; }
+  void forget(std::vector<Pending>::iterator frame);
+
+  // The fast way.
+  bool send_whole(const Pending& frame, TrueTime now);
+  // The plain way.
+  TrueTime held(TrueTime now) const { return touched(now + Duration{1}) ? disturbance_->holds_can(bus_) : TrueTime{}; }
+  void begin_bits(TrueTime now);
+  void wake(TrueTime now);
+  void leave_bits(TrueTime now);
+  void start_frames(TrueTime now);
+  void went_by(TrueTime now);
+  void brought(std::size_t member, const bus::can::Protocol::Brought& brought, TrueTime now);
+  void report_state(std::size_t member, TrueTime now);
+  void report_error(std::size_t member, const bus::can::Protocol::Brought& brought, TrueTime now);
+  void go_on(TrueTime now);
+  bool is_free() const;
+  bool is_clean() const;
 
   const schedules::model::Cluster& cluster_;
   std::size_t bus_;
-  std::vector<NodeId> nodes_;
+  std::vector<Member> members_;
   MediumQueue& queue_;
   FramePool& pool_;
   recording::records::Sink& sink_;
   std::vector<Pending> pending_;
-  std::uint64_t next_order_ = 0;
+  std::uint64_t next_order_ = 0, dropped_ = 0;
   TrueTime idle_from_{};
   Duration other_length_{}, other_period_{};  // other traffic's frames; zero without them
   TrueTime next_other_{};                     // the next of them, not on the bus yet
   bool arbitration_due_ = false;
   Duration busy_{};
+
+  CanDisturbance* disturbance_ = nullptr;
+  bus::can::Line line_;  // the members, and one more that stands for other traffic's nodes
+  bool bit_by_bit_ = false;
+  bool bits_ = false;                    // the plain way at present
+  bool resting_ = false;                 // an idle or stuck line, whose bits change nothing
+  bool free_ = true;                     // since the last bit
+  TrueTime looked_{};                    // the last bit
+  TrueTime bits_due_{};                  // the next event of the plain way
+  std::optional<std::size_t> inverted_;  // a bit of the present frame
+  std::vector<bool> inverted_for_;       // by member
+  bool error_frame_ = false;             // its first flag has been reported
+  bus::can::FrameBits frame_bits_;
 };
 
 }  // namespace ttf::sim::medium

@@ -1,5 +1,6 @@
 // Disturbances of the simulated FlexRay, as its medium sees them: at the sender, towards one receiver, and out
-// of nothing. The nodes do not know of them. All instants are true times.
+// of nothing. The nodes do not know of them. All instants are true times. Those of the private CANs are in
+// sim/medium/can_disturbance.h.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include "bus/ports/flexray_port.h"
 #include "core/ids.h"
 #include "core/time.h"
+#include "sim/medium/can_disturbance.h"
 
 namespace ttf::sim::medium {
 
@@ -33,9 +35,8 @@ struct Arriving {
   bool emitted = false;              // as above, on either leg through a coupler
 };
 
-class Disturbance {
+class Disturbance : public CanDisturbance {
  public:
-  virtual ~Disturbance() = default;
   // Returns whether leaving() or arriving() may read or change the bytes, or change the channel, of the node's
   // present signal. If not, a transparent medium gives them no bytes.
   virtual bool touches(NodeId sender, schedules::model::Channel channel) const {

@@ -61,6 +61,7 @@ class FramePool {
   std::span<const std::byte> bytes(std::uint32_t index) const {
     return {frames_[index].bytes.data(), frames_[index].size};
   }
+  void use(std::uint32_t index, int more) { frames_[index].uses += more; }
   void release(std::uint32_t index, int uses = 1) {
     if ((frames_[index].uses -= uses) == 0) free_.push_back(index);
   }

@@ -8,8 +8,8 @@
 
 namespace ttf::sim::medium {
 
-// A pending event of a medium. On FlexRay it is an arrival; on a private CAN an arbitration, the end of a frame
-// for its sender, or its arrival. Beside the buses it is a trigger or a strobe, which reaches a device or host,
+// A pending event of a medium. On FlexRay it is an arrival; on a private CAN an arbitration, a frame's acceptance for
+// its sender, its arrival, or the end of bits. Beside the buses it is a trigger or a strobe, which reaches a device or host,
 // or an observation of the nodes' clocks.
 struct MediumEvent {
   enum class Kind : std::uint8_t {
@@ -17,12 +17,13 @@ struct MediumEvent {
     kCanArrival,
     kCanSent,
     kCanArbitration,
+    kCanBits,
     kStrobe,
     kTrigger,
     kObservation
   };
   Kind kind{};
-  std::uint8_t node = 0;  // receiver; sender of a sent frame; the bus for an arbitration
+  std::uint8_t node = 0;  // receiver; sender of a sent frame
   std::uint8_t channel_or_bus = 0;
   std::uint8_t sensor = 0;
   std::uint8_t sender = 0;  // for a CAN frame

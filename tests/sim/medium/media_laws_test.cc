@@ -52,27 +52,32 @@ schedules::model::Cluster on_can(bool flexible_data_rate) {
   return cluster;
 }
 
-// The medium's reports agree with its acts: frames one after the other, each with its duration until it is accepted;
-// the bus is busy for four more bits of 1 us. The frame's sender gives its meaning (nodes/host/executive.h).
+// The medium's reports agree with its acts: frames one after the other. Each tells its begin; it is accepted at its
+// sender's event, and the bus is busy for four more bits of 1 us. The frame's sender gives its meaning
+// (nodes/host/executive.h).
 struct Reported final : recording::records::Sink {
   using recording::records::Sink::on;
   std::size_t frames = 0;
   Duration busy{};
-  TrueTime idle{};
+  TrueTime start{}, idle{};
   void on(const recording::records::CanFrameSent& sent) override {
     EXPECT_EQ(sent.pdu, kNoPdu);
-    ++frames;
     EXPECT_GE(sent.start.true_time, idle);
-    EXPECT_LT(sent.start.true_time, sent.end.true_time);
-    idle = sent.end.true_time + Duration::microseconds(4);
-    busy += idle - sent.start.true_time;
+    start = sent.start.true_time;
+  }
+  void accepted(TrueTime at) {
+    ++frames;
+    EXPECT_LT(start, at);
+    idle = at + Duration::microseconds(4);
+    busy += idle - start;
   }
 };
 
-template <bool kFlexibleDataRate> class SimulatedCanBench final : public CanBench {
+template <bool kFlexibleDataRate, bool kBitByBit> class SimulatedCanBench final : public CanBench {
  public:
   SimulatedCanBench() {
     for (std::size_t c = 0; c < kNodes; ++c) ports_.push_back(std::make_unique<Port>(*this, c));
+    medium_.set_bit_by_bit(kBitByBit);
   }
   ~SimulatedCanBench() override {
     EXPECT_EQ(reported_.frames * (kNodes - 1), reached_.size());
@@ -106,6 +111,8 @@ template <bool kFlexibleDataRate> class SimulatedCanBench final : public CanBenc
       medium_.arbitrate(now_);
       return;
     }
+    if (event.kind == sim::medium::MediumEvent::Kind::kCanBits) return medium_.end_bits(now_);
+    if (event.kind == sim::medium::MediumEvent::Kind::kCanSent) return reported_.accepted(now_);
     ASSERT_EQ(event.kind, sim::medium::MediumEvent::Kind::kCanArrival);
     const auto member = std::find(std::begin(kMembers), std::end(kMembers), static_cast<NodeId>(event.node));
     ASSERT_NE(member, std::end(kMembers));
@@ -128,7 +135,8 @@ template <bool kFlexibleDataRate> class SimulatedCanBench final : public CanBenc
   std::vector<CanReached> reached_;
 };
 
-using CanBenches = testing::Types<SimulatedCanBench<false>, SimulatedCanBench<true>>;
+using CanBenches = testing::Types<SimulatedCanBench<false, false>, SimulatedCanBench<true, false>,
+                                  SimulatedCanBench<false, true>, SimulatedCanBench<true, true>>;
 
 }  // namespace
 
