@@ -9,6 +9,7 @@ namespace {
 
 using K = FaultKind;
 using P = FaultParameter;
+using D = NodeDemand;
 
 constexpr std::array<FaultKindRow, kFaultKinds> kKindRows{{
     {K::kCrash, "crash", {P::kWindow}},
@@ -32,6 +33,16 @@ constexpr std::array<FaultKindRow, kFaultKinds> kKindRows{{
     {K::kWrongSchedule, "wrong_schedule", {P::kWrongSchedule}},
     {K::kNoise, "noise", {P::kLength, P::kBursts, P::kChannels, P::kWindow}, Failing::kMedium},
     {K::kTransient, "transient", {P::kChannels, P::kPassing}, Failing::kMedium},
+    {K::kCanOmission, "can_omission", {P::kCan, P::kDirection, P::kOccasions, P::kWindow}, Failing::kNode, D::kOnCan},
+    {K::kCanCorruption,
+     "can_corruption",
+     {P::kCan, P::kCanBit, P::kReceivers, P::kOccasions, P::kWindow},
+     Failing::kNode,
+     D::kOnCan},
+    {K::kCanBabbling, "can_babbling", {P::kCan, P::kIdentifier, P::kBursts, P::kWindow}, Failing::kNode, D::kOnCan},
+    {K::kCanBusOff, "can_bus_off", {P::kCan, P::kWindow}, Failing::kNode, D::kOnCan},
+    {K::kCanStuckDominant, "can_stuck_dominant", {P::kCan, P::kWindow}, Failing::kNode, D::kOnCan},
+    {K::kCanNoAcknowledgement, "can_no_acknowledgement", {P::kCan, P::kWindow}, Failing::kNode, D::kOnCan},
 }};
 static_assert(is_one_row_a_kind(kKindRows), "a kind without a row, or rows in another order");
 

@@ -21,15 +21,21 @@ enum class FaultKind : std::uint8_t {
   kBitFlipHeader,  // bits of its frames are inverted on the bus
   kBitFlipPayload,
   kBitFlipTrailer,
-  kChannelSwap,         // its signal for one channel appears on the other
-  kByzantineClock,      // its frames show a different time to every receiver
-  kDrift,               // its oscillator runs at another rate
-  kLoneColdstart,       // it is the only coldstart node with a supply
-  kDuplicateColdstart,  // it starts the cluster while others do, or repeatedly
-  kWrongSchedule,       // it follows another schedule than the cluster's
-  kNoise,               // activity without a sender on a channel
-  kTransient,           // everything on the channels is destroyed
-  kEnd,                 // not a kind: their number
+  kChannelSwap,           // its signal for one channel appears on the other
+  kByzantineClock,        // its frames show a different time to every receiver
+  kDrift,                 // its oscillator runs at another rate
+  kLoneColdstart,         // it is the only coldstart node with a supply
+  kDuplicateColdstart,    // it starts the cluster while others do, or repeatedly
+  kWrongSchedule,         // it follows another schedule than the cluster's
+  kNoise,                 // activity without a sender on a channel
+  kTransient,             // everything on the channels is destroyed
+  kCanOmission,           // on a private CAN: frames do not leave the node's host, or do not reach it
+  kCanCorruption,         // a bit of its frames is inverted
+  kCanBabbling,           // it sends frames outside the schedule
+  kCanBusOff,             // its controller is bus off
+  kCanStuckDominant,      // its driver holds the line
+  kCanNoAcknowledgement,  // its controller does not acknowledge
+  kEnd,                   // not a kind: their number
 };
 inline constexpr std::size_t kFaultKinds = static_cast<std::size_t>(FaultKind::kEnd);
 constexpr std::size_t index_of(FaultKind kind) { return static_cast<std::size_t>(kind); }
@@ -53,8 +59,8 @@ enum class Failing : std::uint8_t {
   kOthers,  // some or all other nodes; the named node works
   kMedium,  // the channels: the fault names no node
 };
-// A demand on the named node, besides being on FlexRay.
-enum class NodeDemand : std::uint8_t { kNothing, kColdstart, kBothChannels };
+// A demand on the named node, besides being on FlexRay; kOnCan: it must be on the fault's CAN instead.
+enum class NodeDemand : std::uint8_t { kNothing, kColdstart, kBothChannels, kOnCan };
 
 // A parameter of a fault beside kind and node: one key, or several that belong together (parameters.h).
 enum class FaultParameter : std::uint8_t {
@@ -79,6 +85,9 @@ enum class FaultParameter : std::uint8_t {
   kWindow,         // `from`, `duration`
   kFrom,           // `from`: it lasts to the end
   kPassing,        // `from`, `duration`: it must end
+  kCan,            // `can`
+  kCanBit,         // `bit`, of a CAN frame
+  kIdentifier,     // `identifier`, of a CAN frame
   kEnd,            // not a parameter: their number
 };
 inline constexpr std::size_t kFaultParameters = static_cast<std::size_t>(FaultParameter::kEnd);
@@ -102,6 +111,7 @@ struct FaultKindRow {
 const FaultKindRow& row_of(FaultKind kind);
 
 inline std::string_view name_of(FaultKind kind) { return row_of(kind).name; }
+inline bool is_on_can(FaultKind kind) { return row_of(kind).demand == NodeDemand::kOnCan; }
 inline bool has_node(FaultKind kind) { return row_of(kind).failing != Failing::kMedium; }
 // Returns whether faults of this kind have the parameter; some modes may lack it (applies(), plan.h).
 bool takes(FaultKind kind, FaultParameter parameter);

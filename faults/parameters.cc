@@ -18,6 +18,8 @@ constexpr Range<Duration> kFaultDurations{Duration::nanoseconds(1), Duration::mi
 // At most the length of the shortest frame (frame_bits() without payload), so that a frame never arrives before
 // it leaves.
 constexpr Duration kMostEarly = Duration::microseconds(9);
+constexpr std::int64_t kMostCanIdentifier = 2047;
+constexpr int kMostCanBits = 707;  // behind the start of frame, in the longest frame of CAN FD
 constexpr int kFrameHeaderBits = 40, kMostPayloadBits = 127 * 16, kFrameTrailerBits = 24;
 
 // The arguments of reading and of writing.
@@ -235,6 +237,22 @@ void write_wrong_schedule(const Writing& out) {
     out.add("by", out.fault.by);
 }
 
+void read_can(const Reading& in) { in.fault.can_name = in.yaml.text("can"); }
+void write_can(const Writing& out) { out.add("can", out.cluster.can_buses[out.fault.can].name); }
+
+void read_can_bit(const Reading& in) {
+  if (in.yaml.has("bit")) in.fault.bit = static_cast<int>(in.yaml.integer("bit", {1, kMostCanBits}));
+}
+void write_can_bit(const Writing& out) {
+  if (out.fault.bit) out.add("bit", *out.fault.bit);
+}
+
+void read_identifier(const Reading& in) {
+  in.fault.identifier =
+      static_cast<std::uint32_t>(in.yaml.integer_or("identifier", in.fault.identifier, {0, kMostCanIdentifier}));
+}
+void write_identifier(const Writing& out) { out.add("identifier", out.fault.identifier); }
+
 bool in_every_mode(const Fault&) { return true; }
 // Only noise has a length; frames and symbols have their own.
 bool is_noise(const Fault& fault) { return fault.signal == FaultSignal::kNoise; }
@@ -271,6 +289,9 @@ constexpr std::array<ParameterRow, kFaultParameters> kParameterRows{{
     {P::kWindow, read_window, write_window, is_no_belief},
     {P::kFrom, read_from, write_from},
     {P::kPassing, read_passing, write_window},
+    {P::kCan, read_can, write_can},
+    {P::kCanBit, read_can_bit, write_can_bit},
+    {P::kIdentifier, read_identifier, write_identifier},
 }};
 static_assert(is_one_row_a_parameter(kParameterRows), "a parameter without a row, or rows in another order");
 

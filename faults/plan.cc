@@ -22,6 +22,7 @@ class Resolver {
   void resolve(Fault& fault, std::size_t index) {
     fault_ = &fault;
     index_ = index;
+    if (is_on_can(fault.kind)) find_can(fault);
     if (has_node(fault.kind) && fault.node == kNoNode) fault.node = find("node", fault.node_name);
     if (fault.receivers.empty())
       for (const std::string& name : fault.receiver_names) fault.receivers.push_back(find("receivers", name));
@@ -29,16 +30,39 @@ class Resolver {
     check_slot();
     check_bits();
     check_demand();
+    check_identifier();
     check_belief();
   }
 
  private:
+  void find_can(Fault& fault) {
+    for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b)
+      if (cluster_.can_buses[b].name == fault.can_name) fault.can = b;
+    if (fault.can != Fault::kNoCan) return;
+    std::string names;
+    for (const schedules::model::CanBus& bus : cluster_.can_buses) names += (names.empty() ? ": " : ", ") + bus.name;
+    fail("can", fault.can_name, "must be a CAN", names);
+  }
+  // Returns whether the node is where the fault is; while its CAN is unknown, every node is.
+  bool is_there(NodeId node) const {
+    if (!is_on_can(fault_->kind)) return cluster_.node(node).flexray.has_value();
+    return fault_->can == Fault::kNoCan || schedules::model::is_on_can(cluster_.node(node), fault_->can);
+  }
+  // Receivers would take its frames for the schedule's.
+  void check_identifier() {
+    if (!takes(fault_->kind, FaultParameter::kIdentifier) || fault_->can == Fault::kNoCan) return;
+    const schedules::model::CanBus& bus = cluster_.can_buses[fault_->can];
+    for (const schedules::model::CanMessage& message : bus.messages)
+      if (message.identifier == fault_->identifier)
+        fail("identifier", fmt::to_string(fault_->identifier), "must be of no message",
+             fmt::format(": {} has it on {}", cluster_.pdu(message.pdu).name, bus.name));
+  }
   NodeId find(std::string_view key, const std::string& name) {
     const auto node = cluster_.find_node(name);
     if (!node)
-      fail(key, name, "must be a node", ": " + names_on_flexray());
-    else if (!cluster_.node(*node).flexray)
-      fail(key, name, "must be on FlexRay");
+      fail(key, name, "must be a node", ": " + names_there());
+    else if (!is_there(*node))
+      fail(key, name, is_on_can(fault_->kind) ? fmt::format("must be on {}", fault_->can_name) : "must be on FlexRay");
     return node.value_or(kNoNode);
   }
   void check_receivers() {
@@ -81,10 +105,10 @@ class Resolver {
     findings_.add({file_, fault_->line, fmt::format("faults[{}].{}", index_, by ? "by" : "slot"),
                    by ? fmt::to_string(fault_->by) : "", objection});
   }
-  std::string names_on_flexray() const {
+  std::string names_there() const {
     std::string names;
-    for (const schedules::model::Node& node : cluster_.nodes)
-      if (node.flexray) names += (names.empty() ? "" : ", ") + node.name;
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
+      if (is_there(static_cast<NodeId>(n))) names += (names.empty() ? "" : ", ") + cluster_.nodes[n].name;
     return names;
   }
   void fail(std::string_view key, std::string value, std::string_view expected, std::string_view more = {}) {

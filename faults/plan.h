@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -84,9 +85,16 @@ struct Fault {
   std::int64_t drift_ppb = 0;  // drift: from `from` on, within +-kMostDriftPpb
   bool all_others = false;     // lone_coldstart: all other nodes are off, not only coldstart nodes
 
+  // Faults on a private CAN.
+  static constexpr std::size_t kNoCan = std::numeric_limits<std::size_t>::max();
+  std::size_t can = kNoCan;      // index in Cluster::can_buses; kNoCan before resolve()
+  std::optional<int> bit;        // can_corruption: 0 is the start of frame, stuff bits count; absent: drawn
+  std::uint32_t identifier = 0;  // can_babbling: of its frames
+
   // Names as written, until resolve().
   std::string node_name;
   std::vector<std::string> receiver_names;
+  std::string can_name;
   int line = 0;
 
   bool operator==(const Fault&) const = default;
@@ -119,8 +127,8 @@ std::vector<std::pair<std::string_view, std::string>> keys_of(const Fault& fault
 // Returns the whole entry in one line: "{kind: crash, node: fusion, from: 0 ns}".
 std::string entry_of(const Fault& fault, const schedules::model::Cluster& cluster);
 
-// Returns the plan with its names looked up, and slots and bits checked against the cluster. Throws InputError
-// with every finding: unknown names, nodes off FlexRay, slots and bits out of range.
+// Returns the plan with its names looked up, and slots, bits and identifiers checked against the cluster. Throws
+// InputError with every finding: unknown names, nodes off FlexRay or off their CAN, slots and bits out of range.
 FaultPlan resolve(FaultPlan plan, const schedules::model::Cluster& cluster);
 
 }  // namespace ttf::faults

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <optional>
 
 #include "core/counted.h"
@@ -11,6 +12,7 @@
 namespace ttf::cli::drive {
 namespace {
 
+using evaluation::faults::CanSeen;
 using evaluation::faults::CheckSeen;
 using evaluation::faults::FaultEffects;
 using evaluation::faults::FaultFindings;
@@ -94,6 +96,30 @@ std::string states_text(const FaultFindings& findings, const schedules::model::C
                  state.to, state.why});
   });
   return table.rows() == 0 ? "No node changed its state.\n" : table.text();
+}
+
+constexpr std::array<std::string_view, CanSeen::kErrors> kCanErrors{"",     "bit", "stuff",
+                                                                    "form", "CRC", "acknowledgement"};
+
+std::string can_name(std::uint8_t bus, const schedules::model::Cluster& cluster) {
+  return bus < cluster.can_buses.size() ? cluster.can_buses[bus].name : "-";
+}
+
+// Returns "" without errors on a private CAN.
+std::string cans_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
+  report::drawing::Table table({"CAN", "node", "first [s]", "error frames", "error passive", "bus off", "errors"});
+  for (const CanSeen& seen : findings.cans) {
+    std::uint64_t all = 0;
+    std::string words;
+    for (std::size_t e = 0; e < seen.errors.size(); ++e) {
+      if (seen.errors[e] == 0) continue;
+      all += seen.errors[e];
+      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", seen.errors[e], kCanErrors[e]);
+    }
+    table.add({can_name(seen.bus, cluster), node_name(seen.node, cluster), cell(seen.first), fmt::format("{}", all),
+               fmt::format("{}", seen.passive), fmt::format("{}", seen.bus_off), words.empty() ? "-" : words});
+  }
+  return table.rows() == 0 ? "" : table.text() + "\n";
 }
 
 // Describes the harm to a node: its count and its first place.
@@ -218,7 +244,8 @@ std::string faults_text(std::string_view drive, const FaultFindings& findings, c
   std::string text = fmt::format("Faults, {}\n", drive);
   if (findings.faults.empty()) return text + "No fault of the plan began.\n";
   return text + injected_text(findings, cluster) + "\n" + checks_text(findings, cluster) + "\n" +
-         guardians_text(findings) + states_text(findings, cluster) + "\n" + harms_text(findings, fault_free, cluster);
+         guardians_text(findings) + states_text(findings, cluster) + "\n" + cans_text(findings, cluster) +
+         harms_text(findings, fault_free, cluster);
 }
 
 nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const schedules::model::Cluster& cluster) {
@@ -234,6 +261,20 @@ nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const s
     one["first_act_s"] = seconds_or_null(fault.first_act);
     one["first_act"] = fault.text;
     add_effects(one, fault, cluster);
+    json.push_back(std::move(one));
+  }
+  return json;
+}
+
+nlohmann::ordered_json cans_json(const std::vector<CanSeen>& cans, const schedules::model::Cluster& cluster) {
+  auto json = nlohmann::ordered_json::array();
+  for (const CanSeen& seen : cans) {
+    nlohmann::ordered_json one = {{"can", can_name(seen.bus, cluster)},
+                                  {"node", node_name(seen.node, cluster)},
+                                  {"first_s", seconds(seen.first)},
+                                  {"error_passive", seen.passive},
+                                  {"bus_off", seen.bus_off}};
+    for (std::size_t e = 1; e < seen.errors.size(); ++e) one["error_frames"][kCanErrors[e]] = seen.errors[e];
     json.push_back(std::move(one));
   }
   return json;

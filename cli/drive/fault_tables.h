@@ -23,6 +23,9 @@ std::string faults_text(std::string_view drive, const evaluation::faults::FaultF
 // Returns the same as JSON, with times in seconds from the start of the drive; absent times are null.
 nlohmann::ordered_json faults_json(const std::vector<evaluation::faults::FaultSeen>& faults,
                                    const schedules::model::Cluster& cluster);
+// Returns the controllers on private CANs that had errors.
+nlohmann::ordered_json cans_json(const std::vector<evaluation::faults::CanSeen>& cans,
+                                 const schedules::model::Cluster& cluster);
 nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::model::Cluster& cluster);
 nlohmann::ordered_json unattributed_json(const evaluation::faults::FaultEffects& effects,
                                          const schedules::model::Cluster& cluster);

@@ -236,6 +236,7 @@ nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t s
       one["faults"] = faults_json(result.faults.faults, result.cluster);
       one["fault_free_nodes"] = names_json(result.fault_free, result.cluster);
       one["unattributed"] = unattributed_json(result.faults.unattributed, result.cluster);
+      if (!result.faults.cans.empty()) one["cans"] = cans_json(result.faults.cans, result.cluster);
     }
     json["strategies"].push_back(std::move(one));
   }

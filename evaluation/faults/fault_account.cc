@@ -234,6 +234,33 @@ void FaultAccount::on(const recording::records::GuardianIntervention& kept) {
     guardians.push_back({kept.cut, std::string(kept.why), 1, cycle, kept.at});
 }
 
+// Returns null before the first fault has begun.
+CanSeen* FaultAccount::can_seen(std::uint8_t bus, const recording::records::Stamp& stamp) {
+  if (!causes_.any_begun(stamp.true_time)) return nullptr;
+  const auto before = [&](const CanSeen& seen) {
+    return seen.bus != bus ? seen.bus < bus : index_of(seen.node) < index_of(stamp.node);
+  };
+  const auto place = std::find_if_not(findings_.cans.begin(), findings_.cans.end(), before);
+  if (place != findings_.cans.end() && place->bus == bus && place->node == stamp.node) return &*place;
+  CanSeen seen;
+  seen.bus = bus;
+  seen.node = stamp.node;
+  seen.first = stamp.true_time;
+  return &*findings_.cans.insert(place, seen);
+}
+
+void FaultAccount::on(const recording::records::CanErrorFrame& error) {
+  CanSeen* const seen = can_seen(error.bus, error.stamp);
+  if (seen != nullptr && error.error < CanSeen::kErrors) ++seen->errors[error.error];
+}
+
+void FaultAccount::on(const recording::records::CanStateChanged& change) {
+  CanSeen* const seen = can_seen(change.bus, change.stamp);
+  if (seen == nullptr) return;
+  seen->passive += change.to == recording::records::kCanErrorPassive ? 1 : 0;
+  seen->bus_off += change.to == recording::records::kCanBusOff ? 1 : 0;
+}
+
 CheckSeen& FaultAccount::notice(Cause cause, Check check, bool faulty, std::int64_t cycle, TrueTime at) {
   const auto c = static_cast<std::size_t>(check);
   FaultEffects& effects = this->effects(cause);

@@ -83,9 +83,21 @@ struct FaultSeen : FaultEffects {
   std::uint64_t acts = 0;
 };
 
+// The errors of one controller on a private CAN, from the first fault's begin on. A fault on the CAN is their cause, or
+// a node without supply; they are not told apart.
+struct CanSeen {
+  std::uint8_t bus = 0;
+  NodeId node = kNoNode;
+  static constexpr std::size_t kErrors = 1 + recording::records::kCanAcknowledgementError;
+  std::array<std::uint64_t, kErrors> errors{};  // error frames that it began, by error
+  std::uint64_t passive = 0, bus_off = 0;       // changes into these states
+  TrueTime first{};
+};
+
 struct FaultFindings {
   std::vector<FaultSeen> faults;  // those of the plan that began, in that order
   FaultEffects unattributed;      // effects that fit none of them
+  std::vector<CanSeen> cans;      // by CAN and node; controllers with errors only
   bool harmed() const;
 };
 
@@ -110,6 +122,8 @@ class FaultAccount final : public recording::records::Sink {
   void on(const recording::records::ClockCorrected&) override;
   void on(const recording::records::SlotFrameSent&) override;
   void on(const recording::records::GuardianIntervention&) override;
+  void on(const recording::records::CanErrorFrame&) override;
+  void on(const recording::records::CanStateChanged&) override;
 
  private:
   using Cause = FaultCauses::Cause;
@@ -121,6 +135,7 @@ class FaultAccount final : public recording::records::Sink {
   // A starting node takes these steps in any case, so only those back have a cause.
   bool starts_as_planned(NodeId node) const { return standings_.has_to_start(node) && !cut_off_[index_of(node)]; }
   FaultEffects& effects(Cause cause);
+  CanSeen* can_seen(std::uint8_t bus, const recording::records::Stamp& stamp);
   std::int64_t cycle_at(TrueTime at) const;
   CheckSeen& notice(Cause cause, Check check, bool faulty, std::int64_t cycle, TrueTime at);
   void notice(Cause cause, Check check, NodeId node, std::int64_t cycle, TrueTime at);

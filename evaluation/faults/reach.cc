@@ -32,6 +32,12 @@ constexpr std::array<ReachRow, ttf::faults::kFaultKinds> kReaches{{
     {.kind = K::kWrongSchedule, .hearing = true, .channel = true, .clocks = true},
     {.kind = K::kNoise, .channel = true},
     {.kind = K::kTransient, .channel = true, .clocks = true},  // acts on sync frames, too
+    {.kind = K::kCanOmission},                                 // this and the others of a CAN: nothing on FlexRay
+    {.kind = K::kCanCorruption},
+    {.kind = K::kCanBabbling},
+    {.kind = K::kCanBusOff},
+    {.kind = K::kCanStuckDominant},
+    {.kind = K::kCanNoAcknowledgement},
 }};
 static_assert(ttf::faults::is_one_row_a_kind(kReaches), "a kind without a reach, or rows in another order");
 

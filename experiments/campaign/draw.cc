@@ -99,6 +99,9 @@ class Drawing {
         {P::kWindow, &Drawing::nothing},  // this and the next two: drawn before, by when()
         {P::kFrom, &Drawing::nothing},
         {P::kPassing, &Drawing::nothing},
+        {P::kCan, &Drawing::nothing},  // this and the next two: a trial has no CAN
+        {P::kCanBit, &Drawing::nothing},
+        {P::kIdentifier, &Drawing::nothing},
     }};
     static_assert(faults::is_one_row_a_parameter(kRows), "a parameter without a row, or rows in another order");
     const std::size_t row = faults::index_of(parameter);

@@ -50,11 +50,15 @@ CampaignFile read_campaign(const StrictYaml& yaml) {
   campaign.startup_cycles = static_cast<int>(cycles.integer("start_up", {40, kMostCycles}, "cycles"));
   cycles.finish();
 
-  campaign.weights.fill(1);
+  // A trial's controllers have no CAN.
+  for (const faults::FaultKind kind : faults::kAllFaultKinds)
+    campaign.weights[faults::index_of(kind)] = faults::is_on_can(kind) ? 0 : 1;
   if (auto classes = root.map_if("classes")) {
     std::int64_t sum = 0;
-    for (std::size_t k = 0; k < campaign.weights.size(); ++k)
-      sum += campaign.weights[k] = classes->integer_or(faults::name_of(faults::kAllFaultKinds[k]), 0, {0, kMostWeight});
+    for (const faults::FaultKind kind : faults::kAllFaultKinds)
+      if (!faults::is_on_can(kind))
+        sum += campaign.weights[faults::index_of(kind)] =
+            classes->integer_or(faults::name_of(kind), 0, {0, kMostWeight});
     classes->finish();
     if (sum == 0) root.fail("classes", "must give a class a weight above 0");
   }

@@ -41,14 +41,14 @@ struct FaultSetting {
   std::uint32_t replication = 0;
 };
 
-class ActiveFault {
+class ActiveFault : public medium::CanDisturbance {
  public:
   explicit ActiveFault(const FaultSetting& setting) : setting_(setting) {}
-  virtual ~ActiveFault() = default;
+  ~ActiveFault() override = default;
   ActiveFault(const ActiveFault&) = delete;
   ActiveFault& operator=(const ActiveFault&) = delete;
 
-  // As in Disturbance. touches() is about controllers' signals; emitted ones always have bytes.
+  // As in Disturbance, and those of CanDisturbance. touches() is about controllers' signals; emitted ones always have bytes.
   virtual bool touches(NodeId sender, schedules::model::Channel channel) const {
     return (void)sender, (void)channel, false;
   }
@@ -62,6 +62,7 @@ class ActiveFault {
   const schedules::model::Cluster& cluster() const { return setting_.cluster; }
   const schedules::model::GlobalParameters& flexray() const { return setting_.cluster.flexray; }
   crank::Plant& plant() { return setting_.plant; }
+  TrueTime now() const { return setting_.plant.now(); }
   TrueTime from() const { return setting_.from; }
   TrueTime until() const { return setting_.until; }
   bool active(TrueTime at) const { return at >= setting_.from && at < setting_.until; }
@@ -71,6 +72,7 @@ class ActiveFault {
     const NodeId node = setting_.fault.node;
     return setting_.plant.powered(node) && includes(setting_.cluster.node(node).flexray->pChannels, channel);
   }
+  bool powered() const { return setting_.plant.powered(setting_.fault.node); }
   std::string_view name(NodeId node) const { return setting_.cluster.node(node).name; }
   void emit(const medium::Leaving& signal, std::optional<NodeId> source) { setting_.log.emit(signal, source); }
 

@@ -29,6 +29,12 @@ constexpr std::array<FamilyRow, ttf::faults::kFaultKinds> kFamilies{{
     {K::kWrongSchedule, make_wrong_schedule},
     {K::kNoise, make_noise},
     {K::kTransient, make_transient},
+    {K::kCanOmission, make_can_omission},
+    {K::kCanCorruption, make_can_corruption},
+    {K::kCanBabbling, make_can_babbling},
+    {K::kCanBusOff, make_can_bus_off},
+    {K::kCanStuckDominant, make_can_stuck_dominant},
+    {K::kCanNoAcknowledgement, make_can_no_acknowledgement},
 }};
 static_assert(ttf::faults::is_one_row_a_kind(kFamilies), "a kind that does nothing, or rows in another order");
 

@@ -33,6 +33,14 @@ std::unique_ptr<ActiveFault> make_duplicate_coldstart(const FaultSetting& settin
 // The medium.
 std::unique_ptr<ActiveFault> make_transient(const FaultSetting& setting);
 
+// The private CANs.
+std::unique_ptr<ActiveFault> make_can_omission(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_can_corruption(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_can_babbling(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_can_bus_off(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_can_stuck_dominant(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_can_no_acknowledgement(const FaultSetting& setting);
+
 // Makes the working part of a fault by its kind and mode.
 std::unique_ptr<ActiveFault> make_active_fault(const FaultSetting& setting);
 

@@ -47,6 +47,36 @@ bool Injector::arriving(medium::Arriving& signal) {
   return true;
 }
 
+bool Injector::touches_can(std::size_t bus, TrueTime until) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [&](const Entry& entry) { return entry.fault->touches_can(bus, until); });
+}
+
+bool Injector::queues_on_can(std::size_t bus, NodeId sender) {
+  return std::all_of(entries_.begin(), entries_.end(),
+                     [&](Entry& entry) { return entry.fault->queues_on_can(bus, sender); });
+}
+
+void Injector::begins_on_can(medium::CanBeginning& frame) {
+  for (Entry& entry : entries_) entry.fault->begins_on_can(frame);
+}
+
+bool Injector::arrives_from_can(std::size_t bus, NodeId receiver) {
+  return std::all_of(entries_.begin(), entries_.end(),
+                     [&](Entry& entry) { return entry.fault->arrives_from_can(bus, receiver); });
+}
+
+bool Injector::acknowledges_on_can(std::size_t bus, NodeId node) {
+  return std::all_of(entries_.begin(), entries_.end(),
+                     [&](Entry& entry) { return entry.fault->acknowledges_on_can(bus, node); });
+}
+
+TrueTime Injector::holds_can(std::size_t bus) const {
+  TrueTime until{};
+  for (const Entry& entry : entries_) until = std::max(until, entry.fault->holds_can(bus));
+  return until;
+}
+
 void Injector::act(TrueTime now) {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     Entry& entry = entries_[i];

@@ -48,6 +48,12 @@ class Injector final : public medium::Disturbance, private FaultLog {
   bool arriving(medium::Arriving& signal) override;
   TrueTime next() const override { return next_; }
   void act(TrueTime now) override;
+  bool touches_can(std::size_t bus, TrueTime until) const override;
+  bool queues_on_can(std::size_t bus, NodeId sender) override;
+  void begins_on_can(medium::CanBeginning& frame) override;
+  bool arrives_from_can(std::size_t bus, NodeId receiver) override;
+  bool acknowledges_on_can(std::size_t bus, NodeId node) override;
+  TrueTime holds_can(std::size_t bus) const override;
 
  private:
   // One fault, with its begin and its end while they are to come.

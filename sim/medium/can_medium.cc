@@ -83,11 +83,11 @@ void CanMedium::arbitrate_at(TrueTime when) {
   queue_.schedule(when, Phase::kArbitration, event.node, event);
 }
 
-void CanMedium::send(NodeId sender, TrueTime now, const bus::ports::CanFrame& frame) {
+void CanMedium::send(NodeId sender, TrueTime now, const bus::ports::CanFrame& frame, bool emitted) {
   const auto m = member_of(sender);
   TTF_CHECK(m.has_value(), "{} is not on {}", cluster_.node(sender).name, can().name);
   Member& member = members_[*m];
-  if (touched(now + Duration{1}) && !disturbance_->queues_on_can(bus_, sender)) return;
+  if (!emitted && touched(now + Duration{1}) && !disturbance_->queues_on_can(bus_, sender)) return;
   if (!member.on || member.waiting == member.room) {
     ++dropped_;
     return;

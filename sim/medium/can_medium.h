@@ -41,7 +41,8 @@ class CanMedium {
   CanMedium(const schedules::model::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,
             MediumQueue& queue, FramePool& pool, recording::records::Sink& sink, std::uint64_t seed,
             std::uint32_t replication);
-  void send(NodeId sender, TrueTime now, const bus::ports::CanFrame& frame);
+  // `emitted`: a fault sends it in the node's name.
+  void send(NodeId sender, TrueTime now, const bus::ports::CanFrame& frame, bool emitted = false);
   // A node that gets its supply waits for eleven recessive bits.
   void power_on(NodeId node, TrueTime now);
   // Drops the waiting frames of a node that has lost its supply. If its frame travels as a whole, that goes on to its

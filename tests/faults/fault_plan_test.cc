@@ -73,6 +73,16 @@ const std::map<std::string, std::vector<std::string>> kFullEntries = {
     {"wrong_schedule", {"node: a", "mode: static_slot", "by: 2"}},
     {"noise", {"length: 5 us", "interval: 10 us", "jitter: 1 us", "channels: B", "from: 1 ms", "duration: 2 ms"}},
     {"transient", {"channels: A", "from: 1 ms", "duration: 2 ms"}},
+    {"can_omission",
+     {"node: a", "can: x", "direction: both", "from: 1 ms", "duration: 2 ms", "probability: 0.5", "every: 3"}},
+    {"can_corruption",
+     {"node: a", "can: x", "bit: 25", "receivers: [b]", "from: 1 ms", "duration: 2 ms", "probability: 0.5",
+      "every: 3"}},
+    {"can_babbling",
+     {"node: a", "can: x", "identifier: 7", "interval: 10 us", "jitter: 1 us", "from: 1 ms", "duration: 2 ms"}},
+    {"can_bus_off", {"node: a", "can: x", "from: 1 ms", "duration: 2 ms"}},
+    {"can_stuck_dominant", {"node: a", "can: x", "from: 1 ms", "duration: 2 ms"}},
+    {"can_no_acknowledgement", {"node: a", "can: x", "from: 1 ms", "duration: 2 ms"}},
 };
 
 std::string entry(const std::string& kind, const std::vector<std::string>& keys) {
@@ -87,7 +97,7 @@ TEST(FaultPlan, EveryKindHasANameOfItsOwnAndAnEntryHere) {
     EXPECT_TRUE(names.insert(std::string(name_of(kind))).second) << name_of(kind);
     EXPECT_TRUE(kFullEntries.contains(std::string(name_of(kind)))) << name_of(kind);
   }
-  EXPECT_EQ(names.size(), 17U);
+  EXPECT_EQ(names.size(), 23U);
 }
 
 // The compile-time requirements of the tables of kinds.
@@ -225,6 +235,10 @@ TEST(FaultPlan, MistakesAreSaidInOneSentence) {
       {"{kind: noise, node: a}", "faults[0].node: is not a known key here"},
       {"{kind: noise, length: 101 ms}", "faults[0].length = 101 ms: must be a time"},
       {"{kind: transient}", "faults[0].duration: is missing"},
+      {"{kind: can_bus_off, node: a}", "faults[0].can: is missing"},
+      {"{kind: can_corruption, node: a, can: x, bit: 0}", "faults[0].bit = 0: must be a whole number 1..707"},
+      {"{kind: can_babbling, node: a, can: x, identifier: 2048}",
+       "faults[0].identifier = 2048: must be a whole number 0..2047"},
       {"crash", "faults[0]: must be a mapping"},
   };
   for (const Mutation& mutation : mutations) {
@@ -308,6 +322,28 @@ TEST(FaultPlan, WhatTheClusterHasNotIsRefused) {
               HasSubstr("drive.yaml:6: faults[4].node = " + not_coldstart + ": must be a coldstart node of "));
   EXPECT_THAT(sentences[5], HasSubstr("drive.yaml:7: faults[5].bits = 2031: must be 0.."));
   EXPECT_THAT(sentences[6], HasSubstr("drive.yaml:8: faults[6].by = 1022: must be 1.."));
+}
+
+// A fault of a CAN names it, and its node is on it, on FlexRay or not.
+TEST(FaultPlan, FaultsOfACanAreThere) {
+  const schedules::model::Cluster cluster = paper();
+  const Read result = read(
+      "  - {kind: can_bus_off, node: laser, can: laser_can}\n"
+      "  - {kind: can_corruption, node: laser, can: laser_can, receivers: [laser_pre]}\n");
+  const FaultPlan plan = resolve(result.plan, cluster);
+  EXPECT_EQ(plan.faults[0].node, *cluster.find_node("laser"));
+  EXPECT_EQ(cluster.can_buses[plan.faults[0].can].name, "laser_can");
+  EXPECT_EQ(entry_of(plan.faults[0], cluster), "{kind: can_bus_off, node: laser, can: laser_can, from: 0 ns}");
+  EXPECT_THAT(plan.faults[1].receivers, ElementsAre(*cluster.find_node("laser_pre")));
+  const auto sentences = refused(
+      "  - {kind: can_bus_off, node: laser, can: wire}\n"
+      "  - {kind: can_bus_off, node: camera, can: laser_can}\n"
+      "  - {kind: can_babbling, node: laser, can: laser_can, identifier: 256}\n",
+      cluster);
+  ASSERT_EQ(sentences.size(), 3U);
+  EXPECT_THAT(sentences[0], HasSubstr("drive.yaml:2: faults[0].can = wire: must be a CAN of paper_synchronised: "));
+  EXPECT_THAT(sentences[1], HasSubstr("drive.yaml:3: faults[1].node = camera: must be on laser_can of "));
+  EXPECT_THAT(sentences[2], HasSubstr("drive.yaml:4: faults[2].identifier = 256: must be of no message of "));
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ bool kind_lasts(FaultKind kind) { return kind == FaultKind::kWrongSchedule || ki
 std::vector<ttf::faults::Fault> every_kind() {
   std::vector<ttf::faults::Fault> faults;
   for (const FaultKind kind : ttf::faults::kAllFaultKinds) {
+    if (ttf::faults::is_on_can(kind)) continue;  // the last ones; here is no CAN (can_faults_test.cc)
     ttf::faults::Fault fault =
         fault_of(kind, static_cast<int>(faults.size() % 6), 10 + 6 * static_cast<int>(faults.size()), 5);
     if (kind == FaultKind::kMasquerading) fault.slot = 40;
@@ -53,7 +54,7 @@ FaultBusConfig six(std::vector<ttf::faults::Fault> faults, std::uint64_t seed = 
 TEST(Injector, EveryKindBeginsActsAndIsCounted) {
   FaultBus bus(six(every_kind()));
   bus.run(5 * 130);
-  for (std::size_t i = 0; i < ttf::faults::kAllFaultKinds.size(); ++i) {
+  for (std::size_t i = 0; i < every_kind().size(); ++i) {
     SCOPED_TRACE(ttf::faults::name_of(ttf::faults::kAllFaultKinds[i]));
     std::uint64_t acts = 0, begins = 0, ends = 0;
     TrueTime first{}, last{};
