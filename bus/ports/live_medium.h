@@ -58,11 +58,21 @@ struct LiveSignal {
   bool tells_late = false;           // a sync frame: receivers learn how late it left
 };
 
+// A report of a CAN's controller about an error, or about its state of error confinement. The numbers are those of
+// recording::records::CanErrorFrame and CanStateChanged.
+struct CanReport {
+  std::uint8_t error = 0;  // 0: it is about the state only
+  bool as_transmitter = false;
+  std::optional<std::uint8_t> state;                      // it has this one
+  std::uint16_t transmit_errors = 0, receive_errors = 0;  // 0 where the carrier does not tell
+};
+
 struct LiveArrival {
   enum class Kind : std::uint8_t {
     kFlexRay,   // `signal`
     kFollowUp,  // `late` of the sync frame that came before: of signal.slot in cycle_counter on signal.channel
     kCan,       // `can` on can_bus
+    kCanReport  // `report` of the node's own controller on can_bus; no frame of another node
   };
   Kind kind = Kind::kFlexRay;
   MachineTime at{};                 // when the frame had arrived
@@ -74,6 +84,7 @@ struct LiveArrival {
                                    // states it
   std::size_t can_bus = 0;
   CanFrame can;
+  CanReport report;
 };
 
 // Counted since construction.

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "bus/socketcan/error_report.h"
 #include "bus/socketcan/stamp.h"
 #include "core/check.h"
 #include "core/errors.h"
@@ -131,7 +132,9 @@ std::optional<ports::LiveArrival> SocketCanMedium::receive() {
     idle = 0;
     ++looked_at;
     if (auto arrival = take(line)) {
-      if (arrival->kind != ports::LiveArrival::Kind::kFollowUp) ++received_count_;
+      const bool counts =
+          arrival->kind != ports::LiveArrival::Kind::kFollowUp && arrival->kind != ports::LiveArrival::Kind::kCanReport;
+      if (counts) ++received_count_;
       return arrival;
     }
   }
@@ -174,6 +177,11 @@ bool SocketCanMedium::take_signal(FlexRay& flexray, ports::LiveArrival& arrival)
 
 bool SocketCanMedium::take_can(OnLine& line, ports::LiveArrival& arrival) const {
   const canfd_frame& can = received_.can;
+  if (const auto report = error_report_of(can)) {
+    arrival.kind = ports::LiveArrival::Kind::kCanReport;
+    arrival.report = *report;
+    return true;
+  }
   if (can.can_id > CAN_SFF_MASK) return ++line.foreign, false;  // any of the flags, or 29 bits
   const std::size_t most = is_can_fd(can) ? CANFD_MAX_DLEN : CAN_MAX_DLEN;
   if (can.len > most || can_fd_length(can.len) != can.len) return ++line.malformed, false;

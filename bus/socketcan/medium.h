@@ -5,8 +5,9 @@
 //              own frames; and frames of which only the first fragments came
 //   malformed  CAN frames in our form but wrong; fragments that continue no frame; on a private CAN, CAN FD frames of
 //              an impossible length
-//   foreign    on a channel everything except CAN FD frames with an 11-bit identifier; on a private CAN error frames,
-//              remote frames and 29-bit identifiers. Other frames there are left to the CAN controller's judgement
+//   foreign    on a channel everything except CAN FD frames with an 11-bit identifier; on a private CAN remote frames,
+//              29-bit identifiers, and the interface's reports that are neither errors nor states (error_report.h).
+//              Other frames there are left to the CAN controller's judgement
 //   not_sent   also a follow-up without room; and a frame of which only some fragments had room
 //
 // A follow-up states a sync frame's lateness once the interface has confirmed the frame. The sender hears its

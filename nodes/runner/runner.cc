@@ -61,6 +61,7 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Ste
                         ? nullptr
                         : std::make_unique<PacedCan>(cluster_, b, most, [this] { return executive_->stamp(last_); }));
     ports.push_back(cans_.back().get());
+    can_states_.push_back(recording::records::kCanErrorActive);
   }
   for (std::size_t s = 0; s < cluster_.sensors.size(); ++s)
     sensor_can_.push_back(schedules::model::can_of_lines(cluster_, static_cast<SensorId>(s)));
@@ -135,11 +136,30 @@ void Runner::take_in() {
   while (const auto arrival = medium_.receive()) {
     if (arrival->left) account_.transits.add(arrival->received - *arrival->left);
     if (arrival->at < powered_on_) continue;  // without power the node hears nothing
+    if (arrival->kind == bus::ports::LiveArrival::Kind::kCanReport) {
+      tell_errors(*arrival);
+      continue;
+    }
     std::optional<Microticks> late;
     if (arrival->late) late = ticks(config_.clock.in_drive(*arrival->late));
     arrival_window_.arrive(*arrival, ticks(config_.clock.drive_time(arrival->at)), late,
                            ticks(config_.clock.in_drive(arrival->signal.duration)), schedule());
   }
+}
+
+// Records the errors of the node's own controller on a private CAN, as its interface reports them.
+void Runner::tell_errors(const bus::ports::LiveArrival& arrival) {
+  const bus::ports::CanReport& report = arrival.report;
+  const auto can_bus = static_cast<std::uint8_t>(arrival.can_bus);
+  const recording::records::Stamp stamp = executive_->stamp(ticks(config_.clock.drive_time(arrival.at)));
+  if (report.error != 0)
+    watch_->out->on(recording::records::CanErrorFrame{stamp, can_bus, report.error, report.as_transmitter,
+                                                      report.transmit_errors, report.receive_errors});
+  std::uint8_t& state = can_states_[arrival.can_bus];
+  if (!report.state || *report.state == state) return;
+  watch_->out->on(recording::records::CanStateChanged{stamp, can_bus, state, *report.state, report.transmit_errors,
+                                                      report.receive_errors});
+  state = *report.state;
 }
 
 void Runner::hand_over(const ArrivalWindow::Due& due) {

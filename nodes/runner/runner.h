@@ -107,6 +107,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   }
 
   void take_in();
+  void tell_errors(const bus::ports::LiveArrival& arrival);
   void do_due(Microticks now);
   // Does a host's work: restarts a halted controller. It also restarts one whose coldstart attempts are
   // exhausted, after kCyclesUntilAnew of listening: if all nodes only listened, the cluster would never start.
@@ -130,6 +131,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   ArrivalWindow arrival_window_;
   LiveFlexRay flexray_;
   std::vector<std::unique_ptr<PacedCan>> cans_;         // by CAN, null where the node is not on it
+  std::vector<std::uint8_t> can_states_;                // by CAN: of the own controller, as its interface reports it
   std::vector<std::optional<std::size_t>> sensor_can_;  // by sensor, the CAN of its lines
   std::unique_ptr<host::Executive> executive_;
   bus::ports::MachineTime powered_on_{std::numeric_limits<std::int64_t>::min()};

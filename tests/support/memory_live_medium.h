@@ -60,6 +60,18 @@ class MemoryLiveBus {
   }
   std::size_t lines() const { return bus::ports::line_of_can(hub_->options.can_buses.size()); }
 
+  // Gives every member on that CAN a report, as of its own controller.
+  void report(std::size_t can_bus, const bus::ports::CanReport& report) {
+    const std::scoped_lock lock(hub_->mutex);
+    bus::ports::LiveArrival arrival;
+    arrival.kind = bus::ports::LiveArrival::Kind::kCanReport;
+    arrival.at = arrival.received = hub_->options.now();
+    arrival.can_bus = can_bus;
+    arrival.report = report;
+    for (const auto& member : hub_->members)
+      if (Queue& queue = member->queues[bus::ports::line_of_can(can_bus)]; queue.event >= 0) queue.keep(arrival, {});
+  }
+
   // Puts a foreign frame, or a malformed one in our form, on a line: all members there count it.
   void intrude(bus::ports::Line line, std::uint64_t bus::ports::LiveCounts::*counted) {
     const std::scoped_lock lock(hub_->mutex);
@@ -80,6 +92,14 @@ class MemoryLiveBus {
     int event = -1;
     bool watched = false;
 
+    // Precondition: there is room.
+    void keep(const bus::ports::LiveArrival& arrival, std::span<const std::byte> bytes) {
+      Kept& kept = ring[(first + count++) % ring.size()];
+      kept.arrival = arrival;
+      kept.size = bytes.size();
+      std::copy(bytes.begin(), bytes.end(), kept.bytes.begin());
+      ring_bell();
+    }
     void ring_bell() const {
       if (watched && count > 0) eventfd_write(event, 1);
     }
@@ -195,11 +215,7 @@ class MemoryLiveBus {
           member->counts.lost += arrival.kind != bus::ports::LiveArrival::Kind::kFollowUp;
           continue;
         }
-        Kept& kept = queue.ring[(queue.first + queue.count++) % queue.ring.size()];
-        kept.arrival = arrival;
-        kept.size = bytes.size();
-        std::copy(bytes.begin(), bytes.end(), kept.bytes.begin());
-        queue.ring_bell();
+        queue.keep(arrival, bytes);
       }
     }
 

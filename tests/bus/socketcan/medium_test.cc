@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "recording/records/records.h"
 #include "tests/bus/socketcan/frames.h"
 #include "tests/bus/socketcan/vcan.h"
 #include "tests/support/allocation_counter.h"
@@ -187,7 +188,8 @@ TEST_F(LiveOnVcan, NothingArrivesInTheFuture) {
   EXPECT_LE(arrival->at, end);
 }
 
-// As cangen writes them: classic and FD, 29 bits, remote and error frames.
+// As cangen writes them: classic and FD, 29 bits, remote and error frames. On a private CAN an error frame is a report
+// of the controller.
 TEST_F(LiveOnVcan, ForeignFramesAreCountedAndNotHandedOver) {
   SocketCanMedium medium(options());
   Socket on_a = stranger(0), on_can = stranger(2);
@@ -203,9 +205,13 @@ TEST_F(LiveOnVcan, ForeignFramesAreCountedAndNotHandedOver) {
       ASSERT_EQ(on_can.send(can), Status::kDone);
     }
   }
+  const auto report = next(medium);
+  ASSERT_TRUE(report && report->kind == LiveArrival::Kind::kCanReport);
+  EXPECT_EQ(report->can_bus, 0u);
+  EXPECT_EQ(report->report.state, recording::records::kCanBusOff);
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_FALSE(medium.receive());
-  EXPECT_EQ(medium.counts().foreign, 5u + 4u);
+  EXPECT_EQ(medium.counts().foreign, 5u + 3u);
   EXPECT_EQ(medium.counts().malformed, 1u);
   EXPECT_EQ(medium.counts().received, 0u);
   EXPECT_EQ(medium.counts().lost, 0u);

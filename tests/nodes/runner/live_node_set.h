@@ -60,6 +60,8 @@ struct Recorded final : recording::records::Sink {
   void on(const recording::records::Measured& measurement) override { measured.push_back(measurement.stamp.true_time); }
   void on(const recording::records::CanFrameSent&) override { ++can_frames; }
   void on(const recording::records::SymbolSent&) override { ++symbols; }
+  void on(const recording::records::CanErrorFrame& error) override { can_errors.push_back(error); }
+  void on(const recording::records::CanStateChanged& change) override { can_states.push_back(change); }
   void on(const recording::records::SlotFrameSent& frame) override {
     frames.emplace_back(frame.cycle, frame.slot, frame.channel);
     ordered = ordered && frame.stamp.local >= last_frame;
@@ -99,6 +101,8 @@ struct Recorded final : recording::records::Sink {
     return largest;
   }
 
+  std::vector<recording::records::CanErrorFrame> can_errors;
+  std::vector<recording::records::CanStateChanged> can_states;
   int fresh = 0, discarded = 0, can_frames = 0, symbols = 0, accounts = 0;
   std::vector<TrueTime> measured;
   std::vector<SlotOfCycle> frames;

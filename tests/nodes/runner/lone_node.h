@@ -50,9 +50,9 @@ class RunnerTest : public LiveNodeSet {
       for (const schedules::model::CanBus& can : set.cluster_.can_buses)
         options.can_buses.push_back(can.flexible_data_rate);
       options.now = [this] { return host.now(); };
-      test::MemoryLiveBus bus(options);
-      own_ = bus.join();
-      others_ = bus.join();
+      bus_ = std::make_unique<test::MemoryLiveBus>(options);
+      own_ = bus_->join();
+      others_ = bus_->join();
     }
     RunnerEnd run(bus::ports::LiveMedium* instead = nullptr) {
       RunnerConfig config = set_.config_of(how_, clock_, node_);
@@ -115,6 +115,7 @@ class RunnerTest : public LiveNodeSet {
     void others_send_can(std::size_t can_bus, std::uint32_t identifier, std::span<const std::byte> data = {}) {
       (void)others_->send_can(can_bus, {identifier, false, data});
     }
+    void report_on_can(std::size_t can_bus, const bus::ports::CanReport& report) { bus_->report(can_bus, report); }
     struct CanArrival {
       std::size_t can_bus = 0;
       std::uint32_t identifier = 0;
@@ -169,6 +170,7 @@ class RunnerTest : public LiveNodeSet {
     const NodeId node_;
     const Drive how_;
     const DriveClock clock_;
+    std::unique_ptr<test::MemoryLiveBus> bus_;
     std::unique_ptr<bus::ports::LiveMedium> own_, others_;
   };
 

@@ -200,6 +200,30 @@ TEST_F(RunnerTest, FramesLeaveAsACanWouldCarryThem) {
   }
 }
 
+// The interface of a private CAN reports errors and states. Each change of state is told once.
+TEST_F(RunnerTest, ReportsOfItsInterfaceAreRecords) {
+  using namespace recording::records;
+  Alone laser(*this, "laser", {.lasts = ms(20)});
+  const std::size_t can = *schedules::model::can_of_lines(cluster_, *cluster_.find_sensor("laser"));
+  bus::ports::CanReport report;
+  report.error = kCanBitError;
+  report.as_transmitter = true;
+  report.transmit_errors = 8;
+  laser.host.at(laser.at(ms(5)), [&, report] { laser.report_on_can(can, report); });
+  report = {};
+  report.state = kCanErrorPassive;
+  for (const int at : {7, 8}) laser.host.at(laser.at(ms(at)), [&, report] { laser.report_on_can(can, report); });
+  laser.run();
+  ASSERT_EQ(laser.out.can_errors.size(), 1u);
+  EXPECT_EQ(laser.out.can_errors[0].bus, can);
+  EXPECT_EQ(laser.out.can_errors[0].error, kCanBitError);
+  EXPECT_EQ(laser.out.can_errors[0].transmit_errors, 8);
+  EXPECT_EQ(laser.out.can_errors[0].stamp.node, id_of("laser"));
+  ASSERT_EQ(laser.out.can_states.size(), 1u);
+  EXPECT_EQ(laser.out.can_states[0].from, kCanErrorActive);
+  EXPECT_EQ(laser.out.can_states[0].to, kCanErrorPassive);
+}
+
 TEST_F(RunnerTest, ALineIsKnownByItsForm) {
   Alone camera_pre(*this, "camera_pre", {.lasts = ms(10)});
   const auto sensor = *cluster_.find_sensor("camera");
