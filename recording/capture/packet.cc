@@ -87,7 +87,7 @@ FlexRayPacket parse_flexray_packet(std::span<const std::byte> data) {
 void put_can_packet(std::string& out, std::uint32_t identifier, bool flexible_data_rate,
                     std::span<const std::byte> data) {
   const std::span<const std::byte> kept = data.first(std::min(data.size(), kMaxCanData));
-  if (identifier > kLargestBaseIdentifier) identifier |= kExtendedIdentifier;
+  if (identifier > kLargestBaseIdentifier && (identifier & kErrorFrame) == 0) identifier |= kExtendedIdentifier;
   for (const int shift : {24, 16, 8, 0}) put_byte(out, identifier >> shift);
   put_byte(out, static_cast<std::uint32_t>(kept.size()));
   put_byte(out, flexible_data_rate ? kBitRateSwitch | kFlexibleDataRate : 0u);

@@ -67,7 +67,8 @@ struct FlexRayPacket {
 };
 FlexRayPacket parse_flexray_packet(std::span<const std::byte> data);
 
-// Appends a packet of link type 227. Identifiers up to 0x7ff are base identifiers, larger ones extended. With
+// Appends a packet of link type 227. Identifiers up to 0x7ff are base identifiers, larger ones extended, or error
+// frames. With
 // `flexible_data_rate` the bit rate is switched too, as on every CAN FD of this program. At most 64 bytes of
 // data are kept.
 void put_can_packet(std::string& out, std::uint32_t identifier, bool flexible_data_rate,
@@ -77,6 +78,7 @@ inline constexpr std::size_t kCanPacketHeader = 8;
 inline constexpr std::size_t kMaxCanData = 64;
 inline constexpr std::uint32_t kLargestBaseIdentifier = 0x7ff;
 inline constexpr std::uint32_t kExtendedIdentifier = 0x80000000u;
+inline constexpr std::uint32_t kErrorFrame = 0x20000000u;  // in an identifier: a driver's report
 inline constexpr std::uint8_t kBitRateSwitch = 1, kFlexibleDataRate = 4;
 
 }  // namespace ttf::recording::capture

@@ -107,6 +107,7 @@ std::string flexray_kind(const LoggedFrame& frame) {
 }
 
 std::string can_flags(const LoggedFrame& frame) {
+  if (frame.can_error) return "";
   std::string text = frame.id > capture::kLargestBaseIdentifier ? "extended" : "";
   if (frame.flexible_data_rate) text += text.empty() ? "brs" : "+brs";
   return text;
@@ -180,7 +181,10 @@ std::string export_csv(const FrameCollector& collector, const std::vector<Logged
       flags = can_flags(frame);
       out += fmt::format("{},{},,,", frame.time_ns, quoted(names.can_bus(frame.channel)));
     }
-    const std::string kind = frame.flexray ? flexray_kind(frame) : frame.flexible_data_rate ? "can_fd" : "can";
+    const std::string kind = frame.flexray              ? flexray_kind(frame)
+                             : frame.can_error          ? "can_error"
+                             : frame.flexible_data_rate ? "can_fd"
+                                                        : "can";
     out += fmt::format("{},{},{},{},{},{},{},{},", kind == "noise" ? "" : std::to_string(frame.id),
                        frame.sender == kNoNode ? "" : quoted(names.node(frame.sender)), kind, flags,
                        list ? quoted(names.pdu(frame.pdu)) : "", list ? std::to_string(frame.sequence) : "",

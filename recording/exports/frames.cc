@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "bus/wire/flexray_frame.h"
+#include "recording/exports/can_error_bytes.h"
 
 namespace ttf::recording::exports {
 namespace {
@@ -72,6 +73,19 @@ void FrameCollector::on(const records::CanFrameSent& record) {
   frame.fragment = record.fragment;
   frames_.push_back(with_data(frame, record.data));
 }
+
+template <class Record> void FrameCollector::can_error(const Record& record) {
+  const CanErrorBytes bytes = error_bytes_of(record);
+  LoggedFrame frame;
+  frame.time_ns = record.stamp.true_time.ns;
+  frame.channel = record.bus;
+  frame.id = bytes.identifier;
+  frame.can_error = true;
+  frame.sender = record.stamp.node;
+  frames_.push_back(with_data(frame, bytes.data));
+}
+template void FrameCollector::can_error(const records::CanErrorFrame&);
+template void FrameCollector::can_error(const records::CanStateChanged&);
 
 void FrameCollector::on(const records::ChannelFrame& record) {
   LoggedFrame frame;

@@ -21,6 +21,7 @@ struct LoggedFrame {
   std::int64_t cycle = 0;           // running; FlexRay only
   bool null_frame = false;          // FlexRay only
   bool flexible_data_rate = false;  // CAN only
+  bool can_error = false;           // CAN: an error frame, or a controller's new state (can_error_bytes.h)
   NodeId sender{};
   PduId pdu = kNoPdu;
   SensorId sensor = kNoSensor;  // with `sequence`, the measurement that the frame carries
@@ -70,6 +71,8 @@ class FrameCollector final : public records::Sink {
   void on(const records::CanFrameSent& record) override;
   void on(const records::ChannelFrame& record) override;
   void on(const records::SymbolSent& record) override;
+  void on(const records::CanErrorFrame& record) override { can_error(record); }
+  void on(const records::CanStateChanged& record) override { can_error(record); }
 
   // Returns all frames so far, by time; frames of the same instant in the order of their records.
   std::vector<LoggedFrame> in_order() const;
@@ -86,6 +89,7 @@ class FrameCollector final : public records::Sink {
     bool nothing = false;
     LoggedFrame frame;  // without the fields that only the sender's record has
   };
+  template <class Record> void can_error(const Record& record);
   LoggedFrame with_data(LoggedFrame frame, std::span<const std::byte> data);
 
   std::vector<LoggedFrame> frames_;

@@ -102,6 +102,29 @@ TEST(CaptureExport, CandumpLinesAreThoseCanplayerReads) {
             "(1000000001.234567) laser_can 100##1DEAD07\n");
 }
 
+// Errors are as SocketCAN's drivers report them: a bit error of the transmitter with 8 errors, a wrong CRC at a receiver,
+// an error-passive transmitter, bus off.
+TEST(CaptureExport, ErrorsOnACanAreErrorFrames) {
+  Exported log;
+  const NodeId laser = *log.nodes.find_node("laser");
+  const auto at = [&](std::int64_t ns) { return records::Stamp{{ns}, {}, {}, laser}; };
+  log.collector.on(records::CanErrorFrame{at(1'000), 0, records::kCanBitError, true, 8, 0});
+  log.collector.on(records::CanErrorFrame{at(2'000), 0, records::kCanCrcError, false, 0, 1});
+  log.collector.on(records::CanStateChanged{at(3'000), 0, records::kCanErrorActive, records::kCanErrorPassive, 128, 0});
+  log.collector.on(records::CanStateChanged{at(4'000), 0, records::kCanErrorPassive, records::kCanBusOff, 256, 0});
+  EXPECT_EQ(log.candump(),
+            "(1000000000.000001) laser_can 20000288#0000810000000800\n"
+            "(1000000000.000002) laser_can 20000288#0000000800000001\n"
+            "(1000000000.000003) laser_can 20000204#0020000000008000\n"
+            "(1000000000.000004) laser_can 20000240#000000000000FF00\n");
+  EXPECT_THAT(log.csv(), HasSubstr("1000,laser_can,,,536871560,laser,can_error,,,,,,0000810000000800\n"));
+  const capture::Capture capture = log.capture();
+  ASSERT_EQ(capture.packets.size(), 4u);
+  const auto head = capture.data(capture.packets[0]).first(8);
+  constexpr std::array kHead{0x20, 0x00, 0x02, 0x88, 0x08, 0x00, 0x00, 0x00};  // the identifier, the length
+  for (std::size_t b = 0; b < kHead.size(); ++b) EXPECT_EQ(static_cast<int>(head[b]), kHead[b]) << b;
+}
+
 TEST(CaptureExport, RowsNameEverythingAFrameIs) {
   Exported log;
   log.flexray(5, 1, 0, kNoPdu, false);
