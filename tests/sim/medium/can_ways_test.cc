@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/random.h"
@@ -124,9 +125,14 @@ TEST(CanWays, AControllerOffTheBusRecoversBehindItsRelease) {
 
 TEST(CanWays, DrivesLeaveTheSameRecords) {
   using fusion::strategies::StrategyKind;
-  for (const StrategyKind strategy : {StrategyKind::kTt, StrategyKind::kAdva}) {
-    drives::Drive drive("scenarios/paper_scenario1.yaml", strategy);
-    drive.scenario.duration = Duration::milliseconds(1'000);
+  const std::pair<const char*, StrategyKind> cases[] = {{"scenarios/paper_scenario1.yaml", StrategyKind::kTt},
+                                                        {"scenarios/paper_scenario1.yaml", StrategyKind::kAdva},
+                                                        {"scenarios/faulty_can.yaml", StrategyKind::kTt},
+                                                        {"scenarios/cold_start.yaml", StrategyKind::kTt}};
+  for (const auto& [scenario, strategy] : cases) {
+    SCOPED_TRACE(scenario);
+    drives::Drive drive(scenario, strategy);
+    drive.scenario.duration = std::min(drive.scenario.duration, Duration::milliseconds(2'600));
     std::vector<std::string> fast, plain;
     for (const bool bit_by_bit : {false, true}) {
       const auto sink = recording::text_into(bit_by_bit ? plain : fast);

@@ -138,6 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"GuardedColdStart", "scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kTt, 700, true},
         Case{"Faults", "scenarios/faulty_bus.yaml", fusion::strategies::StrategyKind::kTt, 2700},
         Case{"GuardedFaults", "scenarios/faulty_bus.yaml", fusion::strategies::StrategyKind::kTt, 2700, true},
+        Case{"CanFaults", "scenarios/faulty_can.yaml", fusion::strategies::StrategyKind::kTt, 2700},
         Case{"FollowingBuff", kAhead, fusion::strategies::StrategyKind::kBuff, 700, false, kOverCan},
         Case{"FollowingAdva", kAhead, fusion::strategies::StrategyKind::kAdva, 700, false, kOverCan},
         Case{"FollowingColdStart", kAhead, fusion::strategies::StrategyKind::kAdva, 700, false, kOverCan, true},
