@@ -12,7 +12,7 @@ namespace ttf {
 
 enum class KeyType : std::uint8_t {
   kIsThere,  // has()
-  kIsMap,    // is_map()
+  kIsMap,    // map_or_word()
   kBoolean,
   kInteger,
   kNumber,

@@ -219,6 +219,15 @@ std::optional<YamlMap> YamlMap::map_if(std::string_view key) {
   return map(key);
 }
 
+std::optional<YamlMap> YamlMap::map_or_word(std::string_view key, std::string_view word, std::string_view expected) {
+  if (is_map(key)) return map(key);
+  if (is_described())
+    described_choice(key, {word}, false, std::nullopt);
+  else if (const auto text = scalar(key, expected); text && *text != word)
+    fail(key, std::string(expected));
+  return std::nullopt;
+}
+
 std::vector<YamlMap> YamlMap::maps(std::string_view key) {
   if (is_described()) {
     ask(question(key, KeyType::kMaps));

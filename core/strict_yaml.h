@@ -40,7 +40,6 @@ template <class Enum> using Choices = std::vector<std::pair<std::string_view, En
 class YamlMap {
  public:
   bool has(std::string_view key) const;
-  bool is_map(std::string_view key) const;  // for keys that take a word or a mapping
 
   std::int64_t integer(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, Range<std::int64_t> allowed,
@@ -76,6 +75,8 @@ class YamlMap {
 
   YamlMap map(std::string_view key);  // a missing map is a finding and reads as empty
   std::optional<YamlMap> map_if(std::string_view key);
+  // A mapping, or none where the word stands instead of it. All else is a finding with `expected`, and none.
+  std::optional<YamlMap> map_or_word(std::string_view key, std::string_view word, std::string_view expected);
   std::vector<YamlMap> maps(std::string_view key);     // a sequence of mappings
   std::vector<YamlMap> maps_if(std::string_view key);  // the same, empty when the key is absent
   // A sequence with at least one entry. A wrong entry is a finding about key[i] and is left out.
@@ -102,6 +103,7 @@ class YamlMap {
   YamlMap(std::shared_ptr<Content> content, std::string path, Findings* findings);
   std::size_t choice_index(std::string_view key, const std::vector<std::string_view>& names);
   bool is_described() const;
+  bool is_map(std::string_view key) const;
   KeyQuestion question(std::string_view key, KeyType type, std::optional<KeyValue> fallback = std::nullopt) const;
   KeyValue ask(const KeyQuestion& question) const;
   template <class T>

@@ -11,14 +11,11 @@ namespace ttf::drives {
 Startup load_startup(YamlMap& scenario, Duration latest) {
   Startup startup;
   startup.file = scenario.file();
-  const Choices<bool> kinds{{"integrated", false}, {"cold", true}};
   if (!scenario.has("startup")) return startup;
-  if (!scenario.is_map("startup")) {
-    if (scenario.choice("startup", kinds)) scenario.fail("startup", "must be a mapping with kind: cold, or integrated");
-    return startup;
-  }
-  YamlMap yaml = scenario.map("startup");
-  startup.cold = yaml.choice("kind", kinds);
+  auto mapping = scenario.map_or_word("startup", "integrated", "must be a mapping with kind: cold, or integrated");
+  if (!mapping) return startup;
+  YamlMap& yaml = *mapping;
+  startup.cold = yaml.choice<bool>("kind", {{"integrated", false}, {"cold", true}});
   if (startup.cold) {
     startup.spread = yaml.duration_or("spread", startup.spread, {Duration{}, latest});
     if (yaml.has("power_on")) {

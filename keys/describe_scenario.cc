@@ -11,8 +11,8 @@ constexpr Description kScenario[] = {
     {"evaluate_from",
      "Measures and pictures begin this long after the start of the drive; before, the tracker warms up."},
     {"startup",
-     "The cluster begins like this: `integrated` (also if absent), with every node in cycle 0, or as the mapping says; "
-     "`cold` needs the mapping."},
+     "The cluster begins like this: `integrated` (also if absent), with every node in cycle 0, or as the mapping "
+     "says."},
     {"startup.kind", "The nodes are integrated from the beginning, or start cold.", "cold"},
     {"startup.spread", "Each node gets its supply at a time drawn from 0 to this."},
     {"startup.power_on", "These nodes get their supply at times of their own."},

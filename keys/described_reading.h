@@ -5,8 +5,8 @@
 //   for (const auto& [path, map] : reading.maps()) ...   // the keys of each mapping that was asked for
 //
 // A question is a decision if its answer may change the next questions. Its name is the key's path, followed by "?" for
-// has() and by "{}" for is_map(). A reading may be given answers by these names. The usual answers are true for has()
-// and is_map(), the fallback, or else false, the first word and the least number.
+// has() and by "{}" for map_or_word(). A reading may be given answers by these names. The usual answers are true for
+// has() and map_or_word(), the fallback, or else false, the first word and the least number.
 #pragma once
 
 #include <cstddef>

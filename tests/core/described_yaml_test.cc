@@ -105,7 +105,16 @@ TEST(DescribedYaml, PresenceIsAnswered) {
   EXPECT_EQ(asked(true, [](YamlMap& m) { EXPECT_TRUE(m.has("v")); }).type, KeyType::kIsThere);
   EXPECT_EQ(asked(false, [](YamlMap& m) { EXPECT_FALSE(m.map_if("v").has_value()); }).type, KeyType::kIsThere);
   EXPECT_EQ(asked(false, [](YamlMap& m) { EXPECT_TRUE(m.maps_if("v").empty()); }).type, KeyType::kIsThere);
-  EXPECT_EQ(asked(false, [](YamlMap& m) { EXPECT_FALSE(m.is_map("v")); }).type, KeyType::kIsMap);
+}
+
+TEST(DescribedYaml, AWordOrAMappingIsAskedFor) {
+  Answers answers(true);
+  Findings none;
+  const StrictYaml yaml = StrictYaml::described(answers);
+  EXPECT_TRUE(yaml.root(none).map_or_word("v", "word", "must be").has_value());
+  ASSERT_EQ(answers.questions.size(), 2u);
+  EXPECT_EQ(answers.questions[0].type, KeyType::kIsMap);
+  EXPECT_EQ(answers.questions[1].type, KeyType::kMap);
 }
 
 TEST(DescribedYaml, MappingsAndListsHaveOneEntry) {

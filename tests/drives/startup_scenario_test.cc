@@ -77,7 +77,8 @@ TEST(StartupScenario, TakesTimesByNodeAndWhoWakes) {
 TEST(StartupScenario, SaysWhatIsWrongWithFileLineKeyAndRange) {
   for (const auto& [yaml, complaint] : {
            std::pair{"startup: cold", "drive.yaml:1: startup = cold: must be a mapping with kind: cold, or integrated"},
-           std::pair{"startup: warm", "must be one of integrated, cold"},
+           std::pair{"startup: warm", "drive.yaml:1: startup = warm: must be a mapping with kind: cold, or integrated"},
+           std::pair{"startup: [cold]", "drive.yaml:1: startup: must be a mapping with kind: cold, or integrated"},
            std::pair{"startup: {spread: 1 ms}", "startup.kind"},
            std::pair{"startup: {kind: cold, spread: 4 s}", "startup.spread"},
            std::pair{"startup: {kind: cold, spread: -1 ms}", "startup.spread"},

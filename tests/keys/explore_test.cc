@@ -114,10 +114,7 @@ TEST(Explore, ADefaultThatAnotherKeySetsIsNone) {
 TEST(Explore, AWordOrAMapping) {
   const Outline found = outline_of([](YamlMap& m) {
     if (!m.has("start")) return;
-    if (m.is_map("start"))
-      m.map("start").integer("v", {0, 1});
-    else
-      m.choice<int>("start", {{"cold", 0}});
+    if (auto start = m.map_or_word("start", "cold", "")) start->integer("v", {0, 1});
   });
   const Key& start = key_of(found, "", "start");
   EXPECT_EQ(start.question.type, KeyType::kMap);
@@ -130,11 +127,9 @@ TEST(Explore, AWordOrAMapping) {
 TEST(Explore, AWordOrAMappingDecidesNoOtherKeys) {
   const auto decides = [](YamlMap& m) {
     YamlMap bus = m.map("bus");
-    if (bus.is_map("start")) {
-      bus.map("start").integer("v", {0, 1});
+    if (auto start = bus.map_or_word("start", "cold", "")) {
+      start->integer("v", {0, 1});
       bus.integer("a", {1, 9});
-    } else {
-      bus.choice<int>("start", {{"cold", 0}});
     }
   };
   EXPECT_DEATH(outline_of(decides), "whether bus.start is a mapping decides which other keys there are");

@@ -79,6 +79,7 @@ WRONG = [
     ("a sensor without its kind", "scenario", LASERS, "left_laser: {kind: laser, ", "left_laser: {", "kind"),
     ("another kind's key", "scenario", LASERS, "half_field: 0.9, period", "focal: 900.0, period", "focal"),
     ("an unknown colour", "scenario", LASERS, "colour: green", "colour: pink", "colour"),
+    ("a word that needs the mapping", "scenario", CAR, "seed: 1\n", "seed: 1\nstartup: cold\n", "startup"),
     ("a flag that is a number", "cluster", PAPER, "synchronisation: true", "synchronisation: 1", "synchronisation"),
     ("a parameter below its range", "cluster", PAPER, "gdStaticSlot: 84", "gdStaticSlot: 3", "gdStaticSlot"),
     ("a key of another measurement", "cluster", PAPER, "measurement: scheduled", "measurement: scheduled, period: 80 ms",
