@@ -1,13 +1,14 @@
 #include "core/file_bytes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <utility>
 #include <vector>
-
-#include "core/errors.h"
 
 namespace ttf {
 
@@ -24,6 +25,16 @@ std::string read_file(const std::string& path, std::size_t most) {
     bytes.append(block.data(), got);
   if (std::ferror(file.get()) != 0) fail();
   return bytes;
+}
+
+std::string read_named_file(const std::string& path, Finding entry, std::string_view what) {
+  try {
+    return read_file(path);
+  } catch (const InputError& error) {
+    entry.value = path;
+    entry.expected = fmt::format("must be {}, but it {}", what, error.findings().front().expected);
+    throw InputError(std::move(entry));
+  }
 }
 
 }  // namespace ttf

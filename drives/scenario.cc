@@ -3,9 +3,12 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/file_kind.h"
+
 namespace ttf::drives {
 
 Scenario read_scenario(const StrictYaml& yaml) {
+  expect_kind(yaml, FileKind::kScenario);
   const std::string& path = yaml.name();
   Findings findings;
   YamlMap root = yaml.root(findings);
@@ -27,6 +30,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
   YamlMap clusters = root.map("clusters");
   for (const auto& [name, strategy] : fusion::strategies::kStrategyNames) {
     const std::string file = clusters.text(name);
+    scenario.cluster_lines[static_cast<std::size_t>(strategy)] = clusters.line(name);
     scenario.cluster_files[static_cast<std::size_t>(strategy)] =
         (std::filesystem::path(path).parent_path() / file).lexically_normal().string();
   }
@@ -68,6 +72,12 @@ Scenario read_scenario(const StrictYaml& yaml) {
 }
 
 Scenario load_scenario(const std::string& path) { return read_scenario(StrictYaml::load(path)); }
+
+Finding cluster_entry(const Scenario& scenario, fusion::strategies::StrategyKind strategy) {
+  const auto index = static_cast<std::size_t>(strategy);
+  return {scenario.file, scenario.cluster_lines[index], "clusters." + std::string(name_of(strategy)),
+          scenario.cluster_files[index], ""};
+}
 
 Scenario parse_scenario(std::string text, std::string name) {
   return read_scenario(StrictYaml::parse(std::move(text), std::move(name)));

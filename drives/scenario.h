@@ -34,6 +34,7 @@ struct Scenario {
   Startup startup;
   // By StrategyKind, as paths that can be opened.
   std::array<std::string, fusion::strategies::kStrategyCount> cluster_files;
+  std::array<int, fusion::strategies::kStrategyCount> cluster_lines{};
   sim::world::WorldConfig world;
   Sensors sensors;
   sim::world::ReferenceConfig reference;
@@ -49,5 +50,8 @@ Scenario load_scenario(const std::string& path);
 // Reads a scenario from a text. `name` stands for the file in errors, and its folder is that of the clusters.
 Scenario parse_scenario(std::string text, std::string name);
 Scenario read_scenario(const StrictYaml& yaml);
+
+// Returns the entry that names the strategy's cluster, for a finding about it.
+Finding cluster_entry(const Scenario& scenario, fusion::strategies::StrategyKind strategy);
 
 }  // namespace ttf::drives

@@ -1,4 +1,5 @@
 // Reads faults. Any key that the kind of an entry does not take is unknown.
+#include "core/file_kind.h"
 #include "faults/parameters.h"
 #include "faults/plan.h"
 
@@ -26,6 +27,7 @@ FaultPlan load_fault_plan(YamlMap& yaml, Duration latest) {
 }
 
 FaultPlan read_fault_plan(const StrictYaml& file, Duration latest) {
+  expect_kind(file, FileKind::kFaults);
   Findings findings;
   YamlMap root = file.root(findings);
   FaultPlan plan = load_fault_plan(root, latest);

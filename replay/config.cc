@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/errors.h"
+#include "core/file_kind.h"
 
 namespace ttf::replay {
 namespace {
@@ -52,6 +53,7 @@ std::string sigma_names() {
 }
 
 ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any) {
+  expect_kind(yaml, FileKind::kTrack);
   Findings findings;
   YamlMap root = yaml.root(findings);
   ReplayConfig config;

@@ -8,8 +8,8 @@
 #include "cli/drive/fault_tables.h"
 #include "core/errors.h"
 #include "core/file_bytes.h"
+#include "core/file_kind.h"
 #include "core/hash.h"
-#include "core/strict_yaml.h"
 #include "drives/drive.h"
 #include "drives/step_catalog.h"
 #include "schedules/check/checker.h"
@@ -27,23 +27,20 @@ schedules::model::Cluster checked_cluster(const std::string& file) {
 
 schedules::model::Cluster checked_cluster(const drives::Scenario& scenario, fusion::strategies::StrategyKind strategy) {
   const std::string& file = scenario.cluster_files[static_cast<std::size_t>(strategy)];
-  try {
-    (void)read_file(file);
-  } catch (const InputError& error) {
-    Findings none;
-    const std::string name(name_of(strategy));
-    YamlMap clusters = StrictYaml::parse(scenario.text, scenario.file).root(none).map("clusters");
-    throw InputError({scenario.file, clusters.line(name), "clusters." + name, file,
-                      "must be a cluster file, but it " + error.findings().front().expected});
-  }
+  (void)read_named_file(file, drives::cluster_entry(scenario, strategy), "a cluster file");
   return checked_cluster(file);
 }
 
 Recording read_recording(const std::string& path) {
   if (path.empty()) return {};
   const std::string text = read_file(path);
-  return {std::make_shared<recording::rows::RecordedInput>(recording::rows::parse_laser_radar(text, path)),
-          std::filesystem::path(path).filename().string(), hex_hash(text)};
+  try {
+    return {std::make_shared<recording::rows::RecordedInput>(recording::rows::parse_laser_radar(text, path)),
+            std::filesystem::path(path).filename().string(), hex_hash(text)};
+  } catch (const InputError&) {
+    refuse_any_kind(path, "a recording");
+    throw;
+  }
 }
 
 recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,

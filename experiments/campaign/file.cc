@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/file_bytes.h"
+#include "core/file_kind.h"
 #include "core/strict_yaml.h"
 #include "drives/drive.h"
 #include "schedules/check/checker.h"
@@ -32,6 +34,7 @@ Variant read_variant(const std::string& name, YamlMap& yaml) {
 }  // namespace
 
 CampaignFile read_campaign(const StrictYaml& yaml) {
+  expect_kind(yaml, FileKind::kExperiment);
   Findings findings;
   YamlMap root = yaml.root(findings);
   CampaignFile campaign;
@@ -41,6 +44,7 @@ CampaignFile read_campaign(const StrictYaml& yaml) {
   campaign.name = root.text("name");
   campaign.cluster_file =
       (std::filesystem::path(yaml.name()).parent_path() / root.text("cluster")).lexically_normal().string();
+  campaign.cluster_line = root.line("cluster");
   campaign.faults = root.integer("faults", {1, kMostFaults});
   campaign.seed = static_cast<std::uint64_t>(root.integer("seed", {0, std::int64_t{1} << 62}));
   campaign.startup_share = root.number("start_up", {0.0, 1.0});
@@ -81,7 +85,10 @@ CampaignFile parse_campaign(std::string text, std::string name) {
 }
 
 schedules::model::Cluster cluster_of(const CampaignFile& campaign, const Variant& variant) {
-  schedules::model::Cluster cluster = schedules::file::load_cluster(campaign.cluster_file);
+  schedules::model::Cluster cluster = schedules::file::parse_cluster(
+      read_named_file(campaign.cluster_file, {campaign.file, campaign.cluster_line, "cluster", "", ""},
+                      "a cluster file"),
+      campaign.cluster_file);
   cluster.topology = variant.topology;
   cluster.guardian = variant.guardian;
   Findings findings;

@@ -41,6 +41,7 @@ struct CampaignFile {
   std::string name;
   std::string file;  // for messages
   std::string cluster_file;
+  int cluster_line = 0;
   std::int64_t faults = 0;
   std::uint64_t seed = 0;
   double startup_share = 0.0;

@@ -36,6 +36,11 @@ const std::string* file_of(const std::vector<Edit>& edits, std::string_view key)
   return last == edits.rend() ? nullptr : &last->value;
 }
 
+// Names the file that a key's value is.
+std::string_view kind_words(std::string_view key) {
+  return key == kScenarioFile ? "a scenario file" : key == kClusterFile ? "a cluster file" : "a file of faults";
+}
+
 }  // namespace
 
 SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep) {
@@ -67,25 +72,30 @@ SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep) {
 // Reads all files that a drive may need, including the scenarios' clusters.
 void SweepDrives::read_files() {
   std::vector<std::string> scenarios{sweep_.scenario_file};
-  const auto read = [&](const std::string& file) {
-    if (!texts_.contains(file)) texts_[file] = read_file(file);
+  const auto read = [&](const std::string& file, const Finding& entry, std::string_view what) {
+    if (!texts_.contains(file)) texts_[file] = read_named_file(file, entry, what);
   };
   const auto read_named = [&](const Edit& edit) {
     if (!is_file(edit)) return;
-    read(edit.value);
+    read(edit.value, {sweep_.file, edit.line, edit.key, "", ""}, kind_words(edit.key));
     if (edit.key == kScenarioFile) scenarios.push_back(edit.value);
   };
-  read(sweep_.scenario_file);
+  read(sweep_.scenario_file, {sweep_.file, sweep_.scenario_line, "scenario", "", ""}, kind_words(kScenarioFile));
   for (const Axis& axis : sweep_.axes)
     for (const Setting& setting : axis.settings)
       for (const Edit& edit : setting.edits) read_named(edit);
   for (const Paradigm& paradigm : sweep_.paradigms)
     for (const Edit& edit : paradigm.edits) read_named(edit);
   for (const Paradigm& paradigm : sweep_.paradigms) {
-    if (paradigm.cluster_file) read(*paradigm.cluster_file);
-    for (std::size_t s = 0; s < scenarios.size() && !paradigm.cluster_file; ++s)
-      read(drives::parse_scenario(texts_.at(scenarios[s]), scenarios[s])
-               .cluster_files[static_cast<std::size_t>(paradigm.strategy)]);
+    if (paradigm.cluster_file)
+      read(*paradigm.cluster_file,
+           {sweep_.file, paradigm.cluster_line, fmt::format("paradigms.{}.cluster", paradigm.name), "", ""},
+           kind_words(kClusterFile));
+    for (std::size_t s = 0; s < scenarios.size() && !paradigm.cluster_file; ++s) {
+      const drives::Scenario scenario = drives::parse_scenario(texts_.at(scenarios[s]), scenarios[s]);
+      const Finding entry = drives::cluster_entry(scenario, paradigm.strategy);
+      read(entry.value, entry, kind_words(kClusterFile));
+    }
   }
 }
 

@@ -6,7 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
+#include "core/counted.h"
+#include "core/file_kind.h"
 #include "core/strict_yaml.h"
 #include "drives/scenario.h"
 #include "experiments/sweep/keys.h"
@@ -61,6 +64,7 @@ class Reader {
     if (!is_name(file_.name)) root_.fail("name", std::string(kNames));
     file_.question = root_.text("question");
     file_.scenario_file = path_of(root_.text("scenario"));
+    file_.scenario_line = root_.line("scenario");
     file_.seed = static_cast<std::uint64_t>(root_.integer("seed", {0, std::int64_t{1} << 62}));
     file_.replications = static_cast<std::uint32_t>(root_.integer("replications", {1, kMostReplications}));
     read_paradigms();
@@ -108,6 +112,7 @@ class Reader {
       paradigm.strategy =
           map.choice<fusion::strategies::StrategyKind>("strategy", {kStrategyNames.begin(), kStrategyNames.end()});
       if (map.has("cluster")) paradigm.cluster_file = path_of(map.text("cluster"));
+      paradigm.cluster_line = map.line("cluster");
       if (map.has("set"))
         for (const auto& [key, value] : map.named_texts("set"))
           paradigm.edits.push_back({key, file_value(key, value), name, map.line("set")});
@@ -201,17 +206,20 @@ class Reader {
         root_.fail("measures", fmt::format("must not have {} twice", name));
   }
 
-  std::size_t paradigm(YamlMap& map, std::string_view key) {
+  std::optional<std::size_t> paradigm(YamlMap& map, std::string_view key) {
     const std::string name = map.text(key);
-    for (std::size_t p = 0; p < file_.paradigms.size(); ++p)
+    std::vector<std::string> names;
+    for (std::size_t p = 0; p < file_.paradigms.size(); ++p) {
       if (file_.paradigms[p].name == name) return p;
-    map.fail(key, "must be one of the paradigms");
-    return 0;
+      names.push_back(file_.paradigms[p].name);
+    }
+    if (map.has(key) && !name.empty()) map.fail(key, "must be one of the paradigms: " + joined(names));
+    return std::nullopt;
   }
 
   void read_comparison() {
     if (auto compare = root_.map_if("compare")) {
-      file_.baseline = paradigm(*compare, "baseline");
+      file_.baseline = paradigm(*compare, "baseline").value_or(0);
       file_.confidence = compare->number_or("confidence", 0.95, {0.5, 0.9999});
       compare->finish();
     }
@@ -236,13 +244,12 @@ class Reader {
       expectation.measure = measure(map, "measure");
       const bool agreement = map.has("agrees");
       if (agreement) expectation.agrees = measure(map, "agrees");
-      const std::size_t less = paradigm(map, agreement ? "of" : "less");
-      const std::size_t than = agreement ? less : paradigm(map, "than");
-      if (file_.paradigms.empty()) continue;
-      if (!agreement && less == than) map.fail("than", "must differ from `less`");
+      const auto less = paradigm(map, agreement ? "of" : "less");
+      const auto than = agreement ? less : paradigm(map, "than");
+      if (!agreement && less && less == than) map.fail("than", "must differ from `less`");
       if (agreement && expectation.agrees == expectation.measure) map.fail("agrees", "must differ from `measure`");
-      expectation.less = file_.paradigms[less].name;
-      if (!agreement) expectation.than = file_.paradigms[than].name;
+      if (less) expectation.less = file_.paradigms[*less].name;
+      if (!agreement && than) expectation.than = file_.paradigms[*than].name;
       expectation.text =
           agreement ? fmt::format("{} of {} agrees with {}", expectation.measure, expectation.less, expectation.agrees)
                     : fmt::format("{} of {} less than of {}", expectation.measure, expectation.less, expectation.than);
@@ -277,6 +284,9 @@ SweepFile load_sweep(const std::string& path) { return read_sweep(StrictYaml::lo
 SweepFile parse_sweep(std::string text, std::string name) {
   return read_sweep(StrictYaml::parse(std::move(text), std::move(name)));
 }
-SweepFile read_sweep(const StrictYaml& yaml) { return Reader(yaml).read(); }
+SweepFile read_sweep(const StrictYaml& yaml) {
+  expect_kind(yaml, FileKind::kExperiment);
+  return Reader(yaml).read();
+}
 
 }  // namespace ttf::experiments::sweep

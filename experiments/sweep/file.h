@@ -77,6 +77,7 @@ struct Paradigm {
   std::string name;
   fusion::strategies::StrategyKind strategy{};
   std::optional<std::string> cluster_file;  // absent: the scenario's for the strategy
+  int cluster_line = 0;
   std::vector<Edit> edits;
 };
 
@@ -96,6 +97,7 @@ struct Expectation {
 struct SweepFile {
   std::string name, question, file, text;
   std::string scenario_file;
+  int scenario_line = 0;
   std::uint64_t seed = 0;
   std::uint32_t replications = 0;   // at every point; the caller may change it
   std::vector<Paradigm> paradigms;  // the baseline is one of them

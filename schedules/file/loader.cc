@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "core/file_kind.h"
 #include "core/strict_yaml.h"
 #include "schedules/file/parameter_table.h"
 #include "schedules/model/limits.h"
@@ -389,6 +390,7 @@ class Loader {
 }  // namespace
 
 model::Cluster read_cluster(const StrictYaml& file) {
+  expect_kind(file, FileKind::kCluster);
   Findings met;
   model::Cluster cluster = Loader(file, met).load();
   // Shared parameters are read once per node; a mistake in them is reported once.

@@ -9,8 +9,10 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "core/file_bytes.h"
+#include "core/file_kind.h"
 #include "keys/render.h"
 #include "keys/rows.h"
 #include "keys/value_words.h"
@@ -64,6 +66,39 @@ TEST(Documents, AKeyWithoutADefaultHasAnExample) {
       if (row.key.question.type == KeyType::kBoolean || !row.key.default_by.empty()) continue;
       EXPECT_FALSE(row.description->example.empty()) << document.kind << ": " << row.path << " " << row.only_with;
     }
+}
+
+// core/file_kind.h tells kinds apart by keys; the loaders have the last word on them.
+TEST(Documents, TheKindOfAFileIsToldByItsOwnKeys) {
+  const std::map<FileKind, std::string> kinds{{FileKind::kScenario, "scenario"},
+                                              {FileKind::kCluster, "cluster"},
+                                              {FileKind::kExperiment, "experiment"},
+                                              {FileKind::kTrack, "track"},
+                                              {FileKind::kFaults, "faults"}};
+  ASSERT_EQ(kinds.size(), documents().size());
+  std::map<std::string, std::set<std::string>> known;  // key, kinds
+  for (const Document& document : documents())
+    for (const Case& one : outline_of(document).find("")->cases)
+      for (const Key& key : one.keys) known[key.question.key].insert(document.kind);
+  std::set<FileKind> told;
+  for (const auto& [key, of] : known) {
+    // Beside a key that no kind has, only a kind's own keys tell it.
+    const auto kind = kind_of(StrictYaml::parse(key + ": 1\nno_key: 1\n", "key.yaml"));
+    if (!kind) continue;
+    told.insert(*kind);
+    EXPECT_EQ(of, std::set{kinds.at(*kind)}) << key;
+  }
+  EXPECT_EQ(told.size(), 4u) << "a fault list has no key of its own";
+}
+
+TEST(Documents, ShippedFilesAreOfTheirKind) {
+  for (const auto& [folder, kind] :
+       {std::pair{"scenarios", FileKind::kScenario}, std::pair{"schedules", FileKind::kCluster},
+        std::pair{"experiments", FileKind::kExperiment}, std::pair{"experiments/faults", FileKind::kFaults}})
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(TTF_SOURCE_DIR) / folder))
+      if (entry.path().extension() == ".yaml") {
+        EXPECT_EQ(kind_of(StrictYaml::load(entry.path().string())), kind) << entry.path();
+      }
 }
 
 void expect_committed(const std::filesystem::path& file, const std::string& text) {

@@ -74,6 +74,10 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   EXPECT_THAT(refusal(kHead + axes + "compare: {baseline: b}\n"), HasSubstr("must be one of the paradigms"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: a}]\n"),
               HasSubstr("must differ from `less`"));
+  EXPECT_EQ(refusal(kHead + axes + "expect: [{measure: nees, less: his, than: a}]\n"),
+            TTF_SOURCE_DIR "/experiments/small.yaml:9: expect[0].less = his: must be one of the paradigms: a, t");
+  EXPECT_EQ(refusal(kHead + axes + "expect: [{measure: nees, less: t}]\n"),
+            TTF_SOURCE_DIR "/experiments/small.yaml:9: expect[0].than: is missing: must be a text");
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: speed, of: a}]\n"),
               HasSubstr("one of `measures`"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: nees, of: a}]\n"),
@@ -100,6 +104,22 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   head.replace(head.find("replications: 2"), 15, "replications: 10000000");
   EXPECT_THAT(refusal(head + "axes:\n  one: {keys: [tracker.process_noise], from: 1, to: 9, count: 9}\n"),
               HasSubstr("must make at most 100000000 drives, not 180000000"));
+}
+
+TEST(SweepFile, AFileThatIsNotThereIsTheEntrysMistake) {
+  const std::string axes = "axes: {one: {keys: [world.yaw_rate_noise], values: [1, 2]}}\n";
+  std::string head = kHead;
+  head.replace(head.find("dynamics.yaml"), 13, "absent.yaml");
+  EXPECT_THAT(refusal(head + axes),
+              AllOf(HasSubstr("experiments/small.yaml:4: scenario = "),
+                    HasSubstr("scenarios/absent.yaml: must be a scenario file, but it cannot be read: ")));
+  head = kHead;
+  head.replace(head.find("strategy: tt"), 12, "strategy: tt, cluster: absent.yaml");
+  EXPECT_THAT(refusal(head + axes),
+              AllOf(HasSubstr("experiments/small.yaml:7: paradigms.t.cluster = "),
+                    HasSubstr("experiments/absent.yaml: must be a cluster file, but it cannot be read: ")));
+  EXPECT_THAT(refusal(kHead + "axes:\n  one: {settings: {a: {}, b: {faults: absent.yaml}}}\n"),
+              AllOf(HasSubstr("experiments/small.yaml:9: faults = "), HasSubstr("must be a file of faults, but it ")));
 }
 
 TEST(SweepFile, AKeyMayBeOneParadigmsOnly) {

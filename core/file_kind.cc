@@ -1,0 +1,90 @@
+#include "core/file_kind.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "core/errors.h"
+
+namespace ttf {
+namespace {
+
+struct Kind {
+  FileKind kind;
+  std::string_view name;
+  std::string_view taken_by;
+  std::span<const std::string_view> own;   // keys that no other kind has
+  std::span<const std::string_view> only;  // all keys of a kind that is told by having no others; else empty
+};
+
+constexpr std::string_view kExperimentKeys[] = {"kind", "paradigms", "variants", "axes"};
+constexpr std::string_view kScenarioKeys[] = {"clusters", "world"};
+constexpr std::string_view kClusterKeys[] = {"flexray", "node_parameters", "nodes", "pdus"};
+constexpr std::string_view kTrackOwn[] = {"strategy"};
+constexpr std::string_view kTrackKeys[] = {"strategy", "tracker", "sensors"};
+constexpr std::string_view kFaultKeys[] = {"faults"};
+
+constexpr std::array<Kind, 5> kKinds{{
+    {FileKind::kExperiment, "an experiment", "`ttfusion experiment` takes it", kExperimentKeys, {}},
+    {FileKind::kScenario, "a scenario", "`ttfusion run` takes it", kScenarioKeys, {}},
+    {FileKind::kCluster, "a cluster", "`ttfusion schedule check` takes it", kClusterKeys, {}},
+    {FileKind::kTrack, "a track configuration", "`ttfusion track --config` takes it", kTrackOwn, kTrackKeys},
+    {FileKind::kFaults, "a fault list", "an experiment takes it by the key faults", {}, kFaultKeys},
+}};
+
+const Kind& row_of(FileKind kind) {
+  return *std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& one) { return one.kind == kind; });
+}
+
+bool has_any(const YamlMap& root, std::span<const std::string_view> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return root.has(key); });
+}
+
+// Whether the file has some of the keys, and no other.
+bool has_only(const StrictYaml& file, std::span<const std::string_view> keys) {
+  Findings others;
+  YamlMap root = file.root(others);
+  std::size_t there = 0;
+  for (const std::string_view key : keys) there += root.has(key) ? 1 : 0;
+  root.finish();
+  return there > 0 && others.empty();
+}
+
+[[noreturn]] void refuse(const std::string& path, const Kind& found, std::string_view wanted) {
+  throw InputError({path, 0, "", "", fmt::format("this is {}, not {}; {}", found.name, wanted, found.taken_by)});
+}
+
+}  // namespace
+
+std::optional<FileKind> kind_of(const StrictYaml& file) {
+  if (file.text().empty()) return std::nullopt;  // a described file: its loader alone may ask for keys
+  Findings none;
+  const YamlMap root = file.root(none);
+  for (const Kind& one : kKinds)
+    if (has_any(root, one.own)) return one.kind;
+  for (const Kind& one : kKinds)
+    if (has_only(file, one.only)) return one.kind;
+  return std::nullopt;
+}
+
+void expect_kind(const StrictYaml& file, FileKind wanted) {
+  const auto found = kind_of(file);
+  if (!found || *found == wanted) return;
+  Findings none;
+  if (has_any(file.root(none), row_of(wanted).own)) return;
+  refuse(file.name(), row_of(*found), row_of(wanted).name);
+}
+
+void refuse_any_kind(const std::string& path, std::string_view wanted) {
+  std::optional<FileKind> found;
+  try {
+    found = kind_of(StrictYaml::load(path));
+  } catch (const InputError&) {
+    return;  // no YAML
+  }
+  if (found) refuse(path, row_of(*found), wanted);
+}
+
+}  // namespace ttf

@@ -1,0 +1,77 @@
+// A file of another kind is one sentence; a file that may be of the wanted kind is left to its loader.
+#include "core/file_kind.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/errors.h"
+
+namespace ttf {
+namespace {
+
+std::optional<FileKind> kind(const std::string& text) { return kind_of(StrictYaml::parse(text, "a.yaml")); }
+
+std::string refusal(const std::string& text, FileKind wanted) {
+  try {
+    expect_kind(StrictYaml::parse(text, "a.yaml"), wanted);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "left to the loader";
+}
+
+TEST(FileKind, IsToldByKeysThatNoOtherKindHas) {
+  EXPECT_EQ(kind("name: a\nclusters: {tt: b}\nfaults: []\n"), FileKind::kScenario);
+  EXPECT_EQ(kind("world: {}\n"), FileKind::kScenario);
+  EXPECT_EQ(kind("name: a\nnodes: {}\nsensors: {}\n"), FileKind::kCluster);
+  EXPECT_EQ(kind("name: a\nkind: sweep\n"), FileKind::kExperiment);
+  EXPECT_EQ(kind("name: a\nvariants: {}\nfaults: 3\n"), FileKind::kExperiment);
+  EXPECT_EQ(kind("strategy: tt\nother: 1\n"), FileKind::kTrack);
+}
+
+TEST(FileKind, IsToldByHavingNoOtherKeys) {
+  EXPECT_EQ(kind("tracker: {}\n"), FileKind::kTrack);
+  EXPECT_EQ(kind("sensors: {}\ntracker: {}\n"), FileKind::kTrack);
+  EXPECT_EQ(kind("faults: []\n"), FileKind::kFaults);
+  EXPECT_EQ(kind("name: a\ntracker: {}\n"), std::nullopt);
+  EXPECT_EQ(kind("name: a\nfaults: []\n"), std::nullopt);
+  EXPECT_EQ(kind("anything: 1\n"), std::nullopt);
+}
+
+TEST(FileKind, AnotherKindIsOneSentence) {
+  EXPECT_EQ(refusal("nodes: {}\n", FileKind::kScenario),
+            "a.yaml: this is a cluster, not a scenario; `ttfusion schedule check` takes it");
+  EXPECT_EQ(refusal("clusters: {}\n", FileKind::kCluster),
+            "a.yaml: this is a scenario, not a cluster; `ttfusion run` takes it");
+  EXPECT_EQ(refusal("faults: []\n", FileKind::kExperiment),
+            "a.yaml: this is a fault list, not an experiment; an experiment takes it by the key faults");
+  EXPECT_EQ(refusal("kind: sweep\n", FileKind::kTrack),
+            "a.yaml: this is an experiment, not a track configuration; `ttfusion experiment` takes it");
+  EXPECT_EQ(refusal("tracker: {}\n", FileKind::kFaults),
+            "a.yaml: this is a track configuration, not a fault list; `ttfusion track --config` takes it");
+}
+
+TEST(FileKind, TheLoaderHasTheRest) {
+  EXPECT_EQ(refusal("clusters: {}\n", FileKind::kScenario), "left to the loader");
+  EXPECT_EQ(refusal("anything: 1\n", FileKind::kScenario), "left to the loader");
+  EXPECT_EQ(refusal("kind: sweep\nclusters: {}\n", FileKind::kScenario), "left to the loader") << "a stray key";
+}
+
+TEST(FileKind, ARecordingIsOfNoKind) {
+  const auto refusal_of = [](const char* path) -> std::string {
+    try {
+      refuse_any_kind(path, "a recording");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "left to the reader";
+  };
+  EXPECT_EQ(refusal_of("scenarios/dynamics.yaml"),
+            "scenarios/dynamics.yaml: this is a scenario, not a recording; `ttfusion run` takes it");
+  EXPECT_EQ(refusal_of("README.md"), "left to the reader");
+  EXPECT_EQ(refusal_of("absent.csv"), "left to the reader");
+}
+
+}  // namespace
+}  // namespace ttf
