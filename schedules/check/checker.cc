@@ -41,6 +41,10 @@ std::string task_path(const model::Node& node, const model::Task& task) {
   return fmt::format("nodes.{}.tasks.{}", node.name, task.name);
 }
 
+std::string message_path(const model::CanBus& bus, const model::CanMessage& message) {
+  return fmt::format("can.{}.messages[{}]", bus.name, &message - bus.messages.data());
+}
+
 std::string ms(Duration duration) { return fmt::format("{} ms", static_cast<double>(duration.ns) / 1e6); }
 std::string number(std::int64_t value) { return fmt::format("{}", value); }
 std::string us(std::int64_t ps) { return fmt::format("{} us", static_cast<double>(ps) / 1e6); }

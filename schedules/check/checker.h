@@ -56,6 +56,8 @@ class ClusterFindings {
 
 // Returns for example "nodes.fusion.tasks.fuse".
 std::string task_path(const model::Node& node, const model::Task& task);
+// Returns for example "can.laser_can.messages[0]", as the loader names it. The message is one of the CAN's.
+std::string message_path(const model::CanBus& bus, const model::CanMessage& message);
 // Returns for example "2.5 ms".
 std::string ms(Duration duration);
 std::string number(std::int64_t value);

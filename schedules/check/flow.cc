@@ -181,8 +181,7 @@ void check_flow(const model::Cluster& cluster, ClusterFindings& findings) {
   for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
     for (const model::CanMessage& message : cluster.can_buses[b].messages)
       if (!writers.contains({message.pdu, model::MediumId::can(b)}))
-        findings.at(message.line,
-                    fmt::format("can.{}.messages.{}", cluster.can_buses[b].name, cluster.pdu(message.pdu).name), "",
+        findings.at(message.line, message_path(cluster.can_buses[b], message), cluster.pdu(message.pdu).name,
                     "is a message, but no task writes it");
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
     check_sensor(cluster, static_cast<SensorId>(s), findings);

@@ -64,8 +64,7 @@ void check_sensor_lines(const model::Cluster& cluster, ClusterFindings& findings
       const bool strobe = message.identifier == model::strobe_identifier(sensor);
       if (!strobe && message.identifier != model::trigger_identifier(sensor)) continue;
       findings.at(
-          message.line, fmt::format("can.{}.messages.{}", bus.name, cluster.pdu(message.pdu).name),
-          fmt::format("identifier {}", message.identifier),
+          message.line, message_path(bus, message), fmt::format("identifier {}", message.identifier),
           fmt::format("must be another identifier in real time: {0} uses {1} for its strobe and {2} for its trigger",
                       cluster.sensor(sensor).name, model::strobe_identifier(sensor),
                       model::trigger_identifier(sensor)));

@@ -37,9 +37,7 @@ void check_written(const model::Cluster& cluster, const model::Node& node, const
     const model::CanBus& bus = cluster.can(binding.medium);
     for (const model::CanMessage& message : bus.messages)
       if (message.pdu == binding.pdu && message.shortest_period > shortest)
-        findings.at(message.line,
-                    fmt::format("can.{}.messages.{}.shortest_period", bus.name, cluster.pdu(message.pdu).name),
-                    ms(message.shortest_period),
+        findings.at(message.line, message_path(bus, message) + ".shortest_period", ms(message.shortest_period),
                     fmt::format("must be at most {}: the shortest time between two lists of {}", ms(shortest),
                                 task_path(node, task)));
   }

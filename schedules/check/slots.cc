@@ -190,7 +190,7 @@ void check_can(const model::Cluster& cluster, ClusterFindings& findings) {
     std::set<PduId> pdus;
     for (const model::CanMessage& message : bus.messages) {
       const model::PduLayout& layout = cluster.pdu(message.pdu);
-      const std::string key = fmt::format("{}.messages.{}", path, layout.name);
+      const std::string key = message_path(bus, message);
       if (!analysis::can_data_length(bus.flexible_data_rate, layout.fragment_bytes)) {
         all_fit = false;
         findings.at(message.line, key, fmt::format("{} bytes", layout.fragment_bytes),
@@ -216,8 +216,7 @@ void check_can(const model::Cluster& cluster, ClusterFindings& findings) {
       const auto until_idle = response ? std::optional(*response + analysis::can_after_acceptance(bus)) : std::nullopt;
       if (until_idle && *until_idle > message.shortest_period)
         findings.at(
-            message.line, fmt::format("{}.messages.{}.shortest_period", path, cluster.pdu(message.pdu).name),
-            ms(message.shortest_period),
+            message.line, message_path(bus, message) + ".shortest_period", ms(message.shortest_period),
             fmt::format("must be at least {}: from queueing a full list to its last frame's end", ms(*until_idle)));
     }
   }

@@ -81,13 +81,12 @@ TEST(Mutations, OfFollowingSensors) {
           {"lists_more_often",
            "sender: camera_pre, shortest_period: 12 ms",
            "sender: camera_pre, shortest_period: 13 ms",
-           {"shortest_period: 13 ms", "can.observation_can.messages.camera_objects.shortest_period", "13 ms",
+           {"shortest_period: 13 ms", "can.observation_can.messages[1].shortest_period", "13 ms",
             "must be at most 12.4"}},
           {"raw_more_often",
            "sender: camera, shortest_period: 15 ms",
            "sender: camera, shortest_period: 16 ms",
-           {"shortest_period: 16 ms", "can.camera_can.messages.camera_frame.shortest_period", "16 ms",
-            "must be at most 15.8"}},
+           {"shortest_period: 16 ms", "can.camera_can.messages[0].shortest_period", "16 ms", "must be at most 15.8"}},
       },
       "paper_free_running");
 }

@@ -104,7 +104,7 @@ TEST(Mutations, OfTasksAndTheirFlow) {
       {"message_nobody_writes",
        "        writes: \\{raw: laser_scan on laser_can\\}\n",
        "",
-       {"pdu: laser_scan, identifier: 256", "can.laser_can.messages.laser_scan", "", "no task writes it"}},
+       {"pdu: laser_scan, identifier: 256", "can.laser_can.messages[0]", "laser_scan", "no task writes it"}},
       {"sensor_without_pdu",
        "        writes: \\{raw: laser_scan on laser_can\\}\n",
        "",

@@ -126,13 +126,13 @@ TEST(RealTime, ASensorsLinesHaveTheirIdentifiersToThemselves) {
   };
   const auto strobe = found(0, 1), trigger = found(1, 4);
   ASSERT_EQ(strobe.size(), 1u) << sentences(strobe);
-  EXPECT_EQ(strobe[0].key, "can.laser_can.messages.laser_scan");
+  EXPECT_EQ(strobe[0].key, "can.laser_can.messages[0]");
   EXPECT_EQ(strobe[0].value, "identifier 1");
   EXPECT_EQ(strobe[0].expected,
             "must be another identifier in real time: laser uses 1 for its strobe and 2 for its trigger");
   EXPECT_NE(line_of(paper({}, us(500)).text, strobe[0].line).find("laser_scan"), std::string::npos);
   ASSERT_EQ(trigger.size(), 1u) << sentences(trigger);
-  EXPECT_EQ(trigger[0].key, "can.camera_can.messages.camera_frame");
+  EXPECT_EQ(trigger[0].key, "can.camera_can.messages[0]");
   EXPECT_EQ(found(0, 2).size(), 1u);
   EXPECT_EQ(found(1, 3).size(), 1u);
   for (const std::uint32_t free : {0u, 3u, 4u, 5u}) EXPECT_TRUE(found(0, free).empty()) << free;
