@@ -11,13 +11,6 @@ namespace ttf::cli {
 // Set by the chosen command; run after parsing.
 using Action = std::function<int()>;
 
-// Checks names of files and folders: an empty name does not mean the default, and `--out=` does not swallow an option.
-inline const CLI::Validator kNamed(
-    [](const std::string& text) {
-      return text.empty() || text.front() == '-' ? "must not be empty or begin with a '-' (write ./-NAME instead)" : "";
-    },
-    "");
-
 }  // namespace ttf::cli
 
 // The folder of each command.

@@ -1,51 +1,30 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <string>
-#include <vector>
 
+#include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/output.h"
-#include "core/counted.h"
 #include "core/errors.h"
 
 namespace {
 
-// Returns an error for an unknown command on the command line, or "".
-std::string unknown_command(CLI::App& app, int argc, char** argv) {
-  CLI::App* in = &app;
-  for (int i = 1; i < argc && in->get_require_subcommand_min() > 0; ++i) {
-    const std::string name = argv[i];
-    if (name.empty() || name.front() == '-') return "";
-    const std::vector<CLI::App*> commands = in->get_subcommands([](CLI::App*) { return true; });
-    const auto command =
-        std::find_if(commands.begin(), commands.end(), [&](CLI::App* one) { return one->get_name() == name; });
-    if (command == commands.end()) {
-      std::vector<std::string> names;
-      for (const CLI::App* one : commands) names.push_back(one->get_name());
-      return fmt::format("{} is no command{}: must be {}", name, in == &app ? "" : " of " + in->get_name(),
-                         ttf::joined(names, " or "));
-    }
-    in = *command;
-  }
-  return "";
-}
+constexpr const char* kAbout =
+    "ttfusion drives clusters whose nodes track objects together on a time-triggered schedule:\n"
+    "simulated in virtual time, or as processes in real time on SocketCAN or DDS. It also checks\n"
+    "schedules, injects faults, draws and reports drives, and compares strategies in experiments.";
 
-// Reports an error of the command line, in one line.
-int refuse(const std::string& words) {
-  std::string line = words;
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  fmt::print(stderr, "error: {}\n", line);
+int refuse(const ttf::Finding& mistake) {
+  fmt::print(stderr, "error: {}\n", mistake.sentence());
   return 2;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"ttfusion: time-triggered distributed fusion in virtual time", "ttfusion"};
+  CLI::App app{kAbout, "ttfusion"};
   app.require_subcommand(1);
   app.set_version_flag("--version", TTF_VERSION);
   ttf::cli::Action action;
@@ -59,13 +38,18 @@ int main(int argc, char** argv) {
   ttf::cli::node::add_node(app, action);
   ttf::cli::logs::add_report(app, action);
   ttf::cli::track::add_track(app, action);
-  if (const std::string words = unknown_command(app, argc, argv); !words.empty()) return refuse(words);
+  app.footer("`ttfusion COMMAND --help` has a command's options and an example.");  // last: commands would inherit it
+  if (argc == 1) {
+    fmt::print("{}", app.help());
+    return 0;
+  }
+  if (const auto mistake = ttf::cli::unknown_command(app, argc, argv)) return refuse(*mistake);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // --help and --version also arrive here, with exit code 0.
     if (error.get_exit_code() == 0) return app.exit(error);
-    return refuse(fmt::format("command line: {} (--help says more)", error.what()));
+    return refuse(ttf::cli::mistake_of(app, error));
   }
   try {
     const int code = action();

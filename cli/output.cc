@@ -88,6 +88,10 @@ void print_warnings(std::string_view text) {
   }
 }
 
+void say_written(const std::string& path, const std::string& content) {
+  fmt::print(stderr, "wrote {}{}{}\n", path, content.empty() ? "" : ": ", content);
+}
+
 void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag) {
   std::error_code none;  // a file that does not exist yet is not the input
   if (std::filesystem::equivalent(input, path, none))

@@ -28,6 +28,9 @@ class OutputFile {
   std::FILE* file_;
 };
 
+// Names a written file or folder on standard error, in one line. `content` may sum it up: "3 frames".
+void say_written(const std::string& path, const std::string& content = "");
+
 // Throws InputError if `path`, given as `flag`, is the input file itself.
 void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag);
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/drive/drive_setup.h"
 #include "cli/drive/fault_tables.h"
@@ -94,7 +95,7 @@ int run_scenario(const RunOptions& options) {
         fmt::print("\n{}", faults_text(name_of(result.strategy), result.faults, result.fault_free, result.cluster));
   }
   std::fflush(stdout);  // both streams may share one file
-  fmt::print(stderr, "written to {}\n", folder);
+  say_written(folder);
   return 0;
 }
 
@@ -106,10 +107,10 @@ void add_run(CLI::App& app, Action& action) {
   command->footer("Example: ttfusion run scenarios/paper_scenario1.yaml --seed 7 --out out/drive");
   command->add_option("scenario", options->scenario, "Scenario file")->required();
   command->add_option("--strategy", options->strategy, "Only this strategy (default: all three)")
-      ->check(CLI::IsMember(strategy_names()));
+      ->check(one_of(strategy_names()));
   command->add_option("--seed", options->seed, "Seed of every random stream, instead of the scenario's");
-  command->add_option("--input", options->input, "Recorded observations in place of the sensor models")->check(kNamed);
-  command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")->check(kNamed);
+  command->add_option("--input", options->input, "Recorded observations in place of the sensor models")->check(named());
+  command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")->check(named());
   command->add_flag("--json", options->json, "Summary as JSON on standard output");
   command->add_flag("--no-log", options->no_log, "Write no logs (and so no pictures)");
   command->add_flag("--no-pictures", options->no_pictures, "Write logs only");

@@ -160,7 +160,7 @@ int run_fault_campaign(const ExperimentOptions& options) {
     write_file(options.out + "/results.csv", experiments::campaign::campaign_csv(campaign, clusters, results));
     write_file(options.out + "/coverage.txt", text);
     write_file(options.out + "/coverage.json", json.dump(2) + '\n');
-    fmt::print(stderr, "written to {}\n", options.out);
+    say_written(options.out);
   }
   if (options.json)
     fmt::print("{}\n", json.dump(2));

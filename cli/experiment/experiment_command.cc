@@ -5,9 +5,11 @@
 #include <memory>
 #include <string>
 
+#include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/experiment/options.h"
 #include "core/errors.h"
+#include "core/file_kind.h"
 #include "core/strict_yaml.h"
 #include "experiments/sweep/file.h"
 
@@ -29,8 +31,10 @@ experiments::results::Shard shard_of(const std::string& text) {
 }
 
 ExperimentKind kind_of(const ExperimentOptions& options) {
+  const StrictYaml yaml = StrictYaml::load(options.file);
+  expect_kind(yaml, FileKind::kExperiment);
   Findings none;
-  YamlMap root = StrictYaml::load(options.file).root(none);
+  YamlMap root = yaml.root(none);
   const std::string kind = root.text_or("kind", "");
   if (kind == "fault_campaign") return ExperimentKind::kFaultCampaign;
   if (kind == "sweep") return ExperimentKind::kSweep;
@@ -69,23 +73,24 @@ void add_experiment(CLI::App& app, Action& action) {
   command->footer(
       "Examples: ttfusion experiment experiments/process_noise.yaml --out out/noise\n"
       "          ttfusion experiment experiments/process_noise.yaml --out out/noise --resume\n"
+      "          ttfusion experiment experiments/process_noise.yaml --replications 20 --out out/quick\n"
       "          ttfusion experiment experiments/process_noise.yaml --replay 3/tt/17 --out out/one\n"
       "          ttfusion experiment experiments/fault_campaign.yaml --replay 17\n"
-      "          ttfusion experiment FILE --shard 1/2 --out a; ttfusion experiment FILE --shard 2/2 --out b;\n"
-      "          ttfusion experiment FILE --merge a b --out both\n"
-      "          ttfusion experiment FILE --replications 20 --out quick\n"
-      "          mpirun -n 8 ttfusion experiment FILE --out all");
+      "          ttfusion experiment experiments/process_noise.yaml --shard 1/2 --out out/first\n"
+      "          ttfusion experiment experiments/process_noise.yaml --shard 2/2 --out out/second\n"
+      "          ttfusion experiment experiments/process_noise.yaml --merge out/first out/second --out out/both\n"
+      "          mpirun -n 8 ttfusion experiment experiments/process_noise.yaml --out out/all");
   command->add_option("file", options->file, "Experiment file")->required();
-  command->add_option("--jobs", options->jobs, "Workers (default: one per processor)")->check(CLI::Range(1u, 1024u));
+  command->add_option("--jobs", options->jobs, "Workers (default: one per processor)")->check(whole_number({1, 1024}));
   command->add_option("--replications", options->replications, "Replications of every point, instead of the file's")
-      ->check(CLI::Range(1u, experiments::sweep::kMostReplications));
+      ->check(whole_number({1, experiments::sweep::kMostReplications}));
   auto* shard =
       command->add_option("--shard", options->shard, "i/n: every n-th fault or replication only, from the i-th on");
   auto* merge = command->add_option("--merge", options->merge, "Folders of all shards, to merge their results");
   auto* replay =
       command->add_option("--replay", options->replay, "One fault alone, or one run as point/paradigm/replication");
   auto* resume = command->add_flag("--resume", options->resume, "Continue the results in --out");
-  command->add_option("--out", options->out, "Folder for results (a sweep's default: out/<name>)");
+  command->add_option("--out", options->out, "Folder for results (a sweep's default: out/<name>)")->check(named());
   auto* json = command->add_flag("--json", options->json, "The answer as JSON on standard output");
   merge->excludes(shard)->excludes(resume);
   replay->excludes(shard)->excludes(merge)->excludes(resume)->excludes(json);

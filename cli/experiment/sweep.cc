@@ -71,7 +71,7 @@ int replay(const ExperimentOptions& options, const SweepDrives& drives) {
   if (!options.out.empty()) create_folder(options.out);
   const experiments::results::Row row =
       options.out.empty() ? drives.run(key, drives.prepare(key)) : drive_again(drives, key, options.out);
-  if (!options.out.empty()) fmt::print(stderr, "written to {}\n", options.out);
+  if (!options.out.empty()) say_written(options.out);
   fmt::print("{}, {}, replication {}: {}\n", sweep.label_of(key.point), sweep.paradigms[key.paradigm].name,
              key.replication, row.status);
   const std::vector<std::string> columns = drives.columns();
@@ -192,7 +192,7 @@ std::string failures_text(const ExperimentOptions& options, const SweepFile& swe
   store.for_each([&](const experiments::results::Row& row) {
     if (row.status == experiments::results::kDone || ++shown > kShownFailures) return;
     const std::string more = options.replications > 0 ? fmt::format(" --replications {}", options.replications) : "";
-    text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}{} --out one\n", sweep.label_of(row.key.point),
+    text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}{} --out out/one\n", sweep.label_of(row.key.point),
                         row.status, options.file, key_text(sweep, row.key), more);
   });
   if (shown > kShownFailures) text += fmt::format("and {} more, in runs.csv\n", shown - kShownFailures);
@@ -231,7 +231,7 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
   else
     fmt::print("{}", text);
   std::fflush(stdout);
-  fmt::print(stderr, "written to {}\n", folder);
+  say_written(folder);
   return answer.holds() && answer.failed == 0 ? 0 : 1;
 }
 

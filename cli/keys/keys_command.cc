@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/errors.h"
@@ -47,6 +48,7 @@ int print_keys(const KeysOptions& options) {
       fmt::print("{}", page.text);
     else
       write_file(one_file ? options.out : (std::filesystem::path(options.out) / page.file).string(), page.text);
+  if (!options.out.empty()) say_written(options.out);
   return 0;
 }
 
@@ -64,12 +66,12 @@ void add_keys(CLI::App& app, Action& action) {
   command->footer(
       "Examples: ttfusion keys scenario\n"
       "          ttfusion keys cluster --format json-schema -o cluster.schema.json\n"
-      "          ttfusion keys --format markdown -o docs/keys");
-  command->add_option("kind", options->kind, "Kind of file (default: all kinds)")->check(CLI::IsMember(kinds()));
+      "          ttfusion keys --format markdown -o out/keys");
+  command->add_option("kind", options->kind, "Kind of file (default: all kinds)")->check(one_of(kinds()));
   command->add_option("--format", options->format, "text (default), markdown or json-schema")
-      ->check(CLI::IsMember({"text", "markdown", "json-schema"}));
+      ->check(one_of({"text", "markdown", "json-schema"}));
   command->add_option("-o,--out", options->out, "File to write; folder where there are several: all kinds, or markdown")
-      ->check(kNamed);
+      ->check(named());
   command->callback([options, &action] { action = [options] { return print_keys(*options); }; });
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/drive/drive_setup.h"
 #include "cli/drive/fault_tables.h"
@@ -119,7 +120,7 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   if (result) tell_result(plan.set, *result, end, arguments);
   std::fflush(stdout);  // both streams may share one file
   const int code = end ? tell_end(plan.set, *end, told, exit_code, folder) : exit_code;
-  fmt::print(stderr, "written to {}\n", plan.set.folder);
+  say_written(plan.set.folder);
   return code;
 }
 
@@ -156,7 +157,7 @@ void add_launch(CLI::App& app, Action& action) {
   command->add_flag("--dry-run", arguments->dry_run, "Show the plan and whether its needs are met, but start nothing");
   command
       ->add_option("--out", arguments->set.out, "Folder for logs, output and manifest (default: out/<scenario>/launch)")
-      ->check(kNamed);
+      ->check(named());
   command->add_flag("--json", arguments->json, "Summary, or with --dry-run the plan, as JSON on standard output");
   command->add_flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
   command->callback([arguments, command, &action] {

@@ -41,7 +41,7 @@ void set_policies(const std::vector<std::string>& texts, const schedules::model:
     const std::string name = text.substr(0, sign);
     if (!given.emplace(name, text).second)
       throw InputError({"command line", 0, "--policy", text, "must be given once for each node"});
-    nodes[index_of(node_set::node_of(cluster, name))].policy = *policy;
+    nodes[index_of(node_set::node_of(cluster, name, "--policy", text))].policy = *policy;
   }
 }
 

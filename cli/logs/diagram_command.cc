@@ -6,12 +6,14 @@
 #include <optional>
 #include <utility>
 
+#include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/logs/scan_verdict.h"
 #include "cli/output.h"
 #include "cli/time_window.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "core/file_kind.h"
 #include "nodes/laser/laser_preprocessor.h"
 #include "recording/exports/lateness_sums.h"
 #include "recording/merge/merge.h"
@@ -26,9 +28,11 @@
 namespace ttf::cli::logs {
 namespace {
 
+constexpr std::int64_t kMostScans = 1'000'000'000;
+
 struct DiagramOptions {
   std::vector<std::string> logs;
-  double from_s = -1.0, to_s = -1.0;
+  TimeWindowOptions window;
   std::string kind = "timing";
   std::string out;
   std::optional<int> frame;
@@ -56,11 +60,20 @@ recording::merge::MergedLogs one_drive(const std::vector<std::string>& paths) {
   return drive;
 }
 
+std::vector<recording::rows::RecordedScan> read_scans(const std::string& path) {
+  try {
+    return recording::rows::read_lidar_scans(path);
+  } catch (const InputError&) {
+    refuse_any_kind(path, "a recording");
+    throw;
+  }
+}
+
 // Draws a recorded laser scan and the vehicles that preprocessing finds in it. Returns the exit code: without any
 // vehicle there is a picture, and the reasons.
 int draw_boxes(const DiagramOptions& options) {
   if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "boxes", "takes one recording"});
-  const auto scans = recording::rows::read_lidar_scans(options.logs[0]);
+  const std::vector<recording::rows::RecordedScan> scans = read_scans(options.logs[0]);
   const int frame = options.frame.value_or(0);
   if (frame >= static_cast<int>(scans.size()))
     throw InputError(
@@ -83,30 +96,30 @@ int draw_boxes(const DiagramOptions& options) {
   const std::string title = fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"),
                                         objects.size(), objects.size() == 1 ? "" : "es");
   report::drawing::write_picture(report::plots::boxes_svg(drawn, rectangles, title), options.out);
+  say_written(options.out);
   return print_reasons(options.logs[0], title, reasons_for_no_box(scan, config, preprocessor.fates()));
 }
 
 // Without options, shows the whole start-up and two cycles after it.
 std::string startup(const DiagramOptions& options) {
-  const TimeWindow window = time_window(options.from_s, options.to_s);
+  const TimeWindow window = time_window(options.window);
   const recording::merge::MergedLogs drive = one_drive(options.logs);
   report::startup::StartupExtent extent;
   drive.read(extent);
   const Duration cycle{drive.manifest().cycle_ns};
   const auto whole = extent.window(cycle).value_or(std::pair(TrueTime{}, TrueTime{}));
   report::startup::StartupDiagram diagram(report::drawing::names_of(drive.manifest()), cycle,
-                                          options.from_s >= 0.0 ? window.from : whole.first,
-                                          window.to.value_or(whole.second));
+                                          window.from.value_or(whole.first), window.to.value_or(whole.second));
   drive.read(diagram);
   return diagram.svg();
 }
 
 // Shows the whole drive: a histogram has no time window.
 std::string lateness(const DiagramOptions& options) {
-  for (const auto& [name, seconds] : {std::pair("--from", options.from_s), std::pair("--to", options.to_s)})
-    if (seconds >= 0.0)
-      throw InputError({"command line", 0, name, fmt::format("{:g} s", seconds),
-                        "does not go with --kind lateness, which shows the whole run"});
+  for (const auto& [name, text] : {std::pair("--from", options.window.from), std::pair("--to", options.window.to)})
+    if (text)
+      throw InputError(
+          {"command line", 0, name, *text, "does not go with --kind lateness, which shows the whole drive"});
   const recording::merge::MergedLogs drive = one_drive(options.logs);
   recording::exports::LatenessSums sums;
   drive.read(sums);
@@ -144,20 +157,9 @@ std::string positions(const std::vector<recording::merge::MergedLogs>& drives, T
   return plane ? plots[0]->plane_svg() : plots[0]->over_time_svg();
 }
 
-int run_diagram(const DiagramOptions& options) {
-  report::drawing::check_picture_path(options.out);
-  if (options.kind == "boxes") return draw_boxes(options);
-  if (options.frame)
-    throw InputError({"command line", 0, "--frame", fmt::format("{}", *options.frame), "goes with --kind boxes only"});
-  if (options.kind == "startup") {
-    report::drawing::write_picture(startup(options), options.out);
-    return 0;
-  }
-  if (options.kind == "lateness") {
-    report::drawing::write_picture(lateness(options), options.out);
-    return 0;
-  }
-  const TimeWindow window = time_window(options.from_s, options.to_s);
+// Draws a timing diagram, or positions.
+std::string over_time(const DiagramOptions& options) {
+  const TimeWindow window = time_window(options.window);
   const bool as_timing = options.kind == "timing";
   std::vector<recording::merge::MergedLogs> drives;
   if (as_timing)
@@ -166,16 +168,29 @@ int run_diagram(const DiagramOptions& options) {
     drives = drives_in(options.logs);
   Extent extent;
   for (const recording::merge::MergedLogs& drive : drives) drive.read(extent);
-  const TrueTime from = window.from;
+  const TrueTime from = window.begin();
   if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "has no execution of a task to draw"});
   if (from > extent.last)
-    throw InputError({"command line", 0, "--from", fmt::format("{:g} s", options.from_s),
+    throw InputError({"command line", 0, "--from", *options.window.from,
                       fmt::format("must be before the end of the log, {:g} s", (extent.last - TrueTime{}).seconds())});
   // A timing diagram of a whole drive is unreadable: the default is 160 ms.
   const TrueTime to = window.to ? *window.to : as_timing ? from + Duration::milliseconds(160) : extent.last;
-  const std::string svg =
-      as_timing ? timing(drives[0], from, to) : positions(drives, from, to, options.kind == "plane");
-  report::drawing::write_picture(svg, options.out);
+  return as_timing ? timing(drives[0], from, to) : positions(drives, from, to, options.kind == "plane");
+}
+
+// Draws any kind but boxes.
+std::string picture(const DiagramOptions& options) {
+  if (options.frame)
+    throw InputError({"command line", 0, "--frame", fmt::format("{}", *options.frame), "goes with --kind boxes only"});
+  if (options.kind == "startup") return startup(options);
+  return options.kind == "lateness" ? lateness(options) : over_time(options);
+}
+
+int run_diagram(const DiagramOptions& options) {
+  report::drawing::check_picture_path(options.out);
+  if (options.kind == "boxes") return draw_boxes(options);
+  report::drawing::write_picture(picture(options), options.out);
+  say_written(options.out);
   return 0;
 }
 
@@ -186,33 +201,28 @@ void add_diagram(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("diagram", "Timing and start-up diagrams and position plots from logs");
   command->footer(
       "The logs of a run's processes are merged; position and plane show several runs side by side.\n"
-      "Examples: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o timing.svg\n"
-      "          ttfusion diagram out/launch/*.mcap --from 1.5 --to 1.65 -o timing.svg\n"
-      "          ttfusion diagram out/cold_start/tt.mcap --kind startup -o startup.svg");
+      "Examples: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o out/timing.svg\n"
+      "          ttfusion diagram out/launch/*.mcap --from 1.5 --to 1.65 -o out/timing.svg\n"
+      "          ttfusion diagram out/cold_start/tt.mcap --kind startup -o out/startup.svg");
   command
       ->add_option(
           "logs", options->logs,
           "Logs: one of a run, or one of each of its processes (with --kind boxes: a recording of laser scans)")
       ->required();
-  command
-      ->add_option("--from", options->from_s,
-                   "Start of the window, true time in seconds (default: 0; for a start-up diagram the start-up's)")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option(
-          "--to", options->to_s,
-          "End of the window, true time in seconds (default: the end; for a timing diagram 160 ms after its start, "
-          "for a start-up diagram two cycles after the start-up)")
-      ->check(CLI::NonNegativeNumber);
+  add_time_window(
+      *command, options->window,
+      "Start of the time window, in true time (default: 0; for a start-up diagram the start-up's)",
+      "End of the time window, in true time (default: the end; for a timing diagram 160 ms after its start, "
+      "for a start-up diagram two cycles after the start-up)");
   command
       ->add_option("--kind", options->kind,
                    "timing, startup (states and transmissions), lateness (of wake-ups, in real time), "
                    "position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
-      ->check(CLI::IsMember({"timing", "startup", "lateness", "position", "plane", "boxes"}))
+      ->check(one_of({"timing", "startup", "lateness", "position", "plane", "boxes"}))
       ->capture_default_str();
   command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required();
+      ->check(whole_number({0, kMostScans - 1}));
+  command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required()->check(named());
   command->callback([options, &action] { action = [options] { return run_diagram(*options); }; });
 }
 

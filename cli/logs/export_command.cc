@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/logs/export_gnuplot.h"
 #include "cli/output.h"
@@ -44,8 +45,8 @@ int export_perfetto(const ExportOptions& options, const recording::merge::Merged
         "{{\n  \"format\": \"perfetto\",\n  \"slices\": {},\n  \"instants\": {},\n"
         "  \"counter_values\": {},\n  \"flows\": {}\n}}\n",
         counts.slices, counts.instants, counts.counters, counts.flows);
-  fmt::print(stderr, "{}, {} and {} of measurements written to {}\n", counted(counts.slices, "slice"),
-             counted(counts.instants, "instant"), counted(counts.flows, "way"), options.out);
+  say_written(options.out, fmt::format("{}, {} and {} of measurements", counted(counts.slices, "slice"),
+                                       counted(counts.instants, "instant"), counted(counts.flows, "way")));
   return 0;
 }
 
@@ -56,8 +57,7 @@ int export_for_papers(const ExportOptions& options) {
     for (std::size_t f = 0; f < files.size(); ++f) fmt::print("{}\"{}\"", f == 0 ? "" : ", ", files[f]);
     fmt::print("]\n}}\n");
   }
-  fmt::print(stderr, "{} written to {}: `gnuplot NAME.gp` there draws NAME.pdf and NAME.png\n",
-             counted(files.size(), "file"), options.out);
+  say_written(options.out, counted(files.size(), "file") + "; `gnuplot NAME.gp` there draws NAME.pdf and NAME.png");
   return 0;
 }
 
@@ -79,11 +79,9 @@ int run_export(const ExportOptions& options) {
   if (options.json)
     fmt::print("{{\n  \"format\": \"{}\",\n  \"flexray_frames\": {},\n  \"symbols\": {},\n  \"can_frames\": {}\n}}\n",
                options.format, can_only ? 0 : flexray, can_only ? 0 : symbols, can);
-  if (can_only)
-    fmt::print(stderr, "{} written to {}\n", counted(can, "CAN frame"), options.out);
-  else
-    fmt::print(stderr, "{} FlexRay and {} and {} written to {}\n", flexray, counted(can, "CAN frame"),
-               counted(symbols, "symbol"), options.out);
+  say_written(options.out, can_only ? counted(can, "CAN frame")
+                                    : fmt::format("{} FlexRay and {} and {}", flexray, counted(can, "CAN frame"),
+                                                  counted(symbols, "symbol")));
   return 0;
 }
 
@@ -96,8 +94,8 @@ void add_export(CLI::App& app, Action& action) {
   command->footer(
       "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv and perfetto.\n"
       "The logs of a run's processes are merged.\n"
-      "Example: ttfusion export out/drive/tt.mcap --format pcapng -o drive.pcapng\n"
-      "Example: ttfusion export out/noise --format gnuplot -o figures");
+      "Examples: ttfusion export out/drive/tt.mcap --format pcapng -o out/drive.pcapng\n"
+      "          ttfusion export out/noise --format gnuplot -o out/figures");
   command
       ->add_option("logs", options->logs,
                    "Log of a run, or one of each of its processes; for gnuplot also of several runs, folders of "
@@ -109,8 +107,8 @@ void add_export(CLI::App& app, Action& action) {
                    "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
                    "gnuplot (tables and scripts for papers, into a folder)")
       ->required()
-      ->check(CLI::IsMember({"pcapng", "candump", "csv", "perfetto", "gnuplot"}));
-  command->add_option("-o,--out", options->out, "File to write; for gnuplot the folder")->required();
+      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "gnuplot"}));
+  command->add_option("-o,--out", options->out, "File to write; for gnuplot the folder")->required()->check(named());
   command->add_flag("--json", options->json, "Counts as JSON on standard output");
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });
 }

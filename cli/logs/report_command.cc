@@ -11,12 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/experiment/drives.h"
 #include "cli/output.h"
 #include "cli/time_window.h"
 #include "core/errors.h"
 #include "core/time.h"
+#include "experiments/sweep/file.h"
 #include "report/drive/report.h"
 #include "report/experiment/report.h"
 
@@ -25,7 +27,7 @@ namespace {
 
 struct ReportOptions {
   std::vector<std::string> folders;
-  double from_s = -1.0, to_s = -1.0;
+  TimeWindowOptions window;
   std::optional<std::string> file;
   std::optional<std::uint32_t> point;
   bool no_drives = false;
@@ -47,9 +49,9 @@ std::string experiment_html(const ReportOptions& options, report::drive::Diagram
 }
 
 std::string html(const ReportOptions& options) {
-  const TimeWindow asked = time_window(options.from_s, options.to_s);
+  const TimeWindow asked = time_window(options.window);
   report::drive::DiagramWindow window;
-  if (options.from_s >= 0.0) window.from = asked.from;
+  window.from = asked.from;
   window.to = asked.to;
   std::size_t experiments = 0;
   for (const std::string& folder : options.folders)
@@ -84,10 +86,12 @@ void refuse_input(const ReportOptions& options) {
 }
 
 int run_report(const ReportOptions& options) {
+  if (std::filesystem::path(options.out).extension() != ".html")
+    throw InputError({"command line", 0, "--out", options.out, "must end in .html: a report is one HTML page"});
   refuse_input(options);
   const std::string page = html(options);
   write_file(options.out, page);
-  fmt::print(stderr, "written to {}: {:.1f} MB\n", options.out, static_cast<double>(page.size()) * 1e-6);
+  say_written(options.out, fmt::format("{:.1f} MB", static_cast<double>(page.size()) * 1e-6));
   return 0;
 }
 
@@ -99,26 +103,24 @@ void add_report(CLI::App& app, Action& action) {
       app.add_subcommand("report", "One HTML page of a run, of several side by side, or of an experiment");
   command->footer(
       "The page needs no network and no other file.\n"
-      "Examples: ttfusion report out/paper_scenario1 -o drive.html\n"
-      "          ttfusion report out/seed1 out/seed2 out/seed3 -o drives.html\n"
-      "          ttfusion report out/process_noise -o answer.html\n"
-      "          ttfusion report out/process_noise --point 7 -o point7.html");
+      "Examples: ttfusion report out/drive -o out/drive.html\n"
+      "          ttfusion report out/seed1 out/seed2 out/seed3 -o out/drives.html\n"
+      "          ttfusion report out/noise -o out/noise.html\n"
+      "          ttfusion report out/noise --point 3 -o out/point3.html");
   command->add_option("folders", options->folders, "Folders of results, from --out of run, launch or experiment")
       ->required()
-      ->check(kNamed);
-  command
-      ->add_option("--from", options->from_s,
-                   "Start of the timing diagrams, true time in seconds (default: the begin of the judged part)")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--to", options->to_s, "End of the timing diagrams (default: 160 ms later; 2 s later at most)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(named());
+  add_time_window(*command, options->window,
+                  "Start of the timing diagrams, in true time (default: the begin of the judged part)",
+                  "End of the timing diagrams (default: 160 ms later; 2 s later at most)");
   auto* file = command->add_option("--file", options->file,
                                    "An experiment's file, if it has moved: a run of each paradigm is driven again");
   auto* point =
-      command->add_option("--point", options->point, "Point of an experiment to drive again (default: the first)");
+      command->add_option("--point", options->point, "Point of an experiment to drive again (default: the first)")
+          ->check(whole_number({0, experiments::sweep::kMostPoints - 1}));
   auto* none = command->add_flag("--no-drives", options->no_drives, "Drive nothing again: no timing diagrams");
   none->excludes(file)->excludes(point);
-  command->add_option("-o,--out", options->out, "The page to write, .html")->required()->check(kNamed);
+  command->add_option("-o,--out", options->out, "The page to write, .html")->required()->check(named());
   command->callback([options, &action] { action = [options] { return run_report(*options); }; });
 }
 

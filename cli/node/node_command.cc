@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/supervision/launch_folder.h"
 #include "core/errors.h"
@@ -18,7 +19,7 @@ struct NodeArguments {
 int run_node(const NodeArguments& arguments) {
   NodeOptions options;
   options.set = read_node_set(arguments.set);
-  options.node = node_set::node_of(options.set.cluster, arguments.name);
+  options.node = node_set::node_of(options.set.cluster, arguments.name, "name", arguments.name);
   options.log = options.set.folder + "/" + supervision::file_stem(arguments.name) + ".mcap";
   options.json = arguments.json;
   return options.set.virtual_time ? run_node_virtual(options) : run_node_live(options);
@@ -45,7 +46,7 @@ void add_node(CLI::App& app, Action& action) {
                       "Name of this machine's clock, the same for all its processes and for no others (default: the "
                       "machine's name); real time only");
   command->add_option("--out", arguments->set.out, "Folder for the node's log (default: out/<scenario>/launch)")
-      ->check(kNamed);
+      ->check(named());
   command->add_flag("--json", arguments->json, "Outcome as JSON on standard output");
   command->callback([arguments, &action] { action = [arguments] { return run_node(*arguments); }; });
 }

@@ -9,11 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/dds/common/session.h"
+#include "cli/argument_checks.h"
 #include "cli/decimal_option.h"
 #include "cli/drive/drive_setup.h"
 #include "cli/node_set/can_interfaces.h"
 #include "core/decimal.h"
 #include "core/errors.h"
+#include "core/file_kind.h"
 #include "core/strict_yaml.h"
 #include "drives/drive.h"
 #include "drives/step_catalog.h"
@@ -53,14 +55,6 @@ reference: {{}}
 )",
                                             quoted(cluster.name), file, file, file),
                                 "default_scene.yaml");
-}
-
-// A cluster file has FlexRay parameters; a scenario names clusters.
-bool is_cluster_file(const std::string& file) {
-  const StrictYaml yaml = StrictYaml::load(file);
-  Findings ignored;
-  const YamlMap root = yaml.root(ignored);
-  return root.has("flexray") && !root.has("clusters");
 }
 
 void set_duration(drives::Scenario& scenario, const std::string& name, const std::string& text) {
@@ -138,7 +132,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
       ->required();
   command
       .add_option("--strategy", arguments.strategy, "Fusion strategy, and with it the scenario's cluster (default: tt)")
-      ->check(CLI::IsMember(drive::strategy_names()));
+      ->check(one_of(drive::strategy_names()));
   command.add_option("--seed", arguments.seed, "Seed of every random stream, instead of the scenario's");
   command.add_option("--bus", arguments.bus, live_media::bus_help());
   command
@@ -171,7 +165,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   set.host = arguments.host ? host_option(*arguments.host) : this_host();
 
   std::string drive = set.file;  // the name in messages
-  if (is_cluster_file(set.file)) {
+  if (kind_of(StrictYaml::load(set.file)) == FileKind::kCluster) {
     set.cluster = drive::checked_cluster(set.file);
     set.scenario = default_scene(set.cluster);
     drive = "the default scene";
@@ -215,12 +209,13 @@ std::vector<std::string> NodeSet::options() const {
   return list;
 }
 
-NodeId node_of(const schedules::model::Cluster& cluster, const std::string& name) {
+NodeId node_of(const schedules::model::Cluster& cluster, const std::string& name, const std::string& argument,
+               const std::string& text) {
   if (const auto node = cluster.find_node(name)) return *node;
   std::vector<std::string> names;
   for (const schedules::model::Node& node : cluster.nodes) names.push_back(node.name);
-  throw InputError(
-      {"command line", 0, "NAME", name, fmt::format("must be a node of {}: {}", cluster.file, fmt::join(names, ", "))});
+  throw InputError({"command line", 0, argument, text,
+                    fmt::format("must name a node of {}: {}", cluster.file, fmt::join(names, ", "))});
 }
 
 }  // namespace ttf::cli::node_set

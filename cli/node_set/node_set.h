@@ -63,7 +63,9 @@ struct NodeSet {
 // (schedules/check/real_time_rules.h), and faults are refused. Throws InputError.
 NodeSet read_node_set(const NodeSetArguments& arguments);
 
-// Returns the node of this name. Throws InputError with all names otherwise.
-NodeId node_of(const schedules::model::Cluster& cluster, const std::string& name);
+// Returns the node of this name, from an argument of the command line. Throws InputError with the argument, its text and
+// all names otherwise.
+NodeId node_of(const schedules::model::Cluster& cluster, const std::string& name, const std::string& argument,
+               const std::string& text);
 
 }  // namespace ttf::cli::node_set

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/argument_checks.h"
 #include "cli/output.h"
-#include "cli/time_window.h"
 #include "core/counted.h"
 #include "recording/capture/check.h"
 
@@ -69,24 +69,21 @@ void add_capture_arguments(CLI::App& command, CaptureArguments& arguments) {
   CLI::Option* against = command.add_option(
       "--against", arguments.file, "Capture (pcap or pcapng with FlexRay frames) to compare with the schedule");
   command.add_option("--channels", arguments.channels, "Captured channels: A, B or AB")
-      ->check(CLI::IsMember({"A", "B", "AB"}))
+      ->check(one_of({"A", "B", "AB"}))
       ->capture_default_str()
       ->needs(against);
-  command
-      .add_option("--from", arguments.from_s,
-                  "Begin this many seconds after the first FlexRay packet (after a start-up)")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(against);
-  command.add_option("--to", arguments.to_s, "End this many seconds after the first FlexRay packet")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(against);
+  const auto [from, to] = add_time_window(command, arguments.window,
+                                          "Begin this many seconds after the first FlexRay packet (after a start-up)",
+                                          "End this many seconds after the first FlexRay packet");
+  from->needs(against);
+  to->needs(against);
 }
 
 int check_against_capture(const schedules::model::Cluster& cluster, const CaptureArguments& arguments, bool json) {
-  const TimeWindow window = time_window(arguments.from_s, arguments.to_s);
+  const TimeWindow window = time_window(arguments.window);
   recording::capture::CaptureCheckOptions options;
   options.channels = channels_of(arguments.channels);
-  options.from_ns = window.from.ns;
+  options.from_ns = window.begin().ns;
   if (window.to) options.to_ns = window.to->ns;
   const recording::capture::Capture capture = recording::capture::read_capture(arguments.file);
   print_warnings(capture.warning);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "cli/time_window.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::cli::schedule {
@@ -11,7 +12,7 @@ namespace ttf::cli::schedule {
 struct CaptureArguments {
   std::string file;  // empty: not given
   std::string channels = "AB";
-  double from_s = -1.0, to_s = -1.0;
+  TimeWindowOptions window;
 };
 void add_capture_arguments(CLI::App& command, CaptureArguments& arguments);
 

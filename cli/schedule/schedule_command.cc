@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/schedule/capture_against.h"
@@ -123,18 +124,22 @@ int check(const ScheduleOptions& options) {
 int show(const ScheduleOptions& options) {
   if (!options.out.empty()) report::drawing::check_picture_path(options.out);
   const schedules::model::Cluster cluster = consistent_cluster(options.file);
-  if (options.out.empty())
+  if (options.out.empty()) {
     fmt::print("{}", schedules::exchange::show_text(cluster));
-  else
-    report::drawing::write_picture(report::plots::schedule_svg(cluster), options.out);
+    return 0;
+  }
+  report::drawing::write_picture(report::plots::schedule_svg(cluster), options.out);
+  say_written(options.out);
   return 0;
 }
 
 void write_text(const std::string& text, const std::string& path) {
-  if (path.empty())
+  if (path.empty()) {
     fmt::print("{}", text);
-  else
-    write_file(path, text);
+    return;
+  }
+  write_file(path, text);
+  say_written(path);
 }
 
 int export_cluster(const ScheduleOptions& options) {
@@ -170,9 +175,9 @@ void add_schedule(CLI::App& app, Action& action) {
   auto options = std::make_shared<ScheduleOptions>();
   CLI::App* checking = command->add_subcommand("check", "Prove a cluster consistent and bound its measurements' ages");
   checking->footer(
-      "Example: ttfusion schedule check schedules/paper_synchronised.yaml\n"
-      "         ttfusion schedule check schedules/paper_synchronised.yaml --against drive.pcapng\n"
-      "         ttfusion schedule check schedules/paper_synchronised.yaml --medium can-fd:1M/5M --time-scale 3");
+      "Examples: ttfusion schedule check schedules/paper_synchronised.yaml\n"
+      "          ttfusion schedule check schedules/paper_synchronised.yaml --against out/drive.pcapng\n"
+      "          ttfusion schedule check schedules/paper_synchronised.yaml --medium can-fd:1M/5M --time-scale 3");
   checking->add_option("file", options->file, "Cluster file, or FIBEX file")->required();
   checking->add_flag("--json", options->json, "Result as JSON on standard output");
   add_capture_arguments(*checking, options->capture);
@@ -182,7 +187,7 @@ void add_schedule(CLI::App& app, Action& action) {
   CLI::App* showing = command->add_subcommand("show", "Draw one communication cycle as text, or as a picture with -o");
   showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");
   showing->add_option("file", options->file, "Cluster file, or FIBEX file")->required();
-  showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf");
+  showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->check(named());
   showing->callback([options, &action] { action = [options] { return show(*options); }; });
   CLI::App* exporting = command->add_subcommand("export",
                                                 "Write a cluster as FIBEX 3.1, its CANs as DBC, or a FIBEX file's "
@@ -194,9 +199,9 @@ void add_schedule(CLI::App& app, Action& action) {
   exporting->add_option("file", options->file, "Cluster file (fibex, dbc), or FIBEX file (yaml, fibex)")->required();
   exporting->add_option("--format", options->format, "fibex, dbc: from a cluster file; yaml: from a FIBEX file")
       ->required()
-      ->check(CLI::IsMember({"fibex", "dbc", "yaml"}));
+      ->check(one_of({"fibex", "dbc", "yaml"}));
   exporting->add_option("--can", options->can, "dbc: only this CAN of the cluster");
-  exporting->add_option("-o,--out", options->out, "File to write; else standard output");
+  exporting->add_option("-o,--out", options->out, "File to write; else standard output")->check(named());
   exporting->callback([options, &action] { action = [options] { return export_cluster(*options); }; });
 }
 

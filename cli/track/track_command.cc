@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/drive/drive_setup.h"
 #include "cli/output.h"
 #include "cli/track/track_options.h"
 #include "cli/track/track_outputs.h"
 #include "core/errors.h"
+#include "core/file_kind.h"
 #include "drives/scenario.h"
 #include "nodes/sensing/recorded.h"
 #include "recording/rows/laser_radar_file.h"
@@ -43,9 +45,14 @@ replay::SensorSetup usual_sensor(bool laser_radar) {
 }
 
 std::vector<recording::rows::ObservationRow> read_rows(const TrackOptions& options, Findings& findings) {
-  if (options.format == "csv") return recording::rows::read_observation_rows(options.observations, findings);
-  return recording::rows::observation_rows_of(recording::rows::read_laser_radar(options.observations, findings),
-                                              options.observations);
+  try {
+    if (options.format == "csv") return recording::rows::read_observation_rows(options.observations, findings);
+    return recording::rows::observation_rows_of(recording::rows::read_laser_radar(options.observations, findings),
+                                                options.observations);
+  } catch (const InputError&) {
+    refuse_any_kind(options.observations, "a recording");
+    throw;
+  }
 }
 
 int run_track(const TrackOptions& options) {
@@ -93,7 +100,7 @@ int run_track(const TrackOptions& options) {
     write_file(options.out, tracks);
     fmt::print("{}", options.json ? to_json(result).dump(2) + '\n' : track_table(result));
     std::fflush(stdout);
-    fmt::print(stderr, "written to {}\n", options.out);
+    say_written(options.out);
   }
   return print_reasons(options.observations, result.verdict.headline, result.verdict.reasons);
 }
@@ -122,20 +129,20 @@ void add_track(CLI::App& app, Action& action) {
   command->footer(
       "Columns, in and out, and the configuration: docs/track.md.\n"
       "Example: ttfusion track observations.csv --strategy buff --delay radar=20ms..70ms --seed 7 -o tracks.csv");
-  command->add_option("observations", options->observations, "Recorded observations")->required()->check(kNamed);
-  command->add_option("--config", options->config, "Tracker, strategy and sensors (YAML)")->check(kNamed);
+  command->add_option("observations", options->observations, "Recorded observations")->required()->check(named());
+  command->add_option("--config", options->config, "Tracker, strategy and sensors (YAML)")->check(named());
   command
       ->add_option("--format", options->format, "csv (docs/track.md; the default) or laser_radar (docs/recordings.md)")
-      ->check(CLI::IsMember({"csv", "laser_radar"}));
+      ->check(one_of({"csv", "laser_radar"}));
   command->add_option("--strategy", options->strategy, "Strategy, instead of the configuration's (default: adva)")
-      ->check(CLI::IsMember(drive::strategy_names()));
+      ->check(one_of(drive::strategy_names()));
   add_sensor_options(*command, *options);
   command->add_option("--shuffle", options->shuffle, "Groups of this many lists arrive together, in drawn order")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number({1, 1000}));
   command->add_option("--seed", options->seed, "Seed of the draws (default: 1)");
   command->add_flag("--predict", options->predict, "Tracks predicted to the instant of each fusion");
   command->add_flag("--skip-damaged", options->skip_damaged, "Leave damaged rows out, each with a warning");
-  command->add_option("-o,--out", options->out, "File for the tracks (default: standard output)")->check(kNamed);
+  command->add_option("-o,--out", options->out, "File for the tracks (default: standard output)")->check(named());
   command->add_flag("--json", options->json, "Summary as JSON on standard output; needs --out");
   command->callback([options, &action] { action = [options] { return run_track(*options); }; });
 }

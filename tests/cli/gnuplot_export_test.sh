@@ -22,7 +22,7 @@ drawn() {
 
 # ---- a run with every strategy
 "$program" run "$source/scenarios/paper_scenario2.yaml" --out "$work/run" >/dev/null 2>&1 || fail "the run fails"
-expect 0 '18 files written to' export "$work/run" --format gnuplot -o "$work/figures"
+expect 0 '^wrote .*/figures: 18 files; ' export "$work/run" --format gnuplot -o "$work/figures"
 drawn "$work/figures"
 for name in tt_positions errors nees ages; do
   [[ -s $work/figures/$name.pdf ]] || fail "no $name.pdf"
@@ -41,7 +41,7 @@ sed -e 's/^duration: .*/duration: 120 ms/' -e 's/^evaluate_from: .*/evaluate_fro
   "$source/scenarios/paper_scenario1.yaml" >"$work/once.yaml"
 "$program" run "$work/once.yaml" --strategy tt --no-pictures --out "$work/once" >/dev/null 2>&1 ||
   fail "the short run fails"
-expect 0 '8 files written to' export "$work/once" --format gnuplot -o "$work/once_figures"
+expect 0 '^wrote .*/once_figures: 8 files; ' export "$work/once" --format gnuplot -o "$work/once_figures"
 [[ $(wc -l <"$work/once_figures/tt_errors.csv") -eq 2 ]] || fail "not one use"
 drawn "$work/once_figures"
 

@@ -11,8 +11,8 @@ cluster=$source/schedules/paper_synchronised.yaml
 
 expect 0 'Example: ttfusion launch' launch --help
 expect 0 'Examples: ttfusion node' node --help
-expect 2 'required' launch
-expect 2 'required' node fusion
+expect 2 'scenario: must be given to `ttfusion launch`' launch
+expect 2 'scenario: must be given to `ttfusion node`' node fusion
 expect 2 'absent.yaml: cannot be read' launch "$work/absent.yaml"
 
 # Bad options, each in one sentence.
@@ -41,7 +41,7 @@ for command in launch "node fusion"; do
     expect 2 '--session = a b: must be 1 to 64 letters' $command "$drive" --session 'a b'
     expect 2 '--out: must not be empty' $command "$drive" --out ''
     pushd "$work" >/dev/null   # where it would be, were it taken for a folder
-    expect 2 "--out: must not .* begin with a '-'" $command "$drive" --out= --virtual-time
+    expect 2 "--out = --virtual-time: must not .* begin with a '-'" $command "$drive" --out= --virtual-time
     popd >/dev/null
     expect 2 '--can = laser_can=can2: goes with --bus socketcan' $command "$drive" --can laser_can=can2
     can="$command $drive --bus socketcan:vcan0,vcan1 --can"
@@ -90,8 +90,8 @@ expect 2 '--rejoin: must not be given with --virtual-time' node fusion "$drive" 
 expect 2 '--host = a: must not be given with --virtual-time' node fusion "$drive" --host a --virtual-time
 expect 2 '--host = two words: must be 1..255 printable ASCII characters without blanks' node fusion "$drive" \
   --host 'two words'
-expect 2 '--host: 1 required TEXT missing' node fusion "$drive" "--host="
-expect 2 'not expected: .*--host' launch "$drive" --host a
+expect 2 '--host: must have a value' node fusion "$drive" "--host="
+expect 2 '--host: is no option of `ttfusion launch`' launch "$drive" --host a
 for start in -1 1e9 4102444801 now 0.0000000001; do
   expect 2 "--start-at = $start: must be a decimal number 0..4102444800 s" node fusion "$drive" "--start-at=$start"
 done
@@ -103,8 +103,8 @@ done
 expect 2 '--start-at = 1: must be in the future' node fusion "$drive" --start-at 1 --no-topics --session "refused-$$" \
   --out "$work/by_hand"
 [[ $(ls "$work/by_hand" 2>/dev/null) == '' ]] || fail "a node that is refused leaves a log"
-expect 2 'not expected: --rejoin' launch "$drive" --rejoin
-expect 2 'not expected: .*--start-at' launch "$drive" --start-at 1
+expect 2 '--rejoin: is no option of `ttfusion launch`' launch "$drive" --rejoin
+expect 2 '--start-at: is no option of `ttfusion launch`' launch "$drive" --start-at 1
 
 # The requirements of ROS 2's topics are checked before anything starts.
 for domain in 232 -1 0.5 one; do
@@ -118,11 +118,11 @@ for domain in 232 -1 0.5 one; do
 done
 unset ROS_DOMAIN_ID
 
-expect 2 'NAME = fusoin: must be a node of .*paper_synchronised.yaml: .*laser_pre, .*fusion' node fusoin "$drive" \
+expect 2 'name = fusoin: must name a node of .*paper_synchronised.yaml: .*laser_pre, .*fusion' node fusoin "$drive" \
   --virtual-time
 expect 2 '--policy = fusion: must be NODE=required, NODE=restart or NODE=optional' launch "$drive" --policy fusion
 expect 2 '--policy = fusion=never: must be NODE=' launch "$drive" --policy fusion=never
-expect 2 'NAME = fusoin: must be a node of' launch "$drive" --policy fusoin=optional
+expect 2 '--policy = fusoin=optional: must name a node of' launch "$drive" --policy fusoin=optional
 expect 2 'must be given once for each node' launch "$drive" --policy fusion=optional --policy fusion=restart
 sed 's/gdNIT: 386/gdNIT: 380/' "$cluster" >"$work/broken.yaml"
 expect 2 'broken.yaml:[0-9]+: .*(gdNIT|gMacroPerCycle)' launch "$work/broken.yaml" --dry-run
@@ -221,7 +221,7 @@ grep -Eq -- " node fusion .*paper_scenario1.yaml --strategy tt --seed 5 --bus dd
   fail "the dry run's commands are others: $(cat "$work/commands")"
 while IFS= read -r line; do
   bash -c "$line --dry" >/dev/null 2>"$work/refused"
-  grep -q 'not expected: --dry' "$work/refused" || fail "a shell does not take: $line"
+  grep -q -- '--dry: is no option of `ttfusion node`' "$work/refused" || fail "a shell does not take: $line"
 done <"$work/commands"
 "$program" launch "$drive" --strategy buff --time-scale 2.50 --bus socketcan:vcan_absent --can camera_can=can7 \
   --policy fusion=restart --dry-run --json \

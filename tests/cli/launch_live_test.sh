@@ -91,8 +91,8 @@ for kind in timing position lateness; do
 done
 for format in pcapng candump csv; do
   # shellcheck disable=SC2086
-  expect 0 'written to' export $logs --format $format -o "$work/frames.$format"
-  expect 0 'written to' export "$work/tt/tt.mcap" --format $format -o "$work/merged.$format"
+  expect 0 'wrote' export $logs --format $format -o "$work/frames.$format"
+  expect 0 'wrote' export "$work/tt/tt.mcap" --format $format -o "$work/merged.$format"
   cmp "$work/frames.$format" "$work/merged.$format" || fail "the nodes' logs as $format are not the launch's"
 done
 

@@ -21,16 +21,16 @@ for command in "${commands[@]}"; do
   "$program" $command >>words 2>&1
 done
 if [[ ${3:-} == --update ]]; then
-  cp startup.svg "$picture"
+  cp out/startup.svg "$picture"
   exit
 fi
-cmp startup.svg "$picture" || { echo "FAILED: $picture is not what the page's commands make; see --update"; exit 1; }
+cmp out/startup.svg "$picture" || { echo "FAILED: $picture is not what the page's commands make; see --update"; exit 1; }
 
 quoted=0
 while IFS= read -r sentence; do
   quoted=$((quoted + 1))
   escaped=$(sed "s/'/\&apos;/g" <<<"$sentence")
-  grep -Fq -- "$sentence" startup.svg || grep -Fq -- "$escaped" startup.svg ||
+  grep -Fq -- "$sentence" out/startup.svg || grep -Fq -- "$escaped" out/startup.svg ||
     { echo "FAILED: the log does not say \"$sentence\""; exit 1; }
 done < <(grep '^|' "$page" | grep -o '"[^"]*"' | tr -d '"')
 [[ $quoted -ge 11 ]] || { echo "FAILED: only $quoted sentences are quoted"; exit 1; }

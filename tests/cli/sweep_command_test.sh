@@ -34,7 +34,7 @@ except sqlite3.Error: print(0)" "$work/killed/results.sqlite")
   kill -9 "$victim" 2>/dev/null || fail "round $round: it was done before it could be killed"
   wait "$victim" 2>/dev/null
 done
-expect 0 'written to' experiment "$work/long.yaml" --out "$work/killed" --resume
+expect 0 '^wrote ' experiment "$work/long.yaml" --out "$work/killed" --resume
 for name in runs.csv summary.csv answer.txt answer.json; do
   cmp "$work/undisturbed/$name" "$work/killed/$name" || fail "$name of a run that was killed twice is another"
 done

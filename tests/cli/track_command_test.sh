@@ -95,7 +95,7 @@ expect 0 '^warning: .*damaged.csv:12: columns' track "$work/damaged.csv" --confi
 # Errors in a file, the configuration, or an option.
 : >"$work/empty.csv"
 expect 2 'empty.csv: holds no heading' track "$work/empty.csv"
-expect 2 'missing' track "$work/empty.csv" --config=
+expect 2 '--config: must have a value' track "$work/empty.csv" --config=
 expect 2 'must' track "$work/empty.csv" -o ''
 { echo time,arrival,sensor,range,bearing,cov_11,cov_22; echo 0,0,radar,10,0,0.04,25; } >"$work/blurred.csv"
 expect 2 'blurred.csv:2: cov_22 = 25: must be at most 0.25 rad\^2' track "$work/blurred.csv"

@@ -117,7 +117,7 @@ PY
 {
   expect 0 '' diagram $logs --kind timing --from 0.5 --to 0.54 -o "$work/timing.svg"
   expect 0 '' diagram $logs --kind lateness -o "$work/lateness.svg"
-  expect 0 'written to' export $logs --format pcapng -o "$work/frames.pcapng"
+  expect 0 'wrote' export $logs --format pcapng -o "$work/frames.pcapng"
 }
 for file in timing.svg lateness.svg; do grep -q '<svg' "$work/$file" || fail "no picture $file"; done
 

@@ -13,9 +13,9 @@ has() { grep -Fq -- "$2" "$1" || fail "$1 does not have '$2'"; }
 lacks() { ! grep -Eq -- "$2" "$1" || fail "$1 has '$2'"; }
 
 for seed in 1 2 3; do
-  expect 0 'written to' run "$source/scenarios/paper_scenario1.yaml" --seed $seed --no-pictures --out "seed$seed"
+  expect 0 'wrote' run "$source/scenarios/paper_scenario1.yaml" --seed $seed --no-pictures --out "seed$seed"
 done
-expect 0 'written to run.html: [0-9.]+ MB' report seed1 -o run.html
+expect 0 'wrote run.html: [0-9.]+ MB' report seed1 -o run.html
 has run.html 'A car ahead accelerates along the sensor vehicle'
 has run.html 'has the smallest position error here: 0.115 m'
 has run.html 'One drive is one draw of the noise'
@@ -43,49 +43,49 @@ for curve, told in zip(curves, summary):
 END
 
 # ---- several runs: paired intervals over their seeds
-expect 0 'written to' report seed1 seed2 seed3 -o runs.html
+expect 0 'wrote' report seed1 seed2 seed3 -o runs.html
 has runs.html 'Over 3 runs of paper_scenario1,'
 has runs.html 'means of 3 runs, 95 % intervals'
 has runs.html 'The first 6 of 9 drives are drawn.'
 
 # ---- two scenarios: an answer each
 expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --no-pictures --out other
-expect 0 'written to' report seed1 other -o scenarios.html
+expect 0 'wrote' report seed1 other -o scenarios.html
 has scenarios.html 'paper_scenario1: buff has the smallest position error here: 0.115 m'
 has scenarios.html 'paper_scenario2: buff has the smallest'
 
 # ---- logs alone, and a run without logs
 mkdir logs
 cp seed1/tt.mcap logs/
-expect 0 'written to' report logs -o logs.html
+expect 0 'wrote' report logs -o logs.html
 has logs.html 'There is no summary.json'
 expect 0 '' run "$source/scenarios/paper_scenario1.yaml" --strategy tt --no-log --out without
-expect 0 'written to' report without -o without.html
+expect 0 'wrote' report without -o without.html
 has without.html 'tt kept no log'
 has without.html 'There is no log: slot problems and missed deadlines are in the table above only'
 for heading in 'Errors and ages' 'Positions' 'How to repeat it' 'No fault was injected'; do
   lacks without.html "$heading"
 done
-expect 0 'written to' report seed1 without -o some.html
+expect 0 'wrote' report seed1 without -o some.html
 has some.html 'There is no log of without tt: slot problems'
 has some.html 'no deadline was missed in the logs.'
 
 # ---- faults, and another window
 expect 0 '' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-pictures --out faulty
-expect 0 'written to' report faulty --from 0.5 --to 0.52 -o faulty.html
+expect 0 'wrote' report faulty --from 0.5 --to 0.52 -o faulty.html
 has faulty.html 'only 20 ms are drawn, from 0.5 s on'
 has faulty.html 'byzantine_clock'
 
 # An end before the drive is judged (1.5 s): the window is before it.
-expect 0 'written to' report seed1 --to 1 -o before.html
+expect 0 'wrote' report seed1 --to 1 -o before.html
 has before.html 'only 160 ms are drawn, from 0.84 s on'
-expect 0 'written to' report seed1 --to 0.1 -o first.html
+expect 0 'wrote' report seed1 --to 0.1 -o first.html
 has first.html 'only 100 ms are drawn, from 0 s on'
 
 # ---- an experiment
 small_sweep 4 "700 ms" "400 ms" | sed 's/^question: .*/question: Is it <so>?/' >small.yaml
-expect 0 'written to' experiment small.yaml --out small
-expect 0 'written to' report small -o small.html
+expect 0 'wrote' experiment small.yaml --out small
+expect 0 'wrote' report small -o small.html
 has small.html 'Is it &lt;so&gt;?'
 has small.html 'has the smallest position_rmse_truth at '
 has small.html 'root mean square of the position error against the truth'
@@ -100,13 +100,13 @@ for words in 'data-label="adva"' 'data-label="tt"' 'Ages of measurements' '"head
   'No fault was injected, no slot had a problem'; do
   has small.html "$words"
 done
-expect 0 'written to' report small -o small_again.html
+expect 0 'wrote' report small -o small_again.html
 cmp small.html small_again.html || fail "the same experiment makes another page"
 [[ -z $(ls -A scratch) ]] || fail "the runs that were driven again are left behind"
 unset TMPDIR
 # Its curves are those of the run's own page.
-expect 0 'written to tt' experiment small.yaml --replay 0/tt/0 --out tt
-expect 0 'written to' report tt -o tt.html
+expect 0 'wrote tt' experiment small.yaml --replay 0/tt/0 --out tt
+expect 0 'wrote' report tt -o tt.html
 python3 - <<'END' || fail "the curves in the experiment's page are not those of the run"
 import json, re
 def views(name):
@@ -117,10 +117,10 @@ for key in [("Age over time", "newest of the sensors"), ("Error over time", "pos
     curve = next(c for c in of_all[key] if c["label"] == "tt")
     assert curve["x"] and [curve["x"], curve["y"]] == [alone[key][0]["x"], alone[key][0]["y"]], key
 END
-expect 0 'written to' report small --point 1 --from 0.5 --to 0.52 -o point.html
+expect 0 'wrote' report small --point 1 --from 0.5 --to 0.52 -o point.html
 has point.html 'The runs of point 1 (noise 40), replication 0'
 has point.html 'only 20 ms are drawn, from 0.5 s on'
-expect 0 'written to' report small --no-drives -o none.html
+expect 0 'wrote' report small --no-drives -o none.html
 lacks none.html 'One drive of each paradigm|class="diagram"'
 
 # ---- a changed experiment is not driven again as if it were the same, and the page reports it
@@ -154,15 +154,15 @@ for name, changes in [("forged", [f"UPDATE runs SET age_fused = age_fused + 1e-9
         store.execute(change)
     store.commit()
 END
-expect 0 'written to' report forged -o forged.html
+expect 0 'wrote' report forged -o forged.html
 has forged.html 'No drive is shown here: tt, driven again, gave other numbers than in results.sqlite.'
 # A replication that one of them has not done is passed over.
 expect 0 '^small: 2 runs of point 0, replication 2, again' report holes -o holes.html
 # The commands it shows work.
-expect 0 'written to one' experiment small.yaml --replay 0/adva/0 --out one
-expect 0 'written to' report one -o one.html
+expect 0 'wrote one' experiment small.yaml --replay 0/adva/0 --out one
+expect 0 'wrote' report one -o one.html
 # Drives with different starts of judgement: each timing diagram gives its window.
-expect 0 'written to' report seed1 one -o windows.html
+expect 0 'wrote' report seed1 one -o windows.html
 has windows.html 'A part of each drive is drawn'
 has windows.html 'data-label="one adva, of which 160 ms are drawn, from 0.4 s on"'
 has windows.html 'data-label="seed1 tt, of which 160 ms are drawn, from 1.5 s on"'

@@ -1,0 +1,43 @@
+#include "cli/argument_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+namespace ttf::cli {
+
+CLI::Validator named() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return text.empty() || text.front() == '-' ? "must not be empty or begin with a '-' (write ./-NAME instead)"
+                                                   : "";
+      },
+      "");
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  const std::string shown = fmt::format("{{{}}}", fmt::join(words, ","));
+  return CLI::Validator(
+      [words = std::move(words)](const std::string& text) {
+        return std::find(words.begin(), words.end(), text) != words.end()
+                   ? std::string()
+                   : fmt::format("must be one of {}", fmt::join(words, ", "));
+      },
+      shown);
+}
+
+CLI::Validator whole_number(Range<std::int64_t> allowed) {
+  const std::string range = fmt::format("{}..{}", allowed.low, allowed.high);
+  return CLI::Validator(
+      [allowed, range](const std::string& text) {
+        std::int64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = error == std::errc{} && fmt::to_string(value) == text;  // CLI11 takes 010 for 8
+        return whole && allowed.contains(value) ? "" : "must be a whole number " + range;
+      },
+      range);
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# Mistakes on the command line, files of another kind, and files that are not there: one clear sentence each, and exit code 2.
+#   arguments_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$(dirname "$0")/expect.sh"
+
+cp -r "$source/scenarios" "$work/scenarios"
+ln -s "$source/schedules" "$work/schedules"
+
+one_sentence() {  # SENTENCE ARGS...: all that the program says, and exit code 2
+  local sentence=$1 output
+  shift
+  output=$("$program" "$@" 2>&1)
+  [[ $? -eq 2 && $output == "error: command line: $sentence" ]] || fail "$* does not say '$sentence': $output"
+}
+paper=$source/scenarios/paper_scenario1.yaml
+for arguments in '' --help; do
+  # shellcheck disable=SC2086
+  expect 0 '^ttfusion drives clusters' $arguments
+  # shellcheck disable=SC2086
+  expect 0 '^  schedule +Validate, draw' $arguments
+done
+[[ -z $("$program" 2>&1 >/dev/null) ]] || fail "the help that no argument prints is an error"
+one_sentence 'scenario: must be given to `ttfusion run`: Scenario file' run
+one_sentence 'ttfusion schedule: must be followed by check, show or export' schedule
+commands='run, diagram, export, schedule, experiment, keys, launch, node, report or track'
+one_sentence "foo: is no command of \`ttfusion\`: must be $commands" foo --help
+one_sentence 'rnu: is no command of `ttfusion`: did you mean run?' rnu "$paper"
+one_sentence 'draw: is no command of `ttfusion schedule`: must be check, show or export' schedule draw x.yaml
+one_sentence '--fast: is no option of `ttfusion run`, whose --help lists them' run "$paper" --fast
+one_sentence '--startegy: is no option of `ttfusion run`: did you mean --strategy?' run "$paper" --startegy tt
+one_sentence '--fromat: is no option of `ttfusion export`: did you mean --format?' export x.mcap --fromat=csv -o x.csv
+one_sentence 'x.yaml: is one argument too many for `ttfusion run`' run "$paper" x.yaml
+one_sentence '--seed: must have a value: Seed of every random stream, instead of the scenario'"'s" run "$paper" --seed
+one_sentence '--seed: must be given once' run "$paper" --seed 1 --seed 2
+one_sentence '--json = maybe: must have no value' run "$paper" --json=maybe
+one_sentence '--channels: goes with --against only' schedule check x.yaml --channels A
+one_sentence '--shard: must not be given with --merge' experiment x.yaml --shard 1/2 --merge a b
+for command in run launch 'node fusion' track; do
+  # shellcheck disable=SC2086
+  one_sentence '--strategy = best: must be one of buff, adva, tt' $command "$paper" --strategy best
+done
+# Numbers, as typed.
+for jobs in 0 1025 -1 2.5 010 0x10 many 99999999999999999999; do
+  one_sentence "--jobs = $jobs: must be a whole number 1..1024" experiment x.yaml "--jobs=$jobs"
+done
+one_sentence '--replications = 0: must be a whole number 1..10000000' experiment x.yaml --replications 0
+one_sentence '--shuffle = 1001: must be a whole number 1..1000' track x.csv --shuffle 1001
+one_sentence '--point = -1: must be a whole number 0..9999' report x --point -1 -o x.html
+one_sentence '--frame = one: must be a whole number 0..999999999' diagram x.csv --kind boxes --frame one -o x.svg
+for seconds in a -0.1 nan 1e3 1000000000.1 ''; do
+  wanted="${seconds:+ = $seconds}: must be a decimal number 0..1000000000 s"
+  for option in --from --to; do
+    one_sentence "$option$wanted" diagram x.mcap "$option" "$seconds" -o x.svg
+    one_sentence "$option$wanted" report "$work" "$option" "$seconds" -o x.html
+    one_sentence "$option$wanted" schedule check "$source/schedules/paper_synchronised.yaml" --against x.pcapng \
+      "$option" "$seconds"
+  done
+done
+nameless="must not be empty or begin with a '-' (write ./-NAME instead)"
+one_sentence "--out: $nameless" diagram x.mcap -o ''
+one_sentence "--out: $nameless" export x.mcap --format csv -o ''
+one_sentence "--out = --json: $nameless" experiment x.yaml --out= --json
+one_sentence "--out = --format: $nameless" schedule export x.yaml --out= --format fibex
+one_sentence '--out = x.pdf: must end in .html: a report is one HTML page' report "$work" -o x.pdf
+
+# A file of another kind is one sentence.
+other_kind() {  # KIND WANTED ARGS...: the last argument is the file
+  local output kind=$1 wanted=$2
+  shift 2
+  output=$("$program" "$@" 2>&1)
+  [[ $? -eq 2 && $output == "error: ${!#}: this is $kind, not $wanted; "* && $output != *$'\n'* ]] ||
+    fail "$* does not say that it is $kind: $output"
+}
+cluster=$source/schedules/paper_synchronised.yaml
+experiment=$source/experiments/process_noise.yaml
+campaign=$source/experiments/fault_campaign.yaml
+faults=$source/experiments/faults/camera_crash.yaml
+echo 'tracker: {process_noise: 1}' >"$work/tracker.yaml"
+: >"$work/rows.csv"
+other_kind 'a cluster' 'a scenario' run "$cluster"
+other_kind 'an experiment' 'a scenario' run "$experiment"
+other_kind 'an experiment' 'a scenario' launch --dry-run "$campaign"
+other_kind 'a fault list' 'a scenario' run "$faults"
+other_kind 'a track configuration' 'a scenario' node fusion "$work/tracker.yaml"
+other_kind 'a scenario' 'a cluster' schedule check "$paper"
+other_kind 'an experiment' 'a cluster' schedule show "$experiment"
+other_kind 'an experiment' 'a cluster' schedule export --format dbc "$campaign"
+other_kind 'a scenario' 'an experiment' experiment "$paper"
+other_kind 'a cluster' 'an experiment' experiment "$cluster"
+other_kind 'a scenario' 'a track configuration' track "$work/rows.csv" --config "$paper"
+other_kind 'a cluster' 'a track configuration' track "$work/rows.csv" --config "$cluster"
+for file in "$cluster" "$paper" "$experiment"; do
+  kind=$(case $file in "$cluster") echo a cluster ;; "$paper") echo a scenario ;; *) echo an experiment ;; esac)
+  other_kind "$kind" 'a recording' track "$file"
+  other_kind "$kind" 'a recording' track --format laser_radar "$file"
+  other_kind "$kind" 'a recording' run "$source/scenarios/laser_radar_recorded.yaml" --input "$file"
+  other_kind "$kind" 'a recording' diagram -o x.svg --kind boxes "$file"
+done
+expect 2 '; `ttfusion schedule check` takes it$' run "$cluster"
+sed "s#paper_synchronised.yaml#../scenarios/paper_scenario2.yaml#" "$paper" >"$work/scenarios/mixed.yaml"
+expect 2 '^error: .*/paper_scenario2.yaml: this is a scenario, not a cluster; ' run "$work/scenarios/mixed.yaml" --strategy tt
+mkdir "$work/experiments"
+mixed=$work/experiments/mixed.yaml
+sed 's#^scenario: .*#scenario: ../schedules/paper_synchronised.yaml#' "$experiment" >"$mixed"
+expect 2 '^error: .*/paper_synchronised.yaml: this is a cluster, not a scenario; ' experiment "$mixed" --out "$work/none"
+# A file that is not there is a mistake of the entry that names it.
+sed 's#^scenario: .*#scenario: absent.yaml#' "$experiment" >"$mixed"
+expect 2 'mixed.yaml:4: scenario = .*/absent.yaml: must be a scenario file, but it cannot be read: No such file' \
+  experiment "$mixed" --out "$work/none"
+sed "s#^scenario: .*#scenario: $source/scenarios/dynamics.yaml#; s#../schedules/paper_event_triggered#absent#" \
+  "$experiment" >"$mixed"
+expect 2 'mixed.yaml:11: paradigms.can_adva.cluster = .*/absent.yaml: must be a cluster file, but it cannot be read' \
+  experiment "$mixed" --out "$work/none"
+sed 's#^cluster: .*#cluster: absent.yaml#' "$campaign" >"$mixed"
+line=$(grep -n '^cluster:' "$campaign" | cut -d: -f1)
+expect 2 "mixed.yaml:$line: cluster = .*/absent.yaml: must be a cluster file, but it cannot be read" experiment "$mixed"
+[[ -e $work/none ]] && fail "what is refused leaves a folder behind"
+
+[[ $failures -eq 0 ]] && echo "arguments: all as documented"
+exit $((failures > 0))
