@@ -19,6 +19,7 @@ class Pages(unittest.TestCase):
         for name in ("scenarios", "schedules", "experiments"):
             (self.root / name).mkdir()
         (self.root / "schedules/cluster.yaml").write_text("a: 1\nb: 2\na: 1\n")
+        (self.root / ".gitignore").write_text("/out/\n/new.yaml\n/one.svg\n")
         (self.root / "program").write_text(PROGRAM)
         (self.root / "program").chmod(0o755)
 
@@ -65,6 +66,15 @@ class Pages(unittest.TestCase):
         (self.root / "schedules/other.yaml").write_text("other")
         for drawn, passes in ((self.root / "one.svg", True), ("schedules/other.yaml", False)):
             self.expect(passes, self.console("", f"{SAY} draw {drawn} one.svg") + "\n![one](one.svg)\n")
+
+    def test_pictures_in_a_folder(self):
+        (self.root / "one.svg").write_text("one")
+        for drawn, passes in ((self.root / "one.svg", True), ("schedules/cluster.yaml", False)):
+            self.expect(passes, self.console("", f"mkdir out && {SAY} draw {drawn} out/one.svg") + "\n![one](one.svg)\n")
+
+    def test_what_is_left(self):
+        self.expect(True, self.console("", f"mkdir out && {SAY} draw schedules/cluster.yaml out/left.txt"))
+        self.expect(False, self.console("", f"{SAY} draw schedules/cluster.yaml left.txt"), "does not ignore:\nleft.txt")
 
     def test_a_page_without_commands_fails(self):
         self.expect(False, "Nothing.\n")

@@ -10,18 +10,19 @@ The commands run in an empty folder with copies of the scenarios, schedules and 
     ```yaml       behind a line "Create `FILE`": the whole file
     ```diff       behind a line "In `FILE`": the lines with - are there once and give way to those with +
 
-A picture of the page is compared with the file of its name, if a command of the page wrote one.
+A picture of the page is compared with the file of its name, if a command of the page wrote one. The commands leave nothing that
+`git status` would show.
 """
 import difflib
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 
+import clone
+
 FENCE = re.compile(r"(?P<before>[^\n]*)\n\n?```(?P<kind>\w+)\n(?P<text>.*?)^```$", re.DOTALL | re.MULTILINE)
-FOLDERS = ["scenarios", "schedules", "experiments"]
 
 
 class Failure(Exception):
@@ -93,18 +94,13 @@ def edit(text: str, file: pathlib.Path) -> None:
 
 def compare_pictures(page: pathlib.Path, folder: pathlib.Path) -> None:
     for target in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", page.read_text()):
-        drawn = folder / pathlib.Path(target).name
-        if drawn.exists() and drawn.read_bytes() != (page.parent / target).read_bytes():
-            raise Failure(f"{target} is not the picture that the page's command draws")
+        for drawn in folder.rglob(pathlib.Path(target).name):
+            if drawn.read_bytes() != (page.parent / target).read_bytes():
+                raise Failure(f"{target} is not the picture that the page's command draws")
 
 
 def run_page(program: pathlib.Path, repository: pathlib.Path, page: pathlib.Path, folder: pathlib.Path) -> int:
-    for name in FOLDERS:
-        (folder / name).mkdir()
-        for file in (repository / name).glob("*.yaml"):
-            shutil.copy(file, folder / name)
-    (folder / "build/release").mkdir(parents=True)
-    (folder / "build/release/ttfusion").symlink_to(program)
+    clone.make(folder, repository, program)
     commands = 0
     for block in FENCE.finditer(page.read_text()):
         named = re.search(r"\b(Create|In) `([^`]+)`", block["before"])
@@ -119,6 +115,8 @@ def run_page(program: pathlib.Path, repository: pathlib.Path, page: pathlib.Path
     if not commands:
         raise Failure("the page has no commands")
     compare_pictures(page, folder)
+    if left := clone.litter(folder):
+        raise Failure(f"the commands leave what git does not ignore:\n{left}")
     return commands
 
 
