@@ -6,7 +6,7 @@
 namespace ttf::cli {
 namespace {
 
-constexpr std::size_t kShortest = 3;  // of an abbreviation
+constexpr std::size_t kShortest = 3;  // abbreviation
 
 bool is_near(std::string_view typed, std::string_view name, std::size_t distance) {
   const std::size_t letters = std::max(typed.size(), name.size());

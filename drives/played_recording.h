@@ -30,7 +30,7 @@ struct RecordingUse {
   std::vector<OfSensor> sensors;
   TrueTime end{};       // the last row
   Duration ends_after;  // from the drive's start
-  Duration duration;    // of the drive
+  Duration duration;    // the length of the drive
   bool ends_early() const { return ends_after < duration; }
 };
 // Throws InputError if a row does not fit, or a sensor has none within the drive.

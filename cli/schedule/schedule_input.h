@@ -10,7 +10,7 @@ namespace ttf::cli::schedule {
 
 struct ScheduleInput {
   schedules::model::Cluster cluster;
-  std::vector<std::string> notes;  // what was assumed or left out of a FIBEX file
+  std::vector<std::string> notes;  // assumed values of a FIBEX file, and its parts left out
 };
 
 // A file that begins with `<` is FIBEX. The cluster has passed the checks; those that need tasks are skipped where it

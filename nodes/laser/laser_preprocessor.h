@@ -35,7 +35,7 @@ class LaserPreprocessor {
   // Fills `out` with the scan's objects by azimuth, right to left. Allocates only if `out` lacks room for
   // most_objects().
   void process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out);
-  const SegmentFates& fates() const { return fates_; }  // of the last scan
+  const SegmentFates& fates() const { return fates_; }  // for the last scan
   std::size_t most_objects() const { return most_points_ / static_cast<std::size_t>(config_.fewest_points); }
 
  private:

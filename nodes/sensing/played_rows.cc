@@ -205,7 +205,7 @@ class Player {
   const schedules::model::Node& device_;
   const RecordedPlaying& playing_;
   Duration until_;
-  std::vector<RecordedObservation> rows_;  // of this sensor, in time order
+  std::vector<RecordedObservation> rows_;  // those of this sensor, in time order
   std::vector<Duration> instants_;
   PlayedRows played_;
 };

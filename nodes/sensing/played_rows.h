@@ -41,8 +41,8 @@ RecordedPlaying load_recorded_playing(YamlMap& yaml);
 
 struct PlayedRows {
   std::vector<std::optional<recording::rows::RecordedObservation>> at;  // by measurement; empty: the device is silent
-  std::vector<Duration> instants;  // of the measurements, where the device measures at the rows' stamps; else empty
-  std::size_t rows = 0;            // of this sensor in the recording
+  std::vector<Duration> instants;  // measuring instants, if the device measures at the rows' stamps; else empty
+  std::size_t rows = 0;            // number in the recording for this sensor
   std::size_t lists = 0;           // measurements with a row
   std::size_t between = 0;         // rows that no list was made of: between the instants,
   std::size_t beyond = 0;          // or after the drive's last one

@@ -21,7 +21,7 @@ LEFT_OUT = {
     r"--bus socketcan": "needs CANs, and the processes of the other nodes",
     r"^mpirun": "needs MPI, which refuses root",
 }
-FIRST = ["run", "experiment"]   # what they leave, other examples read
+FIRST = ["run", "experiment"]   # other examples read their output
 # Beside them: a log, folders of results, and a launch's folder.
 BEFORE = ["ttfusion run scenarios/cold_start.yaml --strategy tt --no-pictures",
           *(f"ttfusion run scenarios/paper_scenario1.yaml --strategy tt --no-pictures --seed {n} --out out/seed{n}"
