@@ -18,7 +18,7 @@ std::string read_file(const std::string& path, std::size_t most) {
   };
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (file == nullptr) fail();
-  // The buffer grows with the bytes read: a size field or a special file may claim any size.
+  // The buffer grows with the bytes read: a size field may claim any size.
   std::string bytes;
   std::vector<char> block(std::min(most, std::size_t{1} << 20));
   while (const std::size_t got = std::fread(block.data(), 1, std::min(block.size(), most - bytes.size()), file.get()))

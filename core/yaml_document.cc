@@ -36,8 +36,8 @@ struct DocumentStart final : YAML::EventHandler {
   void OnMapEnd() override {}
 };
 
-// YAML::Load reads the first document and ignores the rest. YAML::LoadAll would see the rest, but loops forever
-// on some empty documents, such as a tag without a value.
+// YAML::Load reads the first document only. YAML::LoadAll reads all, but loops forever on some empty documents, such
+// as a tag without a value.
 void check_one_document(const std::string& text, const std::string& name) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);

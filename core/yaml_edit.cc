@@ -55,7 +55,7 @@ std::string with_value(const std::string& text, const std::string& name, std::st
   if (!plain) throw InputError({name, line, std::string(path), "", "must be a plain scalar to be varied"});
   std::string edited = text;
   edited.replace(begin, found.Scalar().size(), value);
-  // A value that is no plain scalar could change type, or change the meaning of the text behind it.
+  // Any other value could change type, or the meaning of the text behind it.
   std::optional<std::string> now;
   try {
     const YAML::Node again = at(YAML::Load(edited), path);

@@ -1,5 +1,5 @@
-// The tables of `ttfusion run` about a fault plan: injected faults, the checks that detected them and in how
-// many cycles, the guardians' interventions with reasons, changes of state, and harm to fault-free nodes.
+// The tables of `ttfusion run` about a fault plan: injected faults, the checks that detected them, the
+// guardians' interventions, changes of state, and harm to fault-free nodes.
 #pragma once
 
 #include <nlohmann/json.hpp>

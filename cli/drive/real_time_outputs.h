@@ -8,9 +8,9 @@
 
 namespace ttf::cli::drive {
 
-// Returns tables for people. They show the lateness of each node's wake-ups beside the machine's own floor,
-// the lateness of sent and received frames, timing problems and losses, the counts of each medium, the
-// clocks' agreement and the ages of used measurements. Empty in virtual time.
+// Returns tables for people: the lateness of wake-ups beside the machine's own floor, the lateness of frames,
+// timing problems and losses, the media's counts, the clocks' agreement and the ages of used measurements. Empty in
+// virtual time.
 std::string real_time_text(const StrategyResult& result);
 // Returns the same for `"real_time"` in summary.json; null in virtual time.
 nlohmann::ordered_json real_time_json(const StrategyResult& result);

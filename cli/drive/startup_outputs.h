@@ -10,7 +10,7 @@ namespace ttf::cli::drive {
 
 // Returns a table per strategy, one for all strategies with equal tables: the nodes that became active, with
 // cycle, instant (true time) and cause. Empty without changes of state. `cold` means that the drives began
-// with a start-up; otherwise the tables are about nodes that left the running cluster and maybe came back.
+// with a start-up; otherwise the tables have nodes that left the running cluster.
 std::string startup_text(const std::vector<StrategyResult>& results, bool cold);
 // Returns the same for one drive: a list with an entry per node.
 nlohmann::ordered_json startup_json(const StrategyResult& result);

@@ -17,8 +17,8 @@ namespace ttf::cli::experiment {
 experiments::results::Row drive_again(const experiments::sweep::SweepDrives& drives,
                                       const experiments::results::RowKey& key, const std::string& folder);
 
-// Drives each paradigm of the folder's experiment again, at one point (by default the folder's first) and
-// with the first replication that all paradigms have done. The results must equal the store's rows: a changed
+// Drives each paradigm of the folder's experiment again, at one point (by default the first), with the first
+// replication that all paradigms have done. The results must equal the store's rows: a changed
 // experiment or program is not shown as the original.
 //
 // `file` is the experiment's file, if it has moved. Throws InputError if the file or the point does not fit

@@ -1,5 +1,5 @@
-// Tells one fault of a campaign in words, in the order of time: the fault's acts, the guardians'
-// interventions, and the nodes' changes of state with their causes.
+// Tells one fault of a campaign in the order of time: its acts, the guardians' interventions, and the nodes'
+// changes of state with their causes.
 #pragma once
 
 #include <cstdint>

@@ -60,7 +60,7 @@ void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& resu
 }
 
 // Reports nodes out of operation at the end and an empty comparison, in a sentence each. Returns the exit
-// code: a drive fails if no node is left in the cluster at its end, even if all processes ended well.
+// code: a drive fails if no node is in operation at its end, even if all processes ended well.
 int tell_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::StrategyResult* result, int exit_code,
              supervision::LaunchFolder& folder) {
   const std::string absent = end.sentence();

@@ -1,5 +1,5 @@
-// The folder of one launch: every node's log and output, all words in one text, and manifest.json with the
-// processes, their input and their ends.
+// The folder of one launch: every node's log and output, all output in one text, and manifest.json with the
+// processes and their ends.
 //
 //   manifest.json      from the start on; completed at the end, also of a stopped launch. It is replaced whole, so a
 //                      reader, or a kill at any instant, finds a complete one
