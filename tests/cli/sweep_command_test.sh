@@ -64,7 +64,7 @@ cmp "$work/ten.csv" "$work/ten/runs.csv" || fail "two shards of 10 replications 
 expect 1 '20 of 60 runs are missing' \
   experiment "$file" --merge "$work/ten_first" "$work/ten_second" --replications 15 --out "$work/fifteen"
 expect 2 'must be at least 10' experiment "$file" --merge "$work/ten_first" --replications 5 --out "$work/never"
-expect 2 '--replications = 10000000: must make at most 100000000 runs' \
+expect 2 '--replications = 10000000: must make at most 100000000 drives' \
   experiment "$source/experiments/process_noise.yaml" --replications 10000000 --out "$work/never"
 expect 2 '--replications = 5: is for sweeps' experiment "$source/experiments/fault_campaign.yaml" --replications 5
 expect 0 'noise 40, tt, replication 40: done' experiment "$file" --replay 1/tt/40 --replications 41

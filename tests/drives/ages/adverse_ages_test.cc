@@ -147,11 +147,11 @@ struct Conspiracy {
     return seen;
   }
 
-  // Moves the sensors' phases. Then the list is written within a few microticks after its slot's action point
+  // Moves the sensors' phases. Then the list is written within some microticks after its slot's action point
   // (before it, for the best), and a camera's frame began as shortly before the list was queued. The camera
   // comes first, and then moves with the laser: its frame shifts the laser's list.
   Followed closed_in() {
-    static constexpr Duration kAim{75}, kNear{200};
+    static constexpr Duration kAim{75}, kNear{400};  // a phase moves the list by steps of some 400 ns
     const auto near = [](Duration d) { return d > Duration{} && d <= kNear; };
     std::optional<std::int64_t> cycle;
     for (int round = 0; round < 12; ++round) {

@@ -39,17 +39,19 @@ class Fill {
   }
 
  private:
-  // Small choices are dispositions, hops, symbols, signals, a fault's act, a timing problem's and a
+  // Small choices are dispositions, hops, symbols, signals, a fault's act, a CAN's error, a timing problem's and a
   // histogram's subject. An object's status has four bits. A guardian and a timing problem have one of two
-  // channels. All other fields take the next number.
+  // channels. The states of a CAN controller count from 0 and differ. All other fields take the next number.
   std::uint32_t whole(const FieldDescriptor& field) {
     if (field.full_name() == "ttfusion.Guardian.channel" || field.full_name() == "ttfusion.TimingProblem.channel")
       return 1;
+    if (field.full_name() == "ttfusion.CanState.from") return 1;
+    if (field.full_name() == "ttfusion.CanState.to") return 2;
     const bool small =
         field.name() == "disposition" || field.name() == "hop" || field.full_name() == "ttfusion.ImageObject.status" ||
         field.full_name() == "ttfusion.Symbol.kind" || field.full_name() == "ttfusion.Guardian.signal" ||
         field.full_name() == "ttfusion.Fault.what" || field.full_name() == "ttfusion.TimingProblem.what" ||
-        field.full_name() == "ttfusion.Lateness.of";
+        field.full_name() == "ttfusion.Lateness.of" || field.full_name() == "ttfusion.CanError.error";
     return small ? 3 : ++next_;
   }
   void set(Message& message, const FieldDescriptor& field) {
