@@ -172,7 +172,8 @@ TEST(SweepFile, FilesAreValues) {
   const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
   EXPECT_THAT(axis("{keys: [faults], values: [faults/none.yaml]}"), HasSubstr("faults/none.yaml"));
   EXPECT_THAT(axis("{keys: [faults], uniform: [0, 1]}"), HasSubstr("must not name files if a number is drawn"));
-  EXPECT_THAT(axis("{keys: [faults], values: [../scenarios/dynamics.yaml]}"), HasSubstr("dynamics.yaml: this is a scenario, not a fault list"));
+  EXPECT_THAT(axis("{keys: [faults], values: [../scenarios/dynamics.yaml]}"),
+              HasSubstr("dynamics.yaml: this is a scenario, not a fault list"));
   EXPECT_THAT(axis("{settings: {x: {faults: faults/lists_5.yaml, scenario: ../scenarios/faulty_bus.yaml}}}"),
               HasSubstr("faulty_bus.yaml: faults: must be absent, since"));
 }
