@@ -89,7 +89,7 @@ void add_experiment(CLI::App& app, Action& action) {
   auto* merge = command->add_option("--merge", options->merge, "Folders of all shards, to merge their results");
   auto* replay =
       command->add_option("--replay", options->replay, "One fault alone, or one run as point/paradigm/replication");
-  auto* resume = command->add_flag("--resume", options->resume, "Continue the results in --out");
+  auto* resume = command->add_flag("--resume", options->resume, "Continue the results that are in --out");
   command->add_option("--out", options->out, "Folder for results (a sweep's default: out/<name>)")->check(named());
   auto* json = command->add_flag("--json", options->json, "The answer as JSON on standard output");
   merge->excludes(shard)->excludes(resume);

@@ -238,8 +238,13 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
 void settle_replications(ExperimentOptions& options, SweepFile& sweep) {
   std::vector<std::string> paths;
   for (const std::string& from : options.merge) paths.push_back(store_in(from));
-  if (const std::string own = store_in(folder_of(options, sweep)); options.resume && std::filesystem::exists(own))
-    paths.push_back(own);
+  if (options.resume) {
+    paths.push_back(store_in(folder_of(options, sweep)));
+    if (!std::filesystem::exists(paths.back()))
+      throw InputError(
+          {"command line", 0, "--resume", "",
+           fmt::format("needs {}, which is not there: begin without --resume, with all other options", paths.back())});
+  }
   std::uint32_t there = 0;
   for (const std::string& path : paths) {
     const std::uint32_t asked_for = Store::open(path).head().replications;

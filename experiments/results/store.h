@@ -1,5 +1,6 @@
 // Keeps the results of drives in one SQLite file, a row per drive, as soon as it is done. A killed process
-// loses only uncommitted rows.
+// loses only uncommitted rows. Others may read the file at any time: while it is written, two more files lie beside
+// it (experiments/results/database.h), and a finished store is one file.
 //
 //   meta(key, value)                           the drives' origin: name, identity, version, the experiment's text;
 //                                              the number of replications wanted of every point
@@ -16,7 +17,11 @@
 #include <string>
 #include <vector>
 
+#include "experiments/results/locked.h"
+
 namespace ttf::experiments::results {
+
+class Database;
 
 struct RowKey {
   std::uint32_t point = 0, replication = 0, paradigm = 0;
@@ -43,13 +48,16 @@ class Store {
  public:
   // Creates a store. Throws std::runtime_error if the file exists already or cannot be written.
   static Store create(const std::string& path, const StoreHead& head);
-  // Opens a store for reading and writing. Throws InputError if the file is no store.
+  // Opens a store for reading and writing; only a change changes the file. Throws InputError if the file is no
+  // store, and Locked as all functions do.
   static Store open(const std::string& path);
   ~Store();
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
 
   const StoreHead& head() const { return head_; }
+  // Replaces the wait for a file that another process has locked, by default a minute.
+  void wait_by(Waiting waiting);
   // Sets the number wanted from now on. Throws std::runtime_error.
   void ask_for(std::uint32_t replications);
   // Adds all of them, or none; a row that exists stays as it is. Throws std::runtime_error, for instance if the
@@ -61,7 +69,6 @@ class Store {
   std::vector<Row> of_point(std::uint32_t point) const;                                        // in order
 
  private:
-  struct Database;
   explicit Store(std::unique_ptr<Database> database);
   static void create_in(const Database& database, const StoreHead& head);
   std::unique_ptr<Database> database_;

@@ -11,18 +11,25 @@ small_sweep 40 "700 ms" "400 ms" >"$work/small.yaml"
 file=$work/small.yaml
 
 expect 0 'position_rmse_truth of tt is (less|more) than that of adva|undecided at' experiment "$file" --out "$work/whole"
-for name in answer.txt answer.json runs.csv summary.csv results.sqlite; do
-  [[ -s $work/whole/$name ]] || fail "no $name"
-done
+[[ $(cd "$work/whole" && echo *) == "answer.json answer.txt results.sqlite runs.csv summary.csv" ]] ||
+  fail "other files: $(cd "$work/whole" && echo *)"
+[[ -s $work/whole/answer.json && -s $work/whole/summary.csv ]] || fail "an empty file"
 [[ $(wc -l <"$work/whole/runs.csv") -eq 161 ]] || fail "not 160 runs: $(wc -l <"$work/whole/runs.csv")"
 expect 2 'results.sqlite: exists already: --resume continues it' experiment "$file" --out "$work/whole"
+
+# ---- killed before there was a store: the options are lost, and --resume says so
+expect 2 '--resume: needs .*/not_begun/results.sqlite, which is not there: begin without --resume, with all other' \
+  experiment "$file" --out "$work/not_begun" --resume
+[[ -e $work/not_begun ]] && fail "what is refused leaves a folder behind"
 
 # ---- killed twice at any point, and resumed with the same result; long enough to be killed, since finished
 # runs are written twice a second
 small_sweep 200 "2 s" "400 ms" >"$work/long.yaml"
 expect 0 '' experiment "$work/long.yaml" --out "$work/undisturbed"
 for round in 1 2; do
-  "$program" experiment "$work/long.yaml" --out "$work/killed" --resume --jobs 2 >/dev/null 2>&1 &
+  resume=()
+  [[ $round -eq 1 ]] || resume=(--resume)
+  "$program" experiment "$work/long.yaml" --out "$work/killed" --jobs 2 "${resume[@]}" >/dev/null 2>&1 &
   victim=$!
   for _ in $(seq 200); do
     rows=$(python3 -c "import sqlite3, sys
@@ -38,6 +45,32 @@ expect 0 '^wrote ' experiment "$work/long.yaml" --out "$work/killed" --resume
 for name in runs.csv summary.csv answer.txt answer.json; do
   cmp "$work/undisturbed/$name" "$work/killed/$name" || fail "$name of a run that was killed twice is another"
 done
+
+[[ $(cd "$work/killed" && echo results.sqlite*) == results.sqlite ]] || fail "a finished store has files beside it"
+
+# ---- read from the beginning to the end, by a program that does not let go
+"$program" experiment "$work/long.yaml" --out "$work/read" >"$work/words" 2>&1 &
+sweep=$!
+python3 - "$work/read/results.sqlite" "$sweep" <<'END' || fail "the store cannot be read while it is written"
+import sqlite3, sys, time
+path, sweep = sys.argv[1:]
+def is_there():  # and no zombie
+    try: return open(f"/proc/{sweep}/stat").read().split()[2] != "Z"
+    except OSError: return False
+rows = 0
+while rows == 0 and is_there():
+    try:
+        reader = sqlite3.connect(f"file:{path}?mode=ro", uri=True).cursor()
+        rows = reader.execute("select count(*) from runs").fetchone()[0]
+    except sqlite3.Error:
+        time.sleep(0.01)
+reader.execute("select * from runs")
+row = reader.fetchone()
+while is_there(): time.sleep(0.05)
+sys.exit(row is None)
+END
+wait "$sweep" || fail "a reader ends the sweep: $(cat "$work/words")"
+cmp "$work/undisturbed/runs.csv" "$work/read/runs.csv" || fail "the rows of a store that was read are others"
 
 # ---- in two shards
 expect 0 '' experiment "$file" --shard 1/2 --out "$work/first"

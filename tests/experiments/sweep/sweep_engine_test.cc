@@ -6,12 +6,16 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/sweep/answer.h"
 #include "experiments/sweep/text.h"
 #include "tests/experiments/sweep/small_sweep.h"
+#include "tests/support/full_disk.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -142,13 +146,33 @@ TEST_F(SweepEngine, StopsWhereItIsSureEnough) {
   EXPECT_EQ(second.count(), 2u * 2u * 5u);
 }
 
+// The disk is full after the first batch of two. With room again, the sweep goes on where it was.
 TEST_F(SweepEngine, AFullDiskEndsItAndLosesNothing) {
-  const SweepFile sweep = small_sweep(2);
+  const SweepFile sweep = small_sweep(6, "stop: {half_width: 0, batch: 3}\n");
   const SweepDrives drives(sweep);
+  const std::string whole = driven(drives, "whole", 2);
   results::Store some = store(drives, "some");
-  EXPECT_THROW(run_sweep(drives, some, {}, 2, [](const SweepProgress&) { throw std::runtime_error("full"); }),
-               std::runtime_error);
-  EXPECT_GT(some.count(), 0u);
+  std::optional<support::FullDisk> full;
+  std::uint64_t written = 0;
+  const auto fill = [&](const SweepProgress& now) {
+    written = now.driven;
+    if (written >= 12 && !full) full.emplace(512);
+  };
+  std::string words;
+  try {
+    run_sweep(drives, some, {}, 2, fill);
+  } catch (const std::runtime_error& error) {
+    words = error.what();
+  }
+  full.reset();
+  EXPECT_THAT(words, testing::AnyOf(testing::HasSubstr("some: database or disk is full"),
+                                    testing::HasSubstr("some: disk I/O error")));
+  EXPECT_EQ(written, 12u);
+  EXPECT_EQ(some.count(), 12u);
+  SweepProgress last;
+  run_sweep(drives, some, {}, 2, [&](const SweepProgress& now) { last = now; });
+  EXPECT_EQ(last.driven, 12u);
+  EXPECT_EQ(runs_csv(sweep, some), whole);
 }
 
 // ---- evaluation of made-up rows
