@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -19,7 +18,7 @@ namespace ttf::cli {
 namespace {
 
 [[noreturn]] void fail(const std::string& where) {
-  throw std::runtime_error(where + ": cannot be written: " + std::strerror(errno));
+  throw std::runtime_error(where + ": cannot be written: " + system_message(errno));
 }
 
 }  // namespace

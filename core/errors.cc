@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <string_view>
 
 namespace ttf {
@@ -53,6 +54,11 @@ InputError::InputError(std::vector<Finding> findings)
 
 void Findings::throw_if_any() const {
   if (!list_.empty()) throw InputError(list_);
+}
+
+std::string system_message(int error) {
+  const char* const words = strerrordesc_np(error);  // a constant
+  return words != nullptr ? words : fmt::format("Unknown error {}", error);
 }
 
 }  // namespace ttf

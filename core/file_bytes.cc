@@ -14,7 +14,7 @@ namespace ttf {
 
 std::string read_file(const std::string& path, std::size_t most) {
   const auto fail = [&path] {
-    throw InputError({path, 0, "", "", std::string("cannot be read: ") + std::strerror(errno)});
+    throw InputError({path, 0, "", "", std::string("cannot be read: ") + system_message(errno)});
   };
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (file == nullptr) fail();

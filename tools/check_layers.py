@@ -6,6 +6,7 @@
 Between rooms, the rule covers every header that a file sees, directly or through others. Between sub-rooms and at doors, it
 covers the file's own includes. Every source lies in a room. The project's own headers are included with quotes, by their path
 from the top. A source's namespace is its path (core/ is ttf itself); a test has the namespace of the folder that it mirrors.
+No source calls a C function whose state threads share.
 tests/tools/check_layers_test.py tries the ways around.
 """
 
@@ -17,6 +18,11 @@ import tomllib
 MOST_SOURCES = 25
 THREAD_HEADERS = {"thread", "mutex", "shared_mutex", "future", "atomic", "condition_variable", "semaphore", "latch",
                   "barrier", "stop_token", "execution", "pthread.h", "threads.h", "stdatomic.h", "omp.h"}
+# C functions whose state threads share. Values: replacements.
+SHARED_STATE = {"lgamma": "lgamma_r", "lgammaf": "lgammaf_r", "strerror": "ttf::system_message", "strsignal": "sigdescr_np",
+                "gmtime": "gmtime_r", "localtime": "localtime_r", "ctime": "strftime", "asctime": "strftime",
+                "strtok": "strtok_r", "rand": "ttf::RandomStream", "srand": "ttf::RandomStream",
+                "drand48": "ttf::RandomStream", "setlocale": "newlocale", "gethostbyname": "getaddrinfo"}
 # Folders that tests share; they mirror no room.
 SHARED_TESTS = {"laws", "support", "golden", "bench", "fuzz", "tools", "test_bed"}
 
@@ -174,6 +180,18 @@ def folder_problems(house: House, files: list[str]) -> list[str]:
     return found
 
 
+CALL = re.compile(rf"(?<![\w.>])(?:std::|::)?\b({'|'.join(SHARED_STATE)})\s*\(")
+
+
+def shared_state_problems(name: str, text: str) -> list[str]:
+    """Sweeps, runners, media and the log writer are threads."""
+    if name.startswith("tests/"):
+        return []
+    code = TOKEN.sub(" ", text)
+    return [f"{name}: {call}() keeps a state that threads share: {SHARED_STATE[call]}() does not"
+            for call in sorted(set(CALL.findall(code)))]
+
+
 NAMESPACE = re.compile(r"^namespace (ttf(?:::\w+)*) \{(.*?)^\}", re.MULTILINE | re.DOTALL)
 DEFINITION = re.compile(r"[{=]")
 
@@ -206,6 +224,7 @@ def problems(root: pathlib.Path, house: House) -> list[str]:
         quoted[name] = []
         text = file.read_text(encoding="utf-8")
         found += namespace_problems(name, text)
+        found += shared_state_problems(name, text)
         for argument in directives(text):
             if quotes := re.fullmatch(r'"([^"]+)"', argument):
                 if problem := include_problem(house, root, quotes[1]):

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -22,7 +21,7 @@ namespace ttf::cli::live_media {
 namespace {
 
 [[noreturn]] void fail(const char* what) {
-  throw std::runtime_error(fmt::format("the DDS configuration cannot be tested: {}: {}", what, std::strerror(errno)));
+  throw std::runtime_error(fmt::format("the DDS configuration cannot be tested: {}: {}", what, system_message(errno)));
 }
 
 // Tries to join and exits: code 0 on success.

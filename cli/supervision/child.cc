@@ -17,12 +17,13 @@
 #include <string_view>
 
 #include "cli/supervision/control.h"
+#include "core/errors.h"
 
 namespace ttf::cli::supervision {
 namespace {
 
 [[noreturn]] void system_fails(std::string_view what) {
-  throw std::runtime_error(fmt::format("{}: {}", what, std::strerror(errno)));
+  throw std::runtime_error(fmt::format("{}: {}", what, system_message(errno)));
 }
 
 int checked(int result, std::string_view what) {
@@ -130,7 +131,9 @@ int start_error(int report) {
 }  // namespace
 
 std::string Ending::text() const {
-  return by_signal ? fmt::format("signal {} ({})", value, strsignal(value)) : fmt::format("exit {}", value);
+  if (!by_signal) return fmt::format("exit {}", value);
+  const char* const words = sigdescr_np(value);
+  return fmt::format("signal {} ({})", value, words != nullptr ? words : "unknown");
 }
 
 Child::Child(const ChildCommand& command) {
@@ -169,8 +172,8 @@ Child::Child(const ChildCommand& command) {
   if (no_watch == 0 && reason == 0) return;
   kill(pid_, SIGKILL);
   waitpid(pid_, nullptr, 0);
-  if (reason == 0) throw std::runtime_error(fmt::format("cannot open a pidfd: {}", std::strerror(no_watch)));
-  throw StartFailure(fmt::format("{}: cannot be started: {}", command.arguments[0], std::strerror(reason)),
+  if (reason == 0) throw std::runtime_error(fmt::format("cannot open a pidfd: {}", system_message(no_watch)));
+  throw StartFailure(fmt::format("{}: cannot be started: {}", command.arguments[0], system_message(reason)),
                      {false, reason == ENOENT ? 127 : 126});
 }
 

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
 
@@ -24,7 +23,7 @@ bool locked(int file, const std::string& path, int how) {
   while (failed != 0 && errno == EINTR);
   if (failed == 0 || errno == ENOLCK || errno == EOPNOTSUPP) return true;
   if (errno == EWOULDBLOCK) return false;
-  throw std::runtime_error(path + ": cannot be locked: " + std::strerror(errno));
+  throw std::runtime_error(path + ": cannot be locked: " + system_message(errno));
 }
 
 std::string number_in(const std::string& path) {
@@ -45,7 +44,7 @@ std::string number_in(const std::string& path) {
 
 std::optional<FileLock> FileLock::take(const std::string& path) {
   FileLock lock(Descriptor(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)));
-  if (lock.get() < 0) throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
+  if (lock.get() < 0) throw std::runtime_error(path + ": cannot be written: " + system_message(errno));
   return locked(lock.get(), path, LOCK_EX) ? std::optional(std::move(lock)) : std::nullopt;
 }
 
@@ -54,7 +53,7 @@ FolderLock::FolderLock(const std::string& folder) : lock_(FileLock::take(lock_fi
   const std::string number = fmt::format("{}\n", getpid());
   if (ftruncate(lock_->get(), 0) != 0 ||
       pwrite(lock_->get(), number.data(), number.size(), 0) != static_cast<ssize_t>(number.size()))
-    throw std::runtime_error(lock_file(folder) + ": cannot be written: " + std::strerror(errno));
+    throw std::runtime_error(lock_file(folder) + ": cannot be written: " + system_message(errno));
 }
 
 void FolderLock::refuse_if_held(const std::string& folder) {

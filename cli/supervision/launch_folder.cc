@@ -6,7 +6,6 @@
 
 #include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -15,13 +14,14 @@
 
 #include "cli/output.h"
 #include "core/check.h"
+#include "core/errors.h"
 
 namespace ttf::cli::supervision {
 namespace {
 
 Descriptor opened(const std::string& path) {
   Descriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (!file.open()) throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
+  if (!file.open()) throw std::runtime_error(path + ": cannot be written: " + system_message(errno));
   return file;
 }
 
@@ -113,7 +113,7 @@ void LaunchFolder::output(std::size_t node, std::string_view bytes) {
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0)
       throw std::runtime_error(fmt::format("{}/{}.txt: cannot be written: {}", folder_,
-                                           file_stem(nodes_[node].entry.name), std::strerror(errno)));
+                                           file_stem(nodes_[node].entry.name), system_message(errno)));
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/errors.h"
+
 namespace ttf::cli::supervision {
 
 SignalWatch::SignalWatch() {
@@ -17,7 +19,7 @@ SignalWatch::SignalWatch() {
   sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaddset(&watched_, SIGHUP);
   fd_ = Descriptor(signalfd(-1, &watched_, SFD_NONBLOCK | SFD_CLOEXEC));
-  if (!fd_.open()) throw std::runtime_error(std::string("cannot open a signalfd: ") + std::strerror(errno));
+  if (!fd_.open()) throw std::runtime_error(std::string("cannot open a signalfd: ") + system_message(errno));
   pthread_sigmask(SIG_BLOCK, &watched_, &before_);
   struct sigaction ignore {};
   ignore.sa_handler = SIG_IGN;

@@ -12,13 +12,19 @@ constexpr double kTiny = std::numeric_limits<double>::min() * 1e10;
 constexpr double kPrecision = 1e-15;
 constexpr int kMostTerms = 100'000;
 
+// std::lgamma writes a sign that all threads share.
+double log_gamma(double a) {
+  int sign = 0;
+  return ::lgamma_r(a, &sign);
+}
+
 double series(double a, double x) {
   double term = 1.0 / a, sum = term;
   for (int n = 1; n < kMostTerms && std::abs(term) > std::abs(sum) * kPrecision; ++n) {
     term *= x / (a + n);
     sum += term;
   }
-  return sum * std::exp(-x + a * std::log(x) - std::lgamma(a));
+  return sum * std::exp(-x + a * std::log(x) - log_gamma(a));
 }
 
 // Computes the upper function by Lentz's method.
@@ -35,7 +41,7 @@ double continued_fraction(double a, double x) {
     h *= d * c;
     if (std::abs(d * c - 1.0) < kPrecision) break;
   }
-  return h * std::exp(-x + a * std::log(x) - std::lgamma(a));
+  return h * std::exp(-x + a * std::log(x) - log_gamma(a));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/check.h"
+#include "core/errors.h"
 #include "recording/mcap/bytes.h"
 
 namespace ttf::recording::mcap {
@@ -45,12 +46,13 @@ struct McapWriter::Impl {
   std::uint16_t schema_count = 0;
 
   void put_bytes(std::string_view bytes) {
-    if (error.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) error = std::strerror(errno);
+    if (error.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size())
+      error = system_message(errno);
     data_crc = crc_of(bytes, data_crc);
     offset += bytes.size();
   }
   void flush_file() {
-    if (std::fflush(file) != 0 && error.empty()) error = std::strerror(errno);
+    if (std::fflush(file) != 0 && error.empty()) error = system_message(errno);
   }
 };
 
@@ -58,7 +60,7 @@ McapWriter::McapWriter(const std::string& path, std::string_view profile, std::s
     : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
   impl_->file = std::fopen(path.c_str(), "wb");
-  if (impl_->file == nullptr) throw std::runtime_error(path + ": cannot be created: " + std::strerror(errno));
+  if (impl_->file == nullptr) throw std::runtime_error(path + ": cannot be created: " + system_message(errno));
   impl_->zstd = ZSTD_createCCtx();
   impl_->chunk.reserve(2 * kChunkBytes);
   impl_->compressed.resize(ZSTD_compressBound(2 * kChunkBytes));
@@ -306,7 +308,7 @@ void McapWriter::close() {
   put(out, crc_of(out));
   s.put_bytes(out);
   s.put_bytes(kMcapMagic);
-  if (std::fclose(s.file) != 0 && s.error.empty()) s.error = std::strerror(errno);
+  if (std::fclose(s.file) != 0 && s.error.empty()) s.error = system_message(errno);
   s.file = nullptr;
   if (!s.error.empty()) throw std::runtime_error(s.path + ": cannot be written: " + s.error);
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <cstring>
 #include <string>
 
 namespace ttf {
@@ -26,6 +28,11 @@ TEST(Finding, CutsLongValuesBetweenCharactersButNeverThePath) {
   }();
   const std::string sentence = Finding{path, 0, "", umlauts, "is long"}.sentence();
   EXPECT_EQ(sentence, path + ": " + umlauts.substr(0, 99) + "...: is long");
+}
+
+TEST(SystemMessage, HasTheSystemsWords) {
+  for (const int error : {0, ENOENT, EACCES, EFBIG, ENOSPC, -1, 4711})
+    EXPECT_EQ(system_message(error), std::strerror(error)) << error;
 }
 
 }  // namespace

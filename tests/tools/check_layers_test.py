@@ -171,6 +171,15 @@ class CheckLayers(unittest.TestCase):
         self.expect({"bus/wire/a.h": source("ttf::wire", defined)}, "namespace ttf::wire is not its path's")
         self.expect({"tests/bus/wire/a.cc": source("ttf::bus", defined)}, "namespace ttf::bus is not its path's")
 
+    def test_functions_whose_state_threads_share(self):
+        for call, instead in (("std::lgamma(x)", "lgamma_r()"), ("strerror (1)", "ttf::system_message()"),
+                              ("::gmtime(&t)", "gmtime_r()"), ("std::rand()", "ttf::RandomStream()"),
+                              ("strtok(a, b)", "strtok_r()")):
+            self.expect({"core/a.cc": f"int a() {{ return {call}; }}\n"}, f"keeps a state that threads share: {instead}")
+            self.expect({"tests/core/a.cc": f"int a() {{ return {call}; }}\n"})
+        self.expect({"core/a.cc": "// lgamma(x)\nint a = b.rand() + c->ctime() + operand(1) + lgamma_r(x, &s); // strtok()\n"
+                                  'const char* d = "setlocale()";\n'})
+
     def test_tests_mirror_rooms(self):
         self.expect({"tests/bus/wire/a.cc": "", "tests/sim/some_kind/a.cc": "", "tests/support/a.h": ""})
         self.expect({"tests/wires/a.cc": ""}, "tests/wires: mirrors no room")
