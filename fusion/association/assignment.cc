@@ -53,11 +53,13 @@ void Assignment::sort_by_component(std::span<const Candidate> candidates, std::s
   sorted_.assign(candidates.begin(), candidates.end());
   for (const Candidate& candidate : sorted_)
     components_.join(candidate.row, static_cast<int>(rows_) + candidate.column);
-  std::sort(sorted_.begin(), sorted_.end(), [&](const Candidate& a, const Candidate& b) {
+  const auto before = [&](const Candidate& a, const Candidate& b) {
     const int ra = components_.root(a.row), rb = components_.root(b.row);
     if (ra != rb) return ra < rb;
     return a.row != b.row ? a.row < b.row : a.column < b.column;
-  });
+  };
+  // They often come in order, each with a component of its own.
+  if (!std::is_sorted(sorted_.begin(), sorted_.end(), before)) std::sort(sorted_.begin(), sorted_.end(), before);
 }
 
 // Adds the rows to the matching one by one.

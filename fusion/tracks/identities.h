@@ -11,8 +11,13 @@
 //   I4  an id is reused only after 65535 others
 // Names follow the order of confirmation as it happened. So two strategies may name the same tracks
 // differently, but their births agree.
+//
+// Identities are kept in the order of their births, which is that of a set's tracks. So n tracks take about n
+// steps, and n log n where tracks come or go.
 #pragma once
 
+#include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -29,16 +34,33 @@ class Identities {
 
  private:
   struct Identity {
-    TrackId id{};
     ObservationId birth, newest;
-    GlobalTime seen{};  // the newest set the track was in
+    GlobalTime seen{};         // the newest set the track was in
+    std::uint64_t number = 0;  // in the order of naming
+    TrackId id{};
     bool alive = false;
   };
-  Identity& room();
-  TrackId next();
+  // An identity without a track, as it is searched for.
+  struct Dead {
+    ObservationId newest;
+    GlobalTime seen{};
+    std::uint64_t number = 0;
+    std::size_t index = 0;  // in known_
+  };
+  static void take(Identity& identity, Track& track, GlobalTime now);
+  std::size_t name_by_birth(TrackSet& set);
+  void name_by_newest(TrackSet& set);
+  void list_dead();
+  void name_confirmed(TrackSet& set);
+  void make_room(std::size_t count);
+  void put_in_order();
 
-  std::vector<Identity> known_;
+  std::size_t most_;
+  std::vector<Identity> known_;  // by birth
+  std::vector<Dead> dead_;
+  std::bitset<1u << 16> taken_;  // ids of living tracks; kNoTrack
   std::uint16_t next_ = 0;
+  std::uint64_t named_ = 0;
 };
 
 }  // namespace ttf::fusion::tracks

@@ -1,6 +1,7 @@
 #include "fusion/tracks/timeline.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ttf::fusion::tracks {
 
@@ -41,8 +42,8 @@ Timeline::Insertion Timeline::insert(const sensors::ObservationList& list) {
   for (std::size_t i = position; i < order_.size(); ++i) process(i);
   identities_.name(entries_[order_.back()].after, entries_[order_.front()].list.measured);
   if (free_.empty()) {
-    const Entry& oldest = entries_[order_.front()];
-    base_.assign(oldest.after);
+    Entry& oldest = entries_[order_.front()];
+    std::swap(base_, oldest.after);
     base_id_ = oldest.list.id;
     base_time_ = oldest.list.measured;
     base_is_list_ = true;
@@ -54,8 +55,7 @@ Timeline::Insertion Timeline::insert(const sensors::ObservationList& list) {
 
 void Timeline::process(std::size_t position) {
   Entry& entry = entries_[order_[position]];
-  entry.after.assign(position == 0 ? base_ : entries_[order_[position - 1]].after);
-  tracker_.step(entry.after, entry.list.view());
+  tracker_.step(position == 0 ? base_ : entries_[order_[position - 1]].after, entry.after, entry.list.view());
 }
 
 }  // namespace ttf::fusion::tracks

@@ -27,17 +27,13 @@ void correct_scalar(Scalar& scalar, double innovation, double measured, double s
 // Makes confirmed tracks take precedence over tentative ones for the same observation.
 constexpr double kConfirmedBonus = 100.0;
 
+// So many tracks are searched faster along x alone.
+constexpr std::size_t kFewTracks = 64;
+
 // Makes a rounded bound exclude no pair inside a gate.
 constexpr double kRoundedUp = 1.0 + 1e-12;
 
 }  // namespace
-
-void TrackSet::assign(const TrackSet& other) {
-  TTF_CHECK(other.tracks.size() <= tracks.capacity(), "{} tracks into {}", other.tracks.size(), tracks.capacity());
-  tracks.assign(other.tracks.begin(), other.tracks.end());
-  time = other.time;
-  started = other.started;
-}
 
 Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observations)
     : config_(config), estimator_(estimators::make_estimator(config)), max_observations_(max_observations),
@@ -47,7 +43,8 @@ Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observatio
              config.association == config::Association::kJpda ? max_tracks_ : 0),
       twins_(config, max_tracks_), near_track_(max_observations), observation_of_(max_tracks_) {
   candidates_.reserve(max_observations * max_tracks_);
-  by_x_.reserve(max_tracks_);
+  placed_.reserve(max_tracks_);
+  strips_.reserve(static_cast<std::size_t>(std::sqrt(static_cast<double>(max_tracks_))) + 3);
   if (config.association == config::Association::kJpda) {
     pairs_.reserve(max_observations * max_tracks_);
     explanations_.reserve(max_observations + 1);
@@ -57,14 +54,37 @@ Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observatio
 }
 
 void Tracker::step(TrackSet& set, const sensors::ObservationList& list) {
-  TTF_CHECK(list.observations.size() <= max_observations_, "{} observations", list.observations.size());
   if (!set.started) {
     set.started = true;
     set.time = list.measured;
   }
-  predict_all(set, list.measured);
+  const double dt = (list.measured - set.time).seconds();
+  for (Track& track : set.tracks) predict(track, dt);
+  set.time = list.measured;
   std::erase_if(set.tracks,
                 [&](const Track& track) { return given_up(track, set.time, set.time, config_, *estimator_); });
+  take_in(set, list);
+}
+
+// Each track is predicted where its copy is, while it is near.
+void Tracker::step(const TrackSet& before, TrackSet& after, const sensors::ObservationList& list) {
+  TTF_CHECK(before.tracks.size() <= after.tracks.capacity(), "{} tracks into {}", before.tracks.size(),
+            after.tracks.capacity());
+  after.time = list.measured;
+  after.started = true;
+  after.tracks.clear();
+  const double dt = before.started ? (list.measured - before.time).seconds() : 0.0;
+  for (const Track& track : before.tracks) {
+    Track& copy = after.tracks.emplace_back(track);
+    predict(copy, dt);
+    if (given_up(copy, after.time, after.time, config_, *estimator_)) after.tracks.pop_back();
+  }
+  take_in(after, list);
+}
+
+// Takes the list in at its instant.
+void Tracker::take_in(TrackSet& set, const sensors::ObservationList& list) {
+  TTF_CHECK(list.observations.size() <= max_observations_, "{} observations", list.observations.size());
   associate(set, list);
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     Track& track = set.tracks[t];
@@ -97,66 +117,69 @@ std::span<const int> Tracker::assigned(const TrackSet& set, const sensors::Obser
   return std::span(observation_of_).first(set.tracks.size());
 }
 
-void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
-  const double dt = (to - set.time).seconds();
-  for (Track& track : set.tracks) {
-    estimator_->predict(track.estimate, dt);
-    track.heading = predicted(track.heading, config_.heading_noise, dt);
-    predict(track.extent, config_.extent_noise, dt);
-    if (config_.birth == config::Birth::kExistence) track.existence = survived(track.existence, dt, config_);
-  }
-  set.time = to;
+void Tracker::predict(Track& track, double dt) const {
+  estimator_->predict(track.estimate, dt);
+  track.heading = predicted(track.heading, config_.heading_noise, dt);
+  tracks::predict(track.extent, config_.extent_noise, dt);
+  if (config_.birth == config::Birth::kExistence) track.existence = survived(track.existence, dt, config_);
 }
 
-void Tracker::sort_by_x(const TrackSet& set, SensorId seen_by) {
-  by_x_.clear();
-  largest_variance_x_ = 0.0;
+// Strips are as long as many, so that a search passes few of either.
+void Tracker::place(const TrackSet& set, SensorId seen_by) {
+  placed_.clear();
+  strips_.clear();
+  largest_variance_x_ = largest_variance_y_ = 0.0;
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     const linear::Gaussian<2> at = estimator_->seen_position(set.tracks[t].estimate, seen_by);
-    by_x_.push_back({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), t});
+    placed_.push_back({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), t});
     largest_variance_x_ = std::max(largest_variance_x_, at.p(0, 0));
+    largest_variance_y_ = std::max(largest_variance_y_, at.p(1, 1));
   }
-  std::sort(by_x_.begin(), by_x_.end(),
+  std::sort(placed_.begin(), placed_.end(),
             [](const Placed& a, const Placed& b) { return a.x != b.x ? a.x < b.x : a.track < b.track; });
+  if (placed_.size() <= kFewTracks) return;
+  const auto length = static_cast<std::size_t>(std::sqrt(static_cast<double>(placed_.size())));
+  for (std::size_t begin = 0; begin < placed_.size(); begin += length) {
+    const std::size_t end = std::min(begin + length, placed_.size());
+    strips_.push_back({placed_[begin].x, placed_[end - 1].x, begin, end});
+    std::sort(placed_.begin() + static_cast<std::ptrdiff_t>(begin), placed_.begin() + static_cast<std::ptrdiff_t>(end),
+              [](const Placed& a, const Placed& b) { return a.y != b.y ? a.y < b.y : a.track < b.track; });
+  }
 }
 
-// Goes through the tracks along x; the order of candidates does not change the assignment.
+// Tries the tracks that are not beyond the reach of the least certain one, on either axis: all others are outside of
+// every gate.
+template <class Try> void Tracker::near(const sensors::Observation& z, double gate, const Try& try_one) const {
+  const double reach_x = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + z.r(0, 0)));
+  const double low = z.z(0) - reach_x, high = z.z(0) + reach_x;
+  if (strips_.empty()) {
+    auto at = std::partition_point(placed_.begin(), placed_.end(), [&](const Placed& p) { return p.x < low; });
+    for (; at != placed_.end() && at->x <= high; ++at) try_one(*at);
+    return;
+  }
+  const double reach_y = kRoundedUp * std::sqrt(gate * (largest_variance_y_ + z.r(1, 1)));
+  auto strip = std::partition_point(strips_.begin(), strips_.end(), [&](const Strip& s) { return s.high < low; });
+  for (; strip != strips_.end() && strip->low <= high; ++strip) {
+    const auto end = placed_.begin() + static_cast<std::ptrdiff_t>(strip->end);
+    auto at = std::partition_point(placed_.begin() + static_cast<std::ptrdiff_t>(strip->begin), end,
+                                   [&](const Placed& p) { return p.y < z.z(1) - reach_y; });
+    for (; at != end && at->y <= z.z(1) + reach_y; ++at) try_one(*at);
+  }
+}
+
+// The order of candidates does not change the assignment.
 void Tracker::associate(const TrackSet& set, const sensors::ObservationList& list) {
   candidates_.clear();
   pairs_.clear();
   std::fill(near_track_.begin(), near_track_.end(), 0);
-  sort_by_x(set, list.observations.empty() ? kNoSensor : list.observations.front().sensor);
+  place(set, list.observations.empty() ? kNoSensor : list.observations.front().sensor);
   for (std::size_t o = 0; o < list.observations.size(); ++o) {
     const sensors::Observation& z = list.observations[o];
-    const double gate = gate_[dimension_of(z.kind)];
-    const bool position = z.kind == sensors::ObservationKind::kPosition;
-    auto at = by_x_.begin();
-    double to = std::numeric_limits<double>::infinity();
-    if (position) {
-      // Beyond the reach of the least certain track: outside every gate.
-      const double reach = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + z.r(0, 0)));
-      at = std::partition_point(at, by_x_.end(), [&](const Placed& placed) { return placed.x < z.z(0) - reach; });
-      to = z.z(0) + reach;
-    }
-    for (; at != by_x_.end() && at->x <= to; ++at) {
-      const std::size_t t = at->track;
-      const Track& track = set.tracks[t];
-      if (position) {
-        // A cheap bound comes first: outside the gate on one axis means outside the gate.
-        const double dx = z.z(0) - at->x, dy = z.z(1) - at->y;
-        if (dx * dx > gate * (at->variance_x + z.r(0, 0)) || dy * dy > gate * (at->variance_y + z.r(1, 1))) continue;
-      }
-      if (config_.association == config::Association::kJpda) {
-        offer(track, z, static_cast<int>(o), static_cast<int>(t));
-        continue;
-      }
-      const std::optional<double> distance_squared = estimator_->distance_squared(track.estimate, z);
-      if (!distance_squared || *distance_squared > gate) continue;
-      if (track.confirmed) near_track_[o] = 1;
-      // Never zero: a pair on the gate's edge still beats no pair.
-      const double gain = gate - *distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
-      candidates_.push_back({static_cast<int>(o), static_cast<int>(t), gain});
-    }
+    const auto try_one = [&](const Placed& placed) { try_pair(set, z, o, placed); };
+    if (z.kind == sensors::ObservationKind::kPosition)
+      near(z, gate_[dimension_of(z.kind)], try_one);
+    else
+      std::for_each(placed_.begin(), placed_.end(), try_one);
   }
   assignment_.solve(candidates_, list.observations.size(), set.tracks.size());
   if (config_.association == config::Association::kJpda)
@@ -165,6 +188,27 @@ void Tracker::associate(const TrackSet& set, const sensors::ObservationList& lis
   const auto columns = assignment_.column_of();
   for (std::size_t o = 0; o < columns.size(); ++o)
     if (columns[o] >= 0) observation_of_[static_cast<std::size_t>(columns[o])] = static_cast<int>(o);
+}
+
+void Tracker::try_pair(const TrackSet& set, const sensors::Observation& z, std::size_t row, const Placed& placed) {
+  const double gate = gate_[dimension_of(z.kind)];
+  if (z.kind == sensors::ObservationKind::kPosition) {
+    // A cheap bound comes first: outside the gate on one axis means outside the gate.
+    const double dx = z.z(0) - placed.x, dy = z.z(1) - placed.y;
+    if (dx * dx > gate * (placed.variance_x + z.r(0, 0)) || dy * dy > gate * (placed.variance_y + z.r(1, 1))) return;
+  }
+  const Track& track = set.tracks[placed.track];
+  const int column = static_cast<int>(placed.track);
+  if (config_.association == config::Association::kJpda) {
+    offer(track, z, static_cast<int>(row), column);
+    return;
+  }
+  const std::optional<double> distance_squared = estimator_->distance_squared(track.estimate, z);
+  if (!distance_squared || *distance_squared > gate) return;
+  if (track.confirmed) near_track_[row] = 1;
+  // Never zero: a pair on the gate's edge still beats no pair.
+  const double gain = gate - *distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
+  candidates_.push_back({static_cast<int>(row), column, gain});
 }
 
 // Offers a pair. The most probable joint event has the largest product of weights; it contains no pair that is

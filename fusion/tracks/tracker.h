@@ -39,8 +39,6 @@ struct TrackSet {
   bool started = false;
 
   explicit TrackSet(std::size_t capacity = 0) { tracks.reserve(capacity); }
-  // Copies within the capacity, without allocation.
-  void assign(const TrackSet& other);
 };
 
 class Tracker {
@@ -49,6 +47,8 @@ class Tracker {
 
   // Takes the list in; list.measured must not be before set.time.
   void step(TrackSet& set, const sensors::ObservationList& list);
+  // Does the same, but leaves `before` as it is and writes the tracks after the list into `after`, whose content goes.
+  void step(const TrackSet& before, TrackSet& after, const sensors::ObservationList& list);
   // The following parts of a step serve methods for late lists (fusion/strategies/late/). assigned() gates and
   // assigns, and changes no track. It returns the observation of each track, or -1, valid until the next call.
   std::span<const int> assigned(const TrackSet& set, const sensors::ObservationList& list);
@@ -65,9 +65,16 @@ class Tracker {
   std::uint64_t approximated_clusters() const { return joint_.approximated(); }
 
  private:
-  void predict_all(TrackSet& set, GlobalTime to) const;
-  void sort_by_x(const TrackSet& set, SensorId seen_by);
+  void take_in(TrackSet& set, const sensors::ObservationList& list);
+  void predict(Track& track, double dt) const;
+  struct Placed {
+    double x = 0.0, y = 0.0, variance_x = 0.0, variance_y = 0.0;
+    std::size_t track = 0;
+  };
+  void place(const TrackSet& set, SensorId seen_by);
   void associate(const TrackSet& set, const sensors::ObservationList& list);
+  template <class Try> void near(const sensors::Observation& position, double gate, const Try& try_one) const;
+  void try_pair(const TrackSet& set, const sensors::Observation& observation, std::size_t row, const Placed& placed);
   void offer(const Track& track, const sensors::Observation& observation, int row, int column);
   void judge_existence(Track& track, const sensors::Observation* observation) const;
   void take_in_all(Track& track, std::size_t column, const sensors::ObservationList& list);
@@ -85,12 +92,14 @@ class Tracker {
   double gate_[4] = {};  // by dimension of the observation
   association::Assignment assignment_;
   std::vector<association::Candidate> candidates_;
-  struct Placed {
-    double x = 0.0, y = 0.0, variance_x = 0.0, variance_y = 0.0;
-    std::size_t track = 0;
+  // The tracks in strips along x, each sorted by y, so that far ones are skipped. Few tracks are one strip, sorted by x.
+  std::vector<Placed> placed_;
+  struct Strip {
+    double low = 0.0, high = 0.0;  // x
+    std::size_t begin = 0, end = 0;
   };
-  std::vector<Placed> by_x_;  // the tracks sorted by x, so that far ones are skipped
-  double largest_variance_x_ = 0.0;
+  std::vector<Strip> strips_;  // empty if there is only one
+  double largest_variance_x_ = 0.0, largest_variance_y_ = 0.0;
   association::JointAssociation joint_;  // without storage unless jpda
   std::vector<association::Pair> pairs_;
   std::vector<estimators::Explanation> explanations_;

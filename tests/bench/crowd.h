@@ -49,17 +49,22 @@ inline const Crowd& scene() {
   return the_crowd;
 }
 
-// 1,000 objects, 6 m and 12 m apart.
+// Objects 6 m and 12 m apart, 25 to 1,000.
+inline Crowd crowd_of(int objects) {
+  return Crowd({.objects = objects, .across = objects < 100 ? 5 : objects < 1000 ? 20 : 40}, kWarm + 40);
+}
 inline const Crowd& thousand() {
-  static const Crowd the_crowd({.objects = 1000, .across = 40}, kWarm + 40);
+  static const Crowd the_crowd = crowd_of(1000);
   return the_crowd;
 }
-inline config::TrackerConfig for_thousand() {
+// A tracker with room for just as many.
+inline config::TrackerConfig for_crowd_of(int objects) {
   config::TrackerConfig config;
-  config.max_objects = 1000;
-  config.max_observations = 1000;
+  config.max_objects = objects;
+  config.max_observations = static_cast<std::size_t>(objects);
   config.history_scans = 16;
   return config;
 }
+inline config::TrackerConfig for_thousand() { return for_crowd_of(1000); }
 
 }  // namespace ttf::fusion

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <vector>
 
+#include "core/random.h"
 #include "fusion/tracks/timeline.h"
 #include "tests/fusion/scenes.h"
 
@@ -119,6 +121,119 @@ TEST(Identities, WhoComesBackToLifeHasItsOldName) {
   ASSERT_EQ(timeline.current().tracks.size(), 2u);
   EXPECT_EQ(timeline.current().tracks[0].id, id);
   EXPECT_EQ(timeline.current().tracks[1].id, second);
+}
+
+// The plain way, one identity after the other: the oracle.
+class PlainIdentities {
+ public:
+  explicit PlainIdentities(std::size_t max_tracks) : most_(2 * max_tracks) {}
+
+  void name(TrackSet& set, GlobalTime oldest) {
+    for (Identity& identity : known_) identity.alive = false;
+    for (Track& track : set.tracks) {
+      track.id = kNoTrack;
+      take_first(track, set.time, [&](const Identity& i) { return i.birth == track.birth; });
+    }
+    for (Track& track : set.tracks)
+      if (track.id == kNoTrack)
+        take_first(track, set.time, [&](const Identity& i) { return !i.alive && i.newest == track.newest; });
+    std::erase_if(known_, [&](const Identity& i) { return !i.alive && i.seen < oldest; });
+    for (Track& track : set.tracks) {
+      if (track.id != kNoTrack || !track.confirmed) continue;
+      if (known_.size() == most_) forget_longest_dead();
+      while (static_cast<TrackId>(next_) == kNoTrack ||
+             std::any_of(known_.begin(), known_.end(),
+                         [&](const Identity& i) { return i.alive && i.id == static_cast<TrackId>(next_); }))
+        ++next_;
+      known_.push_back({.id = static_cast<TrackId>(next_++)});
+      take_first(track, set.time, [&](const Identity& i) { return &i == &known_.back(); });
+    }
+  }
+  std::size_t forgotten = 0;
+
+ private:
+  struct Identity {
+    TrackId id{};
+    ObservationId birth{}, newest{};
+    GlobalTime seen{};
+    bool alive = false;
+  };
+  template <class Is> void take_first(Track& track, GlobalTime now, const Is& is) {
+    const auto one = std::find_if(known_.begin(), known_.end(), is);
+    if (one == known_.end()) return;
+    *one = {one->id, track.birth, track.newest, now, true};
+    track.id = one->id;
+  }
+  void forget_longest_dead() {
+    const auto longest = std::min_element(known_.begin(), known_.end(), [](const Identity& a, const Identity& b) {
+      return a.alive != b.alive ? b.alive : a.seen < b.seen;
+    });
+    ASSERT_FALSE(longest->alive);
+    known_.erase(longest);
+    ++forgotten;
+  }
+
+  std::size_t most_;
+  std::vector<Identity> known_;
+  std::uint16_t next_ = 0;
+};
+
+// Tracks come, are confirmed or not, are not seen, end, come back, and have their births moved; ids run out.
+TEST(Identities, AreThoseOfThePlainWay) {
+  std::size_t forgotten = 0, moved = 0, revived = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    RandomStream draw({.seed = seed, .purpose = Purpose::kTest, .entity = 11});
+    const auto most = static_cast<std::size_t>(draw.integer(1, 24));
+    Identities identities(most);
+    PlainIdentities plain(most);
+    TrackSet set(most), away(4 * most);
+    for (std::uint32_t k = 0; k < 300; ++k) {
+      set.time = at_ms(40 * k);
+      const auto seen_now = [&](std::uint16_t index) { return ObservationId{{SensorId{0}, k}, index, set.time}; };
+      for (std::size_t t = set.tracks.size(); t-- > 0;) {
+        if (draw.uniform() < 0.85) continue;
+        if (away.tracks.size() < away.tracks.capacity()) away.tracks.push_back(set.tracks[t]);
+        set.tracks.erase(set.tracks.begin() + static_cast<std::ptrdiff_t>(t));
+      }
+      for (std::uint16_t i = 0; i < set.tracks.size(); ++i) {
+        Track& track = set.tracks[i];
+        if (draw.uniform() < 0.03) {  // with the same newest observation
+          track.birth.measured = track.birth.measured - Duration{1 + draw.integer(0, 1) * 40'000'000 * 3};
+          track.birth.index = static_cast<std::uint16_t>(100 + i);
+          track.birth.measurement = {SensorId{1}, k};
+          ++moved;
+        } else if (draw.uniform() < 0.8) {
+          track.newest = seen_now(i);
+        }
+        track.confirmed = draw.uniform() < (track.confirmed ? 0.95 : 0.3);
+      }
+      while (set.tracks.size() < most && !away.tracks.empty() && draw.uniform() < 0.3) {
+        const auto back = static_cast<std::size_t>(draw.integer(0, static_cast<std::int64_t>(away.tracks.size()) - 1));
+        set.tracks.push_back(away.tracks[back]);
+        away.tracks.erase(away.tracks.begin() + static_cast<std::ptrdiff_t>(back));
+        ++revived;
+      }
+      for (std::uint16_t i = 50; set.tracks.size() < most && draw.uniform() < 0.7; ++i) {
+        Track& track = set.tracks.emplace_back();
+        track.birth = track.newest = seen_now(i);
+        track.confirmed = draw.uniform() < 0.2;
+      }
+      if (draw.uniform() < 0.8)
+        std::sort(set.tracks.begin(), set.tracks.end(), [](const Track& a, const Track& b) {
+          return before(a.birth.measurement, a.birth.measured, b.birth.measurement, b.birth.measured);
+        });
+      TrackSet again = set;
+      const GlobalTime oldest = at_ms(40 * (static_cast<std::int64_t>(k) - 12));
+      identities.name(set, oldest);
+      plain.name(again, oldest);
+      for (std::size_t t = 0; t < set.tracks.size(); ++t)
+        ASSERT_EQ(set.tracks[t].id, again.tracks[t].id) << "seed " << seed << ", list " << k << ", track " << t;
+    }
+    forgotten += plain.forgotten;
+  }
+  EXPECT_GT(forgotten, 100u);
+  EXPECT_GT(moved, 1000u);
+  EXPECT_GT(revived, 1000u);
 }
 
 // Thousands of tracks come and go: names are never reused, and storage does not grow.

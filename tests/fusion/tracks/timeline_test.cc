@@ -97,8 +97,7 @@ TEST(Timeline, HistoryHasAnEnd) {
     if (k == 6) in_order.insert(lanes_scan(1, 100, 201).view());
     in_order.insert(lanes_scan(0, k, 40 * k).view());
   }
-  TrackSet before_too_old(64);
-  before_too_old.assign(timeline.current());
+  const TrackSet before_too_old = timeline.current();
   EXPECT_EQ(timeline.insert(lanes_scan(1, 99, 199).view()), Timeline::Insertion::kTooOld);
   EXPECT_TRUE(same_bits(timeline.current(), before_too_old));
   EXPECT_FALSE(timeline.contains({static_cast<SensorId>(1), 99}, at_ms(199)));

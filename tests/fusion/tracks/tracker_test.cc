@@ -9,7 +9,11 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/random.h"
+#include "fusion/association/assignment.h"
+#include "fusion/metrics/chi_square.h"
 #include "fusion/motion/angles.h"
 #include "tests/fusion/scenes.h"
 
@@ -125,6 +129,58 @@ TEST(Tracker, Follows25ObjectsEachWithItsOwnTrack) {
     }
   }
   EXPECT_LT(std::sqrt(squares / count), 0.2) << "better than one measurement's 0.28 m in the plane";
+}
+
+// The observation of each track when every pair is tried: the plain way.
+std::vector<int> tried_pair_by_pair(const Tracker& tracker, const TrackSet& set, const sensors::ObservationList& list,
+                                    double gate) {
+  std::vector<association::Candidate> candidates;
+  for (std::size_t o = 0; o < list.observations.size(); ++o)
+    for (std::size_t t = 0; t < set.tracks.size(); ++t) {
+      const auto apart = tracker.estimator().distance_squared(set.tracks[t].estimate, list.observations[o]);
+      if (apart && *apart <= gate)
+        candidates.push_back(
+            {static_cast<int>(o), static_cast<int>(t), gate - *apart + 1e-9 + (set.tracks[t].confirmed ? 100.0 : 0.0)});
+    }
+  association::Assignment assignment(list.observations.size(), set.tracks.size());
+  assignment.solve(candidates, list.observations.size(), set.tracks.size());
+  std::vector<int> observation_of(set.tracks.size(), -1);
+  for (std::size_t o = 0; o < list.observations.size(); ++o)
+    if (const int t = assignment.column_of()[o]; t >= 0)
+      observation_of[static_cast<std::size_t>(t)] = static_cast<int>(o);
+  return observation_of;
+}
+
+// Crowds of objects, on lanes or in a heap, with misses and clutter: 10 to 300, around the number from which tracks are
+// searched in strips.
+TEST(Tracker, AssignsAsThePlainWayDoes) {
+  int assigned = 0;
+  for (const int objects : {10, 60, 65, 150, 300}) {
+    config::TrackerConfig config;
+    config.max_objects = objects;
+    const double gate = metrics::chi_square_quantile(config.gate_probability, 2);
+    Tracker tracker(config, static_cast<std::size_t>(2 * objects));
+    TrackSet set(tracker.max_tracks()), now(tracker.max_tracks());
+    const Lanes lanes{.objects = objects, .across = 10, .sigma = 0.3, .miss_probability = 0.2, .seed = 5};
+    RandomStream draw({.seed = 6, .purpose = Purpose::kTest, .entity = 13});
+    for (std::uint32_t k = 0; k < 12; ++k) {
+      std::vector<sensors::Observation> seen = lanes.see(at_ms(40 * k), k);
+      for (sensors::Observation& z : seen)
+        if (objects == 150) z.z(0) = 20.0 + 0.05 * (z.z(0) - 20.0);  // a heap
+      for (int i = 0; i < objects / 2; ++i)
+        seen.push_back(position(draw.uniform(0.0, 400.0), draw.uniform(-80.0, 80.0), draw.uniform(0.1, 3.0)));
+      const OwnedList list = list_of(0, k, at_ms(40 * k), seen);
+      now = set;
+      now.tracks.reserve(tracker.max_tracks());
+      for (Track& track : now.tracks) tracker.estimator().predict(track.estimate, 0.04);
+      const auto expected = tried_pair_by_pair(tracker, now, list.view(), gate);
+      const auto found = tracker.assigned(now, list.view());
+      ASSERT_EQ(std::vector(found.begin(), found.end()), expected) << objects << " objects, list " << k;
+      assigned += static_cast<int>(std::count_if(expected.begin(), expected.end(), [](int o) { return o >= 0; }));
+      tracker.step(set, list.view());
+    }
+  }
+  EXPECT_GT(assigned, 3'000);
 }
 
 TEST(Tracker, TheSecondEchoOfAConfirmedTrackIsNoNewObject) {

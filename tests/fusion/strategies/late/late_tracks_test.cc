@@ -184,8 +184,7 @@ TEST_F(LateList, IsTooOldWhereNoTrackReaches) {
   EXPECT_EQ(late.insert(at(1, 100, 0, {car(0)}).view()), Insertion::kTooOld) << "there is no track";
   LateUpdates other(taking_late(Kind::kAugmented), 4, {});
   drive(other, 20);
-  tracks::TrackSet before_too_old(16);
-  before_too_old.assign(other.current());
+  const tracks::TrackSet before_too_old = other.current();
   EXPECT_EQ(other.insert(at(1, 0, 40 * 4 - 1, {car(159)}).view()), Insertion::kTooOld);
   EXPECT_TRUE(same_bits(other.current(), before_too_old));
   EXPECT_FALSE(other.contains({SensorId{1}, 0}, at_ms(159)));
