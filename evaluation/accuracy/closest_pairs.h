@@ -23,7 +23,8 @@ struct TruthPair {
 inline constexpr double kGate_m = 4.0;
 
 // Returns pairs no further apart than `gate_m` [m], by growing distance; each truth and each estimate is in at
-// most one. Pairs of equal distance are taken in the order of truth, then estimate.
+// most one. Pairs of equal distance are taken in the order of truth, then estimate. It takes about n log n steps. Pairs
+// within the gate count as positions.
 std::vector<TruthPair> closest_pairs(std::span<const PlanePosition> truth, std::span<const PlanePosition> estimates,
                                      double gate_m);
 

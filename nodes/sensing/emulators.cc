@@ -57,7 +57,8 @@ void LaserEmulator::run(host::StepContext& context) {
 
 CameraEmulator::CameraEmulator(const EmulatorConfig& config, const sim::world::CameraConfig& camera)
     : config_(config), camera_(sim::world::in_drive(camera, drive_key(config))),
-      signals_(host::bind_element<3>(*config.cluster, raw_layout(config), {"bearing", "disparity", "width"})) {
+      signals_(host::bind_element<3>(*config.cluster, raw_layout(config), {"bearing", "disparity", "width"})),
+      room_(config.scene->objects()) {
   camera_.max_detections = raw_layout(config).max_elements;
   states_.reserve(config.scene->objects());
   detections_.reserve(most_elements(config));
@@ -68,7 +69,8 @@ void CameraEmulator::run(host::StepContext& context) {
   config_.scene->states_at(sim::world::measured_at(context.stamp.true_time, camera_.device), states_);
   sim::world::see_from(camera_.device.placement, states_);
   sim::world::measure_camera(camera_, states_, config_.seed, config_.replication,
-                             static_cast<std::uint16_t>(config_.sensor), context.measurement, detections_, truth_);
+                             static_cast<std::uint16_t>(config_.sensor), context.measurement, room_, detections_,
+                             truth_);
   host::Output& raw = context.outputs[0];
   const auto count = static_cast<int>(detections_.size());
   raw.begin(context.measurement, count, GlobalTime{});

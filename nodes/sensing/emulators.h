@@ -48,6 +48,7 @@ class CameraEmulator final : public host::Step {
   sim::world::CameraConfig camera_;
   std::array<std::size_t, 3> signals_;
   std::vector<sim::world::ObjectState> states_;
+  sim::world::CameraRoom room_;
   std::vector<sim::world::CameraDetection> detections_;
   std::vector<ObjectId> truth_;
 };

@@ -10,12 +10,6 @@
 namespace ttf::sim::world {
 namespace {
 
-// The matched part of an object: the middle of its silhouette, at the mean depth of the visible outline.
-struct Seen {
-  double bearing = 0.0;
-  double depth = 0.0;       // along the optical axis
-  double silhouette = 0.0;  // [rad]
-};
 std::optional<Seen> see(const ObjectState& state) {
   const auto span = azimuth_span(state);
   if (!span) return std::nullopt;
@@ -33,6 +27,14 @@ std::optional<Seen> see(const ObjectState& state) {
   if (hits == 0) return std::nullopt;
   seen.depth /= hits;
   return seen;
+}
+
+// An object is looked for in the field, within the range.
+Sight sight_of(const Seen& seen, const CameraConfig& config) {
+  Sight sight{seen.bearing, seen.depth / std::cos(seen.bearing), 0.5 * seen.silhouette, true};
+  sight.wanted =
+      seen.depth > 0.0 && std::abs(seen.bearing) <= config.half_field_rad && sight.range <= config.max_range_m;
+  return sight;
 }
 
 int poisson(RandomStream& stream, double mean) {
@@ -72,36 +74,33 @@ CameraConfig in_drive(CameraConfig config, const DriveKey& key) {
 }
 
 void measure_camera(const CameraConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
-                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
+                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence, CameraRoom& room,
                     std::vector<CameraDetection>& detections, std::vector<ObjectId>& truth) {
   detections.clear();
   truth.clear();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto seen = see(objects[i]);
+    room.seen[i] = seen.value_or(Seen{});
+    room.sights[i] = seen ? sight_of(*seen, config) : Sight{};
+  }
+  const std::span<const char> hidden =
+      room.occlusion.hidden(objects, std::span(room.sights).first(objects.size()), config.shadow);
   RandomStream noise({seed, replication, Purpose::kSensorNoise, sensor, sequence});
   RandomStream misses({seed, replication, Purpose::kSensorMisses, sensor, sequence});
   RandomStream clutter({seed, replication, Purpose::kClutter, sensor, sequence});
-  for (const ObjectState& object : objects) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
     // Every object gets draws, seen or not, so one object's visibility never shifts another's noise.
     const bool missed = misses.uniform() < config.miss_probability;
     const double disparity_noise = noise.normal(), bearing_noise = noise.normal(), width_noise = noise.normal();
-    const auto seen = see(object);
-    if (missed || !seen || seen->depth <= 0.0 || std::abs(seen->bearing) > config.half_field_rad) continue;
-    const double range = seen->depth / std::cos(seen->bearing);
-    if (range > config.max_range_m) continue;
-    const double c = std::cos(seen->bearing), s = std::sin(seen->bearing);
-    const bool hidden = std::any_of(objects.begin(), objects.end(), [&](const ObjectState& other) {
-      // A cheap bound, no tighter than rounding: the line of sight passes the centre beyond the outline's reach.
-      const double across = -s * other.x + c * other.y;
-      if (other.id == object.id || std::abs(across) > 0.5 * (other.length + other.width) + 1e-6) return false;
-      const auto distance = RayTarget(other).ray_to(seen->bearing);
-      return distance && *distance < range && range < *distance * (1.0 + config.shadow);
-    });
-    if (hidden || static_cast<int>(detections.size()) == config.max_detections) continue;
-    const double width_px = config.focal_px * seen->silhouette / std::cos(seen->bearing);
-    const double disparity = config.focal_px * config.baseline_m / seen->depth;
-    detections.push_back({seen->bearing + config.bearing_bias.fixed + config.bearing_sigma_rad * bearing_noise,
+    if (missed || !room.sights[i].wanted || hidden[i]) continue;
+    if (static_cast<int>(detections.size()) == config.max_detections) continue;
+    const Seen& seen = room.seen[i];
+    const double width_px = config.focal_px * seen.silhouette / std::cos(seen.bearing);
+    const double disparity = config.focal_px * config.baseline_m / seen.depth;
+    detections.push_back({seen.bearing + config.bearing_bias.fixed + config.bearing_sigma_rad * bearing_noise,
                           disparity + config.disparity_bias.fixed + config.disparity_sigma_px * disparity_noise,
                           std::max(1.0, width_px + config.width_sigma_px * width_noise)});
-    truth.push_back(object.id);
+    truth.push_back(objects[i].id);
   }
   for (int n = poisson(clutter, config.clutter_per_frame); n > 0; --n) {
     const double bearing = clutter.uniform(-config.half_field_rad, config.half_field_rad);

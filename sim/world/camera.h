@@ -7,12 +7,14 @@
 // random. False detections appear anywhere in the field.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "core/strict_yaml.h"
+#include "sim/world/occlusion.h"
 #include "sim/world/placement.h"
 #include "sim/world/world.h"
 
@@ -46,10 +48,25 @@ struct CameraDetection {
   double width_px = 0;   // the silhouette's
 };
 
+// The matched part of an object: the middle of its silhouette, at the mean depth of the visible outline.
+struct Seen {
+  double bearing = 0.0;     // [rad]
+  double depth = 0.0;       // [m], along the optical axis
+  double silhouette = 0.0;  // [rad]
+};
+
+// Room for as many objects, so that measuring allocates nothing.
+struct CameraRoom {
+  explicit CameraRoom(std::size_t most_objects) : occlusion(most_objects), seen(most_objects), sights(most_objects) {}
+  Occlusion occlusion;
+  std::vector<Seen> seen;
+  std::vector<Sight> sights;
+};
+
 // Replaces `detections` by those of `objects`, which are in the sensor's axes. `truth` has the object of each,
 // 0xffff for a false one.
 void measure_camera(const CameraConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
-                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
+                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence, CameraRoom& room,
                     std::vector<CameraDetection>& detections, std::vector<ObjectId>& truth);
 
 }  // namespace ttf::sim::world

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bus/wire/flexray_frame.h"
+#include "evaluation/accuracy/closest_pairs.h"
 #include "fusion/batch/batch.h"
 #include "fusion/filters/kalman.h"
 #include "fusion/filters/unscented.h"
@@ -18,6 +19,8 @@
 #include "fusion/oosm/any_method.h"
 #include "fusion/sensors/position.h"
 #include "sim/crank/bus_simulation.h"
+#include "sim/world/camera.h"
+#include "sim/world/world.h"
 #include "tests/bench/crowd.h"
 #include "tests/drives/drive_fixture.h"
 #include "tests/fusion/oosm/timelines.h"
@@ -106,6 +109,44 @@ void fusion_late_list() {
     strategy->accept(late.view());
     strategy->fuse(now);
   });
+}
+
+// ---- a thousand people on a square, once (scenarios/thousand.yaml)
+
+std::vector<sim::world::ObjectState> square() {
+  sim::world::FieldConfig field;
+  field.objects = 1000;
+  field.each.heading = 1.5708;
+  field.each.length = field.each.width = 0.5;
+  sim::world::WorldConfig world;
+  world.objects = sim::world::placed(field);
+  std::vector<sim::world::ObjectState> states;
+  sim::world::World(world, 1, 0).states_at(TrueTime{}, states);
+  return states;
+}
+
+void camera_of_thousand() {
+  const auto objects = square();
+  sim::world::CameraConfig camera;
+  camera.half_field_rad = 0.8;
+  camera.max_range_m = 300.0;
+  camera.shadow = 0.0224;
+  camera.max_detections = 1000;
+  sim::world::CameraRoom room(objects.size());
+  std::vector<sim::world::CameraDetection> detections;
+  std::vector<ObjectId> truth;
+  detections.reserve(1000);
+  truth.reserve(1000);
+  counted([&] { sim::world::measure_camera(camera, objects, 1, 0, 0, 0, room, detections, truth); });
+}
+
+void closest_pairs_of_thousand() {
+  std::vector<evaluation::accuracy::PlanePosition> truth, estimates;
+  for (const sim::world::ObjectState& state : square()) {
+    truth.push_back({state.x, state.y});
+    estimates.push_back({state.x + 0.1, state.y - 0.2});
+  }
+  counted([&] { evaluation::accuracy::closest_pairs(truth, estimates, evaluation::accuracy::kGate_m); });
 }
 
 // ---- the bus
@@ -209,6 +250,8 @@ const Path kPaths[] = {
     {"fusion_cycle", fusion_cycle},
     {"fusion_cycle_of_thousand", fusion_cycle_of_thousand},
     {"fusion_late_list", fusion_late_list},
+    {"camera_of_thousand", camera_of_thousand},
+    {"closest_pairs_of_thousand", closest_pairs_of_thousand},
     {"frame_encode", frame_encode},
     {"frame_decode", frame_decode},
     {"bus_cycle", bus_cycle},

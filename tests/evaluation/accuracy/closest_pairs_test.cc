@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -63,6 +64,57 @@ TEST(ClosestPairs, DrawnScenesAreOneToOneAndComplete) {
           EXPECT_GT(distance(truth[t], estimates[e]), 2.0);
         }
   }
+}
+
+// The plain way: the closest of all pairs that are left, again and again.
+std::vector<TruthPair> one_by_one(const std::vector<PlanePosition>& truth, const std::vector<PlanePosition>& estimates,
+                                  double gate) {
+  std::vector<TruthPair> pairs;
+  std::set<std::size_t> truths, taken;
+  while (true) {
+    double least = std::numeric_limits<double>::infinity();
+    TruthPair closest;
+    for (std::size_t t = 0; t < truth.size(); ++t)
+      for (std::size_t e = 0; e < estimates.size(); ++e)
+        if (const double apart = distance(truth[t], estimates[e]);
+            apart <= gate && apart < least && !truths.contains(t) && !taken.contains(e)) {
+          least = apart;
+          closest = {t, e};
+        }
+    if (std::isinf(least)) return pairs;
+    truths.insert(closest.truth);
+    taken.insert(closest.estimate);
+    pairs.push_back(closest);
+  }
+}
+
+// Many positions: at random, on a grid of equal distances, far away, and no numbers at all.
+TEST(Pairing, OfManyIsThatOfThePlainWay) {
+  std::size_t all = 0;
+  for (std::uint32_t scene = 0; scene < 60; ++scene) {
+    RandomStream draw({7, 0, Purpose::kTest, 1, scene});
+    const double gate = scene % 4 == 0 ? 1.0 : draw.uniform(0.2, 3.0);
+    const double off = scene % 5 == 0 ? 1e15 : scene % 5 == 1 ? -3e7 : 0.0;
+    const auto place = [&] {
+      const double at = draw.uniform(-12.0, 12.0);
+      return off + (scene % 3 == 0 ? std::round(at * 2.0) / 2.0 : at);
+    };
+    std::vector<PlanePosition> truth(static_cast<std::size_t>(draw.integer(20, 60))),
+        estimates(static_cast<std::size_t>(draw.integer(55, 90)));
+    for (auto* list : {&truth, &estimates})
+      for (PlanePosition& position : *list) position = {place(), place()};
+    truth[3].x = estimates[5].y = std::nan("");
+    truth[4].y = estimates[6].x = std::numeric_limits<double>::infinity();
+    truth[5] = estimates[7] = {std::numeric_limits<double>::max(), -std::numeric_limits<double>::max()};
+    const auto pairs = closest_pairs(truth, estimates, gate), expected = one_by_one(truth, estimates, gate);
+    all += pairs.size();
+    ASSERT_EQ(pairs.size(), expected.size()) << scene;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      ASSERT_EQ(pairs[i].truth, expected[i].truth) << scene;
+      ASSERT_EQ(pairs[i].estimate, expected[i].estimate) << scene;
+    }
+  }
+  EXPECT_GT(all, 900u);
 }
 
 }  // namespace

@@ -107,6 +107,7 @@ TEST(Triangulation, CovarianceIsHonestForTheEmulatedCamera) {
   camera.miss_probability = camera.clutter_per_frame = 0.0;
   const CameraCalibration calibration;
   RandomStream draw({23, 0, Purpose::kTest, 0, 0});
+  sim::world::CameraRoom room(1);
   std::vector<sim::world::CameraDetection> detections;
   std::vector<ObjectId> truth;
   double sum = 0.0;
@@ -117,7 +118,8 @@ TEST(Triangulation, CovarianceIsHonestForTheEmulatedCamera) {
     const double heading =
         azimuth + (frame % 2 == 0 ? draw.uniform(-0.05, 0.05) : draw.uniform(-std::numbers::pi, std::numbers::pi));
     const auto car = laser::car_at(range * std::cos(azimuth), range * std::sin(azimuth), heading);
-    sim::world::measure_camera(camera, std::vector<sim::world::ObjectState>{car}, 1, 0, 1, frame, detections, truth);
+    sim::world::measure_camera(camera, std::vector<sim::world::ObjectState>{car}, 1, 0, 1, frame, room, detections,
+                               truth);
     ASSERT_EQ(detections.size(), 1U);
     const CameraObject o =
         triangulate(calibration, detections[0].bearing, detections[0].disparity, detections[0].width_px);

@@ -36,7 +36,8 @@ struct Frame {
 };
 Frame frame(const CameraConfig& config, const std::vector<ObjectState>& objects, std::uint32_t sequence = 0) {
   Frame f;
-  measure_camera(config, objects, 1, 0, 1, sequence, f.detections, f.truth);
+  CameraRoom room(objects.size());
+  measure_camera(config, objects, 1, 0, 1, sequence, room, f.detections, f.truth);
   EXPECT_EQ(f.detections.size(), f.truth.size());
   return f;
 }

@@ -70,6 +70,7 @@ TEST(Crowd25, EveryObjectStaysInRangeAndInViewOfBothSensorsForAMinute) {
   const LaserConfig laser;
   std::vector<ObjectState> states;
   std::vector<HitPoint> hits;
+  CameraRoom room(25);
   std::vector<CameraDetection> detections;
   std::vector<ObjectId> laser_truth, camera_truth;
   std::vector<int> seen(25, 0);
@@ -80,7 +81,7 @@ TEST(Crowd25, EveryObjectStaysInRangeAndInViewOfBothSensorsForAMinute) {
     const int k = look % kLooks;
     worlds[static_cast<std::size_t>(look / kLooks)].states_at(at_ms(1000 * k), states);
     measure_laser(laser, states, 1, 0, 0, static_cast<std::uint32_t>(k), hits, laser_truth);
-    measure_camera(camera, states, 1, 0, 1, static_cast<std::uint32_t>(k), detections, camera_truth);
+    measure_camera(camera, states, 1, 0, 1, static_cast<std::uint32_t>(k), room, detections, camera_truth);
     EXPECT_LE(hits.size(), 1300U);
     EXPECT_EQ(camera_truth.size(), 25U) << "hidden or out of view at " << k << " s";
     for (const ObjectState& state : states) {
