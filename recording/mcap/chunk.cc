@@ -1,5 +1,7 @@
 #include "recording/mcap/chunk.h"
 
+#include <algorithm>
+
 namespace ttf::recording::mcap {
 namespace {
 
@@ -31,9 +33,11 @@ std::optional<std::string_view> ChunkOpener::open(std::string_view content, std:
   if (!read_chunk(content, chunk)) return std::nullopt;
   std::string_view records = chunk.data;
   if (chunk.compression == "zstd" && chunk.uncompressed_size <= kMaxChunkBytes) {
-    buffer.resize(static_cast<std::size_t>(chunk.uncompressed_size));
+    // Never smaller: growing fills with zeros, and damaged chunks may claim any size in turn.
+    const auto claimed = static_cast<std::size_t>(chunk.uncompressed_size);
+    buffer.resize(std::max(buffer.size(), claimed));
     const std::size_t size =
-        ZSTD_decompressDCtx(zstd_.get(), buffer.data(), buffer.size(), chunk.data.data(), chunk.data.size());
+        ZSTD_decompressDCtx(zstd_.get(), buffer.data(), claimed, chunk.data.data(), chunk.data.size());
     records = ZSTD_isError(size) != 0 ? std::string_view{} : std::string_view(buffer).substr(0, size);
   } else if (!chunk.compression.empty()) {
     records = {};

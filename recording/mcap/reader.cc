@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "recording/mcap/bytes.h"
 #include "recording/mcap/chunk.h"
+#include "recording/mcap/metadata.h"
 
 namespace ttf::recording::mcap {
 namespace {
@@ -27,20 +29,6 @@ bool read_attachment(std::string_view content, AttachmentFields& out) {
   out.data = fields.bytes(fields.take<std::uint64_t>());
   out.crc = fields.take<std::uint32_t>();
   return fields.done();
-}
-
-bool read_metadata(std::string_view content, std::string_view& name,
-                   std::vector<std::pair<std::string, std::string>>* entries) {
-  FieldReader fields(content);
-  name = fields.text();
-  FieldReader map(fields.text());
-  if (!fields.done()) return false;
-  while (map.ok() && !map.rest().empty()) {
-    const std::string_view key = map.text();
-    const std::string_view value = map.text();
-    if (map.ok() && entries != nullptr) entries->emplace_back(key, value);
-  }
-  return map.ok();
 }
 
 // Returns whether a record's fields fill it exactly. The time taken grows with the number of fields, not with
@@ -130,7 +118,7 @@ class Walk {
       const auto record = record_at(bytes_, at);
       if (record && !known(record->opcode) && record->opcode != 0) {
         warn("the record of unknown type {} at byte {} is left out", record->opcode, at);
-      } else if (!record || !consistent(*record)) {
+      } else if (!record || !is_consistent(*record, at)) {
         const std::size_t next = next_record(at + 1);
         if (next >= bytes_.size() && !ended) break;  // the torn tail
         if (bytes_[at] == static_cast<char>(Opcode::kChunk)) ++report_.chunks_lost;
@@ -161,14 +149,31 @@ class Walk {
       ++suppressed_;
   }
 
-  std::size_t next_record(std::size_t from) const {
+  // Behind damage, all metadata records are looked for at once.
+  bool is_consistent(const McapRecord& record, std::size_t at) const {
+    if (record.opcode == static_cast<std::uint8_t>(Opcode::kMetadata) && metadata_)
+      return std::binary_search(metadata_->begin(), metadata_->end(), at);
+    return consistent(record);
+  }
+
+  std::size_t next_record(std::size_t from) {
+    if (!metadata_) metadata_ = consistent_metadata(bytes_, from, report_.work);
     for (std::size_t at = from; at + kRecordHead < bytes_.size(); ++at) {
+      ++report_.work;
       if (!known(static_cast<std::uint8_t>(bytes_[at])) || bytes_[at] == static_cast<char>(Opcode::kHeader)) continue;
       if (bytes_.substr(at + 5, 4) != std::string_view("\0\0\0\0", 4)) continue;  // no record has 4 GiB
       const auto record = record_at(bytes_, at);
-      if (record && consistent(*record)) return at;
+      if (record && is_consistent(*record, at)) return at;
     }
     return bytes_.size();
+  }
+
+  // Returns the CRC of all bytes before `at`, which never decreases.
+  std::uint32_t crc_before(std::size_t at) {
+    report_.work += at - summed_;
+    crc_ = crc_of(bytes_.substr(summed_, at - summed_), crc_);
+    summed_ = at;
+    return crc_;
   }
 
   // Returns true after the footer.
@@ -194,7 +199,7 @@ class Walk {
       }
       case Opcode::kDataEnd: {
         const auto stated = FieldReader(record.content).take<std::uint32_t>();
-        if (stated != 0 && stated != crc_of(bytes_.substr(0, at)) && report_.warnings.empty())
+        if (stated != 0 && report_.warnings.empty() && stated != crc_before(at))
           warn("bytes outside the chunks are damaged (checksum of the data section); all records are read");
         return false;
       }
@@ -246,6 +251,9 @@ class Walk {
   std::string buffer_;
   McapReport report_;
   std::uint64_t suppressed_ = 0;
+  std::optional<std::vector<std::size_t>> metadata_;  // behind the first damage: where consistent ones begin
+  std::size_t summed_ = 0;
+  std::uint32_t crc_ = 0;  // of the bytes before summed_
 };
 
 }  // namespace

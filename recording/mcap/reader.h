@@ -2,7 +2,8 @@
 //
 // Every record must be consistent (its fields fill its length exactly) before it is used. After an inconsistent
 // one, the walk goes on at the next place where a consistent record begins, so damage costs only the damaged
-// records. A chunk's checksum must match before its first message is handed on.
+// records. A chunk's checksum must match before its first message is handed on. The time grows with the file's size
+// and that of its chunks' records, for any bytes.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +31,8 @@ struct McapReport {
   bool truncated = false;
   std::vector<std::string> warnings;  // without the file's name; at most 21
   std::uint64_t chunks_read = 0, chunks_lost = 0;
+  // The search behind damage looked at so many bytes, candidates and entries. Sums of the whole file count, too.
+  std::uint64_t work = 0;
 };
 
 // Returns the profile in the header; empty if the header has none or is damaged.
