@@ -96,7 +96,14 @@ int run_scenario(const RunOptions& options) {
   }
   std::fflush(stdout);  // both streams may share one file
   say_written(folder);
-  return 0;
+  bool started = true;
+  for (const StrategyResult& result : results) {
+    const std::string sentence = never_started(result, scenario.startup.cold);
+    if (sentence.empty()) continue;
+    fmt::print(stderr, "error: {}\n", sentence);
+    started = false;
+  }
+  return started ? 0 : 1;
 }
 
 }  // namespace

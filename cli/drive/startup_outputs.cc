@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/counted.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::drive {
@@ -57,6 +58,16 @@ nlohmann::ordered_json startup_json(const StrategyResult& result) {
     list.push_back(std::move(one));
   }
   return list;
+}
+
+std::string never_started(const StrategyResult& result, bool cold) {
+  const bool started = std::ranges::any_of(
+      result.startup, [](const evaluation::cluster::NodeStartup& node) { return node.active.has_value(); });
+  if (!cold || started) return "";
+  std::vector<std::string> names;
+  for (const schedules::model::Node& node : result.cluster.nodes)
+    if (node.flexray) names.push_back(node.name);
+  return fmt::format("with {} no node ever became active: {}", name_of(result.strategy), joined(names));
 }
 
 }  // namespace ttf::cli::drive

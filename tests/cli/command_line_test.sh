@@ -403,11 +403,13 @@ sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/cold_start.yaml" >"
 printf 'faults:\n  - {kind: noise, channels: A, length: 1 us, interval: 500 ms}\n' >>"$work/cold_faulty.yaml"
 expect 0 'No fault-free node was harmed' run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
 sed -i 's/channels: A, length: 1 us, interval: 500 ms/length: 1 ms, interval: 0 ms/' "$work/cold_faulty.yaml"
-expect 0 'HARMED by fault 0, .*never became normal active' \
+expect 1 'HARMED by fault 0, .*never became normal active' \
   run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
+expect 1 '^error: with tt no node ever became active: laser_pre, camera_pre, fusion, feature, laser, camera$' \
+  run "$work/cold_faulty.yaml" --no-log --out "$work/cold_faulty"
 # For a cluster that never started, the table shows failure, and no perfect values.
 for row in 'uses of an image +0' 'objects compared / missed / spurious +-' 'precision of the time base \[us\] +-'; do
-  expect 0 "^$row$" run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
+  expect 1 "^$row$" run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
 done
 # Lost frames are counted, in any slot and of any sender.
 sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" >"$work/drowned.yaml"
