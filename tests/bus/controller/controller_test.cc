@@ -54,6 +54,7 @@ TEST(ControllerSends, EveryFrameIsValidOnItsChannelWithTheClustersPayloadLength)
 TEST(ControllerSends, AStatusFrameIsNoNullFrameAndAnUnwrittenListIsOne) {
   Alone node;
   node.run_to(1);
+  ASSERT_EQ(node.sent_in(0).size(), 10u);
   for (const auto& sent : node.sent_in(0)) {
     EXPECT_EQ(sent.null_frame, sent.slot != 1) << sent.slot;
     EXPECT_EQ(wire::decode_frame(sent.channel, sent.bytes).header.null_frame, sent.null_frame);
@@ -65,8 +66,10 @@ TEST(ControllerSends, FragmentsPaddedWithZerosAndNullFramesBeyondTheList) {
   MadeList list(node.cluster.pdus[0], 1, 5, 0xABC0);  // two fragments of 8 bytes
   node.controller.outgoing(kList).write(list.view());
   node.run_to(1);
+  int frames = 0;
   for (const auto& sent : node.sent_in(0)) {
     if (sent.pdu != kList) continue;
+    ++frames;
     EXPECT_EQ(sent.fragment, sent.slot - 5);
     EXPECT_EQ(sent.null_frame, sent.fragment >= 2);
     const auto decoded = wire::decode_frame(sent.channel, sent.bytes);
@@ -78,6 +81,7 @@ TEST(ControllerSends, FragmentsPaddedWithZerosAndNullFramesBeyondTheList) {
       EXPECT_EQ(sent.sequence, 1u);
     }
   }
+  EXPECT_EQ(frames, 8) << "slots 5 to 8 on A and B";
 }
 
 TEST(ControllerSends, AListWrittenWhileItsSlotsAreSentWaitsForTheNextCycle) {
@@ -87,14 +91,17 @@ TEST(ControllerSends, AListWrittenWhileItsSlotsAreSentWaitsForTheNextCycle) {
   node.run_to(0, 84 * 5);  // slot 5 is out, slots 6..8 are not
   node.controller.outgoing(kList).write(new_list.view());
   node.run_to(2);
+  int frames = 0;
   for (const auto& sent : node.heard.sent) {
     if (sent.pdu != kList) continue;
+    ++frames;
     MadeList& expected = sent.cycle == 0 ? old_list : new_list;
     const auto payload = wire::decode_frame(sent.channel, sent.bytes).payload.first(8);
     const auto fragment = expected.fragment(sent.fragment);
     EXPECT_EQ(sent.sequence, expected.sequence);
     EXPECT_TRUE(std::equal(payload.begin(), payload.end(), fragment.begin(), fragment.end())) << sent.slot;
   }
+  EXPECT_EQ(frames, 2 * 8) << "slots 5 to 8 on A and B, in two cycles";
 }
 
 TEST(ControllerSends, AListWrittenAtTheActionPointOfItsFirstSlotStillGoesOut) {
