@@ -11,7 +11,7 @@
 namespace ttf::fusion {
 namespace {
 
-constexpr int kLists = 60, kQuiet = 15;
+constexpr int kLists = 60, kJudgedFrom = 15;
 constexpr double kPeriod = 0.1, kSigma = 0.3;
 constexpr double kWidth = 60.0, kHeight = 20.0;
 
@@ -35,12 +35,12 @@ Crossing::Drive Crossing::draw_drive(std::uint64_t seed) const {
     std::vector<sensors::Observation> list;
     for (estimators::State& x : now) {
       if (k > 0) x = draw(f * x, q, stream);
-      const bool seen = stream.uniform() < detection_probability || k < kQuiet;
+      const bool seen = stream.uniform() < detection_probability;
       const double dx = kSigma * stream.normal(), dy = kSigma * stream.normal();
       if (seen) list.push_back(position(x(0) + dx, x(1) + dy, kSigma));
     }
     // The number of false ones is Poisson's: waiting times until their sum is over.
-    for (double sum = -std::log(1.0 - stream.uniform()); k >= kQuiet && sum < clutter_density * kWidth * kHeight;
+    for (double sum = -std::log(1.0 - stream.uniform()); sum < clutter_density * kWidth * kHeight;
          sum -= std::log(1.0 - stream.uniform()))
       list.push_back(position(stream.uniform(0.0, kWidth), stream.uniform(-0.5 * kHeight, 0.5 * kHeight), kSigma));
     drive.truth.push_back(now);
@@ -81,8 +81,8 @@ Followed follow(const Crossing& crossing, const config::TrackerConfig& config, i
         estimates.push_back({states.back().x(0), states.back().x(1)});
         tracks.push_back({static_cast<metrics::Identity>(index_of(track.id)), estimates.back()});
       }
+      if (k < static_cast<std::size_t>(kJudgedFrom)) continue;
       mot.step(objects, tracks);
-      if (k < static_cast<std::size_t>(kQuiet)) continue;
       ++judged;
       sum.gospa += distance.between(truths, estimates).gospa.distance_m;
       for (std::size_t i = 0; i < truths.size(); ++i) {

@@ -10,8 +10,8 @@
 namespace ttf::fusion {
 
 // 60 m by 20 m, lists every 100 ms. Each object is seen with detection_probability, its position with 0.3 m.
-// Each square metre has clutter_density false observations. The first 1.5 s have neither clutter nor misses,
-// and the objects start apart: so both tracks are established.
+// Each square metre has clutter_density false observations. The objects start apart, so that both tracks can be
+// established before they come close.
 //
 //   y [m]  4 o------____
 //                      ____X____

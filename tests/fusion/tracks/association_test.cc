@@ -211,6 +211,11 @@ TEST(Association, CrossingInClutterIsConsistentWithJpdaOnly) {
   EXPECT_LT(jpda.gospa, nearest.gospa);
   EXPECT_LT(jpda.gospa, 0.5);
   EXPECT_LT(jpda.false_tracks, nearest.false_tracks);
+  // Both objects are born among the false observations. From 1.5 s on each is there 45 times in a drive.
+  constexpr std::uint64_t kThere = 300 * 2 * 45;
+  EXPECT_LT(jpda.misses, kThere / 50);
+  EXPECT_LT(nearest.misses, kThere / 40);
+  EXPECT_LT(jpda.false_tracks, kThere / 500);
   // Two that came close are taken for each other now and then, by either.
   EXPECT_LT(jpda.switches, 30u);
   EXPECT_LT(nearest.switches, 30u);
