@@ -1,0 +1,140 @@
+// The pages of results: each table comes from a command, the command's experiment is there as the page describes it,
+// and a page says all that its experiment expects.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/file_bytes.h"
+#include "core/strict_yaml.h"
+#include "experiments/campaign/file.h"
+#include "experiments/sweep/file.h"
+
+namespace ttf::experiments::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kTop = TTF_SOURCE_DIR;
+
+// "experiment FILE --option value ...", as a page prints it.
+struct Command {
+  std::string file;
+  std::uint32_t shards = 1;
+  std::optional<std::uint32_t> replications;
+};
+
+struct Page {
+  fs::path path;
+  std::string text;
+  std::vector<Command> commands;
+  std::vector<std::string> expected;  // lines that begin with "expected: "
+};
+
+std::vector<std::smatch> all(const std::string& text, const std::regex& pattern) {
+  return {std::sregex_iterator(text.begin(), text.end(), pattern), {}};
+}
+
+Page page_at(const fs::path& path) {
+  static const std::regex kCommand("\n    build/release/ttfusion experiment (\\S+)([^\n]*)"),
+      kShard("--shard [0-9]+/([0-9]+)"), kReplications("--replications ([0-9]+)"),
+      kExpected("\n    expected: ([^\n]+)");
+  Page page{path, read_file(path.string()), {}, {}};
+  for (const std::smatch& match : all(page.text, kCommand)) {
+    Command& command = page.commands.emplace_back();
+    command.file = match[1];
+    const std::string options = match[2];
+    if (std::smatch shard; std::regex_search(options, shard, kShard))
+      command.shards = static_cast<std::uint32_t>(std::stoul(shard[1]));
+    if (std::smatch count; std::regex_search(options, count, kReplications))
+      command.replications = static_cast<std::uint32_t>(std::stoul(count[1]));
+  }
+  for (const std::smatch& match : all(page.text, kExpected)) page.expected.push_back(match[1]);
+  return page;
+}
+
+std::vector<Page> pages() {
+  std::vector<Page> found{page_at(kTop / "docs/results.md"), page_at(kTop / "docs/fault_campaign.md")};
+  for (const auto& entry : fs::directory_iterator(kTop / "docs/results"))
+    if (entry.path().extension() == ".md") found.push_back(page_at(entry.path()));
+  return found;
+}
+
+bool is_campaign(const std::string& file) { return read_file(file).find("kind: fault_campaign") != std::string::npos; }
+
+TEST(ResultsPages, NameExperimentsThatAreThere) {
+  static const std::regex kNamed("experiments/[a-z0-9_/]+\\.yaml");
+  std::set<std::string> named;
+  for (const Page& page : pages()) {
+    for (const std::smatch& match : all(page.text, kNamed)) {
+      named.insert(match[0]);
+      EXPECT_TRUE(fs::exists(kTop / match[0].str())) << page.path << ": " << match[0];
+    }
+    for (const Command& command : page.commands) EXPECT_TRUE(named.contains(command.file)) << page.path;
+  }
+  for (const auto& entry : fs::directory_iterator(kTop / "experiments"))
+    if (entry.path().extension() == ".yaml")
+      EXPECT_TRUE(named.contains("experiments/" + entry.path().filename().string()))
+          << entry.path() << " has no page of results";
+}
+
+// A table comes from a command of its page, or of a page that it links to.
+TEST(ResultsPages, HaveTheCommandsOfTheirTables) {
+  static const std::regex kLink("\\]\\(([a-z_/.]+\\.md)");
+  std::set<fs::path> with_command;
+  for (const Page& page : pages())
+    if (!page.commands.empty()) with_command.insert(fs::canonical(page.path));
+  EXPECT_GE(with_command.size(), 10u);
+  for (const Page& page : pages()) {
+    if (page.text.find("\n|---") == std::string::npos || !page.commands.empty()) continue;
+    const auto links = all(page.text, kLink);
+    EXPECT_TRUE(std::any_of(links.begin(), links.end(), [&](const std::smatch& link) {
+      return with_command.contains(fs::weakly_canonical(page.path.parent_path() / link[1].str()));
+    })) << page.path;
+  }
+}
+
+TEST(ResultsPages, DroveAsManyWithTheSeedOfTheFile) {
+  static const std::regex kReplications("([0-9][0-9,]*)\\s+replications"), kSeed("seed\\s+([0-9]+)");
+  for (const Page& page : pages()) {
+    if (page.commands.size() != 1 || is_campaign((kTop / page.commands[0].file).string())) continue;
+    const SweepFile sweep = load_sweep((kTop / page.commands[0].file).string());
+    std::smatch count, seed;
+    ASSERT_TRUE(std::regex_search(page.text, count, kReplications)) << page.path;
+    ASSERT_TRUE(std::regex_search(page.text, seed, kSeed)) << page.path;
+    std::string number = count[1];
+    std::erase(number, ',');
+    EXPECT_EQ(std::stoul(number), page.commands[0].replications.value_or(sweep.replications) / page.commands[0].shards)
+        << page.path;
+    EXPECT_EQ(std::stoul(seed[1]), sweep.seed) << page.path;
+  }
+}
+
+TEST(ResultsPages, SayAllThatTheirExperimentsExpect) {
+  std::size_t said = 0;
+  for (const Page& page : pages()) {
+    std::vector<std::string> expected;
+    for (const Command& command : page.commands) {
+      const std::string file = (kTop / command.file).string();
+      if (is_campaign(file)) {
+        const auto most = campaign::load_campaign(file).expected_harmed;
+        ASSERT_TRUE(most.has_value() && page.expected.size() == 1) << page.path;
+        EXPECT_TRUE(page.expected[0].starts_with("at most " + std::to_string(*most) + " fault")) << page.expected[0];
+        expected = page.expected;
+        continue;
+      }
+      for (const Expectation& expectation : load_sweep(file).expectations) expected.push_back(expectation.text);
+    }
+    EXPECT_EQ(page.expected, expected) << page.path;
+    said += expected.size();
+  }
+  EXPECT_GE(said, 20u);
+}
+
+}  // namespace
+}  // namespace ttf::experiments::sweep
