@@ -1,4 +1,4 @@
-// Errors in input: the mistake, its place and the correct form. And the system's words for its own errors.
+// Errors in input: the mistake, its place and the correct form.
 //
 // All readers of input collect Findings, so that all mistakes of a file are reported at once. At the end of
 // set-up they throw one InputError. The program prints each finding as one sentence and exits with code 2.
@@ -49,8 +49,7 @@ class Findings {
   std::vector<Finding> list_;
 };
 
-// Returns the words for a value of errno, for example "No such file or directory". Any thread may call it at any
-// time: std::strerror need not return a text of its own to each.
+// Returns the words for a value of errno. Threads may call it at once, unlike std::strerror.
 std::string system_message(int error);
 
 }  // namespace ttf

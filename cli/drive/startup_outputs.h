@@ -15,7 +15,7 @@ std::string startup_text(const std::vector<StrategyResult>& results, bool cold);
 // Returns the same for one drive: a list with an entry per node.
 nlohmann::ordered_json startup_json(const StrategyResult& result);
 
-// Returns a sentence with the nodes on FlexRay if not one of them became active in a cold drive; otherwise "".
+// Returns "" if a node became active. Otherwise a sentence names the nodes. Drives that began integrated return "".
 std::string never_started(const StrategyResult& result, bool cold);
 
 }  // namespace ttf::cli::drive

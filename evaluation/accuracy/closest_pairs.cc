@@ -46,7 +46,7 @@ class Candidates {
       if (std::isnan(column) || std::isnan(row)) continue;
       double last = std::numeric_limits<double>::quiet_NaN();
       for (double by = -2.0; by <= 2.0; ++by) {
-        if (column + by == last) continue;  // of huge numbers
+        if (column + by == last) continue;  // huge numbers round to the same column
         last = column + by;
         auto place = std::lower_bound(places.begin(), places.end(), Place{last, row - 2.0, 0}, before);
         for (; place != places.end() && place->column == last && place->row <= row + 2.0; ++place)

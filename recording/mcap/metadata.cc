@@ -88,7 +88,7 @@ class Followed {
   std::string_view bytes_;
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> group_;  // a tree of candidates; its root is the group
-  std::vector<std::size_t> last_;     // of a group: the last end of its candidates
+  std::vector<std::size_t> last_;     // by group: the last end of its candidates
   std::vector<std::uint32_t> by_end_;
   using Waiting = std::pair<std::size_t, std::uint32_t>;  // where the next entry begins, and a candidate of the group
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting_;

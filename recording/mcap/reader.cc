@@ -253,7 +253,7 @@ class Walk {
   std::uint64_t suppressed_ = 0;
   std::optional<std::vector<std::size_t>> metadata_;  // behind the first damage: where consistent ones begin
   std::size_t summed_ = 0;
-  std::uint32_t crc_ = 0;  // of the bytes before summed_
+  std::uint32_t crc_ = 0;  // sums the bytes before summed_
 };
 
 }  // namespace

@@ -48,9 +48,9 @@ class Occlusion {
   bool is_hidden(std::span<const ObjectState> objects, std::size_t object, const Sight& sight, double shadow);
 
   std::size_t most_, leaves_;
-  double reach_ = 0.0;  // of the largest outline from its centre
+  double reach_ = 0.0;  // the largest outline reaches so far from its centre
   std::vector<Mark> by_distance_, by_low_, by_high_, by_bearing_;
-  std::vector<std::size_t> place_;  // of each object in by_distance_
+  std::vector<std::size_t> place_;  // by object: its index in by_distance_
   // A binary tree over the places: whether the present line can meet any object below a node. Its root is node 1.
   std::vector<char> met_;
   std::vector<char> hidden_;

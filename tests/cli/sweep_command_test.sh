@@ -48,7 +48,7 @@ done
 
 [[ $(cd "$work/killed" && echo results.sqlite*) == results.sqlite ]] || fail "a finished store has files beside it"
 
-# ---- read from the beginning to the end, by a program that does not let go
+# ---- a reader that does not let go
 "$program" experiment "$work/long.yaml" --out "$work/read" >"$work/words" 2>&1 &
 sweep=$!
 python3 - "$work/read/results.sqlite" "$sweep" <<'END' || fail "the store cannot be read while it is written"

@@ -88,7 +88,7 @@ std::vector<TruthPair> one_by_one(const std::vector<PlanePosition>& truth, const
   }
 }
 
-// Many positions: at random, on a grid of equal distances, far away, and no numbers at all.
+// Positions are drawn, on a grid, far away, or no numbers.
 TEST(Pairing, OfManyIsThatOfThePlainWay) {
   std::size_t all = 0;
   for (std::uint32_t scene = 0; scene < 60; ++scene) {

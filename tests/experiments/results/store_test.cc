@@ -177,7 +177,7 @@ TEST_F(StoreTest, AReaderHoldsNoWriterUp) {
   EXPECT_EQ(store.count(), 2u);
 }
 
-// A reader at the end of writing leaves all changes there, and the next writer makes one file of it again.
+// A reader at the end of writing leaves all changes there. The next writer makes one file again.
 TEST_F(StoreTest, AReaderAtTheEndOfWritingCostsNothing) {
   {
     auto store = std::make_unique<Store>(Store::create(path(), head_));
@@ -258,7 +258,7 @@ TEST_F(StoreTest, WhatAKilledWriterLeftBesideADeletedStoreIsNotTakenIn) {
   EXPECT_THAT(Store::open(path()).keys(), testing::ElementsAre(third_.key));
 }
 
-// A folder that this thread may only read; root may do more, so it becomes another user for the file system.
+// A folder that this thread may only read. Root becomes another user for this.
 class ReadOnly {
  public:
   explicit ReadOnly(std::string folder) : folder_(std::move(folder)) {
@@ -280,7 +280,7 @@ class ReadOnly {
   std::string folder_;
 };
 
-// A kill and then a copy of everything into such a folder: only half of it can be read.
+// The index is lost, and cannot be made there.
 TEST_F(StoreTest, AKilledWritersRowsInAFolderThatCannotBeWrittenAreToldOf) {
   write_and_die(path(), head_, {first_, second_});
   std::filesystem::remove(path() + "-shm");
@@ -304,7 +304,7 @@ TEST_F(StoreTest, IsReadInAFolderThatCannotBeWritten) {
   EXPECT_THROW(store.add({second_}), std::runtime_error);
 }
 
-// The reader at the end of writing left it for use with a WAL, which this folder cannot have.
+// A reader left it for use with a WAL. This folder cannot have one.
 TEST_F(StoreTest, IsReadThereEvenIfItsWriterCouldNotFinishIt) {
   const std::string odd = folder_ + "/50%?#.sqlite";
   {

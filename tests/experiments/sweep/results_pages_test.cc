@@ -1,5 +1,5 @@
-// The pages of results: each table comes from a command, the command's experiment is there as the page describes it,
-// and a page says all that its experiment expects.
+// The pages of results. Each table comes from a command. The command's experiment is as the page says. A page lists all
+// that its experiment expects.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -151,8 +151,7 @@ std::vector<int> tried_pair_by_pair(const Tracker& tracker, const TrackSet& set,
   return observation_of;
 }
 
-// Crowds of objects, on lanes or in a heap, with misses and clutter: 10 to 300, around the number from which tracks are
-// searched in strips.
+// Crowds on lanes or in a heap, with misses and clutter. Large ones are searched in strips.
 TEST(Tracker, AssignsAsThePlainWayDoes) {
   int assigned = 0;
   for (const int objects : {10, 60, 65, 150, 300}) {
