@@ -77,10 +77,11 @@ TEST(ResultsPages, NameExperimentsThatAreThere) {
     }
     for (const Command& command : page.commands) EXPECT_TRUE(named.contains(command.file)) << page.path;
   }
-  for (const auto& entry : fs::directory_iterator(kTop / "experiments"))
-    if (entry.path().extension() == ".yaml")
-      EXPECT_TRUE(named.contains("experiments/" + entry.path().filename().string()))
-          << entry.path() << " has no page of results";
+  for (const auto& entry : fs::directory_iterator(kTop / "experiments")) {
+    if (entry.path().extension() != ".yaml") continue;
+    EXPECT_TRUE(named.contains("experiments/" + entry.path().filename().string()))
+        << entry.path() << " has no page of results";
+  }
 }
 
 // A table comes from a command of its page, or of a page that it links to.
