@@ -54,10 +54,13 @@ void CanMedium::begin_bits(TrueTime now) {
   line_.align(now);
 }
 
-// Begins the plain way, or takes it up again where no bit was looked at for a while.
+// Begins the plain way, or takes it up again where no bit was looked at for a while: on an idle line, or on one that is
+// held.
 void CanMedium::wake(TrueTime now) {
-  if (!bits_) return begin_bits(std::max(now, idle_from_));
-  if (!resting_) return;
+  const TrueTime from = std::max(now, idle_from_);
+  if (!bits_) return begin_bits(from);
+  const Duration bit{1'000'000'000 / can().nominal_bit_rate + 1};
+  if (!resting_ && line_.next() <= from + bit) return;
   resting_ = false;
   line_.align(now);
 }
@@ -111,6 +114,7 @@ void CanMedium::went_by(TrueTime now) {
 }
 
 void CanMedium::end_bits(TrueTime now) {
+  if (bits_due_ == now) bits_due_ = {};                  // bits of other lengths may end in the same nanosecond
   if (!bits_ || resting_ || line_.next() > now) return;  // the event is out of date
   went_by(now);
   if (disturbance_ != nullptr) {
@@ -119,7 +123,6 @@ void CanMedium::end_bits(TrueTime now) {
       line_.set_acknowledging(m, !disturbed || disturbance_->acknowledges_on_can(bus_, members_[m].node));
   }
   const TrueTime held = this->held(now);
-  // The sender of a frame that is accepted now, as of before this bit.
   const auto& all = line_.step({held > now, inverted_, &inverted_for_});
   for (std::size_t m = 0; m < members_.size(); ++m) brought(m, all[m], now);
   for (std::size_t m = 0; m < members_.size(); ++m) report_state(m, now);
