@@ -15,7 +15,7 @@ class CanFault : public ActiveFault {
   using ActiveFault::ActiveFault;
 
   bool touches_can(std::size_t bus, TrueTime until) const override {
-    return bus == fault().can && from()<until&& this->until()> now();
+    return bus == fault().can && (from() < until) && (now() < this->until());
   }
 
  protected:
