@@ -11,7 +11,7 @@
 namespace ttf::bus::socketcan {
 
 // Returns an error frame's error, or the controller's new state, or both. Nothing for other frames, and for reports about
-// something else: a lost arbitration, the transceiver, an overflow, a warning.
+// something else: a lost arbitration, the transceiver, an overflow. A warning is of an error-active controller.
 std::optional<ports::CanReport> error_report_of(const canfd_frame& can);
 
 }  // namespace ttf::bus::socketcan
