@@ -113,6 +113,8 @@ constexpr std::array<Column, 6> kTruthColumns{{{"gt_x", -kFar, kFar, "m"},
 constexpr std::array<Column, 3> kScanColumns{
     {{"azimuth_rad", -kTurns, kTurns, "rad"}, {"range_m", 0, kFar, "m"}, {"intensity", 0, 1e9, ""}}};
 
+constexpr std::int64_t kLatest_us = 4'000'000'000'000'000;  // its nanoseconds fit the type
+
 // A row with its truth; both times are the file's own stamp until all rows are known.
 struct LaserRadarRow {
   RecordedObservation seen;
@@ -175,6 +177,8 @@ RecordedInput parse_laser_radar(const std::string& text, const std::string& name
     if (!table.numbers(all.subspan(1), seen_columns, seen)) return;
     const std::optional<std::int64_t> time = table.whole("t_us", fields[values + 1], " us");
     if (!time || !table.numbers(all.subspan(values + 2), kTruthColumns, truth)) return;
+    if (*time > kLatest_us)
+      return table.fail("t_us", fields[values + 1], fmt::format("must be at most {} us", kLatest_us));
 
     LaserRadarRow& row = rows.emplace_back();
     RecordedObservation& out = row.seen;
