@@ -112,7 +112,9 @@ void Identities::make_room(std::size_t count) {
 }
 
 void Identities::put_in_order() {
-  const auto precede = [](const Identity& a, const Identity& b) { return precedes(a.birth, b.birth); };
+  const auto precede = [](const Identity& a, const Identity& b) {
+    return a.birth != b.birth ? precedes(a.birth, b.birth) : a.number < b.number;
+  };
   if (!std::is_sorted(known_.begin(), known_.end(), precede)) std::sort(known_.begin(), known_.end(), precede);
 }
 

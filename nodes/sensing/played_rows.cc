@@ -154,7 +154,8 @@ class Player {
         ++played_.beyond;
         continue;
       }
-      if (r > 0 && stamp_of(rows_[r]) - stamp_of(rows_[r - 1]) < sensor_.period - playing_.tolerance)
+      if (r > 0 && stamp_of(rows_[r]) - stamp_of(rows_[r - 1]) <
+                       sensor_.period - std::min(playing_.tolerance, Duration{sensor_.period.ns / 2}))
         refuse(r, fmt::format("must be {} or more after the row before of {}, {}: {} is proved for this period",
                               milliseconds(sensor_.period), sensor_.name, stamp_text(stamp_of(rows_[r - 1])),
                               cluster_.file));
