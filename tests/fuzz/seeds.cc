@@ -266,7 +266,7 @@ void drawn_seeds(const fs::path& folder) {
     for (std::size_t at = 2; at < list.size(); at += 60) list[at] = static_cast<char>(list[at] | 1);
     write(folder / "list" / name, list);
     write(folder / "steps" / name, drawn_bytes(100 + i, 200 + 300 * (i % 6)));
-    write(folder / "window" / name, drawn_bytes(200 + i, 16));
+    write(folder / "window" / name, std::to_string(i * 0.125) + "\n" + std::to_string(i * i));
   }
   // Lists of the sensors, then every node's tasks in turn: the whole way.
   for (const char cluster : {'\0', '\1'})
