@@ -11,10 +11,22 @@ fail() {
 
 # expect CODE PATTERN ARGS...: checks the exit code, and a pattern in the output on either stream.
 expect() {
-  local code=$1 pattern=$2 output actual
+  local code=$1 pattern=$2 actual
   shift 2
-  output=$("$program" "$@" 2>&1)
+  asked=$* output=$("$program" "$@" 2>&1)
   actual=$?
-  [[ $actual -eq $code ]] || fail "$* exits with $actual, not $code: $output"
-  grep -Eq -- "$pattern" <<<"$output" || fail "$* does not say '$pattern': $output"
+  [[ $actual -eq $code ]] || fail "$asked exits with $actual, not $code: $output"
+  says "$pattern"
+}
+# expect_full ARGS...: to a full device it is an error, exit code 1, that nothing more can be written.
+expect_full() {
+  [[ -c /dev/full ]] || return 0
+  asked=$* output=$("$program" "$@" 2>&1 >/dev/full)
+  [[ $? -eq 1 ]] || fail "$asked to a full device does not exit with 1"
+  says '^error: .*No space left on device'
+}
+# says PATTERN...: checks patterns in the output of the last expect.
+says() {
+  local pattern
+  for pattern; do grep -Eq -- "$pattern" <<<"$output" || fail "$asked does not say '$pattern': $output"; done
 }

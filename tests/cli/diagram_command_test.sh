@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# `ttfusion diagram` and `report`: pictures of logs, whole and cut off.
+#   diagram_command_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$(dirname "$0")/expect.sh"
+
+expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --strategy tt --seed 3 --no-pictures --out "$work"
+expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --strategy adva --seed 3 --no-pictures --out "$work"
+
+expect 0 '^wrote .*/timing.pdf$' diagram "$work/tt.mcap" --from 1.5 --to 1.6 -o "$work/timing.pdf"
+expect 2 'command line: --from = 1e300: must be a decimal number 0..1000000000 s' \
+  diagram "$work/tt.mcap" --from 1e300 -o "$work/timing.pdf"
+expect 2 'must be after --from' diagram "$work/tt.mcap" --from 1.5 --to 1.5 -o "$work/timing.pdf"
+expect 0 '' diagram "$work/tt.mcap" "$work/adva.mcap" --kind plane -o "$work/plane.svg"
+expect 2 '--from = 50: must be before the end of the log' diagram "$work/tt.mcap" --from 50 -o "$work/none.svg"
+expect 2 'tt.mcap: has no lateness: the run was not in real time' \
+  diagram "$work/tt.mcap" --kind lateness -o "$work/none.svg"
+expect 2 '--to = 1.5: does not go with --kind lateness' \
+  diagram "$work/tt.mcap" --kind lateness --to 1.5 -o "$work/none.svg"
+expect 2 '--frame = 3: goes with --kind boxes' diagram "$work/tt.mcap" --frame 3 -o "$work/none.svg"
+head -c 100 "$work/tt.mcap" >"$work/empty.mcap"
+expect 2 'empty.mcap: holds only the beginning of a log: 100 bytes, no manifest, no record' \
+  diagram "$work/empty.mcap" -o "$work/none.svg"
+: >"$work/nothing.mcap"
+expect 2 '(is not a log|holds only the beginning of a log)' diagram "$work/nothing.mcap" -o "$work/none.svg"
+mkdir "$work/reported"
+cp "$work/tt.mcap" "$work/reported/"
+expect 2 '--out = .*tt.mcap: must end in .html' report "$work/reported" -o "$work/reported/./tt.mcap"
+ln "$work/reported/tt.mcap" "$work/reported.html"
+expect 2 '--out = .*.html: must be another file than the input' report "$work/reported" -o "$work/reported.html"
+cmp -s "$work/tt.mcap" "$work/reported/tt.mcap" || fail "a refused report changed its input"
+head -c 200000 "$work/tt.mcap" >"$work/cut.mcap"
+expect 0 'warning: .*cut.mcap' diagram "$work/cut.mcap" -o "$work/cut.svg"
+: >"$work/file"
+expect 1 'error: .*/file/x.svg: cannot be written' diagram "$work/tt.mcap" -o "$work/file/x.svg"
+mkdir "$work/picture.svg"
+expect 1 'error: .*/picture.svg: cannot be written' diagram "$work/tt.mcap" -o "$work/picture.svg"
+expect 2 'scenario|MCAP|mcap' diagram "$source/README.md" -o "$work/none.svg"
+
+[[ $failures -eq 0 ]] && echo "diagram command: all as documented"
+exit $((failures > 0))

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# `ttfusion export`: a log for other programs.
+#   export_command_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$(dirname "$0")/expect.sh"
+
+expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --strategy tt --seed 3 --no-pictures --out "$work"
+head -c 200000 "$work/tt.mcap" >"$work/cut.mcap"
+head -c 100 "$work/tt.mcap" >"$work/empty.mcap"
+: >"$work/nothing.mcap"
+: >"$work/file"
+
+expect 0 'Examples: ttfusion export' export --help
+expect 2 'pcapng' export "$work/tt.mcap" --format asc -o "$work/drive.asc"
+expect 2 'README.md' export "$source/README.md" --format csv -o "$work/drive.csv"
+expect 1 'absent/drive.csv: cannot be written' export "$work/tt.mcap" --format csv -o "$work/absent/drive.csv"
+expect 1 'error: .*/file/x.csv: cannot be written: Not a directory' export "$work/tt.mcap" --format csv -o "$work/file/x.csv"
+for file in empty nothing; do
+  expect 2 "error: .*$file.mcap: (is not a log|holds only the beginning of a log)" export "$work/$file.mcap" --format csv \
+    -o "$work/none.csv"
+  [[ -e $work/none.csv ]] && fail "an export of nothing leaves a file"
+done
+cp "$work/tt.mcap" "$work/itself.mcap"
+expect 2 '--out = .*itself.mcap: must be another file than the input' \
+  export "$work/itself.mcap" --format csv -o "$work/./itself.mcap"
+cmp -s "$work/tt.mcap" "$work/itself.mcap" || fail "a refused export changed its input"
+
+expect 0 '^wrote .*/drive.pcapng: [1-9][0-9]* FlexRay and [1-9][0-9]* CAN frames and 0 symbols' export "$work/tt.mcap" --format pcapng \
+  -o "$work/drive.pcapng"
+expect 0 '"can_frames": [1-9]' export "$work/tt.mcap" --format candump --json -o "$work/drive.log"
+grep -Evq '^\([0-9]{10}\.[0-9]{6}\) [a-z_]+ [0-9A-F]{3}#(#1)?([0-9A-F]{2})*$' "$work/drive.log" &&
+  fail "export --format candump leaves a line canplayer does not read"
+expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format csv -o "$work/drive.csv"
+grep -vq '^warning: \|^wrote ' <<<"$output" && fail "a line of a warning is not called one: $output"
+[[ $(head -1 "$work/drive.csv") == time_ns,bus,channel,* ]] || fail "export --format csv leaves no header"
+
+# A trace for Perfetto.
+expect 0 '"flows": [1-9]' export "$work/tt.mcap" --format perfetto --json -o "$work/drive.pftrace"
+expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format perfetto -o "$work/cut.pftrace"
+protoc --decode=ttfusion.perfetto.Trace -I "$source/recording/exports" "$source/recording/exports/perfetto.proto" \
+  <"$work/drive.pftrace" |
+  grep -q 'name: "age of the newest measurement when used \[ms\]"' || fail "export --format perfetto leaves no trace"
+# As other programs read it, by Perfetto's own numbers: valid, and complete by the export's own count.
+said=$(python3 "$source/tests/cli/perfetto_reader.py" "$work/drive.pftrace") || fail "drive.pftrace: $said"
+told=$("$program" export "$work/tt.mcap" --format perfetto --json -o "$work/drive.pftrace" 2>/dev/null |
+  python3 -c 'import json, sys; t = json.load(sys.stdin); print("%d slices, %d instants, %d counts, %d flows" %
+    (t["slices"], t["instants"], t["counter_values"], t["flows"]))')
+[[ $said == *" tracks, $told" ]] || fail "the trace has $said, the export says $told"
+cat "$work/drive.pftrace" "$work/drive.pftrace" >"$work/twice.pftrace"
+python3 "$source/tests/cli/perfetto_reader.py" "$work/twice.pftrace" >"$work/said" && fail "two traces in one are sound"
+python3 "$source/tests/cli/perfetto_reader.py" "$work/cut.pftrace" >"$work/said" || fail "cut.pftrace: $(cat "$work/said")"
+expect 1 'absent/x.pftrace: cannot be written' export "$work/tt.mcap" --format perfetto -o "$work/absent/x.pftrace"
+if [[ -c /dev/full ]]; then
+  expect 1 '/dev/full: cannot be written: No space left' export "$work/tt.mcap" --format perfetto -o /dev/full
+fi
+
+[[ $failures -eq 0 ]] && echo "export command: all as documented"
+exit $((failures > 0))

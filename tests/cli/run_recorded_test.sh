@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# `ttfusion run --input`: recorded observations, and mistakes in them.
+#   run_recorded_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$(dirname "$0")/expect.sh"
+
+printf 'L\t1.0\t0.1\t1000000\t1.0\t0.1\t5.0\t0.0\t0.0\t0.0\n' >"$work/short.txt"
+expect 2 'paper_scenario1.yaml: clusters = .*: takes no recording, so --input would be ignored' \
+  run "$source/scenarios/paper_scenario1.yaml" --input "$work/short.txt" --out "$work/none"
+[[ -e $work/none/buff.mcap ]] && fail "a refused recording leaves a log"
+# A car at 5 m/s, seen in turn: rows 50 ms and SECOND us apart, COUNT of them.
+rows() {
+  awk -v second="$1" -v count="$2" 'BEGIN {
+    at = 0
+    for (i = 0; i < count; ++i) {
+      x = 10 + 5e-6 * at
+      truth = sprintf("%d\t%.4f\t0\t5\t0\t0\t0", at, x)
+      printf i % 2 ? "R\t%.4f\t0\t5\t%s\n" : "L\t%.4f\t0\t%s\n", x, truth
+      at += i % 2 ? second : 50000
+    }
+  }'
+}
+recorded=(run "$source/scenarios/laser_radar_recorded.yaml" --strategy adva --no-pictures)
+rows 55000 100 >"$work/off.txt"
+expect 2 'off.txt:3: t_us = 105000: must be within 1 ms of an instant at which .*laser_radar.yaml has laser measure: every 100 ms' \
+  "${recorded[@]}" --input "$work/off.txt" --out "$work/none"
+[[ -e $work/none/adva.mcap ]] && fail "a recording off the schedule leaves a log"
+rows 50000 100 >"$work/five_seconds.txt"
+expect 0 'laser: 50 rows, 50 lists played' "${recorded[@]}" --input "$work/five_seconds.txt" --out "$work/r"
+says 'the recording ended at 4.95 s of 25 s'
+expect 0 '"ends_early": true' "${recorded[@]}" --input "$work/five_seconds.txt" --out "$work/r" --json
+recording=${TTF_RECORDINGS:-$source/../shared/data}/laser_radar/measurements.txt
+if [[ -r $recording ]]; then
+  expect 0 'position RMSE' run "$source/scenarios/laser_radar_recorded.yaml" --input "$recording" --out "$work/r" \
+    --no-pictures
+  sed '7s/[0-9]/x/' "$recording" >"$work/broken.txt"
+  expect 2 'broken.txt:7' run "$source/scenarios/laser_radar_recorded.yaml" --input "$work/broken.txt" --out "$work/r"
+else
+  echo "recorded input: skipped, there is no recording $recording;" \
+    "set TTF_RECORDINGS to the folder that holds laser_radar/measurements.txt"
+fi
+expect 2 '--input' run "$source/scenarios/laser_radar_recorded.yaml" --out "$work/r"
+
+[[ $failures -eq 0 ]] && echo "run recorded: all as documented"
+exit $((failures > 0))

@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# `ttfusion schedule check` and `show`: a cluster by itself, and on CAN FD.
+#   schedule_command_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$(dirname "$0")/expect.sh"
+source "$(dirname "$0")/shipped.sh"
+
+schedule=$source/schedules/paper_synchronised.yaml
+cluster=$work/schedules/broken.yaml
+mutate schedules/paper_synchronised.yaml 's/gdNIT: [0-9]*/gdNIT: 100/' "$cluster"
+"$program" schedule check "$cluster" --json 2>"$work/words" >"$work/check.json"
+[[ $? -eq 2 ]] || fail "an inconsistent cluster as JSON does not exit with 2"
+grep -q '^error: .*broken.yaml:[0-9]*: .*gdNIT' "$work/words" || fail "an inconsistent cluster as JSON has no words"
+python3 - "$work/check.json" <<'PY' || fail "an inconsistent cluster is no JSON"
+import json, sys
+check = json.load(open(sys.argv[1]))
+assert check["consistent"] is False and check["findings"], check
+assert all(f["line"] > 0 and f["file"].endswith("broken.yaml") and f["text"].endswith(f["expected"]) for f in check["findings"]), check
+PY
+expect 0 'consistent' schedule check "$schedule"
+mutate schedules/paper_synchronised.yaml 's/gdNIT: 386/gdNIT: 900/' "$cluster"
+expect 2 'broken.yaml:[0-9]+: flexray.gdNIT = 900: .*2..805' schedule check "$cluster"
+mutate schedules/paper_synchronised.yaml 's/gdNIT: 386/gdNIT: 380/' "$cluster"
+expect 2 'gdNIT|gMacroPerCycle' schedule check "$cluster"
+mutate schedules/paper_synchronised.yaml 's/step: laser_preprocessing/step: lazer_preprocessing/' "$cluster"
+expect 2 'lazer_preprocessing' schedule check "$cluster"
+expect 0 'laser_objects' schedule show "$schedule"
+expect 0 '^wrote .*/schedule.svg$' schedule show "$schedule" -o "$work/schedule.svg"
+[[ -s $work/schedule.svg ]] || fail "schedule show -o writes no picture"
+mutate schedules/paper_unsynchronised.yaml 's/fragment_bytes: 8$/fragment_bytes: 12/' "$cluster"
+expect 2 \
+  'broken.yaml:[0-9]+: can.camera_can.messages\[0\] = 12 bytes: must fit a frame of this CAN, at most 8 bytes' \
+  schedule show "$cluster"
+expect 2 'png' schedule show "$schedule" -o "$work/schedule.bmp"
+: >"$work/file"
+expect 1 'error: .*/file/x.svg: cannot be written' schedule show "$schedule" -o "$work/file/x.svg"
+expect_full schedule show "$schedule"
+
+# On real CAN FD: the failing rules, and the time scale at which all hold.
+expect 1 'paper_synchronised on can-fd:1M/5M at time scale 1: 34 of 34 slots do not hold' schedule check "$schedule" \
+  --medium can-fd:1M/5M
+says '^ +1-5  AB +2 +232.2 +84.0$'
+expect 1 '^smallest time scale at which all hold: 2.764286$' schedule check "$schedule" --medium can-fd:1000k/5000000
+expect 0 'at time scale 2.764286: all 34 slots hold$' schedule check "$schedule" --medium can-fd:1M/5M \
+  --time-scale 2.764286
+expect 1 'at time scale 2.764285: 5 of 34 slots do not hold$' schedule check "$schedule" --medium can-fd:1M/5M \
+  --time-scale 2.764285
+expect 1 '^ +21-24  AB +1 +168.6 +84.0  dynamic$' schedule check "$source/schedules/flexray_demo.yaml" \
+  --medium can-fd:1M/5M
+mutate schedules/paper_synchronised.yaml 's/late: 500 us/late: 168599 ns/' "$cluster"
+expect 1 '^every frame of 168.6 us comes too late: real_time.late is 168.599 us' schedule check "$cluster" \
+  --medium can-fd:1M/5M --time-scale 3
+expect 0 'all 34 slots hold' schedule check "$schedule" --medium can-fd:1M/5M \
+  --time-scale 3
+"$program" schedule check "$source/schedules/flexray_demo.yaml" --medium can-fd:0.5M/8M --time-scale 2.5 \
+  --json >"$work/medium.json"
+[[ $? -eq 1 ]] || fail "slots that do not hold, as JSON, do not exit with 1"
+python3 - "$work/medium.json" <<'PY' || fail "slots that do not hold are no JSON"
+import json, sys
+check = json.load(open(sys.argv[1]))
+assert check["holds"] is False and check["time_scale"] == 2.5 and check["smallest_time_scale"] == 4.3175, check
+assert (check["nominal_bit_rate"], check["data_bit_rate"], check["slots"]) == (500000, 8000000, 14), check
+static = [slot for slot in check["not_holding"] if slot["segment"] == "static"]
+assert [slot["slot"] for slot in static] == list(range(1, 11)), static
+assert static[0] == {"slot": 1, "segment": "static", "channels": "AB", "can_frames": 2, "needs_us": 215.875, "has_us": 125.0}, static
+assert check["late_us"] is None and check["window_holds"] is True, check
+PY
+for medium in "" can-fd can-fd: can-fd:1M can-fd:1M/ can-fd:/5M can-fd:2M/5M can-fd:1M/8000001 can-fd:1M/0.9M \
+  can-fd:9999/1M can-fd:1m/5M can-fd:1M/5M/2M dds vcan0; do
+  expect 2 "--medium( = .*)?: must be can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M" schedule check "$schedule" \
+    --medium "$medium"
+done
+expect 2 '--medium = can:1M: must be can-fd: a frame of classic CAN holds 8 bytes' schedule check "$schedule" \
+  --medium can:1M
+expect 2 '--time-scale = 0.05: must be a decimal number 0.1..1000' schedule check "$schedule" --medium can-fd:1M/5M \
+  --time-scale 0.05
+expect 2 '--time-scale: goes with --medium only' schedule check "$schedule" --time-scale 2
+expect 2 '--against: must not be given with --medium' \
+  schedule check "$schedule" --medium can-fd:1M/5M --against "$work/drive.pcapng"
+expect 0 'schedule check .* --medium can-fd:1M/5M --time-scale 3' schedule check --help
+
+[[ $failures -eq 0 ]] && echo "schedule command: all as documented"
+exit $((failures > 0))
