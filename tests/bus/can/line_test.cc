@@ -11,25 +11,12 @@
 #include "bus/wire/can_timing.h"
 #include "core/random.h"
 #include "tests/bus/can/by_hand.h"
+#include "tests/bus/can_buses.h"
 
 namespace ttf::bus::can {
 namespace {
 
 using Phase = Protocol::Phase;
-
-schedules::model::CanBus classic() {
-  schedules::model::CanBus bus;
-  bus.name = "classic";
-  bus.nominal_bit_rate = bus.data_bit_rate = 1'000'000;
-  return bus;
-}
-schedules::model::CanBus fast() {
-  schedules::model::CanBus bus = classic();
-  bus.name = "fast";
-  bus.flexible_data_rate = true;
-  bus.data_bit_rate = 5'000'000;
-  return bus;
-}
 
 // A controller's doings, by the bit (from the start of the first frame) at whose end they come.
 struct Done {

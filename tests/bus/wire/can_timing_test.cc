@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "schedules/analysis/can_load.h"
+#include "tests/bus/can_buses.h"
 
 namespace ttf::bus::wire {
 namespace {
@@ -15,21 +16,6 @@ namespace {
 // Durations go from the start of frame to the end of the three intermission bits. Published lengths without
 // intermission are three bits shorter: 108 instead of 111 unstuffed bits for 8 bytes, 132 instead of 135 in
 // the worst case.
-
-schedules::model::CanBus classic() {
-  schedules::model::CanBus bus;
-  bus.name = "classic";
-  bus.nominal_bit_rate = bus.data_bit_rate = 1'000'000;
-  return bus;
-}
-
-schedules::model::CanBus fast() {
-  schedules::model::CanBus bus = classic();
-  bus.name = "fast";
-  bus.flexible_data_rate = true;
-  bus.data_bit_rate = 5'000'000;
-  return bus;
-}
 
 constexpr int kFdLengths[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
 
