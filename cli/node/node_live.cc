@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bus/can/confinement.h"
 #include "cli/drive/drive_setup.h"
 #include "cli/live_media/dds_configuration.h"
 #include "cli/live_media/live_media.h"
@@ -48,6 +49,10 @@ nlohmann::ordered_json health_json(const Health& health) {
   if (!health.state.empty()) {
     json["sync_precision_us"] = in_us(health.largest_offset);
     json["state"] = health.state;
+  }
+  if (health.can_state) {
+    json["can_errors"] = health.can_errors;
+    json["can_state"] = bus::can::text(static_cast<bus::can::ErrorState>(*health.can_state));
   }
   json["late_frames"] = health.timing.late_frames;
   json["early_frames"] = health.timing.early_frames;

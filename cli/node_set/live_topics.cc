@@ -4,6 +4,9 @@
 
 #include <array>
 #include <chrono>
+#include <string>
+
+#include "bus/can/confinement.h"
 
 namespace ttf::cli::node_set {
 namespace {
@@ -90,9 +93,12 @@ void LiveTopics::health(const nodes::runner::Health& health, TrueTime at) {
                                                         {"wake-up lateness max [us]", values[6]},
                                                         {"largest offset correction [us]", values[7]}}};
   const bool off_flexray = health.state.empty();
-  const bool good = off_flexray || health.state == "normal active";
-  publisher_.health({at, good ? bus::dds::ros::HealthLevel::kOk : bus::dds::ros::HealthLevel::kWarn, name_,
-                     off_flexray ? "running" : health.state, told});
+  const auto can = static_cast<bus::can::ErrorState>(health.can_state.value_or(recording::records::kCanErrorActive));
+  std::string words(off_flexray ? "running" : health.state);
+  if (can != bus::can::ErrorState::kActive) words += fmt::format(", CAN {}", bus::can::text(can));
+  const bool good = (off_flexray || health.state == "normal active") && can == bus::can::ErrorState::kActive;
+  publisher_.health(
+      {at, good ? bus::dds::ros::HealthLevel::kOk : bus::dds::ros::HealthLevel::kWarn, name_, words, told});
 }
 
 }  // namespace ttf::cli::node_set

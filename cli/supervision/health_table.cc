@@ -59,6 +59,14 @@ class Reader {
 std::string count_cell(const std::optional<std::uint64_t>& value) { return value ? fmt::to_string(*value) : "-"; }
 std::string us_cell(const std::optional<double>& value) { return value ? report::drawing::cell(*value, 1) : "-"; }
 
+// "running, normal active, CAN bus off"
+std::string state_cell(const std::string& process, const NodeHealth& health) {
+  std::string words = process;
+  if (!health.state.empty()) words += ", " + printable(health.state);
+  if (!health.can_state.empty() && health.can_state != "error active") words += ", CAN " + printable(health.can_state);
+  return words;
+}
+
 nlohmann::ordered_json or_null(const auto& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
@@ -77,6 +85,7 @@ std::optional<std::string> HealthTable::update(std::size_t node, const Json& hea
   reader.number("sync_precision_us", next.sync_precision_us);
   reader.count("drops", next.drops);
   reader.word("state", next.state);
+  reader.word("can_state", next.can_state);
   if (reader.wrong()) return reader.wrong();
   if (const Json* const given = reader.find("lateness_us")) {
     Reader lateness(*given, "health.lateness_us");
@@ -110,8 +119,7 @@ std::string HealthTable::text() const {
     const NodeHealth& h = row.health;
     table.add({printable(row.name), count_cell(h.missed_slots), count_cell(h.late_wakeups), us_cell(h.lateness_p50_us),
                us_cell(h.lateness_p99_us), us_cell(h.lateness_max_us), us_cell(h.sync_precision_us),
-               count_cell(h.drops),
-               h.state.empty() ? row.process : fmt::format("{}, {}", row.process, printable(h.state))});
+               count_cell(h.drops), state_cell(row.process, h)});
   }
   return table.text();
 }

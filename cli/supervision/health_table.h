@@ -22,7 +22,8 @@ struct NodeHealth {
   // Frames lost or without room in its medium, and frames without room in its process; each counts once. A
   // mere gap does not count: its sender may have withheld the frame.
   std::optional<std::uint64_t> drops;
-  std::string state;  // in the node's own words: "normal active"
+  std::string state;      // in the node's own words: "normal active"
+  std::string can_state;  // the worst of its controllers on private CANs: "bus off"; empty before their first report
 };
 
 class HealthTable {
@@ -30,7 +31,7 @@ class HealthTable {
   explicit HealthTable(const std::vector<std::string>& nodes);
 
   // Takes the facts of {"health": {...}}: any of missed_slots, late_wakeups, lateness_us {p50, p99, max},
-  // sync_precision_us, drops, state. Missing facts keep their values. A message with an error is rejected
+  // sync_precision_us, drops, state, can_state. Missing facts keep their values. A message with an error is rejected
   // whole, and the error returned. Unknown keys appear only in the JSON form.
   std::optional<std::string> update(std::size_t node, const nlohmann::json& health);
 

@@ -152,9 +152,12 @@ void Runner::tell_errors(const bus::ports::LiveArrival& arrival) {
   const bus::ports::CanReport& report = arrival.report;
   const auto can_bus = static_cast<std::uint8_t>(arrival.can_bus);
   const recording::records::Stamp stamp = executive_->stamp(ticks(config_.clock.drive_time(arrival.at)));
-  if (report.error != 0)
+  can_reported_ = true;
+  if (report.error != 0) {
+    ++can_errors_;
     watch_->out->on(recording::records::CanErrorFrame{stamp, can_bus, report.error, report.as_transmitter,
                                                       report.transmit_errors, report.receive_errors});
+  }
   std::uint8_t& state = can_states_[arrival.can_bus];
   if (!report.state || *report.state == state) return;
   watch_->out->on(recording::records::CanStateChanged{stamp, can_bus, state, *report.state, report.transmit_errors,
@@ -294,6 +297,8 @@ Health Runner::health() const {
   health.wakeup_longest = account_.wake_ups.longest();
   health.largest_offset = in_real(Microticks{watch_->largest});
   if (const auto* controller = executive_->controller()) health.state = bus::poc::to_text(controller->state().kind);
+  health.can_errors = can_errors_;
+  if (can_reported_) health.can_state = *std::max_element(can_states_.begin(), can_states_.end());
   return health;
 }
 

@@ -61,6 +61,10 @@ struct Health {
   Duration wakeup_p50{}, wakeup_p99{}, wakeup_longest{};
   Duration largest_offset{};  // the largest correction by clock synchronisation, either sign
   std::string_view state;     // the controller's; empty off FlexRay
+  // Its interfaces to private CANs report error frames, and their controllers' states (recording::records::kCanBusOff and so
+  // on). The worst present state is unknown before the first report.
+  std::uint64_t can_errors = 0;
+  std::optional<std::uint8_t> can_state;
 
   // Counts each frame once that this process or its medium knows to be lost. timing.frames_lost counts gaps:
   // some of those may be the same frames, others were withheld by their senders.
@@ -130,8 +134,10 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   TimingAccount account_;
   ArrivalWindow arrival_window_;
   LiveFlexRay flexray_;
-  std::vector<std::unique_ptr<PacedCan>> cans_;         // by CAN, null where the node is not on it
-  std::vector<std::uint8_t> can_states_;                // by CAN: of the own controller, as its interface reports it
+  std::vector<std::unique_ptr<PacedCan>> cans_;  // by CAN, null where the node is not on it
+  std::vector<std::uint8_t> can_states_;         // by CAN: of the own controller, as its interface reports it
+  std::uint64_t can_errors_ = 0;
+  bool can_reported_ = false;
   std::vector<std::optional<std::size_t>> sensor_can_;  // by sensor, the CAN of its lines
   std::unique_ptr<host::Executive> executive_;
   bus::ports::MachineTime powered_on_{std::numeric_limits<std::int64_t>::min()};

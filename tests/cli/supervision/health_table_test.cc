@@ -30,6 +30,19 @@ TEST(HealthTable, ShowsWhatIsKnownAndADashForTheRest) {
       "normal active\n");
 }
 
+TEST(HealthTable, NamesTheStateOfACanInTrouble) {
+  HealthTable table({"laser"});
+  table.set_process(0, "running");
+  const auto says = [&](const char* words) { return table.text().ends_with(std::string("-  ") + words + "\n"); };
+  EXPECT_EQ(table.update(0, {{"can_errors", 0}, {"can_state", "error active"}}), std::nullopt);
+  EXPECT_TRUE(says("running")) << table.text();
+  EXPECT_EQ(table.update(0, {{"can_errors", 3}, {"can_state", "bus off"}}), std::nullopt);
+  EXPECT_TRUE(says("running, CAN bus off")) << table.text();
+  EXPECT_EQ(table.update(0, {{"state", "normal active"}}), std::nullopt);
+  EXPECT_TRUE(says("running, normal active, CAN bus off")) << table.text();
+  EXPECT_EQ(table.json()[0]["said"]["can_errors"], 3);
+}
+
 TEST(HealthTable, KeepsWhatAMessageDoesNotSay) {
   HealthTable table({"fusion"});
   EXPECT_EQ(table.update(0, {{"drops", 4}, {"lateness_us", {{"p50", 1.0}}}}), std::nullopt);

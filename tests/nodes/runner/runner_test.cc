@@ -222,6 +222,8 @@ TEST_F(RunnerTest, ReportsOfItsInterfaceAreRecords) {
   ASSERT_EQ(laser.out.can_states.size(), 1u);
   EXPECT_EQ(laser.out.can_states[0].from, kCanErrorActive);
   EXPECT_EQ(laser.out.can_states[0].to, kCanErrorPassive);
+  EXPECT_EQ(laser.health.can_errors, 1u);
+  EXPECT_EQ(laser.health.can_state, kCanErrorPassive);
 }
 
 TEST_F(RunnerTest, ALineIsKnownByItsForm) {
