@@ -138,24 +138,6 @@ TEST(FaultCampaign, WeightsSayHowManyOfWhichClass) {
   EXPECT_NEAR(crashes, 3000, 150);
 }
 
-TEST(FaultCampaign, TheSameForAnyNumberOfWorkersAndForShardsPutTogether) {
-  const CampaignFile campaign = small_campaign(120);
-  const CampaignClusters clusters(campaign);
-  const std::string one = campaign_csv(campaign, clusters, run(campaign, clusters, 1));
-  EXPECT_EQ(one, campaign_csv(campaign, clusters, run(campaign, clusters, 2)));
-  EXPECT_EQ(one, campaign_csv(campaign, clusters, run(campaign, clusters, 8)));
-  std::vector<std::vector<FaultResult>> shards;
-  for (std::uint32_t part = 0; part < 3; ++part) {
-    const std::string text = campaign_csv(campaign, clusters, run(campaign, clusters, 2, {part, 3}));
-    shards.push_back(read_campaign_csv(campaign, clusters, text, "shard"));
-  }
-  EXPECT_EQ(one, campaign_csv(campaign, clusters, merged(campaign, shards)));
-  shards.pop_back();
-  EXPECT_THROW(merged(campaign, shards), InputError);
-  shards.push_back(shards.front());
-  EXPECT_THROW(merged(campaign, shards), InputError);
-}
-
 TEST(FaultCampaign, ResultsOfAnotherCampaignAreRefused) {
   const CampaignFile campaign = small_campaign(6);
   const CampaignClusters clusters(campaign);

@@ -3,40 +3,33 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
-#include <filesystem>
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <optional>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "experiments/sweep/answer.h"
+#include "core/file_bytes.h"
 #include "experiments/sweep/text.h"
 #include "tests/experiments/sweep/small_sweep.h"
+#include "tests/experiments/sweep/store_folder.h"
 #include "tests/support/full_disk.h"
 
 namespace ttf::experiments::sweep {
 namespace {
 
-class SweepEngine : public testing::Test {
+class SweepEngine : public StoreFolder {
  protected:
-  SweepEngine() : folder_((std::filesystem::temp_directory_path() / "ttfusion_sweep_XXXXXX").string()) {
-    if (mkdtemp(folder_.data()) == nullptr) throw std::runtime_error("no folder");
-  }
-  ~SweepEngine() override { std::filesystem::remove_all(folder_); }
-
-  results::Store store(const SweepDrives& drives, const std::string& name) const {
-    return results::Store::create(folder_ + "/" + name, {"small", drives.identity(), "1", "", drives.columns()});
-  }
   // The store's contents as text after all drives.
   std::string driven(const SweepDrives& drives, const std::string& name, unsigned workers) const {
     results::Store fresh = store(drives, name);
     run_sweep(drives, fresh, {}, workers, [](const SweepProgress&) {});
     return runs_csv(drives.sweep(), fresh);
   }
-  std::string folder_;
 };
 
 TEST_F(SweepEngine, TheSameForAnyNumberOfWorkers) {
@@ -46,6 +39,27 @@ TEST_F(SweepEngine, TheSameForAnyNumberOfWorkers) {
   EXPECT_EQ(std::count(one.begin(), one.end(), '\n'), 1 + 2 * 2 * 5);
   EXPECT_EQ(driven(drives, "2", 2), one);
   EXPECT_EQ(driven(drives, "8", 8), one);
+}
+
+// Workers meet in all that trackers share.
+TEST_F(SweepEngine, TheSameWithEveryTrackerForAnyNumberOfWorkers) {
+  std::string scenario = read_file(TTF_SOURCE_DIR "/scenarios/dynamics.yaml");  // an axis varies written keys only
+  scenario += "  motion: constant_velocity\n  filter: extended\n  systematic: ignore\n  association: nearest\n";
+  std::ofstream(path("trackers.yaml")) << std::regex_replace(scenario, std::regex("\\.\\./"), TTF_SOURCE_DIR "/");
+  std::string text = std::regex_replace(sweep_text(1), std::regex("\\.\\./.*yaml"), path("trackers.yaml"));
+  text.insert(text.find("measures:"),
+              "  tracker:\n"
+              "    settings:\n"
+              "      turning: {tracker.motion: ctrv, tracker.filter: unscented}\n"
+              "      interacting: {tracker.motion: interacting}\n"
+              "      considering: {tracker.systematic: consider}\n"
+              "      joint: {tracker.association: jpda}\n");
+  const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
+  const SweepDrives drives(sweep);
+  const std::string one = driven(drives, "1", 1);
+  const std::regex driven_run(",done,");
+  EXPECT_EQ(std::distance(std::sregex_iterator(one.begin(), one.end(), driven_run), {}), 2 * 4 * 2);
+  EXPECT_EQ(driven(drives, "4", 4), one);
 }
 
 // Clocks are compared only where their precision is asked for; nothing else changes.
@@ -78,7 +92,7 @@ class OneElsewhere final : public Elsewhere {
 };
 
 TEST_F(SweepEngine, TheSameWhereOthersDriveToo) {
-  const SweepFile sweep = small_sweep(40);
+  const SweepFile sweep = small_sweep(20);
   const SweepDrives drives(sweep);
   const std::string alone = driven(drives, "alone", 2);
   results::Store shared = store(drives, "shared");
@@ -87,7 +101,7 @@ TEST_F(SweepEngine, TheSameWhereOthersDriveToo) {
       drives, shared, {}, 1, [](const SweepProgress&) {}, &other);
   EXPECT_EQ(runs_csv(sweep, shared), alone);
   EXPECT_GT(other.driven, 0u);
-  EXPECT_LT(other.driven, 160u);
+  EXPECT_LT(other.driven, 80u);
 }
 
 TEST_F(SweepEngine, ShardsPutTogetherAreTheWhole) {
@@ -173,110 +187,6 @@ TEST_F(SweepEngine, AFullDiskEndsItAndLosesNothing) {
   run_sweep(drives, some, {}, 2, [&](const SweepProgress& now) { last = now; });
   EXPECT_EQ(last.driven, 12u);
   EXPECT_EQ(runs_csv(sweep, some), whole);
-}
-
-// ---- evaluation of made-up rows
-
-results::Row made_up(std::uint32_t point, std::uint32_t replication, std::uint32_t paradigm, double rmse) {
-  return {{point, replication, paradigm}, results::kDone, {rmse, 10.0}};
-}
-
-TEST_F(SweepEngine, DifferencesArePaired) {
-  const SweepFile sweep =
-      small_sweep(4,
-                  "expect: [{measure: position_rmse_truth, less: tt, than: adva, where: {noise: 40}}, "
-                  "{measure: position_rmse_truth, less: tt, than: adva}]\n");
-  const SweepDrives drives(sweep);
-  results::Store made = store(drives, "made");
-  // Both vary by far more than they differ by.
-  const double common[] = {1.0, 5.0, 2.0, 9.0};
-  for (std::uint32_t r = 0; r < 4; ++r)
-    made.add({made_up(0, r, 0, common[r]), made_up(0, r, 1, common[r] + 0.3 + 0.01 * r), made_up(1, r, 0, common[r]),
-              made_up(1, r, 1, common[r] - 0.1 - 0.01 * r)});
-  const SweepAnswer answer = answer_of(sweep, made);
-  ASSERT_EQ(answer.points.size(), 2u);
-  const results::Interval& before = answer.points[0].differences[1][0];
-  EXPECT_NEAR(before.mean, 0.315, 1e-12);
-  EXPECT_NEAR(before.half_width, 3.1824 * std::sqrt(0.0005 / 3.0) / 2.0, 1e-6);  // Student's t of 3 degrees
-  EXPECT_GT(answer.points[0].means[1][0].half_width, 1.0);
-  EXPECT_EQ(answer.points[0].differences[0][0].count, 0u) << "of the baseline from itself";
-  ASSERT_EQ(answer.crossings.size(), 1u);
-  EXPECT_NEAR(answer.crossings[0].at, 1.0 + 39.0 * 0.315 / (0.315 + 0.115), 1e-9);
-  EXPECT_TRUE(answer.crossings[0].certain);
-  ASSERT_EQ(answer.expectations.size(), 2u);
-  EXPECT_TRUE(answer.expectations[0].holds);
-  EXPECT_FALSE(answer.expectations[1].holds);
-  EXPECT_THAT(answer.expectations[1].where_not, testing::ElementsAre("noise 1"));
-  EXPECT_FALSE(answer.holds());
-  const std::string text = answer_text(sweep, answer);
-  EXPECT_THAT(text, testing::HasSubstr(
-                        "position_rmse_truth of tt is less than that of adva at 1 point, more at 1, undecided at 0."));
-  EXPECT_THAT(text, testing::HasSubstr("They cross at noise 29.57."));
-}
-
-TEST_F(SweepEngine, MeasuresMayAgree) {
-  const SweepFile sweep = small_sweep(3,
-                                      "expect: [{measure: position_rmse_truth, agrees: age_fused, of: adva}, "
-                                      "{measure: age_fused, agrees: position_rmse_truth, of: tt, "
-                                      "where: {noise: 1}}, "
-                                      "{measure: age_fused, agrees: position_rmse_truth, of: tt}]\n");
-  const SweepDrives drives(sweep);
-  results::Store made = store(drives, "made");
-  for (std::uint32_t point = 0; point < 2; ++point)
-    for (std::uint32_t r = 0; r < 3; ++r) {
-      const double off = 0.1 * (static_cast<double>(r) - 1.0);  // not on the average
-      made.add({{{point, r, 0}, results::kDone, {5.0 + r, 5.0 + r + off}},
-                {{point, r, 1}, results::kDone, {5.0 + r, 5.0 + r + off + (point == 1 ? 1.0 : 0.0)}}});
-    }
-  const SweepAnswer answer = answer_of(sweep, made);
-  ASSERT_EQ(answer.expectations.size(), 3u);
-  EXPECT_TRUE(answer.expectations[0].holds);
-  EXPECT_TRUE(answer.expectations[1].holds);
-  EXPECT_FALSE(answer.expectations[2].holds);
-  EXPECT_THAT(answer.expectations[2].where_not, testing::ElementsAre("noise 40"));
-  EXPECT_EQ(answer.expectations[0].text, "position_rmse_truth of adva agrees with age_fused");
-}
-
-// At an exact tie, the sides differ by the points behind it.
-TEST_F(SweepEngine, ACrossingMayBeAtAPoint) {
-  std::string text = sweep_text(3);
-  text.replace(text.find("[1, 40]"), 7, "[1, 20, 40]");
-  const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
-  const SweepDrives drives(sweep);
-  const auto crossings = [&](const std::string& name, std::array<double, 3> differences) {
-    results::Store made = store(drives, name);
-    for (std::uint32_t point = 0; point < 3; ++point)
-      for (std::uint32_t r = 0; r < 3; ++r)
-        made.add({made_up(point, r, 0, 1.0), made_up(point, r, 1, 1.0 + differences[point] * (1.0 + 0.01 * r))});
-    return answer_of(sweep, made).crossings;
-  };
-  const std::vector<Crossing> through = crossings("through", {-1.0, 0.0, 1.0});
-  ASSERT_EQ(through.size(), 1u);
-  EXPECT_EQ(through[0].at, 20.0);
-  EXPECT_EQ(through[0].before, 0u);
-  EXPECT_EQ(through[0].after, 2u);
-  EXPECT_TRUE(through[0].certain);
-  EXPECT_TRUE(crossings("touched", {1.0, 0.0, 1.0}).empty());
-  EXPECT_TRUE(crossings("left", {0.0, 0.0, 1.0}).empty());
-  EXPECT_TRUE(crossings("met", {1.0, 0.0, 0.0}).empty());
-}
-
-// A failed drive is a row, and only removes its pair from the differences.
-TEST_F(SweepEngine, AFailedRunIsARow) {
-  const SweepFile sweep = small_sweep(3);
-  const SweepDrives drives(sweep);
-  results::Store failing = store(drives, "failing");
-  failing.add({made_up(0, 0, 0, 1.0),
-               made_up(0, 1, 0, 2.0),
-               made_up(0, 2, 0, 3.0),
-               made_up(0, 0, 1, 2.0),
-               {{0, 1, 1}, "out of luck", {std::nan(""), std::nan("")}},
-               made_up(0, 2, 1, 4.0)});
-  const SweepAnswer answer = answer_of(sweep, failing);
-  EXPECT_EQ(answer.failed, 1u);
-  EXPECT_EQ(answer.points[0].differences[1][0].count, 2u);
-  EXPECT_EQ(answer.points[0].means[0][0].count, 3u);
-  EXPECT_THAT(runs_csv(sweep, failing), testing::HasSubstr("0,1,1,tt,out of luck,,\n"));
 }
 
 }  // namespace
