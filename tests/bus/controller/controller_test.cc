@@ -110,6 +110,7 @@ TEST(ControllerSends, AListWrittenAtTheActionPointOfItsFirstSlotStillGoesOut) {
   MadeList list(node.cluster.pdus[0], 6, 10, 0);
   node.controller.outgoing(kList).write(list.view());
   node.run_to(0, 84 * 5);
+  ASSERT_FALSE(node.heard.sent.empty());
   EXPECT_EQ(node.heard.sent.back().sequence, 6u);
   EXPECT_FALSE(node.heard.sent.back().null_frame);
 }

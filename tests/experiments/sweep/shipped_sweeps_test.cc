@@ -66,19 +66,24 @@ TEST(ShippedSweeps, TheErrorOfAWholeClusterIsTheExpectedOne) {
   }
 }
 
-// A returning fusion node has forgotten everything, and may count its time anew: so has the expectation.
+// A returning fusion node has forgotten everything, and may count its time anew: so has the expectation. The node is away
+// until 1 s. Then the filter settles within 0.8 s (scenarios/twin_cameras.yaml), from the error of one look: the mean is
+// at most halfway between that error and the settled one.
 TEST(ShippedSweeps, WhatIsToBeExpectedSurvivesACrashOfTheFusionNode) {
   SweepFile sweep = load_sweep(kFolder + "schedule_phases.yaml");
   const SweepDrives drives(sweep);
+  const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), "position_mse_expected");
+  const auto expected = static_cast<std::size_t>(found - sweep.measures.begin());
+  const results::Row settled = drives.run({0, 0, 2});
   PreparedDrive drive = drives.prepare({0, 0, 2});
   std::string text = drive.scenario.text + "faults:\n  - {kind: crash, node: fusion, from: 700 ms, duration: 300 ms}\n";
   drive.scenario = drives::parse_scenario(std::move(text), sweep.scenario_file);
-  const results::Row row = drives.run({0, 0, 2}, drive);
-  ASSERT_EQ(row.status, results::kDone);
-  const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), "position_mse_expected");
-  const double expected = row.values[static_cast<std::size_t>(found - sweep.measures.begin())];
-  EXPECT_GT(expected, 0.0);
-  EXPECT_LT(expected, 10.0);
+  const results::Row crashed = drives.run({0, 0, 2}, drive);
+  ASSERT_EQ(settled.status, results::kDone);
+  ASSERT_EQ(crashed.status, results::kDone);
+  constexpr double kOneLook = 2.0 * 0.2 * 0.2;  // [m^2]
+  EXPECT_GT(crashed.values[expected], 1.2 * settled.values[expected]) << "it has forgotten something";
+  EXPECT_LT(crashed.values[expected], 0.5 * (settled.values[expected] + kOneLook));
 }
 
 }  // namespace

@@ -167,6 +167,23 @@ TEST(MachineryFaults, RogueStartupFramesDisturbStartUp) {
   EXPECT_EQ(bus.acts(), 2U * 8);
 }
 
+// Nodes 0 and 2 follow rogue frames as long as there are any, and start by them, later than among themselves. Where the
+// frames end too soon, they have to begin anew.
+TEST(MachineryFaults, RogueStartupFramesDelayStartUp) {
+  const auto rogue = [](int cycles) {
+    ttf::faults::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 1, 0, cycles);
+    fault.duplicate = DuplicateMode::kStartupFrames;
+    fault.from = Duration::milliseconds(2);
+    return fault;
+  };
+  const int undisturbed = started(with({}), 400);
+  const int disturbed = started(with({rogue(60)}), 400), given_up = started(with({rogue(2)}), 400);
+  ASSERT_GT(undisturbed, 0);
+  EXPECT_GT(disturbed, undisturbed);
+  EXPECT_LT(disturbed, 5 * 60) << "while the fault lasts";
+  EXPECT_GT(given_up, disturbed);
+}
+
 TEST(MachineryFaults, TwoNodesWithOneKeySlotCollide) {
   ttf::faults::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 1, 0);
   fault.duplicate = DuplicateMode::kSameKeySlot;
