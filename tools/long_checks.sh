@@ -13,10 +13,8 @@ clang_warnings() {                                                     # everyth
   cmake --build build/clang --target all benchmarks slow_tests
 }
 sanitizers() { tools/sanitize.sh --slow; }                             # slow tests, and those by the wall clock
-threads() {                                                            # the thread sanitizer
-  local tests=(test_sweep test_experiments test_runner test_recording test_dds test_dds_live)
-  tools/build.sh tsan --target "${tests[@]}"
-  ctest --test-dir build/tsan --output-on-failure -R "^($(IFS='|'; echo "${tests[*]}"))$" --repeat until-pass:3
+threads() {                                                            # the thread sanitizer, all of these rooms' tests
+  tools/threads.sh test_sweep test_experiments test_runner test_recording test_dds test_dds_live
 }
 tidy() { tools/tidy.sh; }                                              # every source and header of the rooms
 fuzz() { tools/fuzz.sh 300; }                                          # five minutes a target
