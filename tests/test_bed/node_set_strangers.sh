@@ -9,7 +9,8 @@ make_interfaces
 
 frames_of() { "$ttfusion" export "$1" --format csv -o "$run/frames.csv" 2>"$run/words" && cat "$run/frames.csv"; }
 
-echo "noise on a channel and on a private CAN is counted and ignored, and what candump records of ours is as the page says"
+echo "noise on a channel and on a private CAN is counted and ignored, reports of errors are recorded, and what candump records" \
+  "of ours is as the page says"
 candump -L "$a" >"$run/channel.log" &
 ears=($!)
 candump -L "$laser_can" >"$run/laser.log" &
@@ -38,6 +39,14 @@ for _ in $(seq 10); do
   cansend "$laser_can" 100##1.00.00.00.00                                        # a fragment of the laser's list, too short
   sleep 0.01
 done &
+# Reports of a driver: a bit error in a frame of its own, a stuff error in another's, bus off, restarted,
+# error passive. The counters of errors are the last two bytes.
+reports=(20000288#0000810000000800 20000288#0000040000000001 20000240#000000000000FF00 20000300#0000000000000000
+  20000204#0020000000008000)
+for report in "${reports[@]}"; do
+  cansend "$laser_can" "$report"
+  sleep 0.01
+done &
 wait "$launch" || fail "exit code $?: $(cat "$run/drive.txt")"
 judge_drive "$run/drive" \
   'all(nodes[n]["medium"]["foreign"] == 40 + 20 + 20 + 40 for n in ("camera_pre", "gateway", "fusion", "feature"))' \
@@ -46,7 +55,16 @@ judge_drive "$run/drive" \
   "on the channel: CAN FD frames that are none of ours" \
   'nodes["laser_pre"]["medium"]["foreign"] == 120 + 80 and nodes["laser"]["medium"]["foreign"] == 80' \
   "on the laser's CAN: 29-bit, error and remote frames" \
-  'summary["refused_can_frames"] == 2 * (40 + 10 + 10 + 10)' "on the laser's CAN: identifiers and lengths that nobody has"
+  'summary["refused_can_frames"] == 2 * (40 + 10 + 10 + 10)' "on the laser's CAN: identifiers and lengths that nobody has" \
+  'all((nodes[n]["can_errors"], nodes[n]["can_state"]) == (2, "error passive") for n in ("laser", "laser_pre"))' \
+  "on the laser's CAN: errors and the state of the controllers" \
+  'not any("can_state" in nodes[n] for n in ("camera", "camera_pre"))' "on the camera's CAN: reports of nothing"
+[[ $(grep -c 'CAN error passive' "$run/drive.txt") -ge 2 ]] || fail "the table has no CAN in trouble: $(cat "$run/drive.txt")"
+for node in laser laser_pre; do
+  "$ttfusion" export "$run/drive/$node.mcap" --format candump -o "$run/$node.reports" 2>"$run/words"
+  awk '$2 == "laser_can" && $3 ~ /^20000/ { print $3 }' "$run/$node.reports" | diff - <(printf '%s\n' "${reports[@]}") ||
+    fail "the log of $node has other reports (<) than there were (>)"
+done
 kill "${ears[@]}"
 wait "${ears[@]}" || true
 
