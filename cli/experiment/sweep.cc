@@ -179,9 +179,18 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::sweep:
                                  {"at", crossing.at},
                                  {"others", crossing.others},
                                  {"certain", crossing.certain}});
-  for (const experiments::sweep::ExpectationAnswer& expectation : answer.expectations)
-    json["expectations"].push_back(
-        {{"expected", expectation.text}, {"holds", expectation.holds}, {"where_not", expectation.where_not}});
+  for (const experiments::sweep::ExpectationAnswer& expectation : answer.expectations) {
+    nlohmann::ordered_json one{{"expected", expectation.text},
+                               {"holds", expectation.holds()},
+                               {"outcome", experiments::sweep::words(expectation.outcome)},
+                               {"where_not", nlohmann::ordered_json::array()},
+                               {"why_not", nlohmann::ordered_json::array()}};
+    for (const experiments::sweep::Unmet& unmet : expectation.unmet) {
+      one["where_not"].push_back(unmet.point);
+      one["why_not"].push_back(unmet.why);
+    }
+    json["expectations"].push_back(std::move(one));
+  }
   return json;
 }
 

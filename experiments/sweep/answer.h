@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/results/statistics.h"
@@ -32,10 +33,19 @@ struct Crossing {
   bool certain = false;                 // the intervals of both exclude 0
 };
 
+enum class Outcome : std::uint8_t { kHolds, kFails, kCannotTell };
+std::string_view words(Outcome outcome);  // "holds"
+
+// A point at which an expectation is not certain, with a sentence about the reason.
+struct Unmet {
+  std::string point, why;
+};
+
 struct ExpectationAnswer {
   std::string text;
-  bool holds = false;
-  std::vector<std::string> where_not;  // points at which the expectation fails or is not certain
+  Outcome outcome = Outcome::kHolds;  // fails if it fails at one point
+  std::vector<Unmet> unmet;
+  bool holds() const { return outcome == Outcome::kHolds; }
 };
 
 struct SweepAnswer {
@@ -45,6 +55,9 @@ struct SweepAnswer {
   std::vector<ExpectationAnswer> expectations;
   bool holds() const;
 };
+
+// "+0.0021 +- 0.0004", with two digits for the interval; "-" without a mean. `sign` marks a difference.
+std::string interval_text(const results::Interval& interval, bool sign);
 
 SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store);
 

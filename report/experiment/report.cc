@@ -106,6 +106,19 @@ page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m)
   return table;
 }
 
+std::string expectation_sentence(const ExperimentExpectation& one) {
+  std::string text = fmt::format("Expected: {}. ", one.expected);
+  if (one.outcome == "cannot tell")
+    text += "The drives cannot tell";
+  else
+    text += one.holds ? "It holds" : one.outcome.empty() ? "It does not hold for certain" : "It does not hold";
+  for (std::size_t p = 0; p < one.where_not.size() && !one.holds; ++p) {
+    text += fmt::format("{}{}", p == 0 ? " at " : "; ", one.where_not[p]);
+    if (p < one.why_not.size()) text += fmt::format(" ({})", one.why_not[p]);
+  }
+  return text + ".";
+}
+
 std::vector<std::string> sentences(const ExperimentFolder& folder) {
   std::vector<std::string> all;
   for (std::size_t at = 0; at < folder.answer.size();) {
@@ -123,9 +136,7 @@ std::vector<std::string> sentences(const ExperimentFolder& folder) {
   }
   if (!certain && !folder.axes.empty() && folder.paradigms.size() > 1)
     all.push_back("No paradigm crosses " + folder.baseline + " for certain along an axis.");
-  for (const ExperimentExpectation& one : folder.expectations)
-    all.push_back(fmt::format("Expected: {}. It {}{}.", one.expected, one.holds ? "holds" : "does not hold for certain",
-                              one.holds || one.where_not.empty() ? "" : " at " + joined(one.where_not)));
+  for (const ExperimentExpectation& one : folder.expectations) all.push_back(expectation_sentence(one));
   if (folder.failed > 0) all.push_back(counted(folder.failed, "run") + " failed; they are below.");
   return all;
 }

@@ -108,6 +108,15 @@ TEST_F(ExperimentReport, WhoIsAloneIsComparedWithNobody) {
   EXPECT_EQ(page().find("No paradigm crosses"), std::string::npos);
 }
 
+TEST_F(ExperimentReport, AnExpectationSaysWhyItIsNotMet) {
+  std::string answer = answer_of(point(0, "1", "1"));
+  const std::string where = R"("where_not": ["noise 40 m"])";
+  write(answer.replace(answer.find(where), where.size(),
+                       R"("outcome": "cannot tell", "where_not": ["noise 40 m"], "why_not": ["one drive"])"));
+  EXPECT_NE(page().find("Expected: tt less than adva. The drives cannot tell at noise 40 m (one drive)."),
+            std::string::npos);
+}
+
 TEST_F(ExperimentReport, AnExpectationMayFailNowhereInParticular) {
   std::string answer = answer_of(point(0, "1", "1"));
   const std::string where = R"(["noise 40 m"])";
