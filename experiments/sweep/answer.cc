@@ -8,6 +8,7 @@
 
 #include "core/counted.h"
 #include "experiments/results/equivalence.h"
+#include "experiments/results/multiplicity.h"
 #include "experiments/sweep/measures.h"
 
 namespace ttf::experiments::sweep {
@@ -34,7 +35,7 @@ class Sums {
   }
   PointAnswer finish(std::uint32_t point) {
     end_replication();
-    PointAnswer answer{point, {}, {}};
+    PointAnswer answer{point, {}, {}, {}};
     for (std::size_t p = 0; p < means_.size(); ++p) {
       answer.means.push_back(intervals(means_[p]));
       answer.differences.push_back(intervals(differences_[p]));
@@ -85,6 +86,21 @@ void add_points(const SweepFile& sweep, const results::Store& store, SweepAnswer
   }
 }
 
+void judge_together(const SweepFile& sweep, SweepAnswer& answer) {
+  std::vector<Interval> differences;
+  for (const PointAnswer& point : answer.points)
+    for (const auto& of_paradigm : point.differences) differences.push_back(of_paradigm.front());
+  const results::Family family = results::family_of(differences, sweep.confidence);
+  answer.comparisons = family.comparisons;
+  answer.certain = family.certain;
+  auto stays = family.stays.begin();
+  for (PointAnswer& point : answer.points) {
+    const auto end = stays + static_cast<std::ptrdiff_t>(sweep.paradigms.size());
+    point.stays.assign(stays, end);
+    stays = end;
+  }
+}
+
 // Searches along one axis, from every point that has a neighbour on it.
 void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a, SweepAnswer& answer) {
   const std::vector<const Axis*> grid = sweep.grid();
@@ -109,10 +125,9 @@ void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a,
     for (std::size_t other = 0; other < grid.size(); ++other)
       if (other != a && grid[other]->settings.size() > 1)
         others.push_back(grid[other]->name + " " + settings[other]->label);
-    const auto certain = [](const Interval& interval) { return interval.below(0.0) || interval.above(0.0); };
     answer.crossings.push_back({paradigm, axis.name, joined(others), point, behind,
                                 axis.logarithmic ? x * std::pow(y / x, part) : x + part * (y - x),
-                                certain(before) && certain(after)});
+                                answer.points[point].stays[paradigm] && answer.points[behind].stays[paradigm]});
   }
 }
 
@@ -219,6 +234,7 @@ bool SweepAnswer::holds() const {
 SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store) {
   SweepAnswer answer;
   add_points(sweep, store, answer);
+  judge_together(sweep, answer);
   for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
     for (std::size_t a = 0; a < sweep.grid().size() && p != sweep.baseline; ++a) find_crossings(sweep, p, a, answer);
   for (const Expectation& expectation : sweep.expectations)

@@ -3,6 +3,7 @@
 // cancel). It says where two paradigms cross, and whether the expectations hold.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ struct PointAnswer {
   // By paradigm, then measure. Differences are this paradigm's minus the baseline's, replication by
   // replication; the baseline has none.
   std::vector<std::vector<results::Interval>> means, differences;
+  // By paradigm: the first measure's difference stays certain among all points' and paradigms' (Holm's method).
+  std::vector<bool> stays;
 };
 
 // A change of sign of the first measure's difference between two neighbours on a numeric axis of the grid, all
@@ -30,7 +33,7 @@ struct Crossing {
   std::string others;                   // the other axes' values, "" if there are none
   std::uint32_t before = 0, after = 0;  // points
   double at = 0.0;                      // interpolated: linear in the value, or in its logarithm on a logarithmic axis
-  bool certain = false;                 // the intervals of both exclude 0
+  bool certain = false;                 // both differences stay certain by Holm's method
 };
 
 enum class Outcome : std::uint8_t { kHolds, kFails, kCannotTell };
@@ -51,6 +54,7 @@ struct ExpectationAnswer {
 struct SweepAnswer {
   std::uint64_t drives = 0, failed = 0;
   std::vector<PointAnswer> points;
+  std::size_t comparisons = 0, certain = 0;  // the first measure's, at all points; those that stay certain
   std::vector<Crossing> crossings;
   std::vector<ExpectationAnswer> expectations;
   bool holds() const;

@@ -73,6 +73,11 @@ std::string answer_sentences(const SweepFile& sweep, const SweepAnswer& answer) 
         text += fmt::format("They cross at {} {:.4g}{}.\n", crossing.axis, crossing.at,
                             crossing.others.empty() ? "" : ", with " + crossing.others);
   }
+  if (answer.comparisons > 0)
+    text += fmt::format(
+        "{} of {}, marked *, stay certain together by Holm's method at {:g} %; each interval stands for "
+        "itself.\n",
+        answer.certain, counted(answer.comparisons, "comparison"), std::round(1e6 * (1.0 - sweep.confidence)) * 1e-4);
   return text;
 }
 
@@ -98,8 +103,8 @@ std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer) {
     for (const auto& means : point.means) row.push_back(interval_text(means.front(), false));
     for (std::size_t p = 0; p < point.differences.size(); ++p)
       if (p != sweep.baseline)
-        row.push_back(fmt::format("{} {}", interval_text(point.differences[p].front(), true),
-                                  verdict(point.differences[p].front())));
+        row.push_back(fmt::format("{} {}{}", interval_text(point.differences[p].front(), true),
+                                  verdict(point.differences[p].front()), point.stays[p] ? "*" : ""));
     rows.push_back(std::move(row));
   }
   text += padded(rows) + '\n' + answer_sentences(sweep, answer);

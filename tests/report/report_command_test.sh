@@ -87,7 +87,8 @@ small_sweep 4 "700 ms" "400 ms" | sed 's/^question: .*/question: Is it <so>?/' >
 expect 0 'wrote' experiment small.yaml --out small
 expect 0 'wrote' report small -o small.html
 has small.html 'Is it &lt;so&gt;?'
-has small.html 'has the smallest position_rmse_truth at '
+grep -Eq 'For certain .* has the smallest position_rmse_truth at|cannot tell which paradigm has the smallest' small.html ||
+  fail "small.html has no answer"
 has small.html 'root mean square of the position error against the truth'
 has small.html 'ttfusion experiment small.yaml --replay 0/adva/0 --out one'
 # A run of each paradigm is driven again, with the draws of the first replication that all of them have done.

@@ -218,6 +218,31 @@ TEST_F(SweepEngine, DifferencesArePaired) {
   EXPECT_THAT(text, testing::HasSubstr(
                         "position_rmse_truth of tt is less than that of adva at 1 point, more at 1, undecided at 0."));
   EXPECT_THAT(text, testing::HasSubstr("They cross at noise 29.57."));
+  EXPECT_THAT(text, testing::HasSubstr("+0.315 +- 0.021 more*"));
+  EXPECT_THAT(text,
+              testing::HasSubstr("2 of 2 comparisons, marked *, stay certain together by Holm's method at 5 %; each "
+                                 "interval stands for itself."));
+}
+
+// Differences of mean m and variance 1 in three drives, t = sqrt(3) m: p = 1 - t / sqrt(2 + t^2) = 0.04.
+TEST_F(SweepEngine, WhatIsCertainAloneNeedNotBeCertainAmongOthers) {
+  const SweepFile sweep = small_sweep(3);
+  const SweepDrives drives(sweep);
+  results::Store made = store(drives, "made");
+  for (std::uint32_t r = 0; r < 3; ++r) {
+    const double off = 2.7995 + static_cast<double>(r) - 1.0;
+    made.add({made_up(0, r, 0, 9.0), made_up(0, r, 1, 9.0 + off), made_up(1, r, 0, 9.0), made_up(1, r, 1, 9.0 - off)});
+  }
+  const SweepAnswer answer = answer_of(sweep, made);
+  EXPECT_TRUE(answer.points[0].differences[1][0].above(0.0));
+  EXPECT_TRUE(answer.points[1].differences[1][0].below(0.0));
+  EXPECT_EQ(answer.comparisons, 2u);
+  EXPECT_EQ(answer.certain, 0u);
+  ASSERT_EQ(answer.crossings.size(), 1u);
+  EXPECT_FALSE(answer.crossings[0].certain);
+  const std::string text = answer_text(sweep, answer);
+  EXPECT_THAT(text, testing::HasSubstr("0 of 2 comparisons, marked *, stay certain together"));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("They cross")));
 }
 
 // A sweep of the error and the one against the DGPS, which agree if `margin` says so.
