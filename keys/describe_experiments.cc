@@ -44,6 +44,9 @@ constexpr Description kExperiment[] = {
     {"expect[].measure", "The expectation is about this measure.", "position_rmse_truth"},
     {"expect[].agrees", "The measure agrees with this one.", "position_mse_expected"},
     {"expect[].of", "They agree for this paradigm.", "event_triggered"},
+    {"expect[].margin",
+     "They agree if their mean difference is certainly below this: a share of the second measure, or a difference with "
+     "the measures' unit."},
     {"expect[].less", "This paradigm has less of the measure.", "time_triggered"},
     {"expect[].than", "This paradigm has more of the measure.", "event_triggered"},
     {"expect[].where", "Only these points count, by axis and value; of other axes, all."},

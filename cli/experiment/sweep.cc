@@ -15,6 +15,7 @@
 #include "cli/progress.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "experiments/results/multiplicity.h"
 #include "experiments/sweep/engine.h"
 #include "experiments/sweep/measures.h"
 #include "experiments/sweep/text.h"
@@ -155,6 +156,8 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::sweep:
                               {"runs", answer.drives},
                               {"failed", answer.failed},
                               {"baseline", sweep.paradigms[sweep.baseline].name},
+                              {"comparisons", answer.comparisons},
+                              {"stay_certain", answer.certain},
                               {"answer", experiments::sweep::answer_sentences(sweep, answer)}};
   for (const std::string& name : sweep.measures) {
     const experiments::sweep::Measure& measure = *experiments::sweep::find_measure(name);
@@ -169,7 +172,10 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::sweep:
       for (std::size_t m = 0; m < sweep.measures.size(); ++m) {
         nlohmann::ordered_json& cell = one["paradigms"][sweep.paradigms[p].name][sweep.measures[m]];
         cell = to_json(point.means[p][m]);
-        if (p != sweep.baseline) cell["difference"] = to_json(point.differences[p][m]);
+        if (p == sweep.baseline) continue;
+        cell["difference"] = to_json(point.differences[p][m]);
+        cell["difference"]["p"] = to_json(experiments::results::p_value(point.differences[p][m], sweep.confidence));
+        if (m == 0) cell["difference"]["stays_certain"] = static_cast<bool>(point.stays[p]);
       }
     json["points"].push_back(std::move(one));
   }
@@ -179,9 +185,18 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::sweep:
                                  {"at", crossing.at},
                                  {"others", crossing.others},
                                  {"certain", crossing.certain}});
-  for (const experiments::sweep::ExpectationAnswer& expectation : answer.expectations)
-    json["expectations"].push_back(
-        {{"expected", expectation.text}, {"holds", expectation.holds}, {"where_not", expectation.where_not}});
+  for (const experiments::sweep::ExpectationAnswer& expectation : answer.expectations) {
+    nlohmann::ordered_json one{{"expected", expectation.text},
+                               {"holds", expectation.holds()},
+                               {"outcome", experiments::sweep::words(expectation.outcome)},
+                               {"where_not", nlohmann::ordered_json::array()},
+                               {"why_not", nlohmann::ordered_json::array()}};
+    for (const experiments::sweep::Unmet& unmet : expectation.unmet) {
+      one["where_not"].push_back(unmet.point);
+      one["why_not"].push_back(unmet.why);
+    }
+    json["expectations"].push_back(std::move(one));
+  }
   return json;
 }
 

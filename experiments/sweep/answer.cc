@@ -1,9 +1,15 @@
 #include "experiments/sweep/answer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/counted.h"
+#include "experiments/results/equivalence.h"
+#include "experiments/results/multiplicity.h"
+#include "experiments/sweep/measures.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -29,7 +35,7 @@ class Sums {
   }
   PointAnswer finish(std::uint32_t point) {
     end_replication();
-    PointAnswer answer{point, {}, {}};
+    PointAnswer answer{point, {}, {}, {}};
     for (std::size_t p = 0; p < means_.size(); ++p) {
       answer.means.push_back(intervals(means_[p]));
       answer.differences.push_back(intervals(differences_[p]));
@@ -80,6 +86,21 @@ void add_points(const SweepFile& sweep, const results::Store& store, SweepAnswer
   }
 }
 
+void judge_together(const SweepFile& sweep, SweepAnswer& answer) {
+  std::vector<Interval> differences;
+  for (const PointAnswer& point : answer.points)
+    for (const auto& of_paradigm : point.differences) differences.push_back(of_paradigm.front());
+  const results::Family family = results::family_of(differences, sweep.confidence);
+  answer.comparisons = family.comparisons;
+  answer.certain = family.certain;
+  auto stays = family.stays.begin();
+  for (PointAnswer& point : answer.points) {
+    const auto end = stays + static_cast<std::ptrdiff_t>(sweep.paradigms.size());
+    point.stays.assign(stays, end);
+    stays = end;
+  }
+}
+
 // Searches along one axis, from every point that has a neighbour on it.
 void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a, SweepAnswer& answer) {
   const std::vector<const Axis*> grid = sweep.grid();
@@ -104,10 +125,9 @@ void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a,
     for (std::size_t other = 0; other < grid.size(); ++other)
       if (other != a && grid[other]->settings.size() > 1)
         others.push_back(grid[other]->name + " " + settings[other]->label);
-    const auto certain = [](const Interval& interval) { return interval.below(0.0) || interval.above(0.0); };
     answer.crossings.push_back({paradigm, axis.name, joined(others), point, behind,
                                 axis.logarithmic ? x * std::pow(y / x, part) : x + part * (y - x),
-                                certain(before) && certain(after)});
+                                answer.points[point].stays[paradigm] && answer.points[behind].stays[paradigm]});
   }
 }
 
@@ -116,27 +136,57 @@ std::size_t measure_index(const SweepFile& sweep, const std::string& name) {
   return static_cast<std::size_t>(found - sweep.measures.begin());
 }
 
-// At one point: compares the two measures drive by drive.
-bool agree(const SweepFile& sweep, const Expectation& expectation, const std::vector<Row>& rows) {
-  const std::size_t paradigm = index_of(sweep, expectation.less), first = sweep.drawn().size();
-  const std::size_t one = measure_index(sweep, expectation.measure), other = measure_index(sweep, expectation.agrees);
-  Moments difference;
-  for (const Row& row : rows)
-    if (row.key.paradigm == paradigm && row.status == results::kDone)
-      difference.add(row.values[first + one] - row.values[first + other]);
-  const Interval interval = interval_of(difference, sweep.confidence);
-  return interval.low() <= 0.0 && interval.high() >= 0.0;  // false if the interval is not a number
+// The outcome at one point, with the reason unless the expectation holds.
+struct Verdict {
+  Outcome outcome = Outcome::kHolds;
+  std::string why = {};
+};
+
+std::string with_unit(const std::string& text, const Expectation& expectation) {
+  const std::string_view unit = find_measure(expectation.measure)->unit;
+  return unit.empty() ? text : fmt::format("{} {}", text, unit);
 }
 
-bool less(const SweepFile& sweep, const Expectation& expectation, const std::vector<Row>& rows) {
+Verdict undecided(const std::string& why) { return {Outcome::kCannotTell, "cannot tell: " + why}; }
+
+// Compares the two measures drive by drive.
+Verdict agree(const SweepFile& sweep, const Expectation& expectation, const std::vector<Row>& rows) {
+  const std::size_t paradigm = index_of(sweep, expectation.less), first = sweep.drawn().size();
+  const std::size_t one = measure_index(sweep, expectation.measure), other = measure_index(sweep, expectation.agrees);
+  results::EquivalenceTest test(expectation.margin);
+  for (const Row& row : rows)
+    if (row.key.paradigm == paradigm && row.status == results::kDone)
+      test.add(row.values[first + one], row.values[first + other]);
+  const results::Agreement agreement = test.agreement(sweep.confidence);
+  if (agreement == results::Agreement::kWithin) return {};
+  const Interval difference = interval_of(test.difference(), sweep.confidence);
+  if (difference.count < 2)
+    return undecided(fmt::format("{} with both measures; more replications", counted(difference.count, "drive")));
+  const std::string interval = interval_text(difference, true);
+  const std::string margin = with_unit(fmt::format("{:.2g}", test.margin()), expectation);
+  if (agreement == results::Agreement::kBeyond)
+    return {Outcome::kFails, fmt::format("differs by {}, beyond the margin of {}", interval, margin)};
+  const bool wide = difference.half_width > test.margin();
+  return undecided(fmt::format("the interval {} is {} the margin of {}; more replications", interval,
+                               wide ? "wider than" : "on both sides of", margin));
+}
+
+Verdict less(const SweepFile& sweep, const Expectation& expectation, const std::vector<Row>& rows) {
   Sums sums(sweep, index_of(sweep, expectation.than));
   for (const Row& row : rows) sums.add(row);
   const PointAnswer answer = sums.finish(0);
-  return answer.differences[index_of(sweep, expectation.less)][measure_index(sweep, expectation.measure)].below(0.0);
+  const Interval& difference =
+      answer.differences[index_of(sweep, expectation.less)][measure_index(sweep, expectation.measure)];
+  if (difference.below(0.0)) return {};
+  if (difference.count < 2)
+    return undecided(fmt::format("{} of both paradigms; more replications", counted(difference.count, "pair")));
+  const std::string text = with_unit(interval_text(difference, true), expectation);
+  return difference.above(0.0) ? Verdict{Outcome::kFails, "it is more, by " + text}
+                               : undecided(fmt::format("the difference is {}; more replications", text));
 }
 
 ExpectationAnswer judge(const SweepFile& sweep, const Expectation& expectation, const results::Store& store) {
-  ExpectationAnswer answer{expectation.text, true, {}};
+  ExpectationAnswer answer{expectation.text, Outcome::kHolds, {}};
   const std::vector<const Axis*> grid = sweep.grid();
   for (std::uint32_t point = 0; point < sweep.points(); ++point) {
     const std::vector<const Setting*> settings = sweep.settings_of(point);
@@ -146,22 +196,45 @@ ExpectationAnswer judge(const SweepFile& sweep, const Expectation& expectation, 
         meant = meant && label->second == settings[a]->label;
     if (!meant) continue;
     const std::vector<Row> rows = store.of_point(point);
-    if (expectation.agrees.empty() ? less(sweep, expectation, rows) : agree(sweep, expectation, rows)) continue;
-    answer.holds = false;
-    answer.where_not.push_back(sweep.label_of(point));
+    Verdict verdict = expectation.agrees.empty() ? less(sweep, expectation, rows) : agree(sweep, expectation, rows);
+    if (verdict.outcome == Outcome::kHolds) continue;
+    if (answer.outcome != Outcome::kFails) answer.outcome = verdict.outcome;
+    answer.unmet.push_back({sweep.label_of(point), std::move(verdict.why)});
   }
   return answer;
 }
 
 }  // namespace
 
+std::string_view words(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kHolds: return "holds";
+    case Outcome::kFails: return "does not hold";
+    case Outcome::kCannotTell: break;
+  }
+  return "cannot tell";
+}
+
+std::string interval_text(const Interval& interval, bool sign) {
+  if (std::isnan(interval.mean)) return "-";
+  const double width = std::isnan(interval.half_width) ? std::abs(interval.mean) * 1e-3 : interval.half_width;
+  const int decimals =
+      width > 0.0 && std::isfinite(width) ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9) : 3;
+  std::string text =
+      sign ? fmt::format("{:+.{}f}", interval.mean, decimals) : fmt::format("{:.{}f}", interval.mean, decimals);
+  if (!std::isnan(interval.half_width)) text += fmt::format(" +- {:.{}f}", interval.half_width, decimals);
+  return text;
+}
+
 bool SweepAnswer::holds() const {
-  return std::all_of(expectations.begin(), expectations.end(), [](const ExpectationAnswer& one) { return one.holds; });
+  return std::all_of(expectations.begin(), expectations.end(),
+                     [](const ExpectationAnswer& one) { return one.holds(); });
 }
 
 SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store) {
   SweepAnswer answer;
   add_points(sweep, store, answer);
+  judge_together(sweep, answer);
   for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
     for (std::size_t a = 0; a < sweep.grid().size() && p != sweep.baseline; ++a) find_crossings(sweep, p, a, answer);
   for (const Expectation& expectation : sweep.expectations)

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kMostParadigms = 64;
 constexpr double kLargest = 1e12;
+constexpr std::string_view kUsualMargin = "10 %";
 
 std::optional<double> number_of(const std::string& text) {
   double value = 0.0;
@@ -238,6 +239,30 @@ class Reader {
     return name;
   }
 
+  // Returns the margin's text.
+  std::string read_margin(YamlMap& map, Expectation& expectation) {
+    const Measure* measure = find_measure(expectation.measure);
+    const Measure* other = find_measure(expectation.agrees);
+    std::string text = map.text_or("margin", kUsualMargin);
+    if (measure == nullptr || other == nullptr) return text;
+    if (measure->unit != other->unit)
+      map.fail("agrees",
+               fmt::format("must have the unit of `measure`{}{}", measure->unit.empty() ? "" : ", ", measure->unit));
+    const std::size_t space = text.find(' ');
+    const auto number = number_of(text.substr(0, space));
+    const std::string unit = space == std::string::npos ? "" : text.substr(space + 1);
+    const bool share = unit == "%";
+    if (!number || !(*number > 0.0) || !(*number <= (share ? 100.0 : kLargest)) || (!share && unit != measure->unit)) {
+      const std::string absolute = measure->unit.empty() ? "0.1" : fmt::format("0.1 {}", measure->unit);
+      map.fail("margin", fmt::format("must be a share above 0 and up to 100 of the second measure, as 5 %, or a "
+                                     "difference above 0, as {}",
+                                     absolute));
+      return text;
+    }
+    expectation.margin = {share ? *number / 100.0 : *number, share};
+    return text;
+  }
+
   void read_expectations() {
     for (YamlMap& map : root_.maps_if("expect")) {
       Expectation expectation;
@@ -251,8 +276,11 @@ class Reader {
       if (less) expectation.less = file_.paradigms[*less].name;
       if (!agreement && than) expectation.than = file_.paradigms[*than].name;
       expectation.text =
-          agreement ? fmt::format("{} of {} agrees with {}", expectation.measure, expectation.less, expectation.agrees)
-                    : fmt::format("{} of {} less than of {}", expectation.measure, expectation.less, expectation.than);
+          fmt::format("{} of {} less than of {}", expectation.measure, expectation.less, expectation.than);
+      if (agreement) {
+        expectation.text = fmt::format("{} of {} agrees with {}, margin {}", expectation.measure, expectation.less,
+                                       expectation.agrees, read_margin(map, expectation));
+      }
       if (map.has("where"))
         for (const auto& [name, label] : map.named_texts("where")) {
           const auto axis = std::find_if(file_.axes.begin(), file_.axes.end(), [&, &wanted = name](const Axis& one) {

@@ -23,7 +23,7 @@
 //                                                  differences are that narrow
 //   expect:                                        must hold, or the command exits with 1
 //     - {measure: position_rmse_truth, less: time_triggered, than: event_triggered, where: {noise: 2}}
-//     - {measure: position_mse_truth, agrees: position_mse_expected, of: event_triggered}   within the interval
+//     - {measure: position_mse_truth, agrees: position_mse_expected, of: event_triggered, margin: 5 %}
 //
 // A key names a scalar that is written in the scenario's file, "world.objects[0].speed", or, if it begins with
 // "cluster.", in the paradigm's cluster file. No key may be set twice. An axis gives its values to all its keys.
@@ -41,6 +41,7 @@
 #include <vector>
 
 #include "core/strict_yaml.h"
+#include "experiments/results/equivalence.h"
 #include "fusion/strategies/strategy.h"
 
 namespace ttf::experiments::sweep {
@@ -88,8 +89,9 @@ struct StopRule {
 
 struct Expectation {
   // The measure is less for paradigm `less` than for paradigm `than`. Without `than`, the measure agrees for
-  // paradigm `less` with the measure `agrees`: the interval of their mean difference contains 0.
+  // paradigm `less` with the measure `agrees`: their mean difference is certainly within the margin.
   std::string measure, less, than, agrees;
+  results::Margin margin = {};
   std::map<std::string, std::string> where;  // axis, label; absent axes: everywhere
   std::string text;
 };

@@ -13,18 +13,6 @@ namespace {
 
 using results::Interval;
 
-// Prints digits so that the interval has two.
-std::string text_of(const Interval& interval, bool sign) {
-  if (std::isnan(interval.mean)) return "-";
-  const double width = std::isnan(interval.half_width) ? std::abs(interval.mean) * 1e-3 : interval.half_width;
-  const int decimals =
-      width > 0.0 && std::isfinite(width) ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9) : 3;
-  std::string text =
-      sign ? fmt::format("{:+.{}f}", interval.mean, decimals) : fmt::format("{:.{}f}", interval.mean, decimals);
-  if (!std::isnan(interval.half_width)) text += fmt::format(" +- {:.{}f}", interval.half_width, decimals);
-  return text;
-}
-
 std::string_view verdict(const Interval& difference) {
   return difference.below(0.0) ? "less" : difference.above(0.0) ? "more" : "undecided";
 }
@@ -85,6 +73,11 @@ std::string answer_sentences(const SweepFile& sweep, const SweepAnswer& answer) 
         text += fmt::format("They cross at {} {:.4g}{}.\n", crossing.axis, crossing.at,
                             crossing.others.empty() ? "" : ", with " + crossing.others);
   }
+  if (answer.comparisons > 0)
+    text += fmt::format(
+        "{} of {}, marked *, stay certain together by Holm's method at {:g} %; each interval stands for "
+        "itself.\n",
+        answer.certain, counted(answer.comparisons, "comparison"), std::round(1e6 * (1.0 - sweep.confidence)) * 1e-4);
   return text;
 }
 
@@ -107,20 +100,18 @@ std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer) {
     std::uint64_t most = 0;
     for (const auto& means : point.means) most = std::max(most, means.front().count);
     row.push_back(std::to_string(most));
-    for (const auto& means : point.means) row.push_back(text_of(means.front(), false));
+    for (const auto& means : point.means) row.push_back(interval_text(means.front(), false));
     for (std::size_t p = 0; p < point.differences.size(); ++p)
       if (p != sweep.baseline)
-        row.push_back(
-            fmt::format("{} {}", text_of(point.differences[p].front(), true), verdict(point.differences[p].front())));
+        row.push_back(fmt::format("{} {}{}", interval_text(point.differences[p].front(), true),
+                                  verdict(point.differences[p].front()), point.stays[p] ? "*" : ""));
     rows.push_back(std::move(row));
   }
   text += padded(rows) + '\n' + answer_sentences(sweep, answer);
   if (answer.failed > 0) text += fmt::format("{} failed: see `status` in runs.csv\n", counted(answer.failed, "run"));
   for (const ExpectationAnswer& expectation : answer.expectations) {
-    text +=
-        fmt::format("expected: {}: {}", expectation.text, expectation.holds ? "holds" : "does not hold for certain");
-    if (!expectation.where_not.empty()) text += " at " + joined(expectation.where_not);
-    text += '\n';
+    text += fmt::format("expected: {}: {}\n", expectation.text, words(expectation.outcome));
+    for (const Unmet& unmet : expectation.unmet) text += fmt::format("  {}: {}\n", unmet.point, unmet.why);
   }
   return text;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/counted.h"
+#include "experiments/results/multiplicity.h"
 #include "experiments/results/statistics.h"
 #include "report/drawing/figures.h"
 #include "report/drawing/tables.h"
@@ -102,35 +103,19 @@ experiments::results::Interval interval(const Repeated& repeated, const char* po
   return experiments::results::interval_of(moments, kConfidence);
 }
 
-std::string percent_more(double value, double least) {
-  return least > 0.0 ? fmt::format(" ({:+.1f} %)", 100.0 * (value / least - 1.0)) : "";
-}
-
-// Returns the answer for a single draw, which has no interval.
+// Returns the answer for a single draw: it has no interval, and ranks nothing.
 std::string single_answer(const std::vector<ToldDrive>& drives) {
-  struct Ranked {
-    double error;
-    std::string label;
-  };
   const bool one_folder = std::ranges::all_of(
       drives, [&](const ToldDrive& told) { return told.drive->folder == drives.front().drive->folder; });
-  std::vector<Ranked> ranked;
+  std::string text;
   for (const ToldDrive& told : drives)
-    if (const double error = position_rmse(told); std::isfinite(error))
-      ranked.push_back({error, one_folder ? told.drive->strategy : told.drive->label});
-  if (ranked.empty()) return "No position was compared with the truth.";
-  std::ranges::stable_sort(ranked, {}, &Ranked::error);
-  if (ranked.size() == 1)
-    return fmt::format("{} is off by {} m in position (root mean square against the truth, when the image is used).",
-                       ranked[0].label, drawing::brief(ranked[0].error));
-  std::string text = fmt::format(
-      "{} has the smallest position error here: {} m (root mean square against the truth, when "
-      "the image is used); ",
-      ranked[0].label, drawing::brief(ranked[0].error));
-  for (std::size_t i = 1; i < ranked.size(); ++i)
-    text += fmt::format("{}{} {} m{}", i > 1 ? ", " : "", ranked[i].label, drawing::brief(ranked[i].error),
-                        percent_more(ranked[i].error, ranked[0].error));
-  return text + ".";
+    if (const double error = position_rmse(told); std::isfinite(error)) {
+      const std::string& label = one_folder ? told.drive->strategy : told.drive->label;
+      text += text.empty() ? fmt::format("{} is off by {} m in position", label, drawing::brief(error))
+                           : fmt::format(", {} by {} m", label, drawing::brief(error));
+    }
+  if (text.empty()) return "No position was compared with the truth.";
+  return fmt::format("In this one drive {} (root mean square against the truth, when the image is used).", text);
 }
 
 std::string repeated_answer(const std::string& scenario, const Repeated& repeated) {
@@ -144,20 +129,31 @@ std::string repeated_answer(const std::string& scenario, const Repeated& repeate
   if (!std::isfinite(means[best]))
     return fmt::format("Over {} runs of {}: No position was compared with the truth.", repeated.drives.size(),
                        scenario);
+  // All pairs are compared, since the best one is chosen among them.
+  std::vector<experiments::results::Interval> pairs;
+  std::vector<bool> of_best;
+  for (std::size_t s = 0; s < repeated.strategies.size(); ++s)
+    for (std::size_t other = s + 1; other < repeated.strategies.size(); ++other) {
+      pairs.push_back(interval(repeated, pointer, s, other));
+      of_best.push_back(s == best || other == best);
+    }
+  const experiments::results::Family family = family_of(pairs, kConfidence);
+  bool certain = family.comparisons > 0;
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    certain = certain && (!of_best[p] || family.stays[p] || !std::isfinite(pairs[p].mean));
   const experiments::results::Interval least = interval(repeated, pointer, best, std::nullopt);
-  std::string text = fmt::format("Over {} runs of {}, {} has the smallest position error on average: {} m (95 %)",
-                                 repeated.drives.size(), scenario, repeated.strategies[best],
-                                 drawing::with_interval(least.mean, least.half_width));
+  const std::string mean = drawing::with_interval(least.mean, least.half_width) + " m";
+  std::string text =
+      certain ? fmt::format("Over {} runs of {}, {} has the smallest position error, for certain: {} (95 %)",
+                            repeated.drives.size(), scenario, repeated.strategies[best], mean)
+              : fmt::format("{} runs of {} cannot tell which strategy has the smallest position error: {} {} (95 %)",
+                            repeated.drives.size(), scenario, repeated.strategies[best], mean);
   for (std::size_t s = 0; s < repeated.strategies.size(); ++s) {
     if (s == best) continue;
     const experiments::results::Interval more = interval(repeated, pointer, s, best);
-    if (!std::isfinite(more.mean)) {
-      text += fmt::format("; {} has no value", repeated.strategies[s]);
-      continue;
-    }
-    text +=
-        fmt::format("; {} {} m, {}", repeated.strategies[s], drawing::with_interval(more.mean, more.half_width, true),
-                    drawing::verdict(more.mean, more.half_width) == "more" ? "for certain" : "which is not certain");
+    text += std::isfinite(more.mean) ? fmt::format("; {} {} m", repeated.strategies[s],
+                                                   drawing::with_interval(more.mean, more.half_width, true))
+                                     : fmt::format("; {} has no value", repeated.strategies[s]);
   }
   return text + ".";
 }

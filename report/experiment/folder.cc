@@ -165,9 +165,14 @@ ExperimentFolder parse_answer(std::string_view text, const std::string& file) {
   for (std::size_t e = 0; e < expectations.size(); ++e) {
     const std::string place = fmt::format("expectations[{}].", e);
     ExperimentExpectation one{
-        reader.text(expectations[e], place, "expected"), reader.yes(expectations[e], place, "holds"), {}};
-    for (const Json& where : reader.list(expectations[e], "where_not"))
-      one.where_not.push_back(where.is_string() ? where.get<std::string>() : where.dump());
+        reader.text(expectations[e], place, "expected"), reader.yes(expectations[e], place, "holds"), "", {}, {}};
+    if (expectations[e].contains("outcome")) one.outcome = reader.text(expectations[e], place, "outcome");
+    const auto texts = [&](const char* key, std::vector<std::string>& into) {
+      for (const Json& entry : reader.list(expectations[e], key))
+        into.push_back(entry.is_string() ? entry.get<std::string>() : entry.dump());
+    };
+    texts("where_not", one.where_not);
+    texts("why_not", one.why_not);
     folder.expectations.push_back(std::move(one));
   }
   return folder;

@@ -34,7 +34,9 @@ struct ExperimentCrossing {
 struct ExperimentExpectation {
   std::string expected;
   bool holds = false;
-  std::vector<std::string> where_not;
+  std::string outcome;                 // "cannot tell"; "" in an older answer.json
+  std::vector<std::string> where_not;  // points
+  std::vector<std::string> why_not;    // the same points' reasons; none in an older answer.json
 };
 
 struct ExperimentMeasure {

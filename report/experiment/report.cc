@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/counted.h"
+#include "experiments/results/multiplicity.h"
 #include "report/drawing/figures.h"
 #include "report/experiment/plots.h"
 #include "report/page/page.h"
@@ -32,27 +33,45 @@ experiments::results::Interval paired(const std::vector<experiments::results::Ro
   return interval_of(moments, confidence);
 }
 
-// The paradigm with the least first measure at a point; without any finite mean there is no value.
-struct Least {
-  std::size_t paradigm = 0;
-  bool certain = false;
+// The first measure's comparisons of all pairs of paradigms at all points, as one family.
+struct Pairs {
+  std::vector<experiments::results::Interval> differences;  // the first paradigm of a pair minus the second
+  experiments::results::Family family;
 };
-std::optional<Least> least_at(const ExperimentFolder& folder, const ExperimentPoint& point) {
-  std::optional<Least> least;
-  for (std::size_t p = 0; p < folder.paradigms.size(); ++p) {
-    const double mean = point.estimates[p][0].mean.mean;
-    if (std::isfinite(mean) && (!least || mean < point.estimates[least->paradigm][0].mean.mean))
-      least = Least{p, false};
-  }
-  if (!least || !folder.store || folder.paradigms.size() == 1) return least;
+// Empty without drives.
+Pairs all_pairs(const ExperimentFolder& folder) {
+  if (!folder.store) return {};
   const auto& columns = folder.store->head().measures;
   const auto column = static_cast<std::size_t>(std::ranges::find(columns, folder.measures[0].name) - columns.begin());
-  const std::vector<experiments::results::Row> rows = folder.store->of_point(point.point);
-  least->certain = true;
-  for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
-    if (p != least->paradigm)
-      least->certain = least->certain && paired(rows, column, least->paradigm, p, folder.confidence).below(0.0);
+  Pairs pairs;
+  for (const ExperimentPoint& point : folder.points) {
+    const std::vector<experiments::results::Row> rows = folder.store->of_point(point.point);
+    for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
+      for (std::size_t other = p + 1; other < folder.paradigms.size(); ++other)
+        pairs.differences.push_back(paired(rows, column, p, other, folder.confidence));
+  }
+  pairs.family = experiments::results::family_of(pairs.differences, folder.confidence);
+  return pairs;
+}
+
+// Counts the points at which each paradigm has less than all others, for certain.
+std::vector<std::size_t> least_for_certain(const ExperimentFolder& folder, const Pairs& pairs) {
+  const std::size_t paradigms = folder.paradigms.size();
+  std::vector<std::size_t> least(paradigms);
+  for (std::size_t pair = 0; pair < pairs.differences.size();) {
+    std::vector<std::size_t> wins(paradigms);
+    for (std::size_t p = 0; p < paradigms; ++p)
+      for (std::size_t other = p + 1; other < paradigms; ++other, ++pair)
+        if (pairs.family.stays[pair]) ++wins[pairs.differences[pair].mean < 0.0 ? p : other];
+    for (std::size_t p = 0; p < paradigms; ++p) least[p] += wins[p] + 1 == paradigms;
+  }
   return least;
+}
+
+std::string family_words(const experiments::results::Family& family, double confidence) {
+  return fmt::format("{} of {}, by Holm's method. Any verdict among them is false with a probability of at most {:g} %",
+                     family.certain, counted(family.comparisons, "comparison"),
+                     std::round(1e6 * (1.0 - confidence)) * 1e-4);
 }
 
 // The first cells of a row: the axes' names, or their values at a point.
@@ -84,21 +103,29 @@ page::PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
 }
 
 page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m) {
+  std::vector<experiments::results::Interval> differences;
+  for (const ExperimentPoint& point : folder.points)
+    for (const auto& estimates : point.estimates)
+      differences.push_back(estimates[m].difference.value_or(experiments::results::Interval{}));
+  const experiments::results::Family family = family_of(differences, folder.confidence);
   page::PageTable table{
-      fmt::format("{} minus that of {}, paired by replication, and whether it is less or more for certain",
-                  folder.measures[m].with_unit(), folder.baseline),
+      fmt::format(
+          "{} minus that of {}, paired by replication, and whether it is less or more by its own interval. Those "
+          "marked * stay certain together: {}",
+          folder.measures[m].with_unit(), folder.baseline, family_words(family, folder.confidence)),
       axes_of(folder),
       {}};
   for (const std::string& paradigm : folder.paradigms)
     if (paradigm != folder.baseline) table.header.push_back(fmt::format("{} − {}", paradigm, folder.baseline));
+  auto stays = family.stays.begin();
   for (const ExperimentPoint& point : folder.points) {
     std::vector<std::string> row = settings_of(point);
-    for (std::size_t p = 0; p < folder.paradigms.size(); ++p) {
+    for (std::size_t p = 0; p < folder.paradigms.size(); ++p, ++stays) {
       if (folder.paradigms[p] == folder.baseline) continue;
       const auto& difference = point.estimates[p][m].difference;
       row.push_back(difference
-                        ? fmt::format("{} {}", drawing::with_interval(difference->mean, difference->half_width, true),
-                                      drawing::verdict(difference->mean, difference->half_width))
+                        ? fmt::format("{} {}{}", drawing::with_interval(difference->mean, difference->half_width, true),
+                                      drawing::verdict(difference->mean, difference->half_width), *stays ? "*" : "")
                         : "-");
     }
     table.rows.push_back(std::move(row));
@@ -106,8 +133,31 @@ page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m)
   return table;
 }
 
-std::vector<std::string> sentences(const ExperimentFolder& folder) {
+std::string expectation_sentence(const ExperimentExpectation& one) {
+  std::string text = fmt::format("Expected: {}. ", one.expected);
+  if (one.outcome == "cannot tell")
+    text += "The drives cannot tell";
+  else
+    text += one.holds ? "It holds" : one.outcome.empty() ? "It does not hold for certain" : "It does not hold";
+  for (std::size_t p = 0; p < one.where_not.size() && !one.holds; ++p) {
+    text += fmt::format("{}{}", p == 0 ? " at " : "; ", one.where_not[p]);
+    if (p < one.why_not.size()) text += fmt::format(" ({})", one.why_not[p]);
+  }
+  return text + ".";
+}
+
+// The first measure of a paradigm at the first point.
+std::string mean_text(const ExperimentFolder& folder, std::size_t paradigm) {
+  const experiments::results::Interval& mean = folder.points[0].estimates[paradigm][0].mean;
+  return drawing::with_interval(mean.mean, mean.half_width) +
+         (folder.measures[0].unit.empty() ? "" : " " + folder.measures[0].unit);
+}
+
+std::vector<std::string> sentences(const ExperimentFolder& folder, const Pairs& pairs) {
   std::vector<std::string> all;
+  if (pairs.family.comparisons > 0)
+    all.push_back(fmt::format("All pairs of paradigms at all points were compared. Certain are {}.",
+                              family_words(pairs.family, folder.confidence)));
   for (std::size_t at = 0; at < folder.answer.size();) {
     const std::size_t end = std::min(folder.answer.find('\n', at), folder.answer.size());
     if (end > at) all.push_back(folder.answer.substr(at, end - at));
@@ -123,9 +173,7 @@ std::vector<std::string> sentences(const ExperimentFolder& folder) {
   }
   if (!certain && !folder.axes.empty() && folder.paradigms.size() > 1)
     all.push_back("No paradigm crosses " + folder.baseline + " for certain along an axis.");
-  for (const ExperimentExpectation& one : folder.expectations)
-    all.push_back(fmt::format("Expected: {}. It {}{}.", one.expected, one.holds ? "holds" : "does not hold for certain",
-                              one.holds || one.where_not.empty() ? "" : " at " + joined(one.where_not)));
+  for (const ExperimentExpectation& one : folder.expectations) all.push_back(expectation_sentence(one));
   if (folder.failed > 0) all.push_back(counted(folder.failed, "run") + " failed; they are below.");
   return all;
 }
@@ -199,47 +247,42 @@ void one_of_each(page::Page& page, const ExperimentFolder& folder, const Experim
   troubles_section(page, all);
 }
 
-}  // namespace
-
-std::string experiment_answer(const ExperimentFolder& folder) {
-  std::vector<std::size_t> least(folder.paradigms.size()), certain(folder.paradigms.size());
-  for (const ExperimentPoint& point : folder.points)
-    if (const auto one = least_at(folder, point)) {
-      ++least[one->paradigm];
-      certain[one->paradigm] += one->certain;
-    }
+std::string answer_by(const ExperimentFolder& folder, const Pairs& pairs) {
+  const std::string& measure = folder.measures[0].name;
+  const auto has_value = [](const ExperimentPoint& point) {
+    return std::ranges::any_of(point.estimates, [](const auto& one) { return std::isfinite(one[0].mean.mean); });
+  };
+  if (std::ranges::none_of(folder.points, has_value)) return fmt::format("No paradigm has a value of {}.", measure);
+  if (folder.paradigms.size() == 1)
+    return fmt::format("There is no other paradigm to compare {} of {} with{}.", measure, folder.paradigms[0],
+                       folder.points.size() == 1 ? "; it is " + mean_text(folder, 0) : "");
+  if (!folder.store)
+    return fmt::format("Without results.sqlite it is unknown which paradigm has the smallest {}.", measure);
+  const std::vector<std::size_t> least = least_for_certain(folder, pairs);
   std::vector<std::size_t> order;
-  for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
+  for (std::size_t p = 0; p < least.size(); ++p)
     if (least[p] > 0) order.push_back(p);
   std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t p) { return least[p]; });
-  if (order.empty()) return fmt::format("No paradigm has a value of {}.", folder.measures[0].name);
-  const bool alone = folder.paradigms.size() == 1;
+  if (order.empty()) return fmt::format("The drives cannot tell which paradigm has the smallest {}.", measure);
+  const std::size_t points = folder.points.size();
+  if (points == 1)
+    return fmt::format("{} has the smallest {}, for certain: {}.", folder.paradigms[order[0]], measure,
+                       mean_text(folder, order[0]));
   std::string text;
+  std::size_t told = 0;
   for (const std::size_t p : order) {
-    if (alone) {
-      text = fmt::format("There is no other paradigm to compare {} of {} with", folder.measures[0].name,
-                         folder.paradigms[p]);
-      break;
-    }
-    const std::string points = folder.points.size() == 1 ? ""
-                               : least[p] == folder.points.size()
-                                   ? fmt::format(" at all {} points", folder.points.size())
-                                   : fmt::format(" at {} of {} points", least[p], folder.points.size());
-    const std::string sure = !folder.store            ? ""
-                             : certain[p] == least[p] ? ", for certain"
-                             : certain[p] == 0        ? ", not for certain"
-                                                      : fmt::format(", for certain at {}", certain[p]);
-    text += text.empty()
-                ? fmt::format("{} has the smallest {}{}{}", folder.paradigms[p], folder.measures[0].name, points, sure)
-                : fmt::format("; {}{}{}", folder.paradigms[p], points, sure);
+    text += text.empty() ? fmt::format("For certain {} has the smallest {}", folder.paradigms[p], measure)
+                         : "; " + folder.paradigms[p];
+    text += least[p] == points ? fmt::format(" at all {} points", points)
+                               : fmt::format(" at {} of {} points", least[p], points);
+    told += least[p];
   }
-  if (folder.points.size() == 1) {
-    const experiments::results::Interval& mean = folder.points[0].estimates[order[0]][0].mean;
-    text += fmt::format("{}{}{}", alone ? "; it is " : ": ", drawing::with_interval(mean.mean, mean.half_width),
-                        folder.measures[0].unit.empty() ? "" : " " + folder.measures[0].unit);
-  }
-  return text + ".";
+  return text + (told == points ? "." : fmt::format("; at {} the drives cannot tell.", points - told));
 }
+
+}  // namespace
+
+std::string experiment_answer(const ExperimentFolder& folder) { return answer_by(folder, all_pairs(folder)); }
 
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
                                    const drive::DiagramWindow& window) {
@@ -257,8 +300,9 @@ std::string experiment_report_html(const ExperimentFolder& folder, const Experim
               {"runs", fmt::format("{}, of which {} failed", folder.drives, folder.failed)},
               {"measure in question", folder.measures[0].with_unit()}});
   page.section("Answer");
-  page.lead(experiment_answer(folder));
-  page.points(sentences(folder));
+  const Pairs pairs = all_pairs(folder);
+  page.lead(answer_by(folder, pairs));
+  page.points(sentences(folder, pairs));
   page.table(means_table(folder, 0));
   if (folder.paradigms.size() > 1) page.table(differences_table(folder, 0));
   page.section("Over the axes");

@@ -22,6 +22,12 @@ results::Row made_up(std::uint32_t point, std::uint32_t replication, std::uint32
   return {{point, replication, paradigm}, results::kDone, {rmse, 10.0}};
 }
 
+std::string unmet(const ExpectationAnswer& answer) {
+  std::string text;
+  for (const Unmet& one : answer.unmet) text += one.point + ": " + one.why + "\n";
+  return text;
+}
+
 TEST_F(SweepAnswers, DifferencesArePaired) {
   const SweepFile sweep =
       small_sweep(4,
@@ -45,37 +51,93 @@ TEST_F(SweepAnswers, DifferencesArePaired) {
   EXPECT_NEAR(answer.crossings[0].at, 1.0 + 39.0 * 0.315 / (0.315 + 0.115), 1e-9);
   EXPECT_TRUE(answer.crossings[0].certain);
   ASSERT_EQ(answer.expectations.size(), 2u);
-  EXPECT_TRUE(answer.expectations[0].holds);
-  EXPECT_FALSE(answer.expectations[1].holds);
-  EXPECT_THAT(answer.expectations[1].where_not, testing::ElementsAre("noise 1"));
+  EXPECT_TRUE(answer.expectations[0].holds());
+  EXPECT_EQ(answer.expectations[1].outcome, Outcome::kFails);
+  EXPECT_EQ(unmet(answer.expectations[1]), "noise 1: it is more, by +0.315 +- 0.021 m\n");
   EXPECT_FALSE(answer.holds());
   const std::string text = answer_text(sweep, answer);
   EXPECT_THAT(text, testing::HasSubstr(
                         "position_rmse_truth of tt is less than that of adva at 1 point, more at 1, undecided at 0."));
   EXPECT_THAT(text, testing::HasSubstr("They cross at noise 29.57."));
+  EXPECT_THAT(text, testing::HasSubstr("+0.315 +- 0.021 more*"));
+  EXPECT_THAT(text,
+              testing::HasSubstr("2 of 2 comparisons, marked *, stay certain together by Holm's method at 5 %; each "
+                                 "interval stands for itself."));
 }
 
-TEST_F(SweepAnswers, MeasuresMayAgree) {
-  const SweepFile sweep = small_sweep(3,
-                                      "expect: [{measure: position_rmse_truth, agrees: age_fused, of: adva}, "
-                                      "{measure: age_fused, agrees: position_rmse_truth, of: tt, "
-                                      "where: {noise: 1}}, "
-                                      "{measure: age_fused, agrees: position_rmse_truth, of: tt}]\n");
+// Differences of mean m and variance 1 in three drives, t = sqrt(3) m: p = 1 - t / sqrt(2 + t^2) = 0.04.
+TEST_F(SweepAnswers, WhatIsCertainAloneNeedNotBeCertainAmongOthers) {
+  const SweepFile sweep = small_sweep(3);
   const SweepDrives drives(sweep);
   results::Store made = store(drives, "made");
-  for (std::uint32_t point = 0; point < 2; ++point)
+  for (std::uint32_t r = 0; r < 3; ++r) {
+    const double off = 2.7995 + static_cast<double>(r) - 1.0;
+    made.add({made_up(0, r, 0, 9.0), made_up(0, r, 1, 9.0 + off), made_up(1, r, 0, 9.0), made_up(1, r, 1, 9.0 - off)});
+  }
+  const SweepAnswer answer = answer_of(sweep, made);
+  EXPECT_TRUE(answer.points[0].differences[1][0].above(0.0));
+  EXPECT_TRUE(answer.points[1].differences[1][0].below(0.0));
+  EXPECT_EQ(answer.comparisons, 2u);
+  EXPECT_EQ(answer.certain, 0u);
+  ASSERT_EQ(answer.crossings.size(), 1u);
+  EXPECT_FALSE(answer.crossings[0].certain);
+  const std::string text = answer_text(sweep, answer);
+  EXPECT_THAT(text, testing::HasSubstr("0 of 2 comparisons, marked *, stay certain together"));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("They cross")));
+}
+
+// A sweep of the error and the one against the DGPS, which agree if `margin` says so.
+SweepFile agreement(const std::string& margin) {
+  std::string text = sweep_text(
+      3, "expect: [{measure: position_rmse_truth, agrees: position_rmse_reference, of: adva" + margin + "}]\n");
+  text.replace(text.find("age_fused"), 9, "position_rmse_reference");
+  return parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
+}
+
+// At the first point the difference is 0 +- 0.248 (Student's t of 2 degrees: 4.3027), at the second 2 +- 0.248.
+TEST_F(SweepAnswers, MeasuresAgreeWithinAMargin) {
+  const auto judged = [&](const std::string& margin) {
+    const SweepFile sweep = agreement(margin);
+    const SweepDrives drives(sweep);
+    results::Store made = store(drives, "made" + margin);
     for (std::uint32_t r = 0; r < 3; ++r) {
       const double off = 0.1 * (static_cast<double>(r) - 1.0);  // not on the average
-      made.add({{{point, r, 0}, results::kDone, {5.0 + r, 5.0 + r + off}},
-                {{point, r, 1}, results::kDone, {5.0 + r, 5.0 + r + off + (point == 1 ? 1.0 : 0.0)}}});
+      made.add({{{0, r, 0}, results::kDone, {5.0 + r + off, 5.0 + r}},
+                {{1, r, 0}, results::kDone, {7.0 + r + off, 5.0 + r}}});
     }
-  const SweepAnswer answer = answer_of(sweep, made);
-  ASSERT_EQ(answer.expectations.size(), 3u);
-  EXPECT_TRUE(answer.expectations[0].holds);
-  EXPECT_TRUE(answer.expectations[1].holds);
-  EXPECT_FALSE(answer.expectations[2].holds);
-  EXPECT_THAT(answer.expectations[2].where_not, testing::ElementsAre("noise 40"));
-  EXPECT_EQ(answer.expectations[0].text, "position_rmse_truth of adva agrees with age_fused");
+    return answer_of(sweep, made).expectations.at(0);
+  };
+  const ExpectationAnswer outside = judged(", margin: 0.25 m");
+  EXPECT_EQ(outside.text, "position_rmse_truth of adva agrees with position_rmse_reference, margin 0.25 m");
+  EXPECT_EQ(outside.outcome, Outcome::kFails);
+  EXPECT_EQ(unmet(outside), "noise 40: differs by +2.00 +- 0.25, beyond the margin of 0.25 m\n");
+  EXPECT_TRUE(judged(", margin: 2.3 m").holds());
+  EXPECT_EQ(unmet(judged(", margin: 2.1 m")),
+            "noise 40: cannot tell: the interval +2.00 +- 0.25 is on both sides of the margin of 2.1 m; more "
+            "replications\n");
+  EXPECT_THAT(
+      unmet(judged(", margin: 0.1 m")),
+      testing::StartsWith("noise 1: cannot tell: the interval +0.00 +- 0.25 is wider than the margin of 0.1 m"));
+  EXPECT_EQ(judged(", margin: 3 %").outcome, Outcome::kFails);
+  EXPECT_TRUE(judged(", margin: 60 %").holds());
+  EXPECT_EQ(judged("").text, judged(", margin: 10 %").text);
+}
+
+// One measure is a third of the other. A few drives that spread widely do not make them equal.
+TEST_F(SweepAnswers, FewDrivesDoNotAgree) {
+  const SweepFile sweep = agreement("");
+  const SweepDrives drives(sweep);
+  results::Store few = store(drives, "few");
+  const double spread[] = {-0.010, 0.012, -0.002};
+  EXPECT_EQ(answer_of(sweep, few).expectations[0].outcome, Outcome::kCannotTell) << "without any drive";
+  for (std::uint32_t r = 0; r < 3; ++r) {
+    for (const std::uint32_t point : {0u, 1u}) few.add({{{point, r, 0}, results::kDone, {0.0124 + spread[r], 0.0351}}});
+    const SweepAnswer answer = answer_of(sweep, few);
+    EXPECT_EQ(answer.expectations[0].outcome, Outcome::kCannotTell) << r;
+    EXPECT_THAT(unmet(answer.expectations[0]), testing::HasSubstr("more replications")) << r;
+    EXPECT_THAT(answer_text(sweep, answer), testing::HasSubstr("margin 10 %: cannot tell\n  noise 1: cannot tell:"));
+    EXPECT_FALSE(answer.holds());
+  }
 }
 
 // At an exact tie, the sides differ by the points behind it.

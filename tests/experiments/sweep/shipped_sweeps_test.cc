@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/file_bytes.h"
-#include "experiments/results/statistics.h"
+#include "experiments/results/equivalence.h"
 #include "experiments/sweep/drives.h"
 
 namespace ttf::experiments::sweep {
@@ -53,16 +53,13 @@ TEST(ShippedSweeps, TheErrorOfAWholeClusterIsTheExpectedOne) {
   };
   const std::size_t sampled = column("position_mse_truth"), expected = column("position_mse_expected");
   for (const std::uint32_t point : {1u, 2u}) {
-    results::Moments off, level;
+    results::EquivalenceTest test({0.15, true});
     for (std::uint32_t replication = 0; replication < 80; ++replication) {
       const results::Row row = drives.run({point, replication, 2});
       ASSERT_EQ(row.status, results::kDone);
-      off.add(row.values[sampled] - row.values[expected]);
-      level.add(row.values[expected]);
+      test.add(row.values[sampled], row.values[expected]);
     }
-    const results::Interval interval = results::interval_of(off, 0.99);
-    EXPECT_LT(std::abs(interval.mean), interval.half_width) << sweep.label_of(point);
-    EXPECT_LT(interval.half_width, 0.15 * level.mean()) << "too wide to say anything";
+    EXPECT_EQ(test.agreement(0.99), results::Agreement::kWithin) << sweep.label_of(point);
   }
 }
 

@@ -84,6 +84,13 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
               HasSubstr("must differ from `measure`"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: missed, less: a}]\n"),
               HasSubstr("expect[0].of"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: age_fused, of: a}]\n"),
+              HasSubstr("expect[0].agrees = age_fused: must have the unit of `measure`"));
+  for (const char* margin : {"0", "-1", "much", "0 %", "101 %", "5%", "0.1 m", "nan"})
+    EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: missed, of: a, margin: " + margin + "}]\n"),
+                HasSubstr("must be a share above 0 and up to 100 of the second measure, as 5 %, or a difference above "
+                          "0, as 0.1"))
+        << margin;
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: t, where: {one: 3}}]\n"),
               HasSubstr("not one: 3"));
   EXPECT_THAT(refusal(kHead + axes + "colour: red\n"), HasSubstr("colour"));

@@ -68,11 +68,13 @@ class ExperimentReport : public testing::Test {
 
 TEST_F(ExperimentReport, TheAnswerIsTheRunsOwn) {
   const ExperimentFolder folder = read_experiment_folder(folder_);
-  EXPECT_EQ(experiment_answer(folder), "tt has the smallest error at all 2 points, for certain at 1.");
+  EXPECT_EQ(experiment_answer(folder),
+            "For certain tt has the smallest error at 1 of 2 points; at 1 the drives cannot tell.");
   const std::string html = page();
   for (const char* words :
        {"Is &lt;it&gt; so?", "a sentence.", "Expected: tt less than adva. It does not hold for certain at noise 40 m",
-        "text &lt;&amp;&gt;", "+0.500 undecided", "--replay 0/adva/0"})
+        "text &lt;&amp;&gt;", "+0.500 undecided", "--replay 0/adva/0",
+        "All pairs of paradigms at all points were compared. Certain are 1 of 2 comparisons, by Holm"})
     EXPECT_NE(html.find(words), std::string::npos) << words;
 }
 
@@ -94,8 +96,19 @@ TEST_F(ExperimentReport, WhyNoDriveIsShownIsSaid) {
 
 TEST_F(ExperimentReport, WithoutItsRunsNothingIsCertain) {
   std::filesystem::remove(folder_ + "/results.sqlite");
-  EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)), "tt has the smallest error at all 2 points.");
+  EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)),
+            "Without results.sqlite it is unknown which paradigm has the smallest error.");
   EXPECT_NE(page().find("There is no results.sqlite"), std::string::npos);
+}
+
+// 0.7 +- 0.1 of ten drives is certain, and its table says among how many.
+TEST_F(ExperimentReport, ATableSaysHowManyComparisonsItMakes) {
+  std::string two = point(0, "0.1 m", "1.0") + "," + point(1, "40 m", "1.9");
+  const std::string difference = R"({"count": 3, "mean": 0.5, "half_width": null})";
+  write(answer_of(
+      two.replace(two.find(difference), difference.size(), R"({"count": 10, "mean": 0.7, "half_width": 0.1})")));
+  EXPECT_NE(page().find("+0.70 ± 0.10 more*"), std::string::npos);
+  EXPECT_NE(page().find("Those marked * stay certain together: 1 of 1 comparison, by Holm"), std::string::npos);
 }
 
 TEST_F(ExperimentReport, WhoIsAloneIsComparedWithNobody) {
@@ -106,6 +119,15 @@ TEST_F(ExperimentReport, WhoIsAloneIsComparedWithNobody) {
   EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)),
             "There is no other paradigm to compare error of tt with.");
   EXPECT_EQ(page().find("No paradigm crosses"), std::string::npos);
+}
+
+TEST_F(ExperimentReport, AnExpectationSaysWhyItIsNotMet) {
+  std::string answer = answer_of(point(0, "1", "1"));
+  const std::string where = R"("where_not": ["noise 40 m"])";
+  write(answer.replace(answer.find(where), where.size(),
+                       R"("outcome": "cannot tell", "where_not": ["noise 40 m"], "why_not": ["one drive"])"));
+  EXPECT_NE(page().find("Expected: tt less than adva. The drives cannot tell at noise 40 m (one drive)."),
+            std::string::npos);
 }
 
 TEST_F(ExperimentReport, AnExpectationMayFailNowhereInParticular) {
