@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/nearest.h"
 #include "core/counted.h"
+#include "core/nearest.h"
 
 namespace ttf::cli {
 namespace {

@@ -1,16 +1,18 @@
-#include "cli/nearest.h"
+#include "core/nearest.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace ttf::cli {
+namespace ttf {
 namespace {
 
 constexpr std::size_t kShortest = 3;  // abbreviation
 
 bool is_near(std::string_view typed, std::string_view name, std::size_t distance) {
   const std::size_t letters = std::max(typed.size(), name.size());
-  return distance <= std::max<std::size_t>(1, letters / 3) || (typed.size() >= kShortest && name.starts_with(typed));
+  const bool shares_letters = distance < letters;
+  return (shares_letters && distance <= std::max<std::size_t>(1, letters / 3)) ||
+         (typed.size() >= kShortest && name.starts_with(typed));
 }
 
 }  // namespace
@@ -42,4 +44,4 @@ std::optional<std::string> nearest(std::string_view typed, const std::vector<std
   return best;
 }
 
-}  // namespace ttf::cli
+}  // namespace ttf

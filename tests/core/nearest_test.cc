@@ -1,8 +1,8 @@
-#include "cli/nearest.h"
+#include "core/nearest.h"
 
 #include <gtest/gtest.h>
 
-namespace ttf::cli {
+namespace ttf {
 namespace {
 
 TEST(Nearest, DistancesCountLetters) {
@@ -25,6 +25,8 @@ TEST(Nearest, OneThirdOfTheLettersMayDiffer) {
   EXPECT_EQ(nearest("o", options), std::nullopt);
   EXPECT_EQ(nearest("fast", options), std::nullopt);
   EXPECT_EQ(nearest("", options), std::nullopt);
+  EXPECT_EQ(nearest("s", {"h", "help", "seed", "strategy"}), std::nullopt) << "a letter is not near another letter";
+  EXPECT_EQ(nearest("o1", {"o"}), "o");
   EXPECT_EQ(nearest("seed", {}), std::nullopt);
 }
 
@@ -36,4 +38,4 @@ TEST(Nearest, AnAbbreviationIsNear) {
 TEST(Nearest, TheFirstOfEqualsIsTaken) { EXPECT_EQ(nearest("bat", {"bar", "baz"}), "bar"); }
 
 }  // namespace
-}  // namespace ttf::cli
+}  // namespace ttf
