@@ -6,6 +6,8 @@
 #include <charconv>
 #include <utility>
 
+#include "core/errors.h"
+
 namespace ttf::cli {
 
 CLI::Validator named() {
@@ -38,6 +40,15 @@ CLI::Validator whole_number(Range<std::int64_t> allowed) {
         return whole && allowed.contains(value) ? "" : "must be a whole number " + range;
       },
       range);
+}
+
+void refuse_other_format(const std::string& path, std::string_view format, const std::vector<FormatEnds>& formats) {
+  for (const FormatEnds& one : formats)
+    for (const std::string_view end : one.ends)
+      if (one.format != format && path.ends_with(end))
+        throw InputError(Finding{"command line", 0, "--out", path,
+                                 fmt::format("must not end in {} with --format {}: that is a file of --format {}", end,
+                                             format, one.format)});
 }
 
 }  // namespace ttf::cli

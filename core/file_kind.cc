@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "core/errors.h"
+#include "core/file_bytes.h"
 
 namespace ttf {
 namespace {
@@ -26,12 +28,14 @@ constexpr std::string_view kTrackOwn[] = {"strategy"};
 constexpr std::string_view kTrackKeys[] = {"strategy", "tracker", "sensors"};
 constexpr std::string_view kFaultKeys[] = {"faults"};
 
-constexpr std::array<Kind, 5> kKinds{{
+constexpr std::array<Kind, 7> kKinds{{
     {FileKind::kExperiment, "an experiment", "`ttfusion experiment` takes it", kExperimentKeys, {}},
     {FileKind::kScenario, "a scenario", "`ttfusion run` takes it", kScenarioKeys, {}},
     {FileKind::kCluster, "a cluster", "`ttfusion schedule check` takes it", kClusterKeys, {}},
     {FileKind::kTrack, "a track configuration", "`ttfusion track --config` takes it", kTrackOwn, kTrackKeys},
     {FileKind::kFaults, "a fault list", "an experiment takes it by the key faults", {}, kFaultKeys},
+    {FileKind::kFibex, "a FIBEX file", "`ttfusion schedule export --format yaml` takes it", {}, {}},
+    {FileKind::kDbc, "a DBC file", "`ttfusion schedule export` writes such files, and no command reads them", {}, {}},
 }};
 
 const Kind& row_of(FileKind kind) {
@@ -52,6 +56,26 @@ bool has_only(const StrictYaml& file, std::span<const std::string_view> keys) {
   return there > 0 && others.empty();
 }
 
+// Returns whether a line begins with the keyword and a colon: a section of a DBC file.
+bool has_section(std::string_view text, std::string_view keyword) {
+  for (std::size_t at = text.find(keyword); at != std::string_view::npos; at = text.find(keyword, at + 1)) {
+    const std::size_t colon = text.find_first_not_of(" \t", at + keyword.size());
+    const bool begins_line = at == 0 || text[at - 1] == '\n';
+    if (begins_line && colon != std::string_view::npos && text[colon] == ':') return true;
+  }
+  return false;
+}
+
+std::optional<FileKind> exchange_kind_of(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf", kFibexNamespace = "http://www.asam.net/xml/fbx";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return std::nullopt;
+  if (text[first] == '<')
+    return text.find(kFibexNamespace) != std::string_view::npos ? std::optional(FileKind::kFibex) : std::nullopt;
+  return has_section(text, "BS_") && has_section(text, "BU_") ? std::optional(FileKind::kDbc) : std::nullopt;
+}
+
 [[noreturn]] void refuse(const std::string& path, const Kind& found, std::string_view wanted) {
   throw InputError({path, 0, "", "", fmt::format("this is {}, not {}; {}", found.name, wanted, found.taken_by)});
 }
@@ -69,6 +93,20 @@ std::optional<FileKind> kind_of(const StrictYaml& file) {
   return std::nullopt;
 }
 
+std::optional<FileKind> kind_of_file(const std::string& path) {
+  std::string text = read_file(path);
+  if (const auto found = exchange_kind_of(text)) return found;
+  return kind_of(StrictYaml::parse(std::move(text), path));
+}
+
+StrictYaml load_of_kind(const std::string& path, FileKind wanted) {
+  std::string text = read_file(path);
+  if (const auto found = exchange_kind_of(text)) refuse(path, row_of(*found), row_of(wanted).name);
+  StrictYaml file = StrictYaml::parse(std::move(text), path);
+  expect_kind(file, wanted);
+  return file;
+}
+
 void expect_kind(const StrictYaml& file, FileKind wanted) {
   const auto found = kind_of(file);
   if (!found || *found == wanted) return;
@@ -80,9 +118,9 @@ void expect_kind(const StrictYaml& file, FileKind wanted) {
 void refuse_any_kind(const std::string& path, std::string_view wanted) {
   std::optional<FileKind> found;
   try {
-    found = kind_of(StrictYaml::load(path));
+    found = kind_of_file(path);
   } catch (const InputError&) {
-    return;  // no YAML
+    return;  // neither readable nor YAML
   }
   if (found) refuse(path, row_of(*found), wanted);
 }

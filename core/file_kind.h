@@ -1,5 +1,5 @@
-// The kinds of YAML files that the program reads. A file of another kind is one mistake. A loader that reads on would report
-// each of its keys.
+// The kinds of files that describe something: the program's YAML files, and two formats of exchange. A file of another kind is
+// one mistake. A loader that reads on would report each of its keys.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,25 @@
 
 namespace ttf {
 
-enum class FileKind : std::uint8_t { kScenario, kCluster, kExperiment, kTrack, kFaults };
+enum class FileKind : std::uint8_t { kScenario, kCluster, kExperiment, kTrack, kFaults, kFibex, kDbc };
 
 // Returns the kind by its own keys at the top level: no other kind has them. Without such a key, the kind must know all keys.
 // Returns none for other files.
 std::optional<FileKind> kind_of(const StrictYaml& file);
 
+// Does the same for any file. FIBEX is XML with FIBEX's namespace. DBC is a text with the sections BS_ and BU_. Throws the errors
+// of StrictYaml::load() for other files.
+std::optional<FileKind> kind_of_file(const std::string& path);
+
+// Reads a YAML file. Throws InputError with one finding if it is of another kind, and the errors of StrictYaml::load().
+StrictYaml load_of_kind(const std::string& path, FileKind wanted);
+
 // Throws InputError with one finding if the file is of another kind. Files of no kind pass. So do those with an own key of the
 // wanted kind: their loader knows more.
 void expect_kind(const StrictYaml& file, FileKind wanted);
 
-// Throws InputError with one finding if the file is of any kind. Call it for a file that is no recording or the like; `wanted`
-// names it: "a recording".
+// Throws InputError with one finding if the file is of any kind. Call it for a file that could not be read as `wanted`: "a
+// recording", "a FIBEX file".
 void refuse_any_kind(const std::string& path, std::string_view wanted);
 
 }  // namespace ttf

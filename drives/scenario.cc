@@ -71,7 +71,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
   return scenario;
 }
 
-Scenario load_scenario(const std::string& path) { return read_scenario(StrictYaml::load(path)); }
+Scenario load_scenario(const std::string& path) { return read_scenario(load_of_kind(path, FileKind::kScenario)); }
 
 Finding cluster_entry(const Scenario& scenario, fusion::strategies::StrategyKind strategy) {
   const auto index = static_cast<std::size_t>(strategy);

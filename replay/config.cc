@@ -85,7 +85,7 @@ ReplayConfig parse_replay_config(const std::string& text, const std::string& nam
 }
 
 ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any) {
-  return read_replay_config(StrictYaml::load(path), any);
+  return read_replay_config(load_of_kind(path, FileKind::kTrack), any);
 }
 
 }  // namespace ttf::replay

@@ -31,8 +31,7 @@ experiments::results::Shard shard_of(const std::string& text) {
 }
 
 ExperimentKind kind_of(const ExperimentOptions& options) {
-  const StrictYaml yaml = StrictYaml::load(options.file);
-  expect_kind(yaml, FileKind::kExperiment);
+  const StrictYaml yaml = load_of_kind(options.file, FileKind::kExperiment);
   Findings none;
   YamlMap root = yaml.root(none);
   const std::string kind = root.text_or("kind", "");

@@ -64,6 +64,8 @@ int export_for_papers(const ExportOptions& options) {
 int run_export(const ExportOptions& options) {
   if (options.format == "gnuplot") return export_for_papers(options);
   for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
+  refuse_other_format(options.out, options.format,
+                      {{"pcapng", {".pcapng"}}, {"candump", {".log"}}, {"csv", {".csv"}}, {"perfetto", {".pftrace"}}});
   const recording::merge::MergedLogs drive(options.logs);
   print_warnings(drive.warnings());
   if (options.format == "perfetto") return export_perfetto(options, drive);

@@ -165,7 +165,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   set.host = arguments.host ? host_option(*arguments.host) : this_host();
 
   std::string drive = set.file;  // the name in messages
-  if (kind_of(StrictYaml::load(set.file)) == FileKind::kCluster) {
+  if (kind_of_file(set.file) == FileKind::kCluster) {
     set.cluster = drive::checked_cluster(set.file);
     set.scenario = default_scene(set.cluster);
     drive = "the default scene";

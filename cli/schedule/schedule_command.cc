@@ -144,6 +144,8 @@ void write_text(const std::string& text, const std::string& path) {
 
 int export_cluster(const ScheduleOptions& options) {
   if (!options.out.empty()) refuse_overwriting(options.file, options.out, "--out");
+  refuse_other_format(options.out, options.format,
+                      {{"fibex", {".xml", ".fibex"}}, {"dbc", {".dbc"}}, {"yaml", {".yaml", ".yml"}}});
   if (!options.can.empty() && options.format != "dbc")
     throw InputError(Finding{"command line", 0, "--can", options.can, "goes with --format dbc only"});
   if (options.format == "dbc") {
@@ -157,7 +159,7 @@ int export_cluster(const ScheduleOptions& options) {
     write_text(schedules::exchange::fibex::fibex_text(cluster), options.out);
     return 0;
   }
-  const schedules::exchange::fibex::FibexImport import = schedules::exchange::fibex::import_fibex(options.file);
+  const schedules::exchange::fibex::FibexImport import = fibex_input(options.file);
   for (const Finding& finding : import.left_out) fmt::print(stderr, "note: {}\n", finding.sentence());
   const std::string yaml = schedules::exchange::fibex::skeleton_yaml(import);
   schedules::file::parse_cluster(

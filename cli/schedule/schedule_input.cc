@@ -7,8 +7,8 @@
 #include "core/counted.h"
 #include "core/errors.h"
 #include "core/file_bytes.h"
+#include "core/file_kind.h"
 #include "schedules/check/checker.h"
-#include "schedules/exchange/fibex/import.h"
 
 namespace ttf::cli::schedule {
 namespace {
@@ -39,6 +39,11 @@ ScheduleInput checked_input(const std::string& path) {
   }
   stated.throw_if_any();
   return input;
+}
+
+schedules::exchange::fibex::FibexImport fibex_input(const std::string& path) {
+  if (!is_xml(path)) refuse_any_kind(path, "a FIBEX file");
+  return schedules::exchange::fibex::import_fibex(path);
 }
 
 std::string without_tasks(const schedules::model::Cluster& cluster, const std::string& left_out) {

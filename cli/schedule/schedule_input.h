@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "schedules/exchange/fibex/import.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::cli::schedule {
@@ -17,6 +18,9 @@ struct ScheduleInput {
 // describes none (schedules/check/rules.h). A value that a FIBEX file does not state may break a rule: that is a note.
 // Throws InputError.
 ScheduleInput checked_input(const std::string& path);
+
+// Reads a FIBEX file. Throws InputError, with one finding for a file of another kind.
+schedules::exchange::fibex::FibexImport fibex_input(const std::string& path);
 
 // Returns the note for a result that needs tasks; empty for a cluster that describes them.
 std::string without_tasks(const schedules::model::Cluster& cluster, const std::string& left_out);

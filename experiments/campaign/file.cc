@@ -79,7 +79,7 @@ CampaignFile read_campaign(const StrictYaml& yaml) {
   return campaign;
 }
 
-CampaignFile load_campaign(const std::string& path) { return read_campaign(StrictYaml::load(path)); }
+CampaignFile load_campaign(const std::string& path) { return read_campaign(load_of_kind(path, FileKind::kExperiment)); }
 CampaignFile parse_campaign(std::string text, std::string name) {
   return read_campaign(StrictYaml::parse(std::move(text), std::move(name)));
 }

@@ -308,7 +308,7 @@ class Reader {
 
 }  // namespace
 
-SweepFile load_sweep(const std::string& path) { return read_sweep(StrictYaml::load(path)); }
+SweepFile load_sweep(const std::string& path) { return read_sweep(load_of_kind(path, FileKind::kExperiment)); }
 SweepFile parse_sweep(std::string text, std::string name) {
   return read_sweep(StrictYaml::parse(std::move(text), std::move(name)));
 }

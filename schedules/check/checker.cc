@@ -45,6 +45,11 @@ std::string message_path(const model::CanBus& bus, const model::CanMessage& mess
   return fmt::format("can.{}.messages[{}]", bus.name, &message - bus.messages.data());
 }
 
+std::string frame_path(const model::FrameSlot& frame) {
+  return frame.entry ? fmt::format("frames[{}] (slot {})", *frame.entry, frame.slot)
+                     : fmt::format("slot {}", frame.slot);
+}
+
 std::string ms(Duration duration) { return fmt::format("{} ms", static_cast<double>(duration.ns) / 1e6); }
 std::string number(std::int64_t value) { return fmt::format("{}", value); }
 std::string us(std::int64_t ps) { return fmt::format("{} us", static_cast<double>(ps) / 1e6); }

@@ -58,6 +58,9 @@ class ClusterFindings {
 std::string task_path(const model::Node& node, const model::Task& task);
 // Returns for example "can.laser_can.messages[0]", as the loader names it. The message is one of the CAN's.
 std::string message_path(const model::CanBus& bus, const model::CanMessage& message);
+// Returns for example "frames[9] (slot 22)": the entry as the loader names it, and which of its slots. For a frame that is
+// not from a cluster file it returns "slot 22".
+std::string frame_path(const model::FrameSlot& frame);
 // Returns for example "2.5 ms".
 std::string ms(Duration duration);
 std::string number(std::int64_t value);

@@ -24,7 +24,7 @@ void check_sender(const model::Cluster& cluster, NodeId id, ClusterFindings& fin
     if (longest == nullptr || analysis::dynamic_words(cluster, frame) > analysis::dynamic_words(cluster, *longest))
       longest = &frame;
     if (analysis::earliest_turn(g, frame) > node.flexray->pLatestTx)
-      findings.at(frame.line, fmt::format("frames.slot {}", frame.slot), fmt::format("{}", frame.slot),
+      findings.at(frame.line, frame_path(frame), fmt::format("{}", frame.slot),
                   fmt::format("must be at most {}: its earliest turn is in minislot {}, but {} begins no frame after "
                               "its pLatestTx = {}",
                               g.gNumberOfStaticSlots + node.flexray->pLatestTx, analysis::earliest_turn(g, frame),
@@ -35,7 +35,7 @@ void check_sender(const model::Cluster& cluster, NodeId id, ClusterFindings& fin
   const std::string frame = fmt::format("slot {} with {} words takes {} of {} minislots", longest->slot, words,
                                         analysis::minislots_of(g, words), g.gNumberOfMinislots);
   if (analysis::last_start(g, words) < 1)
-    findings.at(longest->line, fmt::format("frames.slot {}", longest->slot), cluster.pdu(longest->pdu).name,
+    findings.at(longest->line, frame_path(*longest), cluster.pdu(longest->pdu).name,
                 fmt::format("must fit the dynamic segment: {}", frame));
   else if (node.flexray->pLatestTx > analysis::last_start(g, words))
     findings.parameter(
@@ -65,7 +65,7 @@ void check_bounds(const model::Cluster& cluster, const model::FrameSlot& frame, 
   if (analysis::always_in_time(cluster, frame)) return;
   const std::string why = counted_on(cluster, frame);
   if (why.empty()) return;
-  findings.at(frame.line, fmt::format("frames.slot {}", frame.slot), cluster.pdu(frame.pdu).name,
+  findings.at(frame.line, frame_path(frame), cluster.pdu(frame.pdu).name,
               fmt::format("must have its turn by minislot {} (pLatestTx of {}) in every cycle, but has it in minislot "
                           "{} if all slots before it are used: {}",
                           cluster.node(frame.sender).flexray->pLatestTx, cluster.node(frame.sender).name,

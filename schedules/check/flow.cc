@@ -176,8 +176,7 @@ void check_flow(const model::Cluster& cluster, ClusterFindings& findings) {
   for (const model::FrameSlot& frame : cluster.frames)
     if (frame.pdu != kNoPdu && sent.insert({frame.pdu, model::kFlexRay}).second &&
         !writers.contains({frame.pdu, model::kFlexRay}))
-      findings.at(frame.line, fmt::format("frames.slot {}", frame.slot), cluster.pdu(frame.pdu).name,
-                  "has slots, but no task writes it");
+      findings.at(frame.line, frame_path(frame), cluster.pdu(frame.pdu).name, "has slots, but no task writes it");
   for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
     for (const model::CanMessage& message : cluster.can_buses[b].messages)
       if (!writers.contains({message.pdu, model::MediumId::can(b)}))

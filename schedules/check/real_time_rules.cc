@@ -109,7 +109,7 @@ std::vector<Finding> check_real_time(const model::Cluster& cluster, std::int64_t
       cluster.frames, [&](const model::FrameSlot& frame) { return is_dynamic(cluster.flexray, frame); });
   if (dynamic != cluster.frames.end())
     findings.at(
-        dynamic->line, fmt::format("frames.slot {}", dynamic->slot), cluster.node(dynamic->sender).name,
+        dynamic->line, frame_path(*dynamic), cluster.node(dynamic->sender).name,
         fmt::format("must be a static slot, 1..{}, in real time: frames of the dynamic segment are for virtual time "
                     "only, as its minislots of {} pass between two wake-ups",
                     cluster.flexray.gNumberOfStaticSlots,

@@ -28,8 +28,7 @@ std::string cycles_text(const model::FrameSlot& frame) {
 // first, for a list split between the channels.
 void check_order(const model::PduLayout& layout, const Groups& groups, ClusterFindings& findings) {
   const auto wrong = [&](const model::FrameSlot& frame, const std::string& expected) {
-    findings.at(frame.line, fmt::format("frames.slot {}", frame.slot),
-                fmt::format("{}, fragment {}", layout.name, frame.fragment), expected);
+    findings.at(frame.line, frame_path(frame), fmt::format("{}, fragment {}", layout.name, frame.fragment), expected);
   };
   for (auto group = groups.begin(); group != groups.end(); ++group) {
     const Group& frames = group->second;
@@ -57,13 +56,11 @@ void check_order(const model::PduLayout& layout, const Groups& groups, ClusterFi
 void check_list(const model::Cluster& cluster, PduId pdu, ClusterFindings& findings) {
   const model::PduLayout& layout = cluster.pdu(pdu);
   Groups groups;
-  int line = 0;
   const NodeId* sender = nullptr;
   const model::FrameSlot* first = nullptr;
   for (const model::FrameSlot& frame : cluster.frames) {
     if (frame.pdu != pdu) continue;
-    line = line == 0 ? frame.line : line;
-    const std::string key = fmt::format("frames.slot {}", frame.slot);
+    const std::string key = frame_path(frame);
     if (frame.fragment >= layout.max_fragments())
       findings.at(frame.line, key, fmt::format("fragment {}", frame.fragment),
                   fmt::format("must be 0..{}: {} has {} fragments", layout.max_fragments() - 1, layout.name,
@@ -86,7 +83,7 @@ void check_list(const model::Cluster& cluster, PduId pdu, ClusterFindings& findi
     for (const model::FrameSlot* frame : frames) fragments.insert(frame->fragment);
     for (int f = 0; f < layout.max_fragments(); ++f)
       if (!fragments.contains(f)) {
-        findings.at(line, fmt::format("frames.{}", layout.name), "",
+        findings.at(first->line, frame_path(*first), layout.name,
                     fmt::format("must have a slot for each of the {} fragments in the same cycles: fragment {} has no "
                                 "slot in base cycle {}, repetition {}",
                                 layout.max_fragments(), f, cycles.first, cycles.second));
@@ -154,7 +151,7 @@ void check_slots(const model::Cluster& cluster, ClusterFindings& findings) {
   std::set<PduId> lists;
   for (std::size_t i = 0; i < cluster.frames.size(); ++i) {
     const model::FrameSlot& frame = cluster.frames[i];
-    const std::string key = fmt::format("frames.slot {}", frame.slot);
+    const std::string key = frame_path(frame);
     const model::Node& sender = cluster.node(frame.sender);
     check_segment(cluster, frame, key, findings);
     if (!sender.flexray)

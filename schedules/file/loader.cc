@@ -60,7 +60,8 @@ class Loader {
     for (std::size_t i = 0; i < cans.size(); ++i) load_can(cans[i].second, cluster_.can_buses[i]);
     for (std::size_t i = 0; i < nodes.size(); ++i) load_node(nodes[i].second, shared, cluster_.nodes[i]);
     shared.finish();
-    for (YamlMap& map : root_.maps("frames")) load_frame(map);
+    std::vector<YamlMap> frames = root_.maps("frames");
+    for (std::size_t i = 0; i < frames.size(); ++i) load_frame(frames[i], static_cast<int>(i));
     std::stable_sort(cluster_.frames.begin(), cluster_.frames.end(),
                      [](const model::FrameSlot& a, const model::FrameSlot& b) {
                        return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
@@ -348,8 +349,9 @@ class Loader {
     map.finish();
   }
 
-  void load_frame(YamlMap& map) {
+  void load_frame(YamlMap& map, int entry) {
     model::FrameSlot frame;
+    frame.entry = entry;
     frame.line = map.line();
     frame.slot = static_cast<int>(map.integer("slot", {1, model::kLastSlot}));
     frame.channels = map.choice("channels", kChannels);
@@ -406,6 +408,6 @@ model::Cluster parse_cluster(std::string text, std::string name) {
   return read_cluster(StrictYaml::parse(std::move(text), std::move(name)));
 }
 
-model::Cluster load_cluster(const std::string& path) { return read_cluster(StrictYaml::load(path)); }
+model::Cluster load_cluster(const std::string& path) { return read_cluster(load_of_kind(path, FileKind::kCluster)); }
 
 }  // namespace ttf::schedules::file

@@ -51,6 +51,8 @@ struct FrameSlot {
   std::optional<std::uint16_t> message_id = std::nullopt;
   // Dynamic frames without a PDU only, which a bus description may have: the length of the whole payload.
   int payload_bytes = 0;
+  // The entry of the cluster file's list `frames` that has this slot, counted from 0. None in other files.
+  std::optional<int> entry = std::nullopt;
 };
 
 inline constexpr int kMessageIdBytes = 2;
@@ -175,8 +177,8 @@ struct Sensor {
   std::string after;   // following: the task of the host (schedules/analysis/sensor_loop.h); else empty
   Duration longest{};  // following: longest time between two measurements, on the device's own clock
   int line = 0;
-  // Free, in a drive that plays a recording: the instants of all measurements from power-on, in place of phase and
-  // period; never nearer to each other than the period. No file has them.
+  // Free, in a drive that plays a recording: the instants of all measurements in place of phase and period, on the device's
+  // clock from the start of the first cycle; never nearer to each other than the period. No file has them.
   std::vector<Duration> instants;
 
   bool follows() const { return !after.empty(); }

@@ -30,6 +30,7 @@ one_sentence "foo: is no command of \`ttfusion\`: must be $commands" foo --help
 one_sentence 'rnu: is no command of `ttfusion`: did you mean run?' rnu "$paper"
 one_sentence 'draw: is no command of `ttfusion schedule`: must be check, show or export' schedule draw x.yaml
 one_sentence '--fast: is no option of `ttfusion run`, whose --help lists them' run "$paper" --fast
+one_sentence '-s: is no option of `ttfusion run`, whose --help lists them' run "$paper" -s
 one_sentence '--startegy: is no option of `ttfusion run`: did you mean --strategy?' run "$paper" --startegy tt
 one_sentence '--fromat: is no option of `ttfusion export`: did you mean --format?' export x.mcap --fromat=csv -o x.csv
 one_sentence 'x.yaml: is one argument too many for `ttfusion run`' run "$paper" x.yaml
@@ -65,6 +66,14 @@ one_sentence "--out: $nameless" export x.mcap --format csv -o ''
 one_sentence "--out = --json: $nameless" experiment x.yaml --out= --json
 one_sentence "--out = --format: $nameless" schedule export x.yaml --out= --format fibex
 one_sentence '--out = x.pdf: must end in .html: a report is one HTML page' report "$work" -o x.pdf
+other_format() {  # FILE END FORMAT OTHER ARGS...: ARGS write FORMAT, but FILE ends as a file of OTHER does
+  one_sentence "--out = $1: must not end in $2 with --format $3: that is a file of --format $4" "${@:5}" --format "$3" -o "$1"
+}
+other_format x.xml .xml dbc fibex schedule export "$source/schedules/paper_synchronised.yaml"
+other_format x.dbc .dbc fibex dbc schedule export "$source/schedules/paper_synchronised.yaml"
+other_format x.yml .yml fibex yaml schedule export "$source/schedules/paper_synchronised.yaml"
+other_format x.csv .csv pcapng csv export x.mcap
+other_format x.pftrace .pftrace csv perfetto export x.mcap
 
 # A file of another kind is one sentence.
 other_kind() {  # KIND WANTED ARGS...: the last argument is the file
@@ -100,6 +109,23 @@ for file in "$cluster" "$paper" "$experiment"; do
   other_kind "$kind" 'a recording' diagram -o x.svg --kind boxes "$file"
 done
 expect 2 '; `ttfusion schedule check` takes it$' run "$cluster"
+# So is a file of another format.
+fibex=$work/bus.xml
+dbc=$source/schedules/paper_synchronised.dbc
+expect 0 '' schedule export "$cluster" --format fibex -o "$fibex"
+for file in "$fibex" "$dbc"; do
+  kind=$([[ $file == "$dbc" ]] && echo a DBC file || echo a FIBEX file)
+  other_kind "$kind" 'a scenario' run "$file"
+  other_kind "$kind" 'a scenario' launch --dry-run "$file"
+  other_kind "$kind" 'an experiment' experiment "$file"
+  other_kind "$kind" 'a track configuration' track "$work/rows.csv" --config "$file"
+  other_kind "$kind" 'a recording' track "$file"
+done
+other_kind 'a DBC file' 'a cluster' schedule check "$dbc"
+other_kind 'a DBC file' 'a FIBEX file' schedule export --format yaml "$dbc"
+other_kind 'a cluster' 'a FIBEX file' schedule export --format yaml "$cluster"
+sed "s#paper_synchronised.yaml#paper_synchronised.dbc#" "$paper" >"$work/scenarios/mixed.yaml"
+expect 2 '^error: .*/paper_synchronised.dbc: this is a DBC file, not a cluster; ' run "$work/scenarios/mixed.yaml" --strategy tt
 sed "s#paper_synchronised.yaml#../scenarios/paper_scenario2.yaml#" "$paper" >"$work/scenarios/mixed.yaml"
 expect 2 '^error: .*/paper_scenario2.yaml: this is a scenario, not a cluster; ' run "$work/scenarios/mixed.yaml" --strategy tt
 mkdir "$work/experiments"

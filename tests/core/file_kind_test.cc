@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 
 #include "core/errors.h"
@@ -50,6 +51,40 @@ TEST(FileKind, AnotherKindIsOneSentence) {
             "a.yaml: this is an experiment, not a track configuration; `ttfusion experiment` takes it");
   EXPECT_EQ(refusal("tracker: {}\n", FileKind::kFaults),
             "a.yaml: this is a track configuration, not a fault list; `ttfusion track --config` takes it");
+}
+
+// Writes a file and returns its path.
+std::string written(const char* name, const std::string& text) {
+  const std::string path = testing::TempDir() + name;
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+std::string refusal_of_file(const std::string& path, FileKind wanted) {
+  try {
+    (void)load_of_kind(path, wanted);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "left to the loader";
+}
+
+TEST(FileKind, FormatsOfExchangeAreTold) {
+  const std::string fibex = written("bus.xml",
+                                    "\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- ours -->\n"
+                                    "<F:FIBEX xmlns:F=\"http://www.asam.net/xml/fbx\"/>\n");
+  EXPECT_EQ(kind_of_file(fibex), FileKind::kFibex);
+  EXPECT_EQ(kind_of_file("schedules/paper_synchronised.dbc"), FileKind::kDbc);
+  EXPECT_EQ(kind_of_file("schedules/paper_synchronised.yaml"), FileKind::kCluster);
+  EXPECT_EQ(refusal_of_file(fibex, FileKind::kScenario),
+            fibex + ": this is a FIBEX file, not a scenario; `ttfusion schedule export --format yaml` takes it");
+  EXPECT_EQ(
+      refusal_of_file("schedules/paper_synchronised.dbc", FileKind::kCluster),
+      "schedules/paper_synchronised.dbc: this is a DBC file, not a cluster; `ttfusion schedule export` writes such "
+      "files, and no command reads them");
+  EXPECT_EQ(refusal_of_file("schedules/paper_synchronised.yaml", FileKind::kCluster), "left to the loader");
+  EXPECT_THROW(kind_of_file(written("page.xml", "<html/>")), InputError) << "no YAML";
+  EXPECT_EQ(kind_of_file(written("words.yaml", "note: |\n  BS_:\n  BU_:\n")), std::nullopt) << "not at a line's begin";
 }
 
 TEST(FileKind, TheLoaderHasTheRest) {

@@ -43,7 +43,7 @@ TEST(MessageIds, AreTwoBytesOfADynamicFrame) {
 }
 
 TEST(MessageIds, AreRefusedWhereTheyCannotBe) {
-  EXPECT_TRUE(found(findings_of(changed("(pdu: image, fragments: 4)", "$1, message_id: 7")), "frames.slot 7",
+  EXPECT_TRUE(found(findings_of(changed("(pdu: image, fragments: 4)", "$1, message_id: 7")), "frames[6] (slot 7)",
                     "message_id: 7", "needs a dynamic slot, above 20 (gNumberOfStaticSlots)"));
   EXPECT_TRUE(found(findings_of(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 65536")),
                     "frames[8].message_id", "65536", "0..65535"));
@@ -52,7 +52,7 @@ TEST(MessageIds, AreRefusedWhereTheyCannotBe) {
   const auto pdu = index_of(*cluster.find_pdu("camera_objects"));
   for (const int bytes : {252, 253}) {
     cluster.pdus[pdu].fragment_bytes = bytes;
-    EXPECT_EQ(found(check::check(cluster), "frames.slot 23", "camera_objects (253 bytes)", "at most 252 bytes"),
+    EXPECT_EQ(found(check::check(cluster), "frames[8] (slot 23)", "camera_objects (253 bytes)", "at most 252 bytes"),
               bytes == 253);
   }
 }

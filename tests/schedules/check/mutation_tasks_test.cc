@@ -100,7 +100,7 @@ TEST(Mutations, OfTasksAndTheirFlow) {
       {"slots_nobody_writes",
        "        writes: \\{image: image on flexray\\}\n",
        "",
-       {"pdu: image, fragments: 13", "frames.slot 22", "image", "no task writes it"}},
+       {"pdu: image, fragments: 13", "frames[7] (slot 22)", "image", "no task writes it"}},
       {"message_nobody_writes",
        "        writes: \\{raw: laser_scan on laser_can\\}\n",
        "",
