@@ -55,6 +55,9 @@ for command in launch "node fusion"; do
     expect 2 'recordings are for `ttfusion run --input`' $command "$source/scenarios/laser_radar_recorded.yaml"
   }
 done
+for strategy in buff adva tt; do
+  expect 0 'node right_laser' launch "$source/scenarios/two_lasers.yaml" --strategy $strategy --dry-run
+done
 # In real time: the cluster's requirements at the time scale; no faults.
 edited() \
   { sed "$1" "$cluster" >"$work/edited.yaml"; cmp -s "$cluster" "$work/edited.yaml" && fail "'$1' changes nothing"; }
