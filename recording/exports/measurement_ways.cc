@@ -34,8 +34,8 @@ void MeasurementWays::frame(bool flexray, std::uint8_t channel, NodeId sender, S
   if (flexray) acts_.push_back({Deed::kImageFrame, mark.at, sender, {}, sequence, mark, channel, fragment});
 }
 
-void MeasurementWays::run(NodeId node, TrueTime start, TrueTime end, const WayMark& mark) {
-  runs_[node].push_back({start, end, mark});
+void MeasurementWays::executed(NodeId node, TrueTime start, TrueTime end, const WayMark& mark) {
+  executions_[node].push_back({start, end, mark});
 }
 
 void MeasurementWays::act(Act act) {
@@ -59,16 +59,16 @@ NodeId MeasurementWays::writer_of(NodeId user, std::uint32_t image) const {
 
 // A kWritten belongs to the execution that ends then, any other act to the one that starts then. If stamps are
 // less exact, it belongs to the last execution that had started.
-std::optional<WayMark> MeasurementWays::run_of(const Act& act) const {
+std::optional<WayMark> MeasurementWays::execution_of(const Act& act) const {
   if (act.deed == Deed::kImageFrame || act.deed == Deed::kLost) return std::nullopt;
-  const auto of_node = runs_.find(act.node);
-  if (of_node == runs_.end()) return std::nullopt;
-  const Run* best = nullptr;
-  for (const Run& run : of_node->second) {
-    if (run.start > act.at + kTolerance || run.end + kTolerance < act.at) continue;
-    const bool ends = act.deed == Deed::kWritten && run.end <= act.at + kTolerance;
-    if (ends) return run.mark;
-    if (best == nullptr || run.start > best->start) best = &run;
+  const auto of_node = executions_.find(act.node);
+  if (of_node == executions_.end()) return std::nullopt;
+  const Execution* best = nullptr;
+  for (const Execution& one : of_node->second) {
+    if (one.start > act.at + kTolerance || one.end + kTolerance < act.at) continue;
+    const bool ends = act.deed == Deed::kWritten && one.end <= act.at + kTolerance;
+    if (ends) return one.mark;
+    if (best == nullptr || one.start > best->start) best = &one;
   }
   return best != nullptr ? std::optional(best->mark) : std::nullopt;
 }
@@ -83,8 +83,8 @@ void MeasurementWays::pass(const MeasurementId& id, const Stop& stop) {
 }
 
 std::optional<WayMark> MeasurementWays::perform(const Act& act) {
-  const std::optional<WayMark> run = run_of(act);
-  const Stop stop{act.deed, act.at, act.node, run};
+  const std::optional<WayMark> execution = execution_of(act);
+  const Stop stop{act.deed, act.at, act.node, execution};
   switch (act.deed) {
     case Deed::kMeasured:
     case Deed::kFrame: break;  // not a task's
@@ -111,7 +111,7 @@ std::optional<WayMark> MeasurementWays::perform(const Act& act) {
     case Deed::kImageFrame: send_image(act); break;
     case Deed::kUsed: use_image(act, stop); break;
   }
-  return run;
+  return execution;
 }
 
 void MeasurementWays::write_image(const Act& act, const Stop& stop) {
@@ -167,8 +167,8 @@ void MeasurementWays::forget(TrueTime now) {
     if (ended_.image) ended_.image(images_.front().image);
     images_.pop_front();
   }
-  for (auto& [node, runs] : runs_)
-    while (!runs.empty() && runs.front().start + kLongestWay < now) runs.pop_front();
+  for (auto& [node, those] : executions_)
+    while (!those.empty() && those.front().start + kLongestWay < now) those.pop_front();
 }
 
 void MeasurementWays::finish() {

@@ -81,7 +81,7 @@ class MeasurementWays {
   void measured(const MeasurementId& id, NodeId node, const WayMark& mark);
   void frame(bool flexray, std::uint8_t channel, NodeId sender, SensorId sensor, std::uint32_t sequence,
              std::uint8_t fragment, const WayMark& mark);
-  void run(NodeId node, TrueTime start, TrueTime end, const WayMark& mark);
+  void executed(NodeId node, TrueTime start, TrueTime end, const WayMark& mark);
 
   // A node writes or reads a list that belongs to no sensor: it may be an image. A use names the image's number alone;
   // the user's last reads identify the image, by their writers that fuse.
@@ -102,11 +102,11 @@ class MeasurementWays {
   };
   void act(Act act);
 
-  // Advances to `now`. Calls `told(act, run)` for every act whose task's execution is known, with the mark of
+  // Advances to `now`. Calls `told(act, execution)` for every act whose task's execution is known, with the mark of
   // the execution.
   template <class Told> void advance(TrueTime now, Told&& told) {
-    while (!acts_.empty() && acts_.front().at + kRunIsTold < now) {
-      if (const std::optional<WayMark> run = perform(acts_.front())) told(acts_.front(), *run);
+    while (!acts_.empty() && acts_.front().at + kExecutionIsTold < now) {
+      if (const std::optional<WayMark> mark = perform(acts_.front())) told(acts_.front(), *mark);
       acts_.pop_front();
     }
     forget(now);
@@ -115,8 +115,8 @@ class MeasurementWays {
   void finish();
 
  private:
-  static constexpr Duration kRunIsTold = Duration::milliseconds(1);  // delay of the execution's record after the
-                                                                     // start of the task
+  static constexpr Duration kExecutionIsTold = Duration::milliseconds(1);  // delay of its record after
+                                                                           // its start
   static constexpr Duration kTolerance = Duration::microseconds(2);  // between a task's start and the stamps of its
                                                                      // acts then
 
@@ -134,13 +134,13 @@ class MeasurementWays {
     std::vector<MeasurementId> ids;  // measurements whose ways go on with the image
     Carried on_flexray;
   };
-  struct Run {
+  struct Execution {
     TrueTime start, end;
     WayMark mark;
   };
   using Ways = std::map<MeasurementId, Followed>;
 
-  std::optional<WayMark> run_of(const Act& act) const;
+  std::optional<WayMark> execution_of(const Act& act) const;
   std::optional<WayMark> perform(const Act& act);
   void pass(const MeasurementId& id, const Stop& stop);
   void write_image(const Act& act, const Stop& stop);
@@ -157,7 +157,7 @@ class MeasurementWays {
   std::set<NodeId> fuses_;                                 // nodes that wrote images
   std::map<PduId, NodeId> writers_;                        // for lists that belong to no sensor
   std::map<NodeId, std::map<PduId, std::uint32_t>> read_;  // the last number of each list, by reader
-  std::map<NodeId, std::deque<Run>> runs_;
+  std::map<NodeId, std::deque<Execution>> executions_;
   std::deque<Act> acts_;
   std::uint64_t numbers_ = 0;
 };

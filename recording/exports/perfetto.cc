@@ -235,7 +235,7 @@ void PerfettoExport::on(const records::TaskRun& r) {
     notes.push_back({"waited", microseconds(start - activated)});
   const TraceMark mark = timeline_.slice(node, task, start, end, task, std::move(notes));
   if (!r.deadline_met) timeline_.instant(node, task, std::max(start, end), "deadline missed", {});
-  ways_.run(r.start.node, start, end, passed(mark));
+  ways_.executed(r.start.node, start, end, passed(mark));
 }
 
 void PerfettoExport::on(const records::ClockCorrected& r) {

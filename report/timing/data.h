@@ -45,7 +45,7 @@ struct TimingData {
     std::uint32_t sequence;
     PduId pdu;
   };
-  struct Run {
+  struct Execution {
     TrueTime activated, start, end;
     NodeId node;
     std::uint8_t task;
@@ -107,7 +107,7 @@ struct TimingData {
   std::vector<CanFrame> can_frames;
   std::vector<SlotFrame> slot_frames;
   std::vector<HopAt> hops;
-  std::vector<Run> runs;
+  std::vector<Execution> executions;
   std::vector<Fused> fused;
   std::vector<Step> steps;
   std::vector<Image> images;

@@ -45,7 +45,7 @@ void TimingDiagram::on(const recording::records::ListHop& r) {
 }
 void TimingDiagram::on(const recording::records::TaskRun& r) {
   if (drawing::possible(r.start.true_time.ns) && near(r.activated.true_time, r.end.true_time))
-    data_.runs.push_back(
+    data_.executions.push_back(
         {r.activated.true_time, r.start.true_time, r.end.true_time, r.start.node, r.task, r.deadline_met});
 }
 void TimingDiagram::on(const recording::records::ListFused& r) {
@@ -82,14 +82,15 @@ void TimingDiagram::on(const recording::records::TimingProblem& r) {
 std::string TimingDiagram::svg(TimingUse use) const {
   // These records make the lanes; fusion and use are drawn between them.
   const bool nothing =
-      data_.measurements.empty() && data_.can_frames.empty() && data_.slot_frames.empty() && data_.runs.empty();
+      data_.measurements.empty() && data_.can_frames.empty() && data_.slot_frames.empty() && data_.executions.empty();
   if (from_ >= to_ || nothing)
     return drawing::empty_picture(
         "Timing diagram", fmt::format("There are no records between {} ms and {} ms.", drawing::number(in_ms(from_)),
                                       drawing::number(in_ms(to_))));
   // A log records an execution at its end, a merged log at its start: sorting gives the same picture.
   TimingData data = data_;
-  std::ranges::stable_sort(data.runs, {}, [](const TimingData::Run& run) { return std::tuple(run.start, run.node); });
+  std::ranges::stable_sort(data.executions, {},
+                           [](const TimingData::Execution& one) { return std::tuple(one.start, one.node); });
   return paint_timing(names_, data, cycle_, from_, to_, use);
 }
 

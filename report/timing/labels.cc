@@ -28,8 +28,8 @@ class LabelPainter {
       label(text, {.size = kText, .halo = true}, at, m.at);
     }
     for (const auto& s : canvas_.data.steps) {
-      const TimingData::Run* box = nullptr;
-      for (const auto& r : canvas_.data.runs)
+      const TimingData::Execution* box = nullptr;
+      for (const auto& r : canvas_.data.executions)
         if (r.node == s.node && r.start.ns <= s.at.ns + 2000 && s.at.ns <= r.end.ns + 2000 &&
             (box == nullptr || r.start > box->start))
           box = &r;

@@ -17,7 +17,7 @@ std::set<LaneKey> all_keys(const TimingData& data, const Ways& ways) {
   for (const auto& m : data.measurements) keys.insert({LaneKind::kSensor, index_of(m.id.sensor), 0});
   for (const auto& f : data.can_frames) keys.insert({LaneKind::kCan, f.bus, 0});
   for (const auto& f : data.slot_frames) keys.insert({LaneKind::kChannel, f.channel, 0});
-  for (const auto& r : data.runs) keys.insert({LaneKind::kTask, index_of(r.node), r.task});
+  for (const auto& r : data.executions) keys.insert({LaneKind::kTask, index_of(r.node), r.task});
   for (const auto* some : {&ways.measurements, &ways.images})
     for (const Way& way : *some)
       for (const Leg& leg : way.legs) keys.insert({leg.from.lane, leg.to.lane});

@@ -208,7 +208,7 @@ class TimingPainter : TimingCanvas {
   }
 
   void tasks() {
-    for (const auto& r : data.runs) {
+    for (const auto& r : data.executions) {
       if (!visible(r.activated, r.end)) continue;
       const double centre = y({LaneKey::Kind::kTask, index_of(r.node), r.task});
       if (r.activated < r.start) {

@@ -42,7 +42,7 @@ class Followed {
   const std::vector<MeasurementWays::Image>& images() const { return images_; }
 
  private:
-  enum class What : std::uint8_t { kSlotFrame, kCanFrame, kHop, kMeasured, kFused, kImage, kUse, kRun };
+  enum class What : std::uint8_t { kSlotFrame, kCanFrame, kHop, kMeasured, kFused, kImage, kUse, kExecution };
   struct Event {
     TrueTime at;
     What what;          // causes before effects, as in merged logs (recording/merge/record_place.h)
@@ -67,7 +67,7 @@ class Followed {
     add(What::kFused, data_.fused, &Data::Fused::at, by_node);
     add(What::kImage, data_.images, &Data::Image::at, by_node);
     add(What::kUse, data_.uses, &Data::Use::at, by_node);
-    add(What::kRun, data_.runs, &Data::Run::start, by_node);
+    add(What::kExecution, data_.executions, &Data::Execution::start, by_node);
     std::ranges::sort(events);
     return events;
   }
@@ -111,9 +111,9 @@ class Followed {
         if (!u.stale) follower_.act({Deed::kUsed, u.at, u.node, {}, u.image});
         break;
       }
-      case What::kRun: {
-        const auto& r = data_.runs[event.index];
-        follower_.run(r.node, r.start, r.end, mark({{Kind::kTask, index_of(r.node), r.task}, r.start, r.end}));
+      case What::kExecution: {
+        const auto& r = data_.executions[event.index];
+        follower_.executed(r.node, r.start, r.end, mark({{Kind::kTask, index_of(r.node), r.task}, r.start, r.end}));
         break;
       }
     }

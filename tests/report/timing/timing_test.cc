@@ -275,8 +275,8 @@ TEST_F(Ways, LeadFromTheSensorThroughEveryHop) {
   data_.can_frames = {{0, at_us(1000), at_us(2000), PduId{0}, 7, 0, NodeId{0}, SensorId{0}},
                       {0, at_us(2500), at_us(3000), PduId{0}, 7, 1, NodeId{0}, SensorId{0}}};
   data_.hops = {{at_us(4000), NodeId{2}, recording::records::Hop::kRead, SensorId{0}, 7, PduId{}}};
-  data_.runs = {{at_us(3000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
-                {at_us(13000), at_us(13000), at_us(14000), NodeId{5}, 0, true}};
+  data_.executions = {{at_us(3000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
+                      {at_us(13000), at_us(13000), at_us(14000), NodeId{5}, 0, true}};
   for (std::uint8_t channel : {0, 1})
     data_.slot_frames.push_back(
         {at_us(10000), at_us(11000), {}, NodeId{4}, 2, 3, channel, false, PduId{2}, 7, 0, SensorId{0}});
@@ -397,8 +397,8 @@ TEST_F(Ways, AnotherNumberIsAnotherList) {
 // A task ends as the next begins: lists written then are the first one's.
 TEST_F(Ways, WhatIsWrittenIsOfTheRunThatEndsThen) {
   data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
-  data_.runs = {{at_us(4000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
-                {at_us(9000), at_us(9000), at_us(9500), NodeId{2}, 1, true}};
+  data_.executions = {{at_us(4000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
+                      {at_us(9000), at_us(9000), at_us(9500), NodeId{2}, 1, true}};
   data_.hops = {{at_us(9000), NodeId{2}, recording::records::Hop::kWritten, SensorId{0}, 7, PduId{}}};
   const auto all = ways();
   ASSERT_EQ(all[0].legs.size(), 1u);
@@ -418,8 +418,8 @@ TEST_F(Ways, AListThatIsHeldForLongIsFollowed) {
 
 TEST_F(Ways, AnImageGoesOverItsSlotsToTheFeatureService) {
   data_.images = {{at_us(1000), NodeId{5}, 4, {}}};
-  data_.runs = {{at_us(1000), at_us(1000), at_us(1500), NodeId{5}, 1, true},
-                {at_us(30000), at_us(30000), at_us(30300), NodeId{6}, 0, true}};
+  data_.executions = {{at_us(1000), at_us(1000), at_us(1500), NodeId{5}, 1, true},
+                      {at_us(30000), at_us(30000), at_us(30300), NodeId{6}, 0, true}};
   data_.slot_frames = {{at_us(5000), at_us(5100), {}, NodeId{5}, 1, 12, 0, false, PduId{4}, 4, 0, kNoSensor},
                        {at_us(5100), at_us(5200), {}, NodeId{5}, 1, 13, 0, false, PduId{4}, 4, 1, kNoSensor}};
   data_.uses = {{at_us(30000), NodeId{6}, 4, true}};
