@@ -15,7 +15,6 @@
 #include "core/errors.h"
 #include "evaluation/accuracy/drive_rows.h"
 #include "experiments/sweep/measures.h"
-#include "recording/exports/frames.h"
 #include "recording/merge/merge.h"
 #include "recording/merge/stored_log.h"
 #include "recording/records/tee.h"
@@ -44,16 +43,14 @@ std::string as_file_name(const std::string& text) {
 class DriveTables {
  public:
   DriveTables(const recording::merge::MergedLogs& drive, report::paper::PaperDrive& has)
-      : names_(drive.manifest()), has_(has) {
-    report::drawing::Names names;
-    names.sensors = drive.manifest().sensor_names;
+      : names_(report::drawing::names_of(drive.manifest())), has_(has) {
     drive.read(rows_);
     rows_.finish();
     const ObjectId object = rows_.referenced().value_or(ObjectId{0});
     has_.object = static_cast<int>(index_of(object));
     report::plots::PositionOptions options;
     options.object = object;
-    report::plots::PositionPlots plots(names, options);
+    report::plots::PositionPlots plots(names_, options);
     drive.read(plots);
     selection_ = plots.select();
   }
@@ -66,6 +63,16 @@ class DriveTables {
   }
 
  private:
+  // Returns the sensor's name, and notes how to draw it.
+  std::string shown(SensorId id) {
+    std::string name = names_.sensor(id);
+    const auto has_name = [&](const report::paper::PaperSensor& one) { return one.name == name; };
+    if (std::none_of(has_.sensors.begin(), has_.sensors.end(), has_name))
+      has_.sensors.push_back(
+          {name, report::drawing::sensor_colour(names_, id), report::drawing::sensor_marker(names_, id)});
+    return name;
+  }
+
   std::string positions() {
     std::string text = report::paper::kPositionsHead;
     const auto add = [&](const std::string& kind, const std::vector<report::plots::PositionPlots::Sample>& samples) {
@@ -78,7 +85,7 @@ class DriveTables {
     add("truth", selection_.truth);
     add("reference", selection_.reference);
     for (std::size_t s = 0; s < selection_.observations.size(); ++s)
-      add(report::paper::sensor_kind(names_.sensor(static_cast<SensorId>(s))), selection_.observations[s]);
+      add(report::paper::sensor_kind(shown(static_cast<SensorId>(s))), selection_.observations[s]);
     add("image", selection_.fusion);
     return text;
   }
@@ -113,7 +120,7 @@ class DriveTables {
     std::string text = report::paper::kAgesHead;
     for (const auto& [what, histogram] : rows_.ages()) {
       const std::string of = what.first == evaluation::accuracy::AgeOf::kFused ? "fused" : "used",
-                        sensor = names_.sensor(what.second);
+                        sensor = shown(what.second);
       has_.ages.emplace_back(of, sensor);
       const double bin_ms = static_cast<double>(evaluation::accuracy::kAgeBin.ns) * 1e-6;
       has_.least_age_ms = std::min(has_.least_age_ms, bin_ms * static_cast<double>(histogram.begin()->first));
@@ -125,7 +132,7 @@ class DriveTables {
     return text;
   }
 
-  recording::exports::LogNames names_;
+  report::drawing::Names names_;
   report::paper::PaperDrive& has_;
   evaluation::accuracy::DriveRows rows_;
   report::plots::PositionPlots::Selection selection_;

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <string_view>
+
+#include "core/check.h"
+#include "report/drawing/axes.h"
 
 namespace ttf::report::paper {
 namespace {
@@ -34,22 +36,46 @@ std::string labels(const std::string& title, const std::string& x, const std::st
                      gnuplot_text(y));
 }
 
-std::string style_of(const std::string& kind, std::size_t nth_sensor) {
+int point_type(drawing::Marker marker) {
+  switch (marker) {
+    case drawing::Marker::kPlus: return 1;
+    case drawing::Marker::kCross: return 2;
+    case drawing::Marker::kSquare: return 4;
+    case drawing::Marker::kCircle: return 6;
+    case drawing::Marker::kTriangle: return 8;
+    case drawing::Marker::kDownTriangle: return 10;
+    case drawing::Marker::kDiamond: return 12;
+  }
+  TTF_CHECK(false, "marker {}", static_cast<int>(marker));
+}
+
+const PaperSensor& sensor_named(const PaperDrive& drive, const std::string& name) {
+  const auto found =
+      std::ranges::find_if(drive.sensors, [&](const PaperSensor& sensor) { return sensor.name == name; });
+  TTF_CHECK(found != drive.sensors.end(), "{} has no sensor {}", drive.label, name);
+  return *found;
+}
+
+// Returns colours and markers as in the other pictures (report/plots/position_draw.cc).
+std::string style_of(const PaperDrive& drive, const std::string& kind) {
+  const auto points = [](drawing::Marker marker, double size, std::string_view colour) {
+    return fmt::format("with points pointtype {} pointsize {} linecolor rgb \"{}\"", point_type(marker), size, colour);
+  };
   if (kind == "truth") return "with lines linecolor rgb \"#888888\" linewidth 1.5";
-  if (kind == "reference") return "with points pointtype 6 pointsize 0.5 linecolor rgb \"#000000\"";
-  if (kind == "image") return "with points pointtype 5 pointsize 0.35 linecolor rgb \"#0072b2\"";
-  constexpr std::pair<int, const char*> kLooks[] = {{2, "#d55e00"}, {8, "#009e73"}, {12, "#cc79a7"}, {1, "#e69f00"}};
-  const auto& [point, colour] = kLooks[nth_sensor % std::size(kLooks)];
-  return fmt::format("with points pointtype {} pointsize 0.4 linecolor rgb \"{}\"", point, colour);
+  if (kind == "reference") return points(drawing::Marker::kCircle, 0.5, drawing::kPurple);
+  if (kind == "image") return points(drawing::Marker::kSquare, 0.35, drawing::kBlack);
+  const auto sensor =
+      std::ranges::find_if(drive.sensors, [&](const PaperSensor& one) { return sensor_kind(one.name) == kind; });
+  TTF_CHECK(sensor != drive.sensors.end(), "{} has no sensor for {}", drive.label, kind);
+  return points(sensor->marker, 0.4, sensor->colour);
 }
 
 // `x` and `y` are columns of the table: 2 is time, 3 and 4 are the plane.
 std::string positions_panel(const PaperDrive& drive, const std::string& title, int x, int y) {
   constexpr const char* kAxes[] = {"", "", "time [s]", "x [m]", "y [m]"};
   Curves curves;
-  std::size_t sensors = 0;
   for (const std::string& kind : drive.kinds) {
-    const std::string style = style_of(kind, is_sensor(kind) ? sensors++ : 0);
+    const std::string style = style_of(drive, kind);
     curves.add(fmt::format("{} using (strcol(1) eq {} ? ${} : NaN):{} {} title {}", table_of(drive, "positions"),
                            gnuplot_text(kind), x, y, style, gnuplot_text(kind)));
   }
@@ -139,12 +165,12 @@ PaperFile nees(const std::vector<PaperDrive>& drives) {
 
 std::string ages_panel(const PaperDrive& drive, const char* of, const std::string& axis, const char* counted) {
   Curves curves;
-  std::size_t nth = 0;
   for (const auto& [what, sensor] : drive.ages) {
     if (what != of) continue;
     curves.add(fmt::format(
-        "{} using (strcol(1) eq \"{}\" && strcol(2) eq {} ? ($3+$4)/2 : NaN):5:($4-$3) with boxes title {}{}",
-        table_of(drive, "ages"), of, gnuplot_text(sensor), gnuplot_text(sensor), gnuplot_colour(++nth)));
+        "{} using (strcol(1) eq \"{}\" && strcol(2) eq {} ? ($3+$4)/2 : NaN):5:($4-$3) with boxes title {} linecolor "
+        "rgb \"{}\"",
+        table_of(drive, "ages"), of, gnuplot_text(sensor), gnuplot_text(sensor), sensor_named(drive, sensor).colour));
   }
   return labels(drive.title, axis, counted) + curves.command();
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "report/drawing/svg.h"
 #include "report/paper/gnuplot.h"
 
 namespace ttf::report::paper {
@@ -24,10 +25,17 @@ inline constexpr const char kAgesHead[] = "of,sensor,from_ms,to_ms,count\n";
 // Returns a sensor's name, or `sensor truth` if the name would be another kind.
 std::string sensor_kind(const std::string& name);
 
+// A sensor as all pictures show it (report/drawing/names.h).
+struct PaperSensor {
+  std::string name, colour;  // "#d55e00"
+  drawing::Marker marker{};
+};
+
 // The content of a drive's tables; absent content is not drawn.
 struct PaperDrive {
   std::string label;  // names its files
   std::string title;
+  std::vector<PaperSensor> sensors;
   std::vector<std::string> kinds;                         // of positions
   int object = 0;                                         // whose errors are drawn
   bool errors = false, sigmas = false, nees = false;      // for that object; for all

@@ -36,6 +36,16 @@ head -c $(($(stat -c %s "$work/run/tt.mcap") * 2 / 3)) "$work/run/tt.mcap" >"$wo
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format gnuplot -o "$work/cut"
 drawn "$work/cut"
 
+# ---- sensors look as the scenario says: the right laser is green, and so are its ages
+"$program" run "$source/scenarios/two_lasers.yaml" --strategy tt --no-pictures --out "$work/lasers" >/dev/null 2>&1 ||
+  fail "the drive with two lasers fails"
+expect 0 '' export "$work/lasers/tt.mcap" --format gnuplot -o "$work/lasers_figures"
+drawn "$work/lasers_figures"
+for look in 'tt_positions left_laser.*pointtype 2 .*#d55e00' 'tt_positions right_laser.*pointtype 1 .*#009e73' \
+  'tt_positions camera.*pointtype 8 .*#0072b2' 'ages right_laser.*#009e73'; do
+  grep -q "${look#* }" "$work/lasers_figures/${look%% *}.gp" || fail "${look%% *}.gp has no ${look#* }"
+done
+
 # ---- an image that is used once
 sed -e 's/^duration: .*/duration: 120 ms/' -e 's/^evaluate_from: .*/evaluate_from: 0 ms/' -e "s#\.\./#$source/#" \
   "$source/scenarios/paper_scenario1.yaml" >"$work/once.yaml"
