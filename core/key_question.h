@@ -52,8 +52,8 @@ inline constexpr const char* kAnyName = "NAME";
 class KeyAnswers {
  public:
   virtual ~KeyAnswers() = default;
-  // Boolean for kIsThere, kIsMap and kBoolean; std::int64_t for kInteger, kIntegers, kDecimal, kDuration and kWord;
-  // double for kNumber; std::string for kText. For the others the answer does not matter.
+  // Returns a bool for kIsThere, kIsMap and kBoolean, a double for kNumber and a std::string for kText. For kInteger,
+  // kIntegers, kDecimal, kDuration and kWord it is a std::int64_t. For the other types the answer has no effect.
   virtual KeyValue answer(const KeyQuestion& question) = 0;
 };
 

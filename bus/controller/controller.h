@@ -109,7 +109,7 @@ class ControllerEvents {
   // The static segment of a cycle is over: its slot problems have been reported, and slot_status() describes
   // it. Also called during start-up, when the host must judge it by state().
   virtual void static_segment_ended(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
-  // Returns whether the host wants every frame received, and every fragment even if known.
+  // Returns whether the host wants frame_received() and list_arrived() for every frame, also for one that it knows.
   virtual bool wants_receptions() const { return true; }
   // A valid frame in the slot that its header states, also an unexpected one; not during start-up. `frame` is valid
   // only during the call.

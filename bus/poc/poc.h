@@ -196,7 +196,7 @@ struct PocStep {
 // Returns the state after power-on.
 PocState poc_power_on(const PocParameters& parameters);
 
-// Answers every pair of state and event. The event's data come from the controller itself and are trusted.
+// Returns the step that an event causes; every pair of state and event has one. The event's data are not checked.
 PocStep poc_step(const PocParameters& parameters, const PocState& state, const PocEvent& event);
 
 MacMode mac_mode(const PocState& state);

@@ -66,8 +66,8 @@ struct RecordedScan {
 std::vector<RecordedScan> read_lidar_scans(const std::string& path);
 std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::string& name);
 
-// Returns the format of a file, judged by its first kRecordingHead bytes; these must reach the first row or
-// heading. Throws InputError if the format is unknown.
+// Returns the format of a file. Its first kRecordingHead bytes decide, so they must have the first row or heading.
+// Throws InputError if the format is unknown.
 inline constexpr std::size_t kRecordingHead = 64 * 1024;
 enum class RecordingFormat : std::uint8_t { kLog = 1, kLaserRadar = 2, kLidarScans = 3 };
 RecordingFormat sniff_recording(const std::string& path);

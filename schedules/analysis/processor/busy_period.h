@@ -33,12 +33,12 @@ namespace ttf::schedules::analysis::processor {
 
 inline constexpr std::int64_t kLongestBusy_ns = 20'000'000'000;  // twice the longest deadline that a file allows
 
-struct ByTime {};  // at the chain's instants in TaskChains::timed
+struct ByTime {};  // activation at instants of the schedule: TaskChains::timed has them for each chain
 
-// Activation by a sensor that waits for the end of the chain's first task.
+// Activation by a sensor that measures after each end of the chain's first task.
 struct ByFollower {
-  std::int64_t best = 0, worst = 0;  // the other task's execution
-  std::int64_t pause = 0;            // least time from its end to the next activation; above zero
+  std::int64_t best = 0, worst = 0;  // execution time of that task
+  std::int64_t pause = 0;            // least time from its end to its next activation; above zero
 
   std::int64_t shortest_round() const { return best + pause; }
 };
@@ -61,8 +61,8 @@ struct TaskChains {
 // `limit`, or if the clock's corrections leave no bound.
 std::optional<std::int64_t> busy_time(const TaskChains& set, std::int64_t limit);
 
-// By chain: the least time by which its newest activation precedes some instant. Zero, or no leads, if it is
-// unknown.
+// Each chain has a lead: its newest activation is at least this long before a given instant. An unknown lead is zero;
+// without leads, all are unknown.
 using Leads = std::span<const std::int64_t>;
 
 // Returns the longest time from a chain's activation to the end of its work, given the others' leads before it.
