@@ -74,7 +74,7 @@ std::string checks_text(const FaultFindings& findings, const schedules::model::C
                    seers(seen, cluster) + (faulty ? " (faulty)" : "")});
       }
   });
-  return table.rows() == 0 ? "No check found a fault.\n" : table.text();
+  return table.rows() == 0 ? "No check on FlexRay found a fault.\n" : table.text();
 }
 
 // Returns "" without guardians, or if they did not intervene.
@@ -107,7 +107,8 @@ std::string can_name(std::uint8_t bus, const schedules::model::Cluster& cluster)
 
 // Returns "" without errors on a private CAN.
 std::string cans_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
-  report::drawing::Table table({"CAN", "node", "first [s]", "error frames", "error passive", "bus off", "errors"});
+  report::drawing::Table table(
+      {"CAN", "node", "first [s]", "error frames begun", "error passive", "bus off", "errors"});
   for (const CanSeen& seen : findings.cans) {
     std::uint64_t all = 0;
     std::string words;
