@@ -24,8 +24,8 @@ struct Kind {
 constexpr std::string_view kExperimentKeys[] = {"kind", "paradigms", "variants", "axes"};
 constexpr std::string_view kScenarioKeys[] = {"clusters", "world"};
 constexpr std::string_view kClusterKeys[] = {"flexray", "node_parameters", "nodes", "pdus"};
-constexpr std::string_view kTrackOwn[] = {"strategy"};
-constexpr std::string_view kTrackKeys[] = {"strategy", "tracker", "sensors"};
+constexpr std::string_view kTrackOwn[] = {"strategy", "scans"};
+constexpr std::string_view kTrackKeys[] = {"strategy", "tracker", "sensors", "scans"};
 constexpr std::string_view kFaultKeys[] = {"faults"};
 
 constexpr std::array<Kind, 7> kKinds{{

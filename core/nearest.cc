@@ -44,4 +44,9 @@ std::optional<std::string> nearest(std::string_view typed, const std::vector<std
   return best;
 }
 
+std::string did_you_mean(std::string_view typed, const std::vector<std::string>& names) {
+  const auto near = nearest(typed, names);
+  return near ? "; did you mean " + *near + "?" : "";
+}
+
 }  // namespace ttf

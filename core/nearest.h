@@ -18,4 +18,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 // one of two. It is also near if `typed` abbreviates it.
 std::optional<std::string> nearest(std::string_view typed, const std::vector<std::string>& names);
 
+// Returns "; did you mean laser?", or an empty text.
+std::string did_you_mean(std::string_view typed, const std::vector<std::string>& names);
+
 }  // namespace ttf

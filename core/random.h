@@ -32,6 +32,8 @@ enum class Purpose : std::uint16_t {
   kSensorBias = 15,
   kSweep = 16,
   kOtherTraffic = 17,
+  kObjectSize = 18,
+  kSpeedAtStart = 19,
 };
 
 struct StreamKey {

@@ -78,6 +78,12 @@ void YamlMap::fail(std::string_view key, std::string expected) {
   findings_->add({content_->file, line(key), key_path(key), value, std::move(expected)});
 }
 
+void YamlMap::gone(std::string_view key, std::string_view now) {
+  if (is_described()) return;
+  content_->gone.emplace(key);
+  if (child(content_->node, key).IsDefined()) fail(key, fmt::format("is no key any longer: {}", now));
+}
+
 std::optional<std::string> YamlMap::scalar(std::string_view key, std::string_view expected) {
   content_->asked.emplace(key);
   const YAML::Node node = child(content_->node, key);
@@ -388,7 +394,7 @@ void YamlMap::finish() {
     const std::string& key = entry.first.Scalar();
     if (!seen.insert(key).second)
       findings_->add({content_->file, line, key_path(key), "", "is given twice in one mapping"});
-    else if (!content_->asked.contains(key))
+    else if (!content_->asked.contains(key) && !content_->gone.contains(key))
       findings_->add({content_->file, line, key_path(key), "",
                       content_->asked.empty()
                           ? std::string("is not a known key here")

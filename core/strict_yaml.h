@@ -40,6 +40,8 @@ template <class Enum> using Choices = std::vector<std::pair<std::string_view, En
 class YamlMap {
  public:
   bool has(std::string_view key) const;
+  // Returns whether the file lacks the key. Described files never do.
+  bool lacks(std::string_view key) const { return !is_described() && !has(key); }
 
   std::int64_t integer(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, Range<std::int64_t> allowed,
@@ -87,6 +89,9 @@ class YamlMap {
   std::vector<std::pair<std::string, std::string>> named_texts(std::string_view key);  // name: text, in file order
   // The keys of this mapping that were not asked for yet: name: {...}, in file order.
   std::vector<std::pair<std::string, YamlMap>> other_maps();
+
+  // Refuses a key that earlier versions had; `now` says what stands for it. It is not among the known keys.
+  void gone(std::string_view key, std::string_view now);
 
   // Adds a finding about `key` (about this mapping when `key` is empty), with its line and value.
   void fail(std::string_view key, std::string expected);

@@ -16,7 +16,7 @@ struct YamlMap::Content {
   YAML::Node node;                // a map, or null for a missing one
   int line = 0;                   // for a missing one, the mapping's around it
   KeyAnswers* answers = nullptr;  // in place of the node
-  std::set<std::string, std::less<>> asked;
+  std::set<std::string, std::less<>> asked, gone;
 };
 
 }  // namespace ttf

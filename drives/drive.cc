@@ -6,7 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "core/counted.h"
+#include "core/nearest.h"
 #include "core/strict_yaml.h"
+#include "drives/known_fields.h"
 #include "drives/played_recording.h"
 #include "drives/step_catalog.h"
 #include "drives/surroundings.h"
@@ -40,6 +43,17 @@ DriveOutcome outcome_of(const sim::crank::ClusterSimulation& simulation, const s
   return outcome;
 }
 
+// Noise of its own has only a sensor that plays the recording.
+void check_recorded_sensors(const Scenario& scenario, const schedules::model::Cluster& cluster) {
+  std::vector<std::string> names;
+  for (const SensorId sensor : played_sensors(cluster)) names.push_back(cluster.sensor(sensor).name);
+  for (const auto& own : scenario.recorded_noises.own)
+    if (std::find(names.begin(), names.end(), own.sensor) == names.end())
+      throw InputError({scenario.file, own.line, "recorded.sensors." + own.sensor, "",
+                        fmt::format("must be a sensor of {} that plays the recording: {}{}", cluster.file,
+                                    joined(names, " or "), did_you_mean(own.sensor, names))});
+}
+
 }  // namespace
 
 TrueTime drive_start(const schedules::model::Cluster& cluster) {
@@ -61,6 +75,7 @@ void check_recording(const Scenario& scenario, const schedules::model::Cluster& 
   if (needed && scenario.startup.cold)
     throw InputError({scenario.file, 0, "startup", "cold",
                       "must be integrated: a recording begins with cycle 0, whose instant is unknown in a cold start"});
+  if (needed) check_recorded_sensors(scenario, cluster);
   for (const schedules::model::Sensor& sensor : cluster.sensors)
     if (needed && sensor.follows())
       throw InputError({cluster.file, sensor.line, "sensors." + sensor.name + ".measurement", "completion",
@@ -111,7 +126,7 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
   const faults::FaultPlan faults = faults::resolve(scenario.faults, cluster);
   const faults::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)node_starts(scenario.startup, cluster, scenario.seed, 0);
-  (void)nodes::fusion::tracker_in(cluster, scenario.tracker, scenario.file);
+  (void)tracker_of(scenario, cluster);
 }
 
 DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out) {

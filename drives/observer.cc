@@ -54,9 +54,9 @@ void Observer::truth(const recording::records::Stamp& stamp) {
   last = at;
   scene_.states_at(at, states_);
   for (const sim::world::ObjectState& state : states_)
-    out_.on(recording::records::TruthState{at, state.id, state.x, state.y, state.heading, state.speed,
-                                           state.acceleration, state.yaw_rate, state.length, state.width, stamp.local,
-                                           stamp.global, stamp.node});
+    out_.on(recording::records::TruthState{at, state.id, state.x, state.y, state.heading, state.speed, state.steady,
+                                           state.yaw_rate, state.length, state.width, stamp.local, stamp.global,
+                                           stamp.node});
 }
 
 }  // namespace ttf::drives

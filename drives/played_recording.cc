@@ -24,7 +24,8 @@ std::string sentence_of(const RecordingUse::OfSensor& of, const RecordingUse& us
   return text + '\n';
 }
 
-// Returns the sensors whose devices play the recording.
+}  // namespace
+
 std::vector<SensorId> played_sensors(const schedules::model::Cluster& cluster) {
   std::vector<SensorId> sensors;
   for (const schedules::model::Node& node : cluster.nodes)
@@ -33,8 +34,6 @@ std::vector<SensorId> played_sensors(const schedules::model::Cluster& cluster) {
         sensors.push_back(task.activation.sensor);
   return sensors;
 }
-
-}  // namespace
 
 nodes::sensing::PlayedRows rows_of(const Scenario& scenario, const schedules::model::Cluster& cluster,
                                    const recording::rows::RecordedInput& recorded, SensorId sensor) {

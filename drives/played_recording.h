@@ -12,6 +12,9 @@
 
 namespace ttf::drives {
 
+// Returns the sensors whose devices play a recording.
+std::vector<SensorId> played_sensors(const schedules::model::Cluster& cluster);
+
 // Returns the rows of a sensor by measurement. Throws InputError if a row does not fit (nodes/sensing/played_rows.h).
 nodes::sensing::PlayedRows rows_of(const Scenario& scenario, const schedules::model::Cluster& cluster,
                                    const recording::rows::RecordedInput& recorded, SensorId sensor);

@@ -57,13 +57,17 @@ Scenario read_scenario(const StrictYaml& yaml) {
     tracker->finish();
   }
   if (auto recorded = root.map_if("recorded")) {
-    scenario.recorded_noise = nodes::sensing::load_recorded_noise(*recorded);
+    scenario.recorded_noises = nodes::sensing::load_recorded_noises(*recorded);
     scenario.recorded_playing = nodes::sensing::load_recorded_playing(*recorded);
     recorded->finish();
   }
   if (auto feature = root.map_if("feature_service")) {
     scenario.feature = nodes::service::load_feature(*feature);
     feature->finish();
+  }
+  if (auto judgement = root.map_if("judgement")) {
+    scenario.cut_off = fusion::metrics::load_cut_off(*judgement);
+    judgement->finish();
   }
   scenario.faults = faults::load_fault_plan(root, latest);
   root.finish();

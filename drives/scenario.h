@@ -13,6 +13,7 @@
 #include "drives/startup.h"
 #include "faults/plan.h"
 #include "fusion/config/tracker_config.h"
+#include "fusion/metrics/cut_off.h"
 #include "fusion/strategies/strategy.h"
 #include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
@@ -39,10 +40,11 @@ struct Scenario {
   Sensors sensors;
   sim::world::ReferenceConfig reference;
   fusion::config::TrackerConfig tracker;
-  nodes::sensing::RecordedNoise recorded_noise;
+  nodes::sensing::RecordedNoises recorded_noises;
   nodes::sensing::RecordedPlaying recorded_playing;
   nodes::service::FeatureConfig feature;
-  faults::FaultPlan faults;  // names as written: resolve() looks them up in the drive's cluster
+  fusion::metrics::CutOff cut_off;  // with which the drive's tracking is judged
+  faults::FaultPlan faults;         // names as written: resolve() looks them up in the drive's cluster
 };
 
 // Throws InputError with every finding in the file. The clusters are not opened here.

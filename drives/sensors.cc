@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/counted.h"
+#include "core/nearest.h"
 #include "drives/scenario.h"
 #include "drives/step_catalog.h"
 
@@ -15,6 +16,13 @@ using schedules::model::SensorKind;
 
 // The kinds that the world can emulate. A kind's name is also that of its usual entry.
 const Choices<SensorKind> kKinds{{"laser", SensorKind::kLaser}, {"camera", SensorKind::kCamera}};
+
+// They are also the names of entries that need no kind.
+std::vector<std::string> kind_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : kKinds) names.emplace_back(name);
+  return names;
+}
 
 std::string_view name_of(SensorKind kind) {
   switch (kind) {
@@ -95,7 +103,9 @@ class Check {
     if (!id) {
       std::vector<std::string> names;
       for (const schedules::model::Sensor& sensor : cluster_.sensors) names.push_back(sensor.name);
-      fail(name, "", "", fmt::format("must be a sensor of {}: {}", cluster_.file, joined(names, " or ")));
+      fail(
+          name, "", "",
+          fmt::format("must be a sensor of {}: {}{}", cluster_.file, joined(names, " or "), did_you_mean(name, names)));
     } else if (const SensorKind theirs = cluster_.sensor(*id).kind; theirs != kind) {
       fail(name, "kind", std::string(name_of(kind)),
            fmt::format("must be {}, as in {}", name_of(theirs), cluster_.file));
@@ -136,8 +146,12 @@ Sensors load_sensors(YamlMap& yaml) {
   load_usual(yaml, SensorKind::kLaser, sensors.lasers);
   load_usual(yaml, SensorKind::kCamera, sensors.cameras);
   for (auto& [name, entry] : yaml.other_maps()) {
+    if (entry.lacks("kind")) {  // it decides which other keys there are
+      const std::vector<std::string> names = kind_names();
+      entry.fail("kind", "is missing: must be one of " + joined(names) + did_you_mean(name, names));
+      continue;
+    }
     const SensorKind kind = entry.choice("kind", kKinds);
-    if (!entry.has("kind")) continue;  // it decides which other keys there are
     if (kind == SensorKind::kLaser)
       load_own(entry, kind, name, sensors.lasers);
     else

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "drives/drive.h"
+#include "drives/known_fields.h"
 #include "drives/played_recording.h"
 #include "nodes/fusion/fusion_host.h"
 #include "nodes/host/signals.h"
@@ -55,8 +57,7 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
   std::shared_ptr<nodes::fusion::FusionHost> host;
   const auto fusion_host = [&] {
     if (!host)
-      host = std::make_shared<nodes::fusion::FusionHost>(
-          cluster, config.strategy, nodes::fusion::tracker_in(cluster, scenario.tracker, scenario.file));
+      host = std::make_shared<nodes::fusion::FusionHost>(cluster, config.strategy, tracker_of(scenario, cluster));
     return host;
   };
   std::vector<std::shared_ptr<nodes::host::Step>> steps;
@@ -74,8 +75,8 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
         throw InputError({cluster.file, task.line, "nodes." + node.name + "." + task.name, task.step,
                           "needs a recording: give one with --input"});
       steps.push_back(std::make_shared<nodes::sensing::RecordedSource>(
-          cluster, task, task.activation.sensor,
-          rows_of(scenario, cluster, *config.recorded, task.activation.sensor).at));
+          cluster, task, task.activation.sensor, rows_of(scenario, cluster, *config.recorded, task.activation.sensor),
+          drive_start(cluster)));
     } else if (task.step == "laser_preprocessing") {
       steps.push_back(std::make_shared<nodes::sensing::LaserPreprocessing>(
           cluster, task, scenario.sensors.lasers.preprocessing_of(name_read(cluster, task))));
@@ -83,7 +84,8 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
       steps.push_back(std::make_shared<nodes::sensing::CameraPreprocessing>(
           cluster, task, scenario.sensors.cameras.preprocessing_of(name_read(cluster, task))));
     } else if (task.step == "recorded_preprocessing") {
-      steps.push_back(std::make_shared<nodes::sensing::RecordedPreprocessing>(cluster, task, scenario.recorded_noise));
+      steps.push_back(std::make_shared<nodes::sensing::RecordedPreprocessing>(
+          cluster, task, scenario.recorded_noises.of(name_read(cluster, task))));
     } else if (task.step == "gateway") {
       steps.push_back(std::make_shared<nodes::sensing::Gateway>());
     } else if (task.step == "fusion") {

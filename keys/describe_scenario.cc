@@ -23,18 +23,30 @@ constexpr Description kScenario[] = {
     {"clusters.buff", "The drive by BUFF has this cluster.", "../schedules/paper_unsynchronised.yaml"},
     {"clusters.adva", "The drive by ADVA has this cluster.", "../schedules/paper_unsynchronised.yaml"},
     {"clusters.tt", "The drive by TT has this cluster.", "../schedules/paper_synchronised.yaml"},
+    {"judgement", "The drive's tracking is judged with these parameters."},
+    {"judgement.cut_off", "GOSPA and OSPA count an error beyond this like an object missed and another one made up."},
+    {"judgement.order", "GOSPA and OSPA take errors to this power."},
     {"world", "The world has the objects, and the noise that drives them."},
     {"world.acceleration_noise",
      "Each 10 ms step adds noise of this standard deviation to the acceleration of every object."},
     {"world.yaw_rate_noise", "Each 10 ms step adds noise of this standard deviation to the yaw rate of every object."},
+    {"world.speed_memory",
+     "An object's speed returns to that of its segments, and forgets the noise with this time constant; absent, it "
+     "adds "
+     "the noise up.",
+     "500 ms"},
+    {"world.own_speed",
+     "The sensor vehicle drives at this speed along x; if it is not 0, all objects keep to the direction of x."},
+    {"world.size", "The objects have sizes like this, except those with a `size` of their own."},
     {"world.objects", "These objects drive through the world."},
     {"world.objects[].name", "The object has this name.", "car"},
     {"world.objects[].x", "The object's centre starts at this x, ahead of the sensor vehicle.", "30.0"},
     {"world.objects[].y", "The object's centre starts at this y, to the left of the sensor vehicle.", "0.0"},
     {"world.objects[].heading", "The object heads this way at first, counted from x to y."},
-    {"world.objects[].speed", "The object drives at this speed at first, along its heading."},
-    {"world.objects[].length", "The object has this length."},
-    {"world.objects[].width", "The object has this width."},
+    {"world.objects[].speed", "The object drives at this speed over ground at first, along its heading."},
+    {"world.objects[].length", "The object has this length, unless one is drawn."},
+    {"world.objects[].width", "The object has this width, unless one is drawn."},
+    {"world.objects[].size", "The object's size is drawn like this; absent, `world.size` says so."},
     {"world.objects[].reference", "The object carries the reference's antenna; at most one object does."},
     {"world.objects[].segments",
      "The object drives these segments one after the other, then straight on at constant speed."},
@@ -49,8 +61,8 @@ constexpr Description kScenario[] = {
     {"world.field.half_angle", "Rows reach this far to either side of the x axis, as seen from the sensor vehicle."},
     {"world.field.heading", "Each object heads this way at first."},
     {"world.field.speed", "Each object drives at this speed at first."},
-    {"world.field.length", "Each object has this length."},
-    {"world.field.width", "Each object has this width."},
+    {"world.field.length", "Each object has this length, unless one is drawn."},
+    {"world.field.width", "Each object has this width, unless one is drawn."},
     {"world.object_count",
      "Only the first so many objects are there, those of `objects` before those of `field`; absent, all are."},
     {"sensors", "The sensors have these properties and errors, by their names in the cluster file."},
@@ -78,6 +90,12 @@ constexpr Description kScenario[] = {
     {"recorded.range", "A recorded range of a radar has this standard deviation."},
     {"recorded.bearing", "A recorded bearing of a radar has this standard deviation."},
     {"recorded.range_rate", "A recorded range rate of a radar has this standard deviation."},
+    {"recorded.sensors", "These recorded sensors of the cluster have standard deviations of their own."},
+    {"recorded.sensors.NAME.position", "A recorded position of the sensor has this standard deviation on each axis.",
+     "0.1"},
+    {"recorded.sensors.NAME.range", "A recorded range of the sensor has this standard deviation.", "0.2"},
+    {"recorded.sensors.NAME.bearing", "A recorded bearing of the sensor has this standard deviation.", "0.02"},
+    {"recorded.sensors.NAME.range_rate", "A recorded range rate of the sensor has this standard deviation.", "0.2"},
     {"recorded.rows",
      "A row is played at the schedule's instant at which it was measured, or a device that runs freely measures at the "
      "stamps of its rows, or each list is interpolated between two rows."},
@@ -90,6 +108,27 @@ constexpr Description kScenario[] = {
     {"faults", "These faults happen in the drive."},
 };
 
+constexpr Description kSize[] = {
+    {"draw",
+     "Sizes are as written, or drawn once for each drive: `normal` ones, length and width together, or `uniform` "
+     "ones."},
+    {"normal", "The normal draw has these moments and limits; absent, those of the 93 cars of Cars93."},
+    {"normal.length", "Lengths have this mean."},
+    {"normal.length_sigma", "Lengths have this standard deviation."},
+    {"normal.width", "Widths have this mean."},
+    {"normal.width_sigma", "Widths have this standard deviation."},
+    {"normal.correlation", "Length and width have this correlation."},
+    {"normal.shortest", "No drawn object is shorter."},
+    {"normal.longest", "No drawn object is longer."},
+    {"normal.narrowest", "No drawn object is narrower."},
+    {"normal.widest", "No drawn object is wider."},
+    {"uniform", "The uniform draw has these limits."},
+    {"uniform.shortest", "Lengths begin here."},
+    {"uniform.longest", "Lengths end here."},
+    {"uniform.narrowest", "Widths begin here."},
+    {"uniform.widest", "Widths end here."},
+};
+
 constexpr Description kMounting[] = {
     {"x", "The sensor is this far ahead of the vehicle's origin."},
     {"y", "The sensor is this far to the left of the vehicle's origin."},
@@ -99,6 +138,7 @@ constexpr Description kMounting[] = {
 }  // namespace
 
 Descriptions scenario_descriptions() { return kScenario; }
+Descriptions size_descriptions() { return kSize; }
 Descriptions mounting_descriptions() { return kMounting; }
 
 }  // namespace ttf::keys

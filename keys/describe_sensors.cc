@@ -20,6 +20,7 @@ constexpr Description kSensor[] = {
 constexpr Description kLaser[] = {
     {"layers", "A scan has so many layers."},
     {"azimuth_step", "Neighbouring beams are this far apart."},
+    {"azimuth_phase", "Beams lie at multiples of the step, or each scan shifts all of them by a drawn part of it."},
     {"half_field", "The scan reaches this far to either side."},
     {"range_sigma", "A range has this standard deviation."},
     {"max_range", "The laser sees no further than this."},
@@ -54,12 +55,14 @@ constexpr Description kLaserPreprocessing[] = {
     {"smallest_gap", "Returns no further apart than this belong to one object."},
     {"incidence", "A surface seen more flatly than at this angle is cut in pieces."},
     {"largest_gap", "Returns further apart than this belong to different objects."},
-    {"nominal_length", "A vehicle whose length is not seen is taken to be this long."},
-    {"length_sigma", "The length of vehicles spreads by this standard deviation."},
-    {"nominal_width", "A vehicle whose width is not seen is taken to be this wide."},
-    {"width_sigma", "The width of vehicles spreads by this standard deviation."},
+    {"half_field", "The scan is assumed to reach this far to either side; an object's size is not taken there."},
     {"fewest_points", "Fewer returns than this are no object."},
     {"longest_extent", "A longer group of returns is no vehicle."},
+    {"join_gap", "Pieces of one outline are joined across missing returns up to this far apart; 0: never."},
+    {"split_step",
+     "A group of returns is split at a step this deep, if two outlines fit it and one does not; 0: never."},
+    {"thinnest", "A group of returns that is all in view and thinner is no vehicle; 0: none is too thin."},
+    {"roughest", "A group of returns is no vehicle if its best outline leaves more than this, root mean square."},
 };
 
 constexpr Description kCameraPreprocessing[] = {
@@ -68,13 +71,19 @@ constexpr Description kCameraPreprocessing[] = {
     {"disparity_sigma", "A disparity is assumed to have this standard deviation."},
     {"bearing_sigma", "A bearing is assumed to have this standard deviation."},
     {"width_sigma", "The width of a silhouette is assumed to have this standard deviation."},
-    {"half_length", "A vehicle is taken to be twice this long; its centre lies this far beyond a rear that is seen."},
-    {"half_length_sigma", "That distance spreads by this standard deviation."},
-    {"nominal_width", "A vehicle is taken to be this wide."},
 };
 
 constexpr Description kKnownSensor[] = {
     {"mounting", "The sensor sits here on the vehicle; absent, at its origin."},
+    {"field",
+     "The sensor sees this much, so that its lists count for no object elsewhere; absent, the field of the scenario's "
+     "own "
+     "sensor, or everything."},
+    {"field.half_angle", "It sees this far to either side of its axis; absent, all around.", "1.05"},
+    {"field.min_range", "It sees nothing nearer than this."},
+    {"field.max_range", "It sees nothing further than this; absent, any range.", "120"},
+    {"field.shadow",
+     "An object hides others behind it up to this share of its own distance; absent, all that are behind it.", "0.5"},
     {"bias", "The sensor is known to measure too much by these; the tracker corrects it."},
     {"bias.range", "Its ranges are too long by this.", "0.2"},
     {"bias.bearing", "Its bearings are too large by this.", "0.01"},

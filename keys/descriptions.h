@@ -21,6 +21,7 @@ Descriptions laser_descriptions();
 Descriptions camera_descriptions();
 Descriptions laser_preprocessing_descriptions();
 Descriptions camera_preprocessing_descriptions();
+Descriptions size_descriptions();
 Descriptions mounting_descriptions();
 Descriptions tracker_descriptions();
 Descriptions known_sensor_descriptions();  // below a sensor of the tracker's

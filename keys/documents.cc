@@ -1,12 +1,14 @@
 #include "keys/documents.h"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 #include "drives/scenario.h"
 #include "experiments/campaign/file.h"
 #include "experiments/sweep/file.h"
 #include "faults/plan.h"
+#include "nodes/laser/recorded_scans.h"
 #include "replay/config.h"
 #include "schedules/file/loader.h"
 
@@ -25,6 +27,14 @@ void load_experiment(const StrictYaml& yaml) {
     experiments::campaign::read_campaign(yaml);
 }
 
+// Recorded scans are the command's, not the replay's.
+void read_scans(YamlMap& root) {
+  if (std::optional<YamlMap> scans = root.map_if("scans")) {
+    nodes::laser::load_recorded_scans(*scans);
+    scans->finish();
+  }
+}
+
 std::vector<Chapter> scenario_chapters() {
   std::vector<Chapter> chapters{{"", scenario_descriptions()},
                                 {"preprocessing.laser", laser_preprocessing_descriptions()},
@@ -33,14 +43,17 @@ std::vector<Chapter> scenario_chapters() {
                                 {"tracker.sensors.NAME", known_sensor_descriptions()},
                                 {"tracker.sensors.NAME.mounting", mounting_descriptions()},
                                 {"faults[]", fault_descriptions()}};
+  for (const char* place : {"world.size", "world.objects[].size"}) chapters.push_back({place, size_descriptions()});
   const auto add_sensor = [&](const std::string& name, bool laser, bool camera, bool any) {
     const std::string place = "sensors." + name;
     chapters.push_back({place, sensor_descriptions()});
     chapters.push_back({place + ".mounting", mounting_descriptions()});
     if (camera) chapters.push_back({place, camera_descriptions(), any ? "kind=camera" : ""});
-    if (camera) chapters.push_back({place + ".preprocessing", camera_preprocessing_descriptions()});
+    if (camera)
+      chapters.push_back({place + ".preprocessing", camera_preprocessing_descriptions(), any ? "kind=camera" : ""});
     if (laser) chapters.push_back({place, laser_descriptions(), any ? "kind=laser" : ""});
-    if (laser) chapters.push_back({place + ".preprocessing", laser_preprocessing_descriptions()});
+    if (laser)
+      chapters.push_back({place + ".preprocessing", laser_preprocessing_descriptions(), any ? "kind=laser" : ""});
   };
   add_sensor("laser", true, false, false);
   add_sensor("camera", false, true, false);
@@ -69,8 +82,9 @@ std::vector<Document> all() {
       {"track",
        "Track configuration",
        "A track configuration says with which strategy, tracker and sensors `ttfusion track` replays observations.",
-       [](const StrictYaml& yaml) { replay::read_replay_config(yaml, {}); },
+       [](const StrictYaml& yaml) { replay::read_replay_config(yaml, {}, read_scans); },
        {{"", track_descriptions()},
+        {"scans.preprocessing", laser_preprocessing_descriptions()},
         {"tracker", tracker_descriptions()},
         {"sensors.NAME", known_sensor_descriptions()},
         {"sensors.NAME.mounting", mounting_descriptions()}}},

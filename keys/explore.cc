@@ -63,6 +63,24 @@ bool changes_keys(const Run& run, const Run& parent) {
   return !same_keys(before->second, after->second, apart);
 }
 
+// Whether a mapping is a key's value in another.
+bool is_within(const std::string& path, const std::string& around) {
+  return !around.empty() && path.starts_with(around + ".") && path.find_first_of(".[", around.size() + 1) == path.npos;
+}
+
+// Both runs reach these mappings, with other keys.
+std::set<std::string> changes_within(const Run& run, const Run& parent) {
+  std::set<std::string> changed;
+  for (const auto& [path, map] : run.usual().maps()) {
+    const auto before = parent.usual().maps().find(path);
+    if (!is_within(path, run.changed->question.map) || before == parent.usual().maps().end()) continue;
+    if (std::set(map.known.begin(), map.known.end()) !=
+        std::set(before->second.known.begin(), before->second.known.end()))
+      changed.insert(path);
+  }
+  return changed;
+}
+
 class Explorer {
  public:
   explicit Explorer(const Loader& load) : load_(load) {}
@@ -83,8 +101,12 @@ class Explorer {
     if (run.changed) {
       const Run& parent = found_.runs[run.parent];
       run.changes_keys = changes_keys(run, parent);
-      note_changes(parent.usual(), run.usual(), run.changed->question.path(),
-                   run.changes_keys ? &run.changed->question.map : nullptr);
+      std::set<std::string> apart;
+      if (run.changes_keys) {
+        apart = run.changes_within = changes_within(run, parent);
+        apart.insert(run.changed->question.map);
+      }
+      note_changes(parent.usual(), run.usual(), run.changed->question.path(), apart);
     }
     found_.runs.push_back(std::move(run));
   }
@@ -142,14 +164,14 @@ class Explorer {
     return map == reading.maps().end() ? nullptr : find(map->second, key);
   }
 
-  // Skips `apart`. Its cases tell.
+  // Skips the mappings `apart`. Their cases tell.
   void note_changes(const DescribedReading& before, const DescribedReading& after, const std::string& cause,
-                    const std::string* apart = nullptr) {
+                    const std::set<std::string>& apart = {}) {
     for (const auto& [path, map] : after.maps())
       for (const KeyQuestion& question : map.questions) {
         const KeyQuestion* other = usual_of(before, path, question.key);
         if (other == nullptr || !same_values(question, *other) || question.path() == cause) continue;
-        if (apart != nullptr && path == *apart) continue;
+        if (apart.contains(path)) continue;
         if (!same_bounds(question, *other)) found_.bounds_by[question.path()].insert(cause);
         if (question.fallback != other->fallback) found_.default_by[question.path()].insert(cause);
       }

@@ -27,6 +27,7 @@ struct Run {
   std::size_t parent = 0;
   std::optional<DescribedReading::Decision> changed;  // with the parent's answer; none in the first run
   bool changes_keys = false;                          // the changed answer changes the keys of its mapping
+  std::set<std::string> changes_within;               // and these mappings of its keys, by their paths
   std::vector<DescribedReading> readings;             // usual, least and largest numbers
 
   const DescribedReading& usual() const { return readings.front(); }

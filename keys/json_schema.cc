@@ -55,22 +55,26 @@ class Schema {
   }
 
  private:
-  Json mapping(const std::string& path) const {
+  using Cases = std::vector<Case>;
+
+  // `around`: conditions that hold in the mapping around.
+  Json mapping(const std::string& path, const std::vector<Condition>& around = {}) const {
     const Mapping* mapping = outline_.find(path);
     Json schema{{"type", "object"}};
     if (mapping == nullptr) return schema;
-    if (mapping->cases.size() == 1) {
-      const Case& one = mapping->cases.front();
+    const Cases cases = cases_in(*mapping, around);
+    if (cases.size() == 1) {
+      const Case& one = cases.front();
       schema["properties"] = properties(one);
       if (Json needed = required(one); !needed.empty()) schema["required"] = std::move(needed);
       schema["additionalProperties"] = others(one);
       return schema;
     }
-    Json common = shared_properties(*mapping);
-    Json everywhere = required_everywhere(*mapping);
+    Json common = shared_properties(cases);
+    Json everywhere = required_everywhere(cases);
     schema["properties"] = common;
     if (!everywhere.empty()) schema["required"] = everywhere;
-    for (const Case& one : mapping->cases) {
+    for (const Case& one : cases) {
       Json then{{"properties", properties(one)}};
       for (auto& [key, value] : then["properties"].items())
         if (common.contains(key)) value = true;
@@ -79,6 +83,19 @@ class Schema {
       schema["allOf"].push_back({{"if", conditions(one)}, {"then", std::move(then)}});
     }
     return schema;
+  }
+
+  // The cases that agree with the mapping around.
+  static Cases cases_in(const Mapping& mapping, const std::vector<Condition>& around) {
+    const auto agrees = [&](const Condition& condition) {
+      return !condition.around || std::none_of(around.begin(), around.end(), [&](const Condition& holds) {
+        return holds.key == condition.key && holds.of == condition.of && holds.values != condition.values;
+      });
+    };
+    Cases cases;
+    for (const Case& one : mapping.cases)
+      if (std::all_of(one.conditions.begin(), one.conditions.end(), agrees)) cases.push_back(one);
+    return cases;
   }
 
   Json properties(const Case& one) const {
@@ -105,10 +122,10 @@ class Schema {
   }
 
   // Keys that are the same in every case that has them: those that decide are among them.
-  Json shared_properties(const Mapping& mapping) const {
+  Json shared_properties(const Cases& cases) const {
     Json shared = Json::object();
     std::set<std::string> different;
-    for (const Case& one : mapping.cases) {
+    for (const Case& one : cases) {
       const Json all = properties(one);
       for (const auto& [key, value] : all.items()) {
         if (shared.contains(key) && shared[key] != value) different.insert(key);
@@ -119,10 +136,10 @@ class Schema {
     return shared;
   }
 
-  static Json required_everywhere(const Mapping& mapping) {
+  static Json required_everywhere(const Cases& cases) {
     Json everywhere = Json::array();
-    for (const Json& key : required(mapping.cases.front())) {
-      const bool always = std::all_of(mapping.cases.begin(), mapping.cases.end(), [&](const Case& one) {
+    for (const Json& key : required(cases.front())) {
+      const bool always = std::all_of(cases.begin(), cases.end(), [&](const Case& one) {
         const Json needed = required(one);
         return std::find(needed.begin(), needed.end(), key) != needed.end();
       });
@@ -133,11 +150,16 @@ class Schema {
 
   static Json conditions(const Case& one) {
     Json all = Json::object();
+    const auto require = [&](const std::string& key) {  // once: its presence and its value may both be conditions
+      Json& needed = all["required"];
+      if (std::find(needed.begin(), needed.end(), Json(key)) == needed.end()) needed.push_back(key);
+    };
     for (const Condition& condition : one.conditions) {
+      if (condition.around) continue;  // the mapping around tells
       if (condition.of == Condition::Of::kPresence) {
         if (condition.values.size() != 1) continue;
         if (condition.values.front() == "true")
-          all["required"].push_back(condition.key);
+          require(condition.key);
         else
           all["allOf"].push_back({{"not", {{"required", {condition.key}}}}});
         continue;
@@ -145,13 +167,13 @@ class Schema {
       Json values = Json::array();
       for (const std::string& value : condition.values) values.push_back(scalar(value));
       all["properties"][condition.key]["enum"] = std::move(values);
-      if (!condition.usual) all["required"].push_back(condition.key);
+      if (!condition.usual) require(condition.key);
     }
     return all;
   }
 
   Json property(const Key& key, const std::vector<Condition>& conditions) const {
-    Json schema = value(key);
+    Json schema = value(key, conditions);
     const Description* description = document_.describe(key.question.path(), conditions);
     annotate(schema, key, description);
     return schema;
@@ -172,7 +194,7 @@ class Schema {
       schema["examples"] = Json::array({example(std::string(description->example))});
   }
 
-  Json value(const Key& key) const {
+  Json value(const Key& key, const std::vector<Condition>& around) const {
     const KeyQuestion& question = key.question;
     const Json any_scalar{{"type", {"string", "number", "boolean"}}};
     switch (question.type) {
@@ -187,8 +209,9 @@ class Schema {
       case KeyType::kText: return {{"type", {"string", "number", "boolean"}}, {"minLength", 1}};
       case KeyType::kWord: return {{"enum", question.words}};
       case KeyType::kMap:
-        if (key.words.empty()) return mapping(question.path());
-        return {{"if", {{"type", "object"}}}, {"then", mapping(question.path())}, {"else", {{"enum", key.words}}}};
+        if (key.words.empty()) return mapping(question.path(), around);
+        return {
+            {"if", {{"type", "object"}}}, {"then", mapping(question.path(), around)}, {"else", {{"enum", key.words}}}};
       case KeyType::kMaps: return {{"type", "array"}, {"items", mapping(path_within(question))}};
       case KeyType::kTexts: return {{"type", "array"}, {"minItems", 1}, {"items", any_scalar}};
       case KeyType::kWords: return {{"type", "array"}, {"minItems", 1}, {"items", {{"enum", question.words}}}};

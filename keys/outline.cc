@@ -39,7 +39,8 @@ class MappingOutline {
  private:
   bool reaches(std::size_t run) const { return runs_[run].usual().maps().contains(mapping_.path); }
   bool decides(std::size_t run) const {
-    return runs_[run].changes_keys && runs_[run].changed->question.map == mapping_.path;
+    return runs_[run].changes_within.contains(mapping_.path) ||
+           (runs_[run].changes_keys && runs_[run].changed->question.map == mapping_.path);
   }
 
   // Returns the run whose changed answer gave the mapping the keys that it has in this run.
@@ -81,6 +82,7 @@ class MappingOutline {
               decision.question.path());
     Condition condition;
     condition.key = decision.question.key;
+    condition.around = decision.question.map != mapping_.path;
     if (decision.question.type == KeyType::kIsThere) condition.of = Condition::Of::kPresence;
     if (answer != nullptr) {
       condition.values = {word_of(decision, *answer)};

@@ -18,13 +18,14 @@ struct Key {
   std::set<std::string> bounds_by, default_by;
 };
 
-// A key of the same mapping that decides which others there are.
+// A key of the same mapping, or of the one around it, that decides which others there are.
 struct Condition {
   enum class Of : unsigned char { kValue, kPresence };
   std::string key;
   Of of = Of::kValue;
   std::vector<std::string> values;  // any of them; of presence "true" or "false"
   bool usual = false;               // also where the key is absent
+  bool around = false;              // a key of the mapping around this one
 };
 
 // The keys of a mapping under conditions that all hold.

@@ -52,7 +52,7 @@ std::string sigma_names() {
   return names;
 }
 
-ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any) {
+ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any, const OtherKeys& others) {
   expect_kind(yaml, FileKind::kTrack);
   Findings findings;
   YamlMap root = yaml.root(findings);
@@ -64,7 +64,8 @@ ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any) 
   if (std::optional<YamlMap> tracker = root.map_if("tracker")) {
     config.tracker = fusion::config::load_tracker(*tracker, fusion::config::SensorsAre::kElsewhere);
     if (tracker->has("sensors"))
-      tracker->fail("sensors", "must not be given here: mounting and biases belong under the top-level key sensors");
+      tracker->fail("sensors",
+                    "must not be given here: mounting, field and biases belong under the top-level key sensors");
     if (tracker->has("late")) config.late_line = tracker->line("late");
     tracker->finish();
   }
@@ -75,6 +76,11 @@ ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any) 
     for (const auto& sensor : config.sensors) config.tracker.sensors.push_back(sensor.second.known);
     fusion::sensors::check_biases(config.tracker.sensors, root, "sensors");
   }
+  if (std::optional<YamlMap> judgement = root.map_if("judgement")) {
+    config.cut_off = fusion::metrics::load_cut_off(*judgement);
+    judgement->finish();
+  }
+  if (others) others(root);
   root.finish();
   findings.throw_if_any();
   return config;
@@ -84,8 +90,8 @@ ReplayConfig parse_replay_config(const std::string& text, const std::string& nam
   return read_replay_config(StrictYaml::parse(text, name), any);
 }
 
-ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any) {
-  return read_replay_config(load_of_kind(path, FileKind::kTrack), any);
+ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any, const OtherKeys& others) {
+  return read_replay_config(load_of_kind(path, FileKind::kTrack), any, others);
 }
 
 }  // namespace ttf::replay

@@ -1,6 +1,7 @@
 // The configuration of a replay: the tracker, the strategy and the sensors. In its YAML every key has a default:
 //
 //   strategy: adva                # buff, adva or tt
+//   judgement: {cut_off: 4.0, order: 2.0}        # of GOSPA and OSPA (fusion/metrics/cut_off.h)
 //   tracker: {process_noise: 4.0}                # the same keys as in a scenario (fusion/config/tracker_config.h)
 //   sensors:                                     # those of the recording; absent: all sensors in it
 //     laser: {position: 0.15, period: 100 ms, worst_delay: 10 ms}
@@ -10,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +21,7 @@
 #include "core/strict_yaml.h"
 #include "core/time.h"
 #include "fusion/config/tracker_config.h"
+#include "fusion/metrics/cut_off.h"
 #include "fusion/sensors/known_sensor.h"
 #include "fusion/strategies/strategy.h"
 
@@ -48,6 +51,7 @@ struct ReplayConfig {
   fusion::config::TrackerConfig tracker;                     // with the known sensors
   int late_line = 0;                                         // tracker.late's; 0: absent
   std::vector<std::pair<std::string, SensorSetup>> sensors;  // by SensorId; empty: all of the recording
+  fusion::metrics::CutOff cut_off;                           // with which tracks are judged if the recording has truth
 };
 
 inline constexpr std::size_t kMostSensors = 100;
@@ -66,9 +70,11 @@ NamedSigma sigma_of(SensorNoise& noise, std::string_view name);
 // Returns the names as in "must be position, range, ...".
 std::string sigma_names();
 
-// Keys missing for a sensor are as in `any`. Throws InputError.
-ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any);
+// Keys missing for a sensor are as in `any`. `others` reads the top-level keys that the caller knows besides. Throws
+// InputError.
+using OtherKeys = std::function<void(YamlMap&)>;
+ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any, const OtherKeys& others = {});
 ReplayConfig parse_replay_config(const std::string& text, const std::string& name, const SensorSetup& any);
-ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any);
+ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any, const OtherKeys& others = {});
 
 }  // namespace ttf::replay

@@ -19,7 +19,7 @@ std::string seconds(Duration duration) { return scaled_text(duration.ns, 1'000'0
 
 struct Facts {
   const TrackerConfig& tracker;
-  std::uint64_t damaged = 0;  // rows in no list; the others are observations
+  RowCounts counts;
   std::uint64_t bearings = 0, beyond_a_turn = 0;
   std::uint64_t lists = 0, observations = 0, used = 0, too_old = 0, duplicates = 0;
   Duration longest_delay{};
@@ -27,7 +27,7 @@ struct Facts {
   Duration middle_gap{};
   bool made_nothing = false;
 
-  std::uint64_t rows() const { return observations + damaged; }
+  std::uint64_t rows() const { return counts.sound + counts.damaged; }
 };
 
 bool most(std::uint64_t part, std::uint64_t whole) { return 2 * part > whole; }
@@ -50,8 +50,8 @@ void note_gaps(const RecordedLists& recorded, Facts& facts) {
 
 // Each cause returns its sentence, or nothing where it does not apply.
 std::string damaged_rows(const Facts& facts) {
-  if (!most(facts.damaged, facts.rows())) return "";
-  return fmt::format("{} of {} were damaged and left out", facts.damaged, counted(facts.rows(), "row"));
+  if (!most(facts.counts.damaged, facts.rows())) return "";
+  return fmt::format("{} of {} were damaged and left out", facts.counts.damaged, counted(facts.rows(), "row"));
 }
 
 std::string too_old(const Facts& facts) {
@@ -122,10 +122,9 @@ constexpr Cause kCauses[] = {damaged_rows, too_old, too_few, degrees, long_gaps,
 
 }  // namespace
 
-ReplayVerdict judge(const std::vector<recording::rows::ObservationRow>& rows, std::size_t damaged,
+ReplayVerdict judge(const std::vector<recording::rows::ObservationRow>& rows, RowCounts counts,
                     const RecordedLists& recorded, const ReplaySetup& setup, const ReplayAccount& account) {
-  Facts facts{setup.tracker};
-  facts.damaged = damaged;
+  Facts facts{setup.tracker, counts};
   for (const recording::rows::ObservationRow& row : rows) {
     if (row.kind == recording::rows::ObservationRow::Kind::kPosition) continue;
     ++facts.bearings;
@@ -143,7 +142,8 @@ ReplayVerdict judge(const std::vector<recording::rows::ObservationRow>& rows, st
 
   ReplayVerdict verdict;
   verdict.made_nothing = facts.made_nothing = account.tracks == 0;
-  verdict.dropped_most = most(facts.damaged, facts.rows()) || most(facts.too_old, facts.lists - facts.duplicates);
+  verdict.dropped_most =
+      most(facts.counts.damaged, facts.rows()) || most(facts.too_old, facts.lists - facts.duplicates);
   if (verdict.did_its_work()) return verdict;
   verdict.headline = verdict.made_nothing ? fmt::format("no track came of {}", counted(facts.lists, "list"))
                                           : "most of the input was dropped";

@@ -3,7 +3,7 @@
 // rows of one table.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,8 +22,13 @@ struct ReplayVerdict {
   bool did_its_work() const { return !made_nothing && !dropped_most; }
 };
 
-// `rows` are those that were read, `damaged` counts the rows that are in no list.
-ReplayVerdict judge(const std::vector<recording::rows::ObservationRow>& rows, std::size_t damaged,
+// Rows of the recording, which may be returns of a scanner: those behind the lists, and those left out.
+struct RowCounts {
+  std::uint64_t sound = 0, damaged = 0;
+};
+
+// `rows` are the observations that were read; of scans there are none.
+ReplayVerdict judge(const std::vector<recording::rows::ObservationRow>& rows, RowCounts counts,
                     const RecordedLists& recorded, const ReplaySetup& setup, const ReplayAccount& account);
 
 }  // namespace ttf::replay

@@ -2,7 +2,7 @@
 # Counts the instructions of the hot paths (tests/bench/hot_paths.cc) with valgrind's callgrind and compares them with
 # tests/bench/instruction_counts. Exit code 1 if one differs by more than 3 %. The machine's load does not change the counts.
 #   tools/instruction_counts.sh            says what has changed
-#   tools/instruction_counts.sh --update   keeps what was counted
+#   tools/instruction_counts.sh --update   keeps what was counted, and makes docs/late_measurements.md of it
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install_deps.sh --gates
@@ -30,6 +30,8 @@ export program
 if [[ ${1:-} == --update ]]; then
   cp "$counted" "$kept"
   cat "$kept"
+  tools/build.sh release --target late_page
+  build/release/tests/fusion/oosm/late_page "$PWD"
   exit
 fi
 if [[ $(grep ^made_with "$kept") != $(grep ^made_with "$counted") ]]; then

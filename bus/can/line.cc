@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kEnduredBits = 8;
+constexpr std::int64_t kRecessiveBits = 11;  // the end of a frame and its intermission
 
 }  // namespace
 
@@ -120,6 +121,17 @@ const std::vector<Protocol::Brought>& Line::step(const Disturbed& disturbed) {
       if (member.protocol.waits()) member.bit_ends = at_ + nominal_;
   recessive_ = recessive;
   return brought_;
+}
+
+void Line::pass_by(TrueTime end) {
+  const std::int64_t over = units_at(end);
+  for (Member& member : members_) {
+    member.protocol.pass_by();
+    if (member.protocol.phase() == Protocol::Phase::kIdle)
+      member.bit_ends = over + nominal_;
+    else if (member.protocol.phase() == Protocol::Phase::kBusOff)
+      member.bit_ends = std::max(at_, over - kRecessiveBits * nominal_) + nominal_;
+  }
 }
 
 bool Line::endures_dominance() const {

@@ -46,6 +46,9 @@ class Line {
   const std::vector<Protocol::Brought>& step(const Disturbed& disturbed);
   // Lets an idle line be idle from `now` on: its members' bits begin there.
   void align(TrueTime now);
+  // A frame that no member makes out goes by, and the line is idle from `end` on (Protocol::pass_by). The bits of idle
+  // members begin there, and those of members that are bus off with the eleven recessive ones at its end.
+  void pass_by(TrueTime end);
   // Returns whether no member changes while something holds the line, for however long.
   bool endures_dominance() const;
   // Lets time pass up to shortly before `until`, in whole eights of nominal bits. Precondition: endures_dominance().

@@ -116,6 +116,23 @@ Protocol::Brought Protocol::end_of_bit(bool recessive) {
   TTF_CHECK(false, "phase {}", static_cast<int>(phase_));
 }
 
+void Protocol::pass_by() {
+  switch (phase_) {
+    case Phase::kIntegrating:
+    case Phase::kSuspend: return become(Phase::kIdle);
+    case Phase::kBusOff: count_ = 0; return;
+    case Phase::kOff:
+    case Phase::kIdle:
+    case Phase::kFrame:
+    case Phase::kActiveFlag:
+    case Phase::kPassiveFlag:
+    case Phase::kBehindFlag:
+    case Phase::kDelimiter:
+    case Phase::kIntermission: return;
+  }
+  TTF_CHECK(false, "phase {}", static_cast<int>(phase_));
+}
+
 Protocol::Brought Protocol::frame_bit(bool recessive) {
   const Decoder::Taken taken = decoder_.take(recessive);
   const Brought brought = transmitter_ ? transmitted(recessive, taken) : received(recessive, taken);

@@ -50,6 +50,9 @@ class Protocol {
   // Begins a frame with the coming bit, its start of frame. Precondition: it is idle.
   void start(const FrameBits& frame);
   Brought end_of_bit(bool recessive);
+  // A frame of other nodes begins, which this controller does not make out. It ends with eleven recessive bits: a
+  // controller that waits for them to take part is idle behind it, and one that is bus off counts from them on.
+  void pass_by();
 
   Phase phase() const { return phase_; }
   bool drives() const { return drives_; }  // recessive?

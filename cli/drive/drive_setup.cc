@@ -119,8 +119,8 @@ std::string folder_of(const drives::Scenario& scenario) {
 DriveJudge::DriveJudge(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
                        std::optional<TrueTime> until)
     : scenario_(scenario), cluster_(cluster), plan_(faults::resolve(scenario.faults, cluster)),
-      measures_(drives::evaluation_start(scenario), evaluation::accuracy::kGate_m, until), startup_(cluster.cycle()),
-      faults_(cluster, plan_, !scenario.startup.cold) {}
+      measures_(drives::evaluation_start(scenario), evaluation::accuracy::kGate_m, until, scenario.cut_off),
+      startup_(cluster.cycle()), faults_(cluster, plan_, !scenario.startup.cold) {}
 
 std::vector<recording::records::Sink*> DriveJudge::sinks() {
   std::vector<recording::records::Sink*> sinks{&measures_, &startup_};

@@ -45,6 +45,8 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
   }
   DriveJudge judge(scenario, result.cluster, until);
   std::vector<recording::records::Sink*> sinks = judge.sinks();
+  TrackWatch tracks;
+  if (recording.rows) sinks.push_back(&tracks);
   std::unique_ptr<recording::log::LogWriter> log;
   if (!options.no_log) {
     result.log_path = fmt::format("{}/{}.mcap", folder, name_of(strategy));
@@ -57,6 +59,7 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
   const drives::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
   result.outcome = drives::run_drive(config, tee);
   judge.finish(result);
+  result.made_track = tracks.any();
   if (log) {
     log->close();
     result.content_hash = log->content_hash_text();
@@ -96,14 +99,16 @@ int run_scenario(const RunOptions& options) {
   }
   std::fflush(stdout);  // both streams may share one file
   say_written(folder);
-  bool started = true;
+  bool did_its_work = true;
   for (const StrategyResult& result : results) {
-    const std::string sentence = never_started(result, scenario.startup.cold);
-    if (sentence.empty()) continue;
-    fmt::print(stderr, "error: {}\n", sentence);
-    started = false;
+    if (const std::string sentence = never_started(result, scenario.startup.cold); !sentence.empty()) {
+      fmt::print(stderr, "error: {}\n", sentence);
+      did_its_work = false;
+    }
+    const std::string headline = fmt::format("with {}", name_of(result.strategy));
+    if (print_reasons(options.input, headline, recording_reasons(result, scenario.tracker)) != 0) did_its_work = false;
   }
-  return started ? 0 : 1;
+  return did_its_work ? 0 : 1;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "cli/drive/real_time_outputs.h"
 #include "cli/drive/recording_outputs.h"
 #include "cli/drive/startup_outputs.h"
+#include "cli/tracking_outputs.h"
 #include "recording/log/reader.h"
 #include "recording/records/tee.h"
 #include "report/drawing/render.h"
@@ -67,6 +68,23 @@ const Row kRows[] = {
        return fmt::format("{} {} {} {}", report::drawing::cell(rmse[0], 2), report::drawing::cell(rmse[1], 2),
                           report::drawing::cell(rmse[2], 2), report::drawing::cell(rmse[3], 2));
      }},
+    {"  visible face, gap to it [m]",
+     [](const StrategyResult& r) {
+       return fmt::format("{} {}", report::drawing::cell(r.summary.box.face_m, 3),
+                          report::drawing::cell(r.summary.box.gap_m, 3));
+     }},
+    {"  heading [rad], speed [m/s]",
+     [](const StrategyResult& r) {
+       return fmt::format("{} {}", report::drawing::cell(r.summary.box.heading_rad, 3),
+                          report::drawing::cell(r.summary.box.speed_mps, 3));
+     }},
+    {"  acceleration [m/s^2]",
+     [](const StrategyResult& r) { return report::drawing::cell(r.summary.box.acceleration_mps2, 3); }},
+    {"  length, width [m]",
+     [](const StrategyResult& r) {
+       return fmt::format("{} {}", report::drawing::cell(r.summary.box.length_m, 3),
+                          report::drawing::cell(r.summary.box.width_m, 3));
+     }},
     {"position RMSE against DGPS [m]",
      [](const StrategyResult& r) { return report::drawing::cell(r.summary.position_rmse_reference, 3); }},
     {"velocity RMSE against DGPS [m/s]",
@@ -77,6 +95,19 @@ const Row kRows[] = {
        return r.summary.nees_samples == 0 ? std::string("-")
                                           : fmt::format("{:.2f}..{:.2f}", r.summary.nees_low, r.summary.nees_high);
      }},
+    {"  of heading, speed, acceleration (1 each)",
+     [](const StrategyResult& r) {
+       const evaluation::accuracy::OwnJudgement& own = r.summary.own;
+       return fmt::format("{} {} {}", report::drawing::cell(own.heading, 2), report::drawing::cell(own.speed, 2),
+                          report::drawing::cell(own.acceleration, 2));
+     }},
+    {"  of length, width (1 each)",
+     [](const StrategyResult& r) {
+       return fmt::format("{} {}", report::drawing::cell(r.summary.own.length, 2),
+                          report::drawing::cell(r.summary.own.width, 2));
+     }},
+    {"NIS per degree of freedom",
+     [](const StrategyResult& r) { return report::drawing::cell(r.summary.own.innovations, 2); }},
     {"age when fused, mean [ms]", [](const StrategyResult& r) { return mean_cell(r.summary.age_fused); }},
     {"age when fused, worst [ms]", [](const StrategyResult& r) { return worst_cell(r.summary.age_fused); }},
     {"age when used, mean [ms]", [](const StrategyResult& r) { return mean_cell(r.summary.age_used); }},
@@ -106,6 +137,20 @@ const Row kRows[] = {
        if (r.summary.matched + r.summary.missed + r.summary.spurious == 0) return std::string("-");
        return fmt::format("{} / {} / {}", r.summary.matched, r.summary.missed, r.summary.spurious);
      }},
+    {"GOSPA [m]",
+     [](const StrategyResult& r) { return report::drawing::cell(r.summary.tracking.gospa.distance_m, 3); }},
+    {"  located, missed, false",
+     [](const StrategyResult& r) {
+       const fusion::metrics::Gospa& gospa = r.summary.tracking.gospa;
+       return fmt::format("{} {} {}", report::drawing::cell(gospa.localisation, 3),
+                          report::drawing::cell(gospa.missed, 3), report::drawing::cell(gospa.false_estimates, 3));
+     }},
+    {"MOTA [%] / switches of track",
+     [](const StrategyResult& r) {
+       const fusion::metrics::ClearMotCounts& mot = r.summary.tracking.mot;
+       if (mot.objects == 0) return std::string("-");
+       return fmt::format("{} / {}", report::drawing::cell(100 * mot.mota(), 1), mot.switches);
+     }},
     {"precision of the time base [us]",
      [](const StrategyResult& r) {
        const auto precision = precision_us(r);
@@ -125,6 +170,22 @@ const Row kRows[] = {
 nlohmann::ordered_json ages(const evaluation::accuracy::AgeStatistics& statistics) {
   if (statistics.count == 0) return {{"count", 0}, {"mean_ms", nullptr}, {"worst_ms", nullptr}};
   return {{"count", statistics.count}, {"mean_ms", in_ms(statistics.mean())}, {"worst_ms", in_ms(statistics.worst)}};
+}
+
+nlohmann::ordered_json box_json(const evaluation::accuracy::BoxErrors& box) {
+  return {{"face_m", box.face_m},
+          {"gap_m", box.gap_m},
+          {"heading_rad", box.heading_rad},
+          {"speed_mps", box.speed_mps},
+          {"acceleration_mps2", box.acceleration_mps2},
+          {"length_m", box.length_m},
+          {"width_m", box.width_m}};
+}
+
+nlohmann::ordered_json own_json(const evaluation::accuracy::OwnJudgement& own) {
+  return {{"position", own.position}, {"velocity", own.velocity},         {"heading", own.heading},
+          {"speed", own.speed},       {"acceleration", own.acceleration}, {"length", own.length},
+          {"width", own.width}};
 }
 
 constexpr const char* kPictureFormats[] = {".svg", ".png", ".pdf"};
@@ -190,10 +251,14 @@ nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t s
     one["rmse_reference"] = {{"position_m", s.position_rmse_reference},
                              {"velocity_mps", s.velocity_rmse_reference},
                              {"compared", s.reference_compared}};
+    one["rmse_box"] = box_json(s.box);
+    one.update(tracking_json(s.tracking));
     one["nees"] = {{"mean", s.nees},
                    {"samples", s.nees_samples},
                    {"degrees_of_freedom", 4},
-                   {"band_95", {s.nees_low, s.nees_high}}};
+                   {"band_95", {s.nees_low, s.nees_high}},
+                   {"per_degree", own_json(s.own)}};
+    one["nis"] = {{"per_degree", s.own.innovations}, {"degrees_of_freedom", s.own.innovation_degrees}};
     one["age_when_fused"] = ages(s.age_fused);
     one["age_when_used"] = ages(s.age_used);
     for (const auto& [sensor, statistics] : s.age_used_by_sensor)
@@ -230,7 +295,7 @@ nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t s
       one["can_load"][result.cluster.can_buses[b].name] = result.outcome.can_load[b];
     one["content_hash"] = result.content_hash;
     one["log"] = result.log_path;
-    if (result.recording) one["recording"] = recording_json(*result.recording);
+    if (result.recording) one["recording"] = recording_json(result, scenario.tracker);
     if (result.real_time) one["real_time"] = real_time_json(result);
     if (!scenario.faults.empty()) {
       one["faults"] = faults_json(result.faults.faults, result.cluster);

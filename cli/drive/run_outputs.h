@@ -29,6 +29,7 @@ struct StrategyResult {
   std::vector<NodeId> fault_free;                                   // until the end; nodes on FlexRay only
   std::optional<evaluation::lateness::RealTimeFindings> real_time;  // only for a drive in real time
   std::optional<drives::RecordingUse> recording;                    // only for a drive that plays one
+  bool made_track = false;                                          // only told for such a drive
   std::string log_path;
   std::string content_hash;
 };

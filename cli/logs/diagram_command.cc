@@ -69,6 +69,21 @@ std::vector<recording::rows::RecordedScan> read_scans(const std::string& path) {
   }
 }
 
+// Returns the part of a vehicle that was seen, as a box: the rest is not known. An end or a side is a line, and so is a
+// corner with one known face. A silhouette is a place.
+report::plots::Box box_of(const nodes::laser::LaserObject& object) {
+  using ttf::fusion::sensors::SeenPoint;
+  report::plots::Box box{object.x, object.y, object.heading, object.length, object.width, "", object.has_heading};
+  if (object.seen != SeenPoint::kCorner) return box;
+  // From the near corner away from the sensor, along both axes.
+  const double c = std::cos(object.heading), s = std::sin(object.heading);
+  const double along = std::copysign(0.5 * object.length, c * object.x + s * object.y);
+  const double across = std::copysign(0.5 * object.width, c * object.y - s * object.x);
+  box.x += c * along - s * across;
+  box.y += s * along + c * across;
+  return box;
+}
+
 // Draws a recorded laser scan and the vehicles that preprocessing finds in it. Returns the exit code: without any
 // vehicle there is a picture, and the reasons.
 int draw_boxes(const DiagramOptions& options) {
@@ -91,13 +106,12 @@ int draw_boxes(const DiagramOptions& options) {
   nodes::laser::LaserPreprocessor preprocessor(config, points.size());
   preprocessor.process(points, objects);
   std::vector<report::plots::Box> rectangles;
-  for (const nodes::laser::LaserObject& object : objects)
-    rectangles.push_back({object.x, object.y, object.heading, object.length, object.width, ""});
+  for (const nodes::laser::LaserObject& object : objects) rectangles.push_back(box_of(object));
   const std::string title = fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"),
                                         objects.size(), objects.size() == 1 ? "" : "es");
   report::drawing::write_picture(report::plots::boxes_svg(drawn, rectangles, title), options.out);
   say_written(options.out);
-  return print_reasons(options.logs[0], title, reasons_for_no_box(scan, config, preprocessor.fates()));
+  return print_reasons(options.logs[0], title, reasons_for_no_box(config, preprocessor.fates()));
 }
 
 // Without options, shows the whole start-up and two cycles after it.

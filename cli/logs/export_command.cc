@@ -14,9 +14,16 @@
 #include "recording/exports/captures.h"
 #include "recording/exports/perfetto.h"
 #include "recording/merge/merge.h"
+#include "report/experiment/markdown.h"
 
 namespace ttf::cli::logs {
 namespace {
+
+const std::vector<FormatEnds> kFormatEnds = {{"pcapng", {".pcapng"}},
+                                             {"candump", {".log"}},
+                                             {"csv", {".csv"}},
+                                             {"perfetto", {".pftrace"}},
+                                             {"markdown", {".md"}}};
 
 struct ExportOptions {
   std::vector<std::string> logs;
@@ -61,11 +68,25 @@ int export_for_papers(const ExportOptions& options) {
   return 0;
 }
 
+int export_tables(const ExportOptions& options) {
+  if (options.logs.size() > 1)
+    throw InputError({"command line", 0, "logs", options.logs[1], "must be one experiment's folder"});
+  refuse_other_format(options.out, options.format, kFormatEnds);
+  const report::experiment::ExperimentFolder folder = report::experiment::read_experiment_folder(options.logs[0]);
+  write_file(options.out, report::experiment::markdown_tables(folder));
+  if (options.json)
+    fmt::print("{{\n  \"format\": \"markdown\",\n  \"tables\": {},\n  \"points\": {}\n}}\n", folder.measures.size(),
+               folder.points.size());
+  say_written(options.out, fmt::format("{} of {}", counted(folder.measures.size(), "table"),
+                                       counted(folder.points.size(), "point")));
+  return 0;
+}
+
 int run_export(const ExportOptions& options) {
   if (options.format == "gnuplot") return export_for_papers(options);
+  if (options.format == "markdown") return export_tables(options);
   for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
-  refuse_other_format(options.out, options.format,
-                      {{"pcapng", {".pcapng"}}, {"candump", {".log"}}, {"csv", {".csv"}}, {"perfetto", {".pftrace"}}});
+  refuse_other_format(options.out, options.format, kFormatEnds);
   const recording::merge::MergedLogs drive(options.logs);
   print_warnings(drive.warnings());
   if (options.format == "perfetto") return export_perfetto(options, drive);
@@ -97,19 +118,21 @@ void add_export(CLI::App& app, Action& action) {
       "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv and perfetto.\n"
       "The logs of a run's processes are merged.\n"
       "Examples: ttfusion export out/drive/tt.mcap --format pcapng -o out/drive.pcapng\n"
-      "          ttfusion export out/noise --format gnuplot -o out/figures");
+      "          ttfusion export out/noise --format gnuplot -o out/figures\n"
+      "          ttfusion export out/noise --format markdown -o out/noise.md");
   command
       ->add_option("logs", options->logs,
                    "Log of a run, or one of each of its processes; for gnuplot also of several runs, folders of "
-                   "logs or an experiment's folder")
+                   "logs or an experiment's folder; for markdown an experiment's folder")
       ->required();
   command
       ->add_option("--format", options->format,
                    "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
                    "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
-                   "gnuplot (tables and scripts for papers, into a folder)")
+                   "gnuplot (tables and scripts for papers, into a folder), "
+                   "markdown (an experiment's tables, with every point)")
       ->required()
-      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "gnuplot"}));
+      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "gnuplot", "markdown"}));
   command->add_option("-o,--out", options->out, "File to write; for gnuplot the folder")->required()->check(named());
   command->add_flag("--json", options->json, "Counts as JSON on standard output");
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });

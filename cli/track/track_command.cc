@@ -2,27 +2,38 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/drive/drive_setup.h"
+#include "cli/logs/scan_verdict.h"
 #include "cli/output.h"
+#include "cli/track/scan_lists.h"
+#include "cli/track/scan_picture.h"
+#include "cli/track/track_judge.h"
+#include "cli/track/track_lives.h"
 #include "cli/track/track_options.h"
 #include "cli/track/track_outputs.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "core/file_kind.h"
 #include "drives/scenario.h"
+#include "nodes/laser/recorded_scans.h"
 #include "nodes/sensing/recorded.h"
 #include "recording/rows/laser_radar_file.h"
 #include "recording/rows/observation_rows.h"
+#include "recording/rows/scan_file.h"
 #include "recording/rows/track_rows.h"
 #include "replay/config.h"
 #include "replay/recorded_lists.h"
 #include "replay/replay.h"
 #include "replay/sensor_timing.h"
 #include "replay/verdict.h"
+#include "report/drawing/render.h"
 
 namespace ttf::cli::track {
 namespace {
@@ -44,30 +55,100 @@ replay::SensorSetup usual_sensor(bool laser_radar) {
   return setup;
 }
 
-std::vector<recording::rows::ObservationRow> read_rows(const TrackOptions& options, Findings& findings) {
+// The file, whatever its format.
+struct Recording {
+  std::vector<recording::rows::ObservationRow> rows;
+  std::vector<recording::rows::RecordedScan> scans;  // only with --format scans
+};
+
+Recording read_recording(const TrackOptions& options, Findings& findings) {
   try {
-    if (options.format == "csv") return recording::rows::read_observation_rows(options.observations, findings);
-    return recording::rows::observation_rows_of(recording::rows::read_laser_radar(options.observations, findings),
-                                                options.observations);
+    if (options.format == "scans") return {{}, recording::rows::read_lidar_scans(options.observations, findings)};
+    if (options.format == "csv") return {recording::rows::read_observation_rows(options.observations, findings), {}};
+    return {recording::rows::observation_rows_of(recording::rows::read_laser_radar(options.observations, findings),
+                                                 options.observations),
+            {}};
   } catch (const InputError&) {
     refuse_any_kind(options.observations, "a recording");
     throw;
   }
 }
 
-int run_track(const TrackOptions& options) {
+// Scans are of one sensor, and of a street: its tracks must not overlap, unless the configuration says so.
+void prepare_for_scans(replay::ReplayConfig& config, const replay::SensorSetup& usual) {
+  if (config.sensors.empty()) config.sensors.emplace_back("laser", usual);
+  // The other methods for late lists cannot end tracks for good.
+  if (!config.tracker.end_overlaps) config.tracker.end_overlaps = config.tracker.late == fusion::oosm::Kind::kRewind;
+  if (config.sensors.size() > 1)
+    throw InputError({config.file, 0, "sensors", std::to_string(config.sensors.size()),
+                      "must be one sensor: scans are those of one scanner"});
+}
+
+// The number of the scan to draw: the last one, unless --frame says another.
+std::size_t drawn_scan(const TrackOptions& options, std::size_t scans) {
+  if (!options.frame) return scans - 1;
+  if (*options.frame >= static_cast<std::int64_t>(scans))
+    throw InputError({"command line", 0, "--frame", std::to_string(*options.frame),
+                      fmt::format("must be 0..{}: the recording has {}", scans - 1, counted(scans, "scan"))});
+  return static_cast<std::size_t>(*options.frame);
+}
+
+void check_options(const TrackOptions& options) {
   if (options.json && options.out.empty())
     throw InputError({"command line", 0, "--json", "", "needs --out: the tracks would go to standard output, too"});
-  if (!options.out.empty()) refuse_overwriting(options.observations, options.out, "--out");
-  if (!options.out.empty() && !options.config.empty()) refuse_overwriting(options.config, options.out, "--out");
+  for (const std::string& written : {options.out, options.picture}) {
+    const std::string flag = &written == &options.out ? "--out" : "--picture";
+    if (!written.empty()) refuse_overwriting(options.observations, written, flag);
+    if (!written.empty() && !options.config.empty()) refuse_overwriting(options.config, written, flag);
+  }
+  if (!options.picture.empty() && options.format != "scans")
+    throw InputError({"command line", 0, "--picture", options.picture, "goes with --format scans only"});
+  if (options.frame && options.picture.empty())
+    throw InputError({"command line", 0, "--frame", std::to_string(*options.frame), "goes with --picture only"});
+  if (!options.picture.empty()) report::drawing::check_picture_path(options.picture);
+}
 
+// A box comes of many returns, which are the rows of scans.
+replay::RowCounts row_counts(const replay::RecordedLists& recorded, const std::optional<ScanAccount>& scans,
+                             const Findings& findings) {
+  replay::RowCounts counts{scans ? scans->returns : 0, findings.size()};
+  if (scans) return counts;
+  for (const replay::RecordedList& list : recorded.lists) counts.sound += list.observations.size();
+  return counts;
+}
+
+// Without any box, preprocessing has the reasons. The reason why most was dropped comes first.
+void judge_scans(const nodes::laser::LaserPreprocessingConfig& how, TrackResult& result) {
+  if (result.scans->fates.objects > 0) return;
+  result.verdict.made_nothing = true;
+  result.verdict.headline = fmt::format("no box came of {}", counted(result.scans->scans, "scan"));
+  const std::vector<std::string> reasons = logs::reasons_for_no_box(how, result.scans->fates);
+  result.verdict.reasons.resize(result.verdict.dropped_most ? 1 : 0);
+  result.verdict.reasons.insert(result.verdict.reasons.end(), reasons.begin(), reasons.end());
+}
+
+int run_track(const TrackOptions& options) {
+  check_options(options);
   const replay::SensorSetup usual = usual_sensor(options.format == "laser_radar");
+  const bool of_scans = options.format == "scans";
   replay::ReplayConfig config;
-  if (!options.config.empty()) config = replay::load_replay_config(options.config, usual);
+  nodes::laser::RecordedScansConfig scanner;
+  if (!options.config.empty())
+    config = replay::load_replay_config(options.config, usual, [&](YamlMap& root) {
+      std::optional<YamlMap> scans = root.map_if("scans");
+      if (!scans) return;
+      if (!of_scans) root.fail("scans", "goes with --format scans only");
+      scanner = nodes::laser::load_recorded_scans(*scans);
+      scans->finish();
+    });
   if (!options.strategy.empty()) config.strategy = drive::strategy_of(options.strategy);
   Findings findings;
-  const std::vector<recording::rows::ObservationRow> rows = read_rows(options, findings);
-  replay::list_sensors(config, rows, usual, options.observations);
+  const Recording input = read_recording(options, findings);
+  const std::vector<recording::rows::ObservationRow>& rows = input.rows;
+  if (of_scans)
+    prepare_for_scans(config, usual);
+  else
+    replay::list_sensors(config, rows, usual, options.observations);
   replay::SimulatedArrivals simulated;
   try {
     apply_sensor_options(options, config);
@@ -77,21 +158,43 @@ int run_track(const TrackOptions& options) {
     if (!options.skip_damaged) findings.throw_if_any();
     throw;
   }
-  replay::RecordedLists recorded = replay::recorded_lists_of(rows, config, options.observations, findings);
+  TrackResult result;
+  replay::RecordedLists recorded;
+  if (of_scans) {
+    ScanLists lists = lists_of(input.scans, scanner, config, options.observations);
+    recorded = std::move(lists.recorded);
+    result.scans = lists.account;
+  } else {
+    recorded = replay::recorded_lists_of(rows, config, options.observations, findings);
+  }
   tell_damage(findings, options.skip_damaged, recorded.lists.size());
   replay::simulate(recorded, simulated);
 
-  TrackResult result{std::string(name_of(config.strategy)), recorded.sensors, {}, findings.size(), {}};
+  result.strategy = std::string(name_of(config.strategy));
+  result.sensors = recorded.sensors;
+  result.damaged = findings.size();
   const replay::ReplaySetup setup{config.strategy, config.tracker,
                                   replay::sensor_timings(recorded, config, config.strategy), options.predict};
   std::string tracks(recording::rows::track_heading());
+  TrackJudge judge(rows, config.cut_off);
+  TrackLives lives;
+  std::optional<ScanPicture> picture;
+  if (!options.picture.empty()) picture.emplace(input.scans[drawn_scan(options, input.scans.size())], scanner);
   result.account =
       replay::replay(recorded, setup, [&](GlobalTime known, std::span<const fusion::tracks::TrackView> views) {
+        judge.take(known, views);
+        if (of_scans) lives.take(views);
+        if (picture) picture->take(views);
         for (const fusion::tracks::TrackView& view : views)
           tracks += recording::rows::track_line(replay::track_row_of(view, known, recorded.classes));
       });
 
-  result.verdict = replay::judge(rows, findings.size(), recorded, setup, result.account);
+  result.accuracy = judge.finish();
+  result.verdict = replay::judge(rows, row_counts(recorded, result.scans, findings), recorded, setup, result.account);
+  if (of_scans) {
+    result.lives = lives.summary();
+    judge_scans(scanner.preprocessing, result);
+  }
   if (options.out.empty()) {
     fmt::print("{}", tracks);
     std::fflush(stdout);  // both streams may share one file
@@ -101,6 +204,10 @@ int run_track(const TrackOptions& options) {
     fmt::print("{}", options.json ? to_json(result).dump(2) + '\n' : track_table(result));
     std::fflush(stdout);
     say_written(options.out);
+  }
+  if (picture) {
+    report::drawing::write_picture(picture->svg(), options.picture);
+    say_written(options.picture);
   }
   return print_reasons(options.observations, result.verdict.headline, result.verdict.reasons);
 }
@@ -128,12 +235,14 @@ void add_track(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("track", "Recorded observations through the tracker: tracks as CSV");
   command->footer(
       "Columns, in and out, and the configuration: docs/track.md.\n"
-      "Example: ttfusion track observations.csv --strategy buff --delay radar=20ms..70ms --seed 7 -o tracks.csv");
+      "Example: ttfusion track observations.csv --strategy buff --delay radar=20ms..70ms --seed 7 -o tracks.csv\n"
+      "         ttfusion track scans.csv --format scans --picture street.svg -o tracks.csv");
   command->add_option("observations", options->observations, "Recorded observations")->required()->check(named());
   command->add_option("--config", options->config, "Tracker, strategy and sensors (YAML)")->check(named());
   command
-      ->add_option("--format", options->format, "csv (docs/track.md; the default) or laser_radar (docs/recordings.md)")
-      ->check(one_of({"csv", "laser_radar"}));
+      ->add_option("--format", options->format,
+                   "csv (docs/track.md; the default), laser_radar or scans (docs/recordings.md)")
+      ->check(one_of({"csv", "laser_radar", "scans"}));
   command->add_option("--strategy", options->strategy, "Strategy, instead of the configuration's (default: adva)")
       ->check(one_of(drive::strategy_names()));
   add_sensor_options(*command, *options);
@@ -143,6 +252,12 @@ void add_track(CLI::App& app, Action& action) {
   command->add_flag("--predict", options->predict, "Tracks predicted to the instant of each fusion");
   command->add_flag("--skip-damaged", options->skip_damaged, "Leave damaged rows out, each with a warning");
   command->add_option("-o,--out", options->out, "File for the tracks (default: standard output)")->check(named());
+  command
+      ->add_option("--picture", options->picture,
+                   "Picture of a scan and its tracks: .svg, .png or .pdf; only with --format scans")
+      ->check(named());
+  command->add_option("--frame", options->frame, "Which scan to draw, from 0 (default: the last one)")
+      ->check(whole_number({0, 1'000'000'000}));
   command->add_flag("--json", options->json, "Summary as JSON on standard output; needs --out");
   command->callback([options, &action] { action = [options] { return run_track(*options); }; });
 }

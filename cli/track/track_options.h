@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +13,13 @@
 namespace ttf::cli::track {
 
 struct TrackOptions {
-  std::string observations, config, format = "csv", strategy, seed = "1", out;
+  std::string observations, config, format = "csv", strategy, seed = "1", out, picture;
   std::vector<std::string> noise;        // SENSOR:WHAT=SIGMA
   std::vector<std::string> worst_delay;  // SENSOR=DURATION
   std::vector<std::string> period;       // SENSOR=DURATION
   std::vector<std::string> delay;        // SENSOR=DURATION or SENSOR=LEAST..MOST
   std::size_t shuffle = 1;
+  std::optional<std::int64_t> frame;  // the one in the picture
   bool predict = false, skip_damaged = false, json = false;
 };
 

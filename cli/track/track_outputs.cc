@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "cli/tracking_outputs.h"
 #include "core/counted.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::track {
 namespace {
+
+constexpr std::array<const char*, 3> kQuartiles{"lower quartile", "median", "upper quartile"};
 
 replay::SensorAccount sum_of(const std::vector<replay::SensorAccount>& accounts) {
   replay::SensorAccount sum;
@@ -49,6 +53,57 @@ nlohmann::ordered_json account_json(const replay::SensorAccount& account) {
           {"longest_delay_ms", in_ms(account.longest_delay)}};
 }
 
+std::string accuracy_text(const TrackAccuracy& accuracy) {
+  const evaluation::accuracy::TrackingMeasures& all = accuracy.tracking;
+  report::drawing::Table table({"against the truth", ""});
+  table.add({"position RMSE [m]", report::drawing::cell(accuracy.position_rmse_m, 3)});
+  table.add({"velocity RMSE [m/s]", report::drawing::cell(accuracy.velocity_rmse_mps, 3)});
+  table.add({"objects compared / missed / spurious",
+             fmt::format("{} / {} / {}", accuracy.compared, accuracy.missed, accuracy.spurious)});
+  table.add({fmt::format("GOSPA [m], c = {:g} m, p = {:g}", all.cut_off.distance_m, all.cut_off.order),
+             report::drawing::cell(all.gospa.distance_m, 3)});
+  table.add({"MOTA [%]", report::drawing::cell(100 * all.mot.mota(), 1)});
+  table.add({"switches of track", std::to_string(all.mot.switches)});
+  return table.text();
+}
+
+nlohmann::ordered_json accuracy_json(const TrackAccuracy& accuracy) {
+  nlohmann::ordered_json json{{"position_rmse_m", accuracy.position_rmse_m},
+                              {"velocity_rmse_mps", accuracy.velocity_rmse_mps},
+                              {"compared", accuracy.compared},
+                              {"missed", accuracy.missed},
+                              {"spurious", accuracy.spurious}};
+  json.update(tracking_json(accuracy.tracking));
+  return json;
+}
+
+std::string scans_text(const ScanAccount& scans, const LivesSummary& lives) {
+  report::drawing::Table table({"scans", std::to_string(scans.scans)});
+  table.add({"returns", std::to_string(scans.returns)});
+  table.add({"boxes", std::to_string(scans.fates.objects)});
+  for (const nodes::laser::NamedFate& fate : nodes::laser::kOtherFates)
+    table.add({fmt::format("segments: {}", fate.words), std::to_string(scans.fates.*fate.count)});
+  if (scans.left_out > 0) table.add({"boxes beyond max_observations", std::to_string(scans.left_out)});
+  table.add({"overlapping pairs of tracks", std::to_string(lives.overlapping_pairs)});
+  table.add({"overlaps, summed over scans", std::to_string(lives.overlaps)});
+  for (std::size_t q = 0; q < 3; ++q)
+    table.add({fmt::format("lifetime [s]: {}", kQuartiles[q]), report::drawing::cell(lives.lifetimes_s[q], 2)});
+  return table.text();
+}
+
+nlohmann::ordered_json scans_json(const ScanAccount& scans, const LivesSummary& lives) {
+  nlohmann::ordered_json json{{"scans", scans.scans}, {"returns", scans.returns}, {"boxes", scans.fates.objects}};
+  for (const nodes::laser::NamedFate& fate : nodes::laser::kOtherFates)
+    json["segments"][std::string(fate.name)] = scans.fates.*fate.count;
+  json["boxes_beyond_max_observations"] = scans.left_out;
+  json["overlapping_pairs"] = lives.overlapping_pairs;
+  json["overlaps"] = lives.overlaps;
+  json["lifetime_s"] = {{"lower_quartile", lives.lifetimes_s[0]},
+                        {"median", lives.lifetimes_s[1]},
+                        {"upper_quartile", lives.lifetimes_s[2]}};
+  return json;
+}
+
 }  // namespace
 
 std::string track_table(const TrackResult& result) {
@@ -58,6 +113,8 @@ std::string track_table(const TrackResult& result) {
   add_row(table, "all", sum_of(result.account.sensors));
   std::string text = table.text();
   if (result.damaged > 0) text += fmt::format("{} left out\n", counted(result.damaged, "damaged row"));
+  if (result.accuracy) text += accuracy_text(*result.accuracy);
+  if (result.scans && result.lives) text += scans_text(*result.scans, *result.lives);
   return text + fmt::format("{} by {}, {} written\n", counted(result.account.tracks, "track"), result.strategy,
                             counted(result.account.rows, "row"));
 }
@@ -73,6 +130,8 @@ nlohmann::ordered_json to_json(const TrackResult& result) {
   }
   json["tracks"] = result.account.tracks;
   json["rows"] = result.account.rows;
+  if (result.accuracy) json["truth"] = accuracy_json(*result.accuracy);
+  if (result.scans && result.lives) json["scans"] = scans_json(*result.scans, *result.lives);
   json["did_its_work"] = result.verdict.did_its_work();
   json["reasons"] = result.verdict.reasons;
   return json;

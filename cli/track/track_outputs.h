@@ -3,9 +3,13 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/track/scan_lists.h"
+#include "cli/track/track_judge.h"
+#include "cli/track/track_lives.h"
 #include "replay/replay.h"
 #include "replay/verdict.h"
 
@@ -17,6 +21,9 @@ struct TrackResult {
   replay::ReplayAccount account;
   std::size_t damaged = 0;  // number of damaged rows, which are left out
   replay::ReplayVerdict verdict;
+  std::optional<TrackAccuracy> accuracy;  // only for a recording with truth
+  std::optional<ScanAccount> scans;       // only for scans
+  std::optional<LivesSummary> lives;      // only for scans
 };
 
 std::string track_table(const TrackResult& result);

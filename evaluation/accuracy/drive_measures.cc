@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusion/metrics/chi_square.h"
-
 namespace ttf::evaluation::accuracy {
 
 void AgeStatistics::add(Duration age) {
@@ -14,8 +12,10 @@ void AgeStatistics::add(Duration age) {
 }
 
 // Twice the gate: the reference itself may be off by metres.
-DriveMeasures::DriveMeasures(TrueTime from, double gate_m, std::optional<TrueTime> until)
-    : ImageUses(gate_m), from_(from), until_(until), reference_(2.0 * gate_m) {}
+DriveMeasures::DriveMeasures(TrueTime from, double gate_m, std::optional<TrueTime> until,
+                             const fusion::metrics::CutOff& cut_off)
+    : ImageUses(gate_m), from_(from), until_(until), box_squares_{0, 0, 0, 0, 0, 0, 0}, tracking_(cut_off, gate_m),
+      reference_(2.0 * gate_m) {}
 
 void DriveMeasures::on(const recording::records::FusionInput& input) {
   ++summary_.received;
@@ -48,6 +48,10 @@ void DriveMeasures::note_held(const recording::records::ListFused& list) {
 
 void DriveMeasures::on(const recording::records::ListFused& list) {
   note_held(list);
+  const bool judged = list.stamp.true_time >= from_ && (!until_ || list.stamp.true_time <= *until_);
+  constexpr std::uint32_t kMost = 1'000'000;  // more than a list can have: a damaged log
+  if (judged && list.innovation_degrees > 0 && list.innovation_degrees <= kMost)
+    innovations_.add(list.innovation_squares, static_cast<int>(list.innovation_degrees));
   switch (list.disposition) {
     case recording::records::Disposition::kFused: ++summary_.fused; break;
     case recording::records::Disposition::kFusedLate: ++summary_.fused_late; break;
@@ -94,16 +98,43 @@ void DriveMeasures::judged(const JudgedUse& use) {
   summary_.matched += use.objects.size();
   summary_.missed += use.missed;
   summary_.spurious += use.spurious;
+  tracking_.judge(use.at, use.truths, use.shown);
   for (const UsedObject& object : use.objects) {
     for (std::size_t k = 0; k < 4; ++k) squares_[k] += object.error[k] * object.error[k];
-    if (!object.belief) continue;
-    nees_sum_ += object.belief->nees;
-    ++summary_.nees_samples;
+    note_box(object);
+    if (object.belief) note_belief(*object.belief);
   }
+}
+
+void DriveMeasures::note_belief(const Belief& belief) {
+  nees_.add(belief.nees, 4);
+  position_.add(belief.position_nees, 2);
+  velocity_.add(belief.velocity_nees, 2);
+  for (std::size_t k = 0; k < kQuantities; ++k)
+    if (!std::isnan(belief.quantity_nees[k])) quantities_[k].add(belief.quantity_nees[k], 1);
+}
+
+OwnJudgement DriveMeasures::own_judgement() const {
+  const auto of = [&](Quantity quantity) { return quantities_[static_cast<std::size_t>(quantity)].per_degree(); };
+  return {position_.per_degree(), velocity_.per_degree(),      of(Quantity::kHeading),
+          of(Quantity::kSpeed),   of(Quantity::kAcceleration), of(Quantity::kLength),
+          of(Quantity::kWidth),   innovations_.per_degree(),   innovations_.degrees()};
+}
+
+void DriveMeasures::note_box(const UsedObject& object) {
+  const auto add = [](double& sum, double error) { sum += error * error; };
+  add(box_squares_.face_m, object.box.face_m);
+  add(box_squares_.gap_m, object.box.gap_m);
+  add(box_squares_.heading_rad, object.box.heading_rad);
+  add(box_squares_.speed_mps, object.speed_mps);
+  add(box_squares_.acceleration_mps2, object.acceleration_mps2);
+  add(box_squares_.length_m, object.box.length_m);
+  add(box_squares_.width_m, object.box.width_m);
 }
 
 DriveSummary DriveMeasures::finish() {
   finish_use();
+  summary_.tracking = tracking_.measures();
   summary_.reference_compared = reference_.compared();
   summary_.reference_weights = reference_.weights();
   summary_.position_rmse_reference = reference_.position_rmse();
@@ -113,13 +144,22 @@ DriveSummary DriveMeasures::finish() {
     for (std::size_t k = 0; k < 4; ++k) summary_.rmse_truth[k] = std::sqrt(squares_[k] / n);
     summary_.position_rmse_truth = std::hypot(summary_.rmse_truth[0], summary_.rmse_truth[1]);
     summary_.velocity_rmse_truth = std::hypot(summary_.rmse_truth[2], summary_.rmse_truth[3]);
+    const auto mean_root = [&](double sum) { return std::sqrt(sum / n); };
+    const BoxErrors& sums = box_squares_;
+    summary_.box = {mean_root(sums.face_m),
+                    mean_root(sums.gap_m),
+                    mean_root(sums.heading_rad),
+                    mean_root(sums.speed_mps),
+                    mean_root(sums.acceleration_mps2),
+                    mean_root(sums.length_m),
+                    mean_root(sums.width_m)};
   }
-  if (summary_.nees_samples > 0) {
-    const auto samples = static_cast<double>(summary_.nees_samples);
-    summary_.nees = nees_sum_ / samples;
-    summary_.nees_low = fusion::metrics::chi_square_quantile(0.025, 4.0 * samples) / samples;
-    summary_.nees_high = fusion::metrics::chi_square_quantile(0.975, 4.0 * samples) / samples;
-  }
+  const fusion::metrics::Band band = nees_.band();
+  summary_.nees = nees_.mean();
+  summary_.nees_samples = nees_.samples();
+  summary_.nees_low = band.low;
+  summary_.nees_high = band.high;
+  summary_.own = own_judgement();
   return summary_;
 }
 

@@ -1,4 +1,4 @@
-// Measures of a drive from its records alone: errors, ages, order of arrival and consistency.
+// Measures of a drive from its records alone: errors, tracking as a whole, ages, order of arrival and consistency.
 //
 // The sink sees a drive as its log does, so a live drive and its log have the same measures. Position and
 // velocity are judged when the feature service uses an image: against the truth at that time, and against
@@ -17,6 +17,8 @@
 #include "core/time.h"
 #include "evaluation/accuracy/image_uses.h"
 #include "evaluation/accuracy/reference_judge.h"
+#include "evaluation/accuracy/tracking_judge.h"
+#include "fusion/metrics/consistency.h"
 #include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
 
@@ -34,6 +36,27 @@ struct AgeStatistics {
 // A measure without any comparison is not a number, never a perfect zero.
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
+// Root mean squares over all matched objects and uses (evaluation/accuracy/box.h).
+struct BoxErrors {
+  double face_m = kNotMeasured;  // between the middles of the visible face
+  double gap_m = kNotMeasured;
+  double heading_rad = kNotMeasured;
+  double speed_mps = kNotMeasured, acceleration_mps2 = kNotMeasured;  // along the heading
+  double length_m = kNotMeasured, width_m = kNotMeasured;
+};
+
+// Normalised squares of the filter's own belief, each over its degrees of freedom: 1 if it judges itself rightly.
+struct OwnJudgement {
+  double position = kNotMeasured, velocity = kNotMeasured;
+  // Only quantities that the motion model knows count.
+  double heading = kNotMeasured, speed = kNotMeasured, acceleration = kNotMeasured;
+  double length = kNotMeasured, width = kNotMeasured;
+  // Innovations of confirmed tracks, from the begin of the judged part on (NIS). The gate leaves out the largest, 0.3 % as
+  // a rule, so that 0.98 is what a right filter has.
+  double innovations = kNotMeasured;
+  std::uint64_t innovation_degrees = 0;
+};
+
 struct DriveSummary {
   // Root mean square over all matched objects and uses; x, y [m], vx, vy [m/s].
   std::array<double, 4> rmse_truth{kNotMeasured, kNotMeasured, kNotMeasured, kNotMeasured};
@@ -44,6 +67,8 @@ struct DriveSummary {
   std::uint64_t matched = 0;                      // objects at uses, compared with the truth
   std::uint64_t missed = 0;                       // true objects without an image's object within the gate
   std::uint64_t spurious = 0;                     // an image's objects without a true object within the gate
+  BoxErrors box;
+  TrackingMeasures tracking;  // misses and false tracks included
   std::uint64_t reference_compared = 0;
   ReferenceWeights reference_weights;
   std::uint64_t uses = 0;        // images that the feature service used or refused
@@ -54,6 +79,7 @@ struct DriveSummary {
   double nees = kNotMeasured;
   std::uint64_t nees_samples = 0;
   double nees_low = kNotMeasured, nees_high = kNotMeasured;
+  OwnJudgement own;  // over the same pairs
   // Age of a measurement when it was fused, and of each sensor's newest when its image was used.
   AgeStatistics age_fused;
   AgeStatistics age_used;
@@ -74,15 +100,17 @@ struct DriveSummary {
   std::uint64_t warnings = 0;  // uses with a warning about an object
   // Measures that need the scenario; other rooms fill them in.
   double position_mse_reference_corrected =
-      kNotMeasured;                             // without the DGPS' own error (evaluation/accuracy/reference_judge.h)
-  double position_mse_expected = kNotMeasured;  // without sampling (experiments/sweep/expected_drive.h)
+      kNotMeasured;  // without the DGPS' own error (evaluation/accuracy/reference_judge.h)
+  // Without sampling (experiments/sweep/expected_drive.h).
+  double face_mse_expected = kNotMeasured, position_mse_expected = kNotMeasured;
 };
 
 class DriveMeasures final : public ImageUses {
  public:
   // Ignores uses before `from`, and after `until`. `until` is the end of a recording. `gate_m` is the largest distance of
-  // matched objects.
-  explicit DriveMeasures(TrueTime from, double gate_m = kGate_m, std::optional<TrueTime> until = std::nullopt);
+  // matched objects, `cut_off` has the parameters of GOSPA and OSPA.
+  explicit DriveMeasures(TrueTime from, double gate_m = kGate_m, std::optional<TrueTime> until = std::nullopt,
+                         const fusion::metrics::CutOff& cut_off = {});
 
   // Judges the last use and returns the summary. Call it once, at the end.
   DriveSummary finish();
@@ -98,6 +126,9 @@ class DriveMeasures final : public ImageUses {
   bool used(const recording::records::FeatureUsed& use, std::span<const PlaneEstimate> objects,
             std::span<const SensorAge> ages) override;
   void judged(const JudgedUse& use) override;
+  void note_box(const UsedObject& object);
+  void note_belief(const Belief& belief);
+  OwnJudgement own_judgement() const;
   void note_held(const recording::records::ListFused& list);
   void note_ages(std::span<const SensorAge> ages);
 
@@ -105,7 +136,10 @@ class DriveMeasures final : public ImageUses {
   std::optional<TrueTime> until_;
   DriveSummary summary_;
   std::array<double, 4> squares_{};
-  double nees_sum_ = 0.0;
+  BoxErrors box_squares_;  // sums of squares
+  TrackingJudge tracking_;
+  fusion::metrics::Consistency nees_, position_, velocity_, innovations_;
+  ByQuantity<fusion::metrics::Consistency> quantities_;
   std::uint32_t receiving_step_ = 0;
   GlobalTime receiving_{};                                     // instant of that step
   std::optional<GlobalTime> newest_received_, newest_before_;  // before: in earlier steps

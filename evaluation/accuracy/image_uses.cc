@@ -3,7 +3,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
+
+#include "fusion/metrics/consistency.h"
+#include "fusion/metrics/object_pairs.h"
 
 namespace ttf::evaluation::accuracy {
 namespace {
@@ -12,6 +17,22 @@ constexpr std::size_t kImagesRemembered = 8;
 
 PlaneEstimate in_the_plane(double x, double y, double speed, double heading) {
   return {x, y, speed * std::cos(heading), speed * std::sin(heading)};
+}
+
+template <class Object> Box box_of(const Object& object) {
+  return {object.x, object.y, object.heading, object.length, object.width};
+}
+
+// A certain belief is none: the motion model has no such quantity.
+double squared(const recording::records::Believed& believed, double error) {
+  return believed.sigma > 0.0 ? error * error / (believed.sigma * believed.sigma)
+                              : std::numeric_limits<double>::quiet_NaN();
+}
+ByQuantity<double> squares_of(const recording::records::BelievedBox& box, const recording::records::TruthState& is) {
+  return {squared(box.heading, std::remainder(box.heading.value - is.heading, 2.0 * std::numbers::pi)),
+          squared(box.speed, box.speed.value - is.speed),
+          squared(box.acceleration, box.acceleration.value - is.acceleration),
+          squared(box.length, box.length.value - is.length), squared(box.width, box.width.value - is.width)};
 }
 
 }  // namespace
@@ -33,6 +54,7 @@ void ImageUses::on(const recording::records::TrackState& track) {
     predicted.state[r] = track.state[r];
     for (std::size_t c = 0; c < 4; ++c) predicted.covariance[4 * r + c] = track.covariance[6 * r + c];
   }
+  predicted.box = track.box;
 }
 
 // An image's predictions are reported before it, one per object. If a torn log lost some, the rest cannot be
@@ -58,9 +80,11 @@ const ImageUses::Image* ImageUses::image_of(std::uint32_t sequence) const {
 
 void ImageUses::on(const recording::records::FeatureUsed& used_now) {
   finish_use();
-  Use use{used_now.stamp.true_time, used_now.image_sequence, used_now.fresh, {}};
-  for (const recording::records::FeatureObject& object : used_now.objects)
+  Use use{used_now.stamp.true_time, used_now.image_sequence, used_now.fresh, {}, {}};
+  for (const recording::records::FeatureObject& object : used_now.objects) {
     use.objects.push_back(in_the_plane(object.image.x, object.image.y, object.image.speed, object.image.heading));
+    use.images.push_back(object.image);
+  }
   std::vector<SensorAge> ages;
   if (const Image* image = used_now.stale ? nullptr : image_of(use.image))
     for (const Fused& newest : image->newest) ages.push_back({newest.id.sensor, use.at - newest.measured});
@@ -83,28 +107,41 @@ void ImageUses::finish_use() {
 
 void ImageUses::judge(const Use& use) {
   if (truth_.empty() || truth_.front().at != use.at) return;
-  std::vector<PlanePosition> truth, objects;
+  std::vector<fusion::metrics::Point> truth, objects;
   for (const recording::records::TruthState& state : truth_) truth.push_back({state.x, state.y});
   for (const PlaneEstimate& object : use.objects) objects.push_back({object.x, object.y});
-  const std::vector<TruthPair> pairs = closest_pairs(truth, objects, gate_);
-  JudgedUse result{use.at, truth.size() - pairs.size(), objects.size() - pairs.size(), {}};
+  const std::vector<fusion::metrics::ObjectPair> pairs = fusion::metrics::object_pairs(truth, objects, gate_);
+  JudgedUse result{use.at, truth.size() - pairs.size(), objects.size() - pairs.size(), {}, {}, {}};
+  for (std::size_t t = 0; t < truth.size(); ++t)
+    result.truths.push_back({static_cast<fusion::metrics::Identity>(truth_[t].object), truth[t]});
+  for (std::size_t o = 0; o < objects.size(); ++o)
+    result.shown.push_back({static_cast<fusion::metrics::Identity>(use.images[o].track), objects[o]});
   // The predictions of an image hold at its first use.
   const Image* image = use.fresh ? image_of(use.image) : nullptr;
   const bool predicted = image != nullptr && image->predicted.size() == use.objects.size();
-  for (const TruthPair& pair : pairs) {
+  for (const fusion::metrics::ObjectPair& pair : pairs) {
     const recording::records::TruthState& state = truth_[pair.truth];
     const PlaneEstimate is = in_the_plane(state.x, state.y, state.speed, state.heading);
     const PlaneEstimate& shown = use.objects[pair.estimate];
     UsedObject& object = result.objects.emplace_back();
     object.object = state.object;
     object.error = {shown.x - is.x, shown.y - is.y, shown.vx - is.vx, shown.vy - is.vy};
+    const recording::records::ImageObject& drawn = use.images[pair.estimate];
+    object.box = error_of(box_of(drawn), box_of(state));
+    object.speed_mps = drawn.speed - state.speed;
+    object.acceleration_mps2 = drawn.acceleration - state.acceleration;
     if (!predicted) continue;
     const Predicted& own = image->predicted[pair.estimate];
     const Eigen::Vector4d error(own.state[0] - is.x, own.state[1] - is.y, own.state[2] - is.vx, own.state[3] - is.vy);
     const Eigen::Matrix4d covariance = Eigen::Map<const Eigen::Matrix4d>(own.covariance.data()).transpose();
     Belief& belief = object.belief.emplace();
     for (std::size_t k = 0; k < 4; ++k) belief.sigma[k] = std::sqrt(own.covariance[5 * k]);
-    belief.nees = error.dot(covariance.ldlt().solve(error));
+    belief.nees = fusion::metrics::normalised_squared<4>(error, covariance);
+    const Eigen::Matrix2d position = covariance.topLeftCorner<2, 2>(), velocity = covariance.bottomRightCorner<2, 2>();
+    belief.position_nees = fusion::metrics::normalised_squared<2>(error.head<2>(), position);
+    belief.velocity_nees = fusion::metrics::normalised_squared<2>(error.tail<2>(), velocity);
+    belief.quantity_nees.fill(std::numeric_limits<double>::quiet_NaN());
+    if (own.box) belief.quantity_nees = squares_of(*own.box, state);
   }
   judged(result);
 }

@@ -15,7 +15,9 @@
 
 #include "core/ids.h"
 #include "core/time.h"
-#include "evaluation/accuracy/closest_pairs.h"
+#include "evaluation/accuracy/box.h"
+#include "evaluation/accuracy/plane.h"
+#include "fusion/metrics/identity.h"
 #include "recording/records/records.h"
 
 namespace ttf::evaluation::accuracy {
@@ -26,23 +28,35 @@ struct SensorAge {
   Duration age{};
 };
 
+// Errors of an image's object against a true one: estimate minus truth, the heading in -pi..pi. By Quantity.
+enum class Quantity : std::uint8_t { kHeading, kSpeed, kAcceleration, kLength, kWidth };
+inline constexpr std::size_t kQuantities = 5;
+template <class T> using ByQuantity = std::array<T, kQuantities>;
+
 // The filter's belief about an object: standard deviations of x, y, vx, vy, and the normalised estimation error
-// squared. It is predicted to the use with the full state and covariance, which the image rounds and shortens.
+// squared, of all four and of two each. It is predicted to the use with the full state and covariance, which the image
+// rounds and shortens. Each quantity beside the state has its own square. It is not a number for one that the motion
+// model has not, and in old logs.
 struct Belief {
   std::array<double, 4> sigma{};
-  double nees = 0.0;
+  double nees = 0.0, position_nees = 0.0, velocity_nees = 0.0;
+  ByQuantity<double> quantity_nees{};
 };
-// An object of a used image that matches a true object.
+// An object of a used image that matches a true object. Errors are estimate minus truth.
 struct UsedObject {
   ObjectId object{};
-  std::array<double, 4> error{};  // x, y [m], vx, vy [m/s]: estimate minus truth
-  std::optional<Belief> belief;   // absent if the image was used before: the belief held then
+  std::array<double, 4> error{};  // x, y [m], vx, vy [m/s]
+  BoxError box;
+  double speed_mps = 0.0, acceleration_mps2 = 0.0;  // along the heading
+  std::optional<Belief> belief;                     // absent if the image was used before: the belief held then
 };
 struct JudgedUse {
   TrueTime at{};
   std::size_t missed = 0;    // true objects without an image's object within the gate
   std::size_t spurious = 0;  // an image's objects without a true object within the gate
   std::vector<UsedObject> objects;
+  // All true objects and all of the image, named by ObjectId and TrackId.
+  std::vector<fusion::metrics::Named> truths, shown;
 };
 
 class ImageUses : public recording::records::Sink {
@@ -73,6 +87,7 @@ class ImageUses : public recording::records::Sink {
   struct Predicted {
     std::array<double, 4> state;
     std::array<double, 16> covariance;
+    std::optional<recording::records::BelievedBox> box;
   };
   // A measurement, known by its number until the sensor restarts and counts anew.
   struct Fused {
@@ -90,6 +105,7 @@ class ImageUses : public recording::records::Sink {
     std::uint32_t image = 0;
     bool fresh = true;
     std::vector<PlaneEstimate> objects;
+    std::vector<recording::records::ImageObject> images;  // the same
   };
   const Image* image_of(std::uint32_t sequence) const;
   void judge(const Use& use);

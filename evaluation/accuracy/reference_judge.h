@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/time.h"
-#include "evaluation/accuracy/closest_pairs.h"
+#include "evaluation/accuracy/plane.h"
 #include "recording/records/records.h"
 #include "sim/world/reference.h"
 

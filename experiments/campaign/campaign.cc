@@ -8,8 +8,6 @@
 #include <mutex>
 #include <thread>
 
-#include "schedules/file/loader.h"
-
 namespace ttf::experiments::campaign {
 namespace {
 
@@ -18,13 +16,8 @@ constexpr std::chrono::milliseconds kProgressInterval{500};
 
 }  // namespace
 
-CampaignClusters::CampaignClusters(const CampaignFile& campaign) : base(cluster_of(campaign, {})) {
-  for (const Variant& variant : campaign.variants) variants.push_back(cluster_of(campaign, variant));
-}
-
-std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters,
-                                      results::Shard shard, unsigned workers,
-                                      const std::function<void(std::uint64_t)>& progress) {
+std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignBus& bus, results::Shard shard,
+                                      unsigned workers, const std::function<void(std::uint64_t)>& progress) {
   std::vector<FaultResult> results;
   for (std::uint64_t i = shard.part; i < static_cast<std::uint64_t>(campaign.faults); i += shard.count)
     results.push_back({static_cast<std::uint32_t>(i), {}, {}});
@@ -43,9 +36,9 @@ std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const Campai
         const std::size_t end = std::min(first + kFaultsAtATime, results.size());
         for (std::size_t r = first; r < end; ++r) {
           FaultResult& result = results[r];
-          result.drawn = draw_fault(campaign, clusters.base, result.index);
-          for (const schedules::model::Cluster& cluster : clusters.variants)
-            result.outcomes.push_back(run_trial(campaign, cluster, result.drawn, result.index));
+          result.drawn = bus.draw(result.index);
+          for (std::size_t v = 0; v < campaign.variants.size(); ++v)
+            result.outcomes.push_back(bus.run(v, result.drawn, result.index));
         }
         const std::lock_guard lock(mutex);
         finished += end - first;

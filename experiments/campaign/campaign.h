@@ -6,8 +6,9 @@
 #include <functional>
 #include <vector>
 
+#include "experiments/campaign/campaign_bus.h"
 #include "experiments/campaign/file.h"
-#include "experiments/campaign/trial.h"
+#include "experiments/campaign/outcome.h"
 #include "experiments/results/shard.h"
 
 namespace ttf::experiments::campaign {
@@ -18,15 +19,8 @@ struct FaultResult {
   std::vector<FaultOutcome> outcomes;  // by variant
 };
 
-struct CampaignClusters {
-  explicit CampaignClusters(const CampaignFile& campaign);  // throws InputError
-  schedules::model::Cluster base;                           // faults are drawn in this one
-  std::vector<schedules::model::Cluster> variants;          // in the file's order
-};
-
 // `progress` receives the number of faults done, now and then, on the calling thread.
-std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters,
-                                      results::Shard shard, unsigned workers,
-                                      const std::function<void(std::uint64_t)>& progress);
+std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignBus& bus, results::Shard shard,
+                                      unsigned workers, const std::function<void(std::uint64_t)>& progress);
 
 }  // namespace ttf::experiments::campaign

@@ -8,15 +8,21 @@
 #include <string_view>
 
 #include "core/errors.h"
+#include "experiments/campaign/coverage.h"
 
 namespace ttf::experiments::campaign {
 namespace {
 
-constexpr std::string_view kHeader =
-    "fault,variant,class,phase,node,parameters,hypothesis,activated,starts_without,seen_by_others,seen_by_itself,harms,"
-    "harmed,sender,slot,still_out,detected_after_ns,passive_after_ns,halt_after_ns,harmed_after_ns,reintegrated_after_"
-    "ns";
 constexpr std::size_t kColumns = 21;
+
+std::string header(const Words& words) {
+  std::string halt(words.halt);
+  std::replace(halt.begin(), halt.end(), ' ', '_');
+  return fmt::format(
+      "fault,variant,class,phase,node,parameters,hypothesis,activated,starts_without,seen_by_others,seen_by_itself,"
+      "harms,harmed,sender,{},still_out,detected_after_ns,passive_after_ns,{}_after_ns,harmed_after_ns,{}_after_ns",
+      words.frame_id, halt, words.reintegrated);
+}
 
 std::string or_nothing(const std::optional<std::int64_t>& value) { return value ? fmt::to_string(*value) : ""; }
 
@@ -25,11 +31,11 @@ std::string_view node_name(NodeId node, const schedules::model::Cluster& cluster
 }
 
 // Returns the beginning of a line, which identifies the fault and the variant.
-std::string drawn_text(const FaultResult& result, const Variant& variant, const schedules::model::Cluster& cluster) {
+std::string drawn_text(const FaultResult& result, const Variant& variant, const CampaignBus& bus) {
   const faults::Fault& fault = result.drawn.fault;
   return fmt::format("{},{},{},{},{},{},{}", result.index, variant.name, faults::name_of(fault.kind),
-                     result.drawn.starts_up ? "start_up" : "steady_state", node_name(fault.node, cluster),
-                     parameters_text(fault, cluster), in_hypothesis(fault) ? "yes" : "no");
+                     result.drawn.starts_up ? "start_up" : "steady_state", node_name(fault.node, bus.cluster()),
+                     parameters_text(fault, bus.cluster()), bus.in_hypothesis(fault) ? "yes" : "no");
 }
 
 // One line, cut at its commas.
@@ -63,14 +69,13 @@ class Line {
     if (cells_[column].empty()) return std::nullopt;
     return integer(column, 0, std::int64_t{1} << 62);
   }
-  template <class All> unsigned bits(std::size_t column, const All& all) const {
+  unsigned bits(std::size_t column, const std::vector<std::string_view>& all) const {
     unsigned bits = 0;
     std::string_view left = cells_[column];
     while (!left.empty()) {
       const std::string_view word = left.substr(0, left.find('+'));
       left.remove_prefix(std::min(left.size(), word.size() + 1));
-      const auto found =
-          std::find_if(all.begin(), all.end(), [&](auto one) { return evaluation::faults::name_of(one) == word; });
+      const auto found = std::find(all.begin(), all.end(), word);
       if (found == all.end()) fail(word, fmt::format("is an unknown word in column {}", column + 1));
       bits |= 1u << (found - all.begin());
     }
@@ -97,27 +102,27 @@ class Line {
 
 }  // namespace
 
-std::string campaign_csv(const CampaignFile& campaign, const CampaignClusters& clusters,
-                         std::span<const FaultResult> results) {
-  std::string out(kHeader);
+std::string campaign_csv(const CampaignFile& campaign, const CampaignBus& bus, std::span<const FaultResult> results) {
+  const Words& words = bus.words();
+  std::string out = header(words);
   out += '\n';
   for (const FaultResult& result : results)
     for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
       const FaultOutcome& o = result.outcomes[v];
       out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                         drawn_text(result, campaign.variants[v], clusters.base), o.activated ? "yes" : "no",
-                         o.starts_without ? "yes" : "no", names_of(o.seen_by_others, evaluation::faults::kAllChecks),
-                         names_of(o.seen_by_itself, evaluation::faults::kAllChecks),
-                         names_of(o.harms, evaluation::faults::kAllHarms), node_name(o.harmed, clusters.base),
-                         node_name(o.sender, clusters.base), o.slot, o.still_out, or_nothing(o.detected_after),
-                         or_nothing(o.passive_after), or_nothing(o.halt_after), or_nothing(o.harmed_after),
-                         or_nothing(o.reintegrated_after));
+                         drawn_text(result, campaign.variants[v], bus), o.activated ? "yes" : "no",
+                         o.starts_without ? "yes" : "no", names_of(o.seen_by_others, words.checks),
+                         names_of(o.seen_by_itself, words.checks), names_of(o.harms, words.harms),
+                         node_name(o.harmed, bus.cluster()), node_name(o.sender, bus.cluster()), o.frame_id,
+                         o.still_out, or_nothing(o.detected_after), or_nothing(o.passive_after),
+                         or_nothing(o.halt_after), or_nothing(o.harmed_after), or_nothing(o.reintegrated_after));
     }
   return out;
 }
 
-std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const CampaignClusters& clusters,
+std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const CampaignBus& bus,
                                            const std::string& text, const std::string& name) {
+  const Words& words = bus.words();
   std::vector<FaultResult> results;
   int number_of_line = 0;
   std::string_view left = text;
@@ -125,27 +130,26 @@ std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const C
     const std::string_view row = left.substr(0, left.find('\n'));
     left.remove_prefix(std::min(left.size(), row.size() + 1));
     if (++number_of_line == 1) {
-      if (row != kHeader)
+      if (row != header(words))
         throw InputError({name, 1, "header", std::string(row), "must be the first line of a campaign's results"});
       continue;
     }
     const Line line(row, name, number_of_line);
     const auto index = static_cast<std::uint32_t>(line.integer(0, 0, campaign.faults - 1));
     if (results.empty() || results.back().outcomes.size() == campaign.variants.size())
-      results.push_back({index, draw_fault(campaign, clusters.base, index), {}});
+      results.push_back({index, bus.draw(index), {}});
     FaultResult& result = results.back();
-    if (result.index != index ||
-        !line.begins_with(drawn_text(result, campaign.variants[result.outcomes.size()], clusters.base)))
+    if (result.index != index || !line.begins_with(drawn_text(result, campaign.variants[result.outcomes.size()], bus)))
       line.fail(row, "is of another campaign, or out of order");
     FaultOutcome o;
     o.activated = line.yes(7);
     o.starts_without = line.yes(8);
-    o.seen_by_others = static_cast<std::uint16_t>(line.bits(9, evaluation::faults::kAllChecks));
-    o.seen_by_itself = static_cast<std::uint16_t>(line.bits(10, evaluation::faults::kAllChecks));
-    o.harms = static_cast<std::uint8_t>(line.bits(11, evaluation::faults::kAllHarms));
-    o.harmed = line.node(12, clusters.base);
-    o.sender = line.node(13, clusters.base);
-    o.slot = static_cast<int>(line.integer(14, 0, 2047));
+    o.seen_by_others = static_cast<std::uint16_t>(line.bits(9, words.checks));
+    o.seen_by_itself = static_cast<std::uint16_t>(line.bits(10, words.checks));
+    o.harms = static_cast<std::uint8_t>(line.bits(11, words.harms));
+    o.harmed = line.node(12, bus.cluster());
+    o.sender = line.node(13, bus.cluster());
+    o.frame_id = static_cast<int>(line.integer(14, 0, 2047));
     o.still_out = static_cast<std::int16_t>(line.integer(15, 0, 255));
     o.detected_after = line.time(16);
     o.passive_after = line.time(17);

@@ -10,12 +10,11 @@
 
 namespace ttf::experiments::campaign {
 
-std::string campaign_csv(const CampaignFile& campaign, const CampaignClusters& clusters,
-                         std::span<const FaultResult> results);
+std::string campaign_csv(const CampaignFile& campaign, const CampaignBus& bus, std::span<const FaultResult> results);
 
 // Reads the results of such a table, of this very campaign: each line's fault is drawn again and must be the
 // same. `name` is the table's, for messages. Throws InputError.
-std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const CampaignClusters& clusters,
+std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const CampaignBus& bus,
                                            const std::string& text, const std::string& name);
 
 // Merges the results of several shards, by index. Throws InputError if a fault is repeated or missing.

@@ -212,11 +212,13 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
     const auto asked_for = [this](std::string_view measure) {
       return std::find(sweep_.measures.begin(), sweep_.measures.end(), measure) != sweep_.measures.end();
     };
-    evaluation::accuracy::DriveMeasures measures(drives::evaluation_start(drive.scenario));
+    evaluation::accuracy::DriveMeasures measures(drives::evaluation_start(drive.scenario),
+                                                 evaluation::accuracy::kGate_m, std::nullopt, drive.scenario.cut_off);
     std::vector<recording::records::Sink*> sinks{&measures};
     std::optional<ExpectedError> expected;
-    if (asked_for("position_mse_expected") && ExpectedError::is_defined(drive.scenario))
-      sinks.push_back(&expected.emplace(drive.scenario));
+    if ((asked_for("face_mse_expected") || asked_for("position_mse_expected")) &&
+        ExpectedError::is_defined(drive.scenario))
+      sinks.push_back(&expected.emplace(drive.scenario, drive.cluster));
     if (listener != nullptr) sinks.push_back(listener);
     recording::records::Tee tee(sinks);
     const drives::DriveConfig config{
@@ -226,7 +228,10 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
     evaluation::accuracy::DriveSummary summary = measures.finish();
     summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -
                                                expected_square(drive.scenario.reference, summary.reference_weights);
-    if (expected) summary.position_mse_expected = expected->position_mse();
+    if (expected) {
+      summary.face_mse_expected = expected->face_mse();
+      summary.position_mse_expected = expected->position_mse();
+    }
     for (const std::string& name : sweep_.measures) row.values.push_back(find_measure(name)->of(summary, outcome));
   } catch (const std::bad_alloc&) {
     throw;

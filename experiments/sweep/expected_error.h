@@ -10,8 +10,16 @@
 // Kirubarajan: "Estimation with Applications to Tracking and Navigation", 2001, 5.2.3 and 5.3.1). BUFF, ADVA
 // and TT differ only in the lists fused by a use: a list fused late counts as if it had come in order.
 //
-// States are (x, y, vx, vy) [m, m/s]. The code is independent of the filters in fusion/, so that tests can
-// compare them.
+// The true velocity may have a part u that forgets (sim/world/speed.h). The filter does not know that. Its error takes up
+// what u forgets. So P is that of (error, u). With the density D, the memory tau and f = exp(-dt / tau):
+//   u' = f u + w_u,   e_v' = e_v + (f - 1) u + w_u,   e_p' = e_p + dt e_v + (tau (1 - f) - dt) u + w_p,
+//   E w_u^2 = D tau / 2 (1 - f^2),   E w_p w_u = D tau^2 / 2 (1 - f)^2,
+//   E w_p^2 = D tau^2 (dt - 2 tau (1 - f) + tau / 2 (1 - f^2))
+// (Gillespie: "Exact numerical simulation of the Ornstein-Uhlenbeck process and its integral", Physical Review E 54,
+// 1996). u is stationary, and independent of the rest of the velocity.
+//
+// States are (x, y, vx, vy) [m, m/s], and u = (ux, uy) [m/s]. The code is independent of the filters in fusion/, so that
+// tests can compare them.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,8 +33,11 @@ struct PointMotion {
   // Spectral densities of the acceleration [m^2/s^3], symmetric.
   Eigen::Matrix2d assumed = Eigen::Matrix2d::Identity();
   Eigen::Matrix2d actual = Eigen::Matrix2d::Identity();
+  // The density of the noise that the velocity forgets, beside `actual`, and the time constant [s], above zero.
+  Eigen::Matrix2d forgotten = Eigen::Matrix2d::Zero();
+  double memory = 1.0;
   // The filter's assumed variance of the velocity at the first measurement, which does not observe it, and the
-  // expected square of the true velocity [m^2/s^2].
+  // expected square of the true velocity without the part that is forgotten [m^2/s^2].
   Eigen::Matrix2d assumed_velocity = Eigen::Matrix2d::Identity();
   Eigen::Matrix2d actual_velocity = Eigen::Matrix2d::Identity();
   // A motion that the filter knows: both are the same.
@@ -39,6 +50,8 @@ struct Look {
   Eigen::Matrix2d noise = Eigen::Matrix2d::Identity();
 };
 
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
 class ErrorRecursion {
  public:
   explicit ErrorRecursion(const PointMotion& motion) : motion_(motion) {}
@@ -46,16 +59,23 @@ class ErrorRecursion {
   // Takes measurements in any order; an older one is inserted before the newer ones.
   void fuse(const Look& look);
   bool empty() const { return steps_.empty(); }
+  // The newest measurement's instant. One must have been fused.
+  GlobalTime newest() const { return steps_.back().look.measured; }
   // Returns the expected square of the error of the prediction to `use`. A measurement must have been fused,
   // and none newer than `use`.
   Eigen::Matrix4d at(GlobalTime use) const;
+  // Returns the filter's own covariance of this prediction.
+  Eigen::Matrix4d believed(GlobalTime use) const;
 
  private:
   struct Step {
     Look look;
-    // After this measurement.
-    Eigen::Matrix4d assumed = Eigen::Matrix4d::Zero(), actual = Eigen::Matrix4d::Zero();
+    // After this measurement: the filter's covariance, and that of (error, u).
+    Eigen::Matrix4d assumed = Eigen::Matrix4d::Zero();
+    Matrix6d actual = Matrix6d::Zero();
   };
+  double seconds_to(GlobalTime use) const;
+
   PointMotion motion_;
   std::vector<Step> steps_;  // in the order of measurement
 };

@@ -18,6 +18,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 Assignment::Assignment(std::size_t max_rows, std::size_t max_columns)
     : max_rows_(max_rows), components_(max_rows + max_columns) {
   column_of_.resize(max_rows);
+  of_row_.resize(max_rows);
+  of_column_.resize(max_rows + max_columns);
   sorted_.reserve(max_rows * max_columns);
   component_rows_.reserve(max_rows);
   component_columns_.reserve(max_rows * max_columns);  // every candidate's, before duplicates go
@@ -36,7 +38,8 @@ void Assignment::solve(std::span<const Candidate> candidates, std::size_t rows, 
   TTF_CHECK(rows <= max_rows_ && rows + columns <= components_.capacity(), "{} rows, {} columns", rows, columns);
   rows_ = rows;
   std::fill_n(column_of_.begin(), rows, -1);
-  sort_by_component(candidates, columns);
+  assign_lone_pairs(candidates, columns);
+  sort_by_component(columns);
   const std::span<const Candidate> sorted(sorted_);
   for (std::size_t first = 0, last = 0; first < sorted.size(); first = last) {
     const int component = components_.root(sorted[first].row);
@@ -48,9 +51,23 @@ void Assignment::solve(std::span<const Candidate> candidates, std::size_t rows, 
   }
 }
 
-void Assignment::sort_by_component(std::span<const Candidate> candidates, std::size_t columns) {
+void Assignment::assign_lone_pairs(std::span<const Candidate> candidates, std::size_t columns) {
+  std::fill_n(of_row_.begin(), rows_, 0);
+  std::fill_n(of_column_.begin(), columns, 0);
+  for (const Candidate& candidate : candidates) {
+    ++of_row_[index_of(candidate.row)];
+    ++of_column_[index_of(candidate.column)];
+  }
+  sorted_.clear();
+  for (const Candidate& candidate : candidates)
+    if (of_row_[index_of(candidate.row)] == 1 && of_column_[index_of(candidate.column)] == 1)
+      column_of_[index_of(candidate.row)] = candidate.column;
+    else
+      sorted_.push_back(candidate);
+}
+
+void Assignment::sort_by_component(std::size_t columns) {
   components_.reset(rows_ + columns);
-  sorted_.assign(candidates.begin(), candidates.end());
   for (const Candidate& candidate : sorted_)
     components_.join(candidate.row, static_cast<int>(rows_) + candidate.column);
   const auto before = [&](const Candidate& a, const Candidate& b) {
@@ -58,8 +75,7 @@ void Assignment::sort_by_component(std::span<const Candidate> candidates, std::s
     if (ra != rb) return ra < rb;
     return a.row != b.row ? a.row < b.row : a.column < b.column;
   };
-  // They often come in order, each with a component of its own.
-  if (!std::is_sorted(sorted_.begin(), sorted_.end(), before)) std::sort(sorted_.begin(), sorted_.end(), before);
+  std::sort(sorted_.begin(), sorted_.end(), before);
 }
 
 // Adds the rows to the matching one by one.

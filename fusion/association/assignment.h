@@ -2,8 +2,8 @@
 //
 // The candidates are sparse: only pairs inside their gate. They fall into independent components. Shortest
 // augmenting paths solve each component (Hungarian method with potentials: Kuhn 1955, Munkres 1957); an
-// observation stays unassigned where that costs less. The constructor allocates all storage; solving allocates
-// nothing.
+// observation stays unassigned where that costs less. A pair of a row and a column without other candidates is assigned
+// at once. The constructor allocates all storage; solving allocates nothing.
 //
 // In a component, cost(i, j) is the negative gain of row i in column j, 0 in the row's own column for
 // "unassigned", and kForbidden elsewhere. Potentials u of rows and v of columns keep every reduced cost
@@ -37,7 +37,8 @@ class Assignment {
   std::span<const int> column_of() const { return {column_of_.data(), rows_}; }
 
  private:
-  void sort_by_component(std::span<const Candidate> candidates, std::size_t columns);
+  void assign_lone_pairs(std::span<const Candidate> candidates, std::size_t columns);
+  void sort_by_component(std::size_t columns);
   void solve_component(std::span<const Candidate> component);
   void number_component(std::span<const Candidate> component);
   void fill_costs(std::span<const Candidate> component);
@@ -54,8 +55,9 @@ class Assignment {
 
   std::size_t rows_ = 0, max_rows_;
   std::vector<int> column_of_;
-  Components components_;          // rows, then columns
-  std::vector<Candidate> sorted_;  // by component, row, column
+  Components components_;                // rows, then columns
+  std::vector<int> of_row_, of_column_;  // how many candidates each has
+  std::vector<Candidate> sorted_;        // by component, row, column: all but lone pairs
 
   // The component being solved. Its rows and columns are renumbered in ascending order. Behind its columns,
   // each row has a column for "unassigned".

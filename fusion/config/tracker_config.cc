@@ -45,7 +45,20 @@ void load_association(YamlMap& yaml, TrackerConfig& c) {
     yaml.fail("delete_existence", "must be below initial_existence: otherwise a track ends as it begins");
   if (c.delete_existence >= c.confirm_existence) yaml.fail("delete_existence", "must be below confirm_existence");
   c.merge_probability = yaml.number_or("merge_probability", c.merge_probability, {0.0, 0.999999});
+  if (yaml.has("overlaps")) c.end_overlaps = yaml.choice<bool>("overlaps", {{"keep", false}, {"end", true}});
   c.merge_scans = static_cast<int>(yaml.integer_or("merge_scans", c.merge_scans, {1, 255}, "lists"));
+}
+
+// As YAML: {length: 4.4, length_sigma: 0.5, width: 1.8, width_sigma: 0.15, correlation: 0}
+Sizes load_sizes(YamlMap yaml) {
+  Sizes s;
+  s.length = yaml.number_or("length", s.length, {0.1, 20.0}, "m");
+  s.length_sigma = yaml.number_or("length_sigma", s.length_sigma, {0.01, 5.0}, "m");
+  s.width = yaml.number_or("width", s.width, {0.1, 5.0}, "m");
+  s.width_sigma = yaml.number_or("width_sigma", s.width_sigma, {0.01, 2.0}, "m");
+  s.correlation = yaml.number_or("correlation", s.correlation, {-0.99, 0.99});
+  yaml.finish();
+  return s;
 }
 
 // Runs last: the allowed methods depend on the other keys.
@@ -64,6 +77,8 @@ void load_late(YamlMap& yaml, TrackerConfig& c) {
     yaml.fail("late",
               "must be rewind unless association is nearest, birth is m_of_n and merge_probability is 0: the other "
               "methods do not reverse later decisions");
+  if (c.end_overlaps.value_or(false))
+    yaml.fail("late", "must be rewind if overlaps is end: the other methods do not bring an ended track back");
 }
 
 }  // namespace
@@ -79,6 +94,7 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
   c.filter = yaml.choice_or<FilterKind>("filter", c.filter,
                                         {{"extended", FilterKind::kExtended}, {"unscented", FilterKind::kUnscented}});
   c.process_noise = yaml.number_or("process_noise", c.process_noise, {1e-6, 1e4});
+  if (yaml.has("cross_noise")) c.cross_noise = yaml.number("cross_noise", {1e-6, 1e4});
   c.turn_noise = yaml.number_or("turn_noise", c.turn_noise, {1e-6, 100.0}, "rad^2/s^3");
   c.mode_seconds = yaml.number_or("mode_seconds", c.mode_seconds, {0.01, 1e4}, "s");
   c.initial_velocity_sigma = yaml.number_or("initial_velocity_sigma", c.initial_velocity_sigma, {0.01, 100.0}, "m/s");
@@ -116,6 +132,7 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
         "memory for it");
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
+  if (yaml.has("sizes")) c.sizes = load_sizes(yaml.map("sizes"));
   load_systematic(yaml, c, sensors);
   load_association(yaml, c);
   load_late(yaml, c);

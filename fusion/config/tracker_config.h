@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/strict_yaml.h"
@@ -38,6 +39,14 @@ enum class Association : unsigned char { kNearest, kJpda };
 // (fusion/tracks/existence.h).
 enum class Birth : unsigned char { kMOfN, kExistence };
 
+// The prior of objects' length and width [m]: cars. An object keeps its size, so a wrong prior is a constant error until
+// a sensor has seen both sides.
+struct Sizes {
+  double length = 4.4, length_sigma = 0.5;
+  double width = 1.8, width_sigma = 0.15;
+  double correlation = 0.0;
+};
+
 struct TrackerConfig {
   MotionModel motion = MotionModel::kConstantVelocity;
   FilterKind filter = FilterKind::kExtended;
@@ -45,6 +54,10 @@ struct TrackerConfig {
   // acceleration [m^2/s^3], or jerk [m^2/s^5] for constant acceleration and CTRA. 3 m^2/s^3 lets the velocity
   // wander by 1.7 m/s within a second: a car brakes or accelerates moderately.
   double process_noise = 3.0;
+  // The same for the noise across the vehicle's x axis, of constant velocity and acceleration alone. Absent: as along it.
+  // Cars on a straight road ahead brake harder than they leave their lane.
+  std::optional<double> cross_noise;
+  double noise_across() const { return cross_noise.value_or(process_noise); }
   // Spectral density of the turn acceleration on bends [rad^2/s^3]. 0.1 lets the turn rate wander by 0.3 rad/s
   // within a second: a car turns into a side road.
   double turn_noise = 0.1;
@@ -55,9 +68,9 @@ struct TrackerConfig {
   double gate_probability = 0.9973;         // for the right observation to be in its gate (three sigma in 1D)
   int confirm_hits = 3;                     // M of the last N lists confirm a track
   int confirm_window = 5;
-  // An image calls a track coasting after so many lists in a row without an observation. A slower sensor may be
-  // the only one to see the object, so the value exceeds by one the lists of a faster sensor between two of its
-  // own.
+  // An image calls a track coasting after so many lists in a row without an observation. Where no field of a sensor is
+  // known, a slower one may be the only one to see the object. So the value exceeds by one the lists of a faster sensor
+  // between two of its own.
   int coast_misses = 3;
   int delete_misses = 8;               // so many lists in a row without an observation end a confirmed track
   double delete_position_sigma = 5.0;  // [m] so does a larger uncertainty
@@ -75,19 +88,21 @@ struct TrackerConfig {
   // The method by which ADVA and TT take late lists in (fusion/strategies/late/late_updates.h). Methods other
   // than rewind require straight motion and the extended filter.
   oosm::Kind late = oosm::Kind::kRewind;
-  double heading_noise = 0.05;  // spectral density of the heading's random walk [rad^2/s]
-  double extent_noise = 0.01;   // for length and width [m^2/s]
+  // Spectral density of the heading's random walk [rad^2/s], beside its turn rate (fusion/tracks/heading.h).
+  double heading_noise = 0.005;
+  Sizes sizes;
+  double extent_noise = 0.0;  // spectral density of a random walk of length and width [m^2/s]
 
   // kConsidered requires constant velocity or acceleration and the extended filter.
   SystematicErrorsAre systematic = SystematicErrorsAre::kIgnored;
-  // By SensorId; a missing sensor has no mounting or errors. load_tracker() returns them in the order of the
+  // By SensorId; a missing sensor has no mounting, field or errors. load_tracker() returns them in the order of the
   // file, and the caller reorders them by id.
   std::vector<sensors::KnownSensor> sensors;
 
   Association association = Association::kNearest;
   Birth birth = Birth::kMOfN;
-  // For jpda and existence (fusion/tracks/existence.h): the probability that a list contains a tracked object,
-  // over the lists of all sensors. The second value is the number of clutter observations per square metre of
+  // For jpda and existence (fusion/tracks/existence.h): the probability that a list contains a tracked object which its
+  // sensor can see (fusion/tracks/visibility.h). The second value is the number of clutter observations per square metre of
   // one list.
   double detection_probability = 0.9;
   double clutter_density = 1e-3;  // [1/m^2]
@@ -101,6 +116,9 @@ struct TrackerConfig {
   // (fusion/tracks/twins.h); 0: never.
   double merge_probability = 0.0;
   int merge_scans = 5;
+  // The less certain one of two confirmed tracks in one place ends (fusion/tracks/overlaps.h). Absent: both are kept,
+  // unless the lists are recorded scans.
+  std::optional<bool> end_overlaps;
 };
 
 // Whether the tracker's own keys say what is known of the sensors.

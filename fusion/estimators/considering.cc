@@ -44,10 +44,10 @@ std::shared_ptr<const Estimator> make_considering(const config::TrackerConfig& c
     return std::make_shared<ConsideringEstimator<M>>(config, model, prior_of<M>(config));
   };
   if (config.motion == config::MotionModel::kConstantAcceleration)
-    return make(motion::ConstantAcceleration(config.process_noise));
+    return make(motion::ConstantAcceleration(config.process_noise, config.noise_across()));
   TTF_CHECK(config.motion == config::MotionModel::kConstantVelocity, "considered with motion {}",
             static_cast<int>(config.motion));
-  return make(motion::ConstantVelocity(config.process_noise));
+  return make(motion::ConstantVelocity(config.process_noise, config.noise_across()));
 }
 
 }  // namespace ttf::fusion::estimators

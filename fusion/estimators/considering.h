@@ -128,6 +128,9 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
   Cartesian cartesian(const Estimate& estimate) const override {
     return motion::whole<M>(own_of(estimate).state).estimate;
   }
+  linear::Vector<2> velocity(const Estimate& estimate) const override {
+    return own_of(estimate).state.x.template segment<2>(2);
+  }
 
   linear::Gaussian<2> seen_position(const Estimate& estimate, SensorId id) const override {
     const Own& own = own_of(estimate);

@@ -26,4 +26,10 @@ template <int N> using WithBiases = filters::Considered<N, sensors::kMostBiases>
 using Estimate = std::variant<linear::Gaussian<4>, linear::Gaussian<5>, linear::Gaussian<6>, StraightOrTurning,
                               WithBiases<4>, WithBiases<6>>;
 
+// The distance [m] of two points of an object: its mean and covariance.
+struct Displacement {
+  linear::Vector<2> by = linear::Vector<2>::Zero();
+  linear::Matrix<2> spread = linear::Matrix<2>::Zero();
+};
+
 }  // namespace ttf::fusion::estimators

@@ -19,7 +19,20 @@ void carry_over(linear::Gaussian<4>& estimate, const sensors::Mounting& mounting
   estimate.p = motion::sandwich<4, 4>(j, estimate.p);
 }
 
+template <int N> void shift(linear::Gaussian<N>& state, const Displacement& d) {
+  state.x.template head<2>() += d.by;
+  state.p.template topLeftCorner<2, 2>() += d.spread;
+}
+template <int N> void shift(WithBiases<N>& own, const Displacement& d) { shift(own.state, d); }
+void shift(StraightOrTurning& own, const Displacement& d) {
+  std::apply([&](auto&... mode) { (shift(mode, d), ...); }, own.estimates);
+}
+
 }  // namespace
+
+void displace(Estimate& estimate, const Displacement& d) {
+  std::visit([&](auto& own) { shift(own, d); }, estimate);
+}
 
 linear::Gaussian<4> first_estimate(const sensors::Observation& observation, double velocity_variance,
                                    const sensors::KnownSensor* sensor) {

@@ -4,7 +4,7 @@
 //
 // Laws, tested over every motion model and filter (tests/fusion/estimators/estimator_test.cc):
 //   1. predict by zero seconds changes nothing; covariances stay symmetric and positive semi-definite.
-//   2. position() is the leading part of cartesian().
+//   2. position() and velocity() are parts of cartesian().
 //   3. An observation explains its own initial estimate best: its distance to that estimate is zero.
 //   4. The same calls give the same bits, whatever calls came between.
 //   5. An update by one explanation of weight 1 equals, to the bit, the update by its observation, or no change without
@@ -59,11 +59,15 @@ class Estimator {
   virtual void update(Estimate& estimate, std::span<const Explanation> explanations) const = 0;
   virtual linear::Gaussian<2> position(const Estimate& estimate) const = 0;  // (x, y) [m]
   virtual Cartesian cartesian(const Estimate& estimate) const = 0;
+  virtual linear::Vector<2> velocity(const Estimate& estimate) const = 0;  // cartesian()'s, to the bit, for less work
   // Returns the position that a sensor without noise is expected to measure: position(), unless systematic
   // errors are considered. With the noise of a position observation added, it is the distribution behind that
   // observation's distance.
   virtual linear::Gaussian<2> seen_position(const Estimate& estimate, SensorId) const { return position(estimate); }
 };
+
+// Moves an estimate to another point of its object: shifts the position and adds the covariance of the shift.
+void displace(Estimate& estimate, const Displacement& displacement);
 
 std::shared_ptr<const Estimator> make_estimator(const config::TrackerConfig& config);
 

@@ -45,6 +45,7 @@ template <class F> class StraightAndTurning {
     return {all.x.head<2>(), all.p.topLeftCorner<2, 2>()};
   }
   Cartesian cartesian(const Own& own) const { return imm_.whole(own); }
+  linear::Vector<2> velocity(const Own& own) const { return imm_.velocity(own); }
 
  private:
   filters::Imm<F, motion::ConstantVelocity, motion::Ctrv> imm_;

@@ -115,6 +115,9 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
   Cartesian cartesian(const Estimate& estimate) const override {
     return with(estimate, [](const auto& kernel, const auto& own) { return kernel.cartesian(own); });
   }
+  linear::Vector<2> velocity(const Estimate& estimate) const override {
+    return with(estimate, [](const auto& kernel, const auto& own) { return kernel.velocity(own); });
+  }
 
  private:
   // Converts the estimate to the kernel's layout once the course is known, and back when it is lost.

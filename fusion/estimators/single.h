@@ -74,6 +74,9 @@ template <class F, motion::Model M> struct Single {
     return {own.x.template head<2>(), own.p.template topLeftCorner<2, 2>()};
   }
   Cartesian cartesian(const Own& own) const { return motion::whole<M>(own).estimate; }
+  linear::Vector<2> velocity(const Own& own) const {
+    return M::template kinematics<motion::kWithVelocity>(own.x).velocity;
+  }
 };
 
 }  // namespace ttf::fusion::estimators

@@ -112,6 +112,18 @@ template <class F, motion::Model... Ms> class Imm {
     first.probability = (a * first.probability + b * second.probability) / (a + b);
   }
 
+  // Returns the velocity of whole(), to the bit.
+  linear::Vector<2> velocity(const Modes<Ms...>& modes) const {
+    linear::Vector<2> mixed = linear::Vector<2>::Zero();
+    each([&]<std::size_t J>() {
+      using M = std::tuple_element_t<J, std::tuple<Ms...>>;
+      const linear::Vector<2> of =
+          M::template kinematics<motion::kWithVelocity>(std::get<J>(modes.estimates).x).velocity;
+      motion::add_scaled<2, 1>(mixed, modes.probability(static_cast<int>(J)), of);
+    });
+    return mixed;
+  }
+
   // Returns mean and covariance of (x, y, vx, vy, ax, ay) over all modes; unknown accelerations count as zero.
   linear::Gaussian<6> whole(const Modes<Ms...>& modes) const {
     std::array<linear::Gaussian<6>, static_cast<std::size_t>(kModes)> of;

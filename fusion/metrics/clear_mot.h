@@ -23,7 +23,8 @@
 #include <vector>
 
 #include "fusion/metrics/identity.h"
-#include "fusion/metrics/least_cost_pairs.h"
+#include "fusion/metrics/near_pairs.h"
+#include "fusion/metrics/sparse_pairs.h"
 
 namespace ttf::fusion::metrics {
 
@@ -47,15 +48,11 @@ struct ClearMotCounts {
 
 class ClearMot {
  public:
-  struct Capacity {
-    std::size_t objects = 0, tracks = 0;  // at one instant
-    std::size_t objects_ever = 0;         // different objects that are ever matched
-  };
   // Objects and tracks further apart than `gate_m` (finite, > 0) do not match.
-  ClearMot(const Capacity& capacity, double gate_m);
+  explicit ClearMot(double gate_m);
 
-  // Returns the matches of one instant in the order of the objects' names, valid until the next call. Allocates
-  // nothing.
+  // Returns the matches of one instant in the order of the objects' names, valid until the next call. The storage grows
+  // with the largest instant and the number of different objects, and is kept.
   std::span<const Match> step(std::span<const Named> objects, std::span<const Named> tracks);
   // Does the same for any other distance [m]. distances[i * tracks.size() + j] is that of objects[i] and
   // tracks[j], not a number if they do not match.
@@ -70,21 +67,32 @@ class ClearMot {
     Identity object = 0, track = 0;
     std::uint64_t instant = 0;
   };
+  // A possible match: places in the order of names, and the distance.
+  struct Near {
+    std::size_t object, track;
+    double distance_m;
+  };
+  void begin(std::span<const Identity> objects, std::span<const Identity> tracks);
+  std::span<const Match> judge();
   const Last* last_of(Identity object) const;
-  void keep(std::span<const Identity> objects, std::span<const Identity> tracks, std::span<const double> distances);
-  void pair_others(std::size_t objects, std::size_t tracks, std::span<const double> distances);
+  void keep();
+  void pair_others();
   void remember(Identity object, Identity track);
 
-  Capacity capacity_;
   double gate_;
   ClearMotCounts counts_;
   std::vector<Last> last_;  // by object
-  std::vector<std::size_t> objects_by_name_, tracks_by_name_;
-  std::vector<int> track_of_, object_of_;  // by place in the order of names; LeastCostPairs::kNone
-  std::vector<Identity> object_names_, track_names_;
-  std::vector<double> distances_;
+  // One instant. Objects and tracks are in the order of their names; of_object_ and of_track_ are their places in it.
+  std::vector<Identity> objects_, tracks_;
+  std::vector<std::size_t> of_object_, of_track_;
+  std::vector<Near> near_;                 // within the gate, by object, then track
+  std::vector<int> track_of_, object_of_;  // SparsePairs::kNone
+  std::vector<double> distance_of_;        // by object: how far its track is
   std::vector<Match> matches_;
-  LeastCostPairs pairs_;
+  std::vector<Identity> names_[2];
+  std::vector<Point> points_[2];
+  NearPairs near_pairs_;
+  SparsePairs pairs_;
 };
 
 }  // namespace ttf::fusion::metrics

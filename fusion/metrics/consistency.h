@@ -42,6 +42,8 @@ class Consistency {
   double expected() const {
     return samples_ == 0 ? kNothing : static_cast<double>(degrees_) / static_cast<double>(samples_);
   }
+  // Returns the mean over degrees of freedom: 1 for a consistent estimator, of whatever dimensions.
+  double per_degree() const { return samples_ == 0 ? kNothing : sum_ / static_cast<double>(degrees_); }
   // Returns the band of the mean; it lies below and above with probability `tail` each, in (0, 0.5), by default
   // 95 % inside.
   Band band(double tail = 0.025) const;

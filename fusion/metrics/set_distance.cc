@@ -7,8 +7,7 @@
 
 namespace ttf::fusion::metrics {
 
-SetMetric::SetMetric(std::size_t max_truths, std::size_t max_estimates, const CutOff& cut_off)
-    : cut_off_(cut_off), pairs_(max_truths, max_estimates) {
+SetMetric::SetMetric(const CutOff& cut_off) : cut_off_(cut_off) {
   TTF_CHECK(std::isfinite(cut_off.distance_m) && cut_off.distance_m > 0.0, "cut-off {} m", cut_off.distance_m);
   TTF_CHECK(cut_off.order >= 1.0 && cut_off.order <= 64.0, "order {}", cut_off.order);
 }
@@ -27,16 +26,15 @@ double SetMetric::root(double sum) const {
 SetDistance SetMetric::between(std::span<const Point> truths, std::span<const Point> estimates) {
   const double c = cut_off_.distance_m;
   pairs_.begin(truths.size(), estimates.size());
-  for (std::size_t i = 0; i < truths.size(); ++i)
-    for (std::size_t j = 0; j < estimates.size(); ++j)
-      if (const double d = distance_m(truths[i], estimates[j]); d < c) pairs_.offer(i, j, power(d / c));
-  pairs_.solve(LeastCostPairs::kLeastCost);
+  for (const NearPair& pair : near_.find(truths, estimates, c))
+    if (pair.distance_m < c) pairs_.offer(pair.row, pair.column, power(pair.distance_m / c));
+  pairs_.solve(Best::kLeastCost);
 
   SetDistance result;
   double localisation = 0.0;
   for (std::size_t i = 0; i < truths.size(); ++i) {
     const int j = pairs_.column_of()[i];
-    if (j == LeastCostPairs::kNone) continue;
+    if (j == SparsePairs::kNone) continue;
     localisation += power(distance_m(truths[i], estimates[static_cast<std::size_t>(j)]));
     ++result.pairs;
   }

@@ -21,15 +21,12 @@
 #include <span>
 #include <vector>
 
-#include "fusion/metrics/least_cost_pairs.h"
+#include "fusion/metrics/cut_off.h"
+#include "fusion/metrics/near_pairs.h"
 #include "fusion/metrics/point.h"
+#include "fusion/metrics/sparse_pairs.h"
 
 namespace ttf::fusion::metrics {
-
-struct CutOff {
-  double distance_m = 5.0;  // c, > 0 [m]
-  double order = 2.0;       // p in [1, 64]
-};
 
 struct Gospa {
   double distance_m = 0.0;
@@ -49,19 +46,22 @@ struct SetDistance {
 
 class SetMetric {
  public:
-  SetMetric(std::size_t max_truths, std::size_t max_estimates, const CutOff& cut_off);
+  explicit SetMetric(const CutOff& cut_off);
 
-  // Allocates nothing.
+  // The storage grows with the largest sets and is kept.
   SetDistance between(std::span<const Point> truths, std::span<const Point> estimates);
-  // Returns the estimate of each truth in the last two sets, or LeastCostPairs::kNone.
+  // Returns the estimate of each truth in the last two sets, or SparsePairs::kNone.
   std::span<const int> estimate_of() const { return pairs_.column_of(); }
 
- private:
+  const CutOff& cut_off() const { return cut_off_; }
+  // The p-th power, and its inverse.
   double power(double base) const;
   double root(double sum) const;
 
+ private:
   CutOff cut_off_;
-  LeastCostPairs pairs_;
+  NearPairs near_;
+  SparsePairs pairs_;
 };
 
 }  // namespace ttf::fusion::metrics

@@ -13,15 +13,10 @@ Coverage ObjectLife::coverage() const {
   return 5 * tracked < instants ? Coverage::kMostlyLost : Coverage::kPartlyTracked;
 }
 
-TrackLives::TrackLives(std::size_t max_objects_ever) : max_objects_(max_objects_ever) {
-  lives_.reserve(max_objects_ever);
-}
-
 ObjectLife& TrackLives::life_of(Identity object, TrueTime at) {
   const auto place = std::lower_bound(lives_.begin(), lives_.end(), object,
                                       [](const ObjectLife& life, Identity name) { return life.object < name; });
   if (place != lives_.end() && place->object == object) return *place;
-  TTF_CHECK(lives_.size() < max_objects_, "object {} after {} different ones", object, lives_.size());
   ObjectLife life;
   life.object = object;
   life.born = at;

@@ -50,10 +50,8 @@ struct LifeSummary {
 
 class TrackLives {
  public:
-  explicit TrackLives(std::size_t max_objects_ever);
-
   // Takes one instant, later than the last: the objects that the truth lists, each once, in any order, and the
-  // matches of ClearMot::step. Allocates nothing.
+  // matches of ClearMot::step. The storage grows with the number of different objects.
   void step(TrueTime at, std::span<const Identity> objects, std::span<const Match> matches);
 
   std::span<const ObjectLife> lives() const { return lives_; }  // in the order of the objects' names
@@ -62,7 +60,6 @@ class TrackLives {
  private:
   ObjectLife& life_of(Identity object, TrueTime at);
 
-  std::size_t max_objects_;
   std::optional<TrueTime> now_;
   std::vector<ObjectLife> lives_;
 };

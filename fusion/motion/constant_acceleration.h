@@ -9,7 +9,11 @@ namespace ttf::fusion::motion {
 
 struct ConstantAcceleration : IntegratorChain<3> {
   static constexpr const char* kName = "ConstantAcceleration";
-  explicit ConstantAcceleration(double q = 1.0) { spectral_density = q; }
+  explicit ConstantAcceleration(double q = 1.0) : ConstantAcceleration(q, q) {}
+  ConstantAcceleration(double along_x, double along_y) {
+    spectral_density = along_x;
+    cross_density = along_y;
+  }
 };
 static_assert(StructuredModel<ConstantAcceleration>);
 

@@ -9,7 +9,11 @@ namespace ttf::fusion::motion {
 
 struct ConstantVelocity : IntegratorChain<2> {
   static constexpr const char* kName = "ConstantVelocity";
-  explicit ConstantVelocity(double q = 1.0) { spectral_density = q; }
+  explicit ConstantVelocity(double q = 1.0) : ConstantVelocity(q, q) {}
+  ConstantVelocity(double along_x, double along_y) {
+    spectral_density = along_x;
+    cross_density = along_y;
+  }
 };
 static_assert(StructuredModel<ConstantVelocity>);
 

@@ -1,9 +1,9 @@
 // A chain of integrators moves both axes alike: each component is the integral of the next one of its axis, and
 // white noise drives the last one. With K components per axis in the order (x, y, vx, vy, ...), F = f (x) I and
-// Q = q (x) I. The matrix f is upper triangular with f_ij = dt^(j-i) / (j-i)!. The matrix q is the exact
-// integral for a spectral density s (Bar-Shalom, Li, Kirubarajan: "Estimation with Applications to Tracking and
-// Navigation", 2001, 6.2.2 and 6.2.3):
-//   q_ij = s dt^(a+b+1) / (a! b! (a+b+1)),   a = K-1-i, b = K-1-j.
+// Q = q (x) diag(s_x, s_y), with a spectral density for each axis. The matrix f is upper triangular with
+// f_ij = dt^(j-i) / (j-i)!. The matrix q is the exact integral (Bar-Shalom, Li, Kirubarajan: "Estimation with
+// Applications to Tracking and Navigation", 2001, 6.2.2 and 6.2.3):
+//   q_ij = dt^(a+b+1) / (a! b! (a+b+1)),   a = K-1-i, b = K-1-j.
 #pragma once
 
 #include "core/check.h"
@@ -16,7 +16,8 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
   static constexpr int kStates = 2 * K;
   static constexpr bool kLinear = true;
 
-  double spectral_density = 1.0;  // of each axis's driving noise [m^2/s^(2K-1)], >= 0
+  double spectral_density = 1.0;  // of the noise that drives x [m^2/s^(2K-1)], >= 0
+  double cross_density = 1.0;     // the same for y
 
   linear::Vector<kStates> move(const linear::Vector<kStates>& x, double dt) const {
     linear::Vector<kStates> moved = x;
@@ -75,9 +76,9 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
     unrolled<K>([&](auto i) {
       unrolled<K>([&](auto j) {
         constexpr int a = K - 1 - i, b = K - 1 - j;
-        const double q = spectral_density * power(dt, a + b + 1) * (1.0 / (factorial(a) * factorial(b) * (a + b + 1)));
-        p(2 * i, 2 * j) += q;
-        p(2 * i + 1, 2 * j + 1) += q;
+        constexpr double kShare = 1.0 / (factorial(a) * factorial(b) * (a + b + 1));
+        p(2 * i, 2 * j) += spectral_density * power(dt, a + b + 1) * kShare;
+        p(2 * i + 1, 2 * j + 1) += cross_density * power(dt, a + b + 1) * kShare;
       });
     });
   }

@@ -32,16 +32,19 @@ template <int N, int M, Motion<N> Model, int Capacity> class Adjoint {
   void start(GlobalTime time, const linear::Gaussian<N>& prior) { begin(Stamp::start(time), prior); }
   bool announce(const Stamp&) { return true; }
 
-  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement,
+             const Displacement<N>* displacement = nullptr) {
     const int n = history_.not_after(stamp);
     if (n == 0) return Taken::kTooOld;
     if (history_[n - 1].stamp == stamp) return Taken::kDuplicate;
     if (n == history_.size()) {
-      step_in_order(stamp, measurement);
+      step_in_order(stamp, measurement, displacement);
       return Taken::kInOrder;
     }
     linear::Gaussian<N> now = state();
-    fuse_retrodicted<N, M>(now, retrodicted(stamp.time(), n), measurement);
+    Retrodicted<N> then = retrodicted(stamp.time(), n);
+    if (displacement != nullptr) displace<N>(now, then, *displacement);
+    fuse_retrodicted<N, M>(now, then, measurement);
     begin(Stamp{history_.newest().stamp}, now);
     return Taken::kLate;
   }
@@ -73,7 +76,8 @@ template <int N, int M, Motion<N> Model, int Capacity> class Adjoint {
     first.estimate = estimate;
   }
 
-  [[gnu::flatten]] void step_in_order(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
+  [[gnu::flatten]] void step_in_order(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement,
+                                      const Displacement<N>* displacement) {
     linear::Gaussian<N> estimate = state();
     const Duration elapsed = stamp.time() - time();
     Entry& entry = history_.append();
@@ -84,6 +88,7 @@ template <int N, int M, Motion<N> Model, int Capacity> class Adjoint {
       linear::predict<N>(estimate, step);
       entry.f = step.f;
     }
+    if (displacement != nullptr) displacement->move(estimate);
     const Whitened<N, M> whitened = correct<N, M>(estimate, measurement);
     entry.estimate = estimate;
     entry.kept = linear::Matrix<N>::Identity() - whitened.v * whitened.h;

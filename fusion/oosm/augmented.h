@@ -33,11 +33,17 @@ template <int N, int M, Motion<N> Model, int Capacity> class Augmented {
   }
   bool announce(const Stamp&) { return true; }
 
-  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement,
+             const Displacement<N>* displacement = nullptr) {
     if (stamp > last_) {
       stamps_[place(joint_.keep())] = last_;
       forget();
       if (stamp.time() > last_.time()) joint_.propagate(motion_.step((stamp.time() - last_.time()).seconds()));
+      if (displacement != nullptr) {
+        stamps_[place(joint_.keep())] = stamp.before();
+        forget();
+        joint_.displace(*displacement, [](int) { return false; });
+      }
       joint_.correct_now(measurement);
       last_ = stamp;
       return Taken::kInOrder;
@@ -46,8 +52,9 @@ template <int N, int M, Motion<N> Model, int Capacity> class Augmented {
     const Neighbours found = neighbours(stamp);
     if (found.before == kNone) return Taken::kTooOld;
     if (stamps_[place(found.before)] == stamp) return Taken::kDuplicate;
-    const int slot = joint_.insert(found.before, found.after, bridge_at(stamp.time(), found));
+    int slot = joint_.insert(found.before, found.after, bridge_at(stamp.time(), found));
     stamps_[place(slot)] = stamp;
+    if (displacement != nullptr) slot = displaced_copy(slot, stamp, *displacement);
     joint_.correct_slot(slot, measurement);
     forget();
     return Taken::kLate;
@@ -100,6 +107,19 @@ template <int N, int M, Motion<N> Model, int Capacity> class Augmented {
     else
       result = bridge<N>(motion_.step(first.seconds()), motion_.step(second.seconds()));
     return result;
+  }
+
+  // Leaves the slot's state to measurements before the stamp, and adds it displaced, with all later ones.
+  int displaced_copy(int slot, const Stamp& stamp, const Displacement<N>& displacement) {
+    stamps_[place(slot)] = stamp.before();
+    forget();
+    const Neighbours found = neighbours(stamp);
+    Bridge<N> same;
+    same.a.setIdentity();
+    const int copy = joint_.insert(found.before, found.after, same);
+    stamps_[place(copy)] = stamp;
+    joint_.displace(displacement, [&](int i) { return stamps_[place(i)] >= stamp; });
+    return copy;
   }
 
   // Keeps at most Capacity instants, the newest included: drops the oldest.

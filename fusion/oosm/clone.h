@@ -51,10 +51,12 @@ template <int N, int M, Motion<N> Model, int Clones> class Clone {
     return true;
   }
 
-  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement,
+             const Displacement<N>* displacement = nullptr) {
     if (stamp > last_) {
       pass(stamp);
       move(stamp.time() - reached_);
+      if (displacement != nullptr) joint_.displace(*displacement, [](int) { return false; });
       joint_.correct_now(measurement);
       last_ = stamp;
       return Taken::kInOrder;
@@ -62,6 +64,8 @@ template <int N, int M, Motion<N> Model, int Clones> class Clone {
     if (stamp == last_) return Taken::kDuplicate;
     for (int i = 0; i < joint_.size(); ++i) {
       if (stamps_[place(i)] != stamp) continue;
+      if (displacement != nullptr)
+        joint_.displace(*displacement, [&](int slot) { return stamps_[place(slot)] >= stamp; });
       joint_.correct_slot(i, measurement);
       drop(i);
       return Taken::kLate;

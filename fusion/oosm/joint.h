@@ -94,6 +94,18 @@ template <int N, int M, int Slots> class Joint {
     learn(v, nu);
   }
 
+  // Displaces the newest state and the slots `moves(slot)`, all by the same.
+  template <class Moves> void displace(const Displacement<N>& displacement, const Moves& moves) {
+    displacement.move(now_);
+    for (int i = 0; i < size_; ++i) {
+      if (!moves(i)) continue;
+      x_[at(i)] += displacement.by;
+      cross_[at(i)] += displacement.spread;
+      for (int j = 0; j <= i; ++j)
+        if (moves(j)) block(i, j) += displacement.spread;
+    }
+  }
+
   linear::Gaussian<N> kept(int s) const { return {x_[at(s)], between(s, s)}; }
   // Returns the state that insert() would keep.
   [[gnu::flatten]] linear::Gaussian<N> interpolated(int before, int after, const Bridge<N>& bridge) const {

@@ -24,6 +24,11 @@
 //                 exactly if take() would take the measurement, and changes nothing. For a stamp after the newest it is
 //                 the prediction. For a late one it is the method's estimate of that instant, given all taken
 //                 measurements (for rewinding: given all earlier ones).
+//  L10 Displaced  take() with a displacement d ~ N(by, spread) acts as if the states from this stamp on, up to the newest,
+//                 were x + d, and earlier ones x. Measurements of earlier stamps are of x, later ones of x + d. d is
+//                 independent of all else, and the motion keeps it, F d = d, as of a position in straight motion. All but
+//                 rewinding can do so, as exactly as without; a late displacement is for augmented states and clones as
+//                 exact as one in order, for others while it is the newest late measurement.
 #pragma once
 
 #include <compare>
@@ -45,6 +50,12 @@ class Stamp {
   static constexpr Stamp start(GlobalTime time) { return Stamp(time); }
 
   constexpr GlobalTime time() const { return time_; }
+  // Returns the stamp just before this one: what was, before its measurement was taken.
+  constexpr Stamp before() const {
+    Stamp earlier = *this;
+    --earlier.order_;
+    return earlier;
+  }
   constexpr auto operator<=>(const Stamp&) const = default;
 
  private:
@@ -60,6 +71,22 @@ enum class Taken : std::uint8_t {
   kTooOld = 3,       // older than the method's memory: refused
   kDuplicate = 4,    // a stamp in the method's memory: refused
   kUnannounced = 5,  // late, and not announced in time: refused
+};
+
+// The displacement of a state, law L10.
+template <int N> struct Displacement {
+  linear::Vector<N> by = linear::Vector<N>::Zero();
+  linear::Matrix<N> spread = linear::Matrix<N>::Zero();  // symmetric positive semi-definite
+
+  void move(linear::Gaussian<N>& state) const {
+    state.x += by;
+    state.p += spread;
+  }
+  Displacement& operator+=(const Displacement& other) {
+    by += other.by;
+    spread += other.spread;
+    return *this;
+  }
 };
 
 // The measurements beside those in order that are exact, for motions that compose (below).

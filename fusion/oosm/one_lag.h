@@ -26,13 +26,19 @@ template <int N, int M, Motion<N> Model, class Memory, Exactness kExact> class O
 
   void start(GlobalTime time, const linear::Gaussian<N>& prior) {
     before_last_ = last_ = Stamp::start(time);
+    displaced_ = {};
+    displaced_at_ = last_;
     state_ = prior;
   }
   bool announce(const Stamp&) { return true; }
 
-  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement) {
+  Taken take(const Stamp& stamp, const linear::LinearMeasurement<N, M>& measurement,
+             const Displacement<N>* displacement = nullptr) {
     if (stamp > last_) {
       advance<N>(state_, motion_, stamp.time() - last_.time());
+      displaced_ = {};
+      displaced_at_ = last_;
+      if (displacement != nullptr) note(*displacement, stamp);
       const linear::Matrix<N> predicted = state_.p;
       memory_.corrected(predicted, correct<N, M>(state_, measurement));
       before_last_ = last_;
@@ -41,8 +47,14 @@ template <int N, int M, Motion<N> Model, class Memory, Exactness kExact> class O
     }
     if (stamp == last_ || stamp == before_last_) return Taken::kDuplicate;
     if (stamp < before_last_) return Taken::kTooOld;
+    Retrodicted<N> then = retrodicted(stamp);
+    if (displacement != nullptr) {
+      displace<N>(state_, then, *displacement);
+      displaced_ += *displacement;
+      displaced_at_ = stamp;
+    }
     const linear::Gaussian<N> before = state_;
-    fuse_retrodicted<N, M>(state_, retrodicted(stamp.time()), measurement);
+    fuse_retrodicted<N, M>(state_, then, measurement);
     memory_.booked(before, state_);
     return Taken::kLate;
   }
@@ -50,21 +62,31 @@ template <int N, int M, Motion<N> Model, class Memory, Exactness kExact> class O
   std::optional<linear::Gaussian<N>> at(const Stamp& stamp) const {
     if (stamp > last_) return advanced<N>(state_, motion_, stamp.time() - last_.time());
     if (stamp <= before_last_ || stamp == last_) return std::nullopt;
-    return retrodicted(stamp.time()).then;
+    return retrodicted(stamp).then;
   }
 
   const linear::Gaussian<N>& state() const { return state_; }
   GlobalTime time() const { return last_.time(); }
 
  private:
-  Retrodicted<N> retrodicted(GlobalTime tau) const {
-    const Duration lag = last_.time() - tau;
-    const linear::LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : linear::LinearStep<N>{};
-    return memory_.retrodict(state_, step);
+  void note(const Displacement<N>& displacement, const Stamp& stamp) {
+    displacement.move(state_);
+    displaced_ = displacement;
+    displaced_at_ = stamp;
+  }
+  // A displacement since is noise of the step, with a mean.
+  Retrodicted<N> retrodicted(const Stamp& stamp) const {
+    const Duration lag = last_.time() - stamp.time();
+    linear::LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : linear::LinearStep<N>{};
+    if (stamp >= displaced_at_) return memory_.retrodict(state_, step);
+    step.q += displaced_.spread;
+    return memory_.retrodict({state_.x - displaced_.by, state_.p}, step);
   }
 
   Model motion_;
   Stamp before_last_, last_;
+  Displacement<N> displaced_;  // since before_last_, at this stamp
+  Stamp displaced_at_;
   linear::Gaussian<N> state_;
   Memory memory_;
 };

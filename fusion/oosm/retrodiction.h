@@ -30,6 +30,14 @@ template <int N, int M>
   now.p -= v * v.transpose();
 }
 
+// Displaces both instants of a retrodiction together.
+template <int N>
+void displace(linear::Gaussian<N>& now, Retrodicted<N>& retrodicted, const Displacement<N>& displacement) {
+  displacement.move(now);
+  displacement.move(retrodicted.then);
+  retrodicted.cross += displacement.spread;
+}
+
 // Retrodicts over x(k) = F x(tau) + v, given the mean of v, its covariance and cov(x(k), v). F is a transition
 // matrix over a short step and well conditioned.
 template <int N>

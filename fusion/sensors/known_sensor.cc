@@ -80,6 +80,16 @@ void correct_polar(Observation& o, const SystematicErrors& errors) {
   o.z(1) = std::atan2(at.y(), at.x());
 }
 
+Field load_field(YamlMap& yaml) {
+  Field f;
+  f.half_angle = yaml.number_or("half_angle", f.half_angle, {0.01, 3.15}, "rad");
+  f.min_range = yaml.number_or("min_range", f.min_range, {0.0, 1e4}, "m");
+  f.max_range = yaml.number_or("max_range", f.max_range, {0.1, 1e4}, "m");
+  if (f.max_range <= f.min_range) yaml.fail("max_range", "must be above min_range");
+  f.shadow = yaml.number_or("shadow", f.shadow, {0.0, 1e6});
+  return f;
+}
+
 }  // namespace
 
 bool KnownSensor::plain() const {
@@ -93,6 +103,10 @@ KnownSensor load_known_sensor(YamlMap& yaml) {
     sensor.mounting.position.y() = mounting->number_or("y", 0.0, kPlace, "m");
     sensor.mounting.yaw = mounting->number_or("heading", 0.0, kHeading, "rad");
     mounting->finish();
+  }
+  if (auto field = yaml.map_if("field")) {
+    sensor.field = load_field(*field);
+    field->finish();
   }
   std::optional<ErrorAxes> axes;
   if (auto bias = yaml.map_if("bias")) {

@@ -1,7 +1,8 @@
-// The fusion's knowledge of a sensor beside its noise: its mounting and its systematic errors
-// (fusion/sensors/systematic.h). As YAML, where every key defaults to "none":
+// The fusion's knowledge of a sensor beside its noise: its mounting, its field (fusion/sensors/field.h) and its systematic
+// errors (fusion/sensors/systematic.h). As YAML, where every key defaults to "none":
 //
 //   mounting: {x: 3.5, y: 0.0, heading: 0.0}      # on the vehicle: [m], and [rad] from its x axis to the sensor's
+//   field: {half_angle: 1.05, max_range: 120.0}   # what it sees; absent: nothing is known of that
 //   bias: {range: 0.2, bearing: 0.01}             # known excess of the measurement, which is subtracted
 //   bias_sigma: {range: 0.1, bearing: 0.005, time: 10 ms}   # unknown rest: TrackerConfig::systematic
 //
@@ -12,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +21,7 @@
 #include "core/ids.h"
 #include "core/strict_yaml.h"
 #include "fusion/linear/gaussian.h"
+#include "fusion/sensors/field.h"
 #include "fusion/sensors/mounted.h"
 #include "fusion/sensors/observation.h"
 
@@ -38,13 +41,14 @@ struct KnownSensor {
   int line = 0;  // in the file that names the sensor; 0 without such a file
   sensors::Mounting mounting{};
   SystematicErrors errors;
+  std::optional<Field> field;  // absent: the sensor is taken to see everything
 
   // Returns whether the sensor sits at the vehicle's origin, along its axes and without known biases: the
   // tracker takes its measurements unchanged.
   bool plain() const;
 };
 
-// Reads `mounting`, `bias` and `bias_sigma`. The caller sets name and line.
+// Reads `mounting`, `field`, `bias` and `bias_sigma`. The caller sets name and line.
 KnownSensor load_known_sensor(YamlMap& yaml);
 
 // The most biases with a sigma above zero that a tracker carries, for all sensors together. Every track keeps
@@ -67,6 +71,12 @@ inline const KnownSensor* known(std::span<const KnownSensor> sensors, SensorId i
 inline linear::Vector<2> place_of(std::span<const KnownSensor> sensors, SensorId id) {
   const KnownSensor* sensor = known(sensors, id);
   return sensor != nullptr ? sensor->mounting.position : linear::Vector<2>(0.0, 0.0);
+}
+
+// Returns the sensor's mounting; the origin for an unknown sensor.
+inline Mounting mounting_of(std::span<const KnownSensor> sensors, SensorId id) {
+  const KnownSensor* sensor = known(sensors, id);
+  return sensor != nullptr ? sensor->mounting : Mounting{};
 }
 
 }  // namespace ttf::fusion::sensors

@@ -32,10 +32,21 @@ struct ThirdAxis {
   bool has_z = false, has_height = false;
 };
 
+// The point of an object that a position locates. Ends are the rear and the front; the near one is the one turned to the
+// sensor.
+enum class SeenPoint : std::uint8_t {
+  kCentre,      // the object's centre
+  kEnd,         // the middle of the near end
+  kSide,        // the middle of the near side
+  kCorner,      // where near end and near side meet
+  kSilhouette,  // the outline as seen: its mean distance, in the middle of its span
+};
+
 // Only the first dimension_of(kind) rows and columns of z and r are meaningful; there r is symmetric positive
 // definite.
 struct Observation {
   ObservationKind kind = ObservationKind::kPosition;
+  SeenPoint seen = SeenPoint::kCentre;
   SensorId sensor = kNoSensor;  // gives mounting and errors (fusion/sensors/known_sensor.h); kNoSensor: none known
   Eigen::Vector3d z = Eigen::Vector3d::Zero();
   Eigen::Matrix3d r = Eigen::Matrix3d::Zero();
@@ -48,7 +59,13 @@ struct Observation {
   ClassId class_id = kNoClass;  // below kMostClasses, or kNoClass
   double score = 0.0;           // not negative: the weight of the class
   ThirdAxis third;
+  // In (0, 1]: how surely this is an object of the tracker's kind, and not of the surroundings. A doubtful observation
+  // updates tracks, but begins and confirms none.
+  double weight = 1.0;
 };
+
+// Below this weight an observation is doubtful.
+inline constexpr double kSureWeight = 0.5;
 
 // One list of a sensor: all its observations were measured at `measured`.
 struct ObservationList {

@@ -59,6 +59,7 @@ class HistoryStrategy : public Strategy {
     }
     if (free_.empty()) {
       // The room is full: the oldest list is fused now, and still older ones will be late.
+      tracks();
       const std::size_t oldest = waiting_.front();
       waiting_.erase(waiting_.begin());
       note_between(take(pending_[oldest]));
@@ -98,7 +99,7 @@ class HistoryStrategy : public Strategy {
       free_.push_back(slot);
     }
     waiting_.resize(kept);
-    show(now);
+    count();
   }
 
   std::optional<GlobalTime> next_release() const final {
@@ -107,10 +108,20 @@ class HistoryStrategy : public Strategy {
   }
   std::span<const FusedList> last_fused() const final { return report_; }
   std::uint64_t unlisted() const final { return unlisted_; }
-  std::span<const tracks::TrackView> tracks() const final { return views_; }
+  // Most callers want the image only, so that the views wait until they are asked for.
+  std::span<const tracks::TrackView> tracks() const final {
+    if (!viewed_) {
+      const tracks::TrackSet& set = history_->current();
+      for (const tracks::Track& track : set.tracks)
+        if (track.confirmed && !given_up(track, set.time, now_, config_, *estimator_))
+          views_.push_back(view_of(track, set.time, set.time, config_, *estimator_));
+      viewed_ = true;
+    }
+    return views_;
+  }
   std::span<const MeasurementId> newest() const final { return newest_; }
   GlobalTime newest_measured() const final { return history_->current().time; }
-  int confirmed_count() const final { return static_cast<int>(views_.size()); }
+  int confirmed_count() const final { return confirmed_; }
   int tentative_count() const final { return tentative_; }
 
   void image(GlobalTime at, std::vector<tracks::TrackView>& out) const final {
@@ -164,8 +175,9 @@ class HistoryStrategy : public Strategy {
       case tracks::TrackHistory::Insertion::kLate: disposition = Disposition::kFusedLate; break;
       case tracks::TrackHistory::Insertion::kTooOld: disposition = Disposition::kDroppedTooOld; break;
     }
-    const FusedList result{list.id, list.measured, disposition};
+    FusedList result{list.id, list.measured, disposition};
     if (disposition == Disposition::kDroppedTooOld) return result;
+    result.innovations = history_->innovations();
     const auto known = std::find_if(newest_.begin(), newest_.end(),
                                     [&](const MeasurementId& id) { return id.sensor == list.id.sensor; });
     if (known == newest_.end()) {
@@ -179,17 +191,13 @@ class HistoryStrategy : public Strategy {
     return result;
   }
 
-  void show(GlobalTime now) {
+  void count() {
     views_.clear();
-    tentative_ = 0;
+    viewed_ = false;
+    confirmed_ = tentative_ = 0;
     const tracks::TrackSet& set = history_->current();
-    for (const tracks::Track& track : set.tracks) {
-      if (given_up(track, set.time, now, config_, *estimator_)) continue;
-      if (track.confirmed)
-        views_.push_back(view_of(track, set.time, set.time, config_, *estimator_));
-      else
-        ++tentative_;
-    }
+    for (const tracks::Track& track : set.tracks)
+      if (!given_up(track, set.time, now_, config_, *estimator_)) ++(track.confirmed ? confirmed_ : tentative_);
   }
 
   config::TrackerConfig config_;
@@ -201,8 +209,9 @@ class HistoryStrategy : public Strategy {
   std::vector<char> seen_;                   // by slot: a fusion instant has seen the list
   std::vector<FusedList> report_, between_;  // between_: since the last fusion instant
   std::uint64_t unlisted_ = 0;
-  std::vector<tracks::TrackView> views_;
-  int tentative_ = 0;
+  mutable std::vector<tracks::TrackView> views_;  // at the last fusion instant, once viewed_
+  mutable bool viewed_ = true;
+  int confirmed_ = 0, tentative_ = 0;
   std::vector<MeasurementId> newest_;
   std::vector<GlobalTime> newest_stamps_;  // of newest_
   std::vector<GlobalTime> newest_received_;

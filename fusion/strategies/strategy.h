@@ -125,6 +125,7 @@ struct FusedList {
   MeasurementId id;
   GlobalTime measured{};
   Disposition disposition = Disposition::kFused;
+  tracks::Innovations innovations{};  // a fused list has them
 };
 
 // The most lists that can wait; one more fuses the oldest at once.

@@ -5,16 +5,16 @@
 // The symbols are existence e, detection probability P_D, gate probability P_G, clutter density lambda, and the
 // density f of the track's observation (fusion/estimators/estimator.h), not normalised by the gate:
 //   prediction over dt   e <- e exp(-dt / survival_seconds);
-//   a list               L = 1 - P_D P_G + P_D f / lambda, the second term only for a track with an observation,
+//   a list               L = 1 - P_D P_G + P_D f / lambda, the last term only for a track with an observation,
 //                        e <- L e / (1 - e + L e).
 // In the joint form a pair weighs P_D e f / (lambda (1 - P_D P_G e)) relative to track and observation both
 // alone. An unobserved track's object exists with probability e (1 - P_D P_G) / (1 - P_D P_G e). With one track
 // and one observation both forms agree. With e = 1 they are JPDA without existence.
 //
-// Every list of every sensor counts: the tracker knows no fields of view. A sensor that cannot see the object
-// counts as overlooking it: each of its lists multiplies the odds by 1 - P_D P_G. If clutter is rare, one
-// observation by another sensor outweighs many such lists. So the detection probability describes the lists of
-// all sensors together: it is about a half if one of two equally fast sensors sees the object.
+// A list says the less of an object, the less its sensor can see of it. With the visibility v (fusion/tracks/visibility.h)
+// the detection probability of a list is v P_D. A list of a sensor that cannot see the object leaves the existence as it
+// is. An observation counts with at least kVisibleAtAHit all the same: the edges of fields are assumptions. A sensor
+// without a known field sees everything. Then each of its lists without an observation multiplies the odds by 1 - P_D P_G.
 //
 // For positions, the clutter density lambda is the configuration's, [1/m^2]. For range, bearing and range rate,
 // a uniform density lambda in the plane is r lambda per metre and radian at range r. The range rate is assumed
@@ -39,14 +39,18 @@ inline double clutter_at(const sensors::Observation& observation, const config::
   return config.clutter_density * std::max(kNearest, observation.z(0)) / width;
 }
 
-// Returns P_D f / lambda.
+inline constexpr double kVisibleAtAHit = 0.05;
+
+// Returns v w P_D f / lambda. Among observations of weight w, clutter is 1 / w times denser.
 inline double likelihood_ratio(const sensors::Observation& observation, double density,
-                               const config::TrackerConfig& config) {
-  return config.detection_probability * density / clutter_at(observation, config);
+                               const config::TrackerConfig& config, double visible = 1.0) {
+  const double detected = std::max(visible, kVisibleAtAHit) * config.detection_probability;
+  return detected * density / clutter_at(observation, config) * observation.weight;
 }
 
-inline double seen_in_gate(const config::TrackerConfig& config) {
-  return config.detection_probability * config.gate_probability;
+// Returns v P_D P_G.
+inline double seen_in_gate(const config::TrackerConfig& config, double visible = 1.0) {
+  return visible * config.detection_probability * config.gate_probability;
 }
 
 inline double survived(double existence, double dt, const config::TrackerConfig& config) {
@@ -54,19 +58,20 @@ inline double survived(double existence, double dt, const config::TrackerConfig&
 }
 
 // Returns the existence after a list; ratio is zero without an observation.
-inline double after_list(double existence, double ratio, const config::TrackerConfig& config) {
-  const double likelihood = 1.0 - seen_in_gate(config) + ratio;
+inline double after_list(double existence, double ratio, const config::TrackerConfig& config, double visible = 1.0) {
+  const double likelihood = 1.0 - seen_in_gate(config, visible) + ratio;
   return likelihood * existence / (1.0 - existence + likelihood * existence);
 }
 
 // Returns the weight of a pair in joint events. The bounds keep all sums finite (joint_association.h).
-inline double joint_weight(double existence, double ratio, const config::TrackerConfig& config) {
+inline double joint_weight(double existence, double ratio, const config::TrackerConfig& config, double visible = 1.0) {
   constexpr double kLeast = 1e-300;
-  const double weight = existence * ratio / (1.0 - seen_in_gate(config) * existence);
+  const double weight = existence * ratio / (1.0 - seen_in_gate(config, visible) * existence);
   return std::clamp(weight, kLeast, association::JointAssociation::kLargestWeight);
 }
-inline double exists_unseen(double existence, const config::TrackerConfig& config) {
-  return existence * (1.0 - seen_in_gate(config)) / (1.0 - seen_in_gate(config) * existence);
+inline double exists_unseen(double existence, const config::TrackerConfig& config, double visible = 1.0) {
+  const double seen = seen_in_gate(config, visible);
+  return existence * (1.0 - seen) / (1.0 - seen * existence);
 }
 
 }  // namespace ttf::fusion::tracks

@@ -10,9 +10,39 @@ constexpr double kWorstAspectSigma = 0.3;  // [rad]
 constexpr double kCompatible = 3.0;        // sigmas
 constexpr double kFlattest = 4.0;          // sigmas of the aspect
 
-// Updates by one measured combination h' (length, width) with innovation nu and variance `white` + `repeating`,
-// in Joseph form.
-void correct(Extent& extent, const Eigen::Vector2d& h, double nu, double white, double repeating) {
+void correct_directly(Extent& extent, const Eigen::Vector2d& h, double measured, double sigma) {
+  constexpr double kRepeating = 0.8;
+  const double variance = sigma * sigma;
+  correct_combination(extent, h, measured - h.dot(extent.size), (1.0 - kRepeating) * variance, kRepeating * variance);
+}
+
+// A side stays positive. One that an update brings below a bound is put there, and takes the other one along.
+void keep_positive(Extent& extent) {
+  constexpr double kSmallest = 0.1;  // [m]
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    if (extent.size(k) >= kSmallest) continue;
+    const double step = kSmallest - extent.size(k), variance = extent.covariance(k, k);
+    const double other = variance > 0.0 ? extent.covariance(1 - k, k) / variance : 0.0;
+    extent.size(1 - k) = std::max(kSmallest, extent.size(1 - k) + other * step);
+    extent.size(k) = kSmallest;
+  }
+}
+
+}  // namespace
+
+Extent::Extent(const config::Sizes& prior) : size(prior.length, prior.width) {
+  const double cross = prior.correlation * prior.length_sigma * prior.width_sigma;
+  covariance << prior.length_sigma * prior.length_sigma, cross, cross, prior.width_sigma * prior.width_sigma;
+  untold = covariance.diagonal();
+}
+
+void predict(Extent& extent, double noise, double dt) {
+  extent.covariance(0, 0) += noise * dt;
+  extent.covariance(1, 1) += noise * dt;
+}
+
+// In Joseph form.
+void correct_combination(Extent& extent, const Eigen::Vector2d& h, double nu, double white, double repeating) {
   const Eigen::Vector2d ph = extent.covariance * h;
   const double before = h.dot(ph);
   if (before <= repeating) return;
@@ -21,21 +51,7 @@ void correct(Extent& extent, const Eigen::Vector2d& h, double nu, double white, 
   const Eigen::Matrix2d a = Eigen::Matrix2d::Identity() - gain * h.transpose();
   extent.size += gain * nu;
   extent.covariance = (a * extent.covariance * a.transpose() + variance * gain * gain.transpose()).eval();
-}
-
-void correct_directly(Extent& extent, const Eigen::Vector2d& h, double measured, double sigma) {
-  const double half = 0.5 * sigma * sigma;
-  correct(extent, h, measured - h.dot(extent.size), half, half);
-}
-
-}  // namespace
-
-bool Extent::knows_length() const { return covariance(0, 0) <= 0.25 * kTypicalLengthSigma * kTypicalLengthSigma; }
-bool Extent::knows_width() const { return covariance(1, 1) <= 0.25 * kTypicalWidthSigma * kTypicalWidthSigma; }
-
-void predict(Extent& extent, double noise, double dt) {
-  extent.covariance(0, 0) += noise * dt;
-  extent.covariance(1, 1) += noise * dt;
+  keep_positive(extent);
 }
 
 void correct_length(Extent& extent, double length, double sigma) {
@@ -46,30 +62,35 @@ void correct_width(Extent& extent, double width, double sigma) {
   correct_directly(extent, Eigen::Vector2d::UnitY(), width, sigma);
 }
 
+// The outermost corners subtend the angle; in front of the sensor, their tangents tell which ones they are.
 Subtended subtended(double range, double aspect, const Eigen::Vector2d& size) {
-  // Coordinates along and across the line of sight; the corners' azimuths count from it.
+  // Coordinates along and across the line of sight; the corners' azimuths count from it. u and v are 0.5 or -0.5.
+  struct Corner {
+    double u = 0.0, v = 0.0, along = 1.0, across = 0.0;
+  };
   const double c = std::cos(aspect), s = std::sin(aspect);
-  Subtended result;
-  double low = 0.0, high = 0.0;
-  Eigen::Vector2d low_by = Eigen::Vector2d::Zero(), high_by = Eigen::Vector2d::Zero();
+  Corner low, high;
+  double low_tangent = 0.0, high_tangent = 0.0;
   for (const double u : {0.5, -0.5})
     for (const double v : {0.5, -0.5}) {
-      const double along = range + c * u * size(0) - s * v * size(1), across = s * u * size(0) + c * v * size(1);
-      if (along <= 0.0) return {};
-      const double azimuth = std::atan2(across, along), squared = along * along + across * across;
-      const Eigen::Vector2d by((along * s * u - across * c * u) / squared, (along * c * v + across * s * v) / squared);
-      if (azimuth < low) {
-        low = azimuth;
-        low_by = by;
+      const Corner corner{u, v, range + c * u * size(0) - s * v * size(1), s * u * size(0) + c * v * size(1)};
+      if (corner.along <= 0.0) return {};
+      const double tangent = corner.across / corner.along;
+      if (tangent < low_tangent) {
+        low = corner;
+        low_tangent = tangent;
       }
-      if (azimuth > high) {
-        high = azimuth;
-        high_by = by;
+      if (tangent > high_tangent) {
+        high = corner;
+        high_tangent = tangent;
       }
     }
-  result.angle = high - low;
-  result.by_size = high_by - low_by;
-  return result;
+  const auto by_size = [&](const Corner& at) -> Eigen::Vector2d {
+    const double squared = at.along * at.along + at.across * at.across;
+    return {(at.along * s * at.u - at.across * c * at.u) / squared,
+            (at.along * c * at.v + at.across * s * at.v) / squared};
+  };
+  return {std::atan2(high.across, high.along) - std::atan2(low.across, low.along), by_size(high) - by_size(low)};
 }
 
 void correct_span(Extent& extent, const Aspect& aspect, double span, double sigma) {
@@ -93,7 +114,7 @@ void correct_span(Extent& extent, const Aspect& aspect, double span, double sigm
       repeating += told(k) * told(k) * extent.covariance(k, k);
       told(k) = 0.0;
     }
-  correct(extent, told, nu, sigma * sigma, repeating);
+  correct_combination(extent, told, nu, sigma * sigma, repeating);
 }
 
 }  // namespace ttf::fusion::tracks

@@ -1,7 +1,8 @@
 // The extent of an object is its length and width. Both are estimated jointly, because measurements often mix
 // the two.
 //
-// (length, width) is a random walk that starts at the typical size of road vehicles. Sensors measure the
+// (length, width) starts at the prior of the configuration (config::Sizes). Both are constants, unless extent_noise lets
+// them walk. Sensors measure the
 // length, the width, and the span, the angle of the outline as seen from the sensor. A rectangle L by B at
 // range r, turned by the aspect a against the line of sight, spans about (L |sin a| + B |cos a|) / r. The span
 // gives the width of an object ahead, the length of a crossing object, and a mixture in between. The update
@@ -17,29 +18,32 @@
 
 #include <Eigen/Core>
 
+#include "fusion/config/tracker_config.h"
+
 namespace ttf::fusion::tracks {
 
 struct Extent {
-  // Road vehicles from motor cycles to light lorries: 4.5 m by 1.8 m.
-  static constexpr double kTypicalLength = 4.5, kTypicalLengthSigma = 2.0;
-  static constexpr double kTypicalWidth = 1.8, kTypicalWidthSigma = 0.5;
+  Eigen::Vector2d size;  // length, width [m]
+  Eigen::Matrix2d covariance;
+  Eigen::Vector2d untold;  // variances of the prior
 
-  Eigen::Vector2d size{kTypicalLength, kTypicalWidth};  // length, width [m]
-  Eigen::Matrix2d covariance =
-      Eigen::Vector2d(kTypicalLengthSigma * kTypicalLengthSigma, kTypicalWidthSigma* kTypicalWidthSigma).asDiagonal();
-
-  // Returns whether the side is measured: known at least twice as well as the typical size.
-  bool knows_length() const;
-  bool knows_width() const;
+  explicit Extent(const config::Sizes& prior = {});
+  // Returns whether the side is measured: known at least twice as well as by the prior.
+  bool knows_length() const { return covariance(0, 0) <= 0.25 * untold(0); }
+  bool knows_width() const { return covariance(1, 1) <= 0.25 * untold(1); }
 };
 
 // Predicts by dt >= 0 seconds; noise is the spectral density of both random walks [m^2/s].
 void predict(Extent& extent, double noise, double dt);
 
-// Updates by a measured value with sigma > 0, [m]. Half of the variance counts as repeating, from the raster of
-// the beams on the outline and from the fit's error under one aspect.
+// Updates by a measured value with sigma > 0, [m]. Most of the variance counts as repeating: while range and aspect hardly
+// change, the beams' raster meets the outline in the same places.
 void correct_length(Extent& extent, double length, double sigma);
 void correct_width(Extent& extent, double width, double sigma);
+
+// Updates by one combination of both, h' (length, width), that differs from the expected one by `nu`; `white` and
+// `repeating` are the variances of its errors.
+void correct_combination(Extent& extent, const Eigen::Vector2d& h, double nu, double white, double repeating);
 
 // The aspect of the outline from the sensor. The range is that of the centre [m]; the angle is the object's
 // heading minus the bearing of the line of sight [rad]. Each has its sigma.

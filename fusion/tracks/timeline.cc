@@ -39,7 +39,10 @@ Timeline::Insertion Timeline::insert(const sensors::ObservationList& list) {
   free_.pop_back();
   entries_[slot].list.assign(list);
   order_.insert(order_.begin() + static_cast<std::ptrdiff_t>(position), slot);
-  for (std::size_t i = position; i < order_.size(); ++i) process(i);
+  for (std::size_t i = position; i < order_.size(); ++i) {
+    process(i);
+    if (i == position) innovations_ = tracker_.innovations();
+  }
   identities_.name(entries_[order_.back()].after, entries_[order_.front()].list.measured);
   if (free_.empty()) {
     Entry& oldest = entries_[order_.front()];

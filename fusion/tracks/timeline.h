@@ -38,6 +38,7 @@ class Timeline final : public TrackHistory {
   Timeline(const config::TrackerConfig& config, std::size_t max_observations);
 
   Insertion insert(const sensors::ObservationList& list) override;
+  Innovations innovations() const override { return innovations_; }
   const TrackSet& current() const override;
   const estimators::Estimator& estimator() const override { return tracker_.estimator(); }
   bool contains(const MeasurementId& id, GlobalTime measured) const override;
@@ -52,6 +53,7 @@ class Timeline final : public TrackHistory {
 
   Tracker tracker_;
   Identities identities_;
+  Innovations innovations_;
   std::vector<Entry> entries_;      // storage, used in any order
   std::vector<std::size_t> order_;  // chronological
   std::vector<std::size_t> free_;

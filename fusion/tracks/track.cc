@@ -5,40 +5,29 @@
 #include <numbers>
 
 #include "fusion/motion/angles.h"
+#include "fusion/tracks/anchoring.h"
 
 namespace ttf::fusion::tracks {
 
-Scalar predicted(const Scalar& scalar, double noise, double dt) {
-  Scalar later = scalar;
-  if (later.known) later.variance += noise * dt;
-  return later;
-}
-
-double nearest_half_turn(double axis, double expected) {
-  constexpr double kPi = std::numbers::pi;
-  const double difference = motion::to_half_turn(axis - expected);
-  return std::abs(difference) <= 0.5 * kPi ? axis : motion::to_half_turn(axis + kPi);
-}
-
-Facing facing_of(const estimators::Cartesian& estimate, const Scalar& axis) {
-  // Variance of a completely unknown angle.
-  constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
-  const double vx = estimate.x(2), vy = estimate.x(3), speed = std::hypot(vx, vy);
+Facing facing_of(const linear::Gaussian<2>& velocity, const Scalar& axis) {
+  constexpr double kVarianceOfAnyAngle = std::numbers::pi * std::numbers::pi / 3.0;
+  const double vx = velocity.x(0), vy = velocity.x(1), speed = std::hypot(vx, vy);
   const Eigen::Vector2d along = speed > 1e-9 ? Eigen::Vector2d(vx / speed, vy / speed) : Eigen::Vector2d(1.0, 0.0);
   const Eigen::Vector2d across(-along(1), along(0));
   // The faster the object, the better its course gives the heading.
   const double course = std::atan2(along(1), along(0));
-  const double course_variance = across.dot(estimate.p.block<2, 2>(2, 2) * across) / std::max(1e-6, speed * speed);
-  const bool moving = course_variance < kUnknown / 4.0;
+  const double course_variance = across.dot(velocity.p * across) / std::max(1e-6, speed * speed);
+  const bool moving = course_variance < kVarianceOfAnyAngle / 4.0;
   if (moving && axis.known) {
     const double difference = motion::to_half_turn(nearest_half_turn(axis.value, course) - course);
     const double weight = course_variance / (course_variance + axis.variance);
     return {motion::to_half_turn(course + weight * difference),
-            std::sqrt(course_variance * axis.variance / (course_variance + axis.variance))};
+            std::sqrt(course_variance * axis.variance / (course_variance + axis.variance)),
+            (1.0 - weight) / speed * across, weight * weight * axis.variance};
   }
-  if (moving) return {course, std::sqrt(course_variance)};
-  if (axis.known) return {motion::to_half_turn(axis.value), std::sqrt(axis.variance)};
-  return {course, std::sqrt(kUnknown)};
+  if (moving) return {course, std::sqrt(course_variance), across / speed, 0.0};
+  if (axis.known) return {motion::to_half_turn(axis.value), std::sqrt(axis.variance), {0.0, 0.0}, axis.variance};
+  return {course, std::sqrt(kVarianceOfAnyAngle), {0.0, 0.0}, kVarianceOfAnyAngle};
 }
 
 bool given_up(const Track& track, GlobalTime time, GlobalTime at, const config::TrackerConfig& config,
@@ -58,7 +47,12 @@ TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const conf
   estimators::Estimate later = track.estimate;
   const double dt = std::max(0.0, (at - time).seconds());
   estimator.predict(later, dt);
-  const estimators::Cartesian estimate = estimator.cartesian(later);
+  const estimators::Cartesian anchor = estimator.cartesian(later);
+  const Heading axis = predicted(track.heading, config, anchor.x.segment<2>(2).norm(), dt);
+  Extent extent = track.extent;
+  predict(extent, config.extent_noise, dt);
+  const Centre centre = centred(track.anchor, extent, axis, predicted(track.shown, kTurningSilhouette, dt), anchor);
+  const estimators::Cartesian& estimate = centre.estimate;
   TrackView view;
   view.id = track.id;
   view.valid_at = std::max(at, time);
@@ -74,16 +68,13 @@ TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const conf
   const Eigen::Matrix2d velocity = estimate.p.block<2, 2>(2, 2);
   view.sigma_speed = std::sqrt(along.dot(velocity * along));
 
-  const Facing facing = facing_of(estimate, predicted(track.heading, config.heading_noise, dt));
-  view.heading = facing.heading;
-  view.sigma_heading = facing.sigma;
+  view.heading = centre.facing.heading;
+  view.sigma_heading = centre.facing.sigma;
   const Eigen::Vector2d direction(std::cos(view.heading), std::sin(view.heading));
   const Eigen::Matrix2d acceleration = estimate.p.block<2, 2>(4, 4);
   view.acceleration = direction.dot(estimate.x.segment<2>(4));
   view.sigma_acceleration = std::sqrt(std::max(0.0, direction.dot(acceleration * direction)));
 
-  Extent extent = track.extent;
-  predict(extent, config.extent_noise, dt);
   view.length = extent.size(0);
   view.sigma_length = std::sqrt(extent.covariance(0, 0));
   view.has_length = extent.knows_length();

@@ -7,18 +7,12 @@
 #include "core/time.h"
 #include "fusion/config/tracker_config.h"
 #include "fusion/estimators/estimator.h"
+#include "fusion/tracks/anchor.h"
 #include "fusion/tracks/extent.h"
+#include "fusion/tracks/heading.h"
 #include "fusion/tracks/unfiltered.h"
 
 namespace ttf::fusion::tracks {
-
-// A scalar with its variance; `known` after the first measurement.
-struct Scalar {
-  double value = 0.0;
-  double variance = 0.0;
-  bool known = false;
-};
-Scalar predicted(const Scalar& scalar, double noise, double dt);
 
 // The identity of an observation: the index-th of a measurement. A restarted sensor counts its measurements
 // anew, so the instant distinguishes them.
@@ -30,15 +24,19 @@ struct ObservationId {
 };
 
 struct Track {
-  TrackId id = kNoTrack;        // set on confirmation (fusion/tracks/identities.h)
-  ObservationId birth, newest;  // the first observation and the last
-  estimators::Estimate estimate;
-  Scalar heading;  // [rad], of the object's front
+  TrackId id = kNoTrack;             // set on confirmation (fusion/tracks/identities.h)
+  ObservationId birth, newest;       // the first observation and the last
+  estimators::Estimate estimate;     // the anchor's
+  Anchor anchor;                     // in the axes of `heading`
+  std::uint8_t lists_elsewhere = 0;  // lists in a row that observed other points of the object
+  Heading heading;                   // the front's direction
+  Scalar shown;                      // [m], width of the silhouette as cameras see it: tells an unknown heading's depth
   Extent extent;
   Unfiltered unfiltered;
-  std::uint32_t hits = 0;  // bit i: the list i lists ago had an observation of the track
-  int lists = 0;           // since birth, the first included
-  int misses = 0;          // lists in a row without an observation
+  std::uint32_t hits = 0;      // bit i: the list i lists ago had an observation of the track
+  std::uint32_t doubtful = 0;  // such bits of the doubtful ones among them: these confirm nothing
+  int lists = 0;               // since birth, the first included
+  int misses = 0;              // lists in a row without an observation
   bool confirmed = false;
   std::uint8_t twin_lists = 0;  // lists in a row that suggested a twin (fusion/tracks/twins.h)
   ObservationId twin;           // the twin's birth, if twin_lists > 0
@@ -50,23 +48,24 @@ struct Track {
 struct Facing {
   double heading = 0.0;
   double sigma = 0.0;
+  linear::Vector<2> by_velocity = linear::Vector<2>::Zero();  // derivative of the heading by the velocity [rad s/m]
+  double axis_variance = 0.0;  // the part of the variance that is not the velocity's [rad^2]
 };
-Facing facing_of(const estimators::Cartesian& estimate, const Scalar& axis);
-
-// Returns the axis or the axis plus half a turn, whichever is nearer to the expected direction: an axis is
-// measured up to half a turn.
-double nearest_half_turn(double axis, double expected);
+Facing facing_of(const linear::Gaussian<2>& velocity, const Scalar& axis);
+inline Facing facing_of(const estimators::Cartesian& estimate, const Scalar& axis) {
+  return facing_of(linear::Gaussian<2>{estimate.x.segment<2>(2), estimate.p.block<2, 2>(2, 2)}, axis);
+}
 
 struct TrackView {
   TrackId id{};
   GlobalTime valid_at{};
-  estimators::State state = estimators::State::Zero();  // (fusion/estimators/estimate.h)
+  estimators::State state = estimators::State::Zero();  // the centre's (fusion/estimators/estimate.h)
   estimators::Covariance covariance = estimators::Covariance::Zero();
   // The speed is the magnitude of the velocity; the acceleration is along the heading.
   double heading = 0.0, sigma_heading = 0.0;
   double speed = 0.0, sigma_speed = 0.0;
   double acceleration = 0.0, sigma_acceleration = 0.0;
-  // Without its has_ flag, a side has the typical size of vehicles with its spread.
+  // Without its has_ flag, a side is hardly better known than by the prior (config::Sizes).
   double length = 0.0, sigma_length = 0.0;
   double width = 0.0, sigma_width = 0.0;
   bool has_length = false, has_width = false;

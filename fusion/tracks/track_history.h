@@ -25,6 +25,8 @@ class TrackHistory {
 
   enum class Insertion : std::uint8_t { kInOrder, kLate, kTooOld };
   virtual Insertion insert(const sensors::ObservationList& list) = 0;
+  // Returns the innovations of the list that was taken in last, at its own place.
+  virtual Innovations innovations() const = 0;
   // Returns the newest tracks; confirmed ones have their ids.
   virtual const TrackSet& current() const = 0;
   virtual const estimators::Estimator& estimator() const = 0;  // for the tracks' estimates

@@ -8,7 +8,9 @@
 #include "core/check.h"
 #include "fusion/metrics/chi_square.h"
 #include "fusion/motion/angles.h"
+#include "fusion/tracks/anchoring.h"
 #include "fusion/tracks/existence.h"
+#include "fusion/tracks/overlaps.h"
 
 namespace ttf::fusion::tracks {
 namespace {
@@ -33,21 +35,42 @@ constexpr std::size_t kFewTracks = 64;
 // Makes a rounded bound exclude no pair inside a gate.
 constexpr double kRoundedUp = 1.0 + 1e-12;
 
+// A silhouette is no fixed place of its object.
+bool gives_way(const Anchor& anchor, sensors::SeenPoint seen) {
+  return anchor.point == sensors::SeenPoint::kSilhouette && seen != sensors::SeenPoint::kCentre &&
+         seen != sensors::SeenPoint::kSilhouette;
+}
+
+int lists_elsewhere_before(sensors::SeenPoint seen) {
+  return seen == sensors::SeenPoint::kSilhouette ? kListsBeforeSilhouette : kListsElsewhere;
+}
+
+// The longest distance of two points of an object, by size, its uncertainty and that of the heading: at most 0.35 of the
+// diagonal (fusion/tracks/anchoring.cc, kUnknown).
+double reach_of(const Extent& extent, double gate) {
+  return extent.size.norm() * (1.0 + 0.35 * std::sqrt(gate)) + std::sqrt(gate * extent.covariance.trace());
+}
+
 }  // namespace
 
 Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observations)
     : config_(config), estimator_(estimators::make_estimator(config)), max_observations_(max_observations),
       max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
-      assignment_(max_observations, max_tracks_),
+      assignment_(max_observations, max_tracks_), distances_(max_tracks_),
       joint_(config.association == config::Association::kJpda ? max_observations : 0,
              config.association == config::Association::kJpda ? max_tracks_ : 0),
-      twins_(config, max_tracks_), near_track_(max_observations), observation_of_(max_tracks_) {
+      twins_(config, max_tracks_), visibility_(config, max_tracks_), taken_(max_observations),
+      near_track_(max_observations), observation_of_(max_tracks_) {
   candidates_.reserve(max_observations * max_tracks_);
+  squares_.reserve(max_observations * max_tracks_);
   placed_.reserve(max_tracks_);
+  along_x_.reserve(max_tracks_);
+  unsorted_.reserve(max_tracks_);
   strips_.reserve(static_cast<std::size_t>(std::sqrt(static_cast<double>(max_tracks_))) + 3);
   if (config.association == config::Association::kJpda) {
     pairs_.reserve(max_observations * max_tracks_);
     explanations_.reserve(max_observations + 1);
+    explained_.reserve(max_observations);
   }
   for (int dimension = 1; dimension <= 3; ++dimension)
     gate_[dimension] = metrics::chi_square_quantile(config.gate_probability, dimension);
@@ -59,7 +82,8 @@ void Tracker::step(TrackSet& set, const sensors::ObservationList& list) {
     set.time = list.measured;
   }
   const double dt = (list.measured - set.time).seconds();
-  for (Track& track : set.tracks) predict(track, dt);
+  const HeadingStep turn(config_, dt);
+  for (Track& track : set.tracks) predict(track, turn, dt);
   set.time = list.measured;
   std::erase_if(set.tracks,
                 [&](const Track& track) { return given_up(track, set.time, set.time, config_, *estimator_); });
@@ -74,9 +98,10 @@ void Tracker::step(const TrackSet& before, TrackSet& after, const sensors::Obser
   after.started = true;
   after.tracks.clear();
   const double dt = before.started ? (list.measured - before.time).seconds() : 0.0;
+  const HeadingStep turn(config_, dt);
   for (const Track& track : before.tracks) {
     Track& copy = after.tracks.emplace_back(track);
-    predict(copy, dt);
+    predict(copy, turn, dt);
     if (given_up(copy, after.time, after.time, config_, *estimator_)) after.tracks.pop_back();
   }
   take_in(after, list);
@@ -89,26 +114,35 @@ void Tracker::take_in(TrackSet& set, const sensors::ObservationList& list) {
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     Track& track = set.tracks[t];
     const int observation = observation_of_[t];
-    ++track.lists;
-    track.hits = (track.hits << 1) | (observation >= 0 ? 1u : 0u);
-    track.misses = observation >= 0 ? 0 : track.misses + 1;
+    if (list_counts(t)) {
+      ++track.lists;
+      track.hits = (track.hits << 1) | (observation >= 0 ? 1u : 0u);
+      track.misses = observation >= 0 ? 0 : track.misses + 1;
+    }
     const sensors::Observation* z =
         observation >= 0 ? &list.observations[static_cast<std::size_t>(observation)] : nullptr;
+    track.doubtful = (track.doubtful << 1) | (z && z->weight < sensors::kSureWeight ? 1u : 0u);
     if (z) track.newest = {list.id, static_cast<std::uint16_t>(observation), list.measured};
-    if (config_.association == config::Association::kJpda) {
-      take_in_all(track, t, list);
-      if (z) correct_beside(track, *z);
-      continue;
-    }
-    if (config_.birth == config::Birth::kExistence) judge_existence(track, z);
+    const bool joint = config_.association == config::Association::kJpda;
+    if (!joint && config_.birth == config::Birth::kExistence) judge_existence(track, t, z, visibility_.of(t));
+    const sensors::Observation* counts = nullptr;
     if (z) {
-      estimator_->update(track.estimate, *z);
-      correct_beside(track, *z);
+      correct_heading(track, *z);
+      if (z->has_heading) distances_.forget(t);
+      counts = &refer(track, t, *z, static_cast<std::size_t>(observation));
+      distances_.forget(t);
     }
+    if (joint)
+      take_in_all(track, t, list);
+    else if (counts)
+      estimator_->update(track.estimate, *counts);
+    if (!z) continue;
+    correct_extent(track, *z);
+    carry(track.unfiltered, *z);
   }
   give_birth(set, list);
   prune(set);
-  if (config_.merge_probability > 0.0) twins_.unite(set.tracks, *estimator_);
+  if (config_.merge_probability > 0.0) twins_.unite(set.tracks, list, *estimator_);
 }
 
 std::span<const int> Tracker::assigned(const TrackSet& set, const sensors::ObservationList& list) {
@@ -117,26 +151,33 @@ std::span<const int> Tracker::assigned(const TrackSet& set, const sensors::Obser
   return std::span(observation_of_).first(set.tracks.size());
 }
 
-void Tracker::predict(Track& track, double dt) const {
+void Tracker::predict(Track& track, const HeadingStep& turn, double dt) const {
   estimator_->predict(track.estimate, dt);
-  track.heading = predicted(track.heading, config_.heading_noise, dt);
+  track.heading = turn.of(track.heading, estimator_->velocity(track.estimate).norm());
+  track.shown = predicted(track.shown, kTurningSilhouette, dt);
   tracks::predict(track.extent, config_.extent_noise, dt);
   if (config_.birth == config::Birth::kExistence) track.existence = survived(track.existence, dt, config_);
 }
 
 // Strips are as long as many, so that a search passes few of either.
-void Tracker::place(const TrackSet& set, SensorId seen_by) {
-  placed_.clear();
+void Tracker::place(const TrackSet& set, const sensors::ObservationList& list) {
+  const SensorId seen_by = list.observations.empty() ? kNoSensor : list.observations.front().sensor;
+  const bool centres = std::all_of(list.observations.begin(), list.observations.end(),
+                                   [](const auto& z) { return z.seen == sensors::SeenPoint::kCentre; });
+  unsorted_.clear();
   strips_.clear();
-  largest_variance_x_ = largest_variance_y_ = 0.0;
+  largest_variance_x_ = largest_variance_y_ = largest_reach_ = 0.0;
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
-    const linear::Gaussian<2> at = estimator_->seen_position(set.tracks[t].estimate, seen_by);
-    placed_.push_back({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), t});
+    const Track& track = set.tracks[t];
+    const linear::Gaussian<2> at = estimator_->seen_position(track.estimate, seen_by);
+    const bool same = centres && track.anchor.point == sensors::SeenPoint::kCentre;
+    const double reach = same ? 0.0 : reach_of(track.extent, gate_[2]);
+    unsorted_.push_back({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), reach, t});
+    largest_reach_ = std::max(largest_reach_, reach);
     largest_variance_x_ = std::max(largest_variance_x_, at.p(0, 0));
     largest_variance_y_ = std::max(largest_variance_y_, at.p(1, 1));
   }
-  std::sort(placed_.begin(), placed_.end(),
-            [](const Placed& a, const Placed& b) { return a.x != b.x ? a.x < b.x : a.track < b.track; });
+  sort_along_x();
   if (placed_.size() <= kFewTracks) return;
   const auto length = static_cast<std::size_t>(std::sqrt(static_cast<double>(placed_.size())));
   for (std::size_t begin = 0; begin < placed_.size(); begin += length) {
@@ -147,17 +188,29 @@ void Tracker::place(const TrackSet& set, SensorId seen_by) {
   }
 }
 
+void Tracker::sort_along_x() {
+  if (along_x_.size() != unsorted_.size()) {
+    along_x_.clear();
+    for (std::size_t t = 0; t < unsorted_.size(); ++t) along_x_.push_back({0.0, t});
+  }
+  for (Along& along : along_x_) along.x = unsorted_[along.track].x;
+  std::sort(along_x_.begin(), along_x_.end(),
+            [](const Along& a, const Along& b) { return a.x != b.x ? a.x < b.x : a.track < b.track; });
+  placed_.clear();
+  for (const Along& along : along_x_) placed_.push_back(unsorted_[along.track]);
+}
+
 // Tries the tracks that are not beyond the reach of the least certain one, on either axis: all others are outside of
 // every gate.
 template <class Try> void Tracker::near(const sensors::Observation& z, double gate, const Try& try_one) const {
-  const double reach_x = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + z.r(0, 0)));
+  const double reach_x = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + z.r(0, 0))) + largest_reach_;
   const double low = z.z(0) - reach_x, high = z.z(0) + reach_x;
   if (strips_.empty()) {
     auto at = std::partition_point(placed_.begin(), placed_.end(), [&](const Placed& p) { return p.x < low; });
     for (; at != placed_.end() && at->x <= high; ++at) try_one(*at);
     return;
   }
-  const double reach_y = kRoundedUp * std::sqrt(gate * (largest_variance_y_ + z.r(1, 1)));
+  const double reach_y = kRoundedUp * std::sqrt(gate * (largest_variance_y_ + z.r(1, 1))) + largest_reach_;
   auto strip = std::partition_point(strips_.begin(), strips_.end(), [&](const Strip& s) { return s.high < low; });
   for (; strip != strips_.end() && strip->low <= high; ++strip) {
     const auto end = placed_.begin() + static_cast<std::ptrdiff_t>(strip->end);
@@ -167,93 +220,185 @@ template <class Try> void Tracker::near(const sensors::Observation& z, double ga
   }
 }
 
+void Tracker::sum_innovations(const TrackSet& set, const sensors::ObservationList& list) {
+  innovations_ = {};
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const auto column = static_cast<std::size_t>(candidates_[c].column);
+    if (observation_of_[column] != candidates_[c].row || !set.tracks[column].confirmed) continue;
+    const sensors::Observation& z = list.observations[static_cast<std::size_t>(candidates_[c].row)];
+    innovations_.squares += squares_[c];
+    innovations_.degrees += static_cast<std::uint32_t>(dimension_of(z.kind));
+  }
+}
+
+// Outside the gate on one axis means outside the gate. This cheap bound comes first: with the track's reach, and then with
+// the distance of the observed point from its anchor. Most pairs end here, so that the rest is out of line.
+inline void Tracker::try_pair(const TrackSet& set, const sensors::Observation& z, const sensors::Mounting& mounting,
+                              std::size_t row, const Placed& placed) {
+  const double gate = gate_[dimension_of(z.kind)];
+  const bool is_position = z.kind == sensors::ObservationKind::kPosition;
+  const auto outside = [&](double dx, double dy, double variance_x, double variance_y) {
+    return dx * dx > gate * (placed.variance_x + variance_x) || dy * dy > gate * (placed.variance_y + variance_y);
+  };
+  const auto beyond = [&](double distance) { return std::max(0.0, std::abs(distance) - placed.reach); };
+  if (is_position && outside(beyond(z.z(0) - placed.x), beyond(z.z(1) - placed.y), z.r(0, 0), z.r(1, 1))) return;
+  const Distance* distance = nullptr;
+  if (placed.reach > 0.0) {
+    distance = distances_.of(placed.track, set.tracks[placed.track], *estimator_, z, mounting);
+    const double x = distance ? distance->between(0) : 0.0, y = distance ? distance->between(1) : 0.0;
+    const double spread_x = distance ? distance->constant(0, 0) + distance->noise(0, 0) : 0.0,
+                 spread_y = distance ? distance->constant(1, 1) + distance->noise(1, 1) : 0.0;
+    if (is_position && outside(std::abs(z.z(0) - x - placed.x), std::abs(z.z(1) - y - placed.y), z.r(0, 0) + spread_x,
+                               z.r(1, 1) + spread_y))
+      return;
+  }
+  judge_pair(set.tracks[placed.track], z, row, static_cast<int>(placed.track), distance, mounting);
+}
+
+[[gnu::noinline]] void Tracker::judge_pair(const Track& track, const sensors::Observation& z, std::size_t row,
+                                           int column, const Distance* distance, const sensors::Mounting& mounting) {
+  std::optional<sensors::Observation> moved;
+  if (distance) moved = expected(z, *distance, mounting);
+  const sensors::Observation& as_anchor = moved ? *moved : z;
+  if (config_.association == config::Association::kJpda) {
+    offer(track, as_anchor, static_cast<int>(row), column);
+    return;
+  }
+  const double gate = gate_[dimension_of(z.kind)];
+  const std::optional<double> distance_squared = estimator_->distance_squared(track.estimate, as_anchor);
+  if (!distance_squared || !(*distance_squared <= gate)) return;
+  if (track.confirmed) near_track_[row] = 1;
+  // Never zero: a pair on the gate's edge still beats no pair.
+  const double gain = gate - *distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
+  candidates_.push_back({static_cast<int>(row), column, gain});
+  squares_.push_back(*distance_squared);
+}
+
 // The order of candidates does not change the assignment.
 void Tracker::associate(const TrackSet& set, const sensors::ObservationList& list) {
   candidates_.clear();
+  squares_.clear();
   pairs_.clear();
   std::fill(near_track_.begin(), near_track_.end(), 0);
-  place(set, list.observations.empty() ? kNoSensor : list.observations.front().sensor);
+  const bool joint = config_.association == config::Association::kJpda;
+  const bool weighs_all = joint || config_.birth == config::Birth::kExistence;
+  if (weighs_all) visibility_.judge(set.tracks, *estimator_, list.id.sensor);
+  place(set, list);
+  distances_.begin(set.tracks.size());
   for (std::size_t o = 0; o < list.observations.size(); ++o) {
     const sensors::Observation& z = list.observations[o];
-    const auto try_one = [&](const Placed& placed) { try_pair(set, z, o, placed); };
+    const sensors::Mounting mounting = mounting_of(z);
+    const auto try_one = [&](const Placed& placed) { try_pair(set, z, mounting, o, placed); };
     if (z.kind == sensors::ObservationKind::kPosition)
       near(z, gate_[dimension_of(z.kind)], try_one);
     else
       std::for_each(placed_.begin(), placed_.end(), try_one);
   }
   assignment_.solve(candidates_, list.observations.size(), set.tracks.size());
-  if (config_.association == config::Association::kJpda)
-    joint_.solve(pairs_, list.observations.size(), set.tracks.size());
+  if (joint) joint_.solve(pairs_, list.observations.size(), set.tracks.size());
   std::fill(observation_of_.begin(), observation_of_.end(), -1);
   const auto columns = assignment_.column_of();
   for (std::size_t o = 0; o < columns.size(); ++o)
     if (columns[o] >= 0) observation_of_[static_cast<std::size_t>(columns[o])] = static_cast<int>(o);
-}
-
-void Tracker::try_pair(const TrackSet& set, const sensors::Observation& z, std::size_t row, const Placed& placed) {
-  const double gate = gate_[dimension_of(z.kind)];
-  if (z.kind == sensors::ObservationKind::kPosition) {
-    // A cheap bound comes first: outside the gate on one axis means outside the gate.
-    const double dx = z.z(0) - placed.x, dy = z.z(1) - placed.y;
-    if (dx * dx > gate * (placed.variance_x + z.r(0, 0)) || dy * dy > gate * (placed.variance_y + z.r(1, 1))) return;
-  }
-  const Track& track = set.tracks[placed.track];
-  const int column = static_cast<int>(placed.track);
-  if (config_.association == config::Association::kJpda) {
-    offer(track, z, static_cast<int>(row), column);
-    return;
-  }
-  const std::optional<double> distance_squared = estimator_->distance_squared(track.estimate, z);
-  if (!distance_squared || *distance_squared > gate) return;
-  if (track.confirmed) near_track_[row] = 1;
-  // Never zero: a pair on the gate's edge still beats no pair.
-  const double gain = gate - *distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
-  candidates_.push_back({static_cast<int>(row), column, gain});
+  if (!weighs_all) visibility_.judge(set.tracks, *estimator_, list.id.sensor, observation_of_);
+  sum_innovations(set, list);
 }
 
 // Offers a pair. The most probable joint event has the largest product of weights; it contains no pair that is
 // less probable than both alone.
 void Tracker::offer(const Track& track, const sensors::Observation& z, int row, int column) {
   const std::optional<estimators::Fit> fit = estimator_->fit(track.estimate, z);
-  if (!fit || fit->distance_squared > gate_[dimension_of(z.kind)]) return;
+  if (!fit || !(fit->distance_squared <= gate_[dimension_of(z.kind)])) return;
   if (track.confirmed) near_track_[static_cast<std::size_t>(row)] = 1;
-  const double weight = joint_weight(track.existence, likelihood_ratio(z, fit->density, config_), config_);
+  const double visible = visibility_.of(static_cast<std::size_t>(column));
+  const double ratio = likelihood_ratio(z, fit->density, config_, visible);
+  const double weight = joint_weight(track.existence, ratio, config_, visible);
   pairs_.push_back({row, column, weight});
-  if (weight > 1.0) candidates_.push_back({row, column, std::log(weight)});
+  if (!(weight > 1.0)) return;
+  candidates_.push_back({row, column, std::log(weight)});
+  squares_.push_back(fit->distance_squared);
 }
 
 // Updates the existence from the prediction, before the update of the estimate.
-void Tracker::judge_existence(Track& track, const sensors::Observation* z) const {
-  const std::optional<estimators::Fit> fit = z ? estimator_->fit(track.estimate, *z) : std::nullopt;
-  track.existence = after_list(track.existence, fit ? likelihood_ratio(*z, fit->density, config_) : 0.0, config_);
+void Tracker::judge_existence(Track& track, std::size_t column, const sensors::Observation* z, double visible) {
+  double ratio = 0.0;
+  if (z) {
+    const Distance* distance = distance_of(track, column, *z);
+    const std::optional<estimators::Fit> fit =
+        estimator_->fit(track.estimate, distance ? expected(*z, *distance, mounting_of(*z)) : *z);
+    if (fit) ratio = likelihood_ratio(*z, fit->density, config_, visible);
+  }
+  track.existence = after_list(track.existence, ratio, config_, visible);
+}
+
+const Distance* Tracker::distance_of(const Track& track, std::size_t column, const sensors::Observation& z) {
+  return distances_.of(column, track, *estimator_, z, mounting_of(z));
+}
+
+sensors::Observation Tracker::referred(const Track& track, const sensors::Observation& z) const {
+  const std::optional<Distance> distance = distance_of(track, z);
+  return distance ? counted(z, *distance, mounting_of(z), estimator_->position(track.estimate).p) : z;
+}
+
+void Tracker::count_elsewhere(Track& track, const Distance& distance, bool moves, Referred& taken) const {
+  taken.elsewhere = true;
+  taken.moved = moves;
+  if (moves) {
+    taken.displacement = {distance.between, distance.constant + distance.noise};
+    estimators::displace(track.estimate, taken.displacement);
+    track.anchor = distance.to;
+    track.lists_elsewhere = 0;
+    return;
+  }
+  const linear::Gaussian<2> at = estimator_->position(track.estimate);
+  learn_size(track.extent, taken.observation, distance, at);
+  taken.observation = counted(taken.observation, distance, mounting_of(taken.observation), at.p);
+}
+
+Tracker::Referred Tracker::referred_late(Track& then, const sensors::Observation& z, bool may_move) const {
+  const std::optional<Distance> distance = distance_of(then, z);
+  Referred taken{.observation = z, .from = then.anchor};
+  if (distance) count_elsewhere(then, *distance, may_move && gives_way(then.anchor, z.seen), taken);
+  return taken;
+}
+
+// Refers the track's observation to its anchor, or moves the anchor to the observed point.
+const sensors::Observation& Tracker::refer(Track& track, std::size_t column, const sensors::Observation& z,
+                                           std::size_t row) {
+  const Distance* distance = distance_of(track, column, z);
+  // Only a move has a displacement: the old one is not worth a write.
+  Referred& taken = taken_[row];
+  taken.observation = z;
+  taken.elsewhere = taken.moved = false;
+  taken.from = track.anchor;
+  track.lists_elsewhere = distance ? static_cast<std::uint8_t>(track.lists_elsewhere + 1) : 0;
+  if (distance)
+    count_elsewhere(track, *distance,
+                    gives_way(track.anchor, z.seen) || track.lists_elsewhere >= lists_elsewhere_before(z.seen), taken);
+  return taken.observation;
 }
 
 // Updates by all observations in the track's gate, with their probabilities given that its object exists.
 void Tracker::take_in_all(Track& track, std::size_t column, const sensors::ObservationList& list) {
-  const double unseen = joint_.none_of_column(column) * exists_unseen(track.existence, config_);
+  const double unseen = joint_.none_of_column(column) * exists_unseen(track.existence, config_, visibility_.of(column));
   double exists = unseen;
   for (const association::JointAssociation::Shared& shared : joint_.of_column(column)) exists += shared.probability;
   if (!(exists > 0.0)) return;  // a long lost track without any observation
   explanations_.clear();
+  explained_.clear();
   explanations_.push_back({nullptr, unseen / exists});
-  for (const association::JointAssociation::Shared& shared : joint_.of_column(column))
-    explanations_.push_back({&list.observations[static_cast<std::size_t>(shared.row)], shared.probability / exists});
+  for (const association::JointAssociation::Shared& shared : joint_.of_column(column)) {
+    explained_.push_back(referred(track, list.observations[static_cast<std::size_t>(shared.row)]));
+    explanations_.push_back({&explained_.back(), shared.probability / exists});
+  }
   if (explanations_.size() > 1) estimator_->update(track.estimate, explanations_);
   if (config_.birth == config::Birth::kExistence) track.existence = std::min(1.0, exists);
 }
 
-void Tracker::correct_outline(Track& track, const sensors::Observation& z) const {
-  if (z.has_heading) {
-    const estimators::Cartesian now = estimator_->cartesian(track.estimate);
-    const double vx = now.x(2), vy = now.x(3);
-    const double expected = track.heading.known        ? track.heading.value
-                            : std::hypot(vx, vy) > 1.0 ? std::atan2(vy, vx)
-                                                       : z.heading;
-    const double measured = nearest_half_turn(z.heading, expected);
-    correct_scalar(track.heading, motion::to_half_turn(measured - track.heading.value), measured, z.sigma_heading);
-    track.heading.value = motion::to_half_turn(track.heading.value);
-  }
-  correct_extent(track, z);
+void Tracker::correct_heading(Track& track, const sensors::Observation& z, double age) const {
+  if (!z.has_heading) return;
+  const linear::Vector<2> v = estimator_->velocity(track.estimate);
+  correct(track.heading, z.heading, z.sigma_heading, v.norm() > 1.0 ? std::atan2(v.y(), v.x()) : z.heading, age);
 }
 
 // Corrects the extent. The span needs the aspect, so it comes last, after position, course and axis.
@@ -261,13 +406,16 @@ void Tracker::correct_extent(Track& track, const sensors::Observation& z) const 
   if (z.has_length) correct_length(track.extent, z.length, z.sigma_length);
   if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
   if (!z.has_span) return;
-  const estimators::Cartesian now = estimator_->cartesian(track.estimate);
+  const double seen_from = (z.z.head<2>() - place_of(config_.sensors, z.sensor)).norm();
+  const double shown = z.span * seen_from;
+  correct_scalar(track.shown, shown - track.shown.value, shown, z.sigma_span * seen_from);
+  const CentrePosition now = centre_position(track, estimator_->cartesian(track.estimate));
   const linear::Vector<2> from = place_of(config_.sensors, z.sensor);
-  const double x = now.x(0) - from.x(), y = now.x(1) - from.y(), range = std::hypot(x, y);
+  const double x = now.estimate.x(0) - from.x(), y = now.estimate.x(1) - from.y(), range = std::hypot(x, y);
   if (range <= 0.0) return;
-  const Facing facing = facing_of(now, track.heading);
+  const Facing& facing = now.facing;
   const Eigen::Vector2d sight(x / range, y / range);
-  const double range_variance = sight.dot(now.p.topLeftCorner<2, 2>() * sight);
+  const double range_variance = sight.dot(now.estimate.p * sight);
   correct_span(
       track.extent,
       {range, std::sqrt(range_variance), motion::to_half_turn(facing.heading - std::atan2(y, x)), facing.sigma}, z.span,
@@ -281,15 +429,20 @@ void Tracker::give_birth(TrackSet& set, const sensors::ObservationList& list) {
   for (std::size_t o = 0; o < list.observations.size(); ++o) {
     if (columns[o] >= 0 || near_track_[o] || set.tracks.size() == max_tracks_) continue;
     const sensors::Observation& z = list.observations[o];
+    const bool by_existence = config_.birth == config::Birth::kExistence;
+    if (!by_existence && z.weight < sensors::kSureWeight) continue;
     Track track;
     track.birth = track.newest = {list.id, static_cast<std::uint16_t>(o), list.measured};
     track.estimate = estimator_->initial(z);
-    if (z.has_heading) track.heading = {z.heading, z.sigma_heading * z.sigma_heading, true};
+    track.anchor = first_anchor(z, mounting_of(z));
+    track.extent = Extent(config_.sizes);
+    track.heading = unknown_heading(config_);
+    if (z.has_heading) correct(track.heading, z.heading, z.sigma_heading, z.heading);
     correct_extent(track, z);
     carry(track.unfiltered, z);
     track.hits = 1;
     track.lists = 1;
-    if (config_.birth == config::Birth::kExistence) track.existence = config_.initial_existence;
+    if (by_existence) track.existence = config_.initial_existence * z.weight;
     set.tracks.push_back(track);
   }
 }
@@ -301,7 +454,9 @@ void Tracker::prune(TrackSet& set) const {
   for (Track& track : set.tracks)
     if (!track.confirmed && confirmed < config_.max_objects &&
         (by_existence ? track.existence >= config_.confirm_existence
-                      : std::popcount(track.hits & window) >= config_.confirm_hits)) {
+                      : std::popcount(track.hits & ~track.doubtful & window) >= config_.confirm_hits) &&
+        (!config_.end_overlaps.value_or(false) ||
+         !overlaps_confirmed(set.tracks, track, set.time, config_, *estimator_))) {
       track.confirmed = true;
       ++confirmed;
     }
@@ -311,10 +466,11 @@ void Tracker::prune(TrackSet& set) const {
     if (by_existence) return track.existence < config_.delete_existence;
     if (track.confirmed) return track.misses >= config_.delete_misses;
     // A tentative track ends when M hits are out of reach within its window.
-    const int hits = std::popcount(track.hits & window);
+    const int hits = std::popcount(track.hits & ~track.doubtful & window);
     const int left = config_.confirm_window - std::min(track.lists, config_.confirm_window);
     return hits + left < config_.confirm_hits;
   });
+  if (config_.end_overlaps.value_or(false)) end_overlaps(set.tracks, set.time, config_, *estimator_);
 }
 
 }  // namespace ttf::fusion::tracks

@@ -11,9 +11,13 @@
 // confirm_hits and confirm_window are not used. Two tracks of one object become one if the configuration says
 // so (fusion/tracks/twins.h).
 //
+// A list counts against an object only if its sensor could have seen it (fusion/tracks/visibility.h). M of N leaves out a
+// list of a sensor that could not, unless it has an observation. So a track that no sensor can see ends by silence.
+//
 // A step is a pure function of the tracks, the list and the configuration. Tracks are values, so a strategy can
-// keep snapshots and go back. Random-walk filters estimate heading and extent beside the motion
-// (fusion/estimators/estimator.h). The constructor allocates all storage.
+// keep snapshots and go back. Filters of their own estimate heading and extent beside the motion
+// (fusion/estimators/estimator.h), which is that of the point that sensors see (fusion/tracks/anchoring.h). The
+// constructor allocates all storage.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +31,13 @@
 #include "fusion/association/joint_association.h"
 #include "fusion/config/tracker_config.h"
 #include "fusion/estimators/estimator.h"
+#include "fusion/sensors/mounted.h"
 #include "fusion/sensors/observation.h"
+#include "fusion/tracks/anchoring.h"
+#include "fusion/tracks/distances.h"
 #include "fusion/tracks/track.h"
 #include "fusion/tracks/twins.h"
+#include "fusion/tracks/visibility.h"
 
 namespace ttf::fusion::tracks {
 
@@ -39,6 +47,15 @@ struct TrackSet {
   bool started = false;
 
   explicit TrackSet(std::size_t capacity = 0) { tracks.reserve(capacity); }
+};
+
+// Innovations of a list: of its observations that confirmed tracks took. Squares nu' S^-1 nu are those of the gate. They
+// contain all uncertainty of the observed point (fusion/tracks/anchoring.h). With jpda they are those of the most probable
+// joint event. Squares and degrees of freedom are sums. They are equal on the average if the filter judges its predictions
+// rightly, except that the gate leaves out the largest squares (fusion/metrics/consistency.h).
+struct Innovations {
+  double squares = 0.0;
+  std::uint32_t degrees = 0;
 };
 
 class Tracker {
@@ -52,8 +69,27 @@ class Tracker {
   // The following parts of a step serve methods for late lists (fusion/strategies/late/). assigned() gates and
   // assigns, and changes no track. It returns the observation of each track, or -1, valid until the next call.
   std::span<const int> assigned(const TrackSet& set, const sensors::ObservationList& list);
-  // Corrects heading and extent of an object at its estimate.
-  void correct_outline(Track& track, const sensors::Observation& observation) const;
+  // Returns whether the list that was assigned last counts for or against a track, by its observation or without one.
+  bool list_counts(std::size_t track) const {
+    return observation_of_[track] >= 0 || visibility_.of(track) > Visibility::kCounts;
+  }
+  // Corrects the heading by one that was measured `age` seconds ago, and the extent after the update by this observation.
+  void correct_heading(Track& track, const sensors::Observation& observation, double age = 0.0) const;
+  void correct_extent(Track& track, const sensors::Observation& observation) const;
+  // How an observation counts for its track: as one of its anchor (fusion/tracks/anchoring.h), which may have moved.
+  struct Referred {
+    sensors::Observation observation;
+    bool elsewhere = false;  // it is of another point than the anchor
+    bool moved = false;
+    Anchor from{};                            // the anchor before
+    estimators::Displacement displacement{};  // if moved
+  };
+  // Refers a late observation, of a track as it was at that instant. The size learns; a silhouette gives way, if it may.
+  Referred referred_late(Track& then, const sensors::Observation& observation, bool may_move) const;
+  // Returns how the observation `index` of the list that step() took in last counted.
+  const Referred& taken(std::size_t index) const { return taken_[index]; }
+  // Returns the innovations of the list that step() or assigned() was given last.
+  const Innovations& innovations() const { return innovations_; }
   // Confirms and ends tracks by their counts.
   void prune(TrackSet& set) const;
   // Returns the room for tentative and confirmed tracks together.
@@ -66,24 +102,35 @@ class Tracker {
 
  private:
   void take_in(TrackSet& set, const sensors::ObservationList& list);
-  void predict(Track& track, double dt) const;
+  void predict(Track& track, const HeadingStep& turn, double dt) const;
   struct Placed {
     double x = 0.0, y = 0.0, variance_x = 0.0, variance_y = 0.0;
+    double reach = 0.0;  // [m] from the anchor to any point of the object that the list's observations may be of
     std::size_t track = 0;
   };
-  void place(const TrackSet& set, SensorId seen_by);
+  void place(const TrackSet& set, const sensors::ObservationList& list);
+  void sort_along_x();
   void associate(const TrackSet& set, const sensors::ObservationList& list);
   template <class Try> void near(const sensors::Observation& position, double gate, const Try& try_one) const;
-  void try_pair(const TrackSet& set, const sensors::Observation& observation, std::size_t row, const Placed& placed);
+  void sum_innovations(const TrackSet& set, const sensors::ObservationList& list);
+  void try_pair(const TrackSet& set, const sensors::Observation& observation, const sensors::Mounting& mounting,
+                std::size_t row, const Placed& placed);
+  void judge_pair(const Track& track, const sensors::Observation& observation, std::size_t row, int column,
+                  const Distance* distance, const sensors::Mounting& mounting);
   void offer(const Track& track, const sensors::Observation& observation, int row, int column);
-  void judge_existence(Track& track, const sensors::Observation* observation) const;
+  void judge_existence(Track& track, std::size_t column, const sensors::Observation* observation, double visible);
   void take_in_all(Track& track, std::size_t column, const sensors::ObservationList& list);
-  // Corrects everything except the motion.
-  void correct_beside(Track& track, const sensors::Observation& observation) const {
-    correct_outline(track, observation);
-    carry(track.unfiltered, observation);
+  sensors::Mounting mounting_of(const sensors::Observation& observation) const {
+    return sensors::mounting_of(config_.sensors, observation.sensor);
   }
-  void correct_extent(Track& track, const sensors::Observation& observation) const;
+  sensors::Observation referred(const Track& track, const sensors::Observation& observation) const;
+  void count_elsewhere(Track& track, const Distance& distance, bool moves, Referred& taken) const;
+  const sensors::Observation& refer(Track& track, std::size_t column, const sensors::Observation& observation,
+                                    std::size_t row);
+  const Distance* distance_of(const Track& track, std::size_t column, const sensors::Observation& observation);
+  std::optional<Distance> distance_of(const Track& track, const sensors::Observation& observation) const {
+    return distance_to(track, *estimator_, observation, mounting_of(observation));
+  }
   void give_birth(TrackSet& set, const sensors::ObservationList& list);
 
   config::TrackerConfig config_;
@@ -92,18 +139,31 @@ class Tracker {
   double gate_[4] = {};  // by dimension of the observation
   association::Assignment assignment_;
   std::vector<association::Candidate> candidates_;
+  std::vector<double> squares_;  // nu' S^-1 nu of each candidate
+  Innovations innovations_;
   // The tracks in strips along x, each sorted by y, so that far ones are skipped. Few tracks are one strip, sorted by x.
   std::vector<Placed> placed_;
+  // The tracks along x. The next list begins with this order, and hardly changes it.
+  struct Along {
+    double x = 0.0;
+    std::size_t track = 0;
+  };
+  std::vector<Along> along_x_;
+  std::vector<Placed> unsorted_;
   struct Strip {
     double low = 0.0, high = 0.0;  // x
     std::size_t begin = 0, end = 0;
   };
   std::vector<Strip> strips_;  // empty if there is only one
-  double largest_variance_x_ = 0.0, largest_variance_y_ = 0.0;
+  double largest_variance_x_ = 0.0, largest_variance_y_ = 0.0, largest_reach_ = 0.0;
+  Distances distances_;
   association::JointAssociation joint_;  // without storage unless jpda
   std::vector<association::Pair> pairs_;
   std::vector<estimators::Explanation> explanations_;
+  std::vector<sensors::Observation> explained_;
   Twins twins_;
+  Visibility visibility_;         // to the present list's sensor
+  std::vector<Referred> taken_;   // by observation
   std::vector<char> near_track_;  // per observation: inside the gate of a confirmed track
   std::vector<int> observation_of_;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fusion/metrics/chi_square.h"
+#include "fusion/tracks/anchoring.h"
 
 namespace ttf::fusion::tracks {
 namespace {
@@ -30,15 +31,29 @@ Difference difference_of(const estimators::Cartesian& a, const Extent& a_size, c
   return difference;
 }
 
+estimators::Cartesian centre_of(const Track& track, const estimators::Estimator& estimator) {
+  return centred(track, estimator.cartesian(track.estimate)).estimate;
+}
+
 // Returns the uncertainty of a track's motion as one number.
 double volume_of(const Track& track, const estimators::Estimator& estimator) {
   return estimator.cartesian(track.estimate).p.topLeftCorner<4, 4>().eval().determinant();
 }
 
 void join(Track& elder, const Track& younger, const estimators::Estimator& estimator) {
-  if (volume_of(younger, estimator) < volume_of(elder, estimator)) elder.estimate = younger.estimate;
+  Heading sense = elder.heading;  // the axes of the anchor
+  if (volume_of(younger, estimator) < volume_of(elder, estimator)) {
+    elder.estimate = younger.estimate;
+    elder.anchor = younger.anchor;
+    elder.lists_elsewhere = younger.lists_elsewhere;
+    sense = younger.heading;
+  }
   if (younger.heading.known && (!elder.heading.known || younger.heading.variance < elder.heading.variance))
     elder.heading = younger.heading;
+  if (sense.known && nearest_half_turn(elder.heading.value, sense.value) != elder.heading.value)
+    elder.anchor = opposite(elder.anchor);
+  if (younger.shown.known && (!elder.shown.known || younger.shown.variance < elder.shown.variance))
+    elder.shown = younger.shown;
   if (younger.extent.covariance.determinant() < elder.extent.covariance.determinant()) elder.extent = younger.extent;
   auto& sums = elder.unfiltered.classes.sums;
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += younger.unfiltered.classes.sums[i];
@@ -54,6 +69,7 @@ void join(Track& elder, const Track& younger, const estimators::Estimator& estim
     third.has_height = true;
     third.height = other.height;
   }
+  elder.doubtful &= ~(younger.hits & ~younger.doubtful);
   elder.hits |= younger.hits;
   elder.misses = std::min(elder.misses, younger.misses);
   elder.existence = std::max(elder.existence, younger.existence);
@@ -75,20 +91,24 @@ void Twins::find_nearest(const std::vector<Track>& tracks, const estimators::Est
   double largest = 0.0;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     if (!tracks[t].confirmed) continue;
-    by_x_.push_back({estimator.cartesian(tracks[t].estimate), t});
+    by_x_.push_back({centre_position(tracks[t], estimator.cartesian(tracks[t].estimate)).estimate, t});
     largest = std::max(largest, by_x_.back().at.p(0, 0));
   }
   std::sort(by_x_.begin(), by_x_.end(), [](const Seen& a, const Seen& b) {
     return a.at.x(0) != b.at.x(0) ? a.at.x(0) < b.at.x(0) : a.track < b.track;
   });
+  // Beyond this distance on one axis, the quantile of the most degrees excludes a pair.
+  const auto reach = [&](double variance) { return std::sqrt(quantile_[6] * variance) * (1.0 + 1e-12); };
   for (std::size_t i = 0; i < by_x_.size(); ++i) {
-    // Beyond this distance in x, the quantile of the most degrees excludes every further track.
-    const double reach = std::sqrt(quantile_[6] * (by_x_[i].at.p(0, 0) + largest)) * (1.0 + 1e-12);
-    for (std::size_t j = i + 1; j < by_x_.size() && by_x_[j].at.x(0) - by_x_[i].at.x(0) <= reach; ++j) {
+    const linear::Gaussian<2>& at = by_x_[i].at;
+    const double reach_x = reach(at.p(0, 0) + largest);
+    for (std::size_t j = i + 1; j < by_x_.size() && by_x_[j].at.x(0) - at.x(0) <= reach_x; ++j) {
+      if (std::abs(by_x_[j].at.x(1) - at.x(1)) > reach(at.p(1, 1) + by_x_[j].at.p(1, 1))) continue;
       const std::size_t elder = std::min(by_x_[i].track, by_x_[j].track);
       const std::size_t younger = std::max(by_x_[i].track, by_x_[j].track);
+      const Track &one = tracks[by_x_[i].track], &other = tracks[by_x_[j].track];
       const Difference apart =
-          difference_of(by_x_[i].at, tracks[by_x_[i].track].extent, by_x_[j].at, tracks[by_x_[j].track].extent);
+          difference_of(centre_of(one, estimator), one.extent, centre_of(other, estimator), other.extent);
       const double distance = apart.squared / quantile_[apart.degrees];
       if (!(distance <= 1.0)) continue;
       Nearest& nearest = nearest_[younger];
@@ -100,8 +120,12 @@ void Twins::find_nearest(const std::vector<Track>& tracks, const estimators::Est
   }
 }
 
-void Twins::unite(std::vector<Track>& tracks, const estimators::Estimator& estimator) {
+void Twins::unite(std::vector<Track>& tracks, const sensors::ObservationList& list,
+                  const estimators::Estimator& estimator) {
   find_nearest(tracks, estimator);
+  const auto seen = [&](const Track& track) {
+    return track.newest.measurement == list.id && track.newest.measured == list.measured;
+  };
   for (std::size_t t = tracks.size(); t-- > 0;) {
     Track& younger = tracks[t];
     if (nearest_[t].elder < 0) {
@@ -113,7 +137,7 @@ void Twins::unite(std::vector<Track>& tracks, const estimators::Estimator& estim
       younger.twin = elder.birth;
       younger.twin_lists = 0;
     }
-    const bool elder_seen = elder.hits & 1u, younger_seen = younger.hits & 1u;
+    const bool elder_seen = seen(elder), younger_seen = seen(younger);
     if (elder_seen && younger_seen)
       younger.twin_lists = 0;
     else if (elder_seen || younger_seen)

@@ -3,8 +3,8 @@
 //
 // After each list, the younger of two confirmed tracks is alike to the elder if
 //   d' (P_elder + P_younger)^-1 d <= the quantile of chi-square for merge_probability.
-// d is the difference of (x, y, vx, vy), and of length and width if both tracks know them; each compared
-// quantity is a degree of freedom. The same noise and the same object have driven both tracks, so their errors
+// d is the difference of (x, y, vx, vy) of the centres, and of length and width if both tracks know them; each compared
+// quantity is a degree of freedom. (The anchors may be different points of the object.) The same noise and the same object have driven both tracks, so their errors
 // are correlated and the sum is an upper bound.
 //
 // A second condition tells cars side by side apart. A list contains an object once, as association assumes. So
@@ -12,7 +12,7 @@
 // not count. The two tracks are united after merge_scans counted lists in a row with the younger alike to the
 // same elder:
 //   - the elder's birth, and so its identity, stays;
-//   - the more certain estimate is kept whole: the one with the smaller determinant of the covariance of
+//   - the more certain estimate is kept whole, with its anchor: the one with the smaller determinant of the covariance of
 //     (x, y, vx, vy). This is covariance intersection with all weight on one side (Julier, Uhlmann: "A non-divergent
 //     estimation algorithm in the presence of unknown correlations", ACC 1997). It is consistent for every
 //     correlation, which is unknown here, and keeps one layout with its modes, unlike a mixture of two layouts;
@@ -34,12 +34,12 @@ namespace ttf::fusion::tracks {
 class Twins {
  public:
   Twins(const config::TrackerConfig& config, std::size_t max_tracks);
-  // Unites twins after a list; hits shows which tracks had an observation in it. Tracks are in order of birth.
-  void unite(std::vector<Track>& tracks, const estimators::Estimator& estimator);
+  // Unites twins after a list; `newest` shows which tracks had an observation in it. Tracks are in order of birth.
+  void unite(std::vector<Track>& tracks, const sensors::ObservationList& list, const estimators::Estimator& estimator);
 
  private:
   struct Seen {
-    estimators::Cartesian at;
+    linear::Gaussian<2> at;  // the centre's position
     std::size_t track = 0;
   };
   struct Nearest {

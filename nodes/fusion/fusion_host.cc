@@ -37,6 +37,14 @@ ttf::fusion::strategies::Settling settling(const schedules::model::Cluster& clus
   return {std::move(steps), round->round};
 }
 
+recording::records::BelievedBox box_of(const ttf::fusion::tracks::TrackView& view) {
+  return {{view.heading, view.sigma_heading},
+          {view.speed, view.sigma_speed},
+          {view.acceleration, view.sigma_acceleration},
+          {view.length, view.sigma_length},
+          {view.width, view.sigma_width}};
+}
+
 // Returns the number of rounds between the sender's stamp and `measured`.
 std::int64_t rounds_between(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime near,
                             GlobalTime measured, Duration round) {
@@ -176,7 +184,8 @@ void FusionStep::record_result(const host::StepContext& context) const {
   const ttf::fusion::strategies::Strategy& strategy = *host_->strategy;
   for (const ttf::fusion::strategies::FusedList& list : strategy.last_fused())
     context.sink->on(recording::records::ListFused{context.stamp, host_->step, list.id, list.measured,
-                                                   static_cast<recording::records::Disposition>(list.disposition)});
+                                                   static_cast<recording::records::Disposition>(list.disposition),
+                                                   list.innovations.squares, list.innovations.degrees});
   for (const ttf::fusion::tracks::TrackView& track : strategy.tracks()) {
     if (!track.confirmed) continue;
     recording::records::TrackState state{context.stamp,
@@ -185,7 +194,8 @@ void FusionStep::record_result(const host::StepContext& context) const {
                                          track.valid_at,
                                          std::span<const double, 6>(track.state.data(), 6),
                                          std::span<const double, 36>(track.covariance.data(), 36),
-                                         false};
+                                         false,
+                                         std::nullopt};
     context.sink->on(state);
   }
   context.sink->on(recording::records::FusionStep{context.stamp, host_->step,
@@ -220,9 +230,9 @@ void ImageOutput::run(host::StepContext& context) {
     const ttf::fusion::tracks::TrackView& view = views_[static_cast<std::size_t>(i)];
     encode_image_object(view, out, i, signals_);
     objects_.push_back(decode_image_object(out.layout(), out.view(), i, signals_));
-    context.sink->on(recording::records::TrackState{context.stamp, host_->step, view.id, use,
-                                                    std::span<const double, 6>(view.state.data(), 6),
-                                                    std::span<const double, 36>(view.covariance.data(), 36), true});
+    context.sink->on(recording::records::TrackState{
+        context.stamp, host_->step, view.id, use, std::span<const double, 6>(view.state.data(), 6),
+        std::span<const double, 36>(view.covariance.data(), 36), true, box_of(view)});
   }
   recording::records::ImageWritten written;
   written.stamp = context.stamp;

@@ -40,7 +40,13 @@ void encode_image_object(const ttf::fusion::tracks::TrackView& view, host::Outpu
                                                         view.sigma_length,
                                                         view.sigma_width,
                                                         status_of(view)};
-  for (std::size_t s = 0; s < values.size(); ++s) out.set(index, signals[s], values[s]);
+  // Sizes' uncertainties are of the order of the resolution.
+  static_assert(kImageSignals[14] == "sigma_length" && kImageSignals[15] == "sigma_width");
+  for (std::size_t s = 0; s < values.size(); ++s)
+    if (s == 14 || s == 15)
+      out.set_at_least(index, signals[s], values[s]);
+    else
+      out.set(index, signals[s], values[s]);
 }
 
 recording::records::ImageObject decode_image_object(const schedules::model::PduLayout& layout,

@@ -1,4 +1,8 @@
 // The signals of the real-time image on the bus, written by the fusion node and read by its receivers.
+//
+// x, y, heading, speed and acceleration are those of the object's centre, whatever its track follows
+// (fusion/tracks/anchoring.h). The sigmas of length and width are rounded up to the next code, all other values to the
+// nearest: a size's uncertainty is of the order of its resolution, and is never understated.
 #pragma once
 
 #include <array>

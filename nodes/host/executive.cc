@@ -71,7 +71,7 @@ std::vector<Connection> Executive::connect(bus::ports::FlexRayPort* flexray,
 }
 
 void Executive::power_on(Microticks now) {
-  sensors_.power_on(now);
+  sensors_.power_on(now, config_.first_cycle.value_or(now));
   if (!flexray_ || config_.clock) return;
   waking_ = config_.cold == ColdStart::kWakes;
   if (!waking_) return flexray_->start_cold(now);

@@ -49,6 +49,8 @@ struct ExecutiveConfig {
   ColdStart cold{};                       // for a node that does not begin integrated
   Duration boots{};                       // for a sleeping node: from the end of the wake-up pattern to its start-up
   const TrueClock* true_clock = nullptr;  // null: events happen when they are due
+  // The start of the first cycle, from which Sensor::instants count; absent: power_on. After a restart they differ.
+  std::optional<Microticks> first_cycle{};
 };
 
 class Executive final : private bus::controller::ControllerEvents {

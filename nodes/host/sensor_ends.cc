@@ -62,10 +62,12 @@ SensorEnds::SensorEnds(const schedules::model::Cluster& cluster, NodeId node, co
   set_off_.reserve(ends_.size());
 }
 
-void SensorEnds::power_on(Microticks now) {
+void SensorEnds::power_on(Microticks now, Microticks first_cycle) {
   for (End& end : ends_) {
     if (!end.device) continue;
-    end.device->first = time_.oscillator().local_time(now) + end.device->phase;
+    const std::vector<Duration>& instants = end.sensor->instants;
+    end.device->first = time_.oscillator().local_time(instants.empty() ? now : first_cycle) + end.device->phase;
+    while (end.device->measured < instants.size() && next_by_itself(end) < now) ++end.device->measured;
     if (end.sensor->follows()) end.device->due = time_.ticks(end.device->first - LocalTime{});
   }
 }

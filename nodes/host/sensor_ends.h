@@ -39,7 +39,8 @@ class SensorEnds {
   SensorEnds(const schedules::model::Cluster& cluster, NodeId node, const PhaseKey& key, const NodeTime& time,
              SensorLines& lines);
 
-  void power_on(Microticks now);  // devices count their phase from here
+  // Devices count their phase from now on. Those with listed instants go on with the next one since `first_cycle`.
+  void power_on(Microticks now, Microticks first_cycle);
   // Arms the triggers of this cycle of the global time.
   void arm(std::int64_t cycle);
   void disarm();

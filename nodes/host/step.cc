@@ -58,6 +58,13 @@ void Output::set(int index, std::size_t signal, double physical) {
                                bus::wire::to_raw(layout_->element[signal], physical, &saturated_));
 }
 
+// Half a resolution, less a rounding error, reaches the next code.
+void Output::set_at_least(int index, std::size_t signal, double physical) {
+  constexpr double kUp = 0.5 - 1e-9;
+  const schedules::model::Signal& s = layout_->element[signal];
+  set(index, signal, physical < s.high ? std::min(s.high, physical + kUp * s.resolution) : physical);
+}
+
 void Output::copy(const bus::cni::ListView& list) {
   TTF_CHECK(list.bytes.size() <= bytes_.size(), "{} bytes into {}", list.bytes.size(), bytes_.size());
   std::copy(list.bytes.begin(), list.bytes.end(), bytes_.begin());

@@ -44,6 +44,8 @@ class Output {
   void begin(std::uint32_t sequence, int count, GlobalTime time_stamp);
   // Sets signal `signal` of element `index` from its physical value, saturated at the signal's range.
   void set(int index, std::size_t signal, double physical);
+  // Sets the smallest code that is not below the physical value: an uncertainty is never understated.
+  void set_at_least(int index, std::size_t signal, double physical);
   // Copies a list whose layout has the same fragments, as a gateway does.
   void copy(const bus::cni::ListView& list);
 

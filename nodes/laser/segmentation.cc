@@ -11,6 +11,13 @@ constexpr double kMissedBeams = 3.5;
 
 }  // namespace
 
+double held_gap(const SegmentationConfig& config, double range, double step) {
+  if (step >= kMissedBeams * config.azimuth_step_rad) return config.smallest_gap_m;
+  const double surface = step < config.incidence_rad ? range * std::sin(step) / std::sin(config.incidence_rad - step)
+                                                     : config.largest_gap_m;
+  return std::clamp(surface + 3.0 * config.range_noise_m, config.smallest_gap_m, config.largest_gap_m);
+}
+
 void segment_scan(const SegmentationConfig& config, std::span<const ScanPoint> scan, std::vector<PlanePoint>& points,
                   std::vector<Segment>& segments) {
   points.clear();
@@ -33,15 +40,8 @@ void segment_scan(const SegmentationConfig& config, std::span<const ScanPoint> s
     if (same) {
       const PlanePoint& previous = points[i - 1];
       const double step = std::max(config.azimuth_step_rad, points[i].azimuth - previous.azimuth);
-      double limit = config.smallest_gap_m;
-      if (step < kMissedBeams * config.azimuth_step_rad) {
-        const double nearer = std::min(previous.range, points[i].range);
-        const double surface = step < config.incidence_rad
-                                   ? nearer * std::sin(step) / std::sin(config.incidence_rad - step)
-                                   : config.largest_gap_m;
-        limit = std::clamp(surface + 3.0 * config.range_noise_m, config.smallest_gap_m, config.largest_gap_m);
-      }
-      same = std::hypot(points[i].x - previous.x, points[i].y - previous.y) <= limit;
+      same = std::hypot(points[i].x - previous.x, points[i].y - previous.y) <=
+             held_gap(config, std::min(previous.range, points[i].range), step);
     }
     if (same)
       ++segments.back().count;

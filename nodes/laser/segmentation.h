@@ -37,6 +37,10 @@ struct SegmentationConfig {
   double azimuth_step_rad = 0.00436;
 };
 
+// Returns how far apart [m] two returns, `step` [rad] apart in azimuth, may be and still be held together. The nearer one is
+// at `range` [m].
+double held_gap(const SegmentationConfig& config, double range, double step);
+
 // Sorts the scan by azimuth into `points` and cuts it into `segments`. Both keep their capacity.
 void segment_scan(const SegmentationConfig& config, std::span<const ScanPoint> scan, std::vector<PlanePoint>& points,
                   std::vector<Segment>& segments);

@@ -12,6 +12,19 @@ namespace {
 // zero would mean certainty.
 double at_least_resolution(double sigma, double resolution) { return std::max(sigma, 0.5 * resolution); }
 
+ttf::fusion::sensors::SeenPoint seen_point(int valid) {
+  using ttf::fusion::sensors::SeenPoint;
+  if (valid == kValidCorner) return SeenPoint::kCentre;
+  if (!(valid & kValidHeading)) return SeenPoint::kSilhouette;
+  if (valid & kValidCorner) return SeenPoint::kCorner;
+  switch (valid & (kValidLength | kValidWidth)) {
+    case kValidWidth: return SeenPoint::kEnd;
+    case kValidLength: return SeenPoint::kSide;
+    case 0: return SeenPoint::kSilhouette;
+    default: return SeenPoint::kCentre;
+  }
+}
+
 }  // namespace
 
 ObservationCodec::ObservationCodec(const schedules::model::Cluster& cluster, PduId pdu)
@@ -66,6 +79,7 @@ void ObservationCodec::decode(const bus::cni::ListView& list,
       observation.r(0, 1) = observation.r(1, 0) = covariance;
       observation.r(1, 1) = sigma_y * sigma_y;
       if (form_ == Form::kPosition) {
+        observation.seen = ttf::fusion::sensors::SeenPoint::kSilhouette;
         observation.has_span = true;
         observation.span = value(5);
         observation.sigma_span = sigma(6);
@@ -73,9 +87,10 @@ void ObservationCodec::decode(const bus::cni::ListView& list,
         observation.width = value(5);
         observation.sigma_width = sigma(6);
         const int valid = static_cast<int>(value(11));
-        observation.has_heading = valid & 1;
-        observation.has_length = valid & 2;
-        observation.has_width = valid & 4;
+        observation.seen = seen_point(valid);
+        observation.has_heading = valid & kValidHeading;
+        observation.has_length = valid & kValidLength;
+        observation.has_width = valid & kValidWidth;
         observation.heading = value(7);
         observation.sigma_heading = sigma(8);
         observation.length = value(9);

@@ -10,9 +10,20 @@
 
 namespace ttf::nodes::sensing {
 
+// The bits of the signal `valid`.
+inline constexpr int kValidHeading = 1, kValidLength = 2, kValidWidth = 4, kValidCorner = 8;
+
 // A codec is bound to a PDU once. A layout with x and y has positions: x, y, their covariance, and either
 // heading and extent or the angle that the outline spans. Otherwise it has radar detections: range, bearing,
 // range_rate and their sigmas.
+//
+// The seen point of a position follows from the bits of the signal `valid`; a layout with a span locates silhouettes.
+//   heading, corner               kCorner
+//   heading, width                kEnd
+//   heading, length               kSide
+//   heading, length, width        kCentre: lists of earlier versions, whose position was the centre
+//   corner                        kCentre: a recorded position of the whole object
+//   else                          kSilhouette
 class ObservationCodec {
  public:
   ObservationCodec(const schedules::model::Cluster& cluster, PduId pdu);

@@ -64,6 +64,7 @@ class Player {
     }
     for (std::size_t n = 0; n < instants_.size(); ++n)
       played_.silent += !played_.at[n] && !rows_.empty() && instants_[n] <= stamp_of(rows_.back());
+    played_.times = std::move(instants_);
     return std::move(played_);
   }
 
@@ -87,6 +88,7 @@ class Player {
       const Duration at = (sensor_.scheduled ? own : in_true_time(device_, own)) - zero;
       if (at > until_) break;
       instants_.push_back(at);
+      if (!sensor_.scheduled) played_.instants.push_back(own);
     }
     played_.at.resize(instants_.size());
   }

@@ -41,7 +41,8 @@ RecordedPlaying load_recorded_playing(YamlMap& yaml);
 
 struct PlayedRows {
   std::vector<std::optional<recording::rows::RecordedObservation>> at;  // by measurement; empty: the device is silent
-  std::vector<Duration> instants;  // measuring instants, if the device measures at the rows' stamps; else empty
+  std::vector<Duration> times;     // their instants in true time, since the recording's time 0
+  std::vector<Duration> instants;  // the same on a free device's clock, since the first cycle
   std::size_t rows = 0;            // number in the recording for this sensor
   std::size_t lists = 0;           // measurements with a row
   std::size_t between = 0;         // rows that no list was made of: between the instants,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nodes/host/signals.h"
+#include "nodes/sensing/observation_codec.h"
 
 namespace ttf::nodes::sensing {
 namespace {
@@ -54,7 +55,9 @@ void LaserPreprocessing::run(host::StepContext& context) {
   out.begin(measurement->sequence, static_cast<int>(objects_.size()), measurement->at);
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
     const laser::LaserObject& object = objects_[static_cast<std::size_t>(i)];
-    const double valid = (object.has_heading ? 1 : 0) + (object.has_length ? 2 : 0) + (object.has_width ? 4 : 0);
+    const bool corner = object.seen == ttf::fusion::sensors::SeenPoint::kCorner;
+    const double valid = (object.has_heading ? kValidHeading : 0) + (object.has_length ? kValidLength : 0) +
+                         (object.has_width ? kValidWidth : 0) + (corner ? kValidCorner : 0);
     const double values[] = {object.x,
                              object.y,
                              object.heading,
@@ -67,7 +70,11 @@ void LaserPreprocessing::run(host::StepContext& context) {
                              object.sigma_length,
                              object.sigma_width,
                              valid};
-    for (std::size_t s = 0; s < signals_.size(); ++s) out.set(i, signals_[s], values[s]);
+    for (std::size_t s = 0; s < signals_.size(); ++s)
+      if (s == 9 || s == 10)  // the sizes' uncertainties, of the order of the resolution
+        out.set_at_least(i, signals_[s], values[s]);
+      else
+        out.set(i, signals_[s], values[s]);
   }
 }
 

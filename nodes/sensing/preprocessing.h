@@ -12,7 +12,7 @@
 
 namespace ttf::nodes::sensing {
 
-// Ports: `raw` (layer, azimuth, range) -> `objects` (position, heading, extent and their uncertainty).
+// Ports: `raw` (layer, azimuth, range) -> `objects` (the seen point, heading, extent and their uncertainty).
 class LaserPreprocessing final : public host::Step {
  public:
   LaserPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,

@@ -6,9 +6,12 @@
 
 #include "core/check.h"
 #include "nodes/host/signals.h"
+#include "nodes/sensing/observation_codec.h"
 
 namespace ttf::nodes::sensing {
 namespace {
+
+using recording::rows::RecordedObservation;
 
 // The recording lacks the tracked vehicle's size. This is a passenger car's (the paper's Touran: 4.39 m x 1.79 m).
 constexpr double kCarLength = 4.39, kCarWidth = 1.79;
@@ -22,19 +25,37 @@ std::vector<std::size_t> bind_raw(const schedules::model::Cluster& cluster, cons
                           : host::bind_elements<2>(cluster, layout, {"x", "y"});
 }
 
-std::size_t signals_of(const recording::rows::RecordedObservation& row) {
-  return row.kind == recording::rows::RecordedObservation::Kind::kRangeBearingRate ? 3 : 2;
+std::size_t signals_of(const RecordedObservation& row) {
+  return row.kind == RecordedObservation::Kind::kRangeBearingRate ? 3 : 2;
+}
+
+// Keys that are absent have the values of `usual`.
+RecordedNoise load_noise(YamlMap& yaml, const RecordedNoise& usual) {
+  RecordedNoise noise;
+  noise.position_m = yaml.number_or("position", usual.position_m, {0.001, 4.0}, "m");
+  noise.range_m = yaml.number_or("range", usual.range_m, {0.001, 4.0}, "m");
+  noise.bearing_rad = yaml.number_or("bearing", usual.bearing_rad, {0.0001, 0.5}, "rad");
+  noise.range_rate_mps = yaml.number_or("range_rate", usual.range_rate_mps, {0.001, 4.0}, "m/s");
+  return noise;
 }
 
 }  // namespace
 
-RecordedNoise load_recorded_noise(YamlMap& yaml) {
-  RecordedNoise noise;
-  noise.position_m = yaml.number_or("position", noise.position_m, {0.001, 4.0}, "m");
-  noise.range_m = yaml.number_or("range", noise.range_m, {0.001, 4.0}, "m");
-  noise.bearing_rad = yaml.number_or("bearing", noise.bearing_rad, {0.0001, 0.5}, "rad");
-  noise.range_rate_mps = yaml.number_or("range_rate", noise.range_rate_mps, {0.001, 4.0}, "m/s");
-  return noise;
+const RecordedNoise& RecordedNoises::of(std::string_view sensor) const {
+  for (const OfSensor& one : own)
+    if (one.sensor == sensor) return one.noise;
+  return usual;
+}
+
+RecordedNoises load_recorded_noises(YamlMap& yaml) {
+  RecordedNoises noises;
+  noises.usual = load_noise(yaml, {});
+  if (!yaml.has("sensors")) return noises;
+  for (auto& [name, map] : yaml.named_maps("sensors")) {
+    noises.own.push_back({name, load_noise(map, noises.usual), map.line()});
+    map.finish();
+  }
+  return noises;
 }
 
 RecordedScene::RecordedScene(const recording::rows::RecordedInput& input, TrueTime start)
@@ -78,13 +99,14 @@ void RecordedScene::states_at(TrueTime at, std::vector<sim::world::ObjectState>&
 }
 
 RecordedSource::RecordedSource(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
-                               SensorId sensor, Rows rows)
-    : sensor_(sensor), rows_(std::move(rows)),
+                               SensorId sensor, PlayedRows rows, TrueTime start)
+    : sensor_(sensor), rows_(std::move(rows)), start_(start), period_(cluster.sensor(sensor).period),
       signals_(bind_raw(cluster, cluster.pdu(host::binding_of(task.writes, "raw").pdu))) {
-  if (std::none_of(rows_.begin(), rows_.end(), [](const auto& row) { return row.has_value(); }))
+  TTF_CHECK(rows_.at.size() == rows_.times.size(), "{} rows at {} times", rows_.at.size(), rows_.times.size());
+  if (std::none_of(rows_.at.begin(), rows_.at.end(), [](const auto& row) { return row.has_value(); }))
     throw InputError({cluster.file, cluster.sensor(sensor).line, "sensors." + cluster.sensor(sensor).name, "",
                       "the recording has no row of this sensor within the drive"});
-  for (const auto& row : rows_)
+  for (const auto& row : rows_.at)
     if (row && signals_of(*row) != signals_.size()) {
       const schedules::model::PduLayout& raw = cluster.pdu(host::binding_of(task.writes, "raw").pdu);
       throw InputError({cluster.file, raw.line, "pdus." + raw.name, "",
@@ -93,9 +115,23 @@ RecordedSource::RecordedSource(const schedules::model::Cluster& cluster, const s
     }
 }
 
+// Returns null if nothing was measured then.
+const RecordedObservation* RecordedSource::row_at(TrueTime now) {
+  const std::vector<Duration>& times = rows_.times;
+  const Duration since = now - start_;
+  auto nearest = std::lower_bound(times.begin(), times.end(), since);
+  if (nearest == times.end() || (nearest != times.begin() && since - *(nearest - 1) <= *nearest - since)) --nearest;
+  const auto n = static_cast<std::size_t>(nearest - times.begin());
+  const Duration off = std::max(since - *nearest, *nearest - since);
+  if (off * 2 >= period_ || n == last_ || !rows_.at[n]) return nullptr;
+  last_ = n;
+  return &*rows_.at[n];
+}
+
 void RecordedSource::run(host::StepContext& context) {
-  if (context.measurement >= rows_.size() || !rows_[context.measurement]) return;  // nothing was measured then
-  const recording::rows::RecordedObservation& row = *rows_[context.measurement];
+  const RecordedObservation* const played = row_at(context.stamp.true_time);
+  if (played == nullptr) return;
+  const RecordedObservation& row = *played;
   host::Output& raw = context.outputs[0];
   raw.begin(context.measurement, 1, GlobalTime{});
   const bool radar = signals_of(row) == 3;
@@ -143,8 +179,9 @@ void RecordedPreprocessing::run(host::StepContext& context) {
     } else {
       set(2, noise_.position_m);
       set(3, noise_.position_m);
-      // The recording lacks heading and extent: their valid bits stay clear.
-      for (const std::size_t s : {4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u}) set(s, 0.0);
+      // The recording lacks heading and extent: their valid bits stay clear. Its positions are the object's.
+      for (const std::size_t s : {4u, 5u, 6u, 7u, 8u, 9u, 10u}) set(s, 0.0);
+      set(11, kValidCorner);
     }
   }
 }

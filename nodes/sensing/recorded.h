@@ -6,17 +6,20 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/strict_yaml.h"
 #include "nodes/host/step.h"
+#include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/scene.h"
 #include "recording/rows/laser_radar_file.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::nodes::sensing {
 
-// Standard deviations of the recorded sensors. The defaults are those of the laser and the radar of the public
+// Standard deviations of a recorded sensor. The defaults are those of the laser and the radar of the public
 // recording that the loader knows.
 struct RecordedNoise {
   double position_m = 0.15;
@@ -24,7 +27,23 @@ struct RecordedNoise {
   double bearing_rad = 0.03;
   double range_rate_mps = 0.3;
 };
-RecordedNoise load_recorded_noise(YamlMap& yaml);
+
+//   recorded:
+//     position: 0.15                                # of every sensor
+//     sensors: {front_laser: {position: 0.1}}       # other keys as above
+struct RecordedNoises {
+  struct OfSensor {
+    std::string sensor;
+    RecordedNoise noise;
+    int line = 0;
+  };
+  RecordedNoise usual;
+  std::vector<OfSensor> own;
+
+  const RecordedNoise& of(std::string_view sensor) const;
+};
+// Reads the keys `position`, `range`, `bearing`, `range_rate` and `sensors`.
+RecordedNoises load_recorded_noises(YamlMap& yaml);
 
 // The recording's ground truth as the scene: cubic Hermite interpolation between its rows (position and velocity).
 // Outside its first and last row the truth is unknown: the scene is empty, and measures skip these times.
@@ -43,16 +62,21 @@ class RecordedScene final : public Scene {
 // Port `raw`.
 class RecordedSource final : public host::Step {
  public:
-  // The rows by measurement; without a row the device is silent. Throws InputError if there is no row at all, or if
-  // rows and raw PDU have other signals.
-  using Rows = std::vector<std::optional<recording::rows::RecordedObservation>>;
+  // `start` is the true time of recorded time 0. A measurement plays the row of its own instant, the one nearest to it
+  // within half a period: also after a restart, or after triggers that did not come. Without a row the device is silent.
+  // Throws InputError if there is no row at all, or if rows and raw PDU have other signals.
   RecordedSource(const schedules::model::Cluster& cluster, const schedules::model::Task& task, SensorId sensor,
-                 Rows rows);
+                 PlayedRows rows, TrueTime start);
   void run(host::StepContext& context) override;
 
  private:
+  const recording::rows::RecordedObservation* row_at(TrueTime now);
+
   SensorId sensor_;
-  Rows rows_;
+  PlayedRows rows_;
+  TrueTime start_;
+  Duration period_;
+  std::optional<std::size_t> last_;  // the measurement that was played last
   std::vector<std::size_t> signals_;
 };
 

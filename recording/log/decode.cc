@@ -54,6 +54,12 @@ class Reading {
     must(in.size() == n);
     return std::span<const double, n>(in.size() == n ? in.data() : kNone.data(), n);
   }
+  std::optional<records::BelievedBox> box(const google::protobuf::RepeatedField<double>& in) {
+    if (in.empty()) return std::nullopt;
+    const std::span<const double, 10> all = exactly<10>(in);
+    return records::BelievedBox{
+        {all[0], all[1]}, {all[2], all[3]}, {all[4], all[5]}, {all[6], all[7]}, {all[8], all[9]}};
+  }
   void must(bool holds) { ok_ = ok_ && holds; }
   bool ok() const { return ok_; }
 
@@ -140,8 +146,13 @@ records::FusionInput record_of(const ttfusion::FusionInput& in, Reading& read) {
 }
 
 records::ListFused record_of(const ttfusion::ListFused& in, Reading& read) {
-  return {read.stamp(in.stamp()), in.step(), read.measurement(in.id()), GlobalTime{in.measured()},
-          read.choice(in.disposition(), records::Disposition::kFused, records::Disposition::kDuplicate)};
+  return {read.stamp(in.stamp()),
+          in.step(),
+          read.measurement(in.id()),
+          GlobalTime{in.measured()},
+          read.choice(in.disposition(), records::Disposition::kFused, records::Disposition::kDuplicate),
+          in.innovation_squares(),
+          in.innovation_degrees()};
 }
 
 records::FusionStep record_of(const ttfusion::FusionStep& in, Reading& read) {
@@ -153,7 +164,7 @@ records::TrackState record_of(const ttfusion::Track& in, Reading& read) {
   return {read.stamp(in.stamp()),       in.step(),
           read.id<TrackId>(in.track()), GlobalTime{in.valid_at()},
           read.exactly<6>(in.state()),  read.exactly<36>(in.covariance()),
-          in.predicted_for_image()};
+          in.predicted_for_image(),     read.box(in.box())};
 }
 
 records::ObservationSeen record_of(const ttfusion::Observation& in, Reading& read) {

@@ -151,6 +151,8 @@ LogTimes encode(const records::ListFused& in, ttfusion::ListFused& out) {
   fill(*out.mutable_id(), in.id);
   out.set_measured(in.measured.ns);
   out.set_disposition(number(in.disposition));
+  out.set_innovation_squares(in.innovation_squares);
+  out.set_innovation_degrees(in.innovation_degrees);
   return times_of(in.stamp);
 }
 
@@ -172,6 +174,14 @@ LogTimes encode(const records::TrackState& in, ttfusion::Track& out) {
   for (const double value : in.state) out.add_state(value);
   for (const double value : in.covariance) out.add_covariance(value);
   out.set_predicted_for_image(in.predicted_for_image);
+  out.clear_box();
+  if (in.box) {
+    const records::BelievedBox& box = *in.box;
+    for (const records::Believed* one : {&box.heading, &box.speed, &box.acceleration, &box.length, &box.width}) {
+      out.add_box(one->value);
+      out.add_box(one->sigma);
+    }
+  }
   return times_of(in.stamp);
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <tuple>
@@ -249,7 +250,9 @@ struct FusionInput {
   std::span<const std::byte> fragments;  // fragment payloads one after the other
 };
 
-// The fate of one list at the strategy.
+// The fate of one list at the strategy. A fused list has the innovations of the observations that confirmed tracks took, in
+// their gates: the sum of the squares nu' S^-1 nu, and that of their degrees of freedom. They are those at its own place
+// among the lists so far. Later lists that are taken in again after it do not count again.
 enum class Disposition : std::uint8_t { kFused = 1, kFusedLate = 2, kHeld = 3, kDroppedTooOld = 4, kDuplicate = 5 };
 struct ListFused {
   Stamp stamp;
@@ -257,6 +260,8 @@ struct ListFused {
   MeasurementId id;
   GlobalTime measured{};
   Disposition disposition = Disposition::kFused;
+  double innovation_squares = 0.0;
+  std::uint32_t innovation_degrees = 0;
 };
 
 // One activation of the fusion task.
@@ -265,6 +270,17 @@ struct FusionStep {
   std::uint32_t step = 0;  // the numbered fusion instants of the diagrams
   std::uint16_t confirmed = 0;
   std::uint16_t tentative = 0;
+};
+
+// A quantity beside a track's state, as the track believes it.
+struct Believed {
+  double value = 0.0, sigma = 0.0;
+};
+// The quantities of an image's object that are not in the state: heading [rad], speed [m/s] and acceleration [m/s^2] along
+// it, length and width [m]. The bus rounds them, and their sigmas by more. A sigma of 0 says that the motion model has no
+// such quantity, as constant velocity has no acceleration.
+struct BelievedBox {
+  Believed heading, speed, acceleration, length, width;
 };
 
 // State of a confirmed track at `valid_at`: x, y, vx, vy, ax, ay (the last two are zero for constant-velocity
@@ -277,6 +293,7 @@ struct TrackState {
   std::span<const double, 6> state;
   std::span<const double, 36> covariance;
   bool predicted_for_image = false;  // the prediction for the image, not the filter's state
+  std::optional<BelievedBox> box{};  // a prediction for the image has it, except in old logs
 };
 
 // One observation after preprocessing or as recorded, for plots: its position and covariance.
@@ -336,7 +353,9 @@ struct ReferenceFix {  // DGPS on the tracked car, transformed with the (erroneo
   LocalTime measured_local{};                 // on the receiver's own clock, which shows GPS time
 };
 
-// The true state of an object when a node measured or used an image; that instant on the node's clocks, too.
+// The true state of an object when a node measured or used an image; that instant on the node's clocks, too. The
+// acceleration is without white noise, which has no value at an instant (sim/world/world.h). In logs of before 2026-11-24 it
+// contains the noise of its 10 ms.
 struct TruthState {
   TrueTime at{};
   ObjectId object{};

@@ -110,8 +110,6 @@ constexpr std::array<Column, 6> kTruthColumns{{{"gt_x", -kFar, kFar, "m"},
                                                {"gt_vy", -kFast, kFast, "m/s"},
                                                {"gt_yaw", -kTurns, kTurns, "rad"},
                                                {"gt_yawrate", -kTurns, kTurns, "rad/s"}}};
-constexpr std::array<Column, 3> kScanColumns{
-    {{"azimuth_rad", -kTurns, kTurns, "rad"}, {"range_m", 0, kFar, "m"}, {"intensity", 0, 1e9, ""}}};
 
 constexpr std::int64_t kLatest_us = 4'000'000'000'000'000;  // its nanoseconds fit the type
 
@@ -212,40 +210,10 @@ RecordedInput parse_laser_radar(const std::string& text, const std::string& name
   return input;
 }
 
-std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::string& name) {
-  Findings findings;
-  Rows rows(name, findings);
-  std::vector<RecordedScan> scans;
-  bool header_possible = true;
-  for_each_line(text, [&](int line, std::string_view raw) {
-    if (trim(raw).empty() || trim(raw).front() == '#') return;
-    rows.at_line(line);
-    const std::vector<std::string_view> fields = split(raw, ',');
-    if (std::exchange(header_possible, false) && fields[0] == "frame") return;
-    if (fields.size() != 4)
-      return rows.fail("columns", std::to_string(fields.size()),
-                       "must be 4 columns, separated by commas: frame, azimuth_rad, range_m, intensity");
-    const std::optional<std::int64_t> frame = rows.whole("frame", fields[0], "");
-    std::array<double, 3> values{};
-    if (!frame || !rows.numbers(std::span<const std::string_view>(fields).subspan(1), kScanColumns, values)) return;
-    if (scans.empty() || scans.back().frame != *frame) {
-      if (!scans.empty() && *frame < scans.back().frame)
-        return rows.fail("frame", fields[0], fmt::format("must not be before the row above, {}", scans.back().frame));
-      scans.emplace_back().frame = *frame;
-    }
-    scans.back().returns.push_back({values[0], values[1], values[2]});
-  });
-  if (findings.empty() && scans.empty())
-    findings.add({name, 0, "", "", "holds no rows; expected frame, azimuth_rad, range_m, intensity"});
-  findings.throw_if_any();
-  return scans;
-}
-
 RecordedInput read_laser_radar(const std::string& path) { return parse_laser_radar(read_file(path), path); }
 RecordedInput read_laser_radar(const std::string& path, Findings& findings) {
   return parse_laser_radar(read_file(path), path, findings);
 }
-std::vector<RecordedScan> read_lidar_scans(const std::string& path) { return parse_lidar_scans(read_file(path), path); }
 
 RecordingFormat sniff_recording(const std::string& path) {
   return sniff_recording(read_file(path, kRecordingHead), path);

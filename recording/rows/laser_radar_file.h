@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "recording/rows/scan_file.h"
 
 namespace ttf::recording::rows {
 
@@ -51,20 +52,6 @@ RecordedInput read_laser_radar(const std::string& path);
 RecordedInput read_laser_radar(const std::string& path, Findings& findings);
 RecordedInput parse_laser_radar(const std::string& text, const std::string& name);
 RecordedInput parse_laser_radar(const std::string& text, const std::string& name, Findings& findings);
-
-// One turn of a laser scanner: returns in order of the file, azimuth 0 ahead, positive left.
-struct RecordedReturn {
-  double azimuth_rad = 0, range_m = 0, intensity = 0;
-};
-struct RecordedScan {
-  std::int64_t frame = 0;
-  std::vector<RecordedReturn> returns;
-};
-
-// Reads comma-separated rows "frame, azimuth_rad, range_m, intensity", with or without a header line; frames
-// never decrease.
-std::vector<RecordedScan> read_lidar_scans(const std::string& path);
-std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::string& name);
 
 // Returns the format of a file. Its first kRecordingHead bytes decide, so they must have the first row or heading.
 // Throws InputError if the format is unknown.

@@ -46,6 +46,10 @@ enum NumberIndex : std::size_t {
   kZ,
   kHeight,
   kScore,
+  kTruthX,
+  kTruthY,
+  kTruthVx,
+  kTruthVy,
   kNumbers
 };
 constexpr std::array<NumberColumn, kNumbers> kNumberColumns{{
@@ -69,9 +73,13 @@ constexpr std::array<NumberColumn, kNumbers> kNumberColumns{{
     {"z", -kAway, kAway, " m"},
     {"height", 0, kSide, " m"},
     {"score", 0, 1e6, ""},
+    {"gt_x", -kAway, kAway, " m"},
+    {"gt_y", -kAway, kAway, " m"},
+    {"gt_vx", -1e4, 1e4, " m/s"},
+    {"gt_vy", -1e4, 1e4, " m/s"},
 }};
-enum TextIndex : std::size_t { kTime, kArrival, kSensor, kClass, kTexts };
-constexpr std::array<std::string_view, kTexts> kTextColumns{"time", "arrival", "sensor", "class"};
+enum TextIndex : std::size_t { kTime, kArrival, kSensor, kClass, kTruthObject, kTexts };
+constexpr std::array<std::string_view, kTexts> kTextColumns{"time", "arrival", "sensor", "class", "gt_object"};
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000, kLatest = 4'000'000'000 * kNsPerSecond,
                        kLongestWay = 3600 * kNsPerSecond;
@@ -113,6 +121,11 @@ Heading heading_of(const CsvLines& lines, const std::string& name) {
   if (!(heading.number[kX] && heading.number[kY]) && !(heading.number[kRange] && heading.number[kBearing]))
     missing("x", "columns x and y, or range and bearing, must be there");
   findings.throw_if_any();
+  // Without a true position, columns of truth say nothing.
+  if (!heading.number[kTruthX] || !heading.number[kTruthY]) {
+    for (const NumberIndex column : {kTruthX, kTruthY, kTruthVx, kTruthVy}) heading.number[column].reset();
+    heading.text[kTruthObject].reset();
+  }
   return heading;
 }
 
@@ -149,7 +162,7 @@ class RowReader {
       fail("line", fields_->back(), std::string(lines.broken()));
     } else if (fields_->size() != heading_.columns) {
       fail("columns", std::to_string(fields_->size()), fmt::format("must be {}, as in the heading", heading_.columns));
-    } else if (numbers() && measurement() && covariance() && names() && times()) {
+    } else if (numbers() && measurement() && covariance() && names() && truth() && times()) {
       rest();
       return row_;
     }
@@ -246,6 +259,17 @@ class RowReader {
     return true;
   }
 
+  bool truth() {
+    if (!both(kTruthX, kTruthY) || !both(kTruthVx, kTruthVy)) return false;
+    if (!value_[kTruthX]) return absent(kTruthVx, "where gt_x and gt_y are not given");
+    if (!text(kTruthObject).empty() && !is_name(text(kTruthObject)))
+      return fail("gt_object", text(kTruthObject),
+                  fmt::format("must be a name of 1..{} printable ASCII characters", kLongestName));
+    row_.truth = {std::string(text(kTruthObject)), *value_[kTruthX], *value_[kTruthY], std::nullopt};
+    if (value_[kTruthVx]) row_.truth->velocity = {*value_[kTruthVx], *value_[kTruthVy]};
+    return true;
+  }
+
   bool times() {
     const std::optional<std::int64_t> time = nanoseconds_of(text(kTime));
     if (!time) return fail("time", text(kTime), "must be a number in -4e+09..4e+09 s");
@@ -330,7 +354,8 @@ std::vector<ObservationRow> read_observation_rows(const std::string& path, Findi
 std::vector<ObservationRow> observation_rows_of(const RecordedInput& input, const std::string& name) {
   constexpr std::int64_t kLatestUs = kLatest / 1000;
   std::vector<ObservationRow> rows;
-  for (const RecordedObservation& seen : input.observations) {
+  for (std::size_t i = 0; i < input.observations.size(); ++i) {
+    const RecordedObservation& seen = input.observations[i];
     const std::int64_t at = input.first_time_us + seen.time_us_from_start;
     if (at > kLatestUs)
       throw InputError({name, seen.line, "t_us", std::to_string(at), fmt::format("must be at most {} us", kLatestUs)});
@@ -338,6 +363,10 @@ std::vector<ObservationRow> observation_rows_of(const RecordedInput& input, cons
     row.line = seen.line;
     row.time_ns = row.arrival_ns = at * 1000;
     row.sensor = seen.sensor;
+    if (i < input.truth.size()) {
+      const RecordedTruth& truth = input.truth[i];
+      row.truth = {"", truth.x, truth.y, std::array{truth.vx, truth.vy}};
+    }
     if (seen.kind == RecordedObservation::Kind::kPosition) {
       row.z = {seen.x, seen.y, 0.0};
     } else {

@@ -15,9 +15,12 @@
 //   length, sigma_length, width, sigma_width       [m]
 //   z, height                    of the box: its centre's, and its third side [m]
 //   class, score                 class of the object, and the weight of that (default 1)
+//   gt_x, gt_y                   true position of the object at the instant of the measurement [m]; both columns or none
+//   gt_vx, gt_vy                 its true velocity [m/s]
+//   gt_object                    its name (default: one object without a name)
 //
-// * in every row, with one of the two kinds of measurement. Columns that begin with gt_ (truth) are ignored;
-//   other unknown columns are refused. Rows of one sensor at one time are one list. Rows may have any order. A
+// * in every row, with one of the two kinds of measurement. Other columns that begin with gt_ are ignored; other
+//   unknown columns are refused. Rows of one sensor at one time are one list. Rows may have any order. A
 //   single stamp that leaps is a finding (recording/rows/leaping_stamps.h).
 //
 // The whole file is read: rows in any order have no other bound.
@@ -34,6 +37,13 @@
 
 namespace ttf::recording::rows {
 
+// The true state of the object that a row is of.
+struct RowTruth {
+  std::string object;
+  double x = 0.0, y = 0.0;
+  std::optional<std::array<double, 2>> velocity;
+};
+
 struct ObservationRow {
   enum class Kind : std::uint8_t { kPosition = 1, kRangeBearing = 2, kRangeBearingRate = 3 };
   int line = 0;  // in the file; 0 if the row is not from a file
@@ -46,6 +56,7 @@ struct ObservationRow {
   std::optional<double> elevation, height;
   std::string class_name;  // empty: not given
   double score = 1.0;
+  std::optional<RowTruth> truth;
 };
 
 constexpr int dimension_of(ObservationRow::Kind kind) {
@@ -58,7 +69,7 @@ std::vector<ObservationRow> read_observation_rows(const std::string& path, Findi
 std::vector<ObservationRow> parse_observation_rows(const std::string& text, const std::string& name,
                                                    Findings& findings);
 
-// Converts a recording of laser and radar into such rows, without its truth. Throws InputError that names
+// Converts a recording of laser and radar into such rows, with its truth. Throws InputError that names
 // `name` if a time or a range is out of bounds for such rows.
 std::vector<ObservationRow> observation_rows_of(const RecordedInput& input, const std::string& name);
 

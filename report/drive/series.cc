@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
+#include "fusion/metrics/object_pairs.h"
 #include "report/drawing/log_limits.h"
 
 namespace ttf::report::drive {
@@ -80,28 +80,18 @@ void DriveSeriesSink::on(const recording::records::TruthState& r) {
 
 void DriveSeriesSink::judge(const Use& use) {
   if (truth_.empty() || truth_at_ != use.at) return;
-  struct Pair {
-    double distance;
-    std::size_t truth, object;
-  };
-  std::vector<Pair> near;
-  for (std::size_t t = 0; t < truth_.size(); ++t)
-    for (std::size_t o = 0; o < use.objects.size(); ++o)
-      if (const double d = std::hypot(use.objects[o].x - truth_[t].x, use.objects[o].y - truth_[t].y); d <= gate_m_)
-        near.push_back({d, t, o});
-  std::ranges::sort(near, {}, [](const Pair& p) { return std::tuple(p.distance, p.truth, p.object); });
-  std::vector<bool> truth_taken(truth_.size()), object_taken(use.objects.size());
+  const std::vector<fusion::metrics::Point> truths(truth_.begin(), truth_.end()),
+      objects(use.objects.begin(), use.objects.end());
   double position = 0.0, velocity = 0.0;
-  std::uint64_t pairs = 0;
-  for (const Pair& pair : near) {
-    if (truth_taken[pair.truth] || object_taken[pair.object]) continue;
-    truth_taken[pair.truth] = object_taken[pair.object] = true;
-    const double vx = use.objects[pair.object].vx - truth_[pair.truth].vx;
-    const double vy = use.objects[pair.object].vy - truth_[pair.truth].vy;
-    position += pair.distance * pair.distance;
+  const std::vector<fusion::metrics::ObjectPair> matched = fusion::metrics::object_pairs(truths, objects, gate_m_);
+  for (const fusion::metrics::ObjectPair& pair : matched) {
+    const State &truth = truth_[pair.truth], &object = use.objects[pair.estimate];
+    const double distance = fusion::metrics::distance_m(truth, object), vx = object.vx - truth.vx,
+                 vy = object.vy - truth.vy;
+    position += distance * distance;
     velocity += vx * vx + vy * vy;
-    ++pairs;
   }
+  const std::uint64_t pairs = matched.size();
   series_.matched += pairs;
   series_.missed += truth_.size() - pairs;
   series_.spurious += use.objects.size() - pairs;

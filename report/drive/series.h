@@ -2,7 +2,7 @@
 // image, ages of measurements, precision, corrections, problems and faults.
 //
 // The class is a sink. It pairs objects as evaluation/accuracy/drive_measures.h does: an image's and true
-// objects within the gate, the closest pair first.
+// objects within the gate, at least cost.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/metrics/point.h"
 #include "recording/records/records.h"
 
 namespace ttf::report::drive {
@@ -64,6 +65,7 @@ class DriveSeriesSink final : public recording::records::Sink {
  private:
   struct State {
     double x, y, vx, vy;
+    operator fusion::metrics::Point() const { return {x, y}; }
   };
   struct Fused {
     MeasurementId id;

@@ -26,20 +26,36 @@ struct MeasureRow {
   const char* pointer;
   int decimals;
   double factor = 1.0;
-  bool rare = false;  // omitted if it is 0 in every drive
+  bool rare = false;      // omitted if it is 0 in every drive
+  bool repeated = false;  // has an interval over repeated drives
 };
 
 constexpr MeasureRow kMeasureRows[] = {
-    {"position error against truth [m]", "/rmse_truth/position_m", 3},
-    {"velocity error against truth [m/s]", "/rmse_truth/velocity_mps", 3},
-    {"position error against DGPS [m]", "/rmse_reference/position_m", 3},
-    {"velocity error against DGPS [m/s]", "/rmse_reference/velocity_mps", 3},
-    {"NEES (4 for a consistent filter)", "/nees/mean", 2},
+    {"position error against truth [m]", "/rmse_truth/position_m", 3, 1.0, false, true},
+    {"velocity error against truth [m/s]", "/rmse_truth/velocity_mps", 3, 1.0, false, true},
+    {"error of the visible face [m]", "/rmse_box/face_m", 3, 1.0, false, true},
+    {"  of the gap to it [m]", "/rmse_box/gap_m", 3},
+    {"  of the heading [rad]", "/rmse_box/heading_rad", 3},
+    {"  of the speed [m/s]", "/rmse_box/speed_mps", 3},
+    {"  of the acceleration [m/s^2]", "/rmse_box/acceleration_mps2", 3},
+    {"  of the length [m]", "/rmse_box/length_m", 3},
+    {"  of the width [m]", "/rmse_box/width_m", 3},
+    {"position error against DGPS [m]", "/rmse_reference/position_m", 3, 1.0, false, true},
+    {"velocity error against DGPS [m/s]", "/rmse_reference/velocity_mps", 3, 1.0, false, true},
+    {"NEES (4 for a consistent filter)", "/nees/mean", 2, 1.0, false, true},
     {"  95 % band from", "/nees/band_95/0", 2},
     {"  to", "/nees/band_95/1", 2},
-    {"age when fused, mean [ms]", "/age_when_fused/mean_ms", 1},
+    {"  of the position, over its degrees", "/nees/per_degree/position", 2},
+    {"  of the velocity", "/nees/per_degree/velocity", 2},
+    {"  of the heading", "/nees/per_degree/heading", 2},
+    {"  of the speed", "/nees/per_degree/speed", 2},
+    {"  of the acceleration", "/nees/per_degree/acceleration", 2},
+    {"  of the length", "/nees/per_degree/length", 2},
+    {"  of the width", "/nees/per_degree/width", 2},
+    {"NIS (1 for consistent predictions)", "/nis/per_degree", 2, 1.0, false, true},
+    {"age when fused, mean [ms]", "/age_when_fused/mean_ms", 1, 1.0, false, true},
     {"  worst [ms]", "/age_when_fused/worst_ms", 1},
-    {"age when used, mean [ms]", "/age_when_used/mean_ms", 1},
+    {"age when used, mean [ms]", "/age_when_used/mean_ms", 1, 1.0, false, true},
     {"  worst [ms]", "/age_when_used/worst_ms", 1},
     {"observation lists received", "/observations/received", 0},
     {"  out of sequence", "/observations/out_of_sequence", 0},
@@ -52,6 +68,21 @@ constexpr MeasureRow kMeasureRows[] = {
     {"objects compared", "/objects/compared", 0},
     {"  missed", "/objects/missed", 0},
     {"  spurious", "/objects/spurious", 0},
+    {"GOSPA [m]", "/gospa/distance_m", 3, 1.0, false, true},
+    {"  its part from pairs [m^p]", "/gospa/localisation", 3},
+    {"  from missed objects [m^p]", "/gospa/missed", 3},
+    {"  from false ones [m^p]", "/gospa/false", 3},
+    {"OSPA [m]", "/ospa/distance_m", 3},
+    {"cut-off of both, c [m]", "/gospa/cut_off_m", 1},
+    {"  their order, p", "/gospa/order", 1},
+    {"MOTA [%]", "/clear_mot/mota", 1, 100.0, false, true},
+    {"MOTP [m]", "/clear_mot/motp_m", 3},
+    {"switches of track", "/clear_mot/switches", 0},
+    {"objects mostly tracked", "/track_life/mostly_tracked", 0},
+    {"  partly tracked", "/track_life/partly_tracked", 0},
+    {"  mostly lost", "/track_life/mostly_lost", 0},
+    {"life tracked, mean [%]", "/track_life/mean_fraction_tracked", 1, 100.0},
+    {"tracks broken and resumed", "/track_life/fragmentations", 0},
     {"precision of the time base [us]", "/precision_us", 3},
     {"slot problems", "/slot_problems", 0},
     {"deadlines missed", "/deadlines_missed", 0},
@@ -59,9 +90,6 @@ constexpr MeasureRow kMeasureRows[] = {
     {"CAN frames refused", "/refused_can_frames", 0, 1.0, true},
     {"FlexRay load per channel [%]", "/flexray_load", 1, 100.0},
 };
-// Measures with intervals over repeated drives.
-constexpr std::size_t kRepeatedRows[] = {0, 1, 2, 3, 4, 7, 9};
-
 // Counts that are 0 in a sound drive.
 constexpr std::pair<const char*, const char*> kTroubles[] = {{"/deadlines_missed", "missed deadline"},
                                                              {"/observations/lost", "lost observation list"},
@@ -232,13 +260,16 @@ std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drive
     for (const std::string& strategy : one.strategies) table.header.push_back(strategy);
     for (std::size_t s = 1; s < one.strategies.size(); ++s)
       table.header.push_back(fmt::format("{} − {}", one.strategies[s], one.strategies[0]));
-    for (const std::size_t index : kRepeatedRows) {
-      const MeasureRow& row = kMeasureRows[index];
+    for (const MeasureRow& row : kMeasureRows) {
+      if (!row.repeated) continue;
       std::vector<std::string> cells{row.name};
+      bool any = false;
       for (std::size_t s = 0; s < one.strategies.size(); ++s) {
         const experiments::results::Interval mean = interval(one, row.pointer, s, std::nullopt);
         cells.push_back(drawing::with_interval(mean.mean, mean.half_width));
+        any = any || std::isfinite(mean.mean);
       }
+      if (!any) continue;
       for (std::size_t s = 1; s < one.strategies.size(); ++s) {
         const experiments::results::Interval difference = interval(one, row.pointer, s, 0);
         cells.push_back(fmt::format("{} {}", drawing::with_interval(difference.mean, difference.half_width, true),

@@ -1,5 +1,8 @@
 #include "report/plots/boxes_picture.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -22,13 +25,17 @@ bool finite(drawing::Point p) { return std::isfinite(p.x) && std::isfinite(p.y);
 
 }  // namespace
 
-std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Box> boxes, std::string_view title) {
+std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Box> boxes, std::string_view title,
+                      std::string_view words) {
   if (points.empty() && boxes.empty())
     return drawing::empty_picture(title, "There are no points and no boxes to show.");
   drawing::Extent x, y;
   for (const drawing::Point& p : points) x.add(p.x), y.add(p.y);
-  for (const Box& b : boxes)
+  for (const Box& b : boxes) {
+    x.add(b.x), y.add(b.y);
+    if (!b.has_heading) continue;
     for (const drawing::Point& p : corners(b)) x.add(p.x), y.add(p.y);
+  }
   x = x.padded(0.04, 4);
   y = y.padded(0.06, 4);
   // Both axes share one scale: the wider extent fills its side of at most 1100 x 760.
@@ -37,10 +44,18 @@ std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Bo
   x = x.padded(0, width / scale);
   y = y.padded(0, height / scale);
 
-  const std::vector<drawing::LegendEntry> legend{
+  const auto any = [&](auto is) { return std::any_of(boxes.begin(), boxes.end(), is); };
+  std::vector<drawing::LegendEntry> legend{
       {drawing::LegendEntry::Kind::kMarker, "scan point", std::string(drawing::kBlue), drawing::Marker::kCircle, true},
-      {drawing::LegendEntry::Kind::kBox, "fitted box, arrow along its heading", std::string(drawing::kVermilion)},
+      {drawing::LegendEntry::Kind::kBox, fmt::format("{}, arrow along its heading", words),
+       std::string(drawing::kVermilion)},
       {drawing::LegendEntry::Kind::kMarker, "sensor", std::string(drawing::kBlack), drawing::Marker::kTriangle, true}};
+  if (any([](const Box& b) { return !b.has_heading; }))
+    legend.push_back({drawing::LegendEntry::Kind::kMarker, "its heading is not known", std::string(drawing::kVermilion),
+                      drawing::Marker::kDiamond, true});
+  if (any([](const Box& b) { return b.has_heading && !b.has_size; }))
+    legend.push_back(
+        {drawing::LegendEntry::Kind::kBox, "dashed: the size is not measured", std::string(drawing::kVermilion)});
   const double top = 34 + legend_height(legend, width) + 8;
   drawing::Svg svg(width + 90, top + height + 62, title);
   svg.text({70 + width / 2, 22}, title, {.size = 14, .anchor = drawing::Anchor::kMiddle, .bold = true});
@@ -58,11 +73,18 @@ std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Bo
   for (const Box& b : boxes) {
     std::vector<drawing::Point> outline;
     for (const drawing::Point& p : corners(b)) outline.push_back(frame.at(p.x, p.y));
-    svg.polyline(outline, {.stroke = drawing::kVermilion, .width = 1.4}, true, b.label, "box");
     const drawing::Point centre = frame.at(b.x, b.y);
-    const double reach = std::max(b.length / 2, 9.0 / scale);
-    svg.arrow(centre, frame.at(b.x + std::cos(b.heading) * reach, b.y + std::sin(b.heading) * reach),
-              {.stroke = drawing::kVermilion, .width = 1.0}, {}, "heading");
+    if (b.has_heading) {
+      const drawing::Paint paint{
+          .stroke = drawing::kVermilion, .width = 1.4, .dash = b.has_size ? std::string_view() : "4 3"};
+      svg.polyline(outline, paint, true, b.label, "box");
+      const double reach = std::max(b.length / 2, 9.0 / scale);
+      svg.arrow(centre, frame.at(b.x + std::cos(b.heading) * reach, b.y + std::sin(b.heading) * reach),
+                {.stroke = drawing::kVermilion, .width = 1.0}, {}, "heading");
+    } else {
+      outline.assign({centre});
+      svg.marker(drawing::Marker::kDiamond, centre, 9, {.fill = drawing::kVermilion}, b.label, "place");
+    }
     if (b.label.empty()) continue;
     double above = centre.y, below = centre.y, right = centre.x;
     for (const drawing::Point& p : outline)

@@ -197,6 +197,8 @@ std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
 }
 
 std::string ages_text(const model::Cluster& cluster) {
+  const std::vector<AgePath> paths = measurement_ages(cluster);
+  if (paths.empty()) return "";
   std::string text = fmt::format("{:<52}{:>10}{:>10}\n", "age of a measurement [ms]", "best", "worst");
   const auto row = [&](const std::string& name, Duration best, Duration worst) {
     text += fmt::format("{:<52}{:>10.3f}{:>10.3f}\n", name, in_ms(best), in_ms(worst));
@@ -204,7 +206,7 @@ std::string ages_text(const model::Cluster& cluster) {
   const auto bound = [&](const std::string& name, Duration worst) {
     text += fmt::format("{:<52}{:>10}{:>10.3f}\n", name, "", in_ms(worst));
   };
-  for (const AgePath& path : measurement_ages(cluster)) {
+  for (const AgePath& path : paths) {
     text += fmt::format("{}\n", cluster.sensor(path.sensor).name);
     for (const Contribution& part : path.reaches_use ? path.to_use : path.to_fusion)
       row("    " + part.name, part.best, part.worst);

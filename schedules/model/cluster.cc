@@ -64,6 +64,13 @@ bool is_on_can(const Node& node, std::size_t can_bus) {
   });
 }
 
+std::vector<NodeId> nodes_on_can(const Cluster& cluster, std::size_t can_bus) {
+  std::vector<NodeId> nodes;
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
+    if (is_on_can(cluster.nodes[n], can_bus)) nodes.push_back(static_cast<NodeId>(n));
+  return nodes;
+}
+
 GlobalTime time_of(const GlobalParameters& flexray, std::int64_t cycle, Macroticks offset) {
   const Int128 ps =
       static_cast<Int128>(cycle) * flexray.cycle_ps() + static_cast<Int128>(offset.value) * flexray.gdMacrotick_ps;

@@ -178,7 +178,8 @@ struct Sensor {
   Duration longest{};  // following: longest time between two measurements, on the device's own clock
   int line = 0;
   // Free, in a drive that plays a recording: the instants of all measurements in place of phase and period, on the device's
-  // clock from the start of the first cycle; never nearer to each other than the period. No file has them.
+  // clock from the start of the first cycle; never nearer to each other than the period. A device that restarts goes on
+  // with the next one. No file has them.
   std::vector<Duration> instants;
 
   bool follows() const { return !after.empty(); }
@@ -234,6 +235,7 @@ struct Cluster {
 
 // Returns whether a task of the node reads or writes on this CAN.
 bool is_on_can(const Node& node, std::size_t can_bus);
+std::vector<NodeId> nodes_on_can(const Cluster& cluster, std::size_t can_bus);  // in the order of ids
 
 // Returns the global time of an instant in the n-th cycle since the start (n counts on beyond gCycleCountMax).
 GlobalTime time_of(const GlobalParameters& flexray, std::int64_t cycle, Macroticks offset);

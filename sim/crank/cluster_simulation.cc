@@ -10,7 +10,14 @@
 namespace ttf::sim::crank {
 namespace {
 
-constexpr std::size_t kPendingEvents = 4096;  // on the private CANs, beside observations and strobes
+// The most frames and events beside FlexRay's. No node looks further ahead than to two observations of its clock, and no
+// sensor than to a trigger and a strobe.
+std::size_t most_pending(const schedules::model::Cluster& cluster) {
+  std::size_t pending = 2 * (cluster.nodes.size() + cluster.sensors.size());
+  for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
+    pending += medium::CanMedium::most_pending(cluster, b, schedules::model::nodes_on_can(cluster, b));
+  return pending;
+}
 
 std::uint8_t signal_of(bus::ports::Signal signal) {
   switch (signal) {
@@ -118,7 +125,7 @@ struct ClusterSimulation::CanLog final : recording::records::Sink {
 };
 
 ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::records::Sink& sink)
-    : CrankOf(*config.cluster, kPendingEvents), config_(config), others_(config.others), sink_(sink),
+    : CrankOf(*config.cluster, most_pending(*config.cluster)), config_(config), others_(config.others), sink_(sink),
       can_ports_(cluster_.nodes.size(), std::vector<bus::ports::CanPort*>(cluster_.can_buses.size())),
       can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size(), cluster_.nodes.size())),
       watches_(cluster_.nodes.size()), no_spread_(cluster_) {
@@ -127,11 +134,8 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::
   else
     medium_.set_transparent(true);
   for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b) {
-    std::vector<NodeId> members;
-    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
-      if (is_on_can(cluster_.nodes[n], b)) members.push_back(static_cast<NodeId>(n));
-    cans_.push_back(std::make_unique<medium::CanMedium>(cluster_, b, members, queue_, pool_, *can_log_, config_.seed,
-                                                        config_.replication));
+    cans_.push_back(std::make_unique<medium::CanMedium>(cluster_, b, schedules::model::nodes_on_can(cluster_, b),
+                                                        queue_, pool_, *can_log_, config_.seed, config_.replication));
     cans_.back()->set_bit_by_bit(config_.cans_bit_by_bit);
   }
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
@@ -146,6 +150,7 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::
     const std::optional<TrueTime> power_on = config_.power_on ? config_.power_on(id) : std::nullopt;
     const timebase::Oscillator crystal = nodes::host::drawn_oscillator(node, n, config.seed, config.replication);
     seat(crystal, power_on);
+    first_cycle_.push_back(crystal.ticks_at(kFirstCycle));
     if (power_on) {
       for (auto& can : cans_) can->power_off(id, TrueTime{});
       continue;
@@ -155,7 +160,7 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, recording::
       make_node(n,
                 node.flexray ? std::optional(nodes::host::integrated_clock(crystal, cluster_, node, kFirstCycle))
                              : std::nullopt,
-                crystal.ticks_at(kFirstCycle), {});
+                first_cycle_[n], {});
     refresh(n);
   }
   make_guardians();
@@ -191,7 +196,9 @@ void ClusterSimulation::make_node(std::size_t node, std::optional<bus::controlle
                                                config_.replication,
                                                power_on,
                                                cold.how,
-                                               cold.after};
+                                               cold.after,
+                                               nullptr,
+                                               first_cycle_[node]};
   nodes_[node] =
       std::make_unique<nodes::host::Executive>(executive, config_.make_steps(id), flexray_taps_[node].get(),
                                                can_ports_[node], static_cast<nodes::host::SensorLines&>(*this), sink_);
@@ -199,10 +206,13 @@ void ClusterSimulation::make_node(std::size_t node, std::optional<bus::controlle
 }
 
 void ClusterSimulation::start(std::size_t node, Microticks now) {
-  const auto id = static_cast<NodeId>(node);
-  for (auto& can : cans_) can->power_on(id, this->now());
   if (others_ != nullptr) others_->outlook(node).begins(now);
-  if (!is_here(node)) return;
+  if (is_here(node)) start_here(node, now);
+  for (auto& can : cans_) can->power_on(static_cast<NodeId>(node), this->now());
+}
+
+void ClusterSimulation::start_here(std::size_t node, Microticks now) {
+  const auto id = static_cast<NodeId>(node);
   // At a later power-on the other nodes are awake.
   const bool first = powered_since(node) < TrueTime{};
   const nodes::host::NodeStart cold = first && config_.cold ? config_.cold(id) : nodes::host::NodeStart{};
@@ -267,23 +277,13 @@ const nodes::host::Executive& ClusterSimulation::node(NodeId id) const {
   return *nodes_[index_of(id)];
 }
 
-// Returns whether the nodes of the event have had their supply all the time.
-bool ClusterSimulation::arrives(const medium::MediumEvent& event) const {
-  const bool on_can =
-      event.kind == medium::MediumEvent::Kind::kCanArrival || event.kind == medium::MediumEvent::Kind::kCanSent;
-  if (!is_powered(event.node)) return false;
-  if (!on_can) return true;
-  return is_powered(event.sender) && powered_since(event.sender) <= event.start &&
-         powered_since(event.node) <= event.start;
-}
-
 void ClusterSimulation::happen(const medium::MediumEvent& event) {
   // These three are not at a node.
   if (event.kind == medium::MediumEvent::Kind::kCanArbitration) return cans_[event.channel_or_bus]->arbitrate(now());
   if (event.kind == medium::MediumEvent::Kind::kCanBits) return cans_[event.channel_or_bus]->end_bits(now());
   if (event.kind == medium::MediumEvent::Kind::kObservation) return observe();
   const std::size_t node = event.node;
-  const bool arrives = this->arrives(event);
+  const bool arrives = is_powered(node);
   switch (event.kind) {
     case medium::MediumEvent::Kind::kCanArrival:
       if (arrives && is_here(node))

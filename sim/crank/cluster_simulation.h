@@ -2,8 +2,7 @@
 // this room knows. A drive is a pure function of its configuration (sim/crank/crank.h).
 //
 // A node that loses its supply loses everything: its executive is dropped, and power-on makes a new one with
-// new steps. A CAN frame does not arrive if its sender or receiver lacked supply at any time since the frame
-// began; one that travels as a whole (sim/medium/can_medium.h) still takes the bus until its end.
+// new steps. Its frame on a CAN breaks off there (sim/medium/can_medium.h).
 //
 // With a process for each node (sim/processes/turn_taking.h), only the own node has its executive and its records here.
 #pragma once
@@ -101,6 +100,7 @@ class ClusterSimulation final : public CrankOf<nodes::host::Executive>, private 
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
   bool is_here(std::size_t node) const { return others_ == nullptr || others_->self() == static_cast<NodeId>(node); }
+  void start_here(std::size_t node, Microticks now);
   void take_turn(std::size_t node, Microticks now);
   void act(std::size_t node, const processes::Act& act);
   void transmit(std::size_t node, const bus::ports::Transmission& transmission);
@@ -112,7 +112,6 @@ class ClusterSimulation final : public CrankOf<nodes::host::Executive>, private 
   void make_guardians();
   void make_node(std::size_t node, std::optional<bus::controller::InitialClock> clock, Microticks power_on,
                  const nodes::host::NodeStart& cold);
-  bool arrives(const medium::MediumEvent& event) const;
   void observe();
   void watch_cycle(std::size_t node, const timebase::CycleClock& clock);
   void schedule_observation(std::size_t node, TrueTime at);
@@ -126,7 +125,8 @@ class ClusterSimulation final : public CrankOf<nodes::host::Executive>, private 
   std::vector<std::unique_ptr<CanTap>> can_taps_;
   std::vector<std::vector<bus::ports::CanPort*>> can_ports_;  // by NodeId and CAN, null where the node is not on it
   std::unique_ptr<CanLog> can_log_;
-  std::vector<Watch> watches_;  // by NodeId
+  std::vector<Microticks> first_cycle_;  // its start, by NodeId
+  std::vector<Watch> watches_;           // by NodeId
   const ClockSpread no_spread_;
   nodes::host::ExecutiveCounts gone_;  // counts of executives that are gone
   Duration precision_{};

@@ -83,7 +83,7 @@ class CanBabbling final : public CanFault {
   TrueTime next() const override { return next_; }
   void act(TrueTime now) override {
     medium::CanMedium* const can = medium();
-    if (can != nullptr && can->has(fault().node) && can->waiting(fault().node, fault().identifier) < 2) {
+    if (can != nullptr && can->has(fault().node) && can->waiting(fault().node, fault().identifier, now) < 2) {
       acted("{} sends a frame with identifier {} on {}, outside its schedule", name(fault().node), fault().identifier,
             can_name());
       static constexpr std::array<std::byte, 8> kNothing{};
@@ -135,8 +135,8 @@ class CanBusOff final : public CanState {
  public:
   using CanState::CanState;
 
-  // The medium needs no look at bits for it.
-  bool touches_can(std::size_t, TrueTime) const override { return false; }
+  // Its begin and its end come in the middle of a frame. Between them the medium needs no look at bits.
+  bool touches_can(std::size_t bus, TrueTime until) const override { return bus == fault().can && next() < until; }
 
  private:
   void begins(medium::CanMedium& can, TrueTime now) override {

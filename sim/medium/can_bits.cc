@@ -36,12 +36,23 @@ bool CanMedium::is_free() const {
   return true;
 }
 
+// A host may restart its controller in the middle of a frame, whose bits matter then.
 bool CanMedium::is_clean() const {
   for (std::size_t m = 0; m < line_.size(); ++m) {
     const Phase_ phase = line_[m].phase();
-    if (phase != Phase_::kOff && (phase != Phase_::kIdle || line_[m].confinement() != bus::can::Confinement{}))
+    if (phase == Phase_::kOff) {
+      if (recovery_ == CanRecovery::kByHost && m < members_.size() && members_[m].on) return false;
+    } else if (phase != Phase_::kIdle || line_[m].confinement() != bus::can::Confinement{}) {
       return false;
+    }
   }
+  return true;
+}
+
+// Returns whether recessive bits change nothing.
+bool CanMedium::is_still() const {
+  for (std::size_t m = 0; m < line_.size(); ++m)
+    if (line_[m].phase() != Phase_::kOff && line_[m].phase() != Phase_::kIdle) return false;
   return true;
 }
 
@@ -57,18 +68,20 @@ void CanMedium::begin_bits(TrueTime now) {
 // Begins the plain way, or takes it up again where no bit was looked at for a while: on an idle line, or on one that is
 // held.
 void CanMedium::wake(TrueTime now) {
-  const TrueTime from = std::max(now, idle_from_);
-  if (!bits_) return begin_bits(from);
+  pass_others(now);
   const Duration bit{1'000'000'000 / can().nominal_bit_rate + 1};
-  if (!resting_ && line_.next() <= from + bit) return;
+  if (bits_ && !resting_ && line_.next() <= std::max(now, idle_from_) + bit) return;
+  if (!bits_) begin_bits(now);
   resting_ = false;
   line_.align(now);
+  if (idle_from_ > now) line_.pass_by(idle_from_);
 }
 
 // Every idle controller begins its first frame; of two with one identifier the lower node does.
 void CanMedium::start_frames(TrueTime now) {
   wake(now);
   went_by(now);
+  error_frame_ = false;  // its frame is another's, even if some controllers are in their intermission
   const Pending* first = nullptr;
   std::size_t bits = 0;
   for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -116,20 +129,23 @@ void CanMedium::went_by(TrueTime now) {
 void CanMedium::end_bits(TrueTime now) {
   if (bits_due_ == now) bits_due_ = {};                  // bits of other lengths may end in the same nanosecond
   if (!bits_ || resting_ || line_.next() > now) return;  // the event is out of date
+  pass_others(now - Duration{1});
+  if (line_.next() > now) return go_on(now);  // a frame of theirs goes by
   went_by(now);
-  if (disturbance_ != nullptr) {
-    const bool disturbed = touched(now + Duration{1});
+  const bool disturbed = touched(now + Duration{1});
+  if (disturbed || was_disturbed_)
     for (std::size_t m = 0; m < members_.size(); ++m)
       line_.set_acknowledging(m, !disturbed || disturbance_->acknowledges_on_can(bus_, members_[m].node));
-  }
-  const TrueTime held = this->held(now);
+  was_disturbed_ = disturbed;
+  const TrueTime held = disturbed ? disturbance_->holds_can(bus_) : TrueTime{};
+  const bool others_were_idle = are_others_idle();
   const auto& all = line_.step({held > now, inverted_, &inverted_for_});
   for (std::size_t m = 0; m < members_.size(); ++m) brought(m, all[m], now);
   for (std::size_t m = 0; m < members_.size(); ++m) report_state(m, now);
-  const bool was_free = free_;
+  if (recovery_ != CanRecovery::kAutomatic) stay_off();
   free_ = is_free() && held <= now;
   if (free_) error_frame_ = false;
-  if (free_ && !was_free) idle_from_ = std::max(idle_from_, now);
+  if (are_others_idle() && !others_were_idle) idle_from_ = std::max(idle_from_, now);
   if (held > now && line_.endures_dominance()) {
     resting_ = held == kNever<TrueTime>;
     if (resting_) return;
@@ -167,19 +183,26 @@ void CanMedium::brought(std::size_t member, const bus::can::Protocol::Brought& b
 void CanMedium::leave_bits(TrueTime now) {
   if (!bits_ || bit_by_bit_ || !is_clean() || touched(now + Duration{1})) return;
   bits_ = false;
-  idle_from_ = std::max(idle_from_, now);
+}
+
+// Returns whether a controller may begin a frame. In the middle of one few are idle, and many frames may wait.
+bool CanMedium::offers() const {
+  for (std::size_t m = 0; m < members_.size(); ++m)
+    if (is_idle(m) && members_[m].waiting > 0) return true;
+  return false;
 }
 
 // Schedules what comes next: an arbitration, the next bit, or the fast way.
 void CanMedium::go_on(TrueTime now) {
   leave_bits(now);
-  const bool offers =
-      std::any_of(pending_.begin(), pending_.end(), [&](const Pending& frame) { return is_idle(frame.sender); });
-  if (offers && !arbitration_due_) arbitrate_at(std::max(now, idle_from_));
+  if (!arbitration_due_ && offers()) arbitrate_at(std::max(now, idle_from_));
   if (!bits_) return;
   // An idle line needs no look at its bits.
-  resting_ = is_clean() && held(now) <= now;
-  if (resting_) return;
+  resting_ = is_still() && held(now) <= now;
+  if (!resting_) schedule_bits();
+}
+
+void CanMedium::schedule_bits() {
   const TrueTime next = line_.next();
   if (next == kNever<TrueTime> || next == bits_due_) return;
   bits_due_ = next;
@@ -223,8 +246,12 @@ void CanMedium::report_state(std::size_t member, TrueTime now) {
 void CanMedium::hold_off(NodeId node, TrueTime now) {
   const auto m = member_of(node);
   if (!m || !members_[*m].on) return;
+  unfold(now);
+  pass_others(now);
   members_[*m].sends.reset();
-  if (bits_) wake(now);
+  members_[*m].held = true;
+  members_[*m].recovers = false;
+  if (bits_ || recovery_ == CanRecovery::kByHost) wake(now);
   line_.hold_off(*m);
   report_state(*m, now);
   if (bits_) go_on(now);
@@ -233,10 +260,33 @@ void CanMedium::hold_off(NodeId node, TrueTime now) {
 void CanMedium::release(NodeId node, TrueTime now) {
   const auto m = member_of(node);
   // It may have lost its supply since.
-  if (!m || !members_[*m].on || line_[*m].phase() != Phase_::kOff) return;
+  if (!m || !members_[*m].held) return;
+  members_[*m].held = false;
+  if (recovery_ != CanRecovery::kAutomatic) return;
   wake(now);
-  line_.release(*m, now);
+  line_.release(*m, std::max(now, idle_from_ - integration()));
   go_on(now);
+}
+
+// Keeps controllers off the bus that do not ask to recover.
+void CanMedium::stay_off() {
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (line_[m].phase() != Phase_::kBusOff)
+      members_[m].recovers = false;
+    else if (!members_[m].recovers)
+      line_.hold_off(m);
+  }
+}
+
+bool CanMedium::restart(NodeId node, TrueTime now) {
+  const auto m = member_of(node);
+  if (!m || !members_[*m].on || members_[*m].held || line_[*m].phase() != Phase_::kOff) return false;
+  forget_all(*m);
+  wake(now);
+  line_.release(*m, std::max(now, idle_from_ - integration()));
+  members_[*m].recovers = true;
+  go_on(now);
+  return true;
 }
 
 void CanMedium::look(TrueTime now) {

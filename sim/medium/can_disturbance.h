@@ -23,8 +23,8 @@ struct CanBeginning {
 class CanDisturbance {
  public:
   virtual ~CanDisturbance() = default;
-  // Returns whether anything below may happen on the bus from now on and before `until`. If not, the medium need not
-  // look at single bits.
+  // Returns whether anything below may happen on the bus from now on and before `until`, or a controller goes off the
+  // bus by CanMedium::hold_off(), or is released. If not, the medium need not look at single bits.
   virtual bool touches_can(std::size_t bus, TrueTime until) const { return (void)bus, (void)until, false; }
   // A host queues a frame. False: it is lost there.
   virtual bool queues_on_can(std::size_t bus, NodeId sender) { return (void)bus, (void)sender, true; }

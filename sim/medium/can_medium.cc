@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kListsWaiting = 4;  // for each message of a node, each of the largest size
 constexpr std::size_t kOthersWaiting = 64;
+constexpr std::int64_t kIntermissionBits = 3, kSecond_ns = 1'000'000'000;
 
 std::size_t room_of(const schedules::model::Cluster& cluster, const schedules::model::CanBus& can, NodeId node) {
   std::size_t frames = kOthersWaiting;
@@ -23,6 +24,14 @@ std::size_t room_of(const schedules::model::Cluster& cluster, const schedules::m
 }
 
 }  // namespace
+
+std::size_t CanMedium::most_pending(const schedules::model::Cluster& cluster, std::size_t bus,
+                                    std::span<const NodeId> nodes) {
+  std::size_t frames = 2;  // the last whole frame, and the same once more, taken up bit by bit
+  // Each receiver may have a copy of the frame that has just been accepted.
+  for (const NodeId node : nodes) frames += room_of(cluster, cluster.can_buses[bus], node) + 1;
+  return frames;
+}
 
 CanMedium::CanMedium(const schedules::model::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,
                      MediumQueue& queue, FramePool& pool, recording::records::Sink& sink, std::uint64_t seed,
@@ -37,7 +46,7 @@ CanMedium::CanMedium(const schedules::model::Cluster& cluster, std::size_t bus, 
     member.room = room_of(cluster, can(), node);
     room += member.room;
   }
-  pending_.reserve(room);
+  pending_.reserve(room + 1);  // and a whole frame that is taken up bit by bit
   for (std::size_t m = 0; m < line_.size(); ++m) line_.power_on(m, true, TrueTime{});
   if (can().other_load <= 0.0) return;
   other_length_ = schedules::analysis::can_worst_case(can(), can().flexible_data_rate ? 64 : 8);
@@ -59,19 +68,31 @@ bool CanMedium::has(NodeId node) const {
   return m && members_[*m].on;
 }
 
-int CanMedium::waiting(NodeId node, std::uint32_t identifier) const {
-  return static_cast<int>(std::count_if(pending_.begin(), pending_.end(), [&](const Pending& frame) {
+int CanMedium::waiting(NodeId node, std::uint32_t identifier, TrueTime now) const {
+  const auto is_it = [&](const auto& frame) {
     return members_[frame.sender].node == node && frame.identifier == identifier;
-  }));
+  };
+  const bool on_the_bus = whole_ && whole_->end > now && is_it(whole_->frame);
+  return static_cast<int>(std::count_if(pending_.begin(), pending_.end(), is_it)) + (on_the_bus ? 1 : 0);
 }
 
-// Counts other traffic up to now while no frame here waited, with its frame that is on the bus.
+// Returns whether the nodes of other traffic see an idle bus, or see it so behind the whole frame on it.
+bool CanMedium::others_may_begin(TrueTime now) const {
+  if (!bits_) return true;
+  return are_others_idle() && line_.recessive() && (resting_ || held(now) <= now);
+}
+
+// Counts other traffic up to now while no frame here waited, with its frame that is on the bus. Where bits are looked at,
+// this happens before each: so controllers that wait see no frame too late.
 void CanMedium::pass_others(TrueTime now) {
-  if (other_length_ == Duration{}) return;
+  if (other_length_ == Duration{} || !others_may_begin(now)) return;
   while (next_other_ <= now && idle_from_ <= now) {
     idle_from_ = std::max(next_other_, idle_from_) + other_length_;
     busy_ += other_length_;
     next_other_ += other_period_;
+    if (!bits_ || resting_) continue;
+    line_.pass_by(idle_from_);
+    schedule_bits();
   }
 }
 
@@ -88,7 +109,7 @@ void CanMedium::send(NodeId sender, TrueTime now, const bus::ports::CanFrame& fr
   TTF_CHECK(m.has_value(), "{} is not on {}", cluster_.node(sender).name, can().name);
   Member& member = members_[*m];
   if (!emitted && touched(now + Duration{1}) && !disturbance_->queues_on_can(bus_, sender)) return;
-  if (!member.on || member.waiting == member.room) {
+  if (!member.on || member.waiting >= member.room) {
     ++dropped_;
     return;
   }
@@ -148,6 +169,9 @@ bool CanMedium::send_whole(const Pending& frame, TrueTime now) {
   }
   report_begin(frame, now, accepted);
   schedule_sent(accepted, frame.sender, now);
+  if (whole_) pool_.release(whole_->frame.frame);
+  pool_.use(frame.frame, 1);
+  whole_ = {frame, now, idle_from_ - Duration{kIntermissionBits * kSecond_ns / can().nominal_bit_rate}, idle_from_};
   return true;
 }
 
@@ -179,31 +203,12 @@ void CanMedium::forget(std::vector<Pending>::iterator frame) {
   pending_.erase(frame);
 }
 
-void CanMedium::power_off(NodeId node, TrueTime now) {
-  const auto m = member_of(node);
-  if (!m || !members_[*m].on) return;
-  members_[*m].on = false;
-  members_[*m].sends.reset();
+void CanMedium::forget_all(std::size_t sender) {
   for (auto frame = pending_.begin(); frame != pending_.end();)
-    if (frame->sender == *m)
+    if (frame->sender == sender)
       forget(frame);  // erases it
     else
       ++frame;
-  if (bits_) wake(now);
-  line_.power_off(*m);
-  if (bits_) go_on(now);
-}
-
-void CanMedium::power_on(NodeId node, TrueTime now) {
-  const auto m = member_of(node);
-  if (!m || members_[*m].on) return;
-  members_[*m].on = true;
-  members_[*m].state = bus::can::ErrorState::kActive;
-  // Behind a frame that travels as a whole there are eleven recessive bits.
-  const bool behind_frame = !bits_ && idle_from_ > now;
-  if (!behind_frame) wake(now);
-  line_.power_on(*m, behind_frame, now);
-  if (bits_) go_on(now);
 }
 
 void CanMedium::report_begin(const Pending& frame, TrueTime start, TrueTime end) {

@@ -45,6 +45,10 @@ template <class Payload> class EventQueue {
   }
   // Continues an event that was scheduled before, with `order.sequence`, and not before its last instant.
   void go_on(const EventOrder& order, const Payload& payload) { push({order, payload}); }
+  // Takes the events away whose payload `chosen` names.
+  template <class Predicate> void remove_if(Predicate chosen) {
+    std::erase_if(pending_, [&](const Event& event) { return chosen(event.payload); });
+  }
   bool empty() const { return pending_.empty(); }
   // Returns whether this comes before all pending events.
   bool is_first(const EventOrder& order) const { return empty() || order < next(); }

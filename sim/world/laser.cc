@@ -27,15 +27,29 @@ struct Echo {
   const ObjectState* object;  // null: no echo
 };
 
+// The azimuths of a scan's beams.
+struct Beams {
+  double step, phase;  // [rad], [steps]
+  double azimuth(int beam) const { return (beam + phase) * step; }
+};
+
+// Behind all beams' parts of the scan's stream.
+double phase_of(const LaserConfig& config, const StreamKey& key) {
+  if (config.azimuth_phase == AzimuthPhase::kFixed) return 0.0;
+  return RandomStream(key, kBlocksOfABeam * (2 * kMostBeamsOfASide + 1)).uniform(-0.5, 0.5);
+}
+
 // Returns the first and the last beam of -half..half that may meet the object. They pass its centre no further
 // than its outline reaches, and a little more.
-std::pair<int, int> beams_near(const ObjectState& object, double step, int half) {
+std::pair<int, int> beams_near(const ObjectState& object, const Beams& beams, int half) {
   const double reach = 0.5 * std::hypot(object.length, object.width) * 1.001;
   const double distance = std::hypot(object.x, object.y);
   if (distance <= reach) return {-half, half};
   const double bearing = std::atan2(object.y, object.x), spread = std::asin(reach / distance);
   const double widest = half + 1.0;
-  const auto beam = [&](double azimuth) { return static_cast<int>(std::clamp(azimuth / step, -widest, widest)); };
+  const auto beam = [&](double azimuth) {
+    return static_cast<int>(std::clamp(azimuth / beams.step - beams.phase, -widest, widest));
+  };
   return {std::max(-half, beam(bearing - spread) - 1), std::min(half, beam(bearing + spread) + 1)};
 }
 
@@ -45,6 +59,8 @@ LaserConfig load_laser(YamlMap& yaml) {
   LaserConfig c;
   c.layers = static_cast<int>(yaml.integer_or("layers", c.layers, {1, LaserConfig::kMostLayers}));
   c.azimuth_step_rad = yaml.number_or("azimuth_step", c.azimuth_step_rad, {0.001, 0.1}, "rad");
+  c.azimuth_phase = yaml.choice_or<AzimuthPhase>("azimuth_phase", c.azimuth_phase,
+                                                 {{"fixed", AzimuthPhase::kFixed}, {"drawn", AzimuthPhase::kDrawn}});
   c.half_field_rad = yaml.number_or("half_field", c.half_field_rad, {0.01, 1.4}, "rad");
   c.range_sigma_m = yaml.number_or("range_sigma", c.range_sigma_m, {0.0, 2.0}, "m");
   c.max_range_m = yaml.number_or("max_range", c.max_range_m, {1.0, 199.0}, "m");
@@ -70,6 +86,8 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
   TTF_CHECK(config.layers <= LaserConfig::kMostLayers, "{} layers", config.layers);
   hits.clear();
   truth.clear();
+  const StreamKey key{seed, replication, Purpose::kSensorNoise, sensor, sequence};
+  const Beams beams{config.azimuth_step_rad, phase_of(config, key)};
   const auto half = static_cast<int>(config.half_field_rad / config.azimuth_step_rad);
   TTF_CHECK(half >= 0 && half <= kMostBeamsOfASide, "{} beams to a side", half);
   // By beam + half. Only beams from `begin` to before `end` are filled, since most beams meet no object.
@@ -79,7 +97,7 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
     if (from < to) std::fill_n(echoes.begin() + from + half, to - from, Echo{config.max_range_m, nullptr});
   };
   for (const ObjectState& object : objects) {
-    const auto [first, last] = beams_near(object, config.azimuth_step_rad, half);
+    const auto [first, last] = beams_near(object, beams, half);
     if (first > last) continue;
     if (begin == end) begin = end = first;
     fill(first, begin);
@@ -89,17 +107,15 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
     const RayTarget target(object);
     for (int beam = first; beam <= last; ++beam) {
       Echo& echo = echoes[static_cast<std::size_t>(beam + half)];
-      if (const auto range = target.ray_to(beam * config.azimuth_step_rad); range && *range < echo.range)
-        echo = {*range, &object};
+      if (const auto range = target.ray_to(beams.azimuth(beam)); range && *range < echo.range) echo = {*range, &object};
     }
   }
   for (int beam = begin; beam < end; ++beam) {
-    const double azimuth = beam * config.azimuth_step_rad;
+    const double azimuth = beams.azimuth(beam);
     const auto [nearest, hit] = echoes[static_cast<std::size_t>(beam + half)];
     if (hit == nullptr) continue;
     const double loss = std::min(1.0, config.miss_at_100m * nearest * nearest * 1e-4);
-    RandomStream noise({seed, replication, Purpose::kSensorNoise, sensor, sequence},
-                       kBlocksOfABeam * static_cast<std::uint32_t>(beam + half));
+    RandomStream noise(key, kBlocksOfABeam * static_cast<std::uint32_t>(beam + half));
     for (int layer = 0; layer < config.layers; ++layer) {
       const bool lost = noise.uniform() < loss;
       const double range = nearest + config.range_bias.fixed + config.range_sigma_m * noise.normal();

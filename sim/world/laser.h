@@ -18,11 +18,17 @@
 
 namespace ttf::sim::world {
 
+enum class AzimuthPhase : std::uint8_t { kFixed, kDrawn };
+
 struct LaserConfig {
   static constexpr int kMostLayers = 4;  // layers with draws of their own
   int layers = kMostLayers;
   double azimuth_step_rad = 0.00436;  // 0.25 degrees
-  double half_field_rad = 1.05;       // 60 degrees to either side
+  // Beams lie at multiples of the step. Or each scan shifts all of them by one drawn part of it, evenly to either side: the
+  // mirror turns free of the clock that the beams follow. Where they are fixed, the ends of a face that keeps its place
+  // are off by the same part of a step in every scan.
+  AzimuthPhase azimuth_phase = AzimuthPhase::kFixed;
+  double half_field_rad = 1.05;  // 60 degrees to either side
   double range_sigma_m = 0.06;
   double max_range_m = 120.0;
   double miss_at_100m = 0.3;  // probability that a ray's echo is lost at 100 m; grows with the range squared

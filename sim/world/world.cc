@@ -1,17 +1,17 @@
 #include "sim/world/world.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/check.h"
 #include "core/random.h"
+#include "sim/world/speed.h"
 
 namespace ttf::sim::world {
 namespace {
 
 constexpr std::int64_t kStep_ns = 10'000'000;
+constexpr double kStep_s = 1e-9 * static_cast<double>(kStep_ns);
 
 // Integrates cos and sin of the heading, weighed with speed: position after dt, speed v + a t, heading h + w t.
 void advance_position(ObjectState& state, double dt) {
@@ -46,7 +46,7 @@ ObjectState moved(const ObjectState& start, double dt) {
   return state;
 }
 
-World::World(const WorldConfig& config, std::uint64_t seed, std::uint32_t replication) {
+World::World(const WorldConfig& config, std::uint64_t seed, std::uint32_t replication) : own_speed_(config.own_speed) {
   const auto steps = static_cast<std::size_t>(config.duration.ns / kStep_ns + 2);
   for (std::size_t o = 0; o < config.objects.size(); ++o) {
     const ObjectConfig& object = config.objects[o];
@@ -56,9 +56,11 @@ World::World(const WorldConfig& config, std::uint64_t seed, std::uint32_t replic
     state.x = object.x;
     state.y = object.y;
     state.heading = object.heading;
-    state.speed = object.speed;
-    state.length = object.length;
-    state.width = object.width;
+    const Size size = drawn_size(object.size, {object.length, object.width}, {seed, replication, state.id});
+    state.length = size.length;
+    state.width = size.width;
+    Speed speed(config, object.speed, {seed, replication, state.id}, kStep_s);
+    state.speed = speed.at_start();
     std::vector<ObjectState> trajectory;
     trajectory.reserve(steps);
     std::size_t segment = 0;
@@ -71,11 +73,14 @@ World::World(const WorldConfig& config, std::uint64_t seed, std::uint32_t replic
       }
       const bool steered = segment < object.segments.size();
       const double acceleration_noise = noise.normal(), yaw_rate_noise = noise.normal();
-      state.acceleration =
-          (steered ? object.segments[segment].acceleration : 0.0) + config.acceleration_noise * acceleration_noise;
+      const double profile = steered ? object.segments[segment].acceleration : 0.0;
+      // A standing car that does not want to drive has none.
+      state.steady = speed.steady(profile);
+      if (state.speed <= 0.0) state.steady = std::max(0.0, state.steady);
+      state.acceleration = speed.acceleration(profile, acceleration_noise, state.speed);
       state.yaw_rate = (steered ? object.segments[segment].yaw_rate : 0.0) + config.yaw_rate_noise * yaw_rate_noise;
       trajectory.push_back(state);
-      state = moved(state, 1e-9 * static_cast<double>(kStep_ns));
+      state = moved(state, kStep_s);
     }
     trajectories_.push_back(std::move(trajectory));
   }
@@ -86,82 +91,18 @@ ObjectState World::state_of(ObjectId object, TrueTime since_start) const {
   const std::vector<ObjectState>& trajectory = trajectories_[index_of(object)];
   const std::int64_t at = std::max<std::int64_t>(0, since_start.ns);
   const auto step = std::min(static_cast<std::size_t>(at / kStep_ns), trajectory.size() - 1);
-  return moved(trajectory[step], 1e-9 * static_cast<double>(at - static_cast<std::int64_t>(step) * kStep_ns));
+  ObjectState state =
+      moved(trajectory[step], 1e-9 * static_cast<double>(at - static_cast<std::int64_t>(step) * kStep_ns));
+  if (own_speed_ != 0.0) {
+    state.x -= own_speed_ * (1e-9 * static_cast<double>(at));
+    state.speed -= own_speed_;
+  }
+  return state;
 }
 
 void World::states_at(TrueTime since_start, std::vector<ObjectState>& out) const {
   out.clear();
   for (std::size_t o = 0; o < trajectories_.size(); ++o) out.push_back(state_of(static_cast<ObjectId>(o), since_start));
-}
-
-namespace {
-
-constexpr Range<double> kPlace{-kFarthest_m, kFarthest_m};
-constexpr std::int64_t kMostObjects = 65'534;  // whose ids are no false detection's
-
-// Loads an object without its place.
-void load_kind(YamlMap& map, ObjectConfig& object) {
-  object.heading = map.number_or("heading", 0.0, {-7.0, 7.0}, "rad");
-  object.speed = map.number_or("speed", 0.0, {0.0, 100.0}, "m/s");
-  object.length = map.number_or("length", object.length, {0.1, 30.0}, "m");
-  object.width = map.number_or("width", object.width, {0.1, 5.0}, "m");
-}
-
-void load_field(YamlMap& map, std::vector<ObjectConfig>& objects) {
-  FieldConfig field;
-  field.objects = static_cast<int>(map.integer("objects", {1, 5000}));
-  field.nearest = map.number_or("nearest", field.nearest, {1.0, kFarthest_m}, "m");
-  field.row = map.number_or("row", field.row, {0.5, kFarthest_m}, "m");
-  field.across = map.number_or("across", field.across, {0.5, kFarthest_m}, "m");
-  field.half_angle = map.number_or("half_angle", field.half_angle, {0.0, 1.4}, "rad");
-  load_kind(map, field.each);
-  const std::vector<ObjectConfig> all = placed(field);
-  if (all.size() < static_cast<std::size_t>(field.objects))
-    map.fail("objects", fmt::format("must be at most {}: rows end {} m away", all.size(), kFarthest_m));
-  objects.insert(objects.end(), all.begin(), all.end());
-  map.finish();
-}
-
-}  // namespace
-
-WorldConfig load_world(YamlMap& yaml) {
-  WorldConfig config;
-  config.acceleration_noise = yaml.number_or("acceleration_noise", 0.0, {0.0, 50.0}, "m/s^2");
-  config.yaw_rate_noise = yaml.number_or("yaw_rate_noise", 0.0, {0.0, 5.0}, "rad/s");
-  for (YamlMap& map : yaml.maps_if("objects")) {
-    ObjectConfig object;
-    object.name = map.text("name");
-    object.x = map.number("x", kPlace, "m");
-    object.y = map.number("y", kPlace, "m");
-    load_kind(map, object);
-    object.reference = map.boolean_or("reference", false);
-    for (YamlMap& segment : map.maps_if("segments")) {
-      object.segments.push_back(
-          {segment.duration("duration", {Duration::milliseconds(1), Duration::milliseconds(3'600'000)}),
-           segment.number_or("acceleration", 0.0, {-20.0, 20.0}, "m/s^2"),
-           segment.number_or("yaw_rate", 0.0, {-5.0, 5.0}, "rad/s")});
-      segment.finish();
-    }
-    const bool second = object.reference && std::any_of(config.objects.begin(), config.objects.end(),
-                                                        [](const ObjectConfig& other) { return other.reference; });
-    if (second) map.fail("reference", "at most one object carries the reference's antenna");
-    map.finish();
-    config.objects.push_back(std::move(object));
-  }
-  if (auto field = yaml.map_if("field")) load_field(*field, config.objects);
-  const auto all = static_cast<std::int64_t>(config.objects.size());
-  const Range<std::int64_t> there{std::min<std::int64_t>(all, 1), all};
-  std::int64_t count = yaml.integer_or("object_count", all, {0, kMostObjects});
-  if (!there.contains(count)) {
-    yaml.fail("object_count", fmt::format("must be {}..{}: so many objects there are", there.low, there.high));
-    count = std::clamp(count, there.low, there.high);
-  }
-  const auto reference = std::find_if(config.objects.begin(), config.objects.end(),
-                                      [](const ObjectConfig& object) { return object.reference; });
-  if (reference != config.objects.end() && reference - config.objects.begin() >= count)
-    yaml.fail("object_count", "must leave the object that carries the reference's antenna");
-  config.objects.resize(static_cast<std::size_t>(count));
-  return config;
 }
 
 }  // namespace ttf::sim::world

@@ -1,8 +1,9 @@
 // The truth: objects that drive through the scene.
 //
-// An object's trajectory is a list of segments of constant acceleration and yaw rate, with white process noise
-// added. It is drawn once on a 10 ms grid, with exact motion (constant acceleration, constant turn rate) within
-// each step. So any number of looks, in any order, gives the same states.
+// An object's trajectory is a list of segments of constant acceleration and yaw rate, with process noise added: white
+// acceleration, or a speed that returns to the segments' (speed.h). It is drawn once on a 10 ms grid, with exact motion
+// (constant acceleration, constant turn rate) within each step. So any number of looks, in any order, gives the same
+// states. An object's size may be drawn, too (size.h).
 #pragma once
 
 #include <cstdint>
@@ -12,14 +13,18 @@
 #include "core/ids.h"
 #include "core/strict_yaml.h"
 #include "core/time.h"
+#include "sim/world/size.h"
 
 namespace ttf::sim::world {
 
 // Centre [m], heading [rad] from x to y, speed [m/s] along it, acceleration [m/s^2] along it, yaw rate [rad/s],
-// size [m].
+// size [m]. All are relative to the sensors' vehicle: where it drives, too, an object that falls back has a negative speed.
+// The acceleration contains the noise of its step. White noise has no value at an instant, only a density. An observer can
+// know `steady`: the segments' acceleration, and the return of a speed with a memory (speed.h).
 struct ObjectState {
   ObjectId id{};
   double x = 0, y = 0, heading = 0, speed = 0, acceleration = 0, yaw_rate = 0, length = 0, width = 0;
+  double steady = 0;  // [m/s^2] along the heading: the acceleration without white noise
 };
 
 struct TrajectorySegment {
@@ -30,8 +35,9 @@ struct TrajectorySegment {
 
 struct ObjectConfig {
   std::string name;
-  double x = 0, y = 0, heading = 0, speed = 0;  // at the start of the drive
+  double x = 0, y = 0, heading = 0, speed = 0;  // at the start of the drive; the speed is over ground
   double length = 4.39, width = 1.79;           // a Volkswagen Touran, the paper's car
+  SizeConfig size;                              // whether this size or a drawn one is the object's
   std::vector<TrajectorySegment> segments;      // after the last one: straight on at constant speed
   bool reference = false;                       // carries the DGPS antenna
 };
@@ -42,6 +48,12 @@ struct WorldConfig {
   // Standard deviations of the acceleration [m/s^2] and yaw rate [rad/s] that are added in each 10 ms step.
   double acceleration_noise = 0.0;
   double yaw_rate_noise = 0.0;
+  // Zero: the speed adds the noise up. Else it returns to that of the segments, and forgets deviations with this time
+  // constant (speed.h).
+  Duration speed_memory{};
+  // The sensors' vehicle drives straight along x at this speed over ground [m/s]. If it is not zero, all objects keep
+  // to the direction of x.
+  double own_speed = 0.0;
   Duration duration{};
 };
 WorldConfig load_world(YamlMap& yaml);
@@ -73,7 +85,8 @@ class World {
   std::size_t size() const { return trajectories_.size(); }
 
  private:
-  std::vector<std::vector<ObjectState>> trajectories_;  // per object, a state per grid step
+  double own_speed_ = 0.0;
+  std::vector<std::vector<ObjectState>> trajectories_;  // over ground: per object, a state per grid step
 };
 
 }  // namespace ttf::sim::world

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "bus/wire/flexray_frame.h"
-#include "evaluation/accuracy/closest_pairs.h"
-#include "fusion/batch/batch.h"
+#include "evaluation/accuracy/plane.h"
 #include "fusion/filters/kalman.h"
 #include "fusion/filters/unscented.h"
+#include "fusion/metrics/object_pairs.h"
 #include "fusion/motion/constant_acceleration.h"
 #include "fusion/motion/constant_velocity.h"
 #include "fusion/motion/ctrv.h"
@@ -47,16 +47,6 @@ template <class F, class M> void filter_pairs() {
       filter.update(model, fusion::sensors::Position{}, z, state);
     }
   });
-}
-
-// A thousand filters, four to a register.
-void batch_axes() {
-  fusion::batch::Batch<fusion::batch::Axes> batch(1000);
-  fusion::batch::Positions z(1000);
-  fusion::linear::Gaussian<4> prior;
-  prior.p.setIdentity();
-  for (std::size_t i = 0; i < 1000; ++i) batch.set(i, prior), z.set(i, {});
-  counted([&] { batch.step({fusion::motion::ConstantVelocity(2.0), 0.05}, z); });
 }
 
 // ---- one object, late
@@ -96,7 +86,9 @@ void cycle_of(const fusion::Crowd& crowd, const fusion::config::TrackerConfig& c
   });
 }
 void fusion_cycle() { cycle_of(fusion::scene(), {}); }
+void fusion_cycle_on_the_road() { cycle_of(fusion::road(), {}); }
 void fusion_cycle_of_thousand() { cycle_of(fusion::thousand(), fusion::for_thousand()); }
+void fusion_cycle_of_thousand_on_the_road() { cycle_of(fusion::thousand_on_the_road(), fusion::for_thousand()); }
 
 void fusion_late_list() {
   const auto strategy = fusion::scene().start(fusion::strategies::StrategyKind::kAdva, fusion::kWarm);
@@ -140,13 +132,13 @@ void camera_of_thousand() {
   counted([&] { sim::world::measure_camera(camera, objects, 1, 0, 0, 0, room, detections, truth); });
 }
 
-void closest_pairs_of_thousand() {
-  std::vector<evaluation::accuracy::PlanePosition> truth, estimates;
+void object_pairs_of_thousand() {
+  std::vector<fusion::metrics::Point> truth, estimates;
   for (const sim::world::ObjectState& state : square()) {
     truth.push_back({state.x, state.y});
     estimates.push_back({state.x + 0.1, state.y - 0.2});
   }
-  counted([&] { evaluation::accuracy::closest_pairs(truth, estimates, evaluation::accuracy::kGate_m); });
+  counted([&] { fusion::metrics::object_pairs(truth, estimates, evaluation::accuracy::kGate_m); });
 }
 
 // ---- the bus
@@ -219,7 +211,6 @@ const Path kPaths[] = {
     {"kalman_constant_velocity", filter_pairs<fusion::filters::Kalman, fusion::motion::ConstantVelocity>},
     {"kalman_constant_acceleration", filter_pairs<fusion::filters::Kalman, fusion::motion::ConstantAcceleration>},
     {"unscented_ctrv", filter_pairs<fusion::filters::Unscented, fusion::motion::Ctrv>},
-    {"batch_axes", batch_axes},
     {"late_rewind_1", late_by<Rewind, 1>},
     {"late_rewind_3", late_by<Rewind, 3>},
     {"late_rewind_5", late_by<Rewind, 5>},
@@ -248,10 +239,12 @@ const Path kPaths[] = {
     {"late_b_1", late_by<AlgorithmB, 1>},
     {"late_c_1", late_by<AlgorithmC, 1>},
     {"fusion_cycle", fusion_cycle},
+    {"fusion_cycle_on_the_road", fusion_cycle_on_the_road},
     {"fusion_cycle_of_thousand", fusion_cycle_of_thousand},
+    {"fusion_cycle_of_thousand_on_the_road", fusion_cycle_of_thousand_on_the_road},
     {"fusion_late_list", fusion_late_list},
     {"camera_of_thousand", camera_of_thousand},
-    {"closest_pairs_of_thousand", closest_pairs_of_thousand},
+    {"object_pairs_of_thousand", object_pairs_of_thousand},
     {"frame_encode", frame_encode},
     {"frame_decode", frame_decode},
     {"bus_cycle", bus_cycle},

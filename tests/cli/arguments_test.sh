@@ -134,11 +134,13 @@ sed 's#^scenario: .*#scenario: ../schedules/paper_synchronised.yaml#' "$experime
 expect 2 '^error: .*/paper_synchronised.yaml: this is a cluster, not a scenario; ' experiment "$mixed" --out "$work/none"
 # A file that is not there is a mistake of the entry that names it.
 sed 's#^scenario: .*#scenario: absent.yaml#' "$experiment" >"$mixed"
-expect 2 'mixed.yaml:4: scenario = .*/absent.yaml: must be a scenario file, but it cannot be read: No such file' \
+line=$(grep -n '^scenario:' "$experiment" | cut -d: -f1)
+expect 2 "mixed.yaml:$line: scenario = .*/absent.yaml: must be a scenario file, but it cannot be read: No such file" \
   experiment "$mixed" --out "$work/none"
 sed "s#^scenario: .*#scenario: $source/scenarios/dynamics.yaml#; s#../schedules/paper_event_triggered#absent#" \
   "$experiment" >"$mixed"
-expect 2 'mixed.yaml:11: paradigms.can_adva.cluster = .*/absent.yaml: must be a cluster file, but it cannot be read' \
+line=$(grep -n '^  can_adva:' "$experiment" | cut -d: -f1)
+expect 2 "mixed.yaml:$line: paradigms.can_adva.cluster = .*/absent.yaml: must be a cluster file, but it cannot be read" \
   experiment "$mixed" --out "$work/none"
 sed 's#^cluster: .*#cluster: absent.yaml#' "$campaign" >"$mixed"
 line=$(grep -n '^cluster:' "$campaign" | cut -d: -f1)

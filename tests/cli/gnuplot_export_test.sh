@@ -73,7 +73,7 @@ END
 }
 experiment 3 'axes:
   noise: {keys: [world.acceleration_noise], values: [0.5, 5, 50]}
-  road: {settings: {dry: {world.yaw_rate_noise: 0.05}, icy: {world.yaw_rate_noise: 0.2}}}' >"$work/small.yaml"
+  road: {settings: {dry: {world.yaw_rate_noise: 0.05, world.own_speed: 0}, icy: {world.yaw_rate_noise: 0.2, world.own_speed: 0}}}' >"$work/small.yaml"
 experiment 1 'axes:
   noise: {keys: [world.acceleration_noise], values: [2]}' >"$work/single.yaml"
 for name in small single; do

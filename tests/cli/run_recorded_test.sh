@@ -31,6 +31,22 @@ rows 50000 100 >"$work/five_seconds.txt"
 expect 0 'laser: 50 rows, 50 lists played' "${recorded[@]}" --input "$work/five_seconds.txt" --out "$work/r"
 says 'the recording ended at 4.95 s of 25 s'
 expect 0 '"ends_early": true' "${recorded[@]}" --input "$work/five_seconds.txt" --out "$work/r" --json
+# Most of a recording was left over, or no track came of it: the reason, exit code 1, and the log all the same.
+rows 50000 1200 >"$work/a_minute.txt"
+expect 1 '^error: .*a_minute.txt: with adva: 699 of 1200 rows are beyond the drive.s end at 25 s$' \
+  "${recorded[@]}" --input "$work/a_minute.txt" --out "$work/minute"
+[[ -s $work/minute/adva.mcap ]] || fail "a drive that left most rows over writes no log"
+rows 50000 1000 >"$work/half_unused.txt"
+expect 0 '250 unused rows beyond' "${recorded[@]}" --input "$work/half_unused.txt" --out "$work/minute"
+rows 1950000 20 >"$work/every_two_seconds.txt"
+expect 1 '^error: .*two_seconds.txt: with adva: no track came of 20 lists played within 18.05 s, 20 of them fused: a track needs 3 hits in 5 lists' \
+  "${recorded[@]}" --input "$work/every_two_seconds.txt" --out "$work/sparse"
+python3 -c '
+import json, sys
+r = json.load(open(sys.argv[1]))["strategies"][0]["recording"]
+assert r["made_track"] is False and len(r["reasons"]) == 1, r
+' "$work/sparse/summary.json" || fail "summary.json does not say that no track came"
+[[ -s $work/sparse/adva.mcap ]] || fail "a drive without a track writes no log"
 recording=${TTF_RECORDINGS:-$source/../shared/data}/laser_radar/measurements.txt
 if [[ -r $recording ]]; then
   expect 0 'position RMSE' run "$source/scenarios/laser_radar_recorded.yaml" --input "$recording" --out "$work/r" \

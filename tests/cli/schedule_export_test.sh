@@ -27,6 +27,7 @@ grep -q 'slot: 22, channels: AB, sender: fusion, base_cycle: 1, repetition: 8, p
 for bus in imported.yaml cluster.xml; do
   expect 0 '^paper_synchronised describes no tasks, so these are not checked: activations and deadlines of tasks, ' \
     schedule check "$work/$bus"
+  ! grep -q 'age of a measurement' <<<"$output" || fail "a table of ages without a row: $output"
   expect 0 'no tasks, sensors and CANs are described' schedule show "$work/$bus"
   expect 0 'note: paper_synchronised describes no tasks, so the file says of no node what it receives' \
     schedule export "$work/$bus" --format fibex -o "$work/again.xml"

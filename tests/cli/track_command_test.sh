@@ -52,6 +52,33 @@ awk 'BEGIN {
           printf "%.3f,%s,%.4f,%.4f,car\n", ms / 1000, s ? "radar" : "lidar", 10 + 30 * car + 8 * ms / 1000 + a, 2 * car + b
         }
 }' >"$work/cars.csv"
+# With the truth beside each row, the tracks are judged. The second file has the third car elsewhere.
+awk -F, 'NR == 1 { print $0 ",gt_object,gt_x,gt_y"; next }
+  { car = (NR - 2) % 3; printf "%s,car %d,%.4f,%.4f\n", $0, car, 10 + 30 * car + 8 * $1 + (car == 2 ? off : 0), 2 * car }' \
+  off=0 "$work/cars.csv" >"$work/judged.csv"
+awk -F, 'NR == 1 { print $0 ",gt_object,gt_x,gt_y"; next }
+  { car = (NR - 2) % 3; printf "%s,car %d,%.4f,%.4f\n", $0, car, 10 + 30 * car + 8 * $1 + (car == 2 ? off : 0), 2 * car }' \
+  off=100 "$work/cars.csv" >"$work/missed.csv"
+printf 'judgement: {cut_off: 3.0, order: 1.0}\n' >"$work/judgement.yaml"
+for judged in judged missed; do
+  "$program" track "$work/$judged.csv" --config "$work/judgement.yaml" --noise lidar:position=0.3 --noise radar:position=0.3 \
+    -o "$work/judged_tracks.csv" --json >"$work/$judged.json" 2>/dev/null || fail "the tracks of $judged.csv are not judged"
+done
+python3 - "$work" <<'END' || fail "the truth is not judged as documented"
+import json, sys
+good, bad = (json.load(open(f"{sys.argv[1]}/{name}.json"))["truth"] for name in ("judged", "missed"))
+assert good["gospa"]["cut_off_m"] == 3 and good["gospa"]["order"] == 1, good
+assert 0.05 < good["position_rmse_m"] < 0.5 and good["clear_mot"]["mota"] > 0.9, good
+assert good["track_life"]["objects"] == good["track_life"]["mostly_tracked"] == 3, good
+assert good["clear_mot"]["switches"] == 0 and good["spurious"] == 0, good
+n = good["gospa"]["instants"]
+assert good["compared"] + good["missed"] == 3 * n, good
+# The third car is missed, and its track is false: 1.5 m each.
+assert bad["track_life"]["mostly_lost"] == 1 and abs(bad["missed"] - good["missed"] - bad["spurious"]) == 0, bad
+assert abs(bad["gospa"]["false"] - 1.5 * bad["spurious"] / n) < 1e-9 and bad["gospa"]["false"] > 1.4, bad
+assert bad["gospa"]["distance_m"] > good["gospa"]["distance_m"] + 2.5, bad
+END
+expect 0 'MOTA \[%\]' track "$work/judged.csv" --noise lidar:position=0.3 -o "$work/judged_tracks.csv"
 cars=(track "$work/cars.csv" --noise lidar:position=0.3 --noise radar:position=0.3)
 delays=(--delay lidar=5ms..60ms --delay "radar=0.02s..150 ms")
 last() { tail -3 "$1" | cut -d, -f1,4- | sort; }   # states of the last instant, without names and without when it was known
@@ -90,6 +117,11 @@ expect 2 '^error: .*damaged.csv:9: sensor = sonar: must be a sensor of .*two.yam
   track "$work/damaged.csv" --config "$work/two.yaml" -o "$work/none.csv"
 [[ -e $work/none.csv ]] && fail "a refused file leaves tracks"
 expect 0 '^3 damaged rows left out$' track "$work/damaged.csv" --config "$work/two.yaml" --skip-damaged -o "$work/damaged_tracks.csv"
+awk -F, -v OFS=, 'NR > 1 && NR % 3 { $3 = "nan" } 1' "$work/cars.csv" >"$work/most_damaged.csv"
+rows=$(($(wc -l <"$work/most_damaged.csv") - 1)) damaged=$(grep -c nan "$work/most_damaged.csv")
+expect 1 "^error: .*most_damaged.csv: most of the input was dropped: $damaged of $rows rows were damaged and left out\$" \
+  track "$work/most_damaged.csv" "${cars[@]:2}" --skip-damaged -o "$work/damaged_tracks.csv"
+[[ -s $work/damaged_tracks.csv ]] || fail "what came of a mostly damaged file is not written"
 expect 0 '^warning: .*damaged.csv:12: columns' track "$work/damaged.csv" --config "$work/two.yaml" --skip-damaged
 
 # Errors in a file, the configuration, or an option.
@@ -189,7 +221,7 @@ assert s["did_its_work"] is False and len(s["reasons"]) == 1, s
 awk 'BEGIN { for (k = -320; k <= 320; ++k) printf "0,%.2f,%.3f,1\n", k / 4, 20 + (k > 0) }' >"$work/degrees.csv"
 awk -F, -v OFS=, '{ $2 *= 3.14159265 / 180 } 1' "$work/degrees.csv" |
   awk -F, '$2 > -0.05 && $2 < 0.05' >"$work/radians.csv"
-expect 1 'error: .*: Scan 0: 641 returns, 0 boxes: 5[0-9][0-9] of 641 azimuths are beyond a whole turn .* degrees' \
+expect 2 '^error: .*degrees.csv:1: azimuth_rad = -80.00: must be -6.283..6.283 rad: 5[0-9][0-9] of 641 azimuths are beyond a whole turn, so they may be in degrees$' \
   diagram "$work/degrees.csv" --kind boxes -o "$work/degrees.svg"
 expect 0 '' diagram "$work/radians.csv" --kind boxes -o "$work/radians.svg"
 
@@ -205,6 +237,99 @@ if [[ -r $recording ]]; then
 else
   echo "laser and radar: skipped, there is no recording $recording;" \
     "set TTF_RECORDINGS to the folder that holds laser_radar/measurements.txt"
+fi
+
+# Scans: a car's rear, 20 m ahead and coming nearer, a pole, and a wall behind both.
+scans() {   # scans FRAMES HEADING ROW-FORMAT
+  echo "$2"
+  awk -v frames="$1" -v row="$3" 'BEGIN {
+    r = 12345
+    for (f = 0; f < frames; ++f)
+      for (k = -200; k <= 200; ++k) {
+        a = k * 0.00436; near = 20 - 0.4 * f; y = near * sin(a) / cos(a)
+        range = y > -0.9 && y < 0.9 ? near / cos(a) : 40 / cos(a)
+        if (k >= 98 && k <= 101) range = 8
+        r = (r * 1103515245 + 12345) % 2147483648; range += 0.04 * (r / 2147483648 - 0.5)
+        if (row == "polar") printf "%d,%.5f,%.4f,1\n", f, a, range
+        else if (row == "degrees") printf "%d,%.3f,%.4f,1\n", f, a * 57.29578, range
+        else printf "%.1f,%.6f,%.6f\n", f / 10, range * cos(a), range * sin(a)
+      }
+  }'
+}
+scans 15 frame,azimuth_rad,range_m,intensity polar >"$work/scans.csv"
+scans 15 time,x,y plane >"$work/plane.csv"
+scans 15 '# frame,azimuth_rad,range_m,intensity' degrees >"$work/scan_degrees.csv"
+"$program" track "$work/scans.csv" --format scans -o "$work/scan_tracks.csv" --picture "$work/street.svg" --json \
+  >"$work/scans.json" 2>/dev/null || fail "scans are not tracked"
+python3 - "$work" <<'END' || fail "the counts of scans are not as documented"
+import csv, json, sys
+s = json.load(open(f"{sys.argv[1]}/scans.json"))
+of = s["scans"]
+assert (of["scans"], of["returns"], s["tracks"]) == (15, 15 * 401, 1), s
+assert of["segments"]["thin"] == 15 and of["segments"]["large"] >= 15, of
+assert of["overlapping_pairs"] == of["overlaps"] == 0 and of["lifetime_s"]["median"] >= 1, of
+last = list(csv.DictReader(open(f"{sys.argv[1]}/scan_tracks.csv")))[-1]
+assert abs(float(last["width"]) - 1.8) < 0.15 and abs(float(last["vx"]) + 4) < 1, last
+END
+grep -q 'Scan 14: 401 returns, 1 track' "$work/street.svg" || fail "the picture does not show the last scan"
+grep -q 'class="heading"' "$work/street.svg" || fail "the picture shows no heading of the rear"
+expect 0 '^lifetime \[s\]: median' track "$work/plane.csv" --format scans -o "$work/plane_tracks.csv"
+cmp -s <(cut -d, -f1,3 "$work/plane_tracks.csv") <(cut -d, -f1,3 "$work/scan_tracks.csv") ||
+  fail "scans by x and y give other tracks than by azimuth and range"
+expect 2 '^error: .*scan_degrees.csv:2: azimuth_rad = -49.962: must be -6.283..6.283 rad: [0-9]+ of 6015 azimuths .* degrees$' \
+  track "$work/scan_degrees.csv" --format scans
+awk 'BEGIN { for (f = 0; f < 5; ++f) for (k = -20; k < 20; ++k) printf "%d,%.4f,%.2f,1\n", f, k * 0.0436, 10 + 10 * (k % 2 == 0) }' >"$work/specks.csv"
+expect 1 '^error: .*specks.csv: no box came of 5 scans: 200 of 200 segments have fewer than 3 returns' \
+  track "$work/specks.csv" --format scans
+expect 1 '^error: .*specks.csv: Scan 0: 40 returns, 0 boxes: 40 of 40 segments have fewer than 3 returns' \
+  diagram "$work/specks.csv" --kind boxes -o "$work/specks.svg"
+[[ -s $work/specks.svg ]] || fail "a scan without a box has no picture"
+: >"$work/no_scan.csv"
+expect 2 'no_scan.csv' diagram "$work/no_scan.csv" --kind boxes -o "$work/no_scan.svg"
+printf 'time,frame,x,y\n0,0,1,1\n' >"$work/both.csv"
+expect 2 'both.csv:1: heading: must have either frame or time' track "$work/both.csv" --format scans
+printf 'time,x,y\n1,1,1\n0,1,1\n' >"$work/back.csv"
+expect 1 'back.csv: no box came of 2 scans' track "$work/back.csv" --format scans
+# Rows in any order, and one stamp that leaps: the rest counts.
+(head -1 "$work/plane.csv"; tail -n +2 "$work/plane.csv" | tac | sort -s -t, -k3,3) >"$work/shuffled_scans.csv"
+(head -1 "$work/plane.csv"; tail -n +2 "$work/plane.csv" | sort -s -t, -k3,3 | sort -s -t, -k1,1g) >"$work/sorted_scans.csv"
+for order in shuffled sorted; do
+  expect 0 '^1 track by adva, ' track "$work/${order}_scans.csv" --format scans -o "$work/${order}_tracks.csv"
+done
+cmp -s "$work/shuffled_tracks.csv" "$work/sorted_tracks.csv" || fail "the order of scans counts"
+awk -F, -v OFS=, 'NR == 2000 { $1 = 9999 } 1' "$work/plane.csv" >"$work/scan_leap.csv"
+expect 2 '^error: .*scan_leap.csv:2000: time = 9999: must be near the stamps above and below it, 0.4 s and 0.4 s' \
+  track "$work/scan_leap.csv" --format scans
+expect 0 '^1 damaged row left out$' track "$work/scan_leap.csv" --format scans --skip-damaged -o "$work/leap_tracks.csv"
+[[ $(tail -1 "$work/leap_tracks.csv") == 1.4,* ]] || fail "the scans after a leap are lost: $(tail -1 "$work/leap_tracks.csv")"
+# 3,200 of 15 x 401 returns are damaged: returns are counted, not boxes.
+awk -F, -v OFS=, 'NR > 1 && NR % 401 > 80 && NR % 401 <= 320 && damaged < 3200 { $2 = "nan"; ++damaged } 1' "$work/plane.csv" >"$work/most_scans.csv"
+expect 1 ': 3200 of 6015 rows were damaged and left out' track "$work/most_scans.csv" --format scans --skip-damaged -o "$work/most_tracks.csv"
+expect 2 '--picture = .*: goes with --format scans only' "${cars[@]}" --picture "$work/cars.svg"
+expect 2 '--frame = 15: must be 0..14: the recording has 15 scans' track "$work/scans.csv" --format scans --picture "$work/x.svg" --frame 15
+printf 'scans: {period: 50 ms}\n' >"$work/scanner.yaml"
+expect 2 'scanner.yaml:1: scans: goes with --format scans only' "${cars[@]}" --config "$work/scanner.yaml"
+expect 0 '' track "$work/scans.csv" --format scans --config "$work/scanner.yaml" -o "$work/twice_as_fast.csv"
+[[ $(tail -1 "$work/twice_as_fast.csv") == 0.7,* ]] || fail "the period of scans does not count"
+
+# A real street, where the recording is there (docs/track.md).
+street=${TTF_RECORDINGS:-$source/../shared/data}/lidar_scans/scans.csv
+if [[ -e $street ]]; then
+  printf 'scans: {silhouette_weight: 1, preprocessing: {join_gap: 0, split_step: 0, thinnest: 0, roughest: 100}}\ntracker: {overlaps: keep}\n' \
+    >"$work/before.yaml"
+  "$program" track "$street" --format scans --config "$work/before.yaml" -o "$work/street.csv" --json >"$work/before.json" 2>/dev/null ||
+    fail "the street is not tracked without shapes"
+  "$program" track "$street" --format scans -o "$work/street.csv" --json >"$work/after.json" 2>/dev/null ||
+    fail "the street is not tracked"
+  python3 - "$work" <<'END' || fail "the street has more or worse tracks than documented"
+import json, sys
+before, after = (json.load(open(f"{sys.argv[1]}/{name}.json")) for name in ("before", "after"))
+assert after["scans"]["overlaps"] == 0 < before["scans"]["overlaps"], (before, after)
+assert 0 < after["tracks"] < before["tracks"], (before, after)
+assert after["scans"]["lifetime_s"]["median"] > before["scans"]["lifetime_s"]["median"] - 0.05, (before, after)
+END
+else
+  echo "skipped: there is no $street"
 fi
 
 [[ $failures -eq 0 ]] && echo "track: all as documented"

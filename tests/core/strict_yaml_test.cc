@@ -66,6 +66,17 @@ TEST(StrictYaml, ReportsEverythingAtOnce) {
                   HasSubstr("a.yaml:3: twice: is given twice"), HasSubstr("a.yaml:4: unknown: is not a known key")));
 }
 
+TEST(StrictYaml, AKeyOfEarlierVersionsIsRefusedWithWhatStandsForIt) {
+  const auto keys = [](YamlMap& map) {
+    map.integer("known", {0, 5});
+    map.gone("old", "`known` stands for it");
+  };
+  EXPECT_THAT(read("known: 1\n", keys), ElementsAre());
+  EXPECT_THAT(read("known: 1\nold: 2\n", keys),
+              ElementsAre("a.yaml:2: old = 2: is no key any longer: `known` stands for it"));
+  EXPECT_THAT(read("known: 1\nodd: 2\n", keys), ElementsAre("a.yaml:2: odd: is not a known key here (known: known)"));
+}
+
 TEST(StrictYaml, BrokenYamlAndMissingFilesAreOneSentence) {
   const auto sentence_of = [](const std::function<void()>& action) -> std::string {
     try {

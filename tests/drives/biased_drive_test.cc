@@ -43,6 +43,7 @@ struct LaserSightings final : recording::records::Sink {
 // A car that stands 30 m ahead.
 Drive standing_car(StrategyKind strategy) {
   Drive drive("scenarios/paper_scenario1.yaml", strategy);
+  drive.scenario.tracker = {};
   drive.scenario.world.acceleration_noise = drive.scenario.world.yaw_rate_noise = 0.0;
   sim::world::ObjectConfig& car = drive.scenario.world.objects[0];
   car.x = 30.0;
@@ -101,12 +102,20 @@ struct LastPrediction final : recording::records::Sink {
   }
 };
 
-// Judges only the position. The car stands still, which the tracker does not assume, so it knows the velocity
-// better than stated. Each drive is judged once, at its end.
+// Draws the car's sizes from the tracker's prior: half a length's error is the centre's. Judges only the position. The car
+// stands still, which the tracker does not assume, so it knows the velocity better than stated. Each drive is judged once,
+// at its end.
 TEST(BiasedDrive, ConsideredItIsConsistentIgnoredItIsNot) {
   constexpr std::uint64_t kDrives = 150;
   Drive drive = standing_car(StrategyKind::kTt);
   drive.scenario.tracker.process_noise = 0.1;
+  const fusion::config::Sizes& prior = drive.scenario.tracker.sizes;
+  sim::world::SizeConfig& size = drive.scenario.world.objects[0].size;
+  size.draw = sim::world::SizeDraw::kNormal;
+  size.mean = {prior.length, prior.width};
+  size.sigma = {prior.length_sigma, prior.width_sigma};
+  size.correlation = prior.correlation;
+  size.normal = {2.0, 7.0, 1.0, 3.0};
   drive.scenario.sensors.lasers.usual.model.range_bias.sigma = 0.4;
   drive.scenario.sensors.lasers.usual.model.azimuth_bias.sigma =
       drive.scenario.sensors.cameras.usual.model.bearing_bias.sigma = 0.015;
@@ -240,17 +249,27 @@ TEST(BiasedDrive, TheDocumentedKeysLoad) {
     return text.str();
   };
   std::string scenario = whole("scenarios/paper_scenario1.yaml");
+  scenario.resize(scenario.find("\ntracker:") + 1);
   const std::string page = whole("docs/sensors.md"), begin = "```yaml\n";
   std::vector<std::string> blocks;
   for (std::size_t from = page.find(begin); from != std::string::npos; from = page.find(begin, from)) {
     from += begin.size();
     blocks.push_back(page.substr(from, page.find("```", from) - from));
   }
-  ASSERT_EQ(blocks.size(), 3u);
-  const std::string by_name = blocks[1];
+  ASSERT_EQ(blocks.size(), 4u);
+  const std::string drawn = scenario.substr(0, scenario.find("\nworld:") + 1) + blocks[1];
+  const sim::world::WorldConfig world = parse_scenario(drawn, shipped("scenarios/drawn.yaml")).world;
+  EXPECT_EQ(world.acceleration_noise, 20.0);
+  EXPECT_EQ(world.speed_memory, Duration::milliseconds(500));
+  EXPECT_EQ(world.own_speed, 15.0);
+  ASSERT_EQ(world.objects.size(), 2u);
+  EXPECT_EQ(world.objects[0].size.draw, sim::world::SizeDraw::kNormal);
+  EXPECT_EQ(world.objects[1].size.draw, sim::world::SizeDraw::kNominal);
+  EXPECT_EQ(world.objects[1].length, 12.0);
+  const std::string by_name = blocks[2];
   EXPECT_NE(whole("scenarios/two_lasers.yaml").find(by_name.substr(by_name.find("  right_laser"))), std::string::npos);
   EXPECT_EQ(parse_scenario(scenario + by_name, "by_name.yaml").sensors.lasers.own.size(), 2u);
-  scenario += blocks[0] + blocks[2];
+  scenario += blocks[0] + blocks[3];
   const Scenario loaded = parse_scenario(scenario, shipped("scenarios/documented.yaml"));
   EXPECT_EQ(loaded.sensors.lasers.usual.model.device.placement.x, 3.5);
   EXPECT_EQ(loaded.sensors.lasers.usual.model.range_bias.sigma, 0.3);

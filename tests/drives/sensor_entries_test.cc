@@ -16,6 +16,7 @@ namespace ttf::drives {
 namespace {
 
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 
 const std::string kFolder = TTF_SOURCE_DIR "/schedules/";
@@ -70,9 +71,10 @@ TEST(SensorEntries, ThoseOfTheClusterAreTaken) {
 
 TEST(SensorEntries, OneThatTheScheduleHasNoRoomForIsRefused) {
   EXPECT_THAT(refusal("sensors:\n  laser2: {kind: laser}\n", "paper_synchronised"),
-              HasSubstr("car.yaml:27: sensors.laser2: must be a sensor of paper_synchronised.yaml: laser or camera"));
+              HasSubstr("car.yaml:36: sensors.laser2: must be a sensor of paper_synchronised.yaml: laser or camera; "
+                        "did you mean laser?"));
   EXPECT_THAT(refusal("sensors:\n  right:\n    range_sigma: 0.1\n    kind: laser\n", "twin_cameras"),
-              HasSubstr("car.yaml:29: sensors.right.kind = laser: must be camera, as in twin_cameras.yaml"));
+              HasSubstr("car.yaml:38: sensors.right.kind = laser: must be camera, as in twin_cameras.yaml"));
   EXPECT_THAT(refusal("sensors: {left_laser: {kind: laser, period: 40 ms}}\n"),
               HasSubstr("sensors.left_laser.period = 40 ms: must be 80 ms, the period of left_laser in "
                         "two_lasers_synchronised.yaml"));
@@ -89,6 +91,11 @@ TEST(SensorEntries, OneThatTheScheduleHasNoRoomForIsRefused) {
 TEST(SensorEntries, WrongKeysAreNamed) {
   EXPECT_THAT(refusal("sensors: {laser2: {range_sigma: 0.1}}\n"),
               HasSubstr("sensors.laser2.kind: is missing: must be one of laser, camera"));
+  EXPECT_THAT(refusal("sensors: {lasr: {range_sigma: 0.1}}\n"),
+              HasSubstr("sensors.lasr.kind: is missing: must be one of laser, camera; did you mean laser?"));
+  EXPECT_THAT(refusal("sensors: {rear: {range_sigma: 0.1}}\n"),
+              EndsWith("sensors.rear.kind: is missing: must be one of laser, camera"));
+  EXPECT_THAT(refusal("sensors: {left_lasr: {kind: laser}}\n"), HasSubstr("or camera; did you mean left_laser?"));
   EXPECT_THAT(refusal("sensors: {laser2: 7}\n"), HasSubstr("sensors.laser2: must be a mapping"));
   EXPECT_THAT(refusal("sensors: {laser: {kind: camera}}\n"), HasSubstr("sensors.laser.kind = camera: must be laser"));
   EXPECT_THAT(refusal("sensors: {rear: {kind: radar}}\n"),

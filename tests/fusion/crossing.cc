@@ -63,8 +63,8 @@ Followed follow(const Crossing& crossing, const config::TrackerConfig& config, i
   for (int run = 1; run <= runs; ++run) {
     const Crossing::Drive drive = crossing.draw_drive(static_cast<std::uint64_t>(run));
     tracks::Timeline timeline(config, 96);
-    metrics::ClearMot mot({.objects = 2, .tracks = 200, .objects_ever = 2}, 3.0);
-    metrics::SetMetric distance(2, 200, {.distance_m = 5.0, .order = 2.0});
+    metrics::ClearMot mot(3.0);
+    metrics::SetMetric distance({.distance_m = 5.0, .order = 2.0});
     const auto estimator = estimators::make_estimator(config);
     for (std::size_t k = 0; k < drive.lists.size(); ++k) {
       timeline.insert(drive.lists[k].view());

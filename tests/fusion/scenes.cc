@@ -121,9 +121,10 @@ bool same_bits(const tracks::TrackSet& a, const tracks::TrackSet& b) {
          std::equal(a.tracks.begin(), a.tracks.end(), b.tracks.begin(), b.tracks.end(),
                     [](const tracks::Track& s, const tracks::Track& t) {
                       return s.birth == t.birth && s.newest == t.newest && same_bits(s.estimate, t.estimate) &&
-                             same(s.heading, t.heading) && same(s.extent.size, t.extent.size) &&
-                             same(s.extent.covariance, t.extent.covariance) && s.hits == t.hits && s.lists == t.lists &&
-                             s.misses == t.misses && s.confirmed == t.confirmed && same(s.existence, t.existence) &&
+                             same(s.heading, t.heading) && same(s.heading.rate, t.heading.rate) &&
+                             same(s.extent.size, t.extent.size) && same(s.extent.covariance, t.extent.covariance) &&
+                             s.hits == t.hits && s.lists == t.lists && s.misses == t.misses &&
+                             s.confirmed == t.confirmed && same(s.existence, t.existence) &&
                              s.twin_lists == t.twin_lists && (s.twin_lists == 0 || s.twin == t.twin);
                     });
 }

@@ -145,6 +145,24 @@ TEST(Explore, AnyOtherNameIsAKeyBesideTheKnownOnes) {
   EXPECT_THAT(cases(found, "NAME"), ElementsAre("kind: a -> kind", "kind: b -> kind of_b"));
 }
 
+TEST(Explore, AKeyDecidesWhichKeysAMappingBesideItHas) {
+  const Outline found = outline_of([](YamlMap& m) {
+    for (auto& [name, entry] : m.other_maps()) {
+      const int kind = entry.choice<int>("kind", {{"a", 0}, {"b", 1}});
+      if (kind == 1) entry.integer("of_b", {0, 1});
+      if (auto inner = entry.map_if("inner")) {
+        inner->number_or("shared", kind == 0 ? 0.1 : 0.2, {0.0, 1.0});
+        inner->number_or(kind == 0 ? "inner_a" : "inner_b", 0.5, {0.0, 1.0});
+      }
+    }
+  });
+  EXPECT_THAT(cases(found, "NAME.inner"), ElementsAre("kind: a -> shared? inner_a?", "kind: b -> shared? inner_b?"));
+  EXPECT_TRUE(found.find("NAME.inner")->cases[1].conditions[0].around);
+  const Key& shared = key_of(found, "NAME.inner", "shared");
+  EXPECT_TRUE(shared.default_by.empty()) << "each case has its own";
+  EXPECT_EQ(shared.question.fallback, KeyValue(0.1));
+}
+
 TEST(Explore, AKeyThatIsOnlyRefusedIsNone) {
   const Outline found = outline_of([](YamlMap& m) {
     m.integer("a", {1, 9});

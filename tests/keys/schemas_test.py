@@ -59,6 +59,7 @@ TRACKS = [
     "  radar: {range: 0.3, bearing: 0.03, range_rate: 0.3, period: 100 ms, first: 50 ms, worst_delay: 70 ms}\n",
     "sensors:\n  side: {mounting: {x: 1.0, y: -0.9, heading: -1.57}, bias: {bearing: 0.01},"
     " bias_sigma: {range: 0.1, time: 5 ms}}\ntracker: {systematic: consider}\n",
+    "sensors: {lidar: {field: {half_angle: 1.05, min_range: 1, max_range: 120, shadow: 0.5}}, radar: {field: {}}}\n",
     "sensors: {camera: {bias_sigma: {x: 0.5, y: 0.5}}, radar: {bias_sigma: {bearing: 0.02}}}\n",
     "tracker: {late: clone, buff_waits: fixed_lag, fixed_lag: 50 ms, clutter_density: 1e-3}\n",
 ]
@@ -69,15 +70,20 @@ LASERS = "scenarios/two_lasers.yaml"
 PAPER = "schedules/paper_synchronised.yaml"
 NOISE = "experiments/process_noise.yaml"
 CAMPAIGN = "experiments/fault_campaign.yaml"
+CAN_CAMPAIGN = "experiments/can_fault_campaign.yaml"
 CRASH = "experiments/faults/camera_crash.yaml"
 WRONG = [
     ("an unknown key", "scenario", CAR, "process_noise: 0.04", "proces_noise: 0.04", "proces_noise"),
     ("a missing key", "scenario", CAR, "seed: 1\n", "", "seed"),
-    ("out of range", "scenario", CAR, "speed: 10.0", "speed: 120.0", "speed"),
+    ("out of range", "scenario", CAR, "speed: 25.0", "speed: 120.0", "speed"),
     ("a wrong unit", "scenario", CAR, "duration: 3 s", "duration: 3 min", "duration"),
     ("an unknown word", "scenario", CAR, "process_noise: 0.04", "motion: ctrw", "motion"),
     ("a sensor without its kind", "scenario", LASERS, "left_laser: {kind: laser, ", "left_laser: {", "kind"),
     ("another kind's key", "scenario", LASERS, "half_field: 0.9, period", "focal: 900.0, period", "focal"),
+    ("another kind's key of preprocessing", "scenario", LASERS, "preprocessing: {half_field: 0.9}}",
+     "preprocessing: {focal: 900.0}}", "focal"),
+    ("a number outside its kind's range", "scenario", LASERS, "preprocessing: {half_field: 0.9}}",
+     "preprocessing: {half_field: 50}}", "half_field"),
     ("an unknown colour", "scenario", LASERS, "colour: green", "colour: pink", "colour"),
     ("a word that needs the mapping", "scenario", CAR, "seed: 1\n", "seed: 1\nstartup: cold\n", "startup"),
     ("a flag that is a number", "cluster", PAPER, "synchronisation: true", "synchronisation: 1", "synchronisation"),
@@ -89,6 +95,10 @@ WRONG = [
     ("an unknown measure", "experiment", NOISE, "measures: [", "measures: [speed, ", "measures"),
     ("a text instead of a list", "experiment", NOISE, "measures: [", "measures: nees #", "measures"),
     ("a weight of an unknown kind", "experiment", CAMPAIGN, "seed: 1\n", "seed: 1\nclasses: {crush: 1}\n", "crush"),
+    ("a start-up on a CAN", "experiment", CAN_CAMPAIGN, "seed: 1\n", "seed: 1\nstart_up: 0.25\n", "start_up"),
+    ("a wiring of a CAN", "experiment", CAN_CAMPAIGN, "{recovery: never}", "{recovery: never, topology: bus}", "topology"),
+    ("an unknown recovery", "experiment", CAN_CAMPAIGN, "{recovery: never}", "{recovery: seldom}", "recovery"),
+    ("a kind of FlexRay", "experiment", CAN_CAMPAIGN, "harmless: [", "harmless: [crash, ", "harmless"),
     ("another kind's parameter", "faults", CRASH, "from: 1600 ms", "from: 1600 ms, probability: 0.5", "probability"),
     ("a time without a unit", "faults", CRASH, "from: 1600 ms", "from: 1600", "from"),
     ("too large a sigma", "track", None, "bearing: 0.03", "bearing: 0.9", "bearing"),

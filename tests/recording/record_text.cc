@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include "core/check.h"
@@ -39,7 +40,11 @@ class Line {
           value.sigma_acceleration, value.sigma_length, value.sigma_width, value.status);
     else if constexpr (std::is_same_v<T, records::FeatureObject>)
       all(value.image, value.time_gap_s, value.time_to_collision_s, value.warning);
-    else if constexpr (requires { value.ns; })
+    else if constexpr (std::is_same_v<T, records::Believed>)
+      all(value.value, value.sigma);
+    else if constexpr (std::is_same_v<T, std::optional<records::BelievedBox>>) {
+      if (value) all(value->heading, value->speed, value->acceleration, value->length, value->width);
+    } else if constexpr (requires { value.ns; })
       text_ += fmt::format(" {}", value.ns);
     else
       list(value);
@@ -97,7 +102,13 @@ class Draw {
       return object;
     } else if constexpr (std::is_same_v<T, records::FeatureObject>)
       return {get<records::ImageObject>(), number(), number(), get<bool>()};
-    else if constexpr (requires(T t) { t.ns; })
+    else if constexpr (std::is_same_v<T, records::Believed>)
+      return {number(), number()};
+    else if constexpr (std::is_same_v<T, std::optional<records::BelievedBox>>) {
+      if (!get<bool>()) return std::nullopt;
+      return records::BelievedBox{get<records::Believed>(), get<records::Believed>(), get<records::Believed>(),
+                                  get<records::Believed>(), get<records::Believed>()};
+    } else if constexpr (requires(T t) { t.ns; })
       return T{values_ == Values::kDrawn ? at_ + stream_.integer(0, 9'999) : get<std::int64_t>()};
     else {
       if (values_ == Values::kSmallest) return std::numeric_limits<T>::min();
@@ -172,11 +183,11 @@ std::string text_of(const records::FusionInput& r) {
   return line("input", r.stamp, r.step, r.pdu, r.sensor, r.sequence, r.measured, r.count, r.fragments);
 }
 std::string text_of(const records::ListFused& r) {
-  return line("fused", r.stamp, r.step, r.id, r.measured, r.disposition);
+  return line("fused", r.stamp, r.step, r.id, r.measured, r.disposition, r.innovation_squares, r.innovation_degrees);
 }
 std::string text_of(const records::FusionStep& r) { return line("step", r.stamp, r.step, r.confirmed, r.tentative); }
 std::string text_of(const records::TrackState& r) {
-  return line("track", r.stamp, r.step, r.track, r.valid_at, r.state, r.covariance, r.predicted_for_image);
+  return line("track", r.stamp, r.step, r.track, r.valid_at, r.state, r.covariance, r.predicted_for_image, r.box);
 }
 std::string text_of(const records::ObservationSeen& r) {
   return line("observation", r.stamp, r.id, r.measured, r.index, r.x, r.y, r.sxx, r.sxy, r.syy);
@@ -285,13 +296,15 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
     }
     case 10:
       return sink.on(records::ListFused{stamp, d.get<U32>(), d.get<MeasurementId>(), d.get<GlobalTime>(),
-                                        d.choice(records::Disposition::kFused, records::Disposition::kDuplicate)});
+                                        d.choice(records::Disposition::kFused, records::Disposition::kDuplicate),
+                                        d.get<double>(), d.get<U32>()});
     case 11: return sink.on(records::FusionStep{stamp, d.get<U32>(), d.get<U16>(), d.get<U16>()});
     case 12: {
       const auto state = d.fixed<double>(6), covariance = d.fixed<double>(36);
       return sink.on(records::TrackState{stamp, d.get<U32>(), d.get<TrackId>(), d.get<GlobalTime>(),
                                          std::span<const double, 6>(state.data(), 6),
-                                         std::span<const double, 36>(covariance.data(), 36), d.get<bool>()});
+                                         std::span<const double, 36>(covariance.data(), 36), d.get<bool>(),
+                                         d.get<std::optional<records::BelievedBox>>()});
     }
     case 13:
       return sink.on(records::ObservationSeen{stamp, d.get<MeasurementId>(), d.get<GlobalTime>(), d.get<U16>(),

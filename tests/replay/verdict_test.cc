@@ -14,12 +14,12 @@ using fusion::strategies::StrategyKind;
 using recording::rows::ObservationRow;
 using testing::ElementsAre;
 
-ReplayVerdict verdict_of(const std::vector<ObservationRow>& rows, ReplayConfig config = {}, std::size_t damaged = 0) {
+ReplayVerdict verdict_of(const std::vector<ObservationRow>& rows, ReplayConfig config = {}, std::uint64_t damaged = 0) {
   const RecordedLists lists = recorded_lists_of_rows(rows, config);
   const ReplaySetup setup{StrategyKind::kAdva, config.tracker, sensor_timings(lists, config, StrategyKind::kAdva),
                           false};
   const ReplayAccount account = replay(lists, setup, [](GlobalTime, std::span<const fusion::tracks::TrackView>) {});
-  return judge(rows, damaged, lists, setup, account);
+  return judge(rows, {rows.size(), damaged}, lists, setup, account);
 }
 
 // A car that stands at (20, 3), seen once in `period_ms`.

@@ -17,7 +17,15 @@ for seed in 1 2 3; do
 done
 expect 0 'wrote run.html: [0-9.]+ MB' report seed1 -o run.html
 has run.html 'A car ahead accelerates along the sensor vehicle'
-has run.html 'In this one drive buff is off by 0.115 m in position, adva by 0.117 m, tt by 0.115 m'
+# The first sentence has the summary's errors, to three digits.
+errors=$(python3 - <<'END'
+import json, math
+told = {s["strategy"]: s["rmse_truth"]["position_m"] for s in json.load(open("seed1/summary.json"))["strategies"]}
+text = {name: f"{error:.{2 - math.floor(math.log10(error))}f}" for name, error in told.items()}
+print(f"buff is off by {text['buff']} m in position, adva by {text['adva']} m, tt by {text['tt']} m")
+END
+)
+has run.html "In this one drive $errors"
 has run.html 'One drive is one draw of the noise'
 has run.html "ttfusion run scenarios/paper_scenario1.yaml --strategy tt --seed 1"
 has run.html \
@@ -51,7 +59,7 @@ has runs.html 'The first 6 of 9 drives are drawn.'
 # ---- two scenarios: an answer each
 expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --no-pictures --out other
 expect 0 'wrote' report seed1 other -o scenarios.html
-has scenarios.html 'paper_scenario1: In this one drive buff is off by 0.115 m'
+has scenarios.html "paper_scenario1: In this one drive $errors"
 has scenarios.html 'paper_scenario2: In this one drive buff is off by'
 lacks scenarios.html 'has the smallest'
 

@@ -5,7 +5,7 @@
 namespace ttf::fusion::strategies::late {
 
 std::unique_ptr<Pasts> make_at_constant_acceleration(const config::TrackerConfig& config, std::size_t slots) {
-  return make_pasts_of(motion::ConstantAcceleration(config.process_noise), config.late, slots);
+  return make_pasts_of(motion::ConstantAcceleration(config.process_noise, config.noise_across()), config.late, slots);
 }
 
 }  // namespace ttf::fusion::strategies::late

@@ -1,6 +1,7 @@
 #include "fusion/strategies/late/late_updates.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/check.h"
@@ -10,11 +11,21 @@ namespace {
 
 bool is_taken(oosm::Taken taken) { return taken == oosm::Taken::kInOrder || taken == oosm::Taken::kLate; }
 
-// Counts a list at its place, `since` lists before the newest.
+// Notes a list at its place, `since` lists before the newest. Returns how many of the lists since then counted.
+int note(std::uint64_t& counted, int since, bool counts) {
+  if (since >= 64) return std::popcount(counted) + (since - 64);
+  const std::uint64_t later = (std::uint64_t{1} << since) - 1u;
+  const int counted_since = std::popcount(counted & later);
+  counted = (counted & later) | ((counted & ~later) << 1) | (std::uint64_t{counts} << since);
+  return counted_since;
+}
+
+// Counts a list at its place, `since` counted lists before the newest.
 void count(tracks::Track& track, int since, bool hit) {
   if (since < 32) {
     const std::uint32_t later = (1u << since) - 1u;
     track.hits = (track.hits & later) | ((track.hits & ~later) << 1) | ((hit ? 1u : 0u) << since);
+    track.doubtful = (track.doubtful & later) | ((track.doubtful & ~later) << 1);
   }
   ++track.lists;
   if (since <= track.misses) track.misses = hit ? since : track.misses + 1;
@@ -22,7 +33,46 @@ void count(tracks::Track& track, int since, bool hit) {
 
 double widened(double sigma, double variance) { return std::sqrt(sigma * sigma + variance); }
 
+// The heading that a track had, as far as its turn rate tells.
+tracks::Heading heading_before(const tracks::Heading& heading, double age) {
+  tracks::Heading then = heading;
+  then.value -= age * heading.rate;
+  then.variance += age * age * heading.rate_variance - 2.0 * age * heading.covariance;
+  then.covariance -= age * heading.rate_variance;
+  return then;
+}
+
+// The variance that noise adds to a heading within `age`, as of a rate that has just been measured.
+double heading_noise_since(const config::TrackerConfig& config, double speed, double age) {
+  tracks::Heading exact;
+  exact.known = true;
+  return tracks::predicted(exact, config, speed, age).variance;
+}
+
 }  // namespace
+
+void LateUpdates::Object::note(const Before& before) {
+  if (moves >= kAnchors) std::rotate(anchors.begin(), anchors.begin() + 1, anchors.end());
+  anchors[std::min(moves, kAnchors - 1)] = before;
+  ++moves;
+}
+
+bool LateUpdates::Object::keeps_anchor_since(const MeasurementId& id, GlobalTime measured) const {
+  if (moves == 0) return true;
+  const Before& newest = anchors[std::min(moves, kAnchors) - 1];
+  return !tracks::before(id, measured, newest.id, newest.moved);
+}
+
+std::optional<tracks::Anchor> LateUpdates::Object::anchor_at(const MeasurementId& id, GlobalTime measured,
+                                                             const tracks::Anchor& present) const {
+  const std::size_t known = std::min(moves, kAnchors);
+  for (std::size_t i = 0; i < known; ++i)
+    if (tracks::before(id, measured, anchors[i].id, anchors[i].moved)) {
+      if (i == 0 && moves > kAnchors) return std::nullopt;
+      return anchors[i].anchor;
+    }
+  return present;
+}
 
 LateUpdates::LateUpdates(const config::TrackerConfig& config, std::size_t max_observations,
                          std::span<const SensorTiming> sensors)
@@ -71,12 +121,17 @@ void LateUpdates::step(const sensors::ObservationList& list) {
   for (std::size_t t = 0; t < set_.tracks.size(); ++t) {
     const tracks::Track& track = set_.tracks[t];
     Object& object = objects_[t];
+    object.counted = (object.counted << 1) | (track.lists != object.lists ? 1u : 0u);
+    object.lists = track.lists;
     if (track.newest.measurement != list.id || track.newest.measured != list.measured) continue;
     const sensors::Observation& z = list.observations[track.newest.index];
     if (z.third.has_z) object.z_at = list.measured;
     if (z.third.has_height) object.height_at = list.measured;
-    // The stamp does not fit the method: it starts anew from the tracker's estimate.
-    if (track.birth != track.newest && !is_taken(pasts_->take(object.slot, when, z)))
+    if (track.birth == track.newest) continue;
+    const tracks::Tracker::Referred& taken = tracker_.taken(track.newest.index);
+    if (taken.moved) object.note({taken.from, list.id, list.measured});
+    // It starts anew from the tracker's estimate if the stamp does not fit the method.
+    if (!is_taken(pasts_->take(object.slot, when, taken.observation, taken.moved ? &taken.displacement : nullptr)))
       pasts_->start(object.slot, set_.time, track.estimate);
   }
 }
@@ -90,20 +145,26 @@ bool LateUpdates::mend(const sensors::ObservationList& list, int lists_since) {
   for (std::size_t t = 0; t < set_.tracks.size(); ++t) {
     const tracks::ObservationId& birth = set_.tracks[t].birth;
     if (!tracks::before(birth.measurement, birth.measured, list.id, list.measured)) continue;
-    const std::optional<estimators::Estimate> then = pasts_->at(objects_[t].slot, when);
-    if (!then) continue;
-    then_.tracks.push_back(set_.tracks[t]);
-    then_.tracks.back().estimate = *then;
+    const std::optional<estimators::Estimate> estimate = pasts_->at(objects_[t].slot, when);
+    const auto anchor = objects_[t].anchor_at(list.id, list.measured, set_.tracks[t].anchor);
+    if (!estimate || !anchor) continue;
+    tracks::Track& then = then_.tracks.emplace_back(set_.tracks[t]);
+    then.estimate = *estimate;
+    then.anchor = *anchor;
+    then.heading = heading_before(then.heading, (set_.time - list.measured).seconds());
     places_.push_back(t);
   }
   if (places_.empty()) return false;
   const std::span<const int> assigned = tracker_.assigned(then_, list);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     tracks::Track& track = set_.tracks[places_[i]];
-    count(track, lists_since, assigned[i] >= 0);
+    Object& object = objects_[places_[i]];
+    const int counted_since = note(object.counted, lists_since, tracker_.list_counts(i));
+    if (tracker_.list_counts(i)) count(track, counted_since, assigned[i] >= 0);
+    object.lists = track.lists;
     if (assigned[i] < 0) continue;
     const tracks::ObservationId which{list.id, static_cast<std::uint16_t>(assigned[i]), list.measured};
-    mend(track, objects_[places_[i]], which, list.observations[which.index], when, then_.tracks[i]);
+    mend(track, object, which, list.observations[which.index], when, then_.tracks[i]);
   }
   tracker_.prune(set_);
   align();
@@ -112,22 +173,33 @@ bool LateUpdates::mend(const sensors::ObservationList& list, int lists_since) {
 
 void LateUpdates::mend(tracks::Track& track, Object& object, const tracks::ObservationId& which,
                        const sensors::Observation& z, const When& when, tracks::Track& then) {
-  const oosm::Taken taken = pasts_->take(object.slot, when, z);
+  sensors::Observation now = z;
+  const double age = (set_.time - which.measured).seconds();
+  const double speed = tracker_.estimator().cartesian(then.estimate).x.segment<2>(2).norm();
+  now.sigma_heading = widened(z.sigma_heading, heading_noise_since(tracker_.config(), speed, age));
+  tracker_.correct_heading(track, now, age);
+  then.heading = heading_before(track.heading, age);
+  const bool at_present = object.keeps_anchor_since(which.measurement, which.measured);
+  const tracks::Tracker::Referred referred = tracker_.referred_late(then, z, at_present);
+  const oosm::Taken taken =
+      pasts_->take(object.slot, when, referred.observation, referred.moved ? &referred.displacement : nullptr);
   TTF_CHECK(is_taken(taken), "a late list is not taken although the method has a state at its instant: {}",
             static_cast<int>(taken));
   track.estimate = pasts_->newest(object.slot, set_.time);
 
-  sensors::Observation now = z;
-  const double age = (set_.time - which.measured).seconds();
   const double range = (z.z.head<2>() - place_of(tracker_.config().sensors, z.sensor)).norm();
   const double walked = tracker_.config().extent_noise * age;
-  now.sigma_heading = widened(z.sigma_heading, tracker_.config().heading_noise * age);
   now.sigma_length = widened(z.sigma_length, walked);
   now.sigma_width = widened(z.sigma_width, walked);
   if (range > 0.0) now.sigma_span = widened(z.sigma_span, walked / (range * range));
-  tracker_.correct_outline(then, now);
-  track.heading = then.heading;
+  tracker_.correct_extent(then, now);
   track.extent = then.extent;
+  track.shown = then.shown;
+  if (referred.moved) {
+    object.note({referred.from, which.measurement, which.measured});
+    track.anchor = then.anchor;
+  }
+  if (referred.moved || (at_present && !referred.elsewhere)) track.lists_elsewhere = 0;
 
   const auto newest = [&](bool& has, GlobalTime& at, bool known) {
     has = has && (!known || which.measured >= at);

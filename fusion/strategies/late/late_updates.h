@@ -15,19 +15,26 @@
 // short. A list without any such track is too old, and so is a list before the last config.history_scans.
 //
 // Beside the state:
-//   counters  The list counts at its place among the others, as a hit or a miss. So hits, misses and lists are those in
-//             order, without lists in which the track took no part. Tracks are confirmed, and end, by these counts.
+//   counters  The list counts at its place among the others, as a hit or a miss, or not at all
+//             (fusion/tracks/visibility.h). So hits, misses and lists are those in order, without lists in which the track
+//             took no part. Tracks are confirmed, and end, by these counts.
 //   newest    It moves if the late observation is the track's newest.
-//   outline   Heading and extent are random walks. A late value counts as a present one, with the variance of the walk
-//             since. This is not exact: measurements between share that walk.
+//   anchor    A late observation counts for the anchor that the track had then (fusion/tracks/anchoring.h). When an anchor
+//             moves, the states since are displaced, and those before stay (law L10). A late observation to which a
+//             silhouette gives way moves the anchor from its instant on. A track remembers its last kAnchors moves; a
+//             list from before those is one in which it takes no part.
+//   outline   A late axis is that of the heading less age times turn rate. Sizes are constants, or random walks. Noise
+//             since adds to a late value's variance. This is not exact: measurements between share that noise.
 //   carried   Scores add up; height and third side are taken unless newer ones are known.
 //
 // Memory, for max_objects + 3 max_observations objects, each (constant velocity, acceleration):
-//   augmented 21, 46 KB; clone 7, 15 KB; adjoint 10, 21 KB; al1, bl1 3, 6 KB; a, b 0.5, 1 KB; c 0.3, 0.4 KB.
-// Rewinding remembers the tracks after every list instead, 1.1 KB each.
+//   augmented 21, 46 KB; clone 7, 15 KB; adjoint 10, 21 KB; al1, bl1 6, 12 KB; a, b 0.7, 1.4 KB; c 0.4, 0.8 KB.
+// Rewinding remembers the tracks after every list instead, 1.3 KB each.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,6 +55,7 @@ class LateUpdates final : public tracks::TrackHistory {
   LateUpdates(const config::TrackerConfig& config, std::size_t max_observations, std::span<const SensorTiming> sensors);
 
   Insertion insert(const sensors::ObservationList& list) override;
+  tracks::Innovations innovations() const override { return tracker_.innovations(); }
   const tracks::TrackSet& current() const override { return set_; }
   const estimators::Estimator& estimator() const override { return tracker_.estimator(); }
   bool contains(const MeasurementId& id, GlobalTime measured) const override;
@@ -57,11 +65,29 @@ class LateUpdates final : public tracks::TrackHistory {
     MeasurementId id;
     GlobalTime measured{};
   };
+  // The anchor of a track before the list of `id`, at which it moved.
+  struct Before {
+    tracks::Anchor anchor;
+    MeasurementId id;
+    GlobalTime moved{};
+  };
+  static constexpr std::size_t kAnchors = 4;
   // The additional state of a track.
   struct Object {
     tracks::ObservationId birth;
-    std::size_t slot = 0;            // its past's
-    GlobalTime z_at{}, height_at{};  // when the carried values of the third axis were measured
+    std::size_t slot = 0;                    // its past's
+    GlobalTime z_at{}, height_at{};          // when the carried values of the third axis were measured
+    std::uint64_t counted = 0;               // bit i: the list i lists ago counted for or against the track
+    int lists = 0;                           // the track's, so far
+    std::array<Before, kAnchors> anchors{};  // oldest first
+    std::size_t moves = 0;                   // ever: the last kAnchors are remembered
+
+    void note(const Before& before);
+    // Returns whether the anchor has not moved since a list.
+    bool keeps_anchor_since(const MeasurementId& id, GlobalTime measured) const;
+    // Returns the anchor at a list, from before it; no value if that is forgotten. `present` is the newest one.
+    std::optional<tracks::Anchor> anchor_at(const MeasurementId& id, GlobalTime measured,
+                                            const tracks::Anchor& present) const;
   };
   void step(const sensors::ObservationList& list);
   bool mend(const sensors::ObservationList& list, int lists_since);

@@ -38,7 +38,9 @@ class Pasts {
   // Returns the state that a position measured then is an innovation to (law L9 of fusion/oosm/method.h); no
   // value if take() would refuse it.
   virtual std::optional<estimators::Estimate> at(std::size_t slot, const When& when) const = 0;
-  virtual oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& position) = 0;
+  // `displacement`: the anchor has moved so, and this is the first position of the new one (law L10); null: it has not.
+  virtual oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& position,
+                           const estimators::Displacement* displacement = nullptr) = 0;
   // Returns the newest estimate, predicted to `time`.
   virtual estimators::Estimate newest(std::size_t slot, GlobalTime time) const = 0;
 };

@@ -31,14 +31,19 @@ template <motion::LinearModel M, oosm::Method X> class PastsOf final : public Pa
     if (!then) return std::nullopt;
     return moved(*then, when.after);
   }
-  oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& position) override {
+  oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& position,
+                   const estimators::Displacement* displacement) override {
     TTF_CHECK(position.kind == sensors::ObservationKind::kPosition, "observation of kind {}",
               static_cast<int>(position.kind));
     linear::LinearMeasurement<kN, 2> measurement;
     measurement.z = position.z.template head<2>();
     measurement.h = transition(when.after).template topRows<2>();
     measurement.r = position.r.template topLeftCorner<2, 2>();
-    return methods_[slot].take(when.stamp, measurement);
+    if (displacement == nullptr) return methods_[slot].take(when.stamp, measurement);
+    oosm::Displacement<kN> of_state;
+    of_state.by.template head<2>() = displacement->by;
+    of_state.spread.template topLeftCorner<2, 2>() = displacement->spread;
+    return methods_[slot].take(when.stamp, measurement, &of_state);
   }
   estimators::Estimate newest(std::size_t slot, GlobalTime time) const override {
     const Duration elapsed = time - methods_[slot].time();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <pugixml.hpp>
 #include <sstream>
+#include <vector>
 
 #include "core/decimal.h"
 #include "schedules/analysis/minislots.h"
@@ -16,14 +17,17 @@ namespace ttf::schedules::exchange::fibex {
 namespace {
 
 std::string channel_id(model::Channel channel) { return fmt::format("channel_{}", letter(channel)); }
-std::string controller_id(std::size_t node) { return fmt::format("controller_{}", node); }
+std::string controller_id(std::size_t ecu) { return fmt::format("controller_{}", ecu); }
 std::string triggering_id(std::size_t frame, model::Channel channel) {
   return fmt::format("triggering_{}_{}", frame, letter(channel));
 }
 
 class Exporter {
  public:
-  explicit Exporter(const model::Cluster& cluster) : cluster_(cluster) {}
+  explicit Exporter(const model::Cluster& cluster) : cluster_(cluster) {
+    std::size_t ecus = 0;
+    for (const model::Node& node : cluster.nodes) ecu_.push_back(node.flexray ? ecus++ : 0);
+  }
 
   std::string write() {
     pugi::xml_node declaration = document_.append_child(pugi::node_declaration);
@@ -114,7 +118,7 @@ class Exporter {
     for (std::size_t i = 0; i < cluster_.nodes.size(); ++i) {
       const model::Node& node = cluster_.nodes[i];
       if (!node.flexray) continue;
-      pugi::xml_node ecu = put_named(ecus, "fx:ECU", fmt::format("ecu_{}", i), node.name);
+      pugi::xml_node ecu = put_named(ecus, "fx:ECU", fmt::format("ecu_{}", ecu_[i]), node.name);
       put_controller(ecu.append_child("fx:CONTROLLERS"), i);
       pugi::xml_node connectors = ecu.append_child("fx:CONNECTORS");
       for (const model::Channel channel : model::kBothChannels)
@@ -124,7 +128,7 @@ class Exporter {
 
   void put_controller(pugi::xml_node controllers, std::size_t index) {
     const model::NodeParameters& p = *cluster_.nodes[index].flexray;
-    pugi::xml_node one = put_named(controllers, "fx:CONTROLLER", controller_id(index),
+    pugi::xml_node one = put_named(controllers, "fx:CONTROLLER", controller_id(ecu_[index]),
                                    fmt::format("{}_controller", cluster_.nodes[index].name), "flexray:CONTROLLER-TYPE");
     const std::string key_slot = std::to_string(p.pKeySlotId);
     if (!p.pKeySlotUsedForSync) put(one.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:KEY-SLOT-ID", key_slot);
@@ -155,10 +159,10 @@ class Exporter {
 
   void put_connector(pugi::xml_node connectors, std::size_t index, model::Channel channel) {
     pugi::xml_node one = connectors.append_child("fx:CONNECTOR");
-    one.append_attribute("ID") = fmt::format("connector_{}_{}", index, letter(channel)).c_str();
+    one.append_attribute("ID") = fmt::format("connector_{}_{}", ecu_[index], letter(channel)).c_str();
     one.append_attribute("xsi:type") = "flexray:CONNECTOR-TYPE";
     put_reference(one, "fx:CHANNEL-REF", channel_id(channel));
-    put_reference(one, "fx:CONTROLLER-REF", controller_id(index));
+    put_reference(one, "fx:CONTROLLER-REF", controller_id(ecu_[index]));
     const auto ports = [&](const char* list, const char* port, const char* id, auto&& wanted) {
       pugi::xml_node to;
       for (std::size_t i = 0; i < cluster_.frames.size(); ++i) {
@@ -166,7 +170,7 @@ class Exporter {
         if (!includes(frame.channels, channel) || !wanted(frame)) continue;
         if (!to) to = one.append_child(list);
         pugi::xml_node item = to.append_child(port);
-        item.append_attribute("ID") = fmt::format("{}_{}_{}_{}", id, index, i, letter(channel)).c_str();
+        item.append_attribute("ID") = fmt::format("{}_{}_{}_{}", id, ecu_[index], i, letter(channel)).c_str();
         put_reference(item, "fx:FRAME-TRIGGERING-REF", triggering_id(i, channel));
         item.append_child("fx:COMPLETE-FRAME");
       }
@@ -212,6 +216,7 @@ class Exporter {
   static std::string frame_id(std::size_t frame) { return fmt::format("frame_{}", frame); }
 
   const model::Cluster& cluster_;
+  std::vector<std::size_t> ecu_;  // by node, among those on FlexRay: an import has no others
   pugi::xml_document document_;
 };
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "tests/evaluation/accuracy/synthetic_uses.h"
 
@@ -144,6 +146,72 @@ void fuse(recording::records::Sink& sink, std::uint8_t sensor, std::uint32_t seq
   sink.on(fused);
 }
 
+// Each quantity by its own sigma: errors of 0.2 rad across the half turn, 1 m/s, 0.6 m and 0.1 m, sigmas 0.1, 2, 0.3, 0.2.
+// The acceleration's sigma is 0: the model has none. Position and velocity err by 1 m and 2 m/s, with variances of 4.
+TEST(Measures, ConsistencyOfEachQuantity) {
+  DriveMeasures measures(TrueTime{});
+  const std::array<double, 6> state{11, 0, 2, 0, 0, 0};
+  std::array<double, 36> covariance{};
+  for (std::size_t k = 0; k < 6; ++k) covariance[7 * k] = 4.0;
+  recording::records::TrackState track{{}, 1, TrackId{0}, global(40), state, covariance, true, {}};
+  track.box = {{-3.0, 0.1}, {5.0, 2.0}, {9.0, 0.0}, {4.0, 0.3}, {1.9, 0.2}};
+  recording::records::ImageWritten image;
+  const std::array<recording::records::ImageObject, 1> objects{{{TrackId{0}, 11, 0}}};
+  image.objects = objects;
+  const auto judge = [&](DriveMeasures& by) {
+    by.on(track);
+    by.on(image);
+    use_image(by, 0, at(40), {{11, 0}});
+    recording::records::TruthState truth;
+    truth.at = at(40);
+    truth.x = 10;
+    truth.heading = 2.0 * std::numbers::pi - 3.2;  // 3.083 rad
+    truth.speed = 4.0;
+    truth.acceleration = 1.0;
+    truth.length = 4.6;
+    truth.width = 1.8;
+    by.on(truth);
+  };
+  judge(measures);
+  const DriveSummary summary = measures.finish();
+  const double vx = 2.0 - 4.0 * std::cos(3.2), vy = 4.0 * std::sin(3.2);
+  EXPECT_NEAR(summary.own.position, 0.25 / 2.0, 1e-12);
+  EXPECT_NEAR(summary.own.velocity, (vx * vx + vy * vy) / 4.0 / 2.0, 1e-12);
+  EXPECT_NEAR(summary.own.heading, 4.0, 1e-9);
+  EXPECT_NEAR(summary.own.speed, 0.25, 1e-12);
+  EXPECT_TRUE(std::isnan(summary.own.acceleration));
+  EXPECT_NEAR(summary.own.length, 4.0, 1e-9);
+  EXPECT_NEAR(summary.own.width, 0.25, 1e-9);
+  // An old log has the state only.
+  track.box.reset();
+  DriveMeasures old(TrueTime{});
+  judge(old);
+  const DriveSummary before = old.finish();
+  EXPECT_EQ(before.nees, summary.nees);
+  for (const double value : {before.own.heading, before.own.speed, before.own.length, before.own.width})
+    EXPECT_TRUE(std::isnan(value));
+}
+
+// Innovations are summed over lists, from the begin of the judged part on.
+TEST(Measures, InnovationsOverTheirDegrees) {
+  DriveMeasures measures(at(100));
+  EXPECT_TRUE(std::isnan(DriveMeasures(TrueTime{}).finish().own.innovations));
+  const auto list = [&](std::int64_t ms, double squares, std::uint32_t degrees) {
+    recording::records::ListFused fused;
+    fused.stamp.true_time = at(ms);
+    fused.innovation_squares = squares;
+    fused.innovation_degrees = degrees;
+    measures.on(fused);
+  };
+  list(60, 1000.0, 2);
+  list(100, 3.0, 2);
+  list(140, 0.0, 0);
+  list(180, 9.0, 6);
+  const DriveSummary summary = measures.finish();
+  EXPECT_NEAR(summary.own.innovations, 12.0 / 8.0, 1e-12);
+  EXPECT_EQ(summary.own.innovation_degrees, 8u);
+}
+
 // Two lists are held back, one over three fusion instants and one over one; a third is fused at once.
 TEST(Measures, HowLongAListWasHeldBack) {
   DriveMeasures measures(TrueTime{});
@@ -225,6 +293,50 @@ TEST(Measures, AnImageThatWasRefusedWasNotUsed) {
   EXPECT_EQ(summary.age_used.count, 1u);
   EXPECT_EQ(summary.matched, 1u);
   EXPECT_EQ(summary.missed, 1u) << "who has no image sees nothing";
+}
+
+// The first car is half a metre too long. The second image misses the other.
+TEST(Measures, BoxesAreThoseOfPairsAndTrackingIsOfAll) {
+  DriveMeasures measures(TrueTime{}, kGate_m, std::nullopt, {2.0, 1.0});
+  for (const int use : {0, 1}) {
+    std::vector<recording::records::FeatureObject> objects(use == 0 ? 2 : 1);
+    objects[0].image = {TrackId{3}, 30.0, 0.0, 0.1, 9.0, 0.5, 5.0, 1.8};
+    if (use == 0) objects[1].image = {TrackId{4}, 60.0, 1.0, 0.0, 10.0, 0.0, 4.5, 1.8};
+    recording::records::FeatureUsed used;
+    used.stamp = {at(40 + 40 * use), {}, global(40 + 40 * use), {}};
+    used.objects = objects;
+    measures.on(used);
+    for (const std::uint16_t object : {0, 1}) {
+      recording::records::TruthState truth{at(40 + 40 * use), ObjectId{object}, object == 0 ? 30.0 : 60.0};
+      truth.speed = 10.0;
+      truth.length = 4.5;
+      truth.width = 1.8;
+      measures.on(truth);
+    }
+  }
+  const DriveSummary summary = measures.finish();
+  EXPECT_EQ(summary.matched, 3u);
+  EXPECT_EQ(summary.missed, 1u);
+  const auto rms_of_two_in_three = [](double error) { return std::sqrt(2.0 * error * error / 3.0); };
+  EXPECT_NEAR(summary.box.heading_rad, rms_of_two_in_three(0.1), 1e-12);
+  EXPECT_NEAR(summary.box.speed_mps, rms_of_two_in_three(1.0), 1e-12);
+  EXPECT_NEAR(summary.box.acceleration_mps2, rms_of_two_in_three(0.5), 1e-12);
+  EXPECT_NEAR(summary.box.length_m, rms_of_two_in_three(0.5), 1e-12);
+  EXPECT_EQ(summary.box.width_m, 0.0);
+  // The rear is 2.5 m behind the image's centre, and 2.25 m behind the true one. The third pair is 1 m apart.
+  const double dx = -2.5 * std::cos(0.1) + 2.25, dy = -2.5 * std::sin(0.1);
+  EXPECT_NEAR(summary.box.face_m, std::sqrt((2.0 * (dx * dx + dy * dy) + 1.0) / 3.0), 1e-12);
+  // The box begins where the line of sight meets the rear.
+  const double ahead = (30.0 - 2.5 / std::cos(0.1)) - 27.75;
+  const double beside = std::hypot(60.0, 1.0) * (1.0 - 2.25 / 60.0) - 57.75;
+  EXPECT_NEAR(summary.box.gap_m, std::sqrt((2.0 * ahead * ahead + beside * beside) / 3.0), 1e-12);
+  // c = 2, p = 1: 0 + 1 at the first use, 0 and a miss of c / 2 at the second.
+  EXPECT_EQ(summary.tracking.cut_off.distance_m, 2.0);
+  EXPECT_NEAR(summary.tracking.gospa.distance_m, 1.0, 1e-12);
+  EXPECT_NEAR(summary.tracking.gospa.localisation, 0.5, 1e-12);
+  EXPECT_NEAR(summary.tracking.gospa.missed, 0.5, 1e-12);
+  EXPECT_NEAR(summary.tracking.mot.mota(), 0.75, 1e-12);
+  EXPECT_NEAR(summary.tracking.lives.mean_fraction_tracked, 0.75, 1e-12);
 }
 
 }  // namespace

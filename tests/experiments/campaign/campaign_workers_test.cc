@@ -1,6 +1,7 @@
 // A campaign has the same results with any number of workers, and from shards put together.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,11 @@ namespace {
 class CampaignWorkers : public testing::Test {
  protected:
   std::vector<FaultResult> run(unsigned workers, results::Shard shard = {}) const {
-    return run_campaign(campaign_, clusters_, shard, workers, nullptr);
+    return run_campaign(campaign_, *bus_, shard, workers, nullptr);
   }
-  std::string csv(const std::vector<FaultResult>& results) const { return campaign_csv(campaign_, clusters_, results); }
+  std::string csv(const std::vector<FaultResult>& results) const { return campaign_csv(campaign_, *bus_, results); }
   const CampaignFile campaign_ = small_campaign(40);
-  const CampaignClusters clusters_{campaign_};
+  const std::unique_ptr<const CampaignBus> bus_ = bus_of(campaign_);
 };
 
 TEST_F(CampaignWorkers, TheSameForAnyNumber) {
@@ -31,7 +32,7 @@ TEST_F(CampaignWorkers, TheSameForAnyNumber) {
 TEST_F(CampaignWorkers, ShardsPutTogetherAreTheWhole) {
   std::vector<std::vector<FaultResult>> shards;
   for (std::uint32_t part = 0; part < 3; ++part)
-    shards.push_back(read_campaign_csv(campaign_, clusters_, csv(run(2, {part, 3})), "shard"));
+    shards.push_back(read_campaign_csv(campaign_, *bus_, csv(run(2, {part, 3})), "shard"));
   EXPECT_EQ(csv(merged(campaign_, shards)), csv(run(2)));
   shards.pop_back();
   EXPECT_THROW(merged(campaign_, shards), InputError);

@@ -1,8 +1,10 @@
 // Single faults with predictable observers and harm.
-#include "experiments/campaign/trial.h"
+#include "experiments/campaign/flexray/trial.h"
 
 #include <gtest/gtest.h>
 
+#include "evaluation/faults/checks.h"
+#include "experiments/campaign/flexray/bus.h"
 #include "tests/experiments/campaign/small_campaign.h"
 
 namespace ttf::experiments::campaign {
@@ -15,7 +17,7 @@ class FaultTrial : public testing::Test {
  protected:
   FaultOutcome run(std::size_t variant, const faults::Fault& fault, bool starts_up = false,
                    std::uint32_t index = 3) const {
-    return run_trial(campaign_, clusters_.variants[variant], {fault, starts_up}, index);
+    return flexray::run_trial(campaign_, bus_.variant(variant), {fault, starts_up}, index);
   }
   static faults::Fault fault(faults::FaultKind kind, NodeId node) {
     faults::Fault fault;
@@ -25,7 +27,7 @@ class FaultTrial : public testing::Test {
     return fault;
   }
   CampaignFile campaign_ = small_campaign(1);
-  CampaignClusters clusters_{campaign_};
+  flexray::Bus bus_{campaign_};
 };
 
 // A fault that begins with the run and never does anything.
@@ -101,7 +103,7 @@ TEST_F(FaultTrial, AStartUpWithoutASecondColdstartNodeHarmsWhoWaitsForIt) {
   lone.from = Duration{};
   for (const std::size_t variant : {kGuardian, kBus})
     EXPECT_TRUE(does(run(variant, lone, true).harms, evaluation::faults::Harm::kNotStarted));
-  EXPECT_FALSE(in_hypothesis(lone));
+  EXPECT_FALSE(bus_.in_hypothesis(lone));
 }
 
 TEST_F(FaultTrial, NoiseOnOneChannelLeavesTheOther) {
@@ -110,22 +112,23 @@ TEST_F(FaultTrial, NoiseOnOneChannelLeavesTheOther) {
   noise.interval = Duration::microseconds(310);
   noise.channels = schedules::model::Channels::kB;
   for (const std::size_t variant : {kGuardian, kBus}) EXPECT_EQ(run(variant, noise).harms, 0);
-  EXPECT_TRUE(in_hypothesis(noise));
+  EXPECT_TRUE(bus_.in_hypothesis(noise));
   noise.channels = schedules::model::Channels::kAB;
   for (const std::size_t variant : {kGuardian, kBus})
     EXPECT_TRUE(does(run(variant, noise).harms, evaluation::faults::Harm::kLeftActive));
-  EXPECT_FALSE(in_hypothesis(noise));
+  EXPECT_FALSE(bus_.in_hypothesis(noise));
 }
 
 // Campaigns run on the transparent medium. Any fault has the same effects as with every frame encoded.
 TEST_F(FaultTrial, OnATransparentMediumEveryFaultHasTheSameOutcome) {
   int activated = 0;
   for (std::uint32_t index = 0; index < 400; ++index) {
-    const DrawnFault drawn = draw_fault(campaign_, clusters_.base, index);
-    for (const schedules::model::Cluster& cluster : clusters_.variants) {
-      const FaultOutcome outcome = run_trial(campaign_, cluster, drawn, index);
-      EXPECT_EQ(outcome, run_trial(campaign_, cluster, drawn, index, nullptr, true))
-          << "fault " << index << ": " << faults::entry_of(drawn.fault, clusters_.base);
+    const DrawnFault drawn = bus_.draw(index);
+    for (const std::size_t variant : {kGuardian, kBus}) {
+      const schedules::model::Cluster& cluster = bus_.variant(variant);
+      const FaultOutcome outcome = flexray::run_trial(campaign_, cluster, drawn, index);
+      EXPECT_EQ(outcome, flexray::run_trial(campaign_, cluster, drawn, index, nullptr, true))
+          << "fault " << index << ": " << faults::entry_of(drawn.fault, bus_.cluster());
       activated += outcome.activated ? 1 : 0;
     }
   }

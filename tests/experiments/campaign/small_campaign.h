@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "evaluation/faults/checks.h"
 #include "experiments/campaign/campaign.h"
 
 namespace ttf::experiments::campaign {

@@ -80,6 +80,96 @@ TEST(ExpectedError, AWrongDensityCosts) {
   EXPECT_LT(settled(2.0, 0.0), settled(2.0, 2.0));
 }
 
+// Cars whose speed forgets, sampled. A Kalman filter of one axis follows them. It takes the noise for white. The deviation
+// goes in steps of 1 ms.
+struct Forgetful {
+  static constexpr double kDensity = 8.0, kMemory = 0.15, kNoise = 0.01, kPeriod = 0.04, kSpeed = 5.0, kSigma = 8.0;
+  static constexpr int kLists = 30, kRuns = 20'000;
+
+  // By list: the mean square of the error of a prediction by 20 ms.
+  static std::vector<double> sampled() {
+    constexpr int kFine = 40;
+    const double step = kPeriod / kFine, kept = std::exp(-step / kMemory);
+    const double stationary = std::sqrt(0.5 * kDensity * kMemory), spread = stationary * std::sqrt(1.0 - kept * kept);
+    std::vector<double> squares(kLists);
+    for (std::uint32_t run = 0; run < kRuns; ++run) {
+      RandomStream motion({21, run, Purpose::kTest, 1, 0}), noise({21, run, Purpose::kTest, 2, 0});
+      double u = stationary * motion.normal(), x = 0.0, estimate = 0.0, speed = 0.0, pp = 0.0, pv = 0.0, vv = 0.0;
+      for (int n = 0; n < kLists; ++n) {
+        const double z = x + std::sqrt(kNoise) * noise.normal();
+        if (n == 0) {
+          estimate = z;
+          pp = kNoise;
+          vv = kSigma * kSigma;
+        } else {
+          const double t = kPeriod, q = kDensity;
+          estimate += t * speed;
+          pp += 2.0 * t * pv + t * t * vv + q * t * t * t / 3.0;
+          pv += t * vv + q * t * t / 2.0;
+          vv += q * t;
+          const double k = pp / (pp + kNoise), l = pv / (pp + kNoise), off = z - estimate;
+          estimate += k * off;
+          speed += l * off;
+          vv -= l * pv;
+          pv *= 1.0 - k;
+          pp *= 1.0 - k;
+        }
+        for (int fine = 0; fine < kFine; ++fine) {
+          if (fine == kFine / 2) {
+            const double off = x - (estimate + 0.5 * kPeriod * speed);
+            squares[static_cast<std::size_t>(n)] += off * off / kRuns;
+          }
+          const double before = u;
+          u = kept * u + spread * motion.normal();
+          x += step * (kSpeed + 0.5 * (before + u));
+        }
+      }
+    }
+    return squares;
+  }
+
+  static double expected(int list, bool forgets) {
+    PointMotion motion = PointMotion::known(kDensity, kSigma);
+    motion.actual_velocity = Eigen::Vector2d(kSpeed * kSpeed, 0.0).asDiagonal();
+    if (forgets) {
+      motion.actual.setZero();
+      motion.forgotten = Eigen::Vector2d(kDensity, 0.0).asDiagonal();
+      motion.memory = kMemory;
+    }
+    ErrorRecursion recursion(motion);
+    for (int n = 0; n <= list; ++n) recursion.fuse(look_at(1e3 * kPeriod * n, kNoise));
+    return recursion.at(at_ms(1e3 * kPeriod * (list + 0.5)))(0, 0);
+  }
+};
+
+TEST(ExpectedError, OfASpeedThatForgetsItIsTheSampledOne) {
+  const std::vector<double> sampled = Forgetful::sampled();
+  // A mean of n squares spreads by sqrt(2 / n) of itself.
+  for (const int list : {0, 1, 3, 10, 29}) {
+    const double expected = Forgetful::expected(list, true);
+    EXPECT_NEAR(sampled[static_cast<std::size_t>(list)] / expected, 1.0, 4.0 * std::sqrt(2.0 / Forgetful::kRuns))
+        << list;
+  }
+  EXPECT_LT(Forgetful::expected(29, true), 0.9 * Forgetful::expected(29, false)) << "the memory makes no difference";
+}
+
+TEST(ExpectedError, ALongMemoryIsNone) {
+  for (const double density : {0.1, 10.0}) {
+    PointMotion white = PointMotion::known(density, 8.0), forgets = white;
+    forgets.actual.setZero();
+    forgets.forgotten = white.actual;
+    forgets.memory = 1e5;
+    // It is stationary: most of the speed is in the part that it forgets.
+    white.actual_velocity = forgets.forgotten * (0.5 * forgets.memory);
+    forgets.actual_velocity.setZero();
+    ErrorRecursion a(white), b(forgets);
+    for (int n = 0; n <= 40; ++n)
+      for (ErrorRecursion* recursion : {&a, &b}) recursion->fuse(look_at(40.0 * n, 0.04));
+    EXPECT_NEAR(b.at(at_ms(1650.0))(0, 0) / a.at(at_ms(1650.0))(0, 0), 1.0, 1e-3);
+    EXPECT_NEAR(b.at(at_ms(1650.0))(2, 2) / a.at(at_ms(1650.0))(2, 2), 1.0, 1e-3);
+  }
+}
+
 TEST(ExpectedError, OrderOfArrivalDoesNotMatterInTheEnd) {
   ErrorRecursion in_order(PointMotion::known(3.0, 8.0)), late(PointMotion::known(3.0, 8.0));
   for (const double ms : {0.0, 40.0, 80.0, 120.0}) in_order.fuse(look_at(ms, 0.04 + ms * 1e-4));

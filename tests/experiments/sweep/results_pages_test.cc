@@ -13,7 +13,7 @@
 
 #include "core/file_bytes.h"
 #include "core/strict_yaml.h"
-#include "experiments/campaign/file.h"
+#include "experiments/campaign/campaign_bus.h"
 #include "experiments/sweep/file.h"
 
 namespace ttf::experiments::sweep {
@@ -123,9 +123,9 @@ TEST(ResultsPages, SayAllThatTheirExperimentsExpect) {
     for (const Command& command : page.commands) {
       const std::string file = (kTop / command.file).string();
       if (is_campaign(file)) {
-        const auto most = campaign::load_campaign(file).expected_harmed;
-        ASSERT_TRUE(most.has_value() && page.expected.size() == 1) << page.path;
-        EXPECT_TRUE(page.expected[0].starts_with("at most " + std::to_string(*most) + " fault")) << page.expected[0];
+        const auto expectation = campaign::bus_of(campaign::load_campaign(file))->expectation();
+        ASSERT_TRUE(expectation.has_value() && page.expected.size() == 1) << page.path;
+        EXPECT_TRUE(page.expected[0].starts_with(expectation->sentence)) << page.expected[0];
         expected = page.expected;
         continue;
       }

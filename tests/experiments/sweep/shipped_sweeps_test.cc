@@ -1,5 +1,5 @@
-// The shipped experiments can be driven: the ends of each grid, with every paradigm. A whole linear cluster's
-// sampled error matches the covariances.
+// The shipped experiments can be driven: the ends of each grid, with every paradigm. Where a speed has a memory,
+// no car stands still or drives out of sight. A whole linear cluster's sampled error matches the covariances.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/file_bytes.h"
 #include "experiments/results/equivalence.h"
@@ -43,6 +44,87 @@ TEST(ShippedSweeps, CanBeDriven) {
   }
 }
 
+// Whether a sensor sees there. The whole car must be ahead of it.
+bool is_in_sight(const drives::Scenario& scenario, const schedules::model::Sensor& sensor,
+                 const sim::world::ObjectState& object) {
+  const auto sees = [&](const auto& model) {
+    std::vector<sim::world::ObjectState> seen{object};
+    sim::world::see_from(model.device.placement, seen);
+    const double range = std::hypot(seen[0].x, seen[0].y), bearing = std::atan2(seen[0].y, seen[0].x);
+    return range > object.length && range < model.max_range_m && std::abs(bearing) < model.half_field_rad;
+  };
+  return sensor.kind == schedules::model::SensorKind::kLaser ? sees(scenario.sensors.lasers.of(sensor.name).model)
+                                                             : sees(scenario.sensors.cameras.of(sensor.name).model);
+}
+
+// All experiments with one car whose speed has a memory. All points, all replications.
+TEST(ShippedSweeps, NoCarStandsStillOrLeavesTheSensorsRange) {
+  std::size_t experiments = 0;
+  for (const std::string& name : shipped()) {
+    const SweepFile sweep = load_sweep(kFolder + name + ".yaml");
+    const SweepDrives drives(sweep);
+    const auto scenario = drives.prepare({0, 0, 0}).scenario;
+    if (scenario.world.objects.size() != 1 || scenario.world.speed_memory == Duration{}) continue;
+    ++experiments;
+    for (std::uint32_t point = 0; point < sweep.points(); ++point) {
+      const PreparedDrive drive = drives.prepare({point, 0, 0});
+      std::size_t standing = 0, gone = 0;
+      for (std::uint32_t replication = 0; replication < sweep.replications; ++replication) {
+        const sim::world::World world(drive.scenario.world, sweep.seed, replication);
+        for (Duration at{}; at <= drive.scenario.duration; at = at + Duration::milliseconds(20)) {
+          const sim::world::ObjectState car = world.state_of(ObjectId{0}, TrueTime{} + at);
+          standing += car.speed + drive.scenario.world.own_speed <= 0.0;
+          for (const auto& sensor : drive.cluster.sensors) gone += !is_in_sight(drive.scenario, sensor, car);
+        }
+      }
+      EXPECT_EQ(standing, 0u) << name << " " << sweep.label_of(point);
+      EXPECT_EQ(gone, 0u) << name << " " << sweep.label_of(point);
+    }
+  }
+  EXPECT_GE(experiments, 9u);
+}
+
+// A calm car is seen from behind. Its rear is known to a few centimetres. Its centre errs by half of the length's deviation
+// from the prior's mean, and by hardly more.
+TEST(ShippedSweeps, ACalmCarsCentreIsUncertainByItsLengthAlone) {
+  const SweepFile sweep = load_sweep(kFolder + "distance_and_size.yaml");
+  const SweepDrives drives(sweep);
+  const auto column = [&](const char* name) {
+    const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), name);
+    return static_cast<std::size_t>(found - sweep.measures.begin());
+  };
+  const auto means = [&](const char* size) {
+    struct {
+      double face = 0.0, centre = 0.0, half_length = 0.0;
+    } mean;
+    constexpr std::uint32_t kDrives = 150;
+    for (std::uint32_t point = 0; point < sweep.points(); ++point) {
+      const std::vector<const Setting*> at = sweep.settings_of(point);
+      if (at[0]->label != "0.01" || at[1]->label != "45" || at[2]->label != size) continue;
+      const PreparedDrive drive = drives.prepare({point, 0, 0});
+      for (std::uint32_t replication = 0; replication < kDrives; ++replication) {
+        const results::Row row = drives.run({point, replication, 0}, drive);
+        EXPECT_EQ(row.status, results::kDone);
+        mean.face += row.values[column("face_mse_truth")] / kDrives;
+        mean.centre += row.values[column("position_mse_truth")] / kDrives;
+        const auto& car = drive.scenario.world.objects.front();
+        const double length =
+            sim::world::drawn_size(car.size, {car.length, car.width}, {sweep.seed, replication, ObjectId{0}}).length;
+        const double half = 0.5 * (length - drive.scenario.tracker.sizes.length);
+        mean.half_length += half * half / kDrives;
+      }
+    }
+    return mean;
+  };
+  const auto uniform = means("uniform"), known = means("known");
+  EXPECT_GT(uniform.face, 0.0);
+  EXPECT_LT(uniform.face, 0.001);
+  EXPECT_NEAR(uniform.half_length, 0.031, 0.006);  // (5.01 m - 3.79 m)^2 / 12 / 4
+  EXPECT_LT(uniform.centre, 1.15 * (uniform.face + uniform.half_length));
+  EXPECT_GT(known.face, 0.0);
+  EXPECT_LT(known.face, 0.0005);
+}
+
 // 80 drives of two cameras that see positions, all the way over CAN and FlexRay to the feature service.
 TEST(ShippedSweeps, TheErrorOfAWholeClusterIsTheExpectedOne) {
   SweepFile sweep = load_sweep(kFolder + "schedule_phases.yaml");
@@ -60,6 +142,47 @@ TEST(ShippedSweeps, TheErrorOfAWholeClusterIsTheExpectedOne) {
       test.add(row.values[sampled], row.values[expected]);
     }
     EXPECT_EQ(test.agreement(0.99), results::Agreement::kWithin) << sweep.label_of(point);
+  }
+}
+
+// The same cameras behind a car ahead, of the size that `size` draws. Errors of 1 % of the range keep the cluster linear.
+drives::Scenario behind_a_car(const std::string& size, const std::string& sizes) {
+  const std::string file = TTF_SOURCE_DIR "/scenarios/twin_cameras.yaml";
+  std::string text = read_file(file);
+  const auto line = [&](const std::string& begin, const std::string& with) {
+    const std::size_t at = text.find(begin);
+    ASSERT_NE(at, std::string::npos) << begin;
+    text.replace(at, text.find('\n', at) - at, with);
+  };
+  line("- {name: car,", "- {name: car, x: 12.0, y: 0.0, speed: 8.0, reference: true}");
+  line("yaw_rate_noise:", "yaw_rate_noise: 0.0\n  size: {draw: " + size + "}");
+  line("camera: {bearing_sigma",
+       "camera: {bearing_sigma: 0.004, disparity_sigma: 0.22, half_field: 1.0, "
+       "miss_probability: 0.0, clutter_per_frame: 0.0}");
+  line("camera: {bearing_sigma: 0.01", "camera: {bearing_sigma: 0.004, disparity_sigma: 0.22}");
+  line("sizes:", "sizes: " + sizes + "\n  turn_noise: 0.000001\n  initial_turn_rate_sigma: 0.001");
+  return drives::parse_scenario(std::move(text), file);
+}
+
+// Both are within 10 % of the sampled ones. Widths tell of lengths, or they do not. The centre's error is mostly one draw a
+// drive. So many drives are needed.
+TEST(ShippedSweeps, TheErrorsOfFaceAndCentreOfDrawnCarsAreTheExpectedOnes) {
+  SweepFile sweep = load_sweep(kFolder + "schedule_phases.yaml");
+  sweep.measures = {"face_mse_truth", "face_mse_expected", "position_mse_truth", "position_mse_expected"};
+  const SweepDrives drives(sweep);
+  const std::string cars = "{length: 4.65, length_sigma: 0.37, width: 1.76, width_sigma: 0.1, correlation: ";
+  for (const char* correlation : {"0.82}", "0}"}) {
+    PreparedDrive drive = drives.prepare({0, 0, 2});
+    drive.scenario = behind_a_car("normal", cars + correlation);
+    results::EquivalenceTest face({0.10, true}), centre({0.10, true});
+    for (std::uint32_t replication = 0; replication < 1000; ++replication) {
+      const results::Row row = drives.run({0, replication, 2}, drive);
+      ASSERT_EQ(row.status, results::kDone);
+      face.add(row.values[0], row.values[1]);
+      centre.add(row.values[2], row.values[3]);
+    }
+    EXPECT_EQ(face.agreement(0.95), results::Agreement::kWithin) << correlation;
+    EXPECT_EQ(centre.agreement(0.95), results::Agreement::kWithin) << correlation;
   }
 }
 

@@ -32,7 +32,7 @@ TEST(SweepFile, ListsRangesSettingsAndDraws) {
       "axes:\n"
       "  list: {keys: [world.acceleration_noise], values: [0.5, 2]}\n"
       "  range: {keys: [cluster.sensors.camera.period], from: 10, to: 1000, count: 3, scale: logarithmic, unit: ms}\n"
-      "  named: {settings: {dry: {world.yaw_rate_noise: 0}, wet: {world.yaw_rate_noise: 0.1, duration: 4 s}}}\n"
+      "  named: {settings: {dry: {world.own_speed: 15}, wet: {world.own_speed: 12, duration: 4 s}}}\n"
       "  load: {keys: [tracker.process_noise], uniform: [1, 3]}\n");
   ASSERT_EQ(sweep.grid().size(), 3u);
   ASSERT_EQ(sweep.drawn().size(), 1u);
@@ -54,20 +54,20 @@ TEST(SweepFile, ListsRangesSettingsAndDraws) {
 
 TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
-  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], values: [1, 1]}"), HasSubstr("must not have the value 1 twice"));
-  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 1}"), HasSubstr("count"));
-  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 3, scale: logarithmic}"),
+  EXPECT_THAT(axis("{keys: [tracker.process_noise], values: [1, 1]}"), HasSubstr("must not have the value 1 twice"));
+  EXPECT_THAT(axis("{keys: [tracker.process_noise], from: 0, to: 4, count: 1}"), HasSubstr("count"));
+  EXPECT_THAT(axis("{keys: [tracker.process_noise], from: 0, to: 4, count: 3, scale: logarithmic}"),
               HasSubstr("both ends above 0"));
-  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], uniform: [4, 1]}"),
+  EXPECT_THAT(axis("{keys: [tracker.process_noise], uniform: [4, 1]}"),
               HasSubstr("must be two numbers, the lower one first"));
-  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], values: [1], to: 4}"), HasSubstr("small.yaml:9: axes.one.to"));
+  EXPECT_THAT(axis("{keys: [tracker.process_noise], values: [1], to: 4}"), HasSubstr("small.yaml:9: axes.one.to"));
   EXPECT_THAT(axis("{keys: [world.speed], values: [1]}"), HasSubstr("world.speed: must be in the file"));
   EXPECT_THAT(axis("{keys: [world.acceleration_noise], values: [51]}"),
               AllOf(HasSubstr("dynamics.yaml:13: world.acceleration_noise = 51: must be a number 0..50 m/s^2"),
                     HasSubstr("(with a, one 51)")));
   EXPECT_THAT(axis("{keys: [cluster.sensors.laser.period], values: [80 m]}"), HasSubstr("paper_unsynchronised.yaml:"));
   EXPECT_THAT(refusal(kHead), HasSubstr("axes"));
-  const std::string axes = "axes: {one: {keys: [world.yaw_rate_noise], values: [1, 2]}}\n";
+  const std::string axes = "axes: {one: {keys: [tracker.process_noise], values: [1, 2]}}\n";
   EXPECT_EQ(refusal(kHead + axes), "taken");
   EXPECT_THAT(refusal(kHead + axes + "measures: [speed]\n"),
               HasSubstr("measures[0] = speed: must be one of position_rmse_truth"));
@@ -101,9 +101,9 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   for (const char* name : {"nees", "Status", "point"})
     EXPECT_THAT(refusal(kHead + "axes:\n  " + name + ": {keys: [tracker.process_noise], uniform: [1, 2]}\n"),
                 HasSubstr("must not have the name of a measure"));
-  EXPECT_THAT(refusal(kHead + "axes:\n  one: {keys: [world.yaw_rate_noise], values: [0, 1]}\n"
-                              "  two: {settings: {a: {world.yaw_rate_noise: 0}}}\n"),
-              HasSubstr("must not vary world.yaw_rate_noise twice: one and two do"));
+  EXPECT_THAT(refusal(kHead + "axes:\n  one: {keys: [tracker.process_noise], values: [0, 1]}\n"
+                              "  two: {settings: {a: {tracker.process_noise: 0}}}\n"),
+              HasSubstr("must not vary tracker.process_noise twice: one and two do"));
   std::string head = kHead;
   head.replace(head.find("name: small"), 11, "name: ..");
   EXPECT_THAT(refusal(head + axes), HasSubstr("not begin with a dot"));
@@ -114,7 +114,7 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
 }
 
 TEST(SweepFile, AFileThatIsNotThereIsTheEntrysMistake) {
-  const std::string axes = "axes: {one: {keys: [world.yaw_rate_noise], values: [1, 2]}}\n";
+  const std::string axes = "axes: {one: {keys: [tracker.process_noise], values: [1, 2]}}\n";
   std::string head = kHead;
   head.replace(head.find("dynamics.yaml"), 13, "absent.yaml");
   EXPECT_THAT(refusal(head + axes),

@@ -28,6 +28,7 @@ TrackerConfig load(const std::string& text, std::vector<std::string>* sentences 
 TEST(TrackerConfig, EverythingHasADefault) {
   const TrackerConfig config = load("{}"), defaults;
   EXPECT_EQ(config.process_noise, defaults.process_noise);
+  EXPECT_EQ(config.noise_across(), defaults.process_noise);
   EXPECT_EQ(config.max_objects, 25);
   EXPECT_EQ(config.confirm_hits, 3);
   EXPECT_EQ(config.confirm_window, 5);
@@ -36,11 +37,13 @@ TEST(TrackerConfig, EverythingHasADefault) {
 
 TEST(TrackerConfig, ReadsEveryKey) {
   const TrackerConfig c = load(
-      "motion: constant_acceleration\nprocess_noise: 2.5\ninitial_velocity_sigma: 11\n"
+      "motion: constant_acceleration\nprocess_noise: 2.5\ncross_noise: 0.25\ninitial_velocity_sigma: 11\n"
       "initial_acceleration_sigma: 3\ngate_probability: 0.99\nconfirm_hits: 2\nconfirm_window: 4\n"
       "delete_misses: 6\ndelete_position_sigma: 7\nmax_objects: 12\nhistory_scans: 16\nheading_noise: 0.5\n"
       "filter: unscented\nturn_noise: 0.4\ninitial_turn_rate_sigma: 0.7\nmode_seconds: 9\n"
-      "extent_noise: 0.25\ncoast_after: 120 ms\ndelete_after: 2 s\n"
+      "extent_noise: 0.25\n"
+      "sizes: {length: 4.65, length_sigma: 0.37, width: 1.76, width_sigma: 0.1, correlation: 0.82}\n"
+      "coast_after: 120 ms\ndelete_after: 2 s\n"
       "max_observations: 200\nbuff_waits: fixed_lag\nfixed_lag: 70 ms\n"
       "association: jpda\nbirth: existence\ndetection_probability: 0.7\nclutter_density: 0.02\n"
       "initial_existence: 0.2\nsurvival_seconds: 30\nconfirm_existence: 0.9\ndelete_existence: 0.02\n"
@@ -64,6 +67,7 @@ TEST(TrackerConfig, ReadsEveryKey) {
   EXPECT_EQ(c.initial_turn_rate_sigma, 0.7);
   EXPECT_EQ(c.mode_seconds, 9.0);
   EXPECT_EQ(c.process_noise, 2.5);
+  EXPECT_EQ(c.noise_across(), 0.25);
   EXPECT_EQ(c.initial_velocity_sigma, 11.0);
   EXPECT_EQ(c.initial_acceleration_sigma, 3.0);
   EXPECT_EQ(c.gate_probability, 0.99);
@@ -75,6 +79,11 @@ TEST(TrackerConfig, ReadsEveryKey) {
   EXPECT_EQ(c.history_scans, 16u);
   EXPECT_EQ(c.heading_noise, 0.5);
   EXPECT_EQ(c.extent_noise, 0.25);
+  EXPECT_EQ(c.sizes.length, 4.65);
+  EXPECT_EQ(c.sizes.length_sigma, 0.37);
+  EXPECT_EQ(c.sizes.width, 1.76);
+  EXPECT_EQ(c.sizes.width_sigma, 0.1);
+  EXPECT_EQ(c.sizes.correlation, 0.82);
   EXPECT_EQ(c.coast_after, Duration::milliseconds(120));
   EXPECT_EQ(c.delete_after, Duration::milliseconds(2'000));
 }
@@ -233,11 +242,21 @@ TEST(TrackerConfig, TheDocumentedExamplesLoad) {
     root.finish();
     EXPECT_TRUE(findings.empty());
   }
-  ASSERT_EQ(configs.size(), 2u);
+  ASSERT_EQ(configs.size(), 4u);
   EXPECT_EQ(configs[0].motion, MotionModel::kCtrv);
   EXPECT_EQ(configs[0].filter, FilterKind::kUnscented);
-  EXPECT_EQ(configs[1].association, Association::kJpda);
-  EXPECT_EQ(configs[1].birth, Birth::kExistence);
+  const Sizes defaults;  // as the page calls them
+  EXPECT_EQ(configs[1].sizes.length, defaults.length);
+  EXPECT_EQ(configs[1].sizes.length_sigma, defaults.length_sigma);
+  EXPECT_EQ(configs[1].sizes.width, defaults.width);
+  EXPECT_EQ(configs[1].sizes.width_sigma, defaults.width_sigma);
+  EXPECT_EQ(configs[1].sizes.correlation, defaults.correlation);
+  ASSERT_EQ(configs[2].sensors.size(), 1u);
+  EXPECT_EQ(configs[2].sensors[0].name, "camera");
+  ASSERT_TRUE(configs[2].sensors[0].field.has_value());
+  EXPECT_EQ(configs[2].sensors[0].field->max_range, 90.0);
+  EXPECT_EQ(configs[3].association, Association::kJpda);
+  EXPECT_EQ(configs[3].birth, Birth::kExistence);
 }
 
 // A track that ends before it coasts would never be marked as coasting.

@@ -200,6 +200,7 @@ class EveryEstimator : public testing::TestWithParam<Choice> {
   }
   void expect_lawful(const Estimate& estimate, int step) const {
     const Cartesian all = estimator->cartesian(estimate);
+    EXPECT_EQ(estimator->velocity(estimate), (all.x.segment<2>(2)));
     const linear::Gaussian<2> position = estimator->position(estimate);
     ASSERT_TRUE(all.x.allFinite() && all.p.allFinite()) << step;
     ASSERT_EQ(all.p, all.p.transpose().eval()) << step;

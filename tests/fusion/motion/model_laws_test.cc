@@ -1,7 +1,6 @@
 // The laws of motion models (fusion/motion/motion_model.h), for every model and drawn states. Turn rates
-// include those near zero. Also conversions between layouts, and ego motion.
+// include those near zero. Also conversions between layouts.
 #include "fusion/motion/conversion.h"
-#include "fusion/motion/ego_motion.h"
 #include "tests/fusion/motion/drawn.h"
 
 namespace ttf::fusion::motion {
@@ -101,7 +100,18 @@ template <class M> void advance_is_the_product(M model) {
 }
 TEST(IntegratorChain, AdvanceIsTheProduct) {
   advance_is_the_product(motion::ConstantVelocity(0.7));
+  advance_is_the_product(motion::ConstantVelocity(0.7, 0.02));
   advance_is_the_product(motion::ConstantAcceleration(0.7));
+}
+
+TEST(IntegratorChain, AxesHaveTheirOwnNoise) {
+  const linear::Vector<6> anywhere = linear::Vector<6>::Zero();
+  const linear::Matrix<6> both = motion::ConstantAcceleration(0.7, 0.02).noise(anywhere, 0.3),
+                          along = motion::ConstantAcceleration(0.7).noise(anywhere, 0.3),
+                          across = motion::ConstantAcceleration(0.02).noise(anywhere, 0.3);
+  for (Eigen::Index i = 0; i < 6; ++i)
+    for (Eigen::Index j = 0; j < 6; ++j)
+      EXPECT_EQ(both(i, j), (i + j) % 2 == 1 ? 0.0 : i % 2 == 0 ? along(i, j) : across(i, j));
 }
 
 // Against quadrature with 2000 midpoints (error u^2 / 1e8), and across the switch of formulas.
@@ -212,49 +222,6 @@ TEST(Conversion, WhatStandsKeepsItsHeading) {
   for (int i = 2; i < 5; ++i) EXPECT_EQ(to.x(i), own.x(i));
   EXPECT_EQ(to.p(2, 2), 4.0);
   EXPECT_EQ(to.p(0, 0), 1.0);
-}
-
-template <class M> class EgoMotion : public MotionLaws<M> {};
-TYPED_TEST_SUITE(EgoMotion, AllMotions);
-
-// To the new place and back: everything is unchanged.
-TYPED_TEST(EgoMotion, ThereAndBackIsTheSame) {
-  using M = TypeParam;
-  for (int i = 0; i < 50; ++i) {
-    const linear::Gaussian<M::kStates> state{drawn_state<M>(this->stream, i),
-                                             drawn_covariance<M::kStates>(this->stream, 0.5)};
-    const double yaw = this->stream.uniform(-3.0, 3.0), x = this->stream.uniform(-5.0, 5.0);
-    const double c = std::cos(yaw), s = std::sin(yaw);
-    linear::Gaussian<M::kStates> moved = state;
-    motion::compensate<M>(moved, {.translation = {x, 1.0}, .yaw = yaw});
-    const Kinematics before = M::template kinematics<kWithHeading>(state.x);
-    const Kinematics after = M::template kinematics<kWithHeading>(moved.x);
-    EXPECT_NEAR(after.position.x(), c * (before.position.x() - x) + s * (before.position.y() - 1.0), 1e-12);
-    EXPECT_NEAR(after.velocity.y(), c * before.velocity.y() - s * before.velocity.x(), 1e-12);
-    if (before.has_heading) {
-      EXPECT_NEAR(to_half_turn(after.heading - (before.heading - yaw)), 0.0, 1e-12);
-    }
-    motion::compensate<M>(moved, {.translation = {-c * x - s, s * x - c}, .yaw = -yaw});
-    EXPECT_LT(M::difference(moved.x, state.x).cwiseAbs().maxCoeff(), 1e-12);
-    EXPECT_LT((apart<M::kStates, M::kStates>(moved.p, state.p)), 1e-13);
-  }
-}
-// Odometry's errors enter through the derivative by the pose.
-TYPED_TEST(EgoMotion, OdometryIsNotCertain) {
-  using M = TypeParam;
-  constexpr int kN = M::kStates;
-  const linear::Gaussian<kN> state{.x = drawn_state<M>(this->stream, 1)};
-  const linear::Vector<3> pose(2.0, -1.0, 0.7);
-  const auto after = [&](const linear::Vector<3>& p) {
-    linear::Gaussian<kN> moved = state;
-    motion::compensate<M>(moved, {.translation = p.template head<2>(), .yaw = p(2)});
-    return moved.x;
-  };
-  const linear::Matrix<kN, 3> g = numerical_jacobian<kN, 3>(after, pose, M::difference);
-  const linear::Matrix<3> odometry = drawn_covariance<3>(this->stream, 0.1);
-  linear::Gaussian<kN> moved = state;
-  motion::compensate<M>(moved, {.translation = pose.template head<2>(), .yaw = pose(2), .covariance = odometry});
-  EXPECT_LT((apart<kN, kN>(moved.p, sandwich<kN, 3>(g, odometry))), 1e-8);
 }
 
 }  // namespace

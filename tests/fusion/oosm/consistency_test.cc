@@ -146,8 +146,8 @@ TEST_P(Consistency, TheMixOfAl1AndBl1IsOutside) {
     }
     predict<2>(before, setting.motion.step(5.0));
     const linear::LinearStep<2> step = setting.motion.step(4.5);
-    Retrodicted<2> mix = retrodict_collapsed<2>(now, before, step, Noise::kRetrodicted);
-    mix.then.x = retrodict_collapsed<2>(now, before, step, Noise::kIgnored).then.x;
+    Retrodicted<2> mix = retrodict_collapsed<2>(now, before, step, linear::Vector<2>::Zero(), Noise::kRetrodicted);
+    mix.then.x = retrodict_collapsed<2>(now, before, step, linear::Vector<2>::Zero(), Noise::kIgnored).then.x;
     fuse_retrodicted<2, 1>(now, mix, late.measurement);
     return now;
   });

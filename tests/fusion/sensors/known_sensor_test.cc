@@ -51,6 +51,22 @@ TEST(KnownSensor, ReadsEveryKey) {
   EXPECT_TRUE(other.plain()) << "what is not known cannot be corrected for";
 }
 
+TEST(KnownSensor, AFieldIsUnboundedWhereNothingIsSaid) {
+  EXPECT_FALSE(load("{}").field.has_value());
+  const KnownSensor sensor = load("field: {half_angle: 0.45, min_range: 1, max_range: 90, shadow: 0.5}\n");
+  ASSERT_TRUE(sensor.field.has_value());
+  EXPECT_EQ(sensor.field->half_angle, 0.45);
+  EXPECT_EQ(sensor.field->min_range, 1.0);
+  EXPECT_EQ(sensor.field->max_range, 90.0);
+  EXPECT_EQ(sensor.field->shadow, 0.5);
+  EXPECT_TRUE(sensor.plain()) << "its measurements stay as they are";
+  const Field all = load("field: {}\n").field.value();
+  EXPECT_TRUE(all.all_around());
+  EXPECT_EQ(all.min_range, 0.0);
+  EXPECT_EQ(all.max_range, Field::kUnbounded);
+  EXPECT_EQ(all.shadow, Field::kUnbounded);
+}
+
 TEST(KnownSensor, EveryMistakeIsASentence) {
   using testing::ElementsAre;
   EXPECT_THAT(mistakes("mounting: {x: 60, yaw: 1}\n"),
@@ -61,6 +77,9 @@ TEST(KnownSensor, EveryMistakeIsASentence) {
   EXPECT_THAT(mistakes("bias: {x: 1}\nbias_sigma:\n  range: 1\n"),
               ElementsAre("s.yaml:3: bias_sigma.range = 1: must not be mixed with errors in other axes: either x and "
                           "y, or range, bearing and range_rate"));
+  EXPECT_THAT(mistakes("field: {half_angle: 4, min_range: 20, max_range: 10}\n"),
+              ElementsAre("s.yaml:1: field.half_angle = 4: must be a number 0.01..3.15 rad",
+                          "s.yaml:1: field.max_range = 10: must be above min_range"));
   EXPECT_THAT(mistakes("bias_sigma: {time: 2 s}\n"), testing::SizeIs(1));
   EXPECT_THAT(mistakes("bias: {time: 2 ms}\n"), testing::SizeIs(1));
 }

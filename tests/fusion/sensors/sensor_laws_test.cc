@@ -3,10 +3,10 @@
 #include "fusion/filters/linearise.h"
 #include "fusion/sensors/mounted.h"
 #include "fusion/sensors/position.h"
-#include "fusion/sensors/position_heading.h"
 #include "fusion/sensors/range_bearing_rate.h"
 #include "fusion/sensors/systematic.h"
 #include "tests/fusion/motion/drawn.h"
+#include "tests/fusion/sensors/position_heading.h"
 
 namespace ttf::fusion::sensors {
 namespace {

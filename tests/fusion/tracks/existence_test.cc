@@ -107,6 +107,27 @@ TEST(Existence, OfTwoTracksThatShareAnObservation) {
               after_list(e1, r1, config), 1e-15);
 }
 
+// The visibility is a factor of the detection probability, in the single form and in the joint one.
+TEST(Existence, AListOfASensorThatSeesLittleSaysLittle) {
+  const config::TrackerConfig config = by_existence(config::Association::kJpda);
+  EXPECT_EQ(after_list(0.4, 0.0, config, 0.0), 0.4) << "nothing could have been seen";
+  EXPECT_EQ(exists_unseen(0.4, config, 0.0), 0.4);
+  config::TrackerConfig half = config;
+  half.detection_probability = 0.5 * config.detection_probability;
+  EXPECT_NEAR(after_list(0.4, 0.0, config, 0.5), after_list(0.4, 0.0, half), 1e-15);
+  const sensors::Observation z = position(30.0, 2.0, 0.1);
+  EXPECT_NEAR(likelihood_ratio(z, 0.3, config, 0.5), likelihood_ratio(z, 0.3, half), 1e-15);
+  for (const double visible : {0.0, 0.01, 0.3, 1.0}) {
+    const double ratio = likelihood_ratio(z, 0.3, config, visible);
+    EXPECT_GT(after_list(0.4, ratio, config, visible), 0.4) << "an observation counts wherever it is";
+    association::JointAssociation joint(1, 1);
+    const association::Pair lone[] = {{0, 0, joint_weight(0.4, ratio, config, visible)}};
+    joint.solve(lone, 1, 1);
+    EXPECT_NEAR(joint.of_column(0)[0].probability + joint.none_of_column(0) * exists_unseen(0.4, config, visible),
+                after_list(0.4, ratio, config, visible), 1e-15);
+  }
+}
+
 TEST(Existence, ClutterOfARadarIsThatOfThePlane) {
   config::TrackerConfig config;
   config.clutter_density = 0.02;

@@ -51,9 +51,12 @@ TEST(Subtended, NothingWhereTheOutlineReachesBehindTheSensor) { EXPECT_EQ(subten
 Aspect seen(double range, double angle, double sigma_angle) { return {range, 0.05, angle, sigma_angle}; }
 double span_of(double range, double angle) { return subtended(range, angle, {4.4, 1.8}).angle; }
 
+// A prior that leaves much to learn.
+Extent wide() { return Extent(config::Sizes{.length = 4.5, .length_sigma = 2.0, .width = 1.8, .width_sigma = 0.5}); }
+
 // 20 m ahead, from behind and from the side: the visible side becomes known, the other does not.
 TEST(Extent, ASpanTellsWhatIsTurnedToTheSensor) {
-  Extent behind, beside;
+  Extent behind = wide(), beside = wide();
   for (int k = 0; k < 10; ++k) {
     correct_span(behind, seen(20.0, 0.0, 0.02), span_of(20.0, 0.0), 0.002);
     correct_span(beside, seen(20.0, std::numbers::pi / 2, 0.02), span_of(20.0, std::numbers::pi / 2), 0.002);
@@ -70,7 +73,7 @@ TEST(Extent, ASpanTellsWhatIsTurnedToTheSensor) {
 // At 45 degrees the span is a mixture. Alone it determines neither side; with a length it determines the
 // width.
 TEST(Extent, AMixtureTellsOneWhereTheOtherIsKnown) {
-  Extent extent;
+  Extent extent = wide();
   for (int k = 0; k < 10; ++k)
     correct_span(extent, seen(25.0, std::numbers::pi / 4, 0.02), span_of(25.0, std::numbers::pi / 4), 0.001);
   EXPECT_LT(extent.covariance(0, 1), 0.0) << "the longer, the narrower";
@@ -89,7 +92,7 @@ TEST(Extent, ErrorsThatRepeatAreNotAveragedAway) {
     int n = 0;
     for (int drive = 0; drive < 200; ++drive) {
       const double sigma = 0.05, off = sigma * stream.normal();
-      Extent extent;
+      Extent extent = wide();
       correct_length(extent, 4.4 + 0.2 * stream.normal(), 0.2);
       for (int k = 0; k < 200; ++k)
         correct_span(extent, seen(20.0, angle + off, sigma), span_of(20.0, angle) + 0.002 * stream.normal(), 0.002);
@@ -103,18 +106,18 @@ TEST(Extent, ErrorsThatRepeatAreNotAveragedAway) {
 }
 
 TEST(Extent, NorAreThoseOfLengthsAndWidths) {
-  Extent extent;
+  Extent extent = wide();
   for (int k = 0; k < 1000; ++k) correct_width(extent, 1.7, 0.1);
   EXPECT_NEAR(extent.size(1), 1.7, 0.01);
-  EXPECT_GE(extent.covariance(1, 1), 0.5 * 0.1 * 0.1 - 1e-12);
-  EXPECT_LT(extent.covariance(1, 1), 0.51 * 0.1 * 0.1);
+  EXPECT_GE(extent.covariance(1, 1), 0.8 * 0.1 * 0.1 - 1e-12);
+  EXPECT_LT(extent.covariance(1, 1), 0.81 * 0.1 * 0.1);
 }
 
 TEST(Extent, WhatCannotBeJudgedChangesNothing) {
   const auto unchanged = [](const Aspect& aspect, double span) {
-    Extent extent;
+    Extent extent = wide();
     correct_span(extent, aspect, span, 0.002);
-    return extent.size == Extent{}.size && extent.covariance == Extent{}.covariance;
+    return extent.size == wide().size && extent.covariance == wide().covariance;
   };
   EXPECT_TRUE(unchanged(seen(20.0, 0.0, 0.5), 0.1)) << "aspect not known";
   EXPECT_TRUE(unchanged(seen(2.0, 0.0, 0.02), 1.5)) << "outline around the sensor";
@@ -122,11 +125,38 @@ TEST(Extent, WhatCannotBeJudgedChangesNothing) {
   EXPECT_FALSE(unchanged(seen(20.0, 0.0, 0.02), 0.1));
 }
 
+TEST(Extent, StartsAtThePrior) {
+  const Extent extent(
+      config::Sizes{.length = 4.65, .length_sigma = 0.37, .width = 1.76, .width_sigma = 0.1, .correlation = 0.82});
+  EXPECT_EQ(extent.size, Eigen::Vector2d(4.65, 1.76));
+  EXPECT_NEAR(extent.covariance(0, 0), 0.37 * 0.37, 1e-15);
+  EXPECT_NEAR(extent.covariance(0, 1), 0.82 * 0.37 * 0.1, 1e-15);
+  Extent told = extent;
+  correct_length(told, 4.95, 0.01);
+  EXPECT_NEAR(told.size(1), 1.76 + 0.3 * 0.82 * 0.1 / 0.37, 1e-3) << "a longer car is wider";
+}
+
 TEST(Extent, ForgetsAtTheStatedRate) {
-  Extent extent;
+  Extent extent = wide();
   predict(extent, 0.01, 2.0);
   EXPECT_NEAR(extent.covariance(0, 0), 4.0 + 0.02, 1e-12);
   EXPECT_NEAR(extent.covariance(1, 1), 0.25 + 0.02, 1e-12);
+}
+
+// Points of an object that lie in a wrong order would make it negative.
+TEST(Extent, ASideStaysPositive) {
+  config::Sizes prior;
+  prior.correlation = 0.5;
+  Extent extent(prior);
+  for (int k = 0; k < 20; ++k) {
+    correct_combination(extent, Eigen::Vector2d::UnitY(), -4.0, 0.01, 0.0);
+    EXPECT_GT(extent.size(0), 0.0);
+    EXPECT_GT(extent.size(1), 0.0);
+    EXPECT_LT(extent.size(1), 0.2);
+    EXPECT_GT(extent.covariance.determinant(), 0.0);
+  }
+  correct_combination(extent, Eigen::Vector2d::UnitX(), -100.0, 1e-4, 0.0);
+  EXPECT_GT(extent.size(0), 0.0);
 }
 
 }  // namespace

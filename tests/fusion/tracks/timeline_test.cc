@@ -56,6 +56,43 @@ TEST(Timeline, EveryOrderOfSixListsGivesTheSameBits) {
   }
 }
 
+// A list has the innovations of its own place, whenever it comes. Six objects are confirmed after three lists. From then on
+// their squares add up to the sum over lists in order.
+TEST(Timeline, ALateListHasTheInnovationsOfItsPlace) {
+  const Lanes lanes{.objects = 6, .seed = 4};
+  const auto list = [&](int k) {
+    return list_of(0, static_cast<std::uint32_t>(k), at_ms(40 * k),
+                   lanes.see(at_ms(40 * k), static_cast<std::uint32_t>(k)));
+  };
+  config::TrackerConfig config;
+  Timeline in_order(config, 16), late(config, 16);
+  for (int k = 0; k < 3; ++k) {
+    in_order.insert(list(k).view());
+    EXPECT_EQ(in_order.innovations().degrees, 0u) << "tracks without a confirmation, list " << k;
+    late.insert(list(k).view());
+  }
+  in_order.insert(list(3).view());
+  const Innovations expected = in_order.innovations();
+  EXPECT_EQ(expected.degrees, 12u);
+  // By hand: each track's own distance to the nearest observation.
+  Timeline before(config, 16);
+  for (int k = 0; k < 3; ++k) before.insert(list(k).view());
+  double squares = 0.0;
+  for (const Track& track : before.current().tracks) {
+    estimators::Estimate estimate = track.estimate;
+    before.estimator().predict(estimate, 0.04);
+    double nearest = 1e9;
+    for (const sensors::Observation& z : list(3).observations)
+      nearest = std::min(nearest, before.estimator().distance_squared(estimate, z).value_or(1e9));
+    squares += nearest;
+  }
+  EXPECT_NEAR(expected.squares, squares, 1e-9);
+  late.insert(list(4).view());
+  late.insert(list(3).view());
+  EXPECT_EQ(late.innovations().squares, expected.squares);
+  EXPECT_EQ(late.innovations().degrees, expected.degrees);
+}
+
 // An object seen 18.5 m further after 2 s is taken for another one. A late list from between shows its speed
 // and reopens the association.
 //

@@ -213,7 +213,7 @@ TEST(Tracker, AConfirmedTrackKeepsItsObservationFromATentativeOne) {
 
 TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
   config::TrackerConfig config;
-  config.heading_noise = 0.0;
+  config.heading_noise = config.initial_turn_rate_sigma = 0.0;
   config.extent_noise = 0.0;
   Bench bench(config);
   RandomStream stream({.seed = 8});
@@ -234,9 +234,9 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
   const double off = motion::to_half_turn(track.heading.value - 3.1);
   EXPECT_LT(std::min(std::abs(off), std::numbers::pi - std::abs(off)), 4.0 * 0.05 / std::sqrt(n));
   EXPECT_NEAR(track.heading.variance, 0.05 * 0.05 / n, 1e-12);
-  EXPECT_NEAR(track.extent.size(0), length_sum / n, 0.3) << "half of the variance may be common to all";
-  EXPECT_NEAR(track.extent.covariance(0, 0), 0.5 * 0.3 * 0.3, 0.02 * 0.3 * 0.3);
-  EXPECT_TRUE(track.extent.knows_length());
+  EXPECT_NEAR(track.extent.size(0), length_sum / n, 0.9) << "most of the variance may be common";
+  EXPECT_NEAR(track.extent.covariance(0, 0), 0.8 * 0.3 * 0.3, 0.02 * 0.3 * 0.3);
+  EXPECT_FALSE(track.extent.knows_length()) << "hardly better than by the prior";
   EXPECT_FALSE(track.extent.knows_width());
 }
 
@@ -259,11 +259,11 @@ TEST(View, CourseTellsTheHeadingOfWhatMoves) {
 
 TEST(View, AxisTellsTheHeadingOfWhatStandsAndCourseTellsItsFront) {
   Track standing = moving_track(0.01, 0.0, 0.5);
-  standing.heading = {2.0, 0.01, true};
+  standing.heading = {{2.0, 0.01, true}};
   EXPECT_NEAR(shown(standing, at_ms(0), at_ms(0)).heading, 2.0, 1e-12);
   // Driving along +x with an axis measured half a turn off: turned towards the direction of travel.
   Track driving = moving_track(10.0, 0.0, 1.0);
-  driving.heading = {std::numbers::pi - 0.2, 0.01, true};  // course variance is 0.01 too
+  driving.heading = {{std::numbers::pi - 0.2, 0.01, true}};  // course variance is 0.01 too
   const TrackView view = shown(driving, at_ms(0), at_ms(0));
   EXPECT_NEAR(view.heading, -0.1, 1e-12);
   EXPECT_NEAR(view.sigma_heading, std::sqrt(0.005), 1e-12);
@@ -294,7 +294,7 @@ TEST(View, IsPredictedButNeverBackwards) {
   EXPECT_NEAR(later.state(0), 11.0, 1e-12);
   EXPECT_NEAR(later.state(1), 1.5, 1e-12);
   EXPECT_NEAR(later.covariance(0, 0), 0.1 + 0.25 * 0.25 + 3.0 * 0.125 / 3.0, 1e-12);
-  EXPECT_NEAR(later.sigma_length, std::sqrt(0.04 + 0.01 * 0.5), 1e-12);
+  EXPECT_NEAR(later.sigma_length, 0.2, 1e-12);
   EXPECT_EQ(later.valid_at, at_ms(1500));
   const TrackView earlier = shown(track, at_ms(1000), at_ms(900), config);
   EXPECT_EQ(earlier.state, state_of(track));

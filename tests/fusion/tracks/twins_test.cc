@@ -112,6 +112,15 @@ Track track_at(double x, double y, double sigma, std::uint32_t birth) {
   return track;
 }
 
+// A list in which these tracks had an observation.
+OwnedList list_of_tracks(std::initializer_list<Track*> seen) {
+  static std::uint32_t number = 100;
+  ++number;
+  const OwnedList list = list_of(0, number, at_ms(number));
+  for (Track* track : seen) track->newest = {list.id, 0, list.measured};
+  return list;
+}
+
 TEST(Twins, TheElderStaysAndTheMoreCertainEstimateIsKept) {
   config::TrackerConfig config = uniting();
   config.merge_scans = 2;
@@ -127,14 +136,15 @@ TEST(Twins, TheElderStaysAndTheMoreCertainEstimateIsKept) {
   tracks[2].hits = 0b111;
   correct_width(tracks[2].extent, 1.9, 0.1);
   const estimators::Estimate certain = tracks[2].estimate;
-  twins.unite(tracks, *estimator);
+  twins.unite(tracks, list_of_tracks({&tracks[2]}).view(), *estimator);
   ASSERT_EQ(tracks.size(), 3u) << "one list is not enough";
   EXPECT_EQ(tracks[2].twin_lists, 1);
-  twins.unite(tracks, *estimator);
+  const OwnedList last = list_of_tracks({&tracks[2]});
+  twins.unite(tracks, last.view(), *estimator);
   ASSERT_EQ(tracks.size(), 2u);
   EXPECT_EQ(tracks[0].birth.measurement.sequence, 1u);
   EXPECT_TRUE(same_bits(tracks[0].estimate, certain));
-  EXPECT_EQ(tracks[0].newest.measurement.sequence, 3u);
+  EXPECT_EQ(tracks[0].newest.measurement, last.id);
   EXPECT_EQ(tracks[0].unfiltered.classes.sums[2], 3.5);
   EXPECT_EQ(tracks[0].unfiltered.third.z, 1.25);
   EXPECT_EQ(tracks[0].existence, 0.99);
@@ -150,9 +160,10 @@ TEST(Twins, AListThatShowsBothBeginsTheCountAnew) {
   Twins twins(config, 8);
   std::vector<Track> tracks{track_at(20.0, 0.0, 0.4, 1), track_at(20.2, 0.1, 0.4, 2)};
   const auto list = [&](bool elder, bool younger) {
-    tracks[0].hits = elder;
-    tracks[1].hits = younger;
-    twins.unite(tracks, *estimator);
+    const OwnedList shown = list_of_tracks({});
+    for (std::size_t t = 0; t < 2; ++t)
+      if (t == 0 ? elder : younger) tracks[t].newest = {shown.id, 0, shown.measured};
+    twins.unite(tracks, shown.view(), *estimator);
   };
   list(true, false);
   list(false, true);
@@ -176,12 +187,12 @@ TEST(Twins, AnotherSizeIsAnotherObject) {
   std::vector<Track> lorry_and_car{track_at(20.0, 0.0, 0.4, 1), track_at(20.2, 0.1, 0.4, 2)};
   correct_length(lorry_and_car[0].extent, 9.0, 0.1);
   correct_length(lorry_and_car[1].extent, 4.0, 0.1);
-  lorry_and_car[0].hits = 1;
+  const OwnedList list = list_of_tracks({&lorry_and_car[0]});
   std::vector<Track> unmeasured = lorry_and_car;
-  unmeasured[1].extent = {};
-  twins.unite(lorry_and_car, *estimator);
+  unmeasured[1].extent = Extent();
+  twins.unite(lorry_and_car, list.view(), *estimator);
   EXPECT_EQ(lorry_and_car.size(), 2u);
-  twins.unite(unmeasured, *estimator);
+  twins.unite(unmeasured, list.view(), *estimator);
   EXPECT_EQ(unmeasured.size(), 1u) << "of which the size is not known";
 }
 

@@ -1,4 +1,4 @@
-// The image's bytes: within half a resolution, saturated at the ends, with every status.
+// The image's bytes: within half a resolution, sizes' sigmas rounded up, saturated at the ends, with every status.
 #include "nodes/fusion/image_codec.h"
 
 #include <gtest/gtest.h>
@@ -74,8 +74,12 @@ TEST(ImageCodec, CarriesEveryValueWithinHalfItsResolution) {
     near(o.sigma_heading, v.sigma_heading, "sigma_heading");
     near(o.sigma_speed, v.sigma_speed, "sigma_speed");
     near(o.sigma_acceleration, v.sigma_acceleration, "sigma_acceleration");
-    near(o.sigma_length, v.sigma_length, "sigma_length");
-    near(o.sigma_width, v.sigma_width, "sigma_width");
+    const auto at_least = [&](double value, double expected, std::string_view name) {
+      EXPECT_GE(value, expected - 1e-9) << name;
+      EXPECT_LE(value, expected + image.resolution(name)) << name;
+    };
+    at_least(o.sigma_length, v.sigma_length, "sigma_length");
+    at_least(o.sigma_width, v.sigma_width, "sigma_width");
   }
   EXPECT_EQ(image.out.take_saturated(), 0);
 }
@@ -130,8 +134,8 @@ TEST(ImageStatus, CoastsAfterListsWithoutAnObservation) {
     const ttf::fusion::tracks::TrackView view = view_of(track, GlobalTime{}, GlobalTime{}, config, *estimator);
     EXPECT_EQ(view.coasting, misses >= config.coast_misses);
     EXPECT_FALSE(view.has_length || view.has_width) << "nothing was measured";
-    EXPECT_EQ(view.sigma_length, ttf::fusion::tracks::Extent::kTypicalLengthSigma) << "and the uncertainty says so too";
-    EXPECT_EQ(view.sigma_width, ttf::fusion::tracks::Extent::kTypicalWidthSigma);
+    EXPECT_EQ(view.sigma_length, config.sizes.length_sigma) << "and the uncertainty says so too";
+    EXPECT_EQ(view.sigma_width, config.sizes.width_sigma);
   }
 }
 

@@ -43,20 +43,24 @@ struct Sizes final : recording::records::Sink {
     for (const recording::records::FeatureObject& object : objects) {
       const recording::records::ImageObject& image = object.image;
       if (std::hypot(image.x - truth.x, image.y - truth.y) > 3.0) continue;
-      length.add(image.sigma_length <= 1.0, image.length - truth.length, image.sigma_length);
-      width.add(image.sigma_width <= 0.25, image.width - truth.width, image.sigma_width);
+      length.add(image.sigma_length <= 0.25, image.length - truth.length, image.sigma_length);
+      width.add(image.sigma_width <= 0.08, image.width - truth.width, image.sigma_width);
     }
   }
 };
 
-Sizes driven(const Drive& drive) {
+Sizes driven(Drive drive) {
   Sizes sizes;
   sizes.from = sim::crank::kFirstCycle + Duration::milliseconds(800);
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) drive.run(sizes, seed);
+  // The start varies, so that the laser's raster meets the car elsewhere.
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    drive.scenario.world.objects[0].x += 0.07;
+    drive.run(sizes, seed);
+  }
   return sizes;
 }
 
-// Sizes hardly change from use to use, so samples are far from independent: a mean of 1.6 is not unusual.
+// Sizes hardly change from use to use, so samples are far from independent.
 void expect_honest(const Told& told) {
   EXPECT_GT(told.uses, 500);
   EXPECT_LE(told.normalised_squares, 1.6 * told.known + 10.0);

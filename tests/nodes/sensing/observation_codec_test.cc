@@ -46,15 +46,31 @@ TEST(ObservationCodec, ACamerasSilhouetteIsASpanNotAWidth) {
   EXPECT_TRUE(z.has_span);
   EXPECT_NEAR(z.span, 0.22, 0.00025 + 1e-12);
   EXPECT_NEAR(z.sigma_span, 0.002, 0.0001 + 1e-12);
+  EXPECT_EQ(z.seen, ttf::fusion::sensors::SeenPoint::kSilhouette);
   EXPECT_FALSE(z.has_width || z.has_length || z.has_heading);
 }
 
-TEST(ObservationCodec, ALasersValidBitsAreThree) {
+TEST(ObservationCodec, ALasersValidBitsSayWhatWasSeen) {
+  using ttf::fusion::sensors::SeenPoint;
   List list("paper_synchronised.yaml", "laser_objects");
-  list.out.begin(0, 8, GlobalTime{});
-  for (int bits = 0; bits < 8; ++bits) list.set(bits, "valid", bits);
+  list.out.begin(0, 16, GlobalTime{});
+  for (int bits = 0; bits < 16; ++bits) list.set(bits, "valid", bits);
   const auto observations = list.decoded();
-  for (int bits = 0; bits < 8; ++bits) {
+  ASSERT_EQ(observations.size(), 16u);
+  for (const auto& [bits, seen] : {std::pair{0, SeenPoint::kSilhouette},
+                                   {1, SeenPoint::kSilhouette},
+                                   {3, SeenPoint::kSide},
+                                   {5, SeenPoint::kEnd},
+                                   {7, SeenPoint::kCentre},
+                                   {8, SeenPoint::kCentre},
+                                   {9, SeenPoint::kCorner},
+                                   {11, SeenPoint::kCorner},
+                                   {13, SeenPoint::kCorner},
+                                   {15, SeenPoint::kCorner},
+                                   {6, SeenPoint::kSilhouette},
+                                   {14, SeenPoint::kSilhouette}})
+    EXPECT_EQ(observations[static_cast<std::size_t>(bits)].seen, seen) << bits;
+  for (int bits = 0; bits < 16; ++bits) {
     const ttf::fusion::sensors::Observation& z = observations[static_cast<std::size_t>(bits)];
     EXPECT_EQ(z.has_heading, (bits & 1) != 0);
     EXPECT_EQ(z.has_length, (bits & 2) != 0);

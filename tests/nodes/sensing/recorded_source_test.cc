@@ -29,10 +29,11 @@ std::string refusal(const std::string& sensor, const RecordedInput& input) {
   const SensorId id = *cluster.find_sensor(sensor);
   const schedules::model::Task& task = cluster.node(cluster.sensor(id).device).tasks.front();
   try {
-    RecordedSource::Rows rows;
+    PlayedRows rows;
     for (const RecordedObservation& row : input.observations)
-      if (row.sensor == sensor) rows.emplace_back(row);
-    const RecordedSource source(cluster, task, id, std::move(rows));
+      if (row.sensor == sensor) rows.at.emplace_back(row);
+    rows.times.resize(rows.at.size());
+    const RecordedSource source(cluster, task, id, std::move(rows), TrueTime{});
   } catch (const InputError& error) {
     return error.what();
   }

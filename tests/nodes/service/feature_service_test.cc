@@ -83,8 +83,8 @@ TEST(FeatureService, ClearanceEndsAtTheOutline) {
 TEST(FeatureService, WhatWasNotMeasuredIsAsTypicalAsTheImageSays) {
   recording::records::ImageObject object = car(22.0, 0.0, 0.0, 0.0);
   object.status = recording::records::kImageConfirmed;
-  object.length = ttf::fusion::tracks::Extent::kTypicalLength;
-  object.width = ttf::fusion::tracks::Extent::kTypicalWidth;
+  object.length = 4.4;
+  object.width = 1.8;
   EXPECT_NEAR(10.0 * judge(object, driving(10.0)).time_gap_s, 22.0 - 0.5 * object.length, 1e-9);
   object.heading = kPi / 2;
   EXPECT_NEAR(10.0 * judge(object, driving(10.0)).time_gap_s, 22.0 - 0.5 * object.width, 1e-9);

@@ -148,6 +148,34 @@ TEST(ObservationRows, EachBrokenLineIsOneSentenceAndLeftOut) {
   EXPECT_EQ(broken.rows[2].score, 1.0);
 }
 
+TEST(ObservationRows, TheTruthIsReadWhereItHasAPosition) {
+  const Read all = read(
+      "time,sensor,x,y,gt_object,gt_y,gt_x,gt_vx,gt_vy,gt_colour\n"
+      "0,lidar,1,2,van,2.5,1.5,3,4,red\n"
+      "0,lidar,1,2,,2.5,1.5,,,\n"
+      "0,lidar,9,9,,,,,,\n");
+  ASSERT_THAT(all.sentences, ElementsAre());
+  ASSERT_EQ(all.rows.size(), 3u);
+  ASSERT_TRUE(all.rows[0].truth);
+  EXPECT_EQ(all.rows[0].truth->object, "van");
+  EXPECT_EQ(all.rows[0].truth->x, 1.5);
+  EXPECT_EQ(all.rows[0].truth->y, 2.5);
+  EXPECT_EQ(all.rows[0].truth->velocity, (std::array{3.0, 4.0}));
+  ASSERT_TRUE(all.rows[1].truth);
+  EXPECT_EQ(all.rows[1].truth->object, "");
+  EXPECT_FALSE(all.rows[1].truth->velocity);
+  EXPECT_FALSE(all.rows[2].truth);
+  // Without both columns of the position, nothing is read: such files were always fine.
+  const Read half = read("time,sensor,x,y,gt_x,gt_vx,gt_object\n0,lidar,1,2,?,?,\n");
+  ASSERT_THAT(half.sentences, ElementsAre());
+  EXPECT_FALSE(half.rows.at(0).truth);
+  EXPECT_THAT(read("time,sensor,x,y,gt_x,gt_y\n0,lidar,1,2,3,\n1,lidar,1,2,3,1e9\n").sentences,
+              ElementsAre("o.csv:2: gt_y: must be given where gt_x is",
+                          "o.csv:3: gt_y = 1e9: must be a number in -1e+07..1e+07 m"));
+  EXPECT_THAT(read("time,sensor,x,y,gt_x,gt_y,gt_vx,gt_vy\n0,lidar,1,2,,,3,4\n").sentences,
+              ElementsAre("o.csv:2: gt_vx = 3: must be empty where gt_x and gt_y are not given"));
+}
+
 TEST(ObservationRows, AHeadingThatIsWrongIsRefused) {
   EXPECT_THAT(read("").sentences, ElementsAre("o.csv: holds no heading; expected one with time, sensor, x, y"));
   EXPECT_THAT(read("# nothing\n\n").sentences,

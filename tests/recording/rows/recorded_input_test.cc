@@ -143,14 +143,64 @@ TEST(LidarScans, BrokenLinesAreNamed) {
     const std::vector<std::string> expected{
         "s.csv:2: columns = 3: must be 4 columns, separated by commas: frame, azimuth_rad, range_m, "
         "intensity",
-        "s.csv:3: frame = 0: must not be before the row above, 1",
-        "s.csv:4: azimuth_rad = x: must be a number in -100..100 rad",
+        "s.csv:4: azimuth_rad = x: must be a number in -6.283..6.283 rad",
         "s.csv:5: frame = -1: must be a whole number of at least 0",
         "s.csv:6: frame = frame: must be a whole number of at least 0"};
     std::vector<std::string> found;
     for (const Finding& finding : error.findings()) found.push_back(finding.sentence());
     EXPECT_EQ(found, expected);
   }
+}
+
+std::vector<RecordedScan> scans_of(const std::string& text, std::vector<std::string>* sentences = nullptr) {
+  Findings findings;
+  std::vector<RecordedScan> scans = parse_lidar_scans(text, "s.csv", findings);
+  if (sentences == nullptr) {
+    EXPECT_TRUE(findings.empty()) << findings.list().front().sentence();
+    return scans;
+  }
+  for (const Finding& finding : findings.list()) sentences->push_back(finding.sentence());
+  return scans;
+}
+
+TEST(LidarScans, RowsOfAnyOrderAreSortedAndThoseOfAScanKeepTheirs) {
+  const auto frames = scans_of("2,0.1,5,0\n0,0.2,5,0\n2,0.3,5,0\n1,0.4,5,0\n0,0.5,5,0\n");
+  ASSERT_EQ(frames.size(), 3u);
+  for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(frames[static_cast<std::size_t>(frame)].frame, frame);
+  ASSERT_EQ(frames[2].returns.size(), 2u);
+  EXPECT_EQ(frames[2].returns[0].azimuth_rad, 0.1);
+  EXPECT_EQ(frames[2].returns[1].azimuth_rad, 0.3);
+  const auto times = scans_of("time,x,y\n0.1,1,0\n-0.1,2,0\n0.1,3,0\n0,4,0\n");
+  ASSERT_EQ(times.size(), 3u);
+  EXPECT_EQ(times[0].time_ns, -100'000'000);
+  EXPECT_EQ(times[0].frame, 0);
+  EXPECT_EQ(times[2].frame, 2);
+  ASSERT_EQ(times[2].returns.size(), 2u);
+  EXPECT_EQ(times[2].returns[1].range_m, 3);
+}
+
+// One row within its scan, and a whole scan of two rows: the rows after them stay.
+TEST(LidarScans, AStampThatLeapsAloneIsDamagedAndTheRowsAfterItAreSound) {
+  std::string times = "time,x,y\n", frames;
+  for (int scan = 0; scan < 20; ++scan) {
+    for (int row = 0; row < 3; ++row)
+      times += (scan == 5 && row == 1 ? "900" : "0." + std::to_string(100 + scan)) + ",9,1\n";
+    for (int row = 0; row < 2; ++row) frames += std::to_string(scan == 5 ? 7000 : scan) + ",0.1,9,1\n";
+  }
+  std::vector<std::string> sentences;
+  const auto timed = scans_of(times, &sentences);
+  ASSERT_EQ(timed.size(), 20u);
+  EXPECT_EQ(timed[5].returns.size(), 2u);
+  EXPECT_EQ(timed[6].returns.size(), 3u);
+  EXPECT_EQ(sentences,
+            std::vector<std::string>{"s.csv:18: time = 900: must be near the stamps above and below it, 0.105 s "
+                                     "and 0.105 s: a single stamp that leaps is damaged"});
+  sentences.clear();
+  EXPECT_EQ(scans_of(frames, &sentences).size(), 19u);
+  ASSERT_EQ(sentences.size(), 2u);
+  EXPECT_EQ(sentences[1],
+            "s.csv:12: frame = 7000: must be near the frames above and below it, 4 and 6: a single frame that "
+            "leaps is damaged");
 }
 
 TEST(Sniff, TellsTheFormatByTheBeginning) {

@@ -160,6 +160,7 @@ TEST(DrivesAnswer, OfSeveralSeedsDifferencesArePaired) {
   const auto tables = repeated_tables(told);
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables[0].rows[0].back(), "-0.01050 ± 0.00092 less");
+  EXPECT_EQ(tables[0].rows.size(), 1u) << "rows without any value";
 }
 
 // TT is 18.8 % worse in one drive, and better in the next one.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "report/experiment/markdown.h"
 #include "report/experiment/plots.h"
 #include "report/experiment/report.h"
 
@@ -109,6 +110,22 @@ TEST_F(ExperimentReport, ATableSaysHowManyComparisonsItMakes) {
       two.replace(two.find(difference), difference.size(), R"({"count": 10, "mean": 0.7, "half_width": 0.1})")));
   EXPECT_NE(page().find("+0.70 ± 0.10 more*"), std::string::npos);
   EXPECT_NE(page().find("Those marked * stay certain together: 1 of 1 comparison, by Holm"), std::string::npos);
+}
+
+// Every point is a row, and only a certain difference is bold.
+TEST_F(ExperimentReport, ItsTablesAreMarkdown) {
+  std::string two = point(0, "0.1 | m", "1.0") + "," + point(1, "40 m", "1.9");
+  const std::string difference = R"({"count": 3, "mean": 0.5, "half_width": null})";
+  write(answer_of(
+      two.replace(two.find(difference), difference.size(), R"({"count": 10, "mean": 0.7, "half_width": 0.1})")));
+  EXPECT_EQ(
+      markdown_tables(read_experiment_folder(folder_)),
+      "Is <it> so?\n\nerror; 95 % intervals. 1 of 1 comparison, in bold, stay certain together by Holm's method at "
+      "5 %.\n\n"
+      "| road | noise | runs | adva | tt - adva |\n"
+      "|---|---|---|---|---|\n"
+      "| dry | 0.1 \\| m | 3 | 2.0 ± 1.0 | **+0.70 ± 0.10** |\n"
+      "| dry | 40 m | 3 | 2.0 ± 1.0 | +0.500 |\n");
 }
 
 TEST_F(ExperimentReport, WhoIsAloneIsComparedWithNobody) {

@@ -134,10 +134,10 @@ TEST(CanFaults, ABabblingNodeFillsTheBus) {
   const std::size_t before = faulty.can.sent;
   faulty.run(4);
   const std::size_t babble = faulty.can.sent - before;
-  EXPECT_GT(babble, 30u);                                     // 4 ms of frames with 8 bytes, 111 bits at least
-  EXPECT_EQ(faulty.can.medium.waiting(NodeId{0}, 0x555), 4);  // those of higher identifiers wait
+  EXPECT_GT(babble, 30u);  // 4 ms of frames with 8 bytes, 111 bits at least
+  EXPECT_EQ(faulty.can.medium.waiting(NodeId{0}, 0x555, faulty.can.time), 4);  // those of higher identifiers wait
   faulty.run(4);
-  EXPECT_EQ(faulty.can.medium.waiting(NodeId{0}, 0x555), 0);
+  EXPECT_EQ(faulty.can.medium.waiting(NodeId{0}, 0x555, faulty.can.time), 0);
   EXPECT_TRUE(faulty.can.errors.empty());
 }
 
@@ -152,6 +152,28 @@ TEST(CanFaults, BusOffLastsAndEndsByRecovery) {
   EXPECT_EQ(faulty.can.changes[1].stamp.true_time, TrueTime{6'000'000 + 128 * 11 * 1'000});
   EXPECT_EQ(faulty.can.sent, 10u);
   EXPECT_EQ(faulty.acts(), 2u);
+}
+
+// Frames of others are on the bus when it is taken off and released. The end of the present frame counts for it, on
+// the fast way, too.
+TEST(CanFaults, BusOffBeginsAndEndsInTheMiddleOfFrames) {
+  std::vector<std::vector<std::string>> diaries;
+  for (const bool bit_by_bit : {false, true}) {
+    diaries.emplace_back();
+    for (int offset = 0; offset < 80; offset += 3) {
+      ttf::faults::Fault fault = fault_at(FaultKind::kCanBusOff, 1, 0, 0);
+      fault.from = Duration::microseconds(1480 + offset);
+      fault.duration = Duration::microseconds(2000 + offset % 7);
+      FaultyCan faulty(fault);
+      faulty.can.medium.set_bit_by_bit(bit_by_bit);
+      faulty.run(8);
+      EXPECT_EQ(faulty.can.sent, 8u);
+      EXPECT_THAT(faulty.states_of(1),
+                  ElementsAre(recording::records::kCanBusOff, recording::records::kCanErrorActive));
+      diaries.back().insert(diaries.back().end(), faulty.can.diary.begin(), faulty.can.diary.end());
+    }
+  }
+  EXPECT_EQ(diaries[0], diaries[1]);
 }
 
 TEST(CanFaults, AStuckLineSilencesAllAndLetsGo) {
@@ -219,11 +241,11 @@ TEST(CanFaults, SuppliesComeAndGoMeanwhile) {
     if (kind == FaultKind::kCanStuckDominant) {
       faulty.can.power_off(NodeId{0});  // the driver lets go
       faulty.run(1);
-      EXPECT_EQ(faulty.states_of(1).back(), recording::records::kCanErrorPassive);
+      EXPECT_EQ(faulty.states_of(1).back(), recording::records::kCanErrorActive) << "since its power-on";
       continue;
     }
     EXPECT_EQ(faulty.can.sent, 12u);
-    EXPECT_EQ(faulty.can.medium.waiting(NodeId{0}, 0x555), 0);
+    EXPECT_EQ(faulty.can.medium.waiting(NodeId{0}, 0x555, faulty.can.time), 0);
   }
 }
 

@@ -39,8 +39,8 @@ inline schedules::model::Cluster can_cluster(bool flexible_data_rate, double oth
 
 struct Can final : recording::records::Sink, crank::Plant {
   schedules::model::Cluster cluster;
-  MediumQueue queue{4096};
-  FramePool pool{4096};
+  MediumQueue queue;
+  FramePool pool;
   CanMedium medium;
   TrueTime time{};
   Disturbance* disturbance = nullptr;
@@ -52,7 +52,8 @@ struct Can final : recording::records::Sink, crank::Plant {
 
   static constexpr NodeId kMembers[kNodes] = {NodeId{0}, NodeId{1}, NodeId{2}};
   explicit Can(schedules::model::Cluster c)
-      : cluster(std::move(c)), medium(cluster, 0, kMembers, queue, pool, *this, 1, 0) {}
+      : cluster(std::move(c)), queue(CanMedium::most_pending(cluster, 0, kMembers)),
+        pool(CanMedium::most_pending(cluster, 0, kMembers)), medium(cluster, 0, kMembers, queue, pool, *this, 1, 0) {}
   void disturb(Disturbance& by) {
     disturbance = &by;
     medium.set_disturbance(&by);

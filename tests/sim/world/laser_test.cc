@@ -120,6 +120,43 @@ TEST(Laser, EveryBeamEndsAtTheNearestOutline) {
   EXPECT_GT(seen, 5000u);
 }
 
+// A scan's beams are shifted together, evenly by up to half a step. A beam keeps its draws.
+TEST(Laser, APhaseShiftsAllBeamsOfAScan) {
+  LaserConfig config = exact_laser();
+  config.azimuth_phase = AzimuthPhase::kDrawn;
+  const std::vector<ObjectState> car{box(0, 20.0, 0.3, 0.0, 4.0, 2.0)};
+  constexpr int kScans = 4000;
+  double sum = 0.0, squares = 0.0;
+  for (std::uint32_t sequence = 0; sequence < kScans; ++sequence) {
+    const auto [hits, truth] = scan(config, car, sequence);
+    ASSERT_GT(hits.size(), 20u);
+    const auto phase_of = [&](const HitPoint& hit) {
+      return std::remainder(hit.azimuth / config.azimuth_step_rad, 1.0);
+    };
+    const double phase = phase_of(hits.front());
+    for (const HitPoint& hit : hits) {
+      ASSERT_NEAR(std::remainder(phase_of(hit) - phase, 1.0), 0.0, 1e-9);
+      ASSERT_NEAR(hit.range, ray_against_edges(car.front(), hit.azimuth), 1e-9);
+    }
+    sum += phase;
+    squares += phase * phase;
+  }
+  EXPECT_NEAR(sum / kScans, 0.0, 0.02);
+  EXPECT_NEAR(squares / kScans, 1.0 / 12.0, 0.005);
+
+  LaserConfig noisy = config;
+  noisy.range_sigma_m = 0.06;
+  LaserConfig fixed = noisy;
+  fixed.azimuth_phase = AzimuthPhase::kFixed;
+  const std::vector<ObjectState> wall{box(0, 20.0, 0.0, 0.0, 4.0, 100.0)};
+  const Scan drawn = scan(noisy, wall), still = scan(fixed, wall);
+  ASSERT_EQ(drawn.hits.size(), still.hits.size());
+  for (std::size_t i = 0; i < drawn.hits.size(); ++i) {
+    const double noise = drawn.hits[i].range - ray_against_edges(wall.front(), drawn.hits[i].azimuth);
+    EXPECT_NEAR(noise, still.hits[i].range - ray_against_edges(wall.front(), still.hits[i].azimuth), 1e-9);
+  }
+}
+
 TEST(Laser, NearObjectsHideFarOnes) {
   // Behind: fully hidden. Beside: its left half shows.
   const auto [hits, truth] = scan(exact_laser(), {box(0, 40.0, 0.0, 0.0, 4.0, 1.8), box(1, 12.0, 0.0, 0.0, 4.0, 2.0),

@@ -121,7 +121,7 @@ TEST_F(LateList, CanEndATrack) {
 // Without a random walk, a measured axis or side counts the same at any age.
 TEST_F(LateList, TurnsAndSizesAsOneOfNow) {
   config::TrackerConfig config = taking_late(Kind::kAugmented);
-  config.heading_noise = config.extent_noise = 0.0;
+  config.heading_noise = config.initial_turn_rate_sigma = config.extent_noise = 0.0;
   const auto measured = [](sensors::Observation z, double heading, double length) {
     z.has_heading = z.has_length = true;
     z.heading = heading;

@@ -117,6 +117,26 @@ TEST_P(ExactWithOneLate, TracksAreThoseOfOrder) {
   }
 }
 
+// Every other list is of a sensor that looks back and sees no object. Late or not, it counts for no track.
+TEST_P(EveryMethod, AListOfABlindSensorCountsForNoTrack) {
+  config::TrackerConfig config = taking_late(GetParam());
+  config.sensors.resize(2);
+  config.sensors[1].mounting.yaw = kPi;
+  config.sensors[1].field = {.half_angle = 0.5};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    std::vector<OwnedList> lists = few_objects(seed, 64);
+    for (OwnedList& list : lists)
+      if (list.id.sensor == SensorId{1}) list.observations.clear();
+    const Compared result = compare(config, lists, one_late_order(64, 2 * kInTime, 2));
+    EXPECT_GT(result.late, 10) << "seed " << seed;
+    EXPECT_TRUE(result.counted_alike) << "seed " << seed;
+    LateUpdates late(config, kRoom, in_turn());
+    for (const OwnedList& list : lists) late.insert(list.view());
+    EXPECT_EQ(late.current().tracks.size(), 4u) << "seed " << seed;
+    for (const tracks::Track& track : late.current().tracks) EXPECT_LE(track.lists, 32) << "seed " << seed;
+  }
+}
+
 // B, C and Bl1 are exact without process noise. The tracker always has some, so this uses the least.
 class ExactWithoutNoise : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(LateUpdates, ExactWithoutNoise, testing::Values(Kind::kB, Kind::kC, Kind::kBl1), name_of_kind);

@@ -37,6 +37,31 @@ INSTANTIATE_TEST_SUITE_P(Shipped, FibexShipped, testing::ValuesIn(shipped_cluste
 
 TEST_P(FibexShipped, IsTheSameAfterExportAndImport) { expect_round_trip(cluster_); }
 
+std::vector<std::string> ecus_of(const std::string& xml) {
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_string(xml.c_str()));
+  std::vector<std::string> ecus;
+  for (const pugi::xml_node ecu : document.child("fx:FIBEX").child("fx:ELEMENTS").child("fx:ECUS")) {
+    std::string ids = ecu.child_value("ho:SHORT-NAME");
+    for (const auto& one : ecu.select_nodes(".//@ID | .//@ID-REF")) ids += std::string(" ") + one.attribute().value();
+    ecus.push_back(std::string(ecu.attribute("ID").value()) + " " + ids);
+  }
+  return ecus;
+}
+
+// The import knows neither nodes off FlexRay nor who reads a list. The ECUs are the same all the same, in their order.
+TEST_P(FibexShipped, KeepsItsEcusWhenItIsExportedAgain) {
+  const auto without_inputs = [](model::Cluster cluster) {
+    for (model::Node& node : cluster.nodes) node.tasks.clear();
+    return cluster;
+  };
+  const auto first = ecus_of(fibex_text(without_inputs(cluster_)));
+  const auto again = ecus_of(fibex_text(parse_fibex(fibex_text(cluster_), "cluster.xml").cluster));
+  ASSERT_FALSE(first.empty());
+  EXPECT_EQ(first, again);
+  EXPECT_EQ(first.front().substr(0, 6), "ecu_0 ");
+}
+
 TEST_P(FibexShipped, SaysWhoReceivesWhat) {
   const FibexImport import = parse_fibex(fibex_text(cluster_), "cluster.xml");
   for (std::size_t i = 0; i < import.cluster.nodes.size(); ++i) {

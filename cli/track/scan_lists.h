@@ -1,0 +1,34 @@
+// Recorded scans as lists of one sensor: each goes through the laser's preprocessing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "nodes/laser/recorded_scans.h"
+#include "recording/rows/scan_file.h"
+#include "replay/config.h"
+#include "replay/recorded_lists.h"
+
+namespace ttf::cli::track {
+
+// Counts over all scans.
+struct ScanAccount {
+  std::uint64_t scans = 0, returns = 0;
+  nodes::laser::SegmentFates fates;
+  std::uint64_t left_out = 0;  // boxes beyond max_observations of the tracker: the farthest of their scans
+};
+
+struct ScanLists {
+  replay::RecordedLists recorded;
+  ScanAccount account;
+};
+
+// Returns the lists of the configuration's only sensor, one a scan. Frame n is at n periods, unless scans have a time.
+// `name` is the file's. Throws InputError if a frame is too late.
+ScanLists lists_of(const std::vector<recording::rows::RecordedScan>& scans,
+                   const nodes::laser::RecordedScansConfig& how, const replay::ReplayConfig& config,
+                   const std::string& name);
+
+}  // namespace ttf::cli::track

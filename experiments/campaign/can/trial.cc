@@ -1,0 +1,219 @@
+#include "experiments/campaign/can/trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "bus/can/confinement.h"
+#include "bus/cni/can_controller.h"
+#include "core/random.h"
+#include "evaluation/faults/can_judge.h"
+#include "experiments/campaign/full_list.h"
+#include "sim/crank/can_simulation.h"
+#include "sim/faults/injector.h"
+
+namespace ttf::experiments::campaign::can {
+namespace {
+
+using evaluation::faults::CanJudge;
+using evaluation::faults::CanJudgement;
+
+constexpr std::array<std::string_view, 6> kErrorNames{"", "bit", "stuff", "form", "CRC", "acknowledgement"};
+
+evaluation::faults::CanJudgeSettings judge_settings(const Setting& setting, const faults::Fault& fault) {
+  const TrueTime from = TrueTime{} + fault.from;
+  return {setting.bus, fault.node, from,
+          fault.duration == faults::Fault::kToTheEnd ? kNever<TrueTime> : from + fault.duration};
+}
+
+class Trial final : public sim::crank::CanHosts, public recording::records::Sink {
+ public:
+  Trial(const Setting& setting, const Variant& variant, const faults::Fault& fault, std::uint32_t index, Story* story,
+        Witness* witness)
+      : setting_(setting), variant_(variant), story_(story), witness_(witness),
+        judge_(setting.cluster, judge_settings(setting, fault)),
+        simulation_(setting.cluster, setting.bus, *this, *this, setting.campaign.seed, index),
+        injector_({setting.campaign.file, {fault}}, setting.cluster, simulation_, setting.campaign.seed, index, *this),
+        hosts_(setting.cluster.nodes.size()), restart_at_(setting.cluster.nodes.size(), kNever<TrueTime>) {
+    simulation_.medium().set_recovery(variant.recovery);
+    simulation_.set_disturbance(&injector_);
+    for (std::size_t n = 0; n < hosts_.size(); ++n)
+      if (is_on_can(setting.cluster.nodes[n], setting.bus))
+        hosts_[n] = std::make_unique<Host>(*this, static_cast<NodeId>(n));
+    for (std::size_t m = 0; m < bus().messages.size(); ++m) {
+      RandomStream phase({setting.campaign.seed, index, Purpose::kCampaign, static_cast<std::uint16_t>(m + 1), 0});
+      lists_.push_back({TrueTime{phase.integer(0, bus().messages[m].shortest_period.ns - 1)}, 0});
+    }
+  }
+
+  void go_bit_by_bit() { simulation_.medium().set_bit_by_bit(true); }
+  void run_until(TrueTime end) {
+    while (true) {
+      TrueTime next = *std::min_element(restart_at_.begin(), restart_at_.end());
+      for (const List& list : lists_) next = std::min(next, list.due);
+      if (next > end) break;
+      simulation_.run_until(next);
+      restart(next);
+      queue(next);
+    }
+    simulation_.run_until(end);
+  }
+  const CanJudgement& finish() { return judge_.finish(simulation_.now()); }
+  const sim::faults::Injector::Activation& activation() const { return injector_.activations().front(); }
+
+ private:
+  // The next list of a message.
+  struct List {
+    TrueTime due{};
+    std::uint32_t number = 0;
+  };
+  // One node's port to the CAN, and its controller.
+  struct Host final : bus::ports::CanPort {
+    Host(Trial& t, NodeId n) : trial(t), node(n), controller(t.setting_.cluster, n, t.setting_.bus, *this) {}
+    void send(const bus::ports::CanFrame& frame) override {
+      trial.judge_.queued(node, frame.identifier, frame.data, trial.now());
+      trial.simulation_.send(node, frame);
+    }
+    Trial& trial;
+    NodeId node;
+    bus::cni::CanController controller;
+  };
+
+  TrueTime now() const { return simulation_.now(); }
+  const schedules::model::CanBus& bus() const { return setting_.cluster.can_buses[setting_.bus]; }
+  std::string_view name(NodeId node) const { return setting_.cluster.node(node).name; }
+
+  void queue(TrueTime at) {
+    for (std::size_t m = 0; m < lists_.size(); ++m) {
+      List& list = lists_[m];
+      if (list.due != at) continue;
+      const schedules::model::CanMessage& message = bus().messages[m];
+      hosts_[index_of(message.sender)]->controller.send(
+          message.pdu, full_list(setting_.cluster.pdu(message.pdu), list.number++, bytes_));
+      list.due += message.shortest_period;
+    }
+  }
+  void restart(TrueTime at) {
+    for (std::size_t n = 0; n < restart_at_.size(); ++n) {
+      if (restart_at_[n] > at) continue;
+      const auto node = static_cast<NodeId>(n);
+      const bool restarts = simulation_.medium().restart(node, at);
+      restart_at_[n] = restarts ? kNever<TrueTime> : at + variant_.restart_after;  // a fault holds it: it tries again
+      if (restarts && story_ != nullptr)
+        story_->say(at, fmt::format("the host of {} restarts its controller", name(node)));
+    }
+  }
+
+  // The hosts' side of the controllers.
+  void received(NodeId receiver, const bus::ports::CanFrame& frame) override {
+    bus::cni::CanController& controller = hosts_[index_of(receiver)]->controller;
+    const auto arrival = controller.receive(frame);
+    judge_.received(receiver, frame.identifier, frame.data, arrival && arrival->torn, !arrival, now());
+    if (witness_ != nullptr) witness_->received(receiver, frame, now());
+  }
+  void sent(NodeId sender) override {
+    judge_.sent(sender);
+    if (witness_ != nullptr) witness_->sent(sender, now());
+  }
+
+  // The medium's records.
+  using recording::records::Sink::on;
+  void on(const recording::records::CanFrameSent& frame) override { judge_.begun(frame); }
+  void on(const recording::records::CanErrorFrame& error) override {
+    judge_.error_frame(error);
+    if (story_ != nullptr)
+      story_->say(error.stamp.true_time,
+                  fmt::format("{} begins an error frame as {}: {} error; it has {} transmit and {} receive errors",
+                              name(error.stamp.node), error.as_transmitter ? "transmitter" : "receiver",
+                              kErrorNames[error.error], error.transmit_errors, error.receive_errors),
+                  Story::Of::kErrorFrames);
+  }
+  void on(const recording::records::CanStateChanged& change) override {
+    judge_.state_changed(change);
+    const NodeId node = change.stamp.node;
+    if (change.to == recording::records::kCanBusOff && variant_.recovery == sim::medium::CanRecovery::kByHost)
+      restart_at_[index_of(node)] = change.stamp.true_time + variant_.restart_after;
+    if (story_ == nullptr) return;
+    const auto state = [](std::uint8_t one) { return bus::can::text(static_cast<bus::can::ErrorState>(one)); };
+    story_->say(change.stamp.true_time,
+                fmt::format("{}: {} -> {}; {} transmit and {} receive errors", name(node), state(change.from),
+                            state(change.to), change.transmit_errors, change.receive_errors));
+  }
+  void on(const recording::records::FaultActivity& activity) override {
+    if (story_ == nullptr) return;
+    story_->say(activity.at, fmt::format("fault {}: {}", activity.kind, activity.text),
+                activity.what == recording::records::kFaultActs ? Story::Of::kFault : Story::Of::kOthers);
+  }
+
+  const Setting& setting_;
+  const Variant& variant_;
+  Story* story_;
+  Witness* witness_;
+  CanJudge judge_;
+  sim::crank::CanSimulation simulation_;
+  sim::faults::Injector injector_;
+  std::vector<std::unique_ptr<Host>> hosts_;  // by NodeId
+  std::vector<TrueTime> restart_at_;          // by NodeId
+  std::vector<List> lists_;                   // by message of the CAN
+  std::vector<std::byte> bytes_;
+};
+
+template <class Times> unsigned bits_of(const Times& times) {
+  unsigned bits = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) bits |= times[i].has_value() ? 1u << i : 0u;
+  return bits;
+}
+
+FaultOutcome outcome_of(const CanJudgement& judgement, const sim::faults::Injector::Activation& activation) {
+  FaultOutcome outcome;
+  outcome.activated = activation.times > 0;
+  outcome.seen_by_others = static_cast<std::uint16_t>(bits_of(judgement.seen_by_others));
+  outcome.seen_by_itself = static_cast<std::uint16_t>(bits_of(judgement.seen_by_itself));
+  outcome.harms = static_cast<std::uint8_t>(bits_of(judgement.harms));
+  outcome.still_out = static_cast<std::int16_t>(judgement.still_out);
+  const auto after = [&](const CanJudgement::Since& since) {
+    return since ? std::optional(std::max<std::int64_t>(0, (*since - activation.first).ns)) : std::nullopt;
+  };
+  outcome.detected_after = after(judgement.detected());
+  outcome.passive_after = after(judgement.passive);
+  outcome.halt_after = after(judgement.bus_off);
+  if (judgement.recovery) outcome.reintegrated_after = judgement.recovery->ns;
+  const CanJudgement::Harmed* first = nullptr;
+  for (const auto& harm : judgement.harms)
+    if (harm && (first == nullptr || harm->first < first->first)) first = &*harm;
+  if (first != nullptr) {
+    outcome.harmed = first->node;
+    outcome.sender = first->sender;
+    outcome.frame_id = static_cast<int>(first->identifier);
+    outcome.harmed_after = after(first->first);
+  }
+  return outcome;
+}
+
+void tell(const CanJudgement& judgement, Story& story) {
+  for (const evaluation::faults::CanCheck check : evaluation::faults::kAllCanChecks) {
+    const auto c = static_cast<std::size_t>(check);
+    if (const auto& at = judgement.seen_by_others[c])
+      story.say(*at, fmt::format("noticed by others: {}", name_of(check)));
+    if (const auto& at = judgement.seen_by_itself[c])
+      story.say(*at, fmt::format("noticed by itself: {}", name_of(check)));
+  }
+}
+
+}  // namespace
+
+FaultOutcome run_trial(const Setting& setting, const Variant& variant, const DrawnFault& drawn, std::uint32_t index,
+                       Story* story, bool bit_by_bit, Witness* witness) {
+  Trial trial(setting, variant, drawn.fault, index, story, witness);
+  if (bit_by_bit) trial.go_bit_by_bit();
+  trial.run_until(TrueTime{} + setting.campaign.duration);
+  const CanJudgement& judgement = trial.finish();
+  if (story != nullptr) tell(judgement, *story);
+  return outcome_of(judgement, trial.activation());
+}
+
+}  // namespace ttf::experiments::campaign::can

@@ -1,0 +1,44 @@
+#include "fusion/tracks/distances.h"
+
+#include <cmath>
+
+namespace ttf::fusion::tracks {
+namespace {
+
+using sensors::SeenPoint;
+
+bool has_sides(SeenPoint seen) { return seen != SeenPoint::kCentre && seen != SeenPoint::kSilhouette; }
+
+// Without the track's heading, that of the observation counts. Where a range and a bearing point, the mounting tells.
+bool is_its_own(const sensors::Observation& z, const Track& track) {
+  if (!track.heading.known) return z.has_heading || has_sides(z.seen);
+  return has_sides(z.seen) && z.kind != sensors::ObservationKind::kPosition;
+}
+
+}  // namespace
+
+void Distances::begin(std::size_t tracks) {
+  for (std::size_t t = 0; t < tracks; ++t) forget(t);
+}
+
+const Distance* Distances::computed(std::size_t index, const Track& track, const estimators::Estimator& estimator,
+                                    const sensors::Observation& z, const sensors::Mounting& mounting) {
+  if (is_its_own(z, track)) {
+    single_ = distance_to(track, estimator, z, mounting);
+    return single_ ? &*single_ : nullptr;
+  }
+  OfTrack& known = of_track_[index];
+  if (has_sides(z.seen) && !known.has_axis) {
+    known.axis << std::cos(track.heading.value), std::sin(track.heading.value);
+    known.has_axis = true;
+  }
+  const Anchor to = anchor_of(z.seen, z.z.head<2>(), known.axis, mounting.position);
+  if (to == track.anchor) return nullptr;
+  if (!known.has_distance || !(to == known.distance.to)) {
+    known.distance = *distance_to(track, estimator, z, mounting);
+    known.has_distance = true;
+  }
+  return &known.distance;
+}
+
+}  // namespace ttf::fusion::tracks

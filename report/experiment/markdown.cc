@@ -1,0 +1,96 @@
+#include "report/experiment/markdown.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/counted.h"
+#include "experiments/results/multiplicity.h"
+#include "report/drawing/figures.h"
+
+namespace ttf::report::experiment {
+namespace {
+
+using experiments::results::Family;
+using experiments::results::Interval;
+
+std::string row_of(const std::vector<std::string>& cells) {
+  std::string row = "|";
+  for (const std::string& cell : cells) {
+    row += ' ';
+    for (const char c : cell) row += c == '|' ? std::string("\\|") : std::string(1, c);
+    row += " |";
+  }
+  return row + '\n';
+}
+
+Interval difference_of(const Estimate& estimate) { return estimate.difference.value_or(Interval{}); }
+
+// By point, then paradigm; the baseline's own are no numbers.
+std::vector<Interval> differences(const ExperimentFolder& folder, std::size_t measure) {
+  std::vector<Interval> all;
+  for (const ExperimentPoint& point : folder.points)
+    for (const auto& estimates : point.estimates) all.push_back(difference_of(estimates[measure]));
+  return all;
+}
+
+std::string caption(const ExperimentFolder& folder, std::size_t m, const Family& family) {
+  const ExperimentMeasure& measure = folder.measures[m];
+  std::string text = measure.with_unit() + (measure.meaning.empty() ? "" : ": " + measure.meaning);
+  text += fmt::format("; {:g} % intervals.", 100.0 * folder.confidence);
+  if (family.comparisons > 0)
+    text += fmt::format(" {} of {}, in bold, stay certain together by Holm's method at {:g} %.", family.certain,
+                        counted(family.comparisons, "comparison"), std::round(1e6 * (1.0 - folder.confidence)) * 1e-4);
+  return text + '\n';
+}
+
+std::string table_of(const ExperimentFolder& folder, std::size_t m, const Family& family) {
+  std::vector<std::string> header = folder.axes;
+  if (folder.axes.empty()) header.push_back("point");
+  header.push_back("runs");
+  header.push_back(folder.baseline);
+  for (const std::string& paradigm : folder.paradigms)
+    if (paradigm != folder.baseline) header.push_back(paradigm + " - " + folder.baseline);
+  std::string text = row_of(header) + '|';
+  for (std::size_t column = 0; column < header.size(); ++column) text += "---|";
+  text += '\n';
+  std::size_t at = 0;
+  for (const ExperimentPoint& point : folder.points) {
+    std::vector<std::string> row = point.settings, compared;
+    if (row.empty()) row.push_back(std::to_string(point.point));
+    std::uint64_t runs = 0;
+    std::string mean;
+    for (std::size_t p = 0; p < folder.paradigms.size(); ++p, ++at) {
+      const Estimate& estimate = point.estimates[p][m];
+      runs = std::max(runs, estimate.mean.count);
+      if (folder.paradigms[p] == folder.baseline) {
+        mean = drawing::with_interval(estimate.mean.mean, estimate.mean.half_width);
+        continue;
+      }
+      const Interval difference = difference_of(estimate);
+      const std::string words = drawing::with_interval(difference.mean, difference.half_width, true);
+      compared.push_back(family.stays[at] ? "**" + words + "**" : words);
+    }
+    row.push_back(std::to_string(runs));
+    row.push_back(mean);
+    row.insert(row.end(), compared.begin(), compared.end());
+    text += row_of(row);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string markdown_tables(const ExperimentFolder& folder) {
+  std::string text = folder.question + '\n';
+  for (std::size_t m = 0; m < folder.measures.size(); ++m) {
+    const Family family = experiments::results::family_of(differences(folder, m), folder.confidence);
+    text += '\n' + caption(folder, m, family) + '\n' + table_of(folder, m, family);
+  }
+  return text;
+}
+
+}  // namespace ttf::report::experiment

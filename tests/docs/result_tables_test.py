@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""tools/result_tables.py and tools/results.py: tables of a made-up answer, and a program that answers otherwise.
+
+    result_tables_test.py SOURCE_DIR
+"""
+import contextlib
+import io
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+TOP = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
+sys.path.insert(0, str(TOP / "tools"))
+import result_tables  # noqa: E402
+import results  # noqa: E402
+
+
+def estimate(mean, half_width, difference=None, p=None):
+    found = {"count": 20, "mean": mean, "half_width": half_width}
+    if difference is not None:
+        found["difference"] = {"count": 20, "mean": difference, "half_width": 0.5 * half_width, "p": p}
+    return found
+
+
+def answer():
+    """Two densities by two roads; `free` is better in calm drives for certain, and worse in hard ones."""
+    points = []
+    for road in ("dry", "icy"):
+        for density, better in (("1", -0.5), ("100", 0.5)):
+            points.append({"point": len(points), "axes": {"road": road, "density": density}, "paradigms": {
+                "tt": {"error": estimate(2.0, 0.2), "age": estimate(42.0, 0.0)},
+                "free": {"error": estimate(2.0 + better, 0.2, better, 1e-4 if density == "1" else 0.03),
+                         "age": estimate(35.04, 0.0, -6.96, 1e-9)}}})
+    return {"baseline": "tt", "confidence": 0.95, "seed": 1, "points": points,
+            "measures": {"error": {"unit": "m^2"}, "age": {"unit": "ms"}}}
+
+
+def table(text):
+    return result_tables.Table(result_tables.Directive(text), answer()).text()
+
+
+class Tables(unittest.TestCase):
+    def test_differences_are_bold_where_they_stay_certain(self):
+        self.assertEqual(table("differences error; where: road=dry"), (
+            "*`error` [m²], 20 replications, seed 1: 2 of 4 comparisons, in bold, stay certain together.*\n\n"
+            "| density | tt | free - tt |\n|---|---|---|\n"
+            "| 1 | 2.00 ± 0.20 | **-0.50 ± 0.10** |\n| 100 | 2.00 ± 0.20 | +0.50 ± 0.10 |\n"))
+
+    def test_percent_says_where_the_sign_changes(self):
+        text = table("percent error of free; columns: density; crossing: yes; names: dry=a dry road")
+        self.assertIn("| road | 1 | 100 | crossing |", text)
+        self.assertIn("| a dry road | **-25 ± 5** | +25 ± 5 | 10 |", text)
+
+    def test_means_have_a_column_a_measure(self):
+        self.assertEqual(table("means age error of free tt; where: road=icy, density=1; names: age=age [ms]"),
+                         "| paradigm | age [ms] | error |\n|---|---|---|\n| free | 35.0 | 1.50 |\n| tt | 42.0 | 2.00 |\n")
+
+    def test_wrong_directives_are_refused(self):
+        for text, said in (("means age of nobody; where: road=dry, density=1", "nobody is no paradigm"),
+                           ("sums age", "must be one of"), ("values age; where: road=wet", "no point"),
+                           ("values age; where: road=dry; rows: road", "several points")):
+            with self.assertRaisesRegex(result_tables.Wrong, said):
+                table(text)
+
+    def test_a_page_keeps_what_is_not_a_table(self):
+        directive = "<!-- table: means age of tt; rows: density; where: road=dry -->"
+        page = f"Before.\n\n{directive}\n\n| old |\n|---|\n| 1 |\n\nAfter, | no table.\n"
+        once = result_tables.filled(page, answer())
+        self.assertEqual(once, f"Before.\n\n{directive}\n\n| density | tt |\n|---|---|\n| 1 | 42.0 |\n| 100 | 42.0 |\n"
+                               "\nAfter, | no table.\n")
+        self.assertEqual(result_tables.filled(once, answer()), once)
+        percent = result_tables.filled("<!-- table: percent error of free; columns: density -->\n", answer())
+        self.assertEqual(result_tables.filled(percent, answer()), percent)
+
+
+class Check(unittest.TestCase):
+    """The printed interval of `free` at density 1 is 0.10 wide to either side."""
+
+    def contradictions(self, shift):
+        text = "<!-- table: differences error; where: road=dry -->"
+        page = results.Page.__new__(results.Page)
+        page.text = result_tables.filled(text + "\n", answer())
+        page.tables = result_tables.tables_of(page.text)
+        rows = {(point, paradigm): {"error": [2.0, 1.9, 2.1]} for point in range(4) for paradigm in ("tt", "free")}
+        today = {key: {"error": [v + (shift if key == (0, "free") else 0.0) for v in cell["error"]]}
+                 for key, cell in rows.items()}
+        was, results.kept_rows = results.kept_rows, lambda _: rows
+        try:
+            return results.contradictions(page, today, answer())
+        finally:
+            results.kept_rows = was
+
+    def test_what_a_table_would_not_show_passes(self):
+        self.assertEqual(self.contradictions(0.0), [])
+        self.assertEqual(self.contradictions(0.09), [])
+
+    def test_what_it_would_show_does_not(self):
+        found = self.contradictions(0.11)
+        self.assertEqual(len(found), 1)
+        self.assertIn("error of free, road dry, density 1", found[0])
+
+
+class Printed(unittest.TestCase):
+    def verdict(self, change):
+        with tempfile.TemporaryDirectory() as folder:
+            page = results.Page.__new__(results.Page)
+            page.path, page.kept_answer = results.TOP / "docs/results/made_up.md", pathlib.Path(folder) / "made_up.json"
+            page.kept_answer.write_text(json.dumps(results.trimmed(answer(), ["error"])), encoding="utf-8")
+            page.text = change(result_tables.filled("<!-- table: differences error; where: road=dry -->\n", answer()))
+            with contextlib.redirect_stdout(io.StringIO()):
+                return results.printed([page])
+
+    def test_tables_of_the_drive_pass(self):
+        self.assertFalse(self.verdict(lambda text: text))
+
+    def test_a_figure_written_by_hand_does_not(self):
+        self.assertTrue(self.verdict(lambda text: text.replace("-0.50", "-0.60")))
+
+
+if __name__ == "__main__":
+    unittest.main()

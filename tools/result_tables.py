@@ -1,0 +1,221 @@
+"""The tables of docs/results: a page's directives make them from the answer of an experiment.
+
+A directive stands as a comment above its table:
+
+    <!-- table: KIND MEASURES of PARADIGMS; KEY: VALUE; ... -->
+
+    values       mean and interval of one measure, a column a paradigm; without `of`, of all
+    means        the same without intervals, a column a paradigm or a measure; counts and ages
+    differences  the baseline's mean, then the paired differences of the others from it
+    percent      the paired difference of one paradigm, in per cent of the baseline's mean
+
+    rows: AXES       these name the rows (default: all axes that `columns` and `where` do not name)
+    columns: AXIS    its values name the columns, of one paradigm
+    where: A=V, ...  points with these values only
+    names: X=Y, ...  the page says Y where the experiment says X
+    crossing: yes    percent: a last column, where the sign changes along `columns`
+
+Differences that stay certain among all of their measure, by Holm's method, are bold. A line above the table counts them.
+"""
+import math
+import re
+
+DIRECTIVE = re.compile(r"<!-- table: ([^>]*?) -->\n*(?:\*[^*\n]+\*\n+)?((?:\|[^\n]*\n)*)")
+KINDS = ("values", "means", "differences", "percent")
+
+
+class Wrong(Exception):
+    """A directive that cannot be followed."""
+
+
+class Directive:
+    def __init__(self, text):
+        parts = [part.strip() for part in " ".join(text.split()).split(";")]
+        words, _, paradigms = parts[0].partition(" of ")
+        self.text, (self.kind, *self.measures) = text, words.split()
+        self.paradigms = paradigms.split()
+        keys = dict(part.split(": ", 1) for part in parts[1:])
+        listed = {key: [item.strip() for item in value.split(",")] for key, value in keys.items()}
+        self.rows = listed.get("rows")
+        self.columns = keys.get("columns")
+        self.where = dict(item.split("=", 1) for item in listed.get("where", []))
+        self.names = dict(item.split("=", 1) for item in listed.get("names", []))
+        self.crossing = "crossing" in keys
+        unknown = set(keys) - {"rows", "columns", "where", "names", "crossing"}
+        if self.kind not in KINDS or not self.measures or unknown:
+            raise Wrong(f"table: {text}: must be one of {', '.join(KINDS)}, a measure, and known keys")
+
+    def name(self, word):
+        return self.names.get(word, word.replace("_", " "))
+
+
+class Cell:
+    """A figure of a table: of a paradigm at a point, and the figure's half width; None where it has none."""
+
+    def __init__(self, point, paradigm, measure, text, half_width=None):
+        self.point, self.paradigm, self.measure, self.text, self.half_width = point, paradigm, measure, text, half_width
+
+
+def decimals(value, half_width, digits=2):
+    scale = half_width if half_width and half_width > 0 else abs(value)
+    wanted = digits if half_width else 3
+    return max(0, wanted - 1 - math.floor(math.log10(scale))) if scale > 0 else 0
+
+
+def interval(mean, half_width, sign=""):
+    if not half_width:
+        return brief(mean, sign)
+    places = decimals(mean, half_width)
+    return f"{mean:{sign}.{places}f} ± {half_width:.{places}f}"
+
+
+def brief(value, sign=""):
+    return f"{value:{sign}.{decimals(value, None)}f}" if value else "0"
+
+
+def bold(text, certain):
+    return f"**{text}**" if certain else text
+
+
+def crossing(densities, percents):
+    """The value along the columns at which the sign changes first, on a logarithmic scale."""
+    for (x0, y0), (x1, y1) in zip(zip(densities, percents), zip(densities[1:], percents[1:])):
+        if y0 * y1 < 0:
+            return f"{math.exp(math.log(x0) + math.log(x1 / x0) * y0 / (y0 - y1)):.2g}"
+    return "none: always " + ("less" if percents[0] < 0 else "more")
+
+
+def certain_of(answer, measure):
+    """The (point, paradigm) whose differences stay certain together, by Holm's method."""
+    level = 1 - answer["confidence"]
+    found = sorted((cells[measure]["difference"]["p"], point["point"], paradigm) for point in answer["points"]
+                   for paradigm, cells in point["paradigms"].items()
+                   if cells[measure].get("difference", {}).get("p") is not None)
+    certain = set()
+    for k, (p, point, paradigm) in enumerate(found):
+        if p > level / (len(found) - k):
+            break
+        certain.add((point, paradigm))
+    return certain
+
+
+class Table:
+    """A directive's table of an answer (answer.json)."""
+
+    def __init__(self, directive, answer):
+        self.directive, self.answer = directive, answer
+        self.baseline = answer["baseline"]
+        points = [p for p in answer["points"] if all(p["axes"].get(k) == v for k, v in directive.where.items())]
+        if not points:
+            raise Wrong(f"table: {directive.text}: no point is like this")
+        taken = {directive.columns, *directive.where}
+        self.rows = directive.rows or [axis for axis in points[0]["axes"] if axis not in taken]
+        self.grouped = {}
+        for point in points:
+            key = tuple(point["axes"][axis] for axis in self.rows)
+            self.grouped.setdefault(key, []).append(point)
+        everyone = list(points[0]["paradigms"])
+        self.paradigms = directive.paradigms or everyone
+        strangers = [p for p in self.paradigms if p not in everyone]
+        if strangers:
+            raise Wrong(f"table: {directive.text}: {strangers[0]} is no paradigm (there are: {', '.join(everyone)})")
+        self.certain = {m: certain_of(answer, m) for m in directive.measures}
+        self.header, self.lines = self.laid_out()
+
+    def estimate(self, point, paradigm, measure):
+        return point["paradigms"][paradigm][measure]
+
+    def value(self, point, paradigm, measure):
+        e = self.estimate(point, paradigm, measure)
+        return Cell(point, paradigm, measure, interval(e["mean"], e["half_width"]), e["half_width"])
+
+    def mean(self, point, paradigm, measure):
+        e = self.estimate(point, paradigm, measure)
+        return Cell(point, paradigm, measure, brief(e["mean"]))
+
+    def difference(self, point, paradigm, measure):
+        if paradigm == self.baseline:
+            return self.value(point, paradigm, measure)
+        d = self.estimate(point, paradigm, measure)["difference"]
+        text = interval(d["mean"], d["half_width"], "+") if d["half_width"] else brief(d["mean"], "+")
+        return Cell(point, paradigm, measure, bold(text, (point["point"], paradigm) in self.certain[measure]), d["half_width"])
+
+    def percent(self, point, paradigm, measure):
+        d = self.estimate(point, paradigm, measure)["difference"]
+        base = self.estimate(point, self.baseline, measure)["mean"]
+        mean, half = 100 * d["mean"] / base, 100 * d["half_width"] / base
+        text = f"{mean:+.0f} ± {half:.0f}" if half >= 1 else f"{mean:+.1f} ± {half:.1f}"
+        return Cell(point, paradigm, measure, bold(text, (point["point"], paradigm) in self.certain[measure]), d["half_width"])
+
+    def laid_out(self):
+        d = self.directive
+        make = {"values": self.value, "means": self.mean, "differences": self.difference, "percent": self.percent}[d.kind]
+        header, lines = [d.name(axis) for axis in self.rows], []
+        first = next(iter(self.grouped.values()))
+        by_measure = d.kind == "means" and len(d.measures) > 1
+        if d.columns:
+            header += [d.name(p["axes"][d.columns]) for p in first]
+        elif by_measure:
+            header = [*header, *(["paradigm"] if len(self.paradigms) > 1 else []), *map(d.name, d.measures)]
+        elif d.kind == "differences":
+            header += [d.name(self.baseline), *(f"{d.name(p)} - {d.name(self.baseline)}" for p in self.paradigms
+                                                if p != self.baseline)]
+        else:
+            header += [d.name(p) for p in self.paradigms]
+        if d.crossing:
+            header.append("crossing")
+        for key, points in self.grouped.items():
+            named = [d.name(k) for k in key]
+            if d.columns:
+                cells = [make(p, self.paradigms[0], d.measures[0]) for p in points]
+                lines.append((named, cells))
+                if d.crossing:
+                    ratios = [self.estimate(p, self.paradigms[0], d.measures[0])["difference"]["mean"] for p in points]
+                    cells.append(Cell(points[0], self.paradigms[0], None,
+                                      crossing([float(p["axes"][d.columns]) for p in points], ratios)))
+                continue
+            if len(points) > 1:
+                raise Wrong(f"table: {d.text}: several points in one row")
+            if by_measure:
+                for paradigm in self.paradigms:
+                    label = [d.name(paradigm)] if len(self.paradigms) > 1 else []
+                    lines.append((named + label, [make(points[0], paradigm, m) for m in d.measures]))
+                continue
+            order = self.paradigms
+            if d.kind == "differences":
+                order = [self.baseline, *(p for p in self.paradigms if p != self.baseline)]
+            lines.append((named, [make(points[0], p, d.measures[0]) for p in order]))
+        return header, lines
+
+    def caption(self):
+        if self.directive.kind not in ("differences", "percent"):
+            return ""
+        measure = self.directive.measures[0]
+        counts = [cells[measure]["count"] for point in self.answer["points"] for cells in point["paradigms"].values()]
+        comparisons = sum(cells[measure].get("difference", {}).get("p") is not None
+                          for point in self.answer["points"] for cells in point["paradigms"].values())
+        unit = self.answer["measures"][measure]["unit"].replace("^2", "²")
+        share = f"per cent of {self.directive.name(self.baseline)}'s" if self.directive.kind == "percent" else unit
+        many = f"{max(counts):,}" if min(counts) == max(counts) else f"{min(counts):,} to {max(counts):,}"
+        return (f"*`{measure}`{f' [{share}]' if share else ''}, {many} replications, seed {self.answer['seed']}: "
+                f"{len(self.certain[measure])} of {comparisons} comparisons, in bold, stay certain together.*\n\n")
+
+    def text(self):
+        rows = [self.header, ["---"] * len(self.header)]
+        rows += [[*named, *(cell.text for cell in cells)] for named, cells in self.lines]
+        return self.caption() + "".join("| " + " | ".join(row) + " |\n" for row in rows).replace("| --- ", "|---").replace("---|---", "---|---")
+
+    def cells(self):
+        return [cell for _, cells in self.lines for cell in cells]
+
+
+def tables_of(page):
+    """The directives of a page's text, with the tables that stand below them."""
+    return [(Directive(match[1]), match[2]) for match in DIRECTIVE.finditer(page)]
+
+
+def filled(page, answer):
+    """The page's text with its tables made anew."""
+    def made(match):
+        return f"<!-- table: {match[1]} -->\n\n{Table(Directive(match[1]), answer).text()}"
+    return DIRECTIVE.sub(made, page)

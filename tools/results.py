@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+"""Drives the experiments of docs/results, makes their tables, and checks that today's program still gives them.
+
+    results.py drive PAGE ... [--jobs N]    runs each page's commands, fills its tables, keeps its first replications
+    results.py fill PAGE ...                fills an edited page's tables from the kept answer
+    results.py check [PAGE ...] [--jobs N]  drives a part of each page, and holds it against what the page prints
+    results.py printed [PAGE ...]           holds each page's tables against the kept answer, without a drive
+
+The pages say what their tables are (result_tables.py). Kept are the answer of each page's drive, and the first
+replications of each paradigm and point (tests/golden/results). The check drives the same ones. Their mean must not be
+further from the kept one than the printed interval is wide to one side. The random numbers are the same, so any
+difference is the program's. A small change of the program passes. One that a table would show does not.
+"""
+import argparse
+import csv
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import result_tables
+
+TOP = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = TOP / "build/release/ttfusion"
+DRIVEN = TOP / "build/results"
+KEPT = TOP / "tests/golden/results"
+REPLICATIONS = 3    # kept of each point
+STEADY = 0.05       # share of a figure without an interval that it may change by
+COMMAND = re.compile(r"\n    build/release/ttfusion experiment (\S+)([^\n]*)")
+FIGURE = re.compile(r"^\**[-+]?[0-9.]+ ± ([0-9.]+)\**$")
+
+
+class Page:
+    def __init__(self, path):
+        self.path, self.text = path, path.read_text(encoding="utf-8")
+        commands = COMMAND.findall(self.text)
+        self.experiment, self.options = commands[0] if commands else (None, "")
+        self.options = re.sub(r"--out \S+", "", self.options).split()
+        self.kept = KEPT / f"{path.stem}.csv"
+        self.kept_answer = KEPT / f"{path.stem}.json"
+        self.driven = DRIVEN / pathlib.Path(self.experiment or path.stem).stem
+        self.tables = result_tables.tables_of(self.text)
+
+    def fill(self):
+        answer = json.loads(self.kept_answer.read_text(encoding="utf-8"))
+        self.path.write_text(result_tables.filled(self.text, answer), encoding="utf-8")
+
+
+def drive(experiment, options, folder, jobs):
+    """Runs an experiment. Exit code 1 says that an expectation does not hold, which is a result."""
+    command = [PROGRAM, "experiment", experiment, *options, "--jobs", str(jobs), "--out", folder]
+    done = subprocess.run(command, cwd=TOP, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    if done.returncode not in (0, 1) or not (pathlib.Path(folder) / "answer.json").exists():
+        sys.exit(f"{experiment}: {done.stderr.strip()}")
+    return done.returncode == 0
+
+
+def first_replications(folder, measures):
+    """(point, paradigm) -> measure -> the values of the first replications."""
+    found = {}
+    with open(pathlib.Path(folder) / "runs.csv", encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            if int(row["replication"]) >= REPLICATIONS or row["status"] != "done":
+                continue
+            cell = found.setdefault((int(row["point"]), row["paradigm"]), {m: [] for m in measures})
+            for measure in measures:
+                cell[measure].append(float(row[measure]) if row[measure] else float("nan"))
+    return found
+
+
+def measures_of(page):
+    return list(dict.fromkeys(m for directive, _ in page.tables for m in directive.measures))
+
+
+def trimmed(answer, measures):
+    """An answer with the measures of these tables alone, to six digits."""
+    def rounded(value):
+        if isinstance(value, dict):
+            return {key: rounded(of) for key, of in value.items()}
+        return float(f"{value:.6g}") if isinstance(value, float) else value
+    points = [{"point": p["point"], "axes": p["axes"],
+               "paradigms": {name: {m: rounded(cells[m]) for m in measures} for name, cells in p["paradigms"].items()}}
+              for p in answer["points"]]
+    return {**{key: answer[key] for key in ("baseline", "confidence", "seed")}, "points": points,
+            "measures": {m: answer["measures"][m] for m in measures}}
+
+
+def printed(pages):
+    """Whether a page prints other tables than its kept answer has."""
+    failed = False
+    for page in pages:
+        if not page.kept_answer.exists():
+            print(f"{page.path.name}: has no kept answer: tools/results.py drive {page.path.relative_to(TOP)}")
+            failed = True
+            continue
+        if result_tables.filled(page.text, json.loads(page.kept_answer.read_text(encoding="utf-8"))) != page.text:
+            print(f"{page.path.name}: prints other tables than its drive gave: tools/results.py drive "
+                  f"{page.path.relative_to(TOP)}")
+            failed = True
+    return failed
+
+
+def keep(page):
+    measures = measures_of(page)
+    KEPT.mkdir(parents=True, exist_ok=True)
+    answer = json.loads((page.driven / "answer.json").read_text(encoding="utf-8"))
+    page.kept_answer.write_text(json.dumps(trimmed(answer, measures), separators=(",", ":")) + "\n", encoding="utf-8")
+    with open(page.kept, "w", encoding="utf-8", newline="") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(["point", "paradigm", "replication", *measures])
+        for (point, paradigm), cell in sorted(first_replications(page.driven, measures).items()):
+            for r in range(len(cell[measures[0]])):
+                out.writerow([point, paradigm, r, *(f"{cell[m][r]:.6g}" for m in measures)])
+
+
+def kept_rows(page):
+    found = {}
+    with open(page.kept, encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            cell = found.setdefault((int(row["point"]), row["paradigm"]), {})
+            for measure in measures_of(page):
+                cell.setdefault(measure, []).append(float(row[measure]))
+    return found
+
+
+def mean(values):
+    return sum(values) / len(values) if values else float("nan")
+
+
+def figure(kind, rows, cell, baseline, base):
+    """The figure of this cell, of these replications alone. `base` is the baseline's mean for `percent`."""
+    own = mean(rows[cell.point["point"], cell.paradigm][cell.measure])
+    if kind in ("values", "means") or cell.paradigm == baseline:
+        return own
+    difference = own - mean(rows[cell.point["point"], baseline][cell.measure])
+    return 100 * difference / base if kind == "percent" else difference
+
+
+def printed_cells(table):
+    """The rows' cells of a table's text, without its head."""
+    return [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in table.splitlines()[2:]]
+
+
+def contradictions(page, today, answer):
+    then, found = kept_rows(page), []
+    for directive, text in page.tables:
+        table = result_tables.Table(directive, answer)
+        in_page = printed_cells(text)
+        if len(in_page) != len(table.lines):
+            found.append(f"table: {directive.text}: has {len(in_page)} rows, not {len(table.lines)}")
+            continue
+        for (named, cells), line in zip(table.lines, in_page):
+            for cell, said in zip(cells, line[len(named):]):
+                if cell.measure is None:
+                    continue
+                base = mean(then[cell.point["point"], table.baseline][cell.measure])
+                a, b = (figure(directive.kind, rows, cell, table.baseline, base) for rows in (then, today))
+                match = FIGURE.match(said)
+                # An interval may be narrower than the last digit that is printed.
+                allowed = (max(float(match[1]), 0.5 * 10.0 ** -len(match[1].partition(".")[2])) if match
+                           else STEADY * abs(a) + 1e-9)
+                if not abs(b - a) <= allowed:
+                    where = ", ".join(f"{k} {v}" for k, v in cell.point["axes"].items())
+                    found.append(f"{cell.measure} of {cell.paradigm}, {where}: replications 0 to {REPLICATIONS - 1} "
+                                 f"give {b:.4g}, and gave {a:.4g} for the table, which prints {said}")
+    return found
+
+
+def tell(page, found):
+    """Prints what a page's drives contradict, and returns whether they do."""
+    cells = sum(len(printed_cells(text)) for _, text in page.tables)
+    print(f"{page.path.name}: {len(page.tables)} tables, {cells} rows: {len(found)} contradictions", flush=True)
+    for line in found[:5]:
+        print(f"  {line}")
+    if found:
+        print(f"  drive it anew: tools/results.py drive {page.path.relative_to(TOP)}")
+    return bool(found)
+
+
+def check(pages, jobs):
+    failed, driven = False, set()
+    with tempfile.TemporaryDirectory() as top:
+        for page in pages:
+            folder = pathlib.Path(top) / page.driven.name
+            if page.driven not in driven:  # pages may share an experiment
+                driven.add(page.driven)
+                drive(page.experiment, ["--replications", str(REPLICATIONS)], folder, jobs)
+            answer = json.loads((folder / "answer.json").read_text(encoding="utf-8"))
+            found = contradictions(page, first_replications(folder, measures_of(page)), answer)
+            failed = tell(page, found) or failed
+    return failed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("what", choices=["drive", "fill", "check", "printed"])
+    parser.add_argument("pages", nargs="*")
+    parser.add_argument("--jobs", type=int, default=2)
+    asked = parser.parse_args()
+    paths = [pathlib.Path(p).resolve() for p in asked.pages] or sorted((TOP / "docs/results").glob("*.md"))
+    pages = [page for page in map(Page, paths) if page.tables and page.experiment]
+    driven = set()
+    try:
+        if asked.what == "check":
+            sys.exit(1 if printed(pages) or check(pages, asked.jobs) else 0)
+        if asked.what == "printed":
+            sys.exit(1 if printed(pages) else 0)
+        for page in pages:
+            if asked.what == "drive":
+                if page.driven not in driven:  # pages may share an experiment
+                    driven.add(page.driven)
+                    shutil.rmtree(page.driven, ignore_errors=True)
+                    as_expected = drive(page.experiment, page.options, page.driven, asked.jobs)
+                    verdict = "as expected" if as_expected else "AN EXPECTATION DOES NOT HOLD"
+                    print(f"{page.path.name}: {verdict}", flush=True)
+                keep(page)
+            page.fill()
+    except result_tables.Wrong as wrong:
+        sys.exit(f"error: {wrong}")
+
+
+if __name__ == "__main__":
+    main()
