@@ -28,15 +28,15 @@ const Distance* Distances::computed(std::size_t index, const Track& track, const
     return single_ ? &*single_ : nullptr;
   }
   OfTrack& known = of_track_[index];
-  if (has_sides(z.seen) && !known.has_axis) {
+  if (has_sides(z.seen) && !knows_[index].axis) {
     known.axis << std::cos(track.heading.value), std::sin(track.heading.value);
-    known.has_axis = true;
+    knows_[index].axis = true;
   }
   const Anchor to = anchor_of(z.seen, z.z.head<2>(), known.axis, mounting.position);
   if (to == track.anchor) return nullptr;
-  if (!known.has_distance || !(to == known.distance.to)) {
+  if (!knows_[index].distance || !(to == known.distance.to)) {
     known.distance = *distance_to(track, estimator, z, mounting);
-    known.has_distance = true;
+    knows_[index].distance = true;
   }
   return &known.distance;
 }

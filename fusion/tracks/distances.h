@@ -15,32 +15,35 @@ namespace ttf::fusion::tracks {
 
 class Distances {
  public:
-  explicit Distances(std::size_t max_tracks) : of_track_(max_tracks) {}
+  explicit Distances(std::size_t max_tracks) : knows_(max_tracks), of_track_(max_tracks) {}
 
   // Forgets all distances, for a list and this many tracks.
   void begin(std::size_t tracks);
   // Forgets the distances of a track that changes.
-  void forget(std::size_t index) { of_track_[index].has_axis = of_track_[index].has_distance = false; }
+  void forget(std::size_t index) { knows_[index] = {}; }
   // Returns the distance of the observation from the anchor of the track, the index-th of its set, and null if they are
   // one point. It is valid until the next call.
   const Distance* of(std::size_t index, const Track& track, const estimators::Estimator& estimator,
                      const sensors::Observation& observation, const sensors::Mounting& mounting) {
     // Most pairs of a list ask for a silhouette's distance again, so that this way is in line.
     const OfTrack& known = of_track_[index];
-    if (known.has_distance && observation.seen == sensors::SeenPoint::kSilhouette && !observation.has_heading &&
+    if (knows_[index].distance && observation.seen == sensors::SeenPoint::kSilhouette && !observation.has_heading &&
         known.distance.to.point == sensors::SeenPoint::kSilhouette && known.distance.to.from == mounting.position)
       return &known.distance;
     return computed(index, track, estimator, observation, mounting);
   }
 
  private:
+  struct Knows {
+    bool axis = false, distance = false;
+  };
   struct OfTrack {
-    bool has_axis = false, has_distance = false;
     linear::Vector<2> axis;  // the unit vector along the track's heading
     Distance distance;
   };
   const Distance* computed(std::size_t index, const Track& track, const estimators::Estimator& estimator,
                            const sensors::Observation& observation, const sensors::Mounting& mounting);
+  std::vector<Knows> knows_;  // apart, so that forgetting touches little
   std::vector<OfTrack> of_track_;
   std::optional<Distance> single_;  // where the observation's heading counts
 };

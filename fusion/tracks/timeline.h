@@ -1,13 +1,17 @@
 // The timeline keeps the tracker's past so that it can be rewound: recent lists in chronological order, and the
-// tracks after each.
+// tracks after some of them.
 //
 //      base | list 0 | list 1 | ... | list n-1
-//   tracks  ^        ^        ^               ^  current
+//   tracks  ^                 ^              ^  current
 //
-// A list inserted at the end is one step of the tracker. A list inserted earlier restores the tracks before it
-// and takes in all later lists again. So the result is bit-identical to processing in order, for every order of
-// arrival. Only the names of the tracks (fusion/tracks/identities.h) remain from before. A full history drops
-// its oldest list into the base; a list older than the base cannot be taken in.
+// A list inserted at the end is one step of the tracker. A list inserted earlier restores the nearest tracks before
+// it and takes in all later lists again. So the result is bit-identical to processing in order, for every order of
+// arrival. Only the names of the tracks (fusion/tracks/identities.h) remain from before. A list older than the last
+// config.history_scans cannot be taken in.
+//
+// Which lists keep the tracks after them depends on how late lists have been. Where a list was late by n others, the last
+// n + 1 lists keep them, so that the next late one finds them. Of older lists every kSpacing-th does. So tracks are not
+// copied while lists come in order, and 1,000 of them stay in the processor's cache.
 #pragma once
 
 #include <cstddef>
@@ -44,23 +48,39 @@ class Timeline final : public TrackHistory {
   bool contains(const MeasurementId& id, GlobalTime measured) const override;
 
  private:
+  static constexpr std::size_t kSpacing = 16;
+
   struct Entry {
     StoredList list;
     TrackSet after;
+    bool kept = false;  // `after` holds the tracks after the list
     Entry(std::size_t most_observations, std::size_t most_tracks) : list(most_observations), after(most_tracks) {}
   };
-  void process(std::size_t position);
+  Entry& entry(std::size_t position) { return entries_[order_[position]]; }
+  const Entry& entry(std::size_t position) const { return entries_[order_[position]]; }
+  std::size_t place_of(const sensors::ObservationList& list) const;
+  void put(const sensors::ObservationList& list, std::size_t position);
+  void append();
+  void rewind(std::size_t position);
+  void take_in(std::size_t position);
+  bool kept_shortly_before(std::size_t position) const;
+  void settle();
 
   Tracker tracker_;
   Identities identities_;
   Innovations innovations_;
+  std::size_t history_;
   std::vector<Entry> entries_;      // storage, used in any order
   std::vector<std::size_t> order_;  // chronological
   std::vector<std::size_t> free_;
   TrackSet base_;
-  MeasurementId base_id_{};
-  GlobalTime base_time_{};
-  bool base_is_list_ = false;  // the base holds a dropped list
+  std::size_t reach_ = 0;    // by how many lists one was late at most
+  std::size_t thinned_ = 0;  // so many lists, the oldest, keep tracks at intervals
+  // So many lists, the oldest, are too old to be preceded. They lead from the base to the others.
+  std::size_t settled_ = 0;
+  MeasurementId settled_id_{};  // of the last one that settled
+  GlobalTime settled_time_{};
+  bool any_settled_ = false;
 };
 
 }  // namespace ttf::fusion::tracks

@@ -23,24 +23,25 @@ struct ObservationId {
   bool operator==(const ObservationId&) const = default;
 };
 
+// What every pass over all tracks needs comes first, and what is seldom needed last: 1,000 tracks fill a processor's cache.
 struct Track {
-  TrackId id = kNoTrack;             // set on confirmation (fusion/tracks/identities.h)
-  ObservationId birth, newest;       // the first observation and the last
-  estimators::Estimate estimate;     // the anchor's
-  Anchor anchor;                     // in the axes of `heading`
+  TrackId id = kNoTrack;  // set on confirmation (fusion/tracks/identities.h)
+  bool confirmed = false;
   std::uint8_t lists_elsewhere = 0;  // lists in a row that observed other points of the object
+  std::uint32_t hits = 0;            // bit i: the list i lists ago had an observation of the track
+  std::uint32_t doubtful = 0;        // such bits of the doubtful ones among them: these confirm nothing
+  int lists = 0;                     // since birth, the first included
+  int misses = 0;                    // lists in a row without an observation
+  ObservationId birth, newest;       // the first observation and the last
+  double existence = 1.0;            // probability that the object exists (fusion/tracks/existence.h); 1 for births m_of_n
   Heading heading;                   // the front's direction
   Scalar shown;                      // [m], width of the silhouette as cameras see it: tells an unknown heading's depth
   Extent extent;
+  Anchor anchor;                  // in the axes of `heading`
+  estimators::Estimate estimate;  // the anchor's
+  std::uint8_t twin_lists = 0;    // lists in a row that suggested a twin (fusion/tracks/twins.h)
+  ObservationId twin;             // the twin's birth, if twin_lists > 0
   Unfiltered unfiltered;
-  std::uint32_t hits = 0;      // bit i: the list i lists ago had an observation of the track
-  std::uint32_t doubtful = 0;  // such bits of the doubtful ones among them: these confirm nothing
-  int lists = 0;               // since birth, the first included
-  int misses = 0;              // lists in a row without an observation
-  bool confirmed = false;
-  std::uint8_t twin_lists = 0;  // lists in a row that suggested a twin (fusion/tracks/twins.h)
-  ObservationId twin;           // the twin's birth, if twin_lists > 0
-  double existence = 1.0;       // probability that the object exists (fusion/tracks/existence.h); 1 for births m_of_n
 };
 
 // The direction of the object's front [rad]: the course combined with the measured axis, turned by half a turn

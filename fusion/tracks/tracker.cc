@@ -340,7 +340,8 @@ sensors::Observation Tracker::referred(const Track& track, const sensors::Observ
   return distance ? counted(z, *distance, mounting_of(z), estimator_->position(track.estimate).p) : z;
 }
 
-void Tracker::count_elsewhere(Track& track, const Distance& distance, bool moves, Referred& taken) const {
+void Tracker::count_elsewhere(Track& track, const sensors::Observation& z, const Distance& distance, bool moves,
+                              Referred& taken) const {
   taken.elsewhere = true;
   taken.moved = moves;
   if (moves) {
@@ -351,14 +352,14 @@ void Tracker::count_elsewhere(Track& track, const Distance& distance, bool moves
     return;
   }
   const linear::Gaussian<2> at = estimator_->position(track.estimate);
-  learn_size(track.extent, taken.observation, distance, at);
-  taken.observation = counted(taken.observation, distance, mounting_of(taken.observation), at.p);
+  learn_size(track.extent, z, distance, at);
+  taken.counted = counted(z, distance, mounting_of(z), at.p);
 }
 
 Tracker::Referred Tracker::referred_late(Track& then, const sensors::Observation& z, bool may_move) const {
   const std::optional<Distance> distance = distance_of(then, z);
-  Referred taken{.observation = z, .from = then.anchor};
-  if (distance) count_elsewhere(then, *distance, may_move && gives_way(then.anchor, z.seen), taken);
+  Referred taken{.from = then.anchor};
+  if (distance) count_elsewhere(then, z, *distance, may_move && gives_way(then.anchor, z.seen), taken);
   return taken;
 }
 
@@ -366,16 +367,15 @@ Tracker::Referred Tracker::referred_late(Track& then, const sensors::Observation
 const sensors::Observation& Tracker::refer(Track& track, std::size_t column, const sensors::Observation& z,
                                            std::size_t row) {
   const Distance* distance = distance_of(track, column, z);
-  // Only a move has a displacement: the old one is not worth a write.
+  // What is not looked at is not worth a write.
   Referred& taken = taken_[row];
-  taken.observation = z;
   taken.elsewhere = taken.moved = false;
   taken.from = track.anchor;
   track.lists_elsewhere = distance ? static_cast<std::uint8_t>(track.lists_elsewhere + 1) : 0;
   if (distance)
-    count_elsewhere(track, *distance,
+    count_elsewhere(track, z, *distance,
                     gives_way(track.anchor, z.seen) || track.lists_elsewhere >= lists_elsewhere_before(z.seen), taken);
-  return taken.observation;
+  return taken.of(z);
 }
 
 // Updates by all observations in the track's gate, with their probabilities given that its object exists.

@@ -78,11 +78,15 @@ class Tracker {
   void correct_extent(Track& track, const sensors::Observation& observation) const;
   // How an observation counts for its track: as one of its anchor (fusion/tracks/anchoring.h), which may have moved.
   struct Referred {
-    sensors::Observation observation;
     bool elsewhere = false;  // it is of another point than the anchor
     bool moved = false;
     Anchor from{};                            // the anchor before
     estimators::Displacement displacement{};  // if moved
+    sensors::Observation counted{};           // if elsewhere and not moved
+
+    const sensors::Observation& of(const sensors::Observation& observed) const {
+      return elsewhere && !moved ? counted : observed;
+    }
   };
   // Refers a late observation, of a track as it was at that instant. The size learns; a silhouette gives way, if it may.
   Referred referred_late(Track& then, const sensors::Observation& observation, bool may_move) const;
@@ -124,7 +128,8 @@ class Tracker {
     return sensors::mounting_of(config_.sensors, observation.sensor);
   }
   sensors::Observation referred(const Track& track, const sensors::Observation& observation) const;
-  void count_elsewhere(Track& track, const Distance& distance, bool moves, Referred& taken) const;
+  void count_elsewhere(Track& track, const sensors::Observation& observation, const Distance& distance, bool moves,
+                       Referred& taken) const;
   const sensors::Observation& refer(Track& track, std::size_t column, const sensors::Observation& observation,
                                     std::size_t row);
   const Distance* distance_of(const Track& track, std::size_t column, const sensors::Observation& observation);

@@ -90,17 +90,23 @@ void fusion_cycle_on_the_road() { cycle_of(fusion::road(), {}); }
 void fusion_cycle_of_thousand() { cycle_of(fusion::thousand(), fusion::for_thousand()); }
 void fusion_cycle_of_thousand_on_the_road() { cycle_of(fusion::thousand_on_the_road(), fusion::for_thousand()); }
 
+// The second late list: the first one finds the tracks of few lists (fusion/tracks/timeline.h).
 void fusion_late_list() {
   const auto strategy = fusion::scene().start(fusion::strategies::StrategyKind::kAdva, fusion::kWarm);
-  const auto& late = fusion::scene().laser[fusion::kWarm];
-  const GlobalTime now = late.measured + Duration::milliseconds(1000);
-  strategy->accept(fusion::scene().camera[fusion::kWarm].view());
-  strategy->accept(fusion::scene().laser[fusion::kWarm + 1].view());
-  strategy->fuse(now);
-  counted([&] {
-    strategy->accept(late.view());
+  const auto late_list = [&](std::uint32_t k) {
+    const auto& late = fusion::scene().laser[k];
+    const GlobalTime now = late.measured + Duration::milliseconds(1000);
+    strategy->accept(fusion::scene().camera[k].view());
+    strategy->accept(fusion::scene().laser[k + 1].view());
     strategy->fuse(now);
-  });
+    return [&strategy, &late, now] {
+      strategy->accept(late.view());
+      strategy->fuse(now);
+    };
+  };
+  late_list(fusion::kWarm)();
+  strategy->accept(fusion::scene().camera[fusion::kWarm + 1].view());
+  counted(late_list(fusion::kWarm + 2));
 }
 
 // ---- a thousand people on a square, once (scenarios/thousand.yaml)

@@ -131,7 +131,7 @@ void LateUpdates::step(const sensors::ObservationList& list) {
     const tracks::Tracker::Referred& taken = tracker_.taken(track.newest.index);
     if (taken.moved) object.note({taken.from, list.id, list.measured});
     // It starts anew from the tracker's estimate if the stamp does not fit the method.
-    if (!is_taken(pasts_->take(object.slot, when, taken.observation, taken.moved ? &taken.displacement : nullptr)))
+    if (!is_taken(pasts_->take(object.slot, when, taken.of(z), taken.moved ? &taken.displacement : nullptr)))
       pasts_->start(object.slot, set_.time, track.estimate);
   }
 }
@@ -182,7 +182,7 @@ void LateUpdates::mend(tracks::Track& track, Object& object, const tracks::Obser
   const bool at_present = object.keeps_anchor_since(which.measurement, which.measured);
   const tracks::Tracker::Referred referred = tracker_.referred_late(then, z, at_present);
   const oosm::Taken taken =
-      pasts_->take(object.slot, when, referred.observation, referred.moved ? &referred.displacement : nullptr);
+      pasts_->take(object.slot, when, referred.of(z), referred.moved ? &referred.displacement : nullptr);
   TTF_CHECK(is_taken(taken), "a late list is not taken although the method has a state at its instant: {}",
             static_cast<int>(taken));
   track.estimate = pasts_->newest(object.slot, set_.time);

@@ -165,6 +165,35 @@ TEST(Timeline, LongDrivesInDisorder) {
   }
 }
 
+// Lists keep their tracks at intervals while nothing is late, and more of them once something was. Each list of a calm drive
+// is held back in its turn, by every distance that the history reaches, and another one later.
+TEST(Timeline, EveryDistanceAfterACalm) {
+  config::TrackerConfig config;
+  config.history_scans = 24;
+  constexpr std::uint32_t kLists = 100;
+  const Lanes lanes{.objects = 4, .miss_probability = 0.3, .seed = 6};
+  std::vector<OwnedList> lists;
+  Timeline in_order(config, 8);
+  for (std::uint32_t k = 0; k < kLists; ++k) {
+    lists.push_back(list_of(static_cast<std::uint8_t>(k % 2), k, at_ms(21 * k), lanes.see(at_ms(21 * k), k)));
+    in_order.insert(lists.back().view());
+  }
+  for (std::uint32_t distance = 1; distance <= 24; ++distance)
+    for (std::uint32_t held = 40; held < 50; ++held) {
+      Timeline timeline(config, 8);
+      const std::uint32_t second = 74, nearer = distance / 2 + 1;
+      const auto expect = [&](std::uint32_t k, Timeline::Insertion insertion) {
+        ASSERT_EQ(timeline.insert(lists[k].view()), insertion) << k;
+      };
+      for (std::uint32_t k = 0; k < kLists; ++k) {
+        if (k != held && k != second) expect(k, Timeline::Insertion::kInOrder);
+        if (k == held + distance) expect(held, Timeline::Insertion::kLate);
+        if (k == second + nearer) expect(second, Timeline::Insertion::kLate);
+      }
+      ASSERT_TRUE(same_bits(timeline.current(), in_order.current())) << distance << " behind, list " << held;
+    }
+}
+
 // Late lists open associations again where it matters most: two objects that cross, and clutter.
 TEST(Timeline, CrossingObjectsInClutterShuffled) {
   RandomStream stream({.seed = 2});
