@@ -1,4 +1,5 @@
 // Every axis of docs/experiments.md has its proper effect on a drive, each driven alone.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

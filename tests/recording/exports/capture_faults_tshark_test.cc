@@ -1,5 +1,7 @@
 // The same for a drive with many faults. The capture has the channels' contents with the right error flags,
 // and is compared with the drive's schedule. Skipped without tshark.
+#include <fmt/format.h>
+
 #include <fstream>
 #include <map>
 #include <optional>

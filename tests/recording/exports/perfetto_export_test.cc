@@ -1,4 +1,5 @@
 // Perfetto traces from records with an exactly known result, and from records that no run can have.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

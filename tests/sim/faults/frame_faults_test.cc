@@ -1,5 +1,6 @@
 // Faults of a node's frames, and the check of each receiver that sees them. Integrated clusters of four: node
 // n sends in slot n + 1, on both channels, in every cycle.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/sim/faults/fault_bus.h"

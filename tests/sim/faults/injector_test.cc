@@ -1,6 +1,7 @@
 // The laws of sim/faults/injector.h, and the faults' effects on bytes.
 #include "sim/faults/injector.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <set>

@@ -2,6 +2,7 @@
 // line, wrong ones are refused.
 #include "schedules/exchange/fibex/import.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

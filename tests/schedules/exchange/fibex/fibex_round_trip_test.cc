@@ -1,5 +1,6 @@
 // Export and import keep timing, controllers, slots, PDUs and signals. The exported bit positions match the
 // codec's.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <map>
