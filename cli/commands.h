@@ -34,6 +34,9 @@ void add_keys(CLI::App& app, Action& action);
 namespace ttf::cli::launch {
 void add_launch(CLI::App& app, Action& action);
 }  // namespace ttf::cli::launch
+namespace ttf::cli::manual {
+void add_manual(CLI::App& app, Action& action);
+}  // namespace ttf::cli::manual
 namespace ttf::cli::node {
 void add_node(CLI::App& app, Action& action);
 }  // namespace ttf::cli::node

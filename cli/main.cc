@@ -7,6 +7,7 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/version.h"
 #include "core/errors.h"
 
 namespace {
@@ -26,7 +27,7 @@ int refuse(const ttf::Finding& mistake) {
 int main(int argc, char** argv) {
   CLI::App app{kAbout, "ttfusion"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", TTF_VERSION);
+  app.set_version_flag("--version", ttf::cli::version_text());
   ttf::cli::Action action;
   ttf::cli::drive::add_run(app, action);
   ttf::cli::logs::add_diagram(app, action);
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
   ttf::cli::node::add_node(app, action);
   ttf::cli::logs::add_report(app, action);
   ttf::cli::track::add_track(app, action);
+  ttf::cli::manual::add_manual(app, action);
   app.footer("`ttfusion COMMAND --help` has a command's options and an example.");  // last: commands would inherit it
   if (argc == 1) {
     fmt::print("{}", app.help());

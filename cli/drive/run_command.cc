@@ -13,6 +13,7 @@
 #include "cli/drive/run_outputs.h"
 #include "cli/drive/startup_outputs.h"
 #include "cli/output.h"
+#include "cli/shipped.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
 #include "recording/log/writer.h"
@@ -117,7 +118,7 @@ void add_run(CLI::App& app, Action& action) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "One drive in virtual time: log, summary table and pictures");
   command->footer("Example: ttfusion run scenarios/paper_scenario1.yaml --seed 7 --out out/drive");
-  command->add_option("scenario", options->scenario, "Scenario file")->required();
+  command->add_option("scenario", options->scenario, "Scenario file, or a shipped one's name")->required();
   command->add_option("--strategy", options->strategy, "Only this strategy (default: all three)")
       ->check(one_of(strategy_names()));
   command->add_option("--seed", options->seed, "Seed of every random stream, instead of the scenario's");
@@ -126,7 +127,12 @@ void add_run(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "Summary as JSON on standard output");
   command->add_flag("--no-log", options->no_log, "Write no logs (and so no pictures)");
   command->add_flag("--no-pictures", options->no_pictures, "Write logs only");
-  command->callback([options, &action] { action = [options] { return run_scenario(*options); }; });
+  command->callback([options, &action] {
+    action = [options] {
+      options->scenario = file_named(options->scenario, {kScenarios});
+      return run_scenario(*options);
+    };
+  });
 }
 
 }  // namespace ttf::cli::drive

@@ -8,6 +8,7 @@
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/experiment/options.h"
+#include "cli/shipped.h"
 #include "core/errors.h"
 #include "core/file_kind.h"
 #include "core/strict_yaml.h"
@@ -79,7 +80,7 @@ void add_experiment(CLI::App& app, Action& action) {
       "          ttfusion experiment experiments/process_noise.yaml --shard 2/2 --out out/second\n"
       "          ttfusion experiment experiments/process_noise.yaml --merge out/first out/second --out out/both\n"
       "          mpirun -n 8 ttfusion experiment experiments/process_noise.yaml --out out/all");
-  command->add_option("file", options->file, "Experiment file")->required();
+  command->add_option("file", options->file, "Experiment file, or a shipped one's name")->required();
   command->add_option("--jobs", options->jobs, "Workers (default: one per processor)")->check(whole_number({1, 1024}));
   command->add_option("--replications", options->replications, "Replications of every point, instead of the file's")
       ->check(whole_number({1, experiments::sweep::kMostReplications}));
@@ -93,7 +94,12 @@ void add_experiment(CLI::App& app, Action& action) {
   auto* json = command->add_flag("--json", options->json, "The answer as JSON on standard output");
   merge->excludes(shard)->excludes(resume);
   replay->excludes(shard)->excludes(merge)->excludes(resume)->excludes(json);
-  command->callback([options, &action] { action = [options] { return run_experiment(*options); }; });
+  command->callback([options, &action] {
+    action = [options] {
+      options->file = file_named(options->file, {kExperiments});
+      return run_experiment(*options);
+    };
+  });
 }
 
 }  // namespace ttf::cli::experiment

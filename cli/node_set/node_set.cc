@@ -13,6 +13,7 @@
 #include "cli/decimal_option.h"
 #include "cli/drive/drive_setup.h"
 #include "cli/node_set/can_interfaces.h"
+#include "cli/shipped.h"
 #include "core/decimal.h"
 #include "core/errors.h"
 #include "core/file_kind.h"
@@ -128,7 +129,9 @@ void check_fit_for_real_time(const NodeSet& set) {
 }  // namespace
 
 void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
-  command.add_option("scenario", arguments.scenario, "Scenario file, or a cluster file for the default scene")
+  command
+      .add_option("scenario", arguments.scenario,
+                  "Scenario file, or a cluster file for the default scene; or a shipped one's name")
       ->required();
   command
       .add_option("--strategy", arguments.strategy, "Fusion strategy, and with it the scenario's cluster (default: tt)")
@@ -151,7 +154,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
 
 NodeSet read_node_set(const NodeSetArguments& arguments) {
   NodeSet set;
-  set.file = arguments.scenario;
+  set.file = file_named(arguments.scenario, {kScenarios, kSchedules});
   set.strategy = drive::strategy_of(arguments.strategy);
   set.bus = live_media::Bus::parse(arguments.bus);
   set.session = session_option(arguments.session);

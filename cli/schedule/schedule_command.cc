@@ -10,6 +10,7 @@
 #include "cli/schedule/capture_against.h"
 #include "cli/schedule/medium_check.h"
 #include "cli/schedule/schedule_input.h"
+#include "cli/shipped.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
 #include "report/drawing/render.h"
@@ -169,6 +170,16 @@ int export_cluster(const ScheduleOptions& options) {
   return 0;
 }
 
+void call_on_file(CLI::App& command, const std::shared_ptr<ScheduleOptions>& options, Action& action,
+                  int (*run)(const ScheduleOptions&)) {
+  command.callback([options, &action, run] {
+    action = [options, run] {
+      options->file = file_named(options->file, {kSchedules});
+      return run(*options);
+    };
+  });
+}
+
 }  // namespace
 
 void add_schedule(CLI::App& app, Action& action) {
@@ -180,17 +191,17 @@ void add_schedule(CLI::App& app, Action& action) {
       "Examples: ttfusion schedule check schedules/paper_synchronised.yaml\n"
       "          ttfusion schedule check schedules/paper_synchronised.yaml --against out/drive.pcapng\n"
       "          ttfusion schedule check schedules/paper_synchronised.yaml --medium can-fd:1M/5M --time-scale 3");
-  checking->add_option("file", options->file, "Cluster file, or FIBEX file")->required();
+  checking->add_option("file", options->file, "Cluster file or FIBEX file, or a shipped cluster's name")->required();
   checking->add_flag("--json", options->json, "Result as JSON on standard output");
   add_capture_arguments(*checking, options->capture);
   add_medium_arguments(*checking, options->medium);
   checking->get_option("--medium")->excludes("--against");
-  checking->callback([options, &action] { action = [options] { return check(*options); }; });
+  call_on_file(*checking, options, action, check);
   CLI::App* showing = command->add_subcommand("show", "Draw one communication cycle as text, or as a picture with -o");
   showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");
-  showing->add_option("file", options->file, "Cluster file, or FIBEX file")->required();
+  showing->add_option("file", options->file, "Cluster file or FIBEX file, or a shipped cluster's name")->required();
   showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->check(named());
-  showing->callback([options, &action] { action = [options] { return show(*options); }; });
+  call_on_file(*showing, options, action, show);
   CLI::App* exporting = command->add_subcommand("export",
                                                 "Write a cluster as FIBEX 3.1, its CANs as DBC, or a FIBEX file's "
                                                 "FlexRay cluster as the beginning of a cluster file");
@@ -198,13 +209,16 @@ void add_schedule(CLI::App& app, Action& action) {
       "Examples: ttfusion schedule export schedules/paper_synchronised.yaml --format fibex -o cluster.xml\n"
       "          ttfusion schedule export schedules/paper_synchronised.yaml --format dbc -o cluster.dbc\n"
       "          ttfusion schedule export cluster.xml --format yaml -o cluster.yaml");
-  exporting->add_option("file", options->file, "Cluster file (fibex, dbc), or FIBEX file (yaml, fibex)")->required();
+  exporting
+      ->add_option("file", options->file,
+                   "Cluster file or a shipped one's name (fibex, dbc), or FIBEX file (yaml, fibex)")
+      ->required();
   exporting->add_option("--format", options->format, "fibex, dbc: from a cluster file; yaml: from a FIBEX file")
       ->required()
       ->check(one_of({"fibex", "dbc", "yaml"}));
   exporting->add_option("--can", options->can, "dbc: only this CAN of the cluster");
   exporting->add_option("-o,--out", options->out, "File to write; else standard output")->check(named());
-  exporting->callback([options, &action] { action = [options] { return export_cluster(*options); }; });
+  call_on_file(*exporting, options, action, export_cluster);
 }
 
 }  // namespace ttf::cli::schedule

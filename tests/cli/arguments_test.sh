@@ -23,9 +23,9 @@ for arguments in '' --help; do
   expect 0 '^  schedule +Validate, draw' $arguments
 done
 [[ -z $("$program" 2>&1 >/dev/null) ]] || fail "the help that no argument prints is an error"
-one_sentence 'scenario: must be given to `ttfusion run`: Scenario file' run
+one_sentence 'scenario: must be given to `ttfusion run`: Scenario file, or a shipped one'"'"'s name' run
 one_sentence 'ttfusion schedule: must be followed by check, show or export' schedule
-commands='run, diagram, export, schedule, experiment, keys, launch, node, report or track'
+commands='run, diagram, export, schedule, experiment, keys, launch, node, report, track or manual'
 one_sentence "foo: is no command of \`ttfusion\`: must be $commands" foo --help
 one_sentence 'rnu: is no command of `ttfusion`: did you mean run?' rnu "$paper"
 one_sentence 'draw: is no command of `ttfusion schedule`: must be check, show or export' schedule draw x.yaml
@@ -145,6 +145,28 @@ expect 2 "mixed.yaml:$line: paradigms.can_adva.cluster = .*/absent.yaml: must be
 sed 's#^cluster: .*#cluster: absent.yaml#' "$campaign" >"$mixed"
 line=$(grep -n '^cluster:' "$campaign" | cut -d: -f1)
 expect 2 "mixed.yaml:$line: cluster = .*/absent.yaml: must be a cluster file, but it cannot be read" experiment "$mixed"
+# Shipped files by name, in a folder that has none; a file of one's own goes first.
+mkdir "$work/elsewhere"
+cd "$work/elsewhere" || exit 1
+shipped() {  # ARGS...: what the program says of a schedule
+  "$program" schedule check "$@" 2>&1 | head -n 1
+}
+[[ -n $(shipped "$cluster") ]] || fail "schedule check says nothing"
+for name in paper_synchronised paper_synchronised.yaml schedules/paper_synchronised.yaml; do
+  [[ $(shipped $name) == "$(shipped "$cluster")" ]] || fail "$name is not the shipped schedule: $(shipped $name)"
+done
+expect 0 '' launch two_lasers --virtual-time --dry-run
+expect 0 '' launch flexray_demo --virtual-time --dry-run
+echo 'name: mine' >paper_synchronised
+expect 2 '^error: paper_synchronised:1: ' schedule check paper_synchronised
+expect 2 '^error: paper_scenaro1.yaml: is neither a file nor the name of a shipped scenario; did you mean paper_scenario1\?$' \
+  run paper_scenaro1.yaml
+expect 2 '^error: crowd_52: is neither .* scenario or schedule; did you mean crowd_25' launch crowd_52 --virtual-time
+expect 2 '^error: zzz: is neither a file nor the name of a shipped experiment$' experiment zzz
+expect 2 '^error: scenarios/zzz.yaml: cannot be read: No such file' run scenarios/zzz.yaml
+expect 0 '^ttfusion [0-9.]+, commit ([0-9a-f]{12}(-dirty)?|unknown)$' --version
+says '^compiled by ' '^with DDS '
+
 [[ -e $work/none ]] && fail "what is refused leaves a folder behind"
 
 [[ $failures -eq 0 ]] && echo "arguments: all as documented"

@@ -1,0 +1,81 @@
+#include "cli/shipped.h"
+
+#include <fmt/format.h>
+#include <ttf_built.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "core/counted.h"
+#include "core/errors.h"
+#include "core/nearest.h"
+
+namespace ttf::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kEnd = ".yaml";
+
+// Returns the folder of the shipped files: beside the program in a build, where it was installed, or in the prefix that it was
+// built for. An installed tree may be moved.
+std::optional<fs::path> data_folder() {
+  std::error_code none;
+  const fs::path own = fs::read_symlink("/proc/self/exe", none).parent_path();
+  for (const fs::path& folder : {own / TTF_DATA_IN_BUILD, own / TTF_DATA_FROM_PROGRAM, fs::path(TTF_DATA_INSTALLED)})
+    if (fs::is_directory(folder / kScenarios, none)) return folder.lexically_normal();
+  return std::nullopt;
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code none;
+  return fs::is_regular_file(path, none);
+}
+
+std::string_view without_end(std::string_view name) {
+  if (name.ends_with(kEnd)) name.remove_suffix(kEnd.size());
+  return name;
+}
+
+[[noreturn]] void refuse(const std::string& typed, std::initializer_list<std::string_view> folders) {
+  std::vector<std::string> names, kinds;
+  for (const std::string_view folder : folders) {
+    for (std::string& name : shipped_names(folder)) names.push_back(std::move(name));
+    kinds.emplace_back(folder.substr(0, folder.size() - 1));  // "scenarios" are scenarios
+  }
+  throw InputError({typed, 0, "", "",
+                    fmt::format("is neither a file nor the name of a shipped {}{}", joined(kinds, " or "),
+                                did_you_mean(without_end(typed), names))});
+}
+
+}  // namespace
+
+std::string file_named(const std::string& typed, std::initializer_list<std::string_view> folders) {
+  std::error_code none;
+  const fs::path path = typed;
+  if (typed.empty() || path.is_absolute() || fs::exists(path, none)) return typed;
+  const auto data = data_folder();
+  const bool is_name = !path.has_parent_path();
+  for (const std::string_view folder : folders) {
+    if (!data) break;
+    if (!is_name && path.parent_path() != folder) continue;
+    for (const std::string& name : {path.filename().string(), path.filename().string() + std::string(kEnd)})
+      if (const fs::path shipped = *data / folder / name; is_file(shipped)) return shipped.string();
+  }
+  if (is_name) refuse(typed, folders);
+  return typed;
+}
+
+std::vector<std::string> shipped_names(std::string_view folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  if (const auto data = data_folder())
+    for (const fs::directory_entry& entry : fs::directory_iterator(*data / folder, none))
+      if (is_file(entry.path()) && entry.path().extension() == kEnd) names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace ttf::cli
