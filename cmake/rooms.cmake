@@ -1,11 +1,18 @@
 # Every room is one CMake target; all targets compile by the same rules.
 
+# Our own targets link ttf_options privately: an embedding project gets none of these flags.
 add_library(ttf_options INTERFACE)
 # Results have the same bits at every optimisation level, so contraction is off. -mno-fma is needed besides: g++ 12's vectoriser
 # joins a*b-c*d, a*b+c*d into vfmaddsub all the same, and Eigen's packets must round as its scalars do. The presets
 # (CMakePresets.json) choose the instruction set and which warnings are errors; kept hashes are those of x86-64-v3.
-target_compile_options(ttf_options INTERFACE -mno-fma -ffp-contract=off -pthread)
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag(-mno-fma TTF_KNOWS_NO_FMA)   # of x86 alone
+target_compile_options(ttf_options INTERFACE $<$<BOOL:${TTF_KNOWS_NO_FMA}>:-mno-fma> -ffp-contract=off -pthread)
 target_include_directories(ttf_options INTERFACE ${PROJECT_SOURCE_DIR})
+# Eigen aligns by the instruction set that it is compiled for, and types with its members have another layout for each. So the
+# alignment is that of x86-64-v3 everywhere. ttf_fusion hands it on.
+set(TTF_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYTES=32)
+target_compile_definitions(ttf_options INTERFACE ${TTF_EIGEN_ALIGNMENT})
 if(TTF_SANITIZE)
   # Three pointer checks are off. AddressSanitizer sees the access itself. They cost half of Eigen's compile time.
   # Sanitizers keep g++ 12 from inlining; it then reports uninitialised reads inside the standard library.
@@ -34,13 +41,15 @@ set(TTF_COMMON_HEADERS
 # ttf_common_headers(<name> [OPTIONS <options...>] [HEADERS <more...>] [DEPS <targets...>]): compiled headers to reuse.
 function(ttf_common_headers name)
   cmake_parse_arguments(COMMON "" "" "OPTIONS;HEADERS;DEPS" ${ARGN})
-  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${name}.cc CONTENT "// The headers alone.\n")
-  add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cc)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cc CONTENT "// The headers alone.\n")
+  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cc)
   target_link_libraries(${name} PRIVATE ttf_options fmt::fmt Eigen3::Eigen ${COMMON_DEPS})
   target_compile_options(${name} PRIVATE ${COMMON_OPTIONS})
   target_precompile_headers(${name} PRIVATE ${TTF_COMMON_HEADERS} ${COMMON_HEADERS})
 endfunction()
-ttf_common_headers(ttf_room_headers)
+if(TTF_BUILD_PROGRAM)
+  ttf_common_headers(ttf_room_headers)
+endif()
 
 # ttf_room(<name> SOURCES <files...> [DEPS <targets...>] [HOT]): the static library of a folder. A drive spends most of its time
 # in HOT rooms. They are optimised further, without compiled headers, and take 3 to 5 % fewer instructions.
@@ -48,15 +57,21 @@ function(ttf_room name)
   cmake_parse_arguments(ROOM "HOT" "" "SOURCES;DEPS" ${ARGN})
   if(ROOM_SOURCES)
     add_library(${name} STATIC ${ROOM_SOURCES})
-    target_link_libraries(${name} PUBLIC ttf_options ${ROOM_DEPS})
+    # The export needs to know of no flags: $<BUILD_INTERFACE:...>.
+    target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:ttf_options> PUBLIC ${ROOM_DEPS})
+    target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+    target_compile_features(${name} PUBLIC cxx_std_20)
     if(ROOM_HOT AND CMAKE_BUILD_TYPE STREQUAL "Release")
       target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-O3>)
-    else()
+    elseif(TARGET ttf_room_headers)
+      # The compiled headers know fmt's definitions, so a room without fmt has them, too.
+      target_compile_definitions(${name} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
       target_precompile_headers(${name} REUSE_FROM ttf_room_headers)
     endif()
   else()
     add_library(${name} INTERFACE)
-    target_link_libraries(${name} INTERFACE ${ROOM_DEPS} ttf_options)
+    target_link_libraries(${name} INTERFACE ${ROOM_DEPS})
+    target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR})
   endif()
 endfunction()
 

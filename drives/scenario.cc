@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/file_kind.h"
+#include "fusion/loading/cut_off.h"
+#include "fusion/loading/tracker.h"
 
 namespace ttf::drives {
 
@@ -53,7 +55,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
     preprocessing->finish();
   }
   if (auto tracker = root.map_if("tracker")) {
-    scenario.tracker = fusion::config::load_tracker(*tracker);
+    scenario.tracker = fusion::loading::load_tracker(*tracker);
     tracker->finish();
   }
   if (auto recorded = root.map_if("recorded")) {
@@ -66,7 +68,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
     feature->finish();
   }
   if (auto judgement = root.map_if("judgement")) {
-    scenario.cut_off = fusion::metrics::load_cut_off(*judgement);
+    scenario.cut_off = fusion::loading::load_cut_off(*judgement);
     judgement->finish();
   }
   scenario.faults = faults::load_fault_plan(root, latest);

@@ -7,6 +7,9 @@
 
 #include "core/errors.h"
 #include "core/file_kind.h"
+#include "fusion/loading/cut_off.h"
+#include "fusion/loading/known_sensor.h"
+#include "fusion/loading/tracker.h"
 
 namespace ttf::replay {
 namespace {
@@ -33,7 +36,7 @@ SensorSetup load_sensor(YamlMap& yaml, SensorSetup setup) {
   constexpr Duration kAges = Duration{4'000'000'000'000'000'000};
   if (yaml.has("first")) setup.first = GlobalTime{} + yaml.duration("first", {-kAges, kAges});
   if (setup.first && !setup.period) yaml.fail("first", "must not be given without period");
-  setup.known = fusion::sensors::load_known_sensor(yaml);
+  setup.known = fusion::loading::load_known_sensor(yaml);
   yaml.finish();
   return setup;
 }
@@ -62,7 +65,7 @@ ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any, 
   config.strategy = root.choice_or<fusion::strategies::StrategyKind>("strategy", config.strategy,
                                                                      {kStrategyNames.begin(), kStrategyNames.end()});
   if (std::optional<YamlMap> tracker = root.map_if("tracker")) {
-    config.tracker = fusion::config::load_tracker(*tracker, fusion::config::SensorsAre::kElsewhere);
+    config.tracker = fusion::loading::load_tracker(*tracker, fusion::loading::SensorsAre::kElsewhere);
     if (tracker->has("sensors"))
       tracker->fail("sensors",
                     "must not be given here: mounting, field and biases belong under the top-level key sensors");
@@ -74,10 +77,10 @@ ReplayConfig read_replay_config(const StrictYaml& yaml, const SensorSetup& any, 
     if (config.sensors.empty() || config.sensors.size() > kMostSensors)
       root.fail("sensors", fmt::format("must name 1..{} sensors", kMostSensors));
     for (const auto& sensor : config.sensors) config.tracker.sensors.push_back(sensor.second.known);
-    fusion::sensors::check_biases(config.tracker.sensors, root, "sensors");
+    fusion::loading::check_biases(config.tracker.sensors, root, "sensors");
   }
   if (std::optional<YamlMap> judgement = root.map_if("judgement")) {
-    config.cut_off = fusion::metrics::load_cut_off(*judgement);
+    config.cut_off = fusion::loading::load_cut_off(*judgement);
     judgement->finish();
   }
   if (others) others(root);

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/strict_yaml.h"
 #include "core/time.h"
 #include "fusion/oosm/kind.h"
 #include "fusion/sensors/known_sensor.h"
@@ -95,8 +94,8 @@ struct TrackerConfig {
 
   // kConsidered requires constant velocity or acceleration and the extended filter.
   SystematicErrorsAre systematic = SystematicErrorsAre::kIgnored;
-  // By SensorId; a missing sensor has no mounting, field or errors. load_tracker() returns them in the order of the
-  // file, and the caller reorders them by id.
+  // By SensorId; a missing sensor has no mounting, field or errors. The loader (fusion/loading/tracker.h) returns
+  // them in the order of the file, and its caller reorders them by id.
   std::vector<sensors::KnownSensor> sensors;
 
   Association association = Association::kNearest;
@@ -120,9 +119,5 @@ struct TrackerConfig {
   // unless the lists are recorded scans.
   std::optional<bool> end_overlaps;
 };
-
-// Whether the tracker's own keys say what is known of the sensors.
-enum class SensorsAre : unsigned char { kHere, kElsewhere };
-TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors = SensorsAre::kHere);
 
 }  // namespace ttf::fusion::config

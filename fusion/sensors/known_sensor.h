@@ -1,5 +1,5 @@
 // The fusion's knowledge of a sensor beside its noise: its mounting, its field (fusion/sensors/field.h) and its systematic
-// errors (fusion/sensors/systematic.h). As YAML, where every key defaults to "none":
+// errors (fusion/sensors/systematic.h). As YAML (fusion/loading/known_sensor.h), where every key defaults to "none":
 //
 //   mounting: {x: 3.5, y: 0.0, heading: 0.0}      # on the vehicle: [m], and [rad] from its x axis to the sensor's
 //   field: {half_angle: 1.05, max_range: 120.0}   # what it sees; absent: nothing is known of that
@@ -16,10 +16,8 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "core/ids.h"
-#include "core/strict_yaml.h"
 #include "fusion/linear/gaussian.h"
 #include "fusion/sensors/field.h"
 #include "fusion/sensors/mounted.h"
@@ -48,15 +46,10 @@ struct KnownSensor {
   bool plain() const;
 };
 
-// Reads `mounting`, `field`, `bias` and `bias_sigma`. The caller sets name and line.
-KnownSensor load_known_sensor(YamlMap& yaml);
-
 // The most biases with a sigma above zero that a tracker carries, for all sensors together. Every track keeps
 // their correlation with its state (fusion/estimators/estimate.h), so copies of tracks grow with this number.
 inline constexpr int kMostBiases = 8;
 int count_biases(std::span<const KnownSensor> sensors);
-// Reports a finding about `key` when the sensors have more biases.
-void check_biases(std::span<const KnownSensor> sensors, YamlMap& yaml, std::string_view key);
 
 // Converts an observation of sensor `id` from the sensor's axes to the vehicle's and subtracts the known
 // biases. Positions and headings convert completely. Range, bearing and range rate lose only their bias: they

@@ -1,7 +1,5 @@
 #include "fusion/strategies/strategy.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -9,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "core/check.h"
@@ -297,7 +296,7 @@ std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const Sen
   const TakesLate takes_late = row_of(kind).takes_late;
   if (takes_late == TakesLate::kByRewinding || late == oosm::Kind::kRewind) return {};
   if (takes_late == TakesLate::kByClones && late != oosm::Kind::kClone)
-    return fmt::format("must be rewind or clone with strategy {}", name_of(kind));
+    return "must be rewind or clone with strategy " + std::string(name_of(kind));
   if (!only_positions) return "must be rewind if a sensor measures range and bearing: the other methods take positions";
   const bool scheduled =
       std::all_of(sensors.begin(), sensors.end(), [](const SensorTiming& sensor) { return sensor.scheduled; });

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "fusion/loading/known_sensor.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion::sensors {
@@ -16,7 +17,7 @@ namespace {
 KnownSensor load(const std::string& text, std::vector<std::string>* sentences = nullptr) {
   Findings findings;
   YamlMap root = StrictYaml::parse(text, "s.yaml").root(findings);
-  const KnownSensor sensor = load_known_sensor(root);
+  const KnownSensor sensor = loading::load_known_sensor(root);
   root.finish();
   for (const Finding& finding : findings.list())
     if (sentences) sentences->push_back(finding.sentence());

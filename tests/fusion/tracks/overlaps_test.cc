@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "fusion/loading/tracker.h"
 #include "fusion/tracks/footprint.h"
 #include "fusion/tracks/tracker.h"
 #include "tests/fusion/scenes.h"
@@ -121,7 +122,7 @@ TEST(Overlaps, OtherMethodsForLateListsAreRefused) {
   const StrictYaml yaml = StrictYaml::parse("{overlaps: end, late: al1}", "test.yaml");
   Findings findings;
   YamlMap root = yaml.root(findings);
-  config::load_tracker(root);
+  loading::load_tracker(root);
   root.finish();
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings.list()[0].key, "late");

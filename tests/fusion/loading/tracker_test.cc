@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "fusion/config/tracker_config.h"
+#include "fusion/loading/tracker.h"
 
-namespace ttf::fusion::config {
+namespace ttf::fusion::loading {
+
+using namespace config;
+
 namespace {
 
 TrackerConfig load(const std::string& text, std::vector<std::string>* sentences = nullptr) {
@@ -271,4 +274,4 @@ TEST(TrackerConfig, CoastingComesBeforeTheEnd) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion::config
+}  // namespace ttf::fusion::loading

@@ -1,8 +1,14 @@
-#include "fusion/config/tracker_config.h"
+#include "fusion/loading/tracker.h"
 
 #include <utility>
 
-namespace ttf::fusion::config {
+#include "fusion/loading/known_sensor.h"
+
+namespace ttf::fusion::loading {
+
+using config::Association, config::Birth, config::BuffWaiting, config::FilterKind, config::MotionModel;
+using config::Sizes, config::SystematicErrorsAre, config::TrackerConfig;
+
 namespace {
 
 // Returns whether everything is linear except a radar's measurement. Considered errors and methods for late
@@ -22,7 +28,7 @@ void load_systematic(YamlMap& yaml, TrackerConfig& c, SensorsAre sensors_are) {
               "is extended");
   if (sensors_are == SensorsAre::kElsewhere || !yaml.has("sensors")) return;
   for (auto& [name, map] : yaml.named_maps("sensors")) {
-    sensors::KnownSensor sensor = sensors::load_known_sensor(map);
+    sensors::KnownSensor sensor = load_known_sensor(map);
     sensor.name = name;
     sensor.line = map.line();
     map.finish();
@@ -139,4 +145,4 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
   return c;
 }
 
-}  // namespace ttf::fusion::config
+}  // namespace ttf::fusion::loading

@@ -1,0 +1,64 @@
+# The files that `cmake --install` installs: docs/installing.md lists them.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# ttfusion::fusion, for find_package(ttfusion), with its headers by the paths by which they include each other.
+set(headers ${CMAKE_INSTALL_INCLUDEDIR}/ttfusion)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/ttfusion)
+install(TARGETS ttf_base ttf_fusion EXPORT ttfusion
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${headers})
+install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\"
+  \"-DLIBRARY=\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/$<TARGET_FILE_NAME:ttf_fusion>\"
+  \"-DWORK=${PROJECT_BINARY_DIR}/own_symbols\" -DLINKER=${CMAKE_LINKER} -DNM=${CMAKE_NM} -DOBJCOPY=${CMAKE_OBJCOPY}
+  -DAR=${CMAKE_AR} -DRANLIB=${CMAKE_RANLIB} -P \"${PROJECT_SOURCE_DIR}/cmake/own_symbols.cmake\"
+  COMMAND_ERROR_IS_FATAL ANY)")
+install(EXPORT ttfusion NAMESPACE ttfusion:: DESTINATION ${package} FILE ttfusionTargets.cmake)
+install(DIRECTORY fusion DESTINATION ${headers} FILES_MATCHING PATTERN "*.h" PATTERN fusion/loading EXCLUDE)
+install(FILES core/check.h core/ids.h core/time.h DESTINATION ${headers}/core)
+configure_package_config_file(cmake/ttfusionConfig.cmake.in ${PROJECT_BINARY_DIR}/ttfusionConfig.cmake
+  INSTALL_DESTINATION ${package} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/ttfusionConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/ttfusionConfig.cmake ${PROJECT_BINARY_DIR}/ttfusionConfigVersion.cmake
+  DESTINATION ${package})
+install(FILES LICENSE cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(NOT TTF_BUILD_PROGRAM)
+  return()
+endif()
+
+# The program and the files that it finds by name (cli/shipped.h).
+install(TARGETS ttfusion)
+set(data ${CMAKE_INSTALL_DATADIR}/ttfusion)
+install(DIRECTORY scenarios experiments schedules DESTINATION ${data}
+  FILES_MATCHING PATTERN "*.yaml" PATTERN "*.dbc"
+  PATTERN experiments/campaign EXCLUDE PATTERN experiments/mpi EXCLUDE PATTERN experiments/results EXCLUDE
+  PATTERN experiments/sweep EXCLUDE PATTERN schedules/analysis EXCLUDE PATTERN schedules/check EXCLUDE
+  PATTERN schedules/exchange EXCLUDE PATTERN schedules/file EXCLUDE PATTERN schedules/model EXCLUDE)
+install(DIRECTORY schemas DESTINATION ${data})
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Man pages and completions, as the program writes them.
+set(manual ${PROJECT_BINARY_DIR}/manual)
+install(CODE "execute_process(COMMAND \"$<TARGET_FILE:ttfusion>\" manual --out \"${manual}\"
+  ERROR_QUIET COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${manual}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(DIRECTORY ${manual}/bash-completion ${manual}/zsh ${manual}/fish DESTINATION ${CMAKE_INSTALL_DATADIR})
+
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
+
+# A Debian package: cpack -G DEB. dpkg-shlibdeps finds what the program needs.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The ttfusion authors <ttfusion@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "time-triggered distributed fusion framework")
+set(CPACK_PACKAGE_DESCRIPTION "Drives clusters whose nodes track objects together on a time-triggered schedule:
+in virtual time on a simulated FlexRay, or in real time on SocketCAN or DDS.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS fonts-dejavu-core)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, gnuplot-nox")
+include(CPack)

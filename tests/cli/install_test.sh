@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# Installs a build, tries the program and its shipped files there, and builds the example project against it: with the
+# compiler's defaults, for this machine's processor and by clang++. Then the same as a part of the example's own build.
+#   install_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+build=$(dirname "$program")
+source "$(dirname "$0")/expect.sh"
+
+cmake --install "$build" --prefix "$work/first" >"$work/installed" || { cat "$work/installed"; exit 1; }
+mv "$work/first" "$work/prefix"   # an installed tree may be moved
+prefix=$work/prefix
+share=$prefix/share
+mkdir "$work/empty"
+cd "$work/empty" || exit 1
+
+# The program, in a folder without sources.
+program=$prefix/bin/ttfusion
+expect 0 '^ttfusion [0-9.]+, commit ' --version
+hash=$(sed -n 's/.*"paper_scenario1 tt": "\(.*\)".*/\1/p' "$source/tests/golden/content_hashes.json")
+expect 0 "content hash of the log +$hash" run paper_scenario1 --strategy tt --no-pictures
+expect 0 'consistent' schedule check paper_synchronised
+expect 0 'Which strategy sees' experiment paper_drives --replications 1 --out out/experiment
+expect 0 'fusion' launch two_lasers --virtual-time --dry-run
+expect 2 '^error: paper_scenaro1: is neither a file nor the name of a shipped scenario; did you mean paper_scenario1\?$' \
+  run paper_scenaro1
+for file in man/man1/ttfusion.1 man/man1/ttfusion-schedule.1 bash-completion/completions/ttfusion \
+  zsh/vendor-completions/_ttfusion fish/vendor_completions.d/ttfusion.fish doc/ttfusion/copyright \
+  doc/ttfusion/docs/installing.md ttfusion/experiments/faults/camera_crash.yaml ttfusion/schemas/cluster.schema.json; do
+  [[ -s $share/$file ]] || fail "$file is not installed"
+done
+[[ -z $(find "$prefix" -name '*.cc' -not -path '*/examples/*') ]] || fail "sources are installed"
+[[ -z $(find "$prefix" -type d -empty) ]] || fail "empty folders are installed"
+weak=$(find "$prefix" -name libttf_fusion.a -exec nm --defined-only {} + | grep -c ' [uVvWw] ')
+[[ $weak -eq 0 ]] || fail "the library shares $weak functions with its user"
+grep -rIl --exclude-dir=doc "$source" "$prefix" && fail "installed files name the sources' folder"
+
+# The example, three times with the installed library.
+example=$source/examples/embedding
+make() {  # NAME ARGS...: configures and builds the example with ARGS, and keeps what it prints
+  local name=$1
+  shift
+  if cmake -G Ninja -S "$example" -B "$work/$name" "$@" >"$work/$name.txt" 2>&1 &&
+    cmake --build "$work/$name" >>"$work/$name.txt" 2>&1; then
+    "$work/$name/embedding" >"$work/$name.tracks" || fail "the example, $name, ends with $?"
+  else
+    fail "the example, $name, does not build: $(tail -n 30 "$work/$name.txt")"
+  fi
+}
+compilers=(defaults native)
+make defaults "-DCMAKE_PREFIX_PATH=$prefix"
+make native "-DCMAKE_PREFIX_PATH=$prefix" -DCMAKE_CXX_FLAGS='-O2 -march=native'
+if command -v clang++ >/dev/null; then
+  make clang "-DCMAKE_PREFIX_PATH=$prefix" -DCMAKE_CXX_COMPILER=clang++
+  compilers+=(clang)
+fi
+[[ $(wc -l <"$work/defaults.tracks") -gt 10 ]] || fail "the example prints no tracks"
+for name in "${compilers[@]:1}"; do
+  cmp "$work/defaults.tracks" "$work/$name.tracks" || fail "the example's tracks differ: $name"
+done
+
+# As a part of the example's build: no tests, and none of our flags in its own sources.
+cmake -G Ninja -S "$example" -B "$work/part" "-DTTFUSION_SOURCE=$source" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
+  >"$work/part.txt" 2>&1 || fail "the example does not configure with the sources: $(tail -n 30 "$work/part.txt")"
+own=$(grep '"command".*embedding/main.cc' "$work/part/compile_commands.json")
+[[ -n $own ]] || fail "the example's own source is not compiled"
+[[ $own == *EIGEN_MAX_ALIGN_BYTES* ]] || fail "Eigen's alignment is not handed on: $own"
+for flag in ' -W' ' -march' ' -mno-fma' ' -ffp-contract' ' --param'; do
+  [[ $own != *"$flag"* ]] || fail "the example is compiled with $flag: $own"
+done
+grep -q 'gtest\|fmt' "$work/part/build.ninja" && fail "the example's build needs more than Eigen"
+cmake --build "$work/part" --target ttf_base CMakeFiles/embedding.dir/main.cc.o >"$work/part.txt" 2>&1 ||
+  fail "the example does not build with the sources: $(tail -n 30 "$work/part.txt")"
+
+[[ $failures -eq 0 ]] && echo "install: all as documented"
+exit $((failures > 0))
