@@ -48,14 +48,18 @@ if(NOT PROJECT_IS_TOP_LEVEL)
   return()
 endif()
 
-# A Debian package: cpack -G DEB. dpkg-shlibdeps finds what the program needs.
+# A Debian package: cpack -G DEB. dpkg-shlibdeps finds the libraries that the program needs.
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "The ttfusion authors <ttfusion@localhost>")
+if(NOT CPACK_PACKAGE_CONTACT)   # a distributor gives an address: -DCPACK_PACKAGE_CONTACT="NAME <ADDRESS>"
+  set(CPACK_PACKAGE_CONTACT "ttfusion maintainers <maintainers@localhost>")
+endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "time-triggered distributed fusion framework")
-set(CPACK_PACKAGE_DESCRIPTION "Drives clusters whose nodes track objects together on a time-triggered schedule:
-in virtual time on a simulated FlexRay, or in real time on SocketCAN or DDS.")
+set(CPACK_PACKAGE_DESCRIPTION "Drives clusters whose nodes track objects together on a time-triggered
+schedule: in virtual time on a simulated FlexRay, or in real time on SocketCAN
+or DDS.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian.cmake)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs a build, tries the program and its shipped files there, and builds the example project against it: with the
-# compiler's defaults, for this machine's processor and by clang++. Then the same as a part of the example's own build.
+# compiler's defaults, for this machine's processor and by clang++. Then the same as a part of the example's own build, and a
+# Debian package.
 #   install_test.sh PROGRAM SOURCE_DIR
 set -u
 program=$1
@@ -72,6 +73,20 @@ done
 grep -q 'gtest\|fmt' "$work/part/build.ninja" && fail "the example's build needs more than Eigen"
 cmake --build "$work/part" --target ttf_base CMakeFiles/embedding.dir/main.cc.o >"$work/part.txt" 2>&1 ||
   fail "the example does not build with the sources: $(tail -n 30 "$work/part.txt")"
+
+# The package has the same program, below usr/ alone.
+if command -v dpkg-shlibdeps >/dev/null; then
+  if cpack -G DEB -B "$work/package" --config "$build/CPackConfig.cmake" >"$work/package.txt" 2>&1 &&
+    dpkg-deb -x "$work"/package/*.deb "$work/root"; then
+    [[ $(ls "$work/root") == usr ]] || fail "the package has $(ls "$work/root")"
+    [[ -s $work/root/usr/share/man/man1/ttfusion.1.gz ]] || fail "the package's man pages are not compressed"
+    dpkg-deb -f "$work"/package/*.deb Depends | grep -q 'libstdc++6' || fail "the package depends on no library"
+    program=$work/root/usr/bin/ttfusion
+    expect 0 "content hash of the log +$hash" run paper_scenario1 --strategy tt --no-pictures
+  else
+    fail "no package: $(tail -n 30 "$work/package.txt")"
+  fi
+fi
 
 [[ $failures -eq 0 ]] && echo "install: all as documented"
 exit $((failures > 0))
