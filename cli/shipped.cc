@@ -55,7 +55,8 @@ std::string_view without_end(std::string_view name) {
 std::string file_named(const std::string& typed, std::initializer_list<std::string_view> folders) {
   std::error_code none;
   const fs::path path = typed;
-  if (typed.empty() || path.is_absolute() || fs::exists(path, none)) return typed;
+  const bool is_own = fs::exists(path, none) && !fs::is_directory(path, none);  // a folder has results
+  if (typed.empty() || path.is_absolute() || is_own) return typed;
   const auto data = data_folder();
   const bool is_name = !path.has_parent_path();
   for (const std::string_view folder : folders) {
