@@ -48,6 +48,7 @@ template <class Each> void for_each(const FaultFindings& findings, Each each) {
 std::string injected_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
   report::drawing::Table table(
       {"#", "fault", "node", "begins [s]", "first act [s]", "acts", "ends [s]", "its first act"});
+  table.end_in_words();
   for (const FaultSeen& fault : findings.faults)
     table.add({fmt::format("{}", fault.fault), fault.kind, node_name(fault.node, cluster), cell(fault.begins),
                cell(fault.first_act), fmt::format("{}", fault.acts), cell(fault.ends), fault.text});
@@ -64,6 +65,7 @@ std::string seers(const CheckSeen& seen, const schedules::model::Cluster& cluste
 
 std::string checks_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
   report::drawing::Table table({"#", "check", "cycles", "after [ms]", "seen by"});
+  table.end_in_words();
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime> begins) {
     for (const auto check : evaluation::faults::kAllChecks)
       for (const bool faulty : {false, true}) {
@@ -80,6 +82,7 @@ std::string checks_text(const FaultFindings& findings, const schedules::model::C
 // Returns "" without guardians, or if they did not intervene.
 std::string guardians_text(const FaultFindings& findings) {
   report::drawing::Table table({"#", "guardians", "signals", "first cycle", "first [s]", "why"});
+  table.end_in_words();
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
     for (const GuardianSeen& kept : effects.guardians)
       table.add({name, kept.cut ? "cut" : "blocked", fmt::format("{}", kept.signals),
@@ -90,6 +93,7 @@ std::string guardians_text(const FaultFindings& findings) {
 
 std::string states_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
   report::drawing::Table table({"#", "node", "first [s]", "times", "from", "to", "why"});
+  table.end_in_words();
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
     for (const StateSeen& state : effects.states)
       table.add({name, node_name(state.node, cluster), cell(state.first), fmt::format("{}", state.times), state.from,
@@ -109,6 +113,7 @@ std::string can_name(std::uint8_t bus, const schedules::model::Cluster& cluster)
 std::string cans_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
   report::drawing::Table table(
       {"CAN", "node", "first [s]", "error frames begun", "error passive", "bus off", "errors"});
+  table.end_in_words();
   for (const CanSeen& seen : findings.cans) {
     std::uint64_t all = 0;
     std::string words;

@@ -36,6 +36,7 @@ std::string distributions(const StrategyResult& result, const std::vector<Distri
   std::vector<std::string> head{"node"};
   for (const Distribution& one : all) head.insert(head.end(), {one.name, "p50", "p99", "p99.9", "longest"});
   report::drawing::Table table(head);
+  for (std::size_t column = 1; column < head.size(); column += head.size() / all.size()) table.begin_group(column);
   for (const auto& [node, late] : result.real_time->lateness) {
     if (std::all_of(all.begin(), all.end(), [&l = late](const Distribution& one) { return (l.*one.of).empty(); }))
       continue;
@@ -47,8 +48,9 @@ std::string distributions(const StrategyResult& result, const std::vector<Distri
 }
 
 std::string problems(const StrategyResult& result) {
-  report::drawing::Table table({"node", "late wake-ups", "slots missed", "frames late", "early",
-                                "withheld by the sender", "sender away", "lost on the way", "largest correction [us]"});
+  report::drawing::Table table({"node", "late\nwake-ups", "slots\nmissed", "frames\nlate", "\nearly",
+                                "withheld by\nthe sender", "sender\naway", "lost on\nthe way",
+                                "largest\ncorrection [us]"});
   for (const auto& [node, timing] : result.real_time->timing)
     table.add(
         {result.cluster.node(node).name, fmt::format("{}", timing.late_wake_ups),

@@ -95,13 +95,13 @@ const Row kRows[] = {
        return r.summary.nees_samples == 0 ? std::string("-")
                                           : fmt::format("{:.2f}..{:.2f}", r.summary.nees_low, r.summary.nees_high);
      }},
-    {"  of heading, speed, acceleration (1 each)",
+    {"  of heading, speed, acceleration",
      [](const StrategyResult& r) {
        const evaluation::accuracy::OwnJudgement& own = r.summary.own;
        return fmt::format("{} {} {}", report::drawing::cell(own.heading, 2), report::drawing::cell(own.speed, 2),
                           report::drawing::cell(own.acceleration, 2));
      }},
-    {"  of length, width (1 each)",
+    {"  of length, width",
      [](const StrategyResult& r) {
        return fmt::format("{} {}", report::drawing::cell(r.summary.own.length, 2),
                           report::drawing::cell(r.summary.own.width, 2));
@@ -124,9 +124,9 @@ const Row kRows[] = {
     {"  dropped", [](const StrategyResult& r) { return number(lost_lists(r)); }},
     {"    too old to be fused", [](const StrategyResult& r) { return number(r.summary.dropped); }, true},
     {"    torn on the way", [](const StrategyResult& r) { return number(r.outcome.counts.torn_lists); }, true},
-    {"    overwritten before they were read",
+    {"    overwritten before being read",
      [](const StrategyResult& r) { return number(r.outcome.counts.overwritten_lists); }, true},
-    {"    discarded: no time of measurement",
+    {"    discarded: no time measured",
      [](const StrategyResult& r) { return number(r.outcome.counts.discarded_lists); }, true},
     {"fragments refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_fragments); }, true},
     {"uses of an image", [](const StrategyResult& r) { return number(uses(r)); }},

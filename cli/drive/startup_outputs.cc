@@ -15,9 +15,10 @@ std::string startup_text(const std::vector<StrategyResult>& results, bool cold) 
   std::vector<std::pair<std::string, std::string>> tables;  // with the names of their strategies
   for (const StrategyResult& result : results) {
     if (result.startup.empty()) continue;
-    report::drawing::Table table({"node", cold ? "powered on [ms]" : "powered on again [ms]",
-                                  cold ? "first active in cycle" : "first active again in cycle", "at [ms]",
+    report::drawing::Table table({"node", cold ? "powered\non [ms]" : "powered on\nagain [ms]",
+                                  cold ? "first active\nin cycle" : "first active\nagain in cycle", "at [ms]",
                                   "in state at the end, and why"});
+    table.end_in_words();
     for (const evaluation::cluster::NodeStartup& node : result.startup) {
       const bool on_flexray = !node.state.empty();
       table.add({result.cluster.node(node.node).name,

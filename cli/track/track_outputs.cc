@@ -108,7 +108,7 @@ nlohmann::ordered_json scans_json(const ScanAccount& scans, const LivesSummary& 
 
 std::string track_table(const TrackResult& result) {
   report::drawing::Table table({"sensor", "lists", "observations", "in order", "late", "too old", "duplicates",
-                                "held back", "longest hold [ms]", "longest delay [ms]"});
+                                "held back", "longest\nhold [ms]", "longest\ndelay [ms]"});
   for (std::size_t s = 0; s < result.sensors.size(); ++s) add_row(table, result.sensors[s], result.account.sensors[s]);
   add_row(table, "all", sum_of(result.account.sensors));
   std::string text = table.text();

@@ -10,7 +10,7 @@ source "$(dirname "$0")/shipped.sh"
 # A drive with faults reports their effects, in words and as JSON; one without does not mention faults.
 tt=(--strategy tt --no-log --out "$work/f")
 expect 0 'byzantine_clock +laser_pre' run "$source/scenarios/faulty_bus.yaml" "${tt[@]}"
-says '^1 fault-free node to the end: fusion$' '^    discarded: no time of measurement +1$' 'No fault-free node was harmed'
+says '^1 fault-free node to the end: fusion$' '^    discarded: no time measured +1$' 'No fault-free node was harmed'
 expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --strategy tt --no-log --out "$work/sound"
 python3 - "$work/f/summary.json" "$work/sound/summary.json" <<'PY' || fail "the JSON does not say what the faults did"
 import json, sys
