@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "cli/supervision/lines.h"
+#include "core/counted.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::supervision {
@@ -57,12 +59,17 @@ class Reader {
 };
 
 std::string count_cell(const std::optional<std::uint64_t>& value) { return value ? fmt::to_string(*value) : "-"; }
-std::string us_cell(const std::optional<double>& value) { return value ? report::drawing::cell(*value, 1) : "-"; }
+std::string us_cell(const std::optional<double>& value, int decimals) {
+  return value ? report::drawing::cell(*value, decimals) : "-";
+}
 
-// "running, normal active, CAN bus off"
-std::string state_cell(const std::string& process, const NodeHealth& health) {
+constexpr std::string_view kRunning = "running", kActive = "normal active";
+constexpr std::size_t kNamed = 3;  // nodes that are not up, in the summary
+
+// "normal active, CAN bus off"; "exit 0, normal active": a process that runs goes without saying.
+std::string state_words(const std::string& process, const NodeHealth& health) {
   std::string words = process;
-  if (!health.state.empty()) words += ", " + printable(health.state);
+  if (!health.state.empty()) words = (process == kRunning ? "" : process + ", ") + printable(health.state);
   if (!health.can_state.empty() && health.can_state != "error active") words += ", CAN " + printable(health.can_state);
   return words;
 }
@@ -101,34 +108,86 @@ std::optional<std::string> HealthTable::update(std::size_t node, const Json& hea
 
 void HealthTable::set_process(std::size_t node, std::string state) { rows_[node].process = std::move(state); }
 
-void HealthTable::forget(std::size_t node) {
+void HealthTable::begin_process(std::size_t node) {
+  rows_[node].process = "starting";
   rows_[node].health = {};
   rows_[node].said = Json::object();
+  ++rows_[node].processes;
 }
 
-bool HealthTable::anything_said() const {
-  for (const Row& row : rows_)
-    if (!row.said.empty()) return true;
-  return false;
+void HealthTable::end_process(std::size_t node, std::string how, bool well) {
+  rows_[node].process = std::move(how);
+  if (well) return;
+  rows_[node].health.state.clear();
+  rows_[node].health.can_state.clear();
+}
+
+std::uint64_t HealthTable::Row::restarts() const { return processes > 1 ? processes - 1 : 0; }
+
+std::uint64_t HealthTable::restarts() const {
+  std::uint64_t sum = 0;
+  for (const Row& row : rows_) sum += row.restarts();
+  return sum;
 }
 
 std::string HealthTable::text() const {
-  report::drawing::Table table({"node", "missed slots", "late wake-ups", "late p50 [us]", "p99 [us]", "max [us]",
-                                "sync precision [us]", "drops", "state"});
+  report::drawing::Table table({"node", "state", "restarts", "missed\nslots", "drops", "late\nwake-ups", "p50\n[us]",
+                                "p99\n[us]", "longest\n[us]", "sync\n[us]"});
   for (const Row& row : rows_) {
     const NodeHealth& h = row.health;
-    table.add({printable(row.name), count_cell(h.missed_slots), count_cell(h.late_wakeups), us_cell(h.lateness_p50_us),
-               us_cell(h.lateness_p99_us), us_cell(h.lateness_max_us), us_cell(h.sync_precision_us),
-               count_cell(h.drops), state_cell(row.process, h)});
+    table.add({printable(row.name), state_words(row.process, h), fmt::to_string(row.restarts()),
+               count_cell(h.missed_slots), count_cell(h.drops), count_cell(h.late_wakeups),
+               us_cell(h.lateness_p50_us, 0), us_cell(h.lateness_p99_us, 0), us_cell(h.lateness_max_us, 0),
+               us_cell(h.sync_precision_us, 1)});
   }
   return table.text();
+}
+
+std::string HealthTable::up() const {
+  std::vector<std::string> others;
+  for (const Row& row : rows_)
+    if (row.process != kRunning || !(row.health.state.empty() || row.health.state == kActive))
+      others.push_back(printable(row.name) + ": " + state_words(row.process, row.health));
+  std::string text = fmt::format("{} of {} nodes up", rows_.size() - others.size(), rows_.size());
+  if (others.empty()) return text;
+  const std::size_t more = others.size() > kNamed ? others.size() - kNamed : 0;
+  others.resize(others.size() - more);
+  if (more > 0) others.push_back(fmt::format("and {} more", more));
+  return text + " (" + joined(others) + ")";
+}
+
+std::string HealthTable::summary() const {
+  NodeHealth sum;
+  const auto add = [](std::optional<std::uint64_t>& to, const std::optional<std::uint64_t>& some) {
+    if (some) to = to.value_or(0) + *some;
+  };
+  const auto raise = [](std::optional<double>& to, const std::optional<double>& some) {
+    if (some) to = std::max(to.value_or(0), *some);
+  };
+  for (const Row& row : rows_) {
+    const NodeHealth& h = row.health;
+    add(sum.late_wakeups, h.late_wakeups);
+    add(sum.missed_slots, h.missed_slots);
+    add(sum.drops, h.drops);
+    raise(sum.lateness_p99_us, h.lateness_p99_us);
+    raise(sum.lateness_max_us, h.lateness_max_us);
+  }
+  std::string text = up();
+  if (sum.lateness_max_us)
+    text += fmt::format("; wake-ups late by {} us (p99), {} us (longest)", us_cell(sum.lateness_p99_us, 0),
+                        us_cell(sum.lateness_max_us, 0));
+  if (sum.late_wakeups || sum.missed_slots || sum.drops)
+    text += fmt::format("; {} late wake-ups, {} slots missed, {} drops", sum.late_wakeups.value_or(0),
+                        sum.missed_slots.value_or(0), sum.drops.value_or(0));
+  if (const std::uint64_t again = restarts(); again > 0) text += "; " + counted(again, "restart");
+  return text;
 }
 
 nlohmann::ordered_json HealthTable::json() const {
   auto list = nlohmann::ordered_json::array();
   for (const Row& row : rows_) {
     const NodeHealth& h = row.health;
-    nlohmann::ordered_json one{{"node", row.name}, {"process", row.process}};
+    nlohmann::ordered_json one{{"node", row.name}, {"process", row.process}, {"restarts", row.restarts()}};
     one["state"] = h.state.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(h.state);
     one["missed_slots"] = or_null(h.missed_slots);
     one["late_wakeups"] = or_null(h.late_wakeups);

@@ -37,20 +37,30 @@ class HealthTable {
 
   // Sets the supervisor's view: "running", "exit 3", "restart 2 of 5 in 1 s".
   void set_process(std::size_t node, std::string state);
-  // Clears a node's facts for a new process.
-  void forget(std::size_t node);
+  // Clears a node's facts for a new process, and counts it.
+  void begin_process(std::size_t node);
+  // A failed process has no state.
+  void end_process(std::size_t node, std::string how, bool well);
 
   const NodeHealth& of(std::size_t node) const { return rows_[node].health; }
-  bool anything_said() const;
+  std::uint64_t restarts() const;  // the sum
   std::string text() const;
+  // Returns "6 of 7 nodes up (gateway: integration listen)". An up node's process runs. Its controller, if it has one, is
+  // normal active.
+  std::string up() const;
+  // Returns the table in one line: up(), then sums.
+  std::string summary() const;
   nlohmann::ordered_json json() const;
 
  private:
   struct Row {
     std::string name;
     std::string process = "starting";
+    std::uint64_t processes = 0;  // so far
     NodeHealth health;
     nlohmann::json said = nlohmann::json::object();
+
+    std::uint64_t restarts() const;
   };
   std::vector<Row> rows_;
 };

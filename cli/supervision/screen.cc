@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 #include <limits.h>
+#include <sys/ioctl.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <utility>
 
 namespace ttf::cli::supervision {
 namespace {
@@ -30,9 +32,32 @@ void Screen::line(std::string_view text, std::string_view plain) {
     ++left_out_;
     return;
   }
+  erase_status();
   admit_gap();
   queue_ += text;
   queue_ += '\n';
+}
+
+void Screen::status(std::string lines) {
+  if (fd_ < 0) return;
+  status_ = std::move(lines);
+  if (!queue_.empty()) {
+    if (status_.empty()) erase_status();
+    return;
+  }
+  erase_status();
+  draw_status();
+}
+
+// Moves up to the first of the lines, and clears from there on.
+void Screen::erase_status() {
+  if (drawn_ > 0) queue_ += fmt::format("\x1b[{}A\x1b[J", drawn_);
+  drawn_ = 0;
+}
+
+void Screen::draw_status() {
+  queue_ += status_;
+  drawn_ = static_cast<std::size_t>(std::ranges::count(status_, '\n'));
 }
 
 void Screen::admit_gap() {
@@ -48,10 +73,36 @@ void Screen::write_some() {
   if (written > 0) {
     queue_.erase(0, static_cast<std::size_t>(written));
     if (queue_.empty()) admit_gap();
+    if (queue_.empty() && drawn_ == 0) draw_status();
   } else if (written < 0 && errno != EAGAIN && errno != EINTR) {
     fd_ = -1;  // the reader is gone; the nodes continue
     queue_.clear();
   }
+}
+
+TerminalSize terminal_size(int fd) {
+  winsize told{};
+  TerminalSize size;
+  if (ioctl(fd, TIOCGWINSZ, &told) != 0) return size;
+  if (told.ws_col > 0) size.columns = told.ws_col;
+  if (told.ws_row > 0) size.rows = told.ws_row;
+  return size;
+}
+
+std::string fitted(std::string_view lines, const TerminalSize& size) {
+  std::string out;
+  for (std::size_t row = 0; row + 1 < size.rows && !lines.empty(); ++row) {
+    const std::size_t end = std::min(lines.find('\n'), lines.size());
+    std::size_t shown = 0, cut = 0;
+    for (; cut < end; ++cut) {
+      const bool begins = (static_cast<unsigned char>(lines[cut]) & 0xc0u) != 0x80u;
+      if (begins && ++shown == size.columns) break;  // a full line would begin another one on some terminals
+    }
+    out += lines.substr(0, cut);
+    out += '\n';
+    lines.remove_prefix(std::min(end + 1, lines.size()));
+  }
+  return out;
 }
 
 bool colour_wanted(int fd) {

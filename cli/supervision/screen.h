@@ -19,6 +19,9 @@ class Screen {
 
   // Queues a line; `plain` goes to the copy.
   void line(std::string_view text, std::string_view plain);
+  // Keeps these lines below all others, in place of the last such lines. It needs a terminal. They are drawn when nothing else
+  // is queued. They have no copy. A line must be narrower than the terminal. An empty text removes them.
+  void status(std::string lines);
 
   // Returns the descriptor to poll for POLLOUT; -1 without pending output or reader.
   int fd_to_write() const { return queue_.empty() ? -1 : fd_; }
@@ -30,13 +33,24 @@ class Screen {
 
  private:
   void admit_gap();
+  void erase_status();
+  void draw_status();
 
   int fd_;
   Descriptor copy_;
   std::string queue_;
   std::uint64_t gap_ = 0;       // lines dropped since the last queued line
   std::uint64_t left_out_ = 0;  // in all
+  std::string status_;
+  std::size_t drawn_ = 0;  // lines of the status at the end of the queue's text
 };
+
+struct TerminalSize {
+  std::size_t columns = 80, rows = 24;  // where the terminal does not say
+};
+TerminalSize terminal_size(int fd);
+// Cuts lines of UTF-8 to less than the terminal's width. Leaves out lines beyond its height.
+std::string fitted(std::string_view lines, const TerminalSize& size);
 
 // Returns whether `fd` gets colour: it is a terminal, and NO_COLOR (https://no-color.org) is unset or empty.
 bool colour_wanted(int fd);

@@ -59,7 +59,8 @@ bool Supervisor::anybody_left() const {
 
 Outcome Supervisor::run() {
   barrier_at_ = now() + config_.ready_timeout;
-  if (terminal_ && config_.health_every > Duration{}) health_at_ = now() + config_.health_every;
+  status_every_ = terminal_ ? config_.status_every : config_.words_every;
+  if (status_every_ > Duration{}) status_at_ = now() + status_every_;
   for (const auto& node : nodes_)
     if (stop_order_.begun())
       health_.set_process(node->index, "not started");
@@ -77,6 +78,7 @@ Outcome Supervisor::run() {
       }
     keep_time();
   }
+  screen_.status("");
   show_health();
   const Outcome outcome = failure_ ? *failure_ : interruption_ ? *interruption_ : Outcome{};
   if (!outcome.why.empty()) say("ended: " + outcome.why);
@@ -109,7 +111,7 @@ void Supervisor::take_signals() {
     const std::string why = *signal == SIGINT    ? "interrupted (SIGINT)"
                             : *signal == SIGTERM ? "SIGTERM"
                                                  : "the terminal was closed (SIGHUP)";
-    interruption_ = Outcome{128 + *signal, why};
+    interruption_ = Outcome{config_.stop_is_success ? 0 : 128 + *signal, why};
     stop(why);
   }
 }
@@ -154,9 +156,9 @@ void Supervisor::keep_time() {
   watch_barrier();
   only_optional_left();
   if (const auto signal = stop_order_.due(now())) signal_all(*signal);
-  if (health_at_ && now() >= *health_at_) {
-    if (health_.anything_said()) show_health();
-    health_at_ = now() + config_.health_every;
+  if (status_at_ && now() >= *status_at_) {
+    show_status();
+    status_at_ = now() + status_every_;
   }
 }
 
@@ -169,7 +171,7 @@ std::optional<Duration> Supervisor::next_instant() const {
   take(barrier_at_);
   take(optional_at_);
   take(stop_order_.next_instant());
-  take(health_at_);
+  take(status_at_);
   return first;
 }
 

@@ -15,7 +15,8 @@
 // nodes have optional_grace to end, before they are stopped.
 //
 // The exit code is that of the first required node that failed (128 + n for signal n). Otherwise it is 1 if
-// the barrier was not passed or a hook threw, 128 + n if signal n stopped the launch, or else 0.
+// the barrier was not passed or a hook threw. It is 128 + n if signal n stopped the launch, unless a signal is its usual end.
+// Else it is 0.
 //
 // One thread runs one poll loop that sleeps until an event. Words and manifest use the real clock.
 #pragma once
@@ -53,9 +54,12 @@ struct SupervisorConfig {
   Duration optional_grace = Duration::milliseconds(10'000);
   Backoff::Limits restart;
   StopOrder::Grace grace;
-  Duration health_every = Duration::milliseconds(10'000);  // while running, on a terminal only; 0: never
-  int screen = 2;                                          // descriptor for the words; -1: without output
-  LaunchFolder* folder = nullptr;                          // outlives the supervisor; null: leaves no files
+  // How often the nodes' health is shown: in place on a terminal, else in words. 0: never.
+  Duration status_every = Duration::milliseconds(1'000);
+  Duration words_every = Duration::milliseconds(5'000);
+  bool stop_is_success = false;    // a signal is the launch's usual end
+  int screen = 2;                  // descriptor for the words; -1: without output
+  LaunchFolder* folder = nullptr;  // outlives the supervisor; null: leaves no files
 };
 
 // Called from run(), on its thread; may use say() and request_stop(). `node` counts as in
@@ -70,6 +74,8 @@ struct Hooks {
   std::function<void(std::size_t node, const ttf::cli::supervision::Ending& ending, bool comes_back)> on_gone;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_health;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_done;
+  // Returns the launch's progress in a few words. Without it: "".
+  std::function<std::string()> status;
 };
 
 struct Outcome {
@@ -123,6 +129,7 @@ class Supervisor {
   void fail(std::string_view why, int exit_code);
   void show_lines(const Node& node, const std::vector<std::string>& lines);
   void show_health();
+  void show_status();
   void guarded(const std::function<void()>& hook);
   void record(const std::function<void()>& write);
 
@@ -131,6 +138,7 @@ class Supervisor {
   SignalWatch signals_;
   Screen screen_;
   bool colour_ = false, terminal_ = false;
+  Duration status_every_{};
   std::chrono::steady_clock::time_point began_;
   std::vector<std::unique_ptr<Node>> nodes_;
   std::size_t name_width_ = 0;
@@ -139,7 +147,7 @@ class Supervisor {
   bool started_ = false;  // the barrier has been passed
   nlohmann::json start_facts_;
   StopOrder stop_order_;
-  std::optional<Duration> barrier_at_, optional_at_, health_at_;
+  std::optional<Duration> barrier_at_, optional_at_, status_at_;
   std::optional<Outcome> failure_, interruption_;
   bool folder_fails_ = false;
 };

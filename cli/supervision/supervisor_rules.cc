@@ -59,8 +59,7 @@ void Supervisor::start(Node& node) {
   node.lines = LineCutter();
   node.ready = false;
   node.began = now();
-  health_.forget(node.index);
-  health_.set_process(node.index, "starting");
+  health_.begin_process(node.index);
   try {
     node.child = std::make_unique<Child>(node.spec.command);
     record([&] { config_.folder->process_began(node.index, node.child->pid(), std::chrono::system_clock::now()); });
@@ -77,7 +76,7 @@ void Supervisor::ended(Node& node, const Ending& ending, const std::string& why)
   std::string what = why.empty() ? ending.text() : why;
   if (bad && ending.success()) what += ", before it was ready";
   record([&] { config_.folder->process_ended(node.index, ending, std::chrono::system_clock::now(), why); });
-  health_.set_process(node.index, what);
+  health_.end_process(node.index, what, ending.success());
   const bool comes_back =
       bad && node.spec.policy == Policy::kRestart && !stop_order_.begun() && restart_later(node, what);
   if (!comes_back) {
@@ -225,6 +224,16 @@ void Supervisor::signal_all(int signal) {
     }
   if (signal != SIGINT && !there.empty())
     say(fmt::format("still running, {} is sent: {}", signal_name(signal), joined(there)));
+}
+
+// Words before the barrier would only say that nodes start.
+void Supervisor::show_status() {
+  if (!terminal_ && !started_) return;
+  const std::string words = hooks_.status ? hooks_.status() + ": " : "";
+  if (terminal_)
+    screen_.status(fitted(words + health_.up() + "\n" + health_.text(), terminal_size(config_.screen)));
+  else
+    say(words + health_.summary());
 }
 
 void Supervisor::show_health() {

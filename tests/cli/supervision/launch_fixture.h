@@ -52,6 +52,7 @@ class Launching : public testing::Test {
     config.ready_timeout = config.optional_grace = kNever;
     config.grace = {kNever, kNever};
     config.screen = screen_;
+    config.words_every = {};
     return config;
   }
 

@@ -90,6 +90,37 @@ TEST(Screen, GoesOnWithoutAReader) {
   EXPECT_EQ(screen.fd_to_write(), -1);
 }
 
+// Lines go above the status; it is drawn anew below them, once nothing else waits.
+TEST(Screen, KeepsTheStatusBelow) {
+  Pipe pipe;
+  Screen screen(pipe.in.get());
+  const auto written = [&] {
+    while (screen.fd_to_write() >= 0) screen.write_some();
+    return read_some(pipe.out.get());
+  };
+  screen.status("a\nb\n");
+  EXPECT_EQ(written(), "a\nb\n");
+  screen.line("one", "one");
+  screen.line("two", "two");
+  EXPECT_EQ(written(), "\x1b[2A\x1b[Jone\ntwo\na\nb\n");
+  screen.status("c\n");
+  EXPECT_EQ(written(), "\x1b[2A\x1b[Jc\n");
+  screen.line("three", "three");
+  screen.status("d\n");  // the line is still to come
+  EXPECT_EQ(written(), "\x1b[1A\x1b[Jthree\nd\n");
+  screen.status("");
+  EXPECT_EQ(written(), "\x1b[1A\x1b[J");
+  screen.line("four", "four");
+  EXPECT_EQ(written(), "four\n");
+}
+
+TEST(Screen, CutsLinesToTheTerminal) {
+  EXPECT_EQ(fitted("abcdef\nab\n", {4, 24}), "abc\nab\n");
+  EXPECT_EQ(fitted("\u00e4\u00f6\u00fcx\n", {4, 24}), "\u00e4\u00f6\u00fc\n");
+  EXPECT_EQ(fitted("1\n2\n3\n4\n", {80, 3}), "1\n2\n");
+  EXPECT_EQ(fitted("", {80, 24}), "");
+}
+
 TEST(Screen, IsColouredOnATerminalThatWantsIt) {
   const Descriptor terminal(posix_openpt(O_RDWR | O_NOCTTY));
   Pipe pipe;

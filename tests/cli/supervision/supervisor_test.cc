@@ -315,8 +315,8 @@ TEST_F(Supervising, WhatAHookThrowsEndsTheLaunch) {
   EXPECT_THAT(shown(), Not(HasSubstr("a      | start")));
 }
 
-// On a capable terminal: colours, and the table now and then, not only at the end.
-TEST_F(Supervising, OnATerminalTheTableComesAgain) {
+// On a capable terminal: colours, and the table in place while the nodes run, not only at the end.
+TEST_F(Supervising, OnATerminalTheTableIsInPlace) {
   const Descriptor terminal(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK));
   ASSERT_TRUE(terminal.open() && unlockpt(terminal.get()) == 0);
   const Descriptor screen(ioctl(terminal.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY));
@@ -325,16 +325,28 @@ TEST_F(Supervising, OnATerminalTheTableComesAgain) {
   const std::string lingers = TTF_LAUNCH_CHILD " ready start 'tell:{\"health\":{\"drops\":77}}'; sleep 0.3";
   auto given = config({{"a", Policy::kRequired, {{"/bin/sh", "-c", lingers}, {}}}});
   given.screen = screen.get();
-  given.health_every = Duration::milliseconds(100);
-  EXPECT_EQ(run(std::move(given)).exit_code, 0);
+  given.status_every = Duration::milliseconds(100);
+  const winsize size{50, 90, 0, 0};
+  ASSERT_EQ(ioctl(screen.get(), TIOCSWINSZ, &size), 0);
+  Hooks hooks;
+  hooks.status = [] { return "3 of 4 s"; };
+  EXPECT_EQ(run(std::move(given), hooks).exit_code, 0);
   std::string text(1 << 16, '\0');
   text.resize(static_cast<std::size_t>(std::max<ssize_t>(read(terminal.get(), text.data(), text.size()), 0)));
-  std::size_t tables = 0;
-  for (std::size_t at = text.find("missed slots"); at != std::string::npos; at = text.find("missed slots", at + 1))
-    ++tables;
-  EXPECT_GE(tables, 2u);
-  EXPECT_THAT(text, HasSubstr(" 77  running\r\n"));  // this terminal's line discipline is not raw
+  // This terminal's line discipline is not raw. The status has a line for the launch, three of a head and one for the node.
+  EXPECT_THAT(text, HasSubstr("\x1b[5A\x1b[J3 of 4 s: 1 of 1 nodes up\r\n"));
+  EXPECT_THAT(text, HasSubstr(" 77 "));
+  EXPECT_THAT(text, MatchesRegex(".*\x1b\\[5A\x1b\\[J[^\x1b]*exit 0 .*"));  // the last table is not in place
   EXPECT_THAT(text, HasSubstr(" a      |\x1b[0m start {}\r\n"));
+}
+
+TEST_F(Supervising, ElsewhereALineOfWordsTellsTheHealth) {
+  const std::string lingers = TTF_LAUNCH_CHILD " ready start 'tell:{\"health\":{\"drops\":77}}'; sleep 0.3";
+  auto given = config({{"a", Policy::kRequired, {{"/bin/sh", "-c", lingers}, {}}}});
+  given.words_every = Duration::milliseconds(100);
+  EXPECT_EQ(run(std::move(given)).exit_code, 0);
+  EXPECT_THAT(shown(), HasSubstr("launch | 1 of 1 nodes up; 0 late wake-ups, 0 slots missed, 77 drops\n"));
+  EXPECT_THAT(shown(), Not(HasSubstr("\x1b")));
 }
 
 // Every descriptor at its end would keep an idle loop busy. The process lives on with its own terminal and
