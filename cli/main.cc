@@ -27,7 +27,7 @@ int refuse(const ttf::Finding& mistake) {
 int main(int argc, char** argv) {
   CLI::App app{kAbout, "ttfusion"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", ttf::cli::version_text());
+  app.set_version_flag("-V,--version", ttf::cli::version_text());
   ttf::cli::Action action;
   ttf::cli::drive::add_run(app, action);
   ttf::cli::logs::add_diagram(app, action);

@@ -28,7 +28,7 @@ constexpr std::string_view kTrackOwn[] = {"strategy", "scans"};
 constexpr std::string_view kTrackKeys[] = {"strategy", "tracker", "sensors", "scans"};
 constexpr std::string_view kFaultKeys[] = {"faults"};
 
-constexpr std::array<Kind, 7> kKinds{{
+constexpr std::array<Kind, 9> kKinds{{
     {FileKind::kExperiment, "an experiment", "`ttfusion experiment` takes it", kExperimentKeys, {}},
     {FileKind::kScenario, "a scenario", "`ttfusion run` takes it", kScenarioKeys, {}},
     {FileKind::kCluster, "a cluster", "`ttfusion schedule check` takes it", kClusterKeys, {}},
@@ -36,6 +36,8 @@ constexpr std::array<Kind, 7> kKinds{{
     {FileKind::kFaults, "a fault list", "an experiment takes it by the key faults", {}, kFaultKeys},
     {FileKind::kFibex, "a FIBEX file", "`ttfusion schedule export --format yaml` takes it", {}, {}},
     {FileKind::kDbc, "a DBC file", "`ttfusion schedule export` writes such files, and no command reads them", {}, {}},
+    {FileKind::kLog, "a log", "`ttfusion diagram` and `ttfusion export` take it", {}, {}},
+    {FileKind::kCapture, "a capture", "`ttfusion schedule check --against` takes it", {}, {}},
 }};
 
 const Kind& row_of(FileKind kind) {
@@ -66,8 +68,16 @@ bool has_section(std::string_view text, std::string_view keyword) {
   return false;
 }
 
+constexpr std::string_view kMcap = "\x89MCAP0\r\n";
+// pcapng, and pcap in both byte orders, with microseconds and with nanoseconds.
+constexpr std::string_view kCaptures[] = {"\x0a\x0d\x0d\x0a", "\xa1\xb2\xc3\xd4", "\xd4\xc3\xb2\xa1",
+                                          "\xa1\xb2\x3c\x4d", "\x4d\x3c\xb2\xa1"};
+
 std::optional<FileKind> exchange_kind_of(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf", kFibexNamespace = "http://www.asam.net/xml/fbx";
+  if (text.starts_with(kMcap)) return FileKind::kLog;
+  for (const std::string_view magic : kCaptures)
+    if (text.starts_with(magic)) return FileKind::kCapture;
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return std::nullopt;
@@ -115,6 +125,10 @@ void expect_kind(const StrictYaml& file, FileKind wanted) {
   refuse(file.name(), row_of(*found), row_of(wanted).name);
 }
 
+void expect_log(const std::string& path) {
+  if (!read_file(path, kMcap.size()).starts_with(kMcap)) refuse_any_kind(path, row_of(FileKind::kLog).name);
+}
+
 void refuse_any_kind(const std::string& path, std::string_view wanted) {
   std::optional<FileKind> found;
   try {
@@ -122,7 +136,7 @@ void refuse_any_kind(const std::string& path, std::string_view wanted) {
   } catch (const InputError&) {
     return;  // neither readable nor YAML
   }
-  if (found) refuse(path, row_of(*found), wanted);
+  if (found && row_of(*found).name != wanted) refuse(path, row_of(*found), wanted);
 }
 
 }  // namespace ttf

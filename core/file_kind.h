@@ -1,5 +1,5 @@
-// The kinds of files that describe something: the program's YAML files, and two formats of exchange. A file of another kind is
-// one mistake. A loader that reads on would report each of its keys.
+// The kinds of files: the program's YAML files, two formats of exchange, logs and captures. A file of another kind is one
+// mistake. A loader that reads on would report each of its keys.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace ttf {
 
-enum class FileKind : std::uint8_t { kScenario, kCluster, kExperiment, kTrack, kFaults, kFibex, kDbc };
+enum class FileKind : std::uint8_t { kScenario, kCluster, kExperiment, kTrack, kFaults, kFibex, kDbc, kLog, kCapture };
 
 // Returns the kind by its own keys at the top level: no other kind has them. Without such a key, the kind must know all keys.
 // Returns none for other files.
 std::optional<FileKind> kind_of(const StrictYaml& file);
 
-// Does the same for any file. FIBEX is XML with FIBEX's namespace. DBC is a text with the sections BS_ and BU_. Throws the errors
-// of StrictYaml::load() for other files.
+// Does the same for any file. FIBEX is XML with FIBEX's namespace. DBC is a text with the sections BS_ and BU_. Logs (MCAP) and
+// captures (pcap, pcapng) begin with bytes of their own. Throws the errors of StrictYaml::load() for other files.
 std::optional<FileKind> kind_of_file(const std::string& path);
 
 // Reads a YAML file. Throws InputError with one finding if it is of another kind, and the errors of StrictYaml::load().
@@ -28,7 +28,11 @@ StrictYaml load_of_kind(const std::string& path, FileKind wanted);
 // wanted kind: their loader knows more.
 void expect_kind(const StrictYaml& file, FileKind wanted);
 
-// Throws InputError with one finding if the file is of any kind. Call it for a file that could not be read as `wanted`: "a
+// Throws InputError with one finding if the file is of another kind than a log, and is no log by its first bytes. Other files
+// pass.
+void expect_log(const std::string& path);
+
+// Throws InputError with one finding if the file is of any other kind. Call it for a file that could not be read as `wanted`: "a
 // recording", "a FIBEX file".
 void refuse_any_kind(const std::string& path, std::string_view wanted);
 

@@ -142,7 +142,7 @@ std::vector<FaultResult> results_of(const ExperimentOptions& options, const Camp
   const auto all = (static_cast<std::uint64_t>(campaign.faults) + shard.count - 1 - shard.part) / shard.count;
   fmt::print(stderr, "{}: {} in {}, {} ...\n", campaign.name, counted(all, "fault"),
              counted(campaign.variants.size(), "variant"), counted(jobs, "worker"));
-  const Progress progress("faults");
+  Progress progress("faults");
   return experiments::campaign::run_campaign(campaign, bus, shard, jobs,
                                              [&](std::uint64_t done) { progress(done, all, done); });
 }

@@ -133,7 +133,7 @@ void drive(const ExperimentOptions& options, const SweepDrives& drives, experime
   fmt::print(stderr, "{}: {}, {}, {}, {} ...\n", sweep.name, counted(sweep.points(), "point"),
              counted(sweep.paradigms.size(), "paradigm"), counted(sweep.replications, "replication"),
              alone ? counted(jobs, "worker") : counted(static_cast<std::size_t>(ranks.size()), "rank"));
-  const Progress progress("runs");
+  Progress progress("runs");
   experiments::sweep::run_sweep(
       drives, store, shard, jobs,
       [&](const experiments::sweep::SweepProgress& now) { progress(now.done, now.all, now.driven); },

@@ -8,6 +8,8 @@
 
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
+#include "cli/drive_progress.h"
+#include "cli/logs/log_inputs.h"
 #include "cli/logs/scan_verdict.h"
 #include "cli/output.h"
 #include "cli/time_window.h"
@@ -44,21 +46,6 @@ struct Extent final : recording::records::Sink {
   using recording::records::Sink::on;
   void on(const recording::records::TaskRun& run) override { last = std::max(last, run.end.true_time); }
 };
-
-// Merges the logs of each drive into one.
-std::vector<recording::merge::MergedLogs> drives_in(const std::vector<std::string>& paths) {
-  std::vector<recording::merge::StoredLog> logs;
-  for (const std::string& path : paths) logs.emplace_back(path);
-  std::vector<recording::merge::MergedLogs> drives = recording::merge::merge_by_drive(std::move(logs));
-  for (const recording::merge::MergedLogs& drive : drives) print_warnings(drive.warnings());
-  return drives;
-}
-
-recording::merge::MergedLogs one_drive(const std::vector<std::string>& paths) {
-  recording::merge::MergedLogs drive(paths);
-  print_warnings(drive.warnings());
-  return drive;
-}
 
 std::vector<recording::rows::RecordedScan> read_scans(const std::string& path) {
   try {
@@ -117,14 +104,14 @@ int draw_boxes(const DiagramOptions& options) {
 // Without options, shows the whole start-up and two cycles after it.
 std::string startup(const DiagramOptions& options) {
   const TimeWindow window = time_window(options.window);
-  const recording::merge::MergedLogs drive = one_drive(options.logs);
+  const recording::merge::MergedLogs drive = drive_in(options.logs);
   report::startup::StartupExtent extent;
-  drive.read(extent);
+  read_shown(drive, extent);
   const Duration cycle{drive.manifest().cycle_ns};
   const auto whole = extent.window(cycle).value_or(std::pair(TrueTime{}, TrueTime{}));
   report::startup::StartupDiagram diagram(report::drawing::names_of(drive.manifest()), cycle,
                                           window.from.value_or(whole.first), window.to.value_or(whole.second));
-  drive.read(diagram);
+  read_shown(drive, diagram);
   return diagram.svg();
 }
 
@@ -134,9 +121,9 @@ std::string lateness(const DiagramOptions& options) {
     if (text)
       throw InputError(
           {"command line", 0, name, *text, "does not go with --kind lateness, which shows the whole drive"});
-  const recording::merge::MergedLogs drive = one_drive(options.logs);
+  const recording::merge::MergedLogs drive = drive_in(options.logs);
   recording::exports::LatenessSums sums;
-  drive.read(sums);
+  read_shown(drive, sums);
   if (sums.nodes().empty())
     throw InputError({options.logs[0], 0, "", "", "has no lateness: the run was not in real time"});
   return report::plots::lateness_svg(sums.nodes(), report::drawing::names_of(drive.manifest()));
@@ -145,7 +132,7 @@ std::string lateness(const DiagramOptions& options) {
 std::string timing(const recording::merge::MergedLogs& drive, TrueTime from, TrueTime to) {
   report::timing::TimingDiagram diagram(report::drawing::names_of(drive.manifest()), {drive.manifest().cycle_ns}, from,
                                         to);
-  drive.read(diagram);
+  read_shown(drive, diagram);
   return diagram.svg();
 }
 
@@ -161,7 +148,7 @@ std::string positions(const std::vector<recording::merge::MergedLogs>& drives, T
     position.to = to;
     plots.push_back(
         std::make_unique<report::plots::PositionPlots>(report::drawing::names_of(drive.manifest()), position));
-    drive.read(*plots.back());
+    read_shown(drive, *plots.back());
     panels.push_back(plots.back().get());
     titles.push_back(drive.manifest().strategy);
   }
@@ -177,11 +164,11 @@ std::string over_time(const DiagramOptions& options) {
   const bool as_timing = options.kind == "timing";
   std::vector<recording::merge::MergedLogs> drives;
   if (as_timing)
-    drives.push_back(one_drive(options.logs));
+    drives.push_back(drive_in(options.logs));
   else
     drives = drives_in(options.logs);
   Extent extent;
-  for (const recording::merge::MergedLogs& drive : drives) drive.read(extent);
+  for (const recording::merge::MergedLogs& drive : drives) read_shown(drive, extent);
   const TrueTime from = window.begin();
   if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "has no execution of a task to draw"});
   if (from > extent.last)
@@ -221,7 +208,8 @@ void add_diagram(CLI::App& app, Action& action) {
   command
       ->add_option(
           "logs", options->logs,
-          "Logs: one of a run, or one of each of its processes (with --kind boxes: a recording of laser scans)")
+          "Logs: one of a run, or one of each of its processes, or its folder (with --kind boxes: a recording of laser "
+          "scans)")
       ->required();
   add_time_window(
       *command, options->window,

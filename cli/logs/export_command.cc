@@ -8,7 +8,9 @@
 
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
+#include "cli/drive_progress.h"
 #include "cli/logs/export_gnuplot.h"
+#include "cli/logs/log_inputs.h"
 #include "cli/output.h"
 #include "core/counted.h"
 #include "recording/exports/captures.h"
@@ -44,7 +46,7 @@ int export_perfetto(const ExportOptions& options, const recording::merge::Merged
   OutputFile file(options.out);
   recording::exports::PerfettoExport trace(recording::exports::LogNames(drive.manifest()),
                                            [&](std::string_view bytes) { file.write(bytes); });
-  drive.read(trace);
+  read_shown(drive, trace);
   const recording::exports::TraceCounts counts = trace.finish();
   file.finish();
   if (options.json)
@@ -85,13 +87,12 @@ int export_tables(const ExportOptions& options) {
 int run_export(const ExportOptions& options) {
   if (options.format == "gnuplot") return export_for_papers(options);
   if (options.format == "markdown") return export_tables(options);
-  for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
+  for (const std::string& log : log_files(options.logs)) refuse_overwriting(log, options.out, "--out");
   refuse_other_format(options.out, options.format, kFormatEnds);
-  const recording::merge::MergedLogs drive(options.logs);
-  print_warnings(drive.warnings());
+  const recording::merge::MergedLogs drive = drive_in(options.logs);
   if (options.format == "perfetto") return export_perfetto(options, drive);
   recording::exports::FrameCollector collector;
-  drive.read(collector);
+  read_shown(drive, collector);
   const recording::exports::LogNames names(drive.manifest());
   const std::vector<recording::exports::LoggedFrame> frames = collector.in_order();
   write_file(options.out, converted(options.format, collector, frames, names));
@@ -122,8 +123,8 @@ void add_export(CLI::App& app, Action& action) {
       "          ttfusion export out/noise --format markdown -o out/noise.md");
   command
       ->add_option("logs", options->logs,
-                   "Log of a run, or one of each of its processes; for gnuplot also of several runs, folders of "
-                   "logs or an experiment's folder; for markdown an experiment's folder")
+                   "Log of a run, or one of each of its processes, or its folder; for gnuplot also of several runs, or "
+                   "an experiment's folder; for markdown an experiment's folder")
       ->required();
   command
       ->add_option("--format", options->format,

@@ -10,6 +10,8 @@
 #include <set>
 #include <utility>
 
+#include "cli/drive_progress.h"
+#include "cli/logs/log_inputs.h"
 #include "cli/output.h"
 #include "core/counted.h"
 #include "core/errors.h"
@@ -44,14 +46,14 @@ class DriveTables {
  public:
   DriveTables(const recording::merge::MergedLogs& drive, report::paper::PaperDrive& has)
       : names_(report::drawing::names_of(drive.manifest())), has_(has) {
-    drive.read(rows_);
+    read_shown(drive, rows_);
     rows_.finish();
     const ObjectId object = rows_.referenced().value_or(ObjectId{0});
     has_.object = static_cast<int>(index_of(object));
     report::plots::PositionOptions options;
     options.object = object;
     report::plots::PositionPlots plots(names_, options);
-    drive.read(plots);
+    read_shown(drive, plots);
     selection_ = plots.select();
   }
 
@@ -139,13 +141,10 @@ class DriveTables {
 };
 
 std::vector<PaperFile> of_logs(const std::vector<std::string>& paths) {
-  std::vector<recording::merge::StoredLog> logs;
-  for (const std::string& path : paths) logs.emplace_back(path);
   std::vector<PaperFile> files;
   std::vector<report::paper::PaperDrive> drives;
   std::set<std::string> labels;
-  for (const recording::merge::MergedLogs& drive : recording::merge::merge_by_drive(std::move(logs))) {
-    print_warnings(drive.warnings());
+  for (const recording::merge::MergedLogs& drive : drives_in(paths)) {
     const recording::log::LogManifest& manifest = drive.manifest();
     report::paper::PaperDrive has;
     const std::string label = as_file_name(manifest.strategy);
@@ -193,10 +192,9 @@ std::vector<std::string> export_gnuplot(const std::vector<std::string>& inputs, 
       files = of_experiment(summary);
       continue;
     }
-    const std::vector<std::string> found = recording::merge::logs_in(input);
-    if (found.empty())
+    if (recording::merge::logs_in(input).empty())
       throw InputError({input, 0, "", "", "holds neither logs (.mcap) nor an experiment's summary.csv"});
-    logs.insert(logs.end(), found.begin(), found.end());
+    logs.push_back(input);
   }
   if (!logs.empty()) files = of_logs(logs);
   create_folder(out);

@@ -17,6 +17,7 @@
 #include "cli/output.h"
 #include "cli/time_window.h"
 #include "core/errors.h"
+#include "core/file_kind.h"
 #include "core/time.h"
 #include "experiments/sweep/file.h"
 #include "report/drive/report.h"
@@ -48,12 +49,27 @@ std::string experiment_html(const ReportOptions& options, report::drive::Diagram
   return report::experiment::experiment_report_html(folder, drives, window);
 }
 
+// A log's folder has all that a report tells of it.
+void refuse_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (!fs::is_regular_file(path, none)) return;
+  if (fs::path(path).extension() == ".mcap") {
+    const fs::path folder = fs::path(path).parent_path();
+    throw InputError({path, 0, "", "",
+                      fmt::format("this is a log, not a folder of results; `ttfusion report {}` takes its folder",
+                                  folder.empty() ? "." : folder.string())});
+  }
+  refuse_any_kind(path, "a folder of results");
+}
+
 std::string html(const ReportOptions& options) {
   const TimeWindow asked = time_window(options.window);
   report::drive::DiagramWindow window;
   window.from = asked.from;
   window.to = asked.to;
   std::size_t experiments = 0;
+  for (const std::string& folder : options.folders) refuse_file(folder);
   for (const std::string& folder : options.folders)
     experiments += report::drive::kind_of_folder(folder) == report::drive::FolderKind::kExperiment;
   if (experiments == 0) {

@@ -171,7 +171,8 @@ int run_node_live(const NodeOptions& options) {
                                             set.session, supervisor ? kLivePatience : std::chrono::milliseconds{0}});
   if (set.topics) try_topics(set);
   const std::optional<Start> told = supervisor ? std::nullopt : std::optional(told_start(set));
-  recording::log::LogWriter log(free_log(options), wall_manifest(set), recording::log::LogWriter::Writing::kBehind);
+  const std::string path = free_log(options);
+  recording::log::LogWriter log(path, wall_manifest(set), recording::log::LogWriter::Writing::kBehind);
   if (told) tell_wait(*told);
   const Start start = told ? *told : start_of(*supervisor);
   const nodes::runner::RunnerConfig config = config_of(options, start, signals.fd());
@@ -200,6 +201,7 @@ int run_node_live(const NodeOptions& options) {
   const nodes::runner::RunnerEnd end = node.run();
   teller.close();
   log.close();
+  if (!supervisor) say_written(path);
   const bool failed = end == nodes::runner::RunnerEnd::kFailed;
   tell_ending(
       {node_set::counts_json(node.counts()), health_json(node.health()), failed ? medium->failure() : std::string()},

@@ -50,6 +50,7 @@ int run_node_virtual(const NodeOptions& options) {
   const nlohmann::ordered_json json = node_set::outcome_json(outcome);
   if (supervisor) supervisor->done(json);
   if (options.json) fmt::print("{}\n", json.dump(2));
+  if (!supervisor) say_written(options.log);
   return 0;
 }
 

@@ -8,6 +8,8 @@
 #include "cli/argument_checks.h"
 #include "cli/output.h"
 #include "core/counted.h"
+#include "core/errors.h"
+#include "core/file_kind.h"
 #include "recording/capture/check.h"
 
 namespace ttf::cli::schedule {
@@ -63,6 +65,15 @@ void print_text(const schedules::model::Cluster& cluster, const CaptureArguments
       fmt::print("  {:24} {}\n", recording::capture::kContradictionNames[kind], verdict.counts[kind]);
 }
 
+recording::capture::Capture read_capture(const std::string& path) {
+  try {
+    return recording::capture::read_capture(path);
+  } catch (const InputError&) {
+    refuse_any_kind(path, "a capture");
+    throw;
+  }
+}
+
 }  // namespace
 
 void add_capture_arguments(CLI::App& command, CaptureArguments& arguments) {
@@ -85,7 +96,7 @@ int check_against_capture(const schedules::model::Cluster& cluster, const Captur
   options.channels = channels_of(arguments.channels);
   options.from_ns = window.begin().ns;
   if (window.to) options.to_ns = window.to->ns;
-  const recording::capture::Capture capture = recording::capture::read_capture(arguments.file);
+  const recording::capture::Capture capture = read_capture(arguments.file);
   print_warnings(capture.warning);
   const CaptureVerdict verdict = recording::capture::check_capture(capture, arguments.file, cluster, options);
   if (json)

@@ -14,6 +14,18 @@ expect 2 'command line: --from = 1e300: must be a decimal number 0..1000000000 s
   diagram "$work/tt.mcap" --from 1e300 -o "$work/timing.pdf"
 expect 2 'must be after --from' diagram "$work/tt.mcap" --from 1.5 --to 1.5 -o "$work/timing.pdf"
 expect 0 '' diagram "$work/tt.mcap" "$work/adva.mcap" --kind plane -o "$work/plane.svg"
+# A folder stands for its logs.
+mkdir "$work/folder" "$work/bare"
+cp "$work/adva.mcap" "$work/tt.mcap" "$work/folder/"
+expect 0 '' diagram "$work/folder" --kind plane -o "$work/folder.svg"
+expect 0 '' diagram "$work/adva.mcap" "$work/tt.mcap" --kind plane -o "$work/plane.svg"
+cmp "$work/folder.svg" "$work/plane.svg" || fail "the picture of a folder is not that of its logs"
+expect 2 "folder: must be the folder of one drive, and there are 2: name a log of one, as in .*/folder/adva.mcap" \
+  diagram "$work/folder" -o "$work/none.svg"
+expect 2 'bare: holds no logs \(.mcap\)' diagram "$work/bare" -o "$work/none.svg"
+expect 0 '' diagram "$work" --from 1.5 --to 1.6 -o "$work/folder.svg"   # its summary names adva.mcap alone
+expect 0 '' diagram "$work/adva.mcap" --from 1.5 --to 1.6 -o "$work/timing.svg"
+cmp "$work/folder.svg" "$work/timing.svg" || fail "the picture of a folder is not that of the log that its summary names"
 expect 2 '--from = 50: must be before the end of the log' diagram "$work/tt.mcap" --from 50 -o "$work/none.svg"
 expect 2 'tt.mcap: has no lateness: the run was not in real time' \
   diagram "$work/tt.mcap" --kind lateness -o "$work/none.svg"

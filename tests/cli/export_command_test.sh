@@ -36,6 +36,13 @@ expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format csv -o "$work/dr
 grep -vq '^warning: \|^wrote ' <<<"$output" && fail "a line of a warning is not called one: $output"
 [[ $(head -1 "$work/drive.csv") == time_ns,bus,channel,* ]] || fail "export --format csv leaves no header"
 
+# The folder of a drive stands for its log.
+for input in "$work/tt.mcap" "$work"; do
+  expect 0 '^wrote ' export "$input" --format csv -o "$work/of_$(basename "$input").csv"
+done
+cmp "$work/of_tt.mcap.csv" "$work/of_$(basename "$work").csv" || fail "the frames of a folder are not its log's"
+expect 2 '--out = .*tt.mcap: must be another file than the input' export "$work" --format csv -o "$work/tt.mcap"
+
 # A trace for Perfetto.
 expect 0 '"flows": [1-9]' export "$work/tt.mcap" --format perfetto --json -o "$work/drive.pftrace"
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format perfetto -o "$work/cut.pftrace"

@@ -87,6 +87,19 @@ TEST(FileKind, FormatsOfExchangeAreTold) {
   EXPECT_EQ(kind_of_file(written("words.yaml", "note: |\n  BS_:\n  BU_:\n")), std::nullopt) << "not at a line's begin";
 }
 
+TEST(FileKind, LogsAndCapturesBeginWithBytesOfTheirOwn) {
+  const std::string log = written("a.mcap", "\x89MCAP0\r\nnothing else");
+  EXPECT_EQ(kind_of_file(log), FileKind::kLog);
+  EXPECT_EQ(kind_of_file(written("a.pcapng", "\x0a\x0d\x0d\x0a and more")), FileKind::kCapture);
+  EXPECT_EQ(kind_of_file(written("a.pcap", "\xd4\xc3\xb2\xa1 and more")), FileKind::kCapture);
+  EXPECT_EQ(refusal_of_file(log, FileKind::kScenario),
+            log + ": this is a log, not a scenario; `ttfusion diagram` and `ttfusion export` take it");
+  EXPECT_NO_THROW(expect_log(log));
+  EXPECT_NO_THROW(expect_log(written("cut.mcap", "\x89MC"))) << "the reader tells what is wrong with it";
+  EXPECT_NO_THROW(refuse_any_kind(log, "a log"));
+  EXPECT_THROW(expect_log("scenarios/dynamics.yaml"), InputError);
+}
+
 TEST(FileKind, TheLoaderHasTheRest) {
   EXPECT_EQ(refusal("clusters: {}\n", FileKind::kScenario), "left to the loader");
   EXPECT_EQ(refusal("anything: 1\n", FileKind::kScenario), "left to the loader");
