@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 
+#include "cli/decimal_option.h"
 #include "cli/drive/fault_tables.h"
+#include "core/decimal.h"
 #include "core/errors.h"
 #include "core/file_bytes.h"
 #include "core/file_kind.h"
@@ -110,11 +113,23 @@ std::uint64_t seed_of(const std::string& text) {
   return seed;
 }
 
-std::string folder_of(const drives::Scenario& scenario) {
+void set_duration(drives::Scenario& scenario, const std::string& name, const std::string& text) {
+  constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+  constexpr Duration kShortest = Duration::milliseconds(100);  // same as in a scenario
+  const std::string unit =
+      fmt::format(" s ({} is evaluated from {} s on)", name, scaled_text(scenario.evaluate_from.ns, kNsPerSecond));
+  const Range<std::int64_t> allowed{std::max(kShortest, scenario.evaluate_from).ns, kLongestDrive.ns};
+  scenario.duration = scenario.world.duration =
+      Duration{decimal_option("--duration", text, kNsPerSecond, allowed, unit)};
+}
+
+std::string named_folder(const drives::Scenario& scenario) {
   if (scenario.name.empty() || scenario.name.find('/') != std::string::npos || scenario.name.front() == '.')
     throw InputError({scenario.file, 0, "name", scenario.name, "must name a folder under out/; give --out otherwise"});
-  return "out/" + scenario.name;
+  return scenario.name;
 }
+
+std::string folder_of(const drives::Scenario& scenario) { return "out/" + named_folder(scenario); }
 
 DriveJudge::DriveJudge(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
                        std::optional<TrueTime> until)

@@ -51,8 +51,14 @@ std::vector<fusion::strategies::StrategyKind> chosen(const std::string& name);
 // Parses --seed: the rule of a scenario's seed, and decimal digits only.
 std::uint64_t seed_of(const std::string& text);
 
+// Sets the scenario's duration from --duration, in seconds. `name` is the drive's in messages.
+void set_duration(drives::Scenario& scenario, const std::string& name, const std::string& text);
+inline constexpr Duration kLongestDrive = Duration::milliseconds(3'600'000);  // same as in a scenario
+
 // Returns the folder for results without --out. Throws InputError if the scenario's name leads elsewhere.
 std::string folder_of(const drives::Scenario& scenario);
+// Returns its name within out/. Throws the same.
+std::string named_folder(const drives::Scenario& scenario);
 
 // Turns a drive's records into the findings for tables and JSON.
 class DriveJudge {

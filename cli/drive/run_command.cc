@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
@@ -12,6 +16,7 @@
 #include "cli/drive/recording_outputs.h"
 #include "cli/drive/run_outputs.h"
 #include "cli/drive/startup_outputs.h"
+#include "cli/drive_progress.h"
 #include "cli/output.h"
 #include "cli/shipped.h"
 #include "core/errors.h"
@@ -23,9 +28,9 @@ namespace ttf::cli::drive {
 namespace {
 
 struct RunOptions {
-  std::string scenario;
+  std::vector<std::string> scenarios;
   std::string strategy;
-  std::optional<std::string> seed;
+  std::optional<std::string> seed, duration;
   std::string input;
   std::string out;
   bool json = false;
@@ -56,6 +61,8 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
                     result.cluster);
     sinks.push_back(log.get());
   }
+  DriveProgress progress(until ? *until : drives::drive_end(scenario), "driven");
+  sinks.push_back(&progress);
   recording::records::Tee tee(sinks);
   const drives::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
   result.outcome = drives::run_drive(config, tee);
@@ -68,60 +75,126 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
   return result;
 }
 
-int run_scenario(const RunOptions& options) {
-  const drives::Scenario scenario = drives::load_scenario(options.scenario);
-  const std::uint64_t seed = options.seed ? seed_of(*options.seed) : scenario.seed;
-  const Recording recording = read_recording(options.input);
-  const std::string folder = options.out.empty() ? folder_of(scenario) : options.out;
-  // Checks the input before any simulation, and before an earlier log is overwritten.
-  for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
-    const schedules::model::Cluster cluster = checked_cluster(scenario, strategy);
-    drives::check_fits(scenario, cluster, strategy, recording.rows != nullptr);
-    if (recording.rows) (void)drives::recording_use(scenario, cluster, *recording.rows);
-  }
-  create_folder(folder);
+// A scenario to drive, checked.
+struct Planned {
+  drives::Scenario scenario;
+  std::uint64_t seed = 0;
+  std::string folder;
+};
 
+// Checks the input before any simulation, and before an earlier log is overwritten.
+Planned planned(const RunOptions& options, const std::string& file, const Recording& recording) {
+  Planned plan;
+  plan.scenario = drives::load_scenario(file);
+  plan.seed = options.seed ? seed_of(*options.seed) : plan.scenario.seed;
+  if (options.duration) set_duration(plan.scenario, file, *options.duration);
+  const bool alone = options.scenarios.size() == 1;
+  if (options.out.empty())
+    plan.folder = folder_of(plan.scenario);
+  else
+    plan.folder = alone ? options.out : options.out + "/" + named_folder(plan.scenario);
+  for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
+    const schedules::model::Cluster cluster = checked_cluster(plan.scenario, strategy);
+    drives::check_fits(plan.scenario, cluster, strategy, recording.rows != nullptr);
+    if (recording.rows) (void)drives::recording_use(plan.scenario, cluster, *recording.rows);
+  }
+  return plan;
+}
+
+std::vector<Planned> all_planned(const RunOptions& options, const Recording& recording) {
+  std::vector<Planned> plans;
+  for (const std::string& file : options.scenarios) {
+    Planned plan = planned(options, file, recording);
+    const auto same = std::ranges::find(plans, plan.folder, &Planned::folder);
+    if (same != plans.end())
+      throw InputError(
+          {file, 0, "name", plan.scenario.name,
+           fmt::format("must differ from that of {}: each has a folder of its name", same->scenario.file)});
+    plans.push_back(std::move(plan));
+  }
+  return plans;
+}
+
+// Drives one scenario with each strategy, and writes its folder.
+std::vector<StrategyResult> driven(const RunOptions& options, const Planned& plan, const Recording& recording) {
+  create_folder(plan.folder);
   std::vector<StrategyResult> results;
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
-    fmt::print(stderr, "{}: {:g} s with {} ...\n", scenario.name, scenario.duration.seconds(), name_of(strategy));
-    results.push_back(run_strategy(options, scenario, strategy, seed, recording, folder));
+    fmt::print(stderr, "{}: {:g} s with {} ...\n", plan.scenario.name, plan.scenario.duration.seconds(),
+               name_of(strategy));
+    results.push_back(run_strategy(options, plan.scenario, strategy, plan.seed, recording, plan.folder));
   }
-  if (!options.no_pictures && !options.no_log) write_pictures(scenario, results, folder);
-  const nlohmann::ordered_json json = to_json(scenario, seed, results);
-  write_file(folder + "/summary.json", json.dump(2) + '\n');
-  if (options.json) {
-    fmt::print("{}\n", json.dump(2));
-  } else {
-    fmt::print("{}\n{}{}{}", scenario.description, recordings_text(results),
-               startup_text(results, scenario.startup.cold), comparison_table(results));
-    if (!scenario.faults.empty())
-      for (const StrategyResult& result : results)
-        fmt::print("\n{}", faults_text(name_of(result.strategy), result.faults, result.fault_free, result.cluster));
+  if (!options.no_pictures && !options.no_log) write_pictures(plan.scenario, results, plan.folder);
+  write_file(plan.folder + "/summary.json", to_json(plan.scenario, plan.seed, results).dump(2) + '\n');
+  return results;
+}
+
+void print_words(const std::vector<Planned>& plans, const std::vector<ScenarioResults>& all) {
+  for (std::size_t s = 0; s < plans.size(); ++s) {
+    const drives::Scenario& scenario = plans[s].scenario;
+    fmt::print("{}{}\n{}{}", plans.size() > 1 ? scenario.name + ": " : "", scenario.description,
+               recordings_text(all[s].results), startup_text(all[s].results, scenario.startup.cold));
   }
-  std::fflush(stdout);  // both streams may share one file
-  say_written(folder);
-  bool did_its_work = true;
+  fmt::print("{}", comparison_table(all));
+  for (std::size_t s = 0; s < plans.size(); ++s) {
+    if (plans[s].scenario.faults.empty()) continue;
+    for (const StrategyResult& result : all[s].results)
+      fmt::print("\n{}{}", plans.size() > 1 ? plans[s].scenario.name + ", " : "",
+                 faults_text(name_of(result.strategy), result.faults, result.fault_free, result.cluster));
+  }
+}
+
+// Prints the reasons why drives did not do their work. Returns whether all did.
+bool did_its_work(const RunOptions& options, const Planned& plan, const std::vector<StrategyResult>& results) {
+  bool all = true;
   for (const StrategyResult& result : results) {
-    if (const std::string sentence = never_started(result, scenario.startup.cold); !sentence.empty()) {
-      fmt::print(stderr, "error: {}\n", sentence);
-      did_its_work = false;
+    if (const std::string sentence = never_started(result, plan.scenario.startup.cold); !sentence.empty()) {
+      fmt::print(stderr, "error: {}{}\n", options.scenarios.size() > 1 ? plan.scenario.name + ": " : "", sentence);
+      all = false;
     }
     const std::string headline = fmt::format("with {}", name_of(result.strategy));
-    if (print_reasons(options.input, headline, recording_reasons(result, scenario.tracker)) != 0) did_its_work = false;
+    if (print_reasons(options.input, headline, recording_reasons(result, plan.scenario.tracker)) != 0) all = false;
   }
-  return did_its_work ? 0 : 1;
+  return all;
+}
+
+int run_scenarios(const RunOptions& options) {
+  if (!options.input.empty() && options.scenarios.size() > 1)
+    throw InputError({"command line", 0, "--input", options.input, "goes with one scenario"});
+  const Recording recording = read_recording(options.input);
+  const std::vector<Planned> plans = all_planned(options, recording);
+  std::vector<ScenarioResults> all;
+  for (const Planned& plan : plans) all.push_back({plan.scenario.name, driven(options, plan, recording)});
+  if (options.json) {
+    nlohmann::ordered_json json;
+    for (std::size_t s = 0; s < plans.size(); ++s)
+      json.push_back(to_json(plans[s].scenario, plans[s].seed, all[s].results));
+    fmt::print("{}\n", (plans.size() == 1 ? json.front() : json).dump(2));
+  } else {
+    print_words(plans, all);
+  }
+  std::fflush(stdout);  // both streams may share one file
+  bool good = true;
+  for (const Planned& plan : plans) say_written(plan.folder);
+  for (std::size_t s = 0; s < plans.size(); ++s) good = did_its_work(options, plans[s], all[s].results) && good;
+  return good ? 0 : 1;
 }
 
 }  // namespace
 
 void add_run(CLI::App& app, Action& action) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = app.add_subcommand("run", "One drive in virtual time: log, summary table and pictures");
-  command->footer("Example: ttfusion run scenarios/paper_scenario1.yaml --seed 7 --out out/drive");
-  command->add_option("scenario", options->scenario, "Scenario file, or a shipped one's name")->required();
+  CLI::App* command = app.add_subcommand("run", "Drives in virtual time: logs, summary table and pictures");
+  command->footer(
+      "Each of several scenarios has a folder of its own, in --out if that is given.\n"
+      "Examples: ttfusion run scenarios/paper_scenario1.yaml --seed 7 --out out/drive\n"
+      "          ttfusion run scenarios/paper_scenario1.yaml scenarios/paper_scenario2.yaml --strategy tt");
+  command->add_option("scenario", options->scenarios, "Scenario file or a shipped one's name, or several to compare")
+      ->required();
   command->add_option("--strategy", options->strategy, "Only this strategy (default: all three)")
       ->check(one_of(strategy_names()));
   command->add_option("--seed", options->seed, "Seed of every random stream, instead of the scenario's");
+  command->add_option("--duration", options->duration, "Seconds to drive, instead of the scenario's");
   command->add_option("--input", options->input, "Recorded observations in place of the sensor models")->check(named());
   command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")->check(named());
   command->add_flag("--json", options->json, "Summary as JSON on standard output");
@@ -129,8 +202,8 @@ void add_run(CLI::App& app, Action& action) {
   command->add_flag("--no-pictures", options->no_pictures, "Write logs only");
   command->callback([options, &action] {
     action = [options] {
-      options->scenario = file_named(options->scenario, {kScenarios});
-      return run_scenario(*options);
+      for (auto& scenario : options->scenarios) scenario = file_named(scenario, {kScenarios});
+      return run_scenarios(*options);
     };
   });
 }

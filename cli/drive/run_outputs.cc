@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "cli/drive/real_time_outputs.h"
 #include "cli/drive/recording_outputs.h"
 #include "cli/drive/startup_outputs.h"
+#include "cli/drive_progress.h"
 #include "cli/tracking_outputs.h"
 #include "recording/log/reader.h"
 #include "recording/records/tee.h"
@@ -206,28 +208,66 @@ report::plots::PositionOptions position_options(const drives::Scenario& scenario
 
 }  // namespace
 
-std::string comparison_table(const std::vector<StrategyResult>& results) {
+namespace {
+
+struct Column {
+  std::string head;
+  const StrategyResult* result;
+};
+
+// Returns a row of loads for each private CAN. Names tell CANs of different clusters apart.
+std::vector<std::vector<std::string>> can_loads(const std::vector<Column>& columns) {
+  std::vector<std::string> names;
+  for (const Column& column : columns)
+    for (const schedules::model::CanBus& bus : column.result->cluster.can_buses)
+      if (std::ranges::find(names, bus.name) == names.end()) names.push_back(bus.name);
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& name : names) {
+    rows.push_back({fmt::format("{} load [%]", name)});
+    for (const Column& column : columns) {
+      const auto& buses = column.result->cluster.can_buses;
+      const auto bus = std::ranges::find(buses, name, &schedules::model::CanBus::name);
+      const auto b = static_cast<std::size_t>(bus - buses.begin());
+      const std::vector<double>& loads = column.result->outcome.can_load;
+      rows.back().push_back(b < loads.size() ? report::drawing::cell(100 * loads[b], 1) : "-");
+    }
+  }
+  return rows;
+}
+
+std::string table_of(const std::vector<Column>& columns, std::size_t in_group) {
   std::vector<std::string> header{"measure"};
-  for (const StrategyResult& result : results) header.emplace_back(name_of(result.strategy));
+  for (const Column& column : columns) header.push_back(column.head);
   report::drawing::Table table(header);
-  const auto add = [&](const Row& row) {
+  for (std::size_t column = 0; column < columns.size(); column += in_group) table.begin_group(column + 1);
+  for (const Row& row : kRows) {
     std::vector<std::string> cells{row.name};
     bool any = false;
-    for (const StrategyResult& result : results) {
-      cells.push_back(row.value(result));
+    for (const Column& column : columns) {
+      cells.push_back(row.value(*column.result));
       any = any || cells.back() != "0";
     }
     if (any || !row.rare) table.add(std::move(cells));
-  };
-  for (const Row& row : kRows) add(row);
-  for (std::size_t b = 0; !results.empty() && b < results.front().cluster.can_buses.size(); ++b) {
-    std::vector<std::string> cells{fmt::format("{} load [%]", results.front().cluster.can_buses[b].name)};
-    for (const StrategyResult& result : results)
-      cells.push_back(b < result.outcome.can_load.size() ? report::drawing::cell(100 * result.outcome.can_load[b], 1)
-                                                         : "-");
-    table.add(std::move(cells));
   }
+  for (std::vector<std::string>& row : can_loads(columns)) table.add(std::move(row));
   return table.text();
+}
+
+}  // namespace
+
+std::string comparison_table(const std::vector<StrategyResult>& results) {
+  std::vector<Column> columns;
+  for (const StrategyResult& result : results) columns.push_back({std::string(name_of(result.strategy)), &result});
+  return table_of(columns, 1);
+}
+
+std::string comparison_table(const std::vector<ScenarioResults>& scenarios) {
+  if (scenarios.size() == 1) return comparison_table(scenarios.front().results);
+  std::vector<Column> columns;
+  for (const ScenarioResults& scenario : scenarios)
+    for (const StrategyResult& result : scenario.results)
+      columns.push_back({fmt::format("{}\n{}", scenario.name, name_of(result.strategy)), &result});
+  return table_of(columns, scenarios.front().results.size());
 }
 
 // Values that are not finite become null.
@@ -342,7 +382,8 @@ void write_pictures(const drives::Scenario& scenario, const std::vector<Strategy
     report::timing::TimingDiagram timing(names, result.cluster.cycle(), from, from + Duration::milliseconds(160));
     plots.push_back(std::make_unique<report::plots::PositionPlots>(names, position_options(scenario, result)));
     report::startup::StartupExtent extent;
-    recording::records::Tee tee({&timing, plots.back().get(), &extent});
+    DriveProgress progress(drives::drive_end(scenario), "read for pictures");
+    recording::records::Tee tee({&timing, plots.back().get(), &extent, &progress});
     recording::log::read_log(result.log_path, tee);
     if (const auto window = extent.window(result.cluster.cycle())) {
       report::startup::StartupDiagram startup(names, result.cluster.cycle(), window->first, window->second);

@@ -11,6 +11,7 @@
 #include "drives/played_recording.h"
 #include "drives/scenario.h"
 #include "evaluation/accuracy/drive_measures.h"
+#include "evaluation/accuracy/service_account.h"
 #include "evaluation/cluster/startup_account.h"
 #include "evaluation/faults/fault_account.h"
 #include "evaluation/lateness/lateness_account.h"
@@ -28,14 +29,21 @@ struct StrategyResult {
   evaluation::faults::FaultFindings faults;
   std::vector<NodeId> fault_free;                                   // until the end; nodes on FlexRay only
   std::optional<evaluation::lateness::RealTimeFindings> real_time;  // only for a drive in real time
+  evaluation::accuracy::ServiceFindings service;                    // likewise
   std::optional<drives::RecordingUse> recording;                    // only for a drive that plays one
   bool made_track = false;                                          // only told for such a drive
   std::string log_path;
   std::string content_hash;
 };
 
-// Returns the comparison table, with one column per strategy.
+// A scenario that was driven with some strategies.
+struct ScenarioResults {
+  std::string name;
+  std::vector<StrategyResult> results;
+};
+// Returns the comparison table, with one column per strategy. Several scenarios stand side by side.
 std::string comparison_table(const std::vector<StrategyResult>& results);
+std::string comparison_table(const std::vector<ScenarioResults>& scenarios);
 nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t seed,
                                const std::vector<StrategyResult>& results);
 // Returns all files that write_pictures() may write for this strategy.

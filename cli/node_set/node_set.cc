@@ -26,7 +26,6 @@ namespace ttf::cli::node_set {
 namespace {
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-constexpr Range<std::int64_t> kDurations_ns{kNsPerSecond / 10, 3600 * kNsPerSecond};  // same as in a scenario
 constexpr std::size_t kLongestHost = 255;
 constexpr Range<std::int64_t> kStarts_ns{0, 4'102'444'800 * kNsPerSecond};  // to the end of 2099
 
@@ -58,14 +57,6 @@ reference: {{}}
                                 "default_scene.yaml");
 }
 
-void set_duration(drives::Scenario& scenario, const std::string& name, const std::string& text) {
-  const std::string unit =
-      fmt::format(" s ({} is evaluated from {} s on)", name, scaled_text(scenario.evaluate_from.ns, kNsPerSecond));
-  const Range<std::int64_t> allowed{std::max(kDurations_ns.low, scenario.evaluate_from.ns), kDurations_ns.high};
-  scenario.duration = scenario.world.duration =
-      Duration{decimal_option("--duration", text, kNsPerSecond, allowed, unit)};
-}
-
 // Checks the name as a session on DDS, whatever the bus.
 std::string session_option(const std::string& name) {
   bus::dds::common::Session session;
@@ -92,12 +83,17 @@ std::string host_option(const std::string& host) {
   return host;
 }
 
+// --duration 0: the drive goes on until it is stopped.
+bool is_zero(const std::string& duration) { return parse_scaled(duration, kNsPerSecond) == 0; }
+
 // Refuses options of real time in virtual time.
 void refuse_other_time(const NodeSetArguments& arguments, const live_media::Bus& bus) {
   const auto refuse = [](const char* option, const std::string& value, std::string_view why) {
     throw InputError({"command line", 0, option, value, fmt::format("must {}", why)});
   };
   if (!arguments.virtual_time) return;
+  if (arguments.duration && is_zero(*arguments.duration))
+    refuse("--duration", *arguments.duration, "not be 0 with --virtual-time, which nobody needs to stop");
   if (arguments.time_scale)
     refuse("--time-scale", *arguments.time_scale, "not be given with --virtual-time, which runs as fast as it can");
   if (arguments.start_at)
@@ -149,7 +145,8 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
                    "Drive in virtual time, as fast as possible, instead of in real time");
   command.add_flag("--no-topics", arguments.no_topics, "Publish nothing for ROS 2 (docs/ros.md) in real time");
   command.add_option("--time-scale", arguments.time_scale, "Stretch the schedule in real time, 0.1..1000");
-  command.add_option("--duration", arguments.duration, "Seconds to drive, instead of the scenario's");
+  command.add_option("--duration", arguments.duration,
+                     "Seconds to drive, instead of the scenario's; 0: until it is stopped, an hour at most");
 }
 
 NodeSet read_node_set(const NodeSetArguments& arguments) {
@@ -180,7 +177,11 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
     throw InputError({set.file, 0, "clusters", set.cluster.file,
                       "must be a cluster with sensors; recordings are for `ttfusion run --input`"});
   set.seed = arguments.seed ? drive::seed_of(*arguments.seed) : set.scenario.seed;
-  if (arguments.duration) set_duration(set.scenario, drive, *arguments.duration);
+  set.until_stopped = arguments.duration && is_zero(*arguments.duration);
+  if (set.until_stopped)
+    set.scenario.duration = set.scenario.world.duration = drive::kLongestDrive;
+  else if (arguments.duration)
+    drive::set_duration(set.scenario, drive, *arguments.duration);
   drives::check_fits(set.scenario, set.cluster, set.strategy, false);
   set.can_interfaces = can_interfaces(set.cluster, set.bus, arguments.cans);
   if (!set.virtual_time) check_fit_for_real_time(set);

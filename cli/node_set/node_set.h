@@ -37,6 +37,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments);
 struct NodeSet {
   std::string file;                   // scenario or cluster, as given
   drives::Scenario scenario;          // with the given duration
+  bool until_stopped = false;         // has the longest duration: a signal is the usual end; in real time only
   schedules::model::Cluster cluster;  // the strategy's, checked
   fusion::strategies::StrategyKind strategy{};
   std::uint64_t seed = 0;

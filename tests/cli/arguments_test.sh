@@ -22,8 +22,9 @@ for arguments in '' --help; do
   # shellcheck disable=SC2086
   expect 0 '^  schedule +Validate, draw' $arguments
 done
+[[ $("$program" -V) == "$("$program" --version)" && -n $("$program" -V) ]] || fail "-V is not --version"
 [[ -z $("$program" 2>&1 >/dev/null) ]] || fail "the help that no argument prints is an error"
-one_sentence 'scenario: must be given to `ttfusion run`: Scenario file, or a shipped one'"'"'s name' run
+one_sentence 'scenario: must be given to `ttfusion run`: Scenario file or a shipped one'"'"'s name, or several to compare' run
 one_sentence 'ttfusion schedule: must be followed by check, show or export' schedule
 commands='run, diagram, export, schedule, experiment, keys, launch, node, report, track or manual'
 one_sentence "foo: is no command of \`ttfusion\`: must be $commands" foo --help
@@ -33,7 +34,7 @@ one_sentence '--fast: is no option of `ttfusion run`, whose --help lists them' r
 one_sentence '-s: is no option of `ttfusion run`, whose --help lists them' run "$paper" -s
 one_sentence '--startegy: is no option of `ttfusion run`: did you mean --strategy?' run "$paper" --startegy tt
 one_sentence '--fromat: is no option of `ttfusion export`: did you mean --format?' export x.mcap --fromat=csv -o x.csv
-one_sentence 'x.yaml: is one argument too many for `ttfusion run`' run "$paper" x.yaml
+one_sentence 'x.yaml: is one argument too many for `ttfusion launch`' launch "$paper" x.yaml
 one_sentence '--seed: must have a value: Seed of every random stream, instead of the scenario'"'s" run "$paper" --seed
 one_sentence '--seed: must be given once' run "$paper" --seed 1 --seed 2
 one_sentence '--json = maybe: must have no value' run "$paper" --json=maybe
@@ -124,6 +125,27 @@ done
 other_kind 'a DBC file' 'a cluster' schedule check "$dbc"
 other_kind 'a DBC file' 'a FIBEX file' schedule export --format yaml "$dbc"
 other_kind 'a cluster' 'a FIBEX file' schedule export --format yaml "$cluster"
+# A log and a capture are told by their first bytes.
+log=$work/run/tt.mcap
+expect 0 '' run "$paper" --strategy tt --no-pictures --duration 1.6 --out "$work/run"
+expect 0 '' export "$log" --format pcapng -o "$work/run.pcapng"
+for file in "$log" "$work/run.pcapng"; do
+  kind=$([[ $file == "$log" ]] && echo a log || echo a capture)
+  other_kind "$kind" 'a scenario' run "$file"
+  other_kind "$kind" 'a cluster' schedule check "$file"
+  other_kind "$kind" 'an experiment' experiment "$file"
+  other_kind "$kind" 'a recording' track "$file"
+done
+other_kind 'a log' 'a capture' schedule check "$cluster" --against "$log"
+other_kind 'a cluster' 'a capture' schedule check "$cluster" --against "$cluster"
+other_kind 'a log' 'a folder of results' report -o x.html "$log"
+expect 2 "; \`ttfusion report $work/run\` takes its folder$" report "$log" -o x.html
+for file in "$paper" "$cluster" "$work/run.pcapng" "$fibex"; do
+  kind=$(case $file in "$paper") echo a scenario ;; "$cluster") echo a cluster ;; "$fibex") echo a FIBEX file ;; *) echo a capture ;; esac)
+  other_kind "$kind" 'a log' diagram -o x.svg "$file"
+  other_kind "$kind" 'a log' export --format csv -o x.csv "$file"
+  other_kind "$kind" 'a folder of results' report -o x.html "$file"
+done
 sed "s#paper_synchronised.yaml#paper_synchronised.dbc#" "$paper" >"$work/scenarios/mixed.yaml"
 expect 2 '^error: .*/paper_synchronised.dbc: this is a DBC file, not a cluster; ' run "$work/scenarios/mixed.yaml" --strategy tt
 sed "s#paper_synchronised.yaml#../scenarios/paper_scenario2.yaml#" "$paper" >"$work/scenarios/mixed.yaml"

@@ -68,6 +68,33 @@ done
   python3 -c 'import json,sys; s=json.load(sys.stdin)["strategies"][0]; assert s["rmse_truth"]["position_m"] < 0.5, s; assert s["precision_us"] > 0' ||
   fail "--json is not the documented JSON"
 
+# Another duration, as for a launch. The drive's own one changes nothing.
+expect 2 "--duration = 1: must be a decimal number 1.5..3600 s \(.*paper_scenario1.yaml is evaluated from 1.5 s on\)" \
+  run "$source/scenarios/paper_scenario1.yaml" --duration 1
+short=(run "$source/scenarios/paper_scenario2.yaml" --strategy tt --no-pictures)
+expect 0 'paper_scenario2: 1.6 s with tt' "${short[@]}" --duration 1.6 --out "$work/short"
+grep -q '"duration_s": 1.6' "$work/short/summary.json" || fail "the summary has another duration than the drive"
+expect 0 'paper_scenario2: 3 s with tt' "${short[@]}" --duration 3 --seed 3 --out "$work/whole"
+cmp -s "$work/a/tt.mcap" "$work/whole/tt.mcap" || fail "a given duration that is the scenario's makes another log"
+
+# Several scenarios: folders of their own, one table, the results of each by itself.
+both=("$source/scenarios/paper_scenario1.yaml" "$source/scenarios/paper_scenario2.yaml")
+expect 0 '^ +paper_scenario1 +paper_scenario2$' run "${both[@]}" --strategy tt --no-pictures --seed 3 --out "$work/both"
+says '^measure +tt +tt$' '^paper_scenario1: A car ahead' "^wrote $work/both/paper_scenario1$" "^wrote $work/both/paper_scenario2$"
+cmp -s "$work/a/tt.mcap" "$work/both/paper_scenario2/tt.mcap" || fail "a scenario beside another one has another log"
+"$program" run "${both[@]}" --no-log --json --duration 1.6 --out "$work/all" 2>/dev/null | python3 -c 'import json, sys
+told = json.load(sys.stdin)
+assert [one["scenario"] for one in told] == ["paper_scenario1", "paper_scenario2"], told
+assert [len(one["strategies"]) for one in told] == [3, 3]' || fail "--json of two scenarios is no list of both"
+expect 0 '' run "${both[@]}" --no-log --duration 1.6 --out "$work/all"
+awk 'length > 100' <<<"$output" | grep -v '^paper_scenario' && fail "a table of two scenarios is wider than 100 columns"
+[[ $(grep -c '^measure ' <<<"$output") -eq 2 ]] || fail "two scenarios with three strategies are not two blocks"
+expect 2 'paper_scenario1.yaml: name = paper_scenario1: must differ from that of .*paper_scenario1.yaml: each has a folder' \
+  run "${both[0]}" "${both[0]}" --out "$work/none"
+expect 2 '--input = x.txt: goes with one scenario' run "${both[@]}" --input x.txt --out "$work/none"
+expect 2 'absent.yaml: cannot be read' run "${both[0]}" "$work/absent.yaml" --out "$work/none"
+[[ ! -e $work/none ]] || fail "a set of scenarios that is refused leaves a folder behind"
+
 # Without a comparison (judgement starts after the end) there is a dash and a null, instead of a perfect zero.
 sed -e 's/^evaluate_from: .*/evaluate_from: 3 s/' \
   "$source/scenarios/paper_scenario1.yaml" >"$work/scenarios/unjudged.yaml"
