@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <set>
 
 #include "core/counted.h"
+#include "core/decimal.h"
 #include "recording/exports/lateness_sums.h"
 #include "recording/records/tee.h"
 #include "report/drive/scenario_words.h"
@@ -126,6 +128,10 @@ void made(page::Page& page, const std::vector<ToldDrive>& drives) {
         "ttfusion {} {} --strategy {} --seed {}", manifest.clock.empty() ? "run" : "launch",
         page::shell_word("scenarios/" + (words.file.empty() ? manifest.scenario_name + ".yaml" : words.file)),
         page::shell_word(manifest.strategy), manifest.seed);
+    constexpr std::int64_t kNsPerSecond = 1'000'000'000, kPpm = 1'000'000;
+    if (told.drive->duration && *told.drive->duration != words.duration)
+      command += " --duration " + scaled_text(told.drive->duration->ns, kNsPerSecond);
+    if (manifest.time_scale_ppm != kPpm) command += " --time-scale " + scaled_text(manifest.time_scale_ppm, kPpm);
     if (!manifest.recording_name.empty()) command += " --input " + page::shell_word(manifest.recording_name);
     if (commands.insert(command).second) order.push_back(command);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -25,6 +26,14 @@ std::string word_at(const Json& object, const char* key) {
 std::uint64_t count_at(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+}
+
+std::optional<Duration> seconds_at(const Json& object, const char* key) {
+  constexpr double kMost = 1e9;
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number()) return std::nullopt;
+  const double seconds = found->get<double>();
+  return seconds >= 0 && seconds <= kMost ? std::optional(Duration{std::llround(seconds * 1e9)}) : std::nullopt;
 }
 
 // Looks for a log beside its summary, because the folder may have been moved.
@@ -74,6 +83,7 @@ ResultsFolder parse_summary(std::string_view text, const std::string& file) {
     drive.strategy = word_at(one, "strategy");
     drive.log_name = fs::path(word_at(one, "log")).filename().string();
     drive.seed = count_at(folder.summary, "seed");
+    drive.duration = seconds_at(folder.summary, "duration_s");
     drive.summary = one;
     folder.drives.push_back(std::move(drive));
   }

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/time.h"
 #include "recording/merge/merge.h"
 
 namespace ttf::report::drive {
@@ -22,6 +24,7 @@ struct Drive {
   std::string log_name;  // the log's name in the folder; "" without a log
   std::string label;     // distinguishes it from other drives on the page
   std::uint64_t seed = 0;
+  std::optional<Duration> duration;                         // by the folder's summary
   nlohmann::ordered_json summary;                           // its part of summary.json; null without one
   std::shared_ptr<const recording::merge::MergedLogs> log;  // null if no log was kept
 };

@@ -16,6 +16,7 @@ ScenarioWords scenario_in(const recording::merge::MergedLogs& log) {
       words.description = root.text_or("description", "");
       const Duration from =
           root.duration_or("evaluate_from", Duration{}, {Duration{}, Duration::milliseconds(100'000'000)});
+      words.duration = root.duration_or("duration", Duration{}, {Duration{}, Duration::milliseconds(100'000'000)});
       words.judged_from = TrueTime{from.ns};
       words.file = attachment.name;
       words.text = attachment.bytes;

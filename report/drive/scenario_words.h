@@ -11,6 +11,7 @@ namespace ttf::report::drive {
 struct ScenarioWords {
   std::string description, file, text;
   TrueTime judged_from{};
+  Duration duration{};  // by the file; a drive may be given another one
 };
 
 // Returns empty words if the log has no scenario, or a damaged one.
