@@ -20,6 +20,7 @@
 #include "cli/launch/launch_plan.h"
 #include "cli/launch/launch_result.h"
 #include "cli/launch/launch_virtual.h"
+#include "cli/launch/verdict.h"
 #include "cli/output.h"
 #include "cli/supervision/folder_lock.h"
 #include "cli/supervision/launch_folder.h"
@@ -43,11 +44,12 @@ std::vector<std::string> command_line() {
 
 // Prints and writes the drive's results, from the logs of the nodes that reached its end.
 void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& result, const std::optional<DriveEnd>& end,
-                 const LaunchArguments& arguments) {
+                 const std::optional<Verdict>& verdict, const LaunchArguments& arguments) {
   const std::vector<drive::StrategyResult> results{result};
   if (!arguments.no_pictures) write_pictures(set.scenario, results, set.folder);
   nlohmann::ordered_json json = to_json(set.scenario, set.seed, results);
   if (end) json[kNotInOperation] = end->json();
+  if (verdict) json["verdict"] = verdict->json();
   write_file(fmt::format("{}/{}", set.folder, kSummary), json.dump(2) + '\n');
   if (arguments.json) {
     fmt::print("{}\n", json.dump(2));
@@ -57,6 +59,7 @@ void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& resu
              comparison_table(results), real_time_text(result));
   if (!set.scenario.faults.empty())
     fmt::print("\n{}", drive::faults_text(name_of(set.strategy), result.faults, result.fault_free, set.cluster));
+  if (verdict) fmt::print("verdict: {}\n", verdict->sentence);
 }
 
 // Reports nodes out of operation at the end and an empty comparison, in a sentence each. Returns the exit
@@ -106,6 +109,7 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   supervision::SupervisorConfig config;
   config.nodes = std::move(plan.nodes);
   config.screen = STDERR_FILENO;
+  config.stop_is_success = plan.set.until_stopped;
   config.folder = &folder;
   std::optional<supervision::Supervisor> supervisor(std::in_place, std::move(config), watch.around(drive.hooks()));
   const int exit_code = supervisor->run().exit_code;
@@ -113,11 +117,16 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   supervisor.reset();
   held_back.reset();  // from here on, signals interrupt again
   print_warnings(drive.warnings());
+  plan.set.scenario.duration = drive.driven();  // the drive is judged to its real end
   const std::optional<drive::StrategyResult> result = drive.result(folder.logs());
   const drive::StrategyResult* const told = result ? &*result : nullptr;
   std::optional<DriveEnd> end;
   if (watch.begun()) end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, told)));
-  if (result) tell_result(plan.set, *result, end, arguments);
+  std::optional<Verdict> verdict;
+  if (result && result->real_time)
+    verdict = verdict_of({&plan.set.cluster, &*result->real_time, result->service, health.restarts(),
+                          end ? end->sentence() : std::string()});
+  if (result) tell_result(plan.set, *result, end, verdict, arguments);
   std::fflush(stdout);  // both streams may share one file
   const int code = end ? tell_end(plan.set, *end, told, exit_code, folder) : exit_code;
   say_written(plan.set.folder);

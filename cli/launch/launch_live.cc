@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
 
@@ -50,12 +52,33 @@ supervision::Hooks LiveLaunch::hooks() {
     for (const nlohmann::json& sentence : facts["not_granted"])
       if (sentence.is_string()) not_granted_[sentence.get<std::string>()].insert(node);
   };
+  hooks.status = [this] {
+    const Duration far = so_far();
+    if (set_.until_stopped) return fmt::format("{:.0f} s", far.seconds());
+    return fmt::format("{:.0f} of {:g} s", far.seconds(), set_.scenario.duration.seconds());
+  };
   hooks.on_done = [this](std::size_t, const nlohmann::json& facts) {
+    if (!first_done_) first_done_ = bus::ports::host_now();
     if (!facts.is_object() || !facts.contains("counts"))
       throw std::runtime_error("the outcome of a node has no counts");
     node_set::add_counts(outcome_.counts, facts["counts"]);
   };
   return hooks;
+}
+
+// In the drive's time, which the machine's is a stretch of.
+Duration LiveLaunch::so_far() const {
+  if (!origin_) return {};
+  const Duration real = first_done_.value_or(bus::ports::host_now()) - *origin_;
+  const double drive_s = real.seconds() * 1e6 / static_cast<double>(set_.time_scale_ppm);
+  return std::clamp(Duration{static_cast<std::int64_t>(drive_s * 1e9)}, Duration{}, set_.scenario.duration);
+}
+
+// Nodes end some milliseconds apart, by clocks of their own.
+Duration LiveLaunch::driven() const {
+  constexpr Duration kApart = Duration::milliseconds(100);
+  const Duration far = so_far();
+  return far + kApart < set_.scenario.duration ? far : set_.scenario.duration;
 }
 
 std::vector<std::string> LiveLaunch::states_at_end(const supervision::HealthTable& health,

@@ -1,6 +1,7 @@
 // A launch in real time: the common instant of the begin, and the merge of the logs.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,15 +24,19 @@ class LiveLaunch {
   // Merges the nodes' logs and the truth into STRATEGY.mcap in the folder and judges the drive. An unreadable
   // log is left out with a warning; without any readable log there is no value.
   std::optional<drive::StrategyResult> result(const std::vector<std::string>& logs) const;
+  // Returns how long the drive went on: less than its duration if it was stopped.
+  Duration driven() const;
   // Returns the last reported states of the nodes' controllers; empty off FlexRay.
   std::vector<std::string> states_at_end(const supervision::HealthTable& health, const drive::StrategyResult*) const;
   // Returns the privileges that the kernel refused, each sentence once with the number of processes.
   std::vector<std::string> warnings() const;
 
  private:
+  Duration so_far() const;
+
   const node_set::NodeSet& set_;
   std::map<std::string, std::set<std::size_t>> not_granted_;  // nodes by sentence
-  std::optional<bus::ports::MachineTime> origin_;
+  std::optional<bus::ports::MachineTime> origin_, first_done_;
   drives::DriveOutcome outcome_;
 };
 

@@ -5,9 +5,12 @@
 #include <utility>
 
 #include "cli/drive/drive_setup.h"
+#include "cli/drive_progress.h"
+#include "cli/launch/verdict.h"
 #include "cli/output.h"
 #include "core/errors.h"
-#include "drives/step_catalog.h"
+#include "drives/drive.h"
+#include "evaluation/accuracy/service_account.h"
 #include "evaluation/lateness/lateness_account.h"
 #include "recording/log/content_hash.h"
 #include "recording/merge/merge.h"
@@ -41,13 +44,17 @@ drive::StrategyResult merged_result(const node_set::NodeSet& set, const std::vec
   result.content_hash = recording::log::ContentHash::text(merged.content_hash().value());
   drive::DriveJudge judge(set.scenario, set.cluster);
   evaluation::lateness::LatenessAccount lateness(set.cluster, evaluation::lateness::real_time_drive(merged));
+  evaluation::accuracy::ServiceAccount service(drives::evaluation_start(set.scenario),
+                                               promised_ages(set.cluster, set.strategy));
   std::vector<recording::records::Sink*> sinks = judge.sinks();
   sinks.push_back(&lateness);
+  sinks.push_back(&service);
   sinks.insert(sinks.end(), others.begin(), others.end());
   recording::records::Tee tee(std::move(sinks));
-  merged.read(tee);
+  read_shown(merged, tee);
   judge.finish(result);
   result.real_time = lateness.finish();
+  result.service = service.finish(drives::drive_end(set.scenario));
   return result;
 }
 

@@ -21,6 +21,7 @@ class VirtualLaunch {
   // Merges the nodes' logs into STRATEGY.mcap in the folder and judges the drive. An unreadable log is left
   // out with a warning; without any readable log there is no value.
   std::optional<drive::StrategyResult> result(const std::vector<std::string>& logs) const;
+  Duration driven() const { return set_.scenario.duration; }
   // Returns the states of the nodes' controllers from the records alone; empty off FlexRay, and without records.
   std::vector<std::string> states_at_end(const supervision::HealthTable&, const drive::StrategyResult* result) const;
   std::vector<std::string> warnings() const { return {}; }

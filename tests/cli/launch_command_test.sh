@@ -33,6 +33,7 @@ for command in launch "node fusion"; do
       expect 2 "--duration = $duration: must be a decimal number 1.5..3600 s \(.*paper_scenario1.yaml is evaluated from 1.5 s on\)" \
         $command "$drive" --duration "$duration"
     done
+    expect 2 '--duration = 0: must not be 0 with --virtual-time' $command "$drive" --duration 0 --virtual-time
     expect 2 '--duration = 1: must be a decimal number 1.5..3600 s \(the default scene is evaluated from' $command \
       "$cluster" --duration 1
     expect 2 '--bus = socketcan:sixteen_letters_: must be dds, or .* \(each 1..15 characters' $command "$drive" \
@@ -58,6 +59,7 @@ done
 for strategy in buff adva tt; do
   expect 0 'node right_laser' launch "$source/scenarios/two_lasers.yaml" --strategy $strategy --dry-run
 done
+expect 0 'node fusion .* --duration 3600 ' launch "$drive" --duration 0 --dry-run
 # In real time: the cluster's requirements at the time scale; no faults.
 edited() \
   { sed "$1" "$cluster" >"$work/edited.yaml"; cmp -s "$cluster" "$work/edited.yaml" && fail "'$1' changes nothing"; }

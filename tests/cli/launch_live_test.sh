@@ -38,6 +38,8 @@ for strategy in tt buff adva; do
   folder=$work/$strategy
   grep -q 'lateness \[us\], in real time' "$folder.out" || fail "$strategy: no table of lateness: $(cat "$folder.out")"
   grep -q 'cut off' "$folder.err" && fail "$strategy: a log is not complete: $(cat "$folder.err")"
+  grep -Eq '^verdict: .*(used image|no image was used)' "$folder.out" || fail "$strategy: no verdict: $(cat "$folder.out")"
+  grep -Eq 'launch +\| [0-9]+ of 1.6 s: [0-7] of 7 nodes up' "$folder/launch.log" || fail "$strategy: no word while it runs"
   facts "$folder"
   "$log_facts" "$folder/$strategy.mcap" >"$folder.merged.json" || fail "$strategy.mcap cannot be read"
   check "$strategy: what a launch leaves is another" '
@@ -66,6 +68,7 @@ assert len(real_time["precision_us"]) == 1 and real_time["precision_us"][0]["cou
 # At any lateness, clocks are synchronised: otherwise the drive of 1.6 s would drift them apart by 2 ms.
 assert real_time["precision_us"][0]["p50"] < 200, real_time["precision_us"]
 manifest = read(folder + "/manifest.json")
+assert summary["verdict"]["sentence"] and isinstance(summary["verdict"]["matters"], bool), summary["verdict"]
 assert manifest["exit_code"] == 0 and manifest["virtual_time"] is False and manifest["time_scale"] == 5, manifest' \
     "$folder" "$strategy"
 done
@@ -115,6 +118,8 @@ begin "$work/interrupted" "$drive" --time-scale 4 --duration 600
 interrupted=$!
 begin "$work/required" "$drive" --time-scale 4 --duration 600
 required=$!
+begin "$work/unending" "$drive" --time-scale 2 --duration 0
+unending=$!
 wait_begun "$work/interrupted"
 sleep 1.2
 kill -INT "$interrupted"
@@ -130,6 +135,14 @@ assert all(log["whole"] for log in facts["logs"]) and facts["corrections"] and n
 assert manifest["state"] == "ended" and manifest["exit_code"] == 130, manifest
 assert [process["exit"] for node in manifest["nodes"] for process in node["processes"]] == [0] * 7, manifest["nodes"]' \
   "$work/interrupted"
+wait_begun "$work/unending"
+sleep 2.5
+kill -INT "$unending"
+wait "$unending" || fail "a launch that goes on until it is stopped exits with $?: $(cat "$work/unending.err")"
+check "a launch that was stopped is not judged to its end" '
+summary, manifest = read(sys.argv[1] + "/summary.json"), read(sys.argv[1] + "/manifest.json")
+assert 0.5 < summary["duration_s"] < 60 and manifest["exit_code"] == 0, (summary["duration_s"], manifest["exit_code"])
+assert manifest["why"] == "interrupted (SIGINT)", manifest["why"]' "$work/unending"
 wait_begun "$work/required"
 pids_of "$work/required"
 kill -9 "${pid[fusion]}"
@@ -172,6 +185,7 @@ for one in "${by_hand[@]}"; do wait "$one" || fail "a node that is started by ha
 grep -qx "a launch's" "$work/hand/gateway.mcap" || fail "a node that is started by hand writes over another log"
 grep -q "gateway.mcap exists already: this log is .*/gateway.2.mcap" "$work/hand.gateway.err" ||
   fail "nobody says where the gateway's log is: $(cat "$work/hand.gateway.err")"
+grep -q "^wrote .*/gateway.2.mcap$" "$work/hand.gateway.err" || fail "nobody says that the gateway's log is written"
 mv "$work/hand/gateway.2.mcap" "$work/hand/gateway.mcap"
 facts "$work/hand"
 check "nodes that are started by hand do not drive together" '
