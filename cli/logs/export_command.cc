@@ -87,8 +87,8 @@ int export_tables(const ExportOptions& options) {
 int run_export(const ExportOptions& options) {
   if (options.format == "gnuplot") return export_for_papers(options);
   if (options.format == "markdown") return export_tables(options);
-  for (const std::string& log : log_files(options.logs)) refuse_overwriting(log, options.out, "--out");
   refuse_other_format(options.out, options.format, kFormatEnds);
+  for (const std::string& log : log_files(options.logs)) refuse_overwriting(log, options.out, "--out");
   const recording::merge::MergedLogs drive = drive_in(options.logs);
   if (options.format == "perfetto") return export_perfetto(options, drive);
   recording::exports::FrameCollector collector;

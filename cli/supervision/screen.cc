@@ -80,6 +80,11 @@ void Screen::write_some() {
   }
 }
 
+bool moves_cursor(int fd) {
+  const char* const kind = std::getenv("TERM");
+  return isatty(fd) != 0 && (kind == nullptr || std::string_view(kind) != "dumb");
+}
+
 TerminalSize terminal_size(int fd) {
   winsize told{};
   TerminalSize size;

@@ -45,6 +45,9 @@ class Screen {
   std::size_t drawn_ = 0;  // lines of the status at the end of the queue's text
 };
 
+// Returns whether `fd` is a terminal that moves its cursor: TERM is not "dumb".
+bool moves_cursor(int fd);
+
 struct TerminalSize {
   std::size_t columns = 80, rows = 24;  // where the terminal does not say
 };

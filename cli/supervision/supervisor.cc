@@ -35,7 +35,7 @@ Supervisor::Supervisor(SupervisorConfig config, Hooks hooks)
     : config_(std::move(config)), hooks_(std::move(hooks)),
       screen_(config_.screen, config_.folder != nullptr ? config_.folder->open_launch_log() : Descriptor()),
       colour_(config_.screen >= 0 && colour_wanted(config_.screen)),
-      terminal_(config_.screen >= 0 && isatty(config_.screen) != 0), began_(std::chrono::steady_clock::now()),
+      terminal_(config_.screen >= 0 && moves_cursor(config_.screen)), began_(std::chrono::steady_clock::now()),
       name_width_(shown_width("launch")), health_(names_of(config_.nodes)), stop_order_(config_.grace) {
   for (NodeSpec& spec : config_.nodes) {
     nodes_.push_back(std::make_unique<Node>(nodes_.size(), std::move(spec), config_.restart));

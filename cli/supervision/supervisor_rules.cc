@@ -77,6 +77,7 @@ void Supervisor::ended(Node& node, const Ending& ending, const std::string& why)
   if (bad && ending.success()) what += ", before it was ready";
   record([&] { config_.folder->process_ended(node.index, ending, std::chrono::system_clock::now(), why); });
   health_.end_process(node.index, what, ending.success());
+  if (terminal_ && status_at_) show_status();
   const bool comes_back =
       bad && node.spec.policy == Policy::kRestart && !stop_order_.begun() && restart_later(node, what);
   if (!comes_back) {

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -12,6 +14,7 @@
 #include "cli/drive/drive_setup.h"
 #include "cli/logs/scan_verdict.h"
 #include "cli/output.h"
+#include "cli/progress.h"
 #include "cli/track/scan_lists.h"
 #include "cli/track/scan_picture.h"
 #include "cli/track/track_judge.h"
@@ -127,6 +130,10 @@ void judge_scans(const nodes::laser::LaserPreprocessingConfig& how, TrackResult&
   result.verdict.reasons.insert(result.verdict.reasons.end(), reasons.begin(), reasons.end());
 }
 
+std::uint64_t seconds_between(GlobalTime from, GlobalTime to) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, (to - from).ns) / 1'000'000'000);
+}
+
 int run_track(const TrackOptions& options) {
   check_options(options);
   const replay::SensorSetup usual = usual_sensor(options.format == "laser_radar");
@@ -180,8 +187,13 @@ int run_track(const TrackOptions& options) {
   TrackLives lives;
   std::optional<ScanPicture> picture;
   if (!options.picture.empty()) picture.emplace(input.scans[drawn_scan(options, input.scans.size())], scanner);
+  std::optional<Progress> progress(std::in_place, "s of the recording");
+  const GlobalTime first = recorded.lists.empty() ? GlobalTime{} : recorded.lists.front().arrival;
+  const std::uint64_t whole = recorded.lists.empty() ? 0 : seconds_between(first, recorded.lists.back().arrival);
   result.account =
       replay::replay(recorded, setup, [&](GlobalTime known, std::span<const fusion::tracks::TrackView> views) {
+        const std::uint64_t done = seconds_between(first, known);
+        (*progress)(done, whole, done);
         judge.take(known, views);
         if (of_scans) lives.take(views);
         if (picture) picture->take(views);
@@ -189,6 +201,7 @@ int run_track(const TrackOptions& options) {
           tracks += recording::rows::track_line(replay::track_row_of(view, known, recorded.classes));
       });
 
+  progress.reset();
   result.accuracy = judge.finish();
   result.verdict = replay::judge(rows, row_counts(recorded, result.scans, findings), recorded, setup, result.account);
   if (of_scans) {

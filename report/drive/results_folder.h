@@ -24,9 +24,9 @@ struct Drive {
   std::string log_name;  // the log's name in the folder; "" without a log
   std::string label;     // distinguishes it from other drives on the page
   std::uint64_t seed = 0;
-  std::optional<Duration> duration;                         // by the folder's summary
   nlohmann::ordered_json summary;                           // its part of summary.json; null without one
   std::shared_ptr<const recording::merge::MergedLogs> log;  // null if no log was kept
+  std::optional<Duration> duration{};                       // by the folder's summary
 };
 
 struct ResultsFolder {

@@ -7,7 +7,7 @@ source=$2
 source "$(dirname "$0")/expect.sh"
 source "$(dirname "$0")/shipped.sh"
 
-expect 0 "Example: ttfusion run" run --help
+expect 0 "Examples: ttfusion run" run --help
 expect 2 "nothing.yaml: cannot be read" run "$work/nothing.yaml"
 
 for seed in 12x 010x 4611686018427387905 99999999999999999999999; do

@@ -35,7 +35,8 @@ while IFS= read -r sentence; do
 done < <(grep '^|' "$page" | grep -o '"[^"]*"' | tr -d '"')
 [[ $quoted -ge 11 ]] || { echo "FAILED: only $quoted sentences are quoted"; exit 1; }
 
-# And `run` prints when each node became active.
+# And `run` prints when each node became active. Words that do not fit are below their row.
+sed -i -e ':all' -e 'N' -e '$!ball' -e 's/\n    / /g' words
 for line in 'fusion .* 6 .*normal active: another coldstart node' 'feature .* 7 .*along with others for three cycles' \
   'camera .* 8 .*two pairs of startup frames'; do
   grep -Eq -- "^$line" words || { echo "FAILED: run does not say '$line'"; cat words; exit 1; }

@@ -83,7 +83,7 @@ cars=(track "$work/cars.csv" --noise lidar:position=0.3 --noise radar:position=0
 delays=(--delay lidar=5ms..60ms --delay "radar=0.02s..150 ms")
 last() { tail -3 "$1" | cut -d, -f1,4- | sort; }   # states of the last instant, without names and without when it was known
 expect 0 '^3 tracks by adva, ' "${cars[@]}" -o "$work/in_order.csv"
-expect 0 'longest delay' "${cars[@]}" "${delays[@]}" --seed 7 -o "$work/a.csv"
+expect 0 'delay \[ms\]' "${cars[@]}" "${delays[@]}" --seed 7 -o "$work/a.csv"
 expect 0 '' "${cars[@]}" "${delays[@]}" --seed 7 -o "$work/b.csv"
 expect 0 '' "${cars[@]}" "${delays[@]}" --seed 8 -o "$work/c.csv"
 cmp -s "$work/a.csv" "$work/b.csv" || fail "the same seed gives other bytes"

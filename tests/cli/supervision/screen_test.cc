@@ -114,6 +114,17 @@ TEST(Screen, KeepsTheStatusBelow) {
   EXPECT_EQ(written(), "four\n");
 }
 
+TEST(Screen, ADumbTerminalDoesNotMoveItsCursor) {
+  const Descriptor terminal(posix_openpt(O_RDWR | O_NOCTTY));
+  Pipe pipe;
+  setenv("TERM", "xterm", 1);
+  EXPECT_TRUE(moves_cursor(terminal.get()));
+  EXPECT_FALSE(moves_cursor(pipe.in.get()));
+  setenv("TERM", "dumb", 1);
+  EXPECT_FALSE(moves_cursor(terminal.get()));
+  unsetenv("TERM");
+}
+
 TEST(Screen, CutsLinesToTheTerminal) {
   EXPECT_EQ(fitted("abcdef\nab\n", {4, 24}), "abc\nab\n");
   EXPECT_EQ(fitted("\u00e4\u00f6\u00fcx\n", {4, 24}), "\u00e4\u00f6\u00fc\n");

@@ -322,6 +322,7 @@ TEST_F(Supervising, OnATerminalTheTableIsInPlace) {
   const Descriptor screen(ioctl(terminal.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY));
   ASSERT_TRUE(screen.open());
   unsetenv("NO_COLOR");
+  setenv("TERM", "xterm", 1);  // a test runner may have none, or a dumb one
   const std::string lingers = TTF_LAUNCH_CHILD " ready start 'tell:{\"health\":{\"drops\":77}}'; sleep 0.3";
   auto given = config({{"a", Policy::kRequired, {{"/bin/sh", "-c", lingers}, {}}}});
   given.screen = screen.get();

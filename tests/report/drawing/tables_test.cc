@@ -15,17 +15,6 @@ std::size_t longest_line(const std::string& text) {
   return longest;
 }
 
-TEST(Tables, AlignNumbersRightAndWordsLeft) {
-  Table table({"node", "late", "state"});
-  table.add({"a", "7", "up"});
-  table.add({"longer", "1234.5"});
-  EXPECT_EQ(table.text(),
-            "node      late  state\n"
-            "------  ------  -----\n"
-            "a            7  up\n"
-            "longer  1234.5\n");
-}
-
 TEST(Tables, AHeadOfSeveralLinesStandsOnItsRows) {
   Table table({"node", "late\nwake-ups", "state"});
   table.add({"a", "7", "up"});
