@@ -30,6 +30,10 @@ has run.html 'One drive is one draw of the noise'
 has run.html "ttfusion run scenarios/paper_scenario1.yaml --strategy tt --seed 1"
 has run.html \
   "$(python3 -c 'import json; print(json.load(open("seed1/summary.json"))["strategies"][2]["content_hash"])')"
+lacks run.html 'seed 1 --duration'
+expect 0 '' run "$source/scenarios/paper_scenario1.yaml" --strategy tt --duration 2 --no-pictures --out short
+expect 0 '' report short -o short.html
+has short.html "ttfusion run scenarios/paper_scenario1.yaml --strategy tt --seed 1 --duration 2"
 # The page loads no other files.
 lacks run.html '(src|href)="(https?:)?//|@import|url\(["'"'"']?http'
 # The same folder makes the same page.
