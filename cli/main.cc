@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <memory>
 
 #include "cli/command_line.h"
 #include "cli/commands.h"
+#include "cli/help_format.h"
 #include "cli/output.h"
 #include "cli/version.h"
 #include "core/errors.h"
@@ -26,6 +28,7 @@ int refuse(const ttf::Finding& mistake) {
 
 int main(int argc, char** argv) {
   CLI::App app{kAbout, "ttfusion"};
+  app.formatter(std::make_shared<ttf::cli::HelpFormat>());  // first: commands inherit it
   app.require_subcommand(1);
   app.set_version_flag("-V,--version", ttf::cli::version_text());
   ttf::cli::Action action;

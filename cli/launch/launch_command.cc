@@ -157,7 +157,8 @@ void add_launch(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<LaunchArguments>();
   CLI::App* command = app.add_subcommand("launch", "A drive with a process for each node, under a supervisor");
   command->footer(
-      "Example: ttfusion launch scenarios/paper_scenario1.yaml --virtual-time --policy feature=optional --dry-run");
+      "Example: ttfusion launch scenarios/paper_scenario1.yaml --virtual-time \\\n"
+      "           --policy feature=optional --dry-run");
   add_node_set_options(*command, arguments->set);
   command
       ->add_option("--policy", arguments->policies,

@@ -116,7 +116,8 @@ void add_export(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("export", "A run for Wireshark, canplayer, ui.perfetto.dev, a spreadsheet or a paper");
   command->footer(
-      "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv and perfetto.\n"
+      "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv and\n"
+      "perfetto.\n"
       "The logs of a run's processes are merged.\n"
       "Examples: ttfusion export out/drive/tt.mcap --format pcapng -o out/drive.pcapng\n"
       "          ttfusion export out/noise --format gnuplot -o out/figures\n"

@@ -248,7 +248,8 @@ void add_track(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("track", "Recorded observations through the tracker: tracks as CSV");
   command->footer(
       "Columns, in and out, and the configuration: docs/track.md.\n"
-      "Example: ttfusion track observations.csv --strategy buff --delay radar=20ms..70ms --seed 7 -o tracks.csv\n"
+      "Example: ttfusion track observations.csv --strategy buff --delay radar=20ms..70ms \\\n"
+      "           --seed 7 -o tracks.csv\n"
       "         ttfusion track scans.csv --format scans --picture street.svg -o tracks.csv");
   command->add_option("observations", options->observations, "Recorded observations")->required()->check(named());
   command->add_option("--config", options->config, "Tracker, strategy and sensors (YAML)")->check(named());
