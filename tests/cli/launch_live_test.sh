@@ -38,7 +38,7 @@ for strategy in tt buff adva; do
   folder=$work/$strategy
   grep -q 'lateness \[us\], in real time' "$folder.out" || fail "$strategy: no table of lateness: $(cat "$folder.out")"
   grep -q 'cut off' "$folder.err" && fail "$strategy: a log is not complete: $(cat "$folder.err")"
-  grep -Eq '^verdict: .*(used image|no image was used)' "$folder.out" || fail "$strategy: no verdict: $(cat "$folder.out")"
+  grep -Eq '^verdict: .*matter|^verdict: nothing was late' "$folder.out" || fail "$strategy: no verdict: $(cat "$folder.out")"
   grep -Eq 'launch +\| [0-9]+ of 1.6 s: [0-7] of 7 nodes up' "$folder/launch.log" || fail "$strategy: no word while it runs"
   facts "$folder"
   "$log_facts" "$folder/$strategy.mcap" >"$folder.merged.json" || fail "$strategy.mcap cannot be read"
@@ -118,7 +118,7 @@ begin "$work/interrupted" "$drive" --time-scale 4 --duration 600
 interrupted=$!
 begin "$work/required" "$drive" --time-scale 4 --duration 600
 required=$!
-begin "$work/unending" "$drive" --time-scale 2 --duration 0
+begin "$work/unending" "$drive" --time-scale 10 --duration 0
 unending=$!
 wait_begun "$work/interrupted"
 sleep 1.2
@@ -141,7 +141,7 @@ kill -INT "$unending"
 wait "$unending" || fail "a launch that goes on until it is stopped exits with $?: $(cat "$work/unending.err")"
 check "a launch that was stopped is not judged to its end" '
 summary, manifest = read(sys.argv[1] + "/summary.json"), read(sys.argv[1] + "/manifest.json")
-assert 0.5 < summary["duration_s"] < 60 and manifest["exit_code"] == 0, (summary["duration_s"], manifest["exit_code"])
+assert 0 < summary["duration_s"] < 60 and manifest["exit_code"] == 0, (summary["duration_s"], manifest["exit_code"])
 assert manifest["why"] == "interrupted (SIGINT)", manifest["why"]' "$work/unending"
 wait_begun "$work/required"
 pids_of "$work/required"
