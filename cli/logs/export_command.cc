@@ -9,6 +9,7 @@
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/drive_progress.h"
+#include "cli/logs/export_foxglove.h"
 #include "cli/logs/export_gnuplot.h"
 #include "cli/logs/log_inputs.h"
 #include "cli/output.h"
@@ -21,11 +22,9 @@
 namespace ttf::cli::logs {
 namespace {
 
-const std::vector<FormatEnds> kFormatEnds = {{"pcapng", {".pcapng"}},
-                                             {"candump", {".log"}},
-                                             {"csv", {".csv"}},
-                                             {"perfetto", {".pftrace"}},
-                                             {"markdown", {".md"}}};
+const std::vector<FormatEnds> kFormatEnds = {{"pcapng", {".pcapng"}}, {"candump", {".log"}},
+                                             {"csv", {".csv"}},       {"perfetto", {".pftrace"}},
+                                             {"foxglove", {".mcap"}}, {"markdown", {".md"}}};
 
 struct ExportOptions {
   std::vector<std::string> logs;
@@ -56,6 +55,29 @@ int export_perfetto(const ExportOptions& options, const recording::merge::Merged
         counts.slices, counts.instants, counts.counters, counts.flows);
   say_written(options.out, fmt::format("{}, {} and {} of measurements", counted(counts.slices, "slice"),
                                        counted(counts.instants, "instant"), counted(counts.flows, "way")));
+  return 0;
+}
+
+int export_for_viewers(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
+  const FoxgloveResult result = export_foxglove(drive, options.out);
+  print_warnings(result.warnings);
+  const recording::exports::viewer::SceneCounts& counts = result.counts;
+  if (options.json) {
+    std::string left_out;
+    for (const std::string& one : result.left_out)
+      left_out += fmt::format("{}\"{}\"", left_out.empty() ? "" : ", ", one);
+    fmt::print(
+        "{{\n  \"format\": \"foxglove\",\n  \"fields\": {},\n  \"truths\": {},\n  \"references\": {},\n"
+        "  \"observations\": {},\n  \"images\": {},\n  \"uses\": {},\n  \"ages\": {},\n  \"errors\": {},\n"
+        "  \"left_out\": [{}]\n}}\n",
+        counts.fields, counts.truths, counts.references, counts.observations, counts.images, counts.uses, counts.ages,
+        counts.errors, left_out);
+  }
+  say_written(
+      options.out,
+      fmt::format("{} of truth, {} of observations, {} and {}{}", counted(counts.truths, "instant"),
+                  counted(counts.observations, "list"), counted(counts.images, "image"), counted(counts.uses, "use"),
+                  result.left_out.empty() ? "" : "; the log has no " + joined(result.left_out, " and no ")));
   return 0;
 }
 
@@ -91,6 +113,7 @@ int run_export(const ExportOptions& options) {
   for (const std::string& log : log_files(options.logs)) refuse_overwriting(log, options.out, "--out");
   const recording::merge::MergedLogs drive = drive_in(options.logs);
   if (options.format == "perfetto") return export_perfetto(options, drive);
+  if (options.format == "foxglove") return export_for_viewers(options, drive);
   recording::exports::FrameCollector collector;
   read_shown(drive, collector);
   const recording::exports::LogNames names(drive.manifest());
@@ -113,13 +136,15 @@ int run_export(const ExportOptions& options) {
 
 void add_export(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command =
-      app.add_subcommand("export", "A run for Wireshark, canplayer, ui.perfetto.dev, a spreadsheet or a paper");
+  CLI::App* command = app.add_subcommand(
+      "export", "A run for Wireshark, canplayer, ui.perfetto.dev, Foxglove, a spreadsheet or a paper");
   command->footer(
       "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv and\n"
+      "The start of the run is 1970-01-01 in pcapng and foxglove, second 1000000000 in candump, and 0 in csv and "
       "perfetto.\n"
       "The logs of a run's processes are merged.\n"
       "Examples: ttfusion export out/drive/tt.mcap --format pcapng -o out/drive.pcapng\n"
+      "          ttfusion export out/drive/tt.mcap --format foxglove -o out/scene.mcap\n"
       "          ttfusion export out/noise --format gnuplot -o out/figures\n"
       "          ttfusion export out/noise --format markdown -o out/noise.md");
   command
@@ -131,10 +156,11 @@ void add_export(CLI::App& app, Action& action) {
       ->add_option("--format", options->format,
                    "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
                    "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
+                   "foxglove (scene and plots, for Foxglove and Lichtblick), "
                    "gnuplot (tables and scripts for papers, into a folder), "
                    "markdown (an experiment's tables, with every point)")
       ->required()
-      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "gnuplot", "markdown"}));
+      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "foxglove", "gnuplot", "markdown"}));
   command->add_option("-o,--out", options->out, "File to write; for gnuplot the folder")->required()->check(named());
   command->add_flag("--json", options->json, "Counts as JSON on standard output");
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });

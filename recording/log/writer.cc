@@ -1,45 +1,20 @@
 #include "recording/log/writer.h"
 
 #include <fmt/format.h>
-#include <google/protobuf/descriptor.pb.h>
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "core/check.h"
 #include "recording/log/behind.h"
 #include "recording/log/codec.h"
 #include "recording/log/content_hash.h"
 #include "recording/log/manifest_codec.h"
+#include "recording/mcap/protobuf_schema.h"
 #include "recording/mcap/writer.h"
 
 namespace ttf::recording::log {
 namespace {
-
-// Returns the schema of one message: a FileDescriptorSet with the message and its nested types, in the file's
-// order.
-std::string schema_of(const google::protobuf::Descriptor& message) {
-  std::set<std::string> needed;
-  const auto need = [&needed](const auto& self, const google::protobuf::Descriptor& type) -> void {
-    if (!needed.insert(type.name()).second) return;
-    for (int i = 0; i < type.field_count(); ++i)
-      if (type.field(i)->message_type() != nullptr) self(self, *type.field(i)->message_type());
-  };
-  need(need, message);
-  google::protobuf::FileDescriptorProto whole;
-  message.file()->CopyTo(&whole);
-  google::protobuf::FileDescriptorSet set;
-  auto& file = *set.add_file();
-  file.set_name(whole.name());
-  file.set_package(whole.package());
-  file.set_syntax(whole.syntax());
-  for (const auto& type : whole.message_type())
-    if (needed.count(type.name()) != 0) *file.add_message_type() = type;
-  std::string bytes;
-  TTF_CHECK(set.SerializeToString(&bytes), "schema of {}", message.full_name());
-  return bytes;
-}
 
 std::uint64_t unsigned_time(std::int64_t ns) { return static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0)); }
 
@@ -85,7 +60,7 @@ LogWriter::LogWriter(const std::string& path, const LogManifest& manifest, Writi
   records::for_each_kind([&]<class Record>() {
     const auto* type = Payload<Record>::descriptor();
     const auto id = static_cast<std::uint16_t>(records::kKindOf<Record>);
-    mcap.add_schema(id, type->full_name(), "protobuf", schema_of(*type));
+    mcap.add_schema(id, type->full_name(), "protobuf", mcap::protobuf_schema(*type));
     mcap.add_channel(id, id, records::topic_of(records::kKindOf<Record>), "protobuf");
   });
   impl_->bytes.reserve(64 * 1024);

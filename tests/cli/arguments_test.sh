@@ -80,6 +80,7 @@ other_format x.dbc .dbc fibex dbc schedule export "$source/schedules/paper_synch
 other_format x.yml .yml fibex yaml schedule export "$source/schedules/paper_synchronised.yaml"
 other_format x.csv .csv pcapng csv export x.mcap
 other_format x.pftrace .pftrace csv perfetto export x.mcap
+other_format x.csv .csv foxglove csv export x.mcap
 
 # A file of another kind is one sentence.
 other_kind() {  # KIND WANTED ARGS...: the last argument is the file

@@ -63,5 +63,19 @@ if [[ -c /dev/full ]]; then
   expect 1 '/dev/full: cannot be written: No space left' export "$work/tt.mcap" --format perfetto -o /dev/full
 fi
 
+# A scene for Foxglove, which is no log.
+expect 0 '^wrote .*/scene.mcap: [1-9][0-9]* instants of truth, [1-9][0-9]* lists of observations, [1-9][0-9]* images and [1-9][0-9]* uses$' \
+  export "$work/tt.mcap" --format foxglove -o "$work/scene.mcap"
+expect 0 '"left_out": \[\]' export "$work/tt.mcap" --format foxglove --json -o "$work/again.mcap"
+cmp -s "$work/scene.mcap" "$work/again.mcap" || fail "the same log gives another scene"
+expect 2 'scene.mcap: profile = x-ttfusion-scene: is an MCAP file, but its profile must be ttfusion' export "$work/scene.mcap" --format csv -o "$work/none.csv"
+expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format foxglove -o "$work/cut_scene.mcap"
+expect 2 '--out = .*itself.mcap: must be another file than the input' \
+  export "$work/itself.mcap" --format foxglove -o "$work/itself.mcap"
+expect 1 'absent/x.mcap: cannot be created' export "$work/tt.mcap" --format foxglove -o "$work/absent/x.mcap"
+if [[ -c /dev/full ]]; then
+  expect 1 '/dev/full: cannot be written: No space left' export "$work/tt.mcap" --format foxglove -o /dev/full
+fi
+
 [[ $failures -eq 0 ]] && echo "export command: all as documented"
 exit $((failures > 0))

@@ -30,6 +30,7 @@ expect 2 'off.txt:3: t_us = 105000: must be within 1 ms of an instant at which .
 rows 50000 100 >"$work/five_seconds.txt"
 expect 0 'laser: 50 rows, 50 lists played' "${recorded[@]}" --input "$work/five_seconds.txt" --out "$work/r"
 says 'the recording ended at 4.95 s of 25 s'
+expect 0 "wrote .*; the log has no sensors' fields$" export "$work/r/adva.mcap" --format foxglove -o "$work/r_scene.mcap"
 expect 0 '"ends_early": true' "${recorded[@]}" --input "$work/five_seconds.txt" --out "$work/r" --json
 # Most of a recording was left over, or no track came of it: the reason, exit code 1, and the log all the same.
 rows 50000 1200 >"$work/a_minute.txt"

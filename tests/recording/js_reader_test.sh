@@ -4,28 +4,11 @@
 set -euo pipefail
 sample=$1 tools=$2 work=$3
 
-skip() { echo "skipped: $*"; exit 77; }
-command -v node >/dev/null || skip "node is not installed"
-node -e 'process.exit(Number(process.versions.node.split(".")[0]) < 18 ? 1 : 0)' ||
-  skip "node $(node --version) is older than 18"
-
-mkdir -p "$work"
-if [[ -d $tools/node_modules/@mcap/core ]]; then
-  reader=$tools
-else
-  command -v npm >/dev/null || skip "npm is not installed and tools/js/node_modules is not there"
-  reader=$work
-  cp "$tools/package.json" "$tools/package-lock.json" "$tools/.npmrc" "$tools/read_mcap.mjs" "$work/"
-  if [[ ! -d $work/node_modules/@mcap/core ]]; then
-    (cd "$work" && timeout 60 npm ci --no-progress >npm.log 2>&1) || {
-      rm -rf "$work/node_modules"
-      skip "npm ci could not fetch the reader within 60 s (no network?)"
-    }
-  fi
-fi
+source "$(dirname "$0")/js_packages.sh"
+js_packages "$tools" "$work" @mcap/core
 
 "$sample" "$work/sample.mcap" >"$work/expected.json"
-node "$reader/read_mcap.mjs" "$work/sample.mcap" >"$work/found.json"
+node "$packages/read_mcap.mjs" "$work/sample.mcap" >"$work/found.json"
 cat >"$work/compare.mjs" <<'JS'
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -58,7 +41,7 @@ node -e '
   const bytes = fs.readFileSync(process.argv[1]);
   bytes[bytes.indexOf("zstd") + 40] ^= 1;
   fs.writeFileSync(process.argv[2], bytes);' "$work/sample.mcap" "$work/damaged.mcap"
-if node "$reader/read_mcap.mjs" "$work/damaged.mcap" >/dev/null 2>"$work/damaged.txt"; then
+if node "$packages/read_mcap.mjs" "$work/damaged.mcap" >/dev/null 2>"$work/damaged.txt"; then
   echo "error: the reader did not notice a damaged chunk" >&2
   exit 1
 fi
