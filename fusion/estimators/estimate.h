@@ -20,6 +20,9 @@ namespace ttf::fusion::estimators {
 using State = linear::Vector<6>;
 using Covariance = linear::Matrix<6>;
 using Cartesian = linear::Gaussian<6>;
+inline linear::Gaussian<2> velocity_of(const Cartesian& estimate) {
+  return {estimate.x.segment<2>(2), estimate.p.block<2, 2>(2, 2)};
+}
 
 using StraightOrTurning = filters::Modes<motion::ConstantVelocity, motion::Ctrv>;
 template <int N> using WithBiases = filters::Considered<N, sensors::kMostBiases>;

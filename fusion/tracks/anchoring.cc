@@ -107,7 +107,7 @@ linear::Vector<2> lever_of(const Anchor& anchor, const Extent& extent, double he
 // Returns the direction of the object's front, by the course of its centre.
 Facing facing_at_centre(const Anchor& anchor, const Extent& extent, const Heading& axis,
                         const estimators::Cartesian& estimate, const Turn& turn) {
-  linear::Gaussian<2> velocity{estimate.x.segment<2>(2), estimate.p.block<2, 2>(2, 2)};
+  linear::Gaussian<2> velocity = estimators::velocity_of(estimate);
   const Facing by_anchor = facing_of(velocity, axis);
   if (anchor.point == SeenPoint::kCentre || (turn.rate == 0.0 && turn.variance == 0.0)) return by_anchor;
   const Direction direction = direction_of(axis, by_anchor);

@@ -28,6 +28,24 @@ double nearest_half_turn(double axis, double expected) {
   return std::abs(difference) <= 0.5 * kPi ? axis : motion::to_half_turn(axis + kPi);
 }
 
+double ahead_by(const Heading& heading, const linear::Gaussian<2>& velocity) {
+  constexpr double kLeast = 1e-9;  // [m/s], the standard deviation of a velocity without error
+  const linear::Vector<2> along(std::cos(heading.value), std::sin(heading.value));
+  return along.dot(velocity.x) / std::max(kLeast, std::sqrt(std::max(0.0, along.dot(velocity.p * along))));
+}
+
+void learn_front(Heading& heading, const linear::Gaussian<2>& velocity) {
+  if (!heading.known) return;
+  const double ahead = ahead_by(heading, velocity);
+  if (std::abs(ahead) > kTellsFront) heading.front = ahead > 0.0 ? 1 : -1;
+}
+
+void take_front(Heading& heading, const Heading& other) {
+  if (!heading.known || heading.front != 0 || other.front == 0) return;
+  const bool same = nearest_half_turn(heading.value, other.value) == heading.value;
+  heading.front = static_cast<signed char>(same ? other.front : -other.front);
+}
+
 Heading unknown_heading(const config::TrackerConfig& config) {
   Heading heading;
   heading.rate_variance = config.initial_turn_rate_sigma * config.initial_turn_rate_sigma;

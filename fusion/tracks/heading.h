@@ -1,4 +1,8 @@
-// The heading of an object's front, and the rate at which it turns, from measurements of its axis.
+// The heading of an object, and the rate at which it turns, from measurements of its axis.
+//
+// An axis has two ends, and the first measurement chooses one of them for the value. The velocity along the axis tells at
+// which end the front is. While it lies within its error, the front may be at either end. Once it has been beyond it, the front
+// is remembered, so that an object that slows down or stops keeps it.
 //
 // The rate is an Ornstein-Uhlenbeck process beside the heading's random walk: with the time constant T and the stationary
 // standard deviation s,
@@ -9,6 +13,7 @@
 #pragma once
 
 #include "fusion/config/tracker_config.h"
+#include "fusion/linear/gaussian.h"
 
 namespace ttf::fusion::tracks {
 
@@ -20,9 +25,10 @@ struct Scalar {
 };
 Scalar predicted(const Scalar& scalar, double noise, double dt);
 
-// Value in [rad], of the object's front, and its rate [rad/s] with the covariance of both. An unknown heading has a rate.
+// Value in [rad], of one end of the axis, and its rate [rad/s] with the covariance of both. An unknown heading has a rate.
 struct Heading : Scalar {
   double rate = 0.0, rate_variance = 0.0, covariance = 0.0;
+  signed char front = 0;  // 1: at the value's end, -1: at the other one, 0: no velocity has told it yet
 };
 
 // Returns the heading of a new track, before its first measurement.
@@ -47,6 +53,19 @@ inline Heading predicted(const Heading& heading, const config::TrackerConfig& co
 // Updates by an axis that was measured `age` seconds ago, with sigma > 0 [rad]: it is that of value - age rate. The sense of
 // the axis is the nearer one to the known heading, or to `likely`.
 void correct(Heading& heading, double measured, double sigma, double likely, double age = 0.0);
+
+// A velocity of so many standard deviations along the axis tells the front. Noise alone has so much in one estimate of two
+// million.
+inline constexpr double kTellsFront = 5.0;
+
+// Remembers the front of a known heading, if this velocity tells it.
+void learn_front(Heading& heading, const linear::Gaussian<2>& velocity);
+
+// Takes over the front that another heading of the same object remembers, if this one remembers none.
+void take_front(Heading& heading, const Heading& other);
+
+// Returns the velocity along the value's direction in standard deviations, with its sign.
+double ahead_by(const Heading& heading, const linear::Gaussian<2>& velocity);
 
 // Returns the axis or the axis plus half a turn, whichever is nearer to the expected direction: an axis is
 // measured up to half a turn.

@@ -137,6 +137,7 @@ void Tracker::take_in(TrackSet& set, const sensors::ObservationList& list) {
     else if (counts)
       estimator_->update(track.estimate, *counts);
     if (!z) continue;
+    learn_front(track.heading, estimators::velocity_of(estimator_->cartesian(track.estimate)));
     correct_extent(track, *z);
     carry(track.unfiltered, *z);
   }

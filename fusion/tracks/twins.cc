@@ -41,7 +41,8 @@ double volume_of(const Track& track, const estimators::Estimator& estimator) {
 }
 
 void join(Track& elder, const Track& younger, const estimators::Estimator& estimator) {
-  Heading sense = elder.heading;  // the axes of the anchor
+  const Heading elder_heading = elder.heading;
+  Heading sense = elder_heading;  // the axes of the anchor
   if (volume_of(younger, estimator) < volume_of(elder, estimator)) {
     elder.estimate = younger.estimate;
     elder.anchor = younger.anchor;
@@ -50,6 +51,8 @@ void join(Track& elder, const Track& younger, const estimators::Estimator& estim
   }
   if (younger.heading.known && (!elder.heading.known || younger.heading.variance < elder.heading.variance))
     elder.heading = younger.heading;
+  take_front(elder.heading, elder_heading);
+  take_front(elder.heading, younger.heading);
   if (sense.known && nearest_half_turn(elder.heading.value, sense.value) != elder.heading.value)
     elder.anchor = opposite(elder.anchor);
   if (younger.shown.known && (!elder.shown.known || younger.shown.variance < elder.shown.variance))

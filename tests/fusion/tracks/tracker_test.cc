@@ -240,6 +240,32 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
   EXPECT_FALSE(track.extent.knows_width());
 }
 
+// The first two positions show a car that backs, which is noise. Its axis is taken at the other end.
+//
+//   0 s          10 s            20 s
+//   creeps with 0.5 m/s, stands
+TEST(Tracker, ACarThatCreptAndStandsFacesItsFront) {
+  config::TrackerConfig config;
+  config.process_noise = 0.002;
+  Bench bench(config);
+  RandomStream stream({.seed = 5});
+  for (int k = 0; k < 400; ++k) {
+    const double seconds = 0.05 * k;
+    const double x = 20.0 + 0.5 * std::min(seconds, 10.0) + (k == 0 ? 0.2 : 0.05 * stream.normal());
+    sensors::Observation z = position(x, 0.05 * stream.normal(), 0.05);
+    z.has_heading = k > 1;
+    z.heading = 0.02 * stream.normal();
+    z.sigma_heading = 0.02;
+    bench.step(50 * k, {z});
+    ASSERT_EQ(bench.set.tracks.size(), 1u);
+    const TrackView view = shown(bench.set.tracks[0], at_ms(50 * k), at_ms(50 * k), config);
+    if (k < 2) continue;
+    ASSERT_LT(std::abs(view.heading), 4.0 * view.sigma_heading) << seconds << " s";
+    ASSERT_TRUE(view.sigma_heading < 0.05 || seconds < 5.0) << seconds << " s, " << view.sigma_heading;
+  }
+  EXPECT_GT(std::abs(bench.set.tracks[0].heading.value), 3.0) << "the axis was taken at the other end";
+}
+
 Track moving_track(double vx, double vy, double sigma_v) {
   Track track;
   const double v = sigma_v * sigma_v;
@@ -269,6 +295,24 @@ TEST(View, AxisTellsTheHeadingOfWhatStandsAndCourseTellsItsFront) {
   EXPECT_NEAR(view.sigma_heading, std::sqrt(0.005), 1e-12);
   Track unknown = moving_track(0.0, 0.0, 0.5);
   EXPECT_NEAR(shown(unknown, at_ms(0), at_ms(0)).sigma_heading, std::numbers::pi / std::sqrt(3.0), 1e-12);
+}
+
+TEST(View, SigmaContainsTheDoubtWhichEndIsTheFront) {
+  constexpr double kPi = std::numbers::pi;
+  Track track = moving_track(0.0, 0.0, 0.5);
+  track.heading = {{0.2, 0.01, true}};
+  EXPECT_NEAR(shown(track, at_ms(0), at_ms(0)).sigma_heading, std::sqrt(0.01 + 0.5 * kPi * kPi), 1e-12);
+  // A course of two standard deviations is wrong once in 44 times, by the normal distribution's table.
+  track = moving_track(-1.0, 0.0, 0.5);
+  track.heading = {{0.0, 0.01, true}};
+  const TrackView backwards = shown(track, at_ms(0), at_ms(0));
+  EXPECT_NEAR(std::abs(backwards.heading), kPi, 1e-12);
+  EXPECT_NEAR(backwards.sigma_heading, std::sqrt(0.25 * 0.01 / 0.26 + 0.02275 * kPi * kPi), 1e-4);
+  // Against what is remembered, it is noise.
+  track.heading.front = 1;
+  const TrackView remembered = shown(track, at_ms(0), at_ms(0));
+  EXPECT_NEAR(remembered.heading, 0.0, 1e-12);
+  EXPECT_NEAR(remembered.sigma_heading, 0.1, 1e-12);
 }
 
 TEST(View, AccelerationIsAlongTheHeading) {
