@@ -31,7 +31,6 @@ class CheckedValue {
 template <std::size_t Count> struct CheckedText {
   std::string_view text;
 
-  // NOLINTNEXTLINE(google-explicit-constructor): a literal becomes one
   consteval CheckedText(const char* literal) : text(literal) {
     std::size_t places = 0;
     for (std::size_t at = text.find("{}"); at != std::string_view::npos; at = text.find("{}", at + 2)) ++places;
