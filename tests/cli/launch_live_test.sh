@@ -30,7 +30,7 @@ facts() {   # FOLDER: of its nodes' logs, into FOLDER.json
 # ---- every strategy, side by side, in separate sessions
 pids=()
 for strategy in tt buff adva; do
-  begin "$work/$strategy" "$drive" --strategy "$strategy" --time-scale 5 --duration 1.6
+  begin "$work/$strategy" "$drive" --strategy "$strategy" --time-scale 8 --duration 1.6
   pids+=($!)
 done
 for one in "${pids[@]}"; do wait "$one" || fail "a launch exits with $?: $(cat "$work"/*.err)"; done
@@ -51,7 +51,7 @@ assert len(facts["last_s"]) == 7 and min(facts["last_s"].values()) > 1.4, facts[
 assert facts["corrections"] and sorted(map(str, facts["corrections"])) == sorted(map(str, merged["corrections"]))
 assert facts["truths"] == 0 and merged["truths"] > 0, merged["truths"]
 real_time = summary["strategies"][0]["real_time"]
-assert real_time["time_scale"] == 5 and len(real_time["nodes"]) == 7, real_time
+assert real_time["time_scale"] == 8 and len(real_time["nodes"]) == 7, real_time
 for node in real_time["nodes"]:
     assert all(node["lateness_us"][of]["count"] > 0 for of in ("wake_ups", "floor")), node
     sends = node["node"] not in ("laser", "camera")
@@ -69,7 +69,7 @@ assert len(real_time["precision_us"]) == 1 and real_time["precision_us"][0]["cou
 assert real_time["precision_us"][0]["p50"] < 200, real_time["precision_us"]
 manifest = read(folder + "/manifest.json")
 assert summary["verdict"]["sentence"] and isinstance(summary["verdict"]["matters"], bool), summary["verdict"]
-assert manifest["exit_code"] == 0 and manifest["virtual_time"] is False and manifest["time_scale"] == 5, manifest' \
+assert manifest["exit_code"] == 0 and manifest["virtual_time"] is False and manifest["time_scale"] == 8, manifest' \
     "$folder" "$strategy"
 done
 # The example of --help: all logs in the folder, the merged one among its parts.
@@ -118,8 +118,6 @@ begin "$work/interrupted" "$drive" --time-scale 4 --duration 600
 interrupted=$!
 begin "$work/required" "$drive" --time-scale 4 --duration 600
 required=$!
-begin "$work/unending" "$drive" --time-scale 10 --duration 0
-unending=$!
 wait_begun "$work/interrupted"
 sleep 1.2
 kill -INT "$interrupted"
@@ -135,6 +133,16 @@ assert all(log["whole"] for log in facts["logs"]) and facts["corrections"] and n
 assert manifest["state"] == "ended" and manifest["exit_code"] == 130, manifest
 assert [process["exit"] for node in manifest["nodes"] for process in node["processes"]] == [0] * 7, manifest["nodes"]' \
   "$work/interrupted"
+wait_begun "$work/required"
+pids_of "$work/required"
+kill -9 "${pid[fusion]}"
+wait "$required"
+code=$?
+[[ $code -eq 137 ]] || fail "a launch whose fusion is killed exits with $code: $(cat "$work/required.err")"
+grep -q 'fusion: signal 9 (Killed)' "$work/required.err" || fail "nobody says that fusion was killed"
+# ---- one that goes on until it is stopped
+begin "$work/unending" "$drive" --time-scale 10 --duration 0
+unending=$!
 wait_begun "$work/unending"
 sleep 2.5
 kill -INT "$unending"
@@ -143,13 +151,6 @@ check "a launch that was stopped is not judged to its end" '
 summary, manifest = read(sys.argv[1] + "/summary.json"), read(sys.argv[1] + "/manifest.json")
 assert 0 < summary["duration_s"] < 60 and manifest["exit_code"] == 0, (summary["duration_s"], manifest["exit_code"])
 assert manifest["why"] == "interrupted (SIGINT)", manifest["why"]' "$work/unending"
-wait_begun "$work/required"
-pids_of "$work/required"
-kill -9 "${pid[fusion]}"
-wait "$required"
-code=$?
-[[ $code -eq 137 ]] || fail "a launch whose fusion is killed exits with $code: $(cat "$work/required.err")"
-grep -q 'fusion: signal 9 (Killed)' "$work/required.err" || fail "nobody says that fusion was killed"
 # ---- one whose nodes are powered on shortly before its end
 sed "s#\.\./schedules#$source/schedules#" "$drive" >"$work/nobody.yaml"
 {
