@@ -87,6 +87,7 @@ endif()
 
 # ttf_as_test(<name>): compiles a program as a test is compiled, with the tests' headers.
 function(ttf_as_test name)
+  target_link_libraries(${name} PRIVATE ttf_options)
   target_compile_definitions(${name} PRIVATE GTEST_HAS_PTHREAD=1)
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests/fusion")
     target_compile_options(${name} PRIVATE -O1)
