@@ -77,7 +77,7 @@ int export_for_viewers(const ExportOptions& options, const recording::merge::Mer
       options.out,
       fmt::format("{} of truth, {} of observations, {} and {}{}", counted(counts.truths, "instant"),
                   counted(counts.observations, "list"), counted(counts.images, "image"), counted(counts.uses, "use"),
-                  result.left_out.empty() ? "" : "; the log has no " + joined(result.left_out, " and no ")));
+                  result.left_out.empty() ? "" : "; the log has no " + joined(result.left_out, " or ")));
   return 0;
 }
 
@@ -109,6 +109,7 @@ int export_tables(const ExportOptions& options) {
 int run_export(const ExportOptions& options) {
   if (options.format == "gnuplot") return export_for_papers(options);
   if (options.format == "markdown") return export_tables(options);
+  for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
   refuse_other_format(options.out, options.format, kFormatEnds);
   for (const std::string& log : log_files(options.logs)) refuse_overwriting(log, options.out, "--out");
   const recording::merge::MergedLogs drive = drive_in(options.logs);
@@ -139,9 +140,8 @@ void add_export(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "export", "A run for Wireshark, canplayer, ui.perfetto.dev, Foxglove, a spreadsheet or a paper");
   command->footer(
-      "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv and\n"
-      "The start of the run is 1970-01-01 in pcapng and foxglove, second 1000000000 in candump, and 0 in csv and "
-      "perfetto.\n"
+      "The start of the run is 1970-01-01 in pcapng and foxglove, second 1000000000 in candump, and 0 in\n"
+      "csv and perfetto.\n"
       "The logs of a run's processes are merged.\n"
       "Examples: ttfusion export out/drive/tt.mcap --format pcapng -o out/drive.pcapng\n"
       "          ttfusion export out/drive/tt.mcap --format foxglove -o out/scene.mcap\n"

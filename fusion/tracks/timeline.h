@@ -9,9 +9,9 @@
 // arrival. Only the names of the tracks (fusion/tracks/identities.h) remain from before. A list older than the last
 // config.history_scans cannot be taken in.
 //
-// Which lists keep the tracks after them depends on how late lists have been. Where a list was late by n others, the last
-// n + 1 lists keep them, so that the next late one finds them. Of older lists every kSpacing-th does. So tracks are not
-// copied while lists come in order, and 1,000 of them stay in the processor's cache.
+// Few lists keep the tracks after them. Where a list was late by n others, the last n + 1 lists keep them, so that the next
+// late one finds them. Every kSpacing-th older list keeps them, too. So tracks are not copied while lists come in order,
+// and 1,000 of them stay in the processor's cache.
 #pragma once
 
 #include <cstddef>
@@ -78,7 +78,7 @@ class Timeline final : public TrackHistory {
   std::size_t thinned_ = 0;  // so many lists, the oldest, keep tracks at intervals
   // So many lists, the oldest, are too old to be preceded. They lead from the base to the others.
   std::size_t settled_ = 0;
-  MeasurementId settled_id_{};  // of the last one that settled
+  MeasurementId settled_id_{};  // the last one that settled
   GlobalTime settled_time_{};
   bool any_settled_ = false;
 };

@@ -23,7 +23,7 @@ struct ObservationId {
   bool operator==(const ObservationId&) const = default;
 };
 
-// What every pass over all tracks needs comes first, and what is seldom needed last: 1,000 tracks fill a processor's cache.
+// Members are in the order of their use: those of every pass over all tracks come first. 1,000 tracks fill a processor's cache.
 struct Track {
   TrackId id = kNoTrack;  // set on confirmation (fusion/tracks/identities.h)
   bool confirmed = false;
@@ -33,9 +33,9 @@ struct Track {
   int lists = 0;                     // since birth, the first included
   int misses = 0;                    // lists in a row without an observation
   ObservationId birth, newest;       // the first observation and the last
-  double existence = 1.0;            // probability that the object exists (fusion/tracks/existence.h); 1 for births m_of_n
-  Heading heading;                   // the front's direction
-  Scalar shown;                      // [m], width of the silhouette as cameras see it: tells an unknown heading's depth
+  double existence = 1.0;  // probability that the object exists (fusion/tracks/existence.h); 1 for births m_of_n
+  Heading heading;         // the front's direction
+  Scalar shown;            // [m], width of the silhouette as cameras see it: tells an unknown heading's depth
   Extent extent;
   Anchor anchor;                  // in the axes of `heading`
   estimators::Estimate estimate;  // the anchor's

@@ -368,7 +368,7 @@ Tracker::Referred Tracker::referred_late(Track& then, const sensors::Observation
 const sensors::Observation& Tracker::refer(Track& track, std::size_t column, const sensors::Observation& z,
                                            std::size_t row) {
   const Distance* distance = distance_of(track, column, z);
-  // What is not looked at is not worth a write.
+  // A write that is not read is left out: it takes time.
   Referred& taken = taken_[row];
   taken.elsewhere = taken.moved = false;
   taken.from = track.anchor;

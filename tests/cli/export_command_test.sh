@@ -41,7 +41,7 @@ for input in "$work/tt.mcap" "$work"; do
   expect 0 '^wrote ' export "$input" --format csv -o "$work/of_$(basename "$input").csv"
 done
 cmp "$work/of_tt.mcap.csv" "$work/of_$(basename "$work").csv" || fail "the frames of a folder are not its log's"
-expect 2 '--out = .*tt.mcap: must be another file than the input' export "$work" --format csv -o "$work/tt.mcap"
+expect 2 '--out = .*tt.mcap: must be another file than the input' export "$work" --format foxglove -o "$work/tt.mcap"
 
 # A trace for Perfetto.
 expect 0 '"flows": [1-9]' export "$work/tt.mcap" --format perfetto --json -o "$work/drive.pftrace"

@@ -27,7 +27,7 @@ for format in pcapng candump csv perfetto foxglove; do
   cmp -s "$work/of_one" "$work/of_many" || fail "the $format export of a run's five logs is not that of its one log"
 done
 # The log of a process that neither measures nor fuses gives an empty scene, and the command says so.
-expect 0 'wrote .*; the log has no .*truth and no observations and no tracks and no ages and no errors' \
+expect 0 'wrote .*; the log has no .*truth, observations, tracks, ages or errors' \
   export "$work/nodes/node2.mcap" --format foxglove -o "$work/empty_scene.mcap"
 expect 0 '' diagram "$work"/nodes/*.mcap "$work/a/adva.mcap" --kind plane -o "$work/of_many.svg"
 expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work/of_one.svg"

@@ -247,6 +247,7 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
 TEST(Tracker, ACarThatCreptAndStandsFacesItsFront) {
   config::TrackerConfig config;
   config.process_noise = 0.002;
+  config.gate_probability = 0.99999;  // of 400 positions none is taken for another car
   Bench bench(config);
   RandomStream stream({.seed = 5});
   for (int k = 0; k < 400; ++k) {
@@ -260,7 +261,9 @@ TEST(Tracker, ACarThatCreptAndStandsFacesItsFront) {
     ASSERT_EQ(bench.set.tracks.size(), 1u);
     const TrackView view = shown(bench.set.tracks[0], at_ms(50 * k), at_ms(50 * k), config);
     if (k < 2) continue;
-    ASSERT_LT(std::abs(view.heading), 4.0 * view.sigma_heading) << seconds << " s";
+    // While it faces backwards, it gives its front one chance in a hundred at least.
+    ASSERT_TRUE(std::abs(view.heading) < 4.0 * view.sigma_heading || view.sigma_heading > 0.1 * std::numbers::pi)
+        << seconds << " s, " << view.heading << ", " << view.sigma_heading;
     ASSERT_TRUE(view.sigma_heading < 0.05 || seconds < 5.0) << seconds << " s, " << view.sigma_heading;
   }
   EXPECT_GT(std::abs(bench.set.tracks[0].heading.value), 3.0) << "the axis was taken at the other end";
