@@ -32,6 +32,12 @@ constexpr double kConfirmedBonus = 100.0;
 // So many tracks are searched faster along x alone.
 constexpr std::size_t kFewTracks = 64;
 
+// Returns whether this velocity can tell nothing new of the front. So most tracks need no covariance.
+bool remembers_front(const Heading& heading, const linear::Vector<2>& velocity) {
+  const double ahead = std::cos(heading.value) * velocity.x() + std::sin(heading.value) * velocity.y();
+  return !heading.known || heading.front * ahead > 0.0;
+}
+
 // Makes a rounded bound exclude no pair inside a gate.
 constexpr double kRoundedUp = 1.0 + 1e-12;
 
@@ -137,7 +143,8 @@ void Tracker::take_in(TrackSet& set, const sensors::ObservationList& list) {
     else if (counts)
       estimator_->update(track.estimate, *counts);
     if (!z) continue;
-    learn_front(track.heading, estimators::velocity_of(estimator_->cartesian(track.estimate)));
+    if (!remembers_front(track.heading, estimator_->velocity(track.estimate)))
+      learn_front(track.heading, estimators::velocity_of(estimator_->cartesian(track.estimate)));
     correct_extent(track, *z);
     carry(track.unfiltered, *z);
   }
