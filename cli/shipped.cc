@@ -39,15 +39,16 @@ std::string_view without_end(std::string_view name) {
   return name;
 }
 
-[[noreturn]] void refuse(const std::string& typed, std::initializer_list<std::string_view> folders) {
+[[noreturn]] void refuse(const std::string& typed, const std::vector<std::string_view>& folders) {
   std::vector<std::string> names, kinds;
   for (const std::string_view folder : folders) {
     for (std::string& name : shipped_names(folder)) names.push_back(std::move(name));
     kinds.emplace_back(folder.substr(0, folder.size() - 1));  // "scenarios" are scenarios
   }
+  const std::string name = fs::path(typed).filename().string();
   throw InputError({typed, 0, "", "",
                     fmt::format("is neither a file nor the name of a shipped {}{}", joined(kinds, " or "),
-                                did_you_mean(without_end(typed), names))});
+                                did_you_mean(without_end(name), names))});
 }
 
 }  // namespace
@@ -57,16 +58,17 @@ std::string file_named(const std::string& typed, std::initializer_list<std::stri
   const fs::path path = typed;
   const bool is_own = fs::exists(path, none) && !fs::is_directory(path, none);  // a folder has results
   if (typed.empty() || path.is_absolute() || is_own) return typed;
-  const auto data = data_folder();
-  const bool is_name = !path.has_parent_path();
-  for (const std::string_view folder : folders) {
-    if (!data) break;
-    if (!is_name && path.parent_path() != folder) continue;
-    for (const std::string& name : {path.filename().string(), path.filename().string() + std::string(kEnd)})
-      if (const fs::path shipped = *data / folder / name; is_file(shipped)) return shipped.string();
-  }
-  if (is_name) refuse(typed, folders);
-  return typed;
+  if (const std::string own = typed + std::string(kEnd); is_file(own)) return own;
+  std::vector<std::string_view> searched;
+  for (const std::string_view folder : folders)
+    if (!path.has_parent_path() || path.parent_path() == folder) searched.push_back(folder);
+  if (searched.empty()) return typed;
+  const std::string name = path.filename().string();
+  if (const auto data = data_folder())
+    for (const std::string_view folder : searched)
+      for (const std::string& file : {name, name + std::string(kEnd)})
+        if (const fs::path shipped = *data / folder / file; is_file(shipped)) return shipped.string();
+  refuse(typed, searched);
 }
 
 std::vector<std::string> shipped_names(std::string_view folder) {

@@ -10,9 +10,9 @@ namespace ttf::cli {
 
 inline constexpr std::string_view kScenarios = "scenarios", kSchedules = "schedules", kExperiments = "experiments";
 
-// Returns the path of the file that `typed` means. A file of one's own goes first. Else it is a shipped file by its name, with
-// or without .yaml, or by folder and name: "scenarios/crowd.yaml". Throws InputError for a name that neither has; other
-// paths are returned as they are, for their reader to refuse.
+// Returns the path of the file that `typed` means, with or without .yaml. A file of one's own goes first. Else it is a
+// shipped file by its name, or by folder and name: "scenarios/crowd.yaml". Throws InputError if there is neither. Paths
+// into other folders are returned as they are, for their reader to refuse.
 std::string file_named(const std::string& typed, std::initializer_list<std::string_view> folders);
 
 // Returns the names of the shipped files in a folder, sorted; none if the program stands alone.

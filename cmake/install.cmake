@@ -43,6 +43,7 @@ install(CODE "execute_process(COMMAND \"$<TARGET_FILE:ttfusion>\" manual --out \
   ERROR_QUIET COMMAND_ERROR_IS_FATAL ANY)")
 install(DIRECTORY ${manual}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR})
 install(DIRECTORY ${manual}/bash-completion ${manual}/zsh ${manual}/fish DESTINATION ${CMAKE_INSTALL_DATADIR})
+install(CODE "file(REMOVE_RECURSE \"${manual}\")")   # root's, after sudo: the user's next install could not write there
 
 if(NOT PROJECT_IS_TOP_LEVEL)
   return()

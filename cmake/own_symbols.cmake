@@ -13,3 +13,4 @@ endforeach()
 file(REMOVE ${LIBRARY})
 execute_process(COMMAND ${AR} qc ${LIBRARY} ${WORK}.o COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${RANLIB} ${LIBRARY} COMMAND_ERROR_IS_FATAL ANY)
+file(REMOVE ${WORK}.o ${WORK}.symbols)   # root's, after sudo

@@ -163,6 +163,7 @@ int run_scenarios(const RunOptions& options) {
     throw InputError({"command line", 0, "--input", options.input, "goes with one scenario"});
   const Recording recording = read_recording(options.input);
   const std::vector<Planned> plans = all_planned(options, recording);
+  for (const Planned& plan : plans) try_folder(plan.folder);  // before hours of driving
   std::vector<ScenarioResults> all;
   for (const Planned& plan : plans) all.push_back({plan.scenario.name, driven(options, plan, recording)});
   if (options.json) {

@@ -24,15 +24,17 @@ constexpr Duration kUntilStart = Duration::milliseconds(500);
 // The begin is a round instant of the machine's clock. So the drive's cycles have a fixed place among the
 // kernel's own ticks in every launch.
 constexpr std::int64_t kRound_ns = 100'000'000;
+// Nodes that are stopped together end some milliseconds apart: each closes its log first.
+constexpr Duration kTogether = Duration::milliseconds(500);
 
 // Nodes do not know the truth: it is computed at the instants of the nodes' records.
 void write_truth(const node_set::NodeSet& set, const recording::merge::MergedLogs& nodes, const std::string& path) {
   const drives::Surroundings around = drives::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
-  recording::log::LogWriter log(path, nodes.manifest());
-  drives::Observer observer(*around.scene, set.cluster.nodes.size(), log);
+  const auto log = drive::begin_log(path, nodes.manifest(), set.scenario, set.cluster);
+  drives::Observer observer(*around.scene, set.cluster.nodes.size(), *log);
   around.show(observer, set.scenario, set.cluster);
   nodes.read(observer);
-  log.close();
+  log->close();
 }
 
 }  // namespace
@@ -53,12 +55,15 @@ supervision::Hooks LiveLaunch::hooks() {
       if (sentence.is_string()) not_granted_[sentence.get<std::string>()].insert(node);
   };
   hooks.status = [this] {
-    const Duration far = so_far();
+    const Duration far = so_far(bus::ports::host_now());
     if (set_.until_stopped) return fmt::format("{:.0f} s", far.seconds());
     return fmt::format("{:.0f} of {:g} s", far.seconds(), set_.scenario.duration.seconds());
   };
   hooks.on_done = [this](std::size_t, const nlohmann::json& facts) {
-    if (!first_done_) first_done_ = bus::ports::host_now();
+    // A node that ends alone leaves the others on their drive.
+    const bus::ports::MachineTime now = bus::ports::host_now();
+    if (!last_done_ || now - *last_done_ > kTogether) ended_ = now;
+    last_done_ = now;
     if (!facts.is_object() || !facts.contains("counts"))
       throw std::runtime_error("the outcome of a node has no counts");
     node_set::add_counts(outcome_.counts, facts["counts"]);
@@ -67,9 +72,9 @@ supervision::Hooks LiveLaunch::hooks() {
 }
 
 // In the drive's time, which the machine's is a stretch of.
-Duration LiveLaunch::so_far() const {
+Duration LiveLaunch::so_far(bus::ports::MachineTime now) const {
   if (!origin_) return {};
-  const Duration real = first_done_.value_or(bus::ports::host_now()) - *origin_;
+  const Duration real = now - *origin_;
   const double drive_s = real.seconds() * 1e6 / static_cast<double>(set_.time_scale_ppm);
   return std::clamp(Duration{static_cast<std::int64_t>(drive_s * 1e9)}, Duration{}, set_.scenario.duration);
 }
@@ -77,7 +82,7 @@ Duration LiveLaunch::so_far() const {
 // Nodes end some milliseconds apart, by clocks of their own.
 Duration LiveLaunch::driven() const {
   constexpr Duration kApart = Duration::milliseconds(100);
-  const Duration far = so_far();
+  const Duration far = so_far(ended_.value_or(bus::ports::host_now()));
   return far + kApart < set_.scenario.duration ? far : set_.scenario.duration;
 }
 

@@ -32,11 +32,12 @@ class LiveLaunch {
   std::vector<std::string> warnings() const;
 
  private:
-  Duration so_far() const;
+  Duration so_far(bus::ports::MachineTime now) const;
 
   const node_set::NodeSet& set_;
   std::map<std::string, std::set<std::size_t>> not_granted_;  // nodes by sentence
-  std::optional<bus::ports::MachineTime> origin_, first_done_;
+  std::optional<bus::ports::MachineTime> origin_, last_done_;
+  std::optional<bus::ports::MachineTime> ended_;  // the first of the nodes that ended together at last
   drives::DriveOutcome outcome_;
 };
 

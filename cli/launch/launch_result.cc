@@ -45,7 +45,7 @@ drive::StrategyResult merged_result(const node_set::NodeSet& set, const std::vec
   drive::DriveJudge judge(set.scenario, set.cluster);
   evaluation::lateness::LatenessAccount lateness(set.cluster, evaluation::lateness::real_time_drive(merged));
   evaluation::accuracy::ServiceAccount service(drives::evaluation_start(set.scenario),
-                                               promised_ages(set.cluster, set.strategy));
+                                               promised_ages(set.cluster, set.strategy, set.time_scale_ppm));
   std::vector<recording::records::Sink*> sinks = judge.sinks();
   sinks.push_back(&lateness);
   sinks.push_back(&service);

@@ -36,6 +36,15 @@ std::string counted_text(const DriveFacts& facts) {
   return joined(parts);
 }
 
+std::string older_text(const std::string& sensor, const evaluation::accuracy::ServiceFindings::Older& older,
+                       const std::string& images) {
+  if (older.missing == older.uses)
+    return fmt::format("{} of {} had no measurement of {} for up to {}, and the schedule promises one within {}",
+                       older.uses, images, sensor, ms(older.worst), ms(older.bound));
+  return fmt::format("the newest measurement of {} was up to {} old in {} of {}, and the schedule promises {}", sensor,
+                     ms(older.worst), older.uses, images, ms(older.bound));
+}
+
 // Returns the harm to the service, in its words.
 std::string harm_text(const DriveFacts& facts) {
   const evaluation::accuracy::ServiceFindings& service = facts.service;
@@ -45,10 +54,7 @@ std::string harm_text(const DriveFacts& facts) {
     parts.push_back(
         fmt::format("{} of {} were refused: too old", service.refused, counted(service.uses, "used image")));
   for (const auto& [sensor, older] : service.older)
-    parts.push_back(
-        fmt::format("the newest measurement of {} was up to {} old in {} of {}, and the schedule promises {}",
-                    facts.cluster->sensor(sensor).name, ms(older.worst), older.uses,
-                    counted(service.uses, "used image"), ms(older.bound)));
+    parts.push_back(older_text(facts.cluster->sensor(sensor).name, older, counted(service.uses, "used image")));
   if (service.gap) parts.push_back(fmt::format("no image was used for {}", ms(*service.gap)));
   if (!facts.absent.empty()) parts.push_back(facts.absent);
   std::string text;
@@ -59,8 +65,9 @@ std::string harm_text(const DriveFacts& facts) {
 }  // namespace
 
 std::map<SensorId, Duration> promised_ages(const schedules::model::Cluster& cluster,
-                                           fusion::strategies::StrategyKind strategy) {
-  const Duration late = cluster.arrival_window ? cluster.arrival_window->late : Duration{};
+                                           fusion::strategies::StrategyKind strategy, std::int64_t time_scale_ppm) {
+  const std::int64_t real_ns = cluster.arrival_window ? cluster.arrival_window->late.ns : 0;
+  const Duration late{real_ns * 1'000'000 / time_scale_ppm};
   std::map<SensorId, Duration> ages;
   for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(cluster)) {
     if (!path.reaches_use) continue;

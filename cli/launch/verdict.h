@@ -15,10 +15,10 @@
 
 namespace ttf::cli::launch {
 
-// Returns the largest age of each sensor's newest measurement in a used image. The schedule's analysis bounds it. The arrival
-// window's `late` comes on top.
+// Returns the largest age of each sensor's newest measurement in a used image. The schedule's analysis bounds it. The
+// arrival window's `late` comes on top: it is real time, and ages are the drive's.
 std::map<SensorId, Duration> promised_ages(const schedules::model::Cluster& cluster,
-                                           fusion::strategies::StrategyKind strategy);
+                                           fusion::strategies::StrategyKind strategy, std::int64_t time_scale_ppm);
 
 struct DriveFacts {
   const schedules::model::Cluster* cluster = nullptr;
@@ -34,7 +34,8 @@ struct Verdict {
 
   nlohmann::ordered_json json() const { return {{"matters", matters}, {"sentence", sentence}}; }
 };
-// The counts matter if the service was not served as promised. They matter, too, if a node was out of operation at the end.
+// The counts matter if the service was not served as promised. They matter, too, if a node was out of operation at the
+// end.
 Verdict verdict_of(const DriveFacts& facts);
 
 }  // namespace ttf::cli::launch

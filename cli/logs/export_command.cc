@@ -78,7 +78,12 @@ int export_for_viewers(const ExportOptions& options, const recording::merge::Mer
       fmt::format("{} of truth, {} of observations, {} and {}{}", counted(counts.truths, "instant"),
                   counted(counts.observations, "list"), counted(counts.images, "image"), counted(counts.uses, "use"),
                   result.left_out.empty() ? "" : "; the log has no " + joined(result.left_out, " or ")));
-  return 0;
+  if (counts.truths + counts.references + counts.observations + counts.images + counts.uses + counts.ages +
+          counts.errors >
+      0)
+    return 0;
+  fmt::print(stderr, "error: {}: has nothing that a scene shows\n", options.logs[0]);
+  return 1;
 }
 
 int export_for_papers(const ExportOptions& options) {

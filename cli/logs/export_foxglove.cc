@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "cli/drive_progress.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "core/file_kind.h"
@@ -133,7 +134,7 @@ FoxgloveResult export_foxglove(const recording::merge::MergedLogs& drive, const 
   FoxgloveExport scene(out, sensors_of(drive, result.warnings));
   ToldUses uses(scene);
   recording::records::Tee both({&scene, &uses});
-  drive.read(both);
+  read_shown(drive, both);
   uses.finish();
   result.counts = scene.finish();
   result.left_out = missing(result.counts);

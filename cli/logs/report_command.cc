@@ -20,6 +20,7 @@
 #include "core/file_kind.h"
 #include "core/time.h"
 #include "experiments/sweep/file.h"
+#include "recording/merge/stored_log.h"
 #include "report/drive/report.h"
 #include "report/experiment/report.h"
 
@@ -49,12 +50,21 @@ std::string experiment_html(const ReportOptions& options, report::drive::Diagram
   return report::experiment::experiment_report_html(folder, drives, window);
 }
 
+bool is_mcap(const std::string& path) {
+  try {
+    return kind_of_file(path) == FileKind::kLog;
+  } catch (const InputError&) {
+    return false;  // neither readable nor YAML
+  }
+}
+
 // A log's folder has all that a report tells of it.
 void refuse_file(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code none;
   if (!fs::is_regular_file(path, none)) return;
-  if (fs::path(path).extension() == ".mcap") {
+  if (is_mcap(path)) {
+    (void)recording::merge::StoredLog(path);  // refuses an MCAP file that is no log
     const fs::path folder = fs::path(path).parent_path();
     throw InputError({path, 0, "", "",
                       fmt::format("this is a log, not a folder of results; `ttfusion report {}` takes its folder",

@@ -31,6 +31,14 @@ std::vector<std::string> command_names(const CommandOutline& program) {
   return names;
 }
 
+// Returns the words that an argument of the command may be, besides files.
+std::vector<std::string> argument_words(const CommandOutline& command) {
+  std::vector<std::string> words = command.shipped;
+  for (const OptionOutline& argument : command.arguments)
+    words.insert(words.end(), argument.choices.begin(), argument.choices.end());
+  return words;
+}
+
 // The pattern of a `case` for the names of all commands: 'run'|'schedule'|'schedule check'.
 std::string case_pattern(const CommandOutline& program) {
   std::vector<std::string> names;
@@ -66,13 +74,13 @@ _ttfusion() {{
 )",
                                  case_pattern(program));
   for (const CommandOutline* command : all_of(program)) {
-    std::vector<std::string> options, words = command->shipped;
+    std::vector<std::string> options, words = argument_words(*command);
     for (const OptionOutline& option : command->options)
       options.insert(options.end(), option.names.begin(), option.names.end());
     for (const CommandOutline& inner : command->commands) words.push_back(last_word(inner.name));
     text += fmt::format("    {})\n{}      options={} words={} files={} ;;\n", for_sh(command->name),
                         values(*command, "\"$before\"", "COMPREPLY=($(compgen -W '{}' -- \"$current\"))",
-                               "COMPREPLY=($(compgen -f -- \"$current\"))"),
+                               "mapfile -t COMPREPLY < <(compgen -f -- \"$current\")"),
                         for_sh(fmt::format("{}", fmt::join(options, " "))),
                         for_sh(fmt::format("{}", fmt::join(words, " "))), command->commands.empty() ? "yes" : "");
   }
@@ -81,7 +89,7 @@ _ttfusion() {{
     COMPREPLY=($(compgen -W "$options" -- "$current"))
   else
     COMPREPLY=($(compgen -W "$words" -- "$current"))
-    [[ -z $files ]] || COMPREPLY+=($(compgen -f -- "$current"))
+    [[ -z $files ]] || mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -f -- "$current")
   fi
 }
 complete -o filenames -F _ttfusion ttfusion
@@ -114,7 +122,7 @@ _ttfusion() {{
         text += fmt::format("      flags+=({})\n", described(name, option.meaning));
     for (const CommandOutline& inner : command->commands)
       text += fmt::format("      inner+=({})\n", described(last_word(inner.name), inner.about));
-    text += fmt::format("      names=({}) ;;\n", fmt::join(command->shipped, " "));
+    text += fmt::format("      names=({}) ;;\n", fmt::join(argument_words(*command), " "));
   }
   return text + R"(  esac
   if [[ ${words[CURRENT]} == -* ]]; then
@@ -150,8 +158,8 @@ end
     const std::string at = fmt::format("complete -c ttfusion -n {}", for_fish("__ttfusion_at " + command->name));
     for (const CommandOutline& inner : command->commands)
       text += fmt::format("{} -f -a {} -d {}\n", at, last_word(inner.name), for_fish(inner.about));
-    if (!command->shipped.empty())
-      text += fmt::format("{} -a {}\n", at, for_fish(fmt::format("{}", fmt::join(command->shipped, " "))));
+    if (const auto words = argument_words(*command); !words.empty())
+      text += fmt::format("{} -a {}\n", at, for_fish(fmt::format("{}", fmt::join(words, " "))));
     for (const OptionOutline& option : command->options) {
       std::string line = at;
       for (const std::string& name : option.names)

@@ -46,16 +46,22 @@ std::string entry(const OptionOutline& option) {
   std::string names;
   for (const std::string& name : option.names)
     names += (names.empty() ? "" : ", ") + (name.front() == '-' ? bold(name) : italic(name));
-  const bool has_value = !option.value.empty() && option.names.front().front() == '-';
-  return fmt::format(".TP\n{}{}\n{}\n", names, has_value ? " " + value_of(option) : "", roff(option.meaning));
+  const bool is_option = option.names.front().front() == '-';
+  std::string value;
+  if (is_option ? !option.value.empty() : !option.choices.empty()) value = (is_option ? " " : ": ") + value_of(option);
+  return fmt::format(".TP\n{}{}\n{}\n", names, value, roff(option.meaning));
 }
 
 std::string synopsis(const CommandOutline& command) {
   std::string text = bold(full_name(command));
   if (!command.options.empty()) text += " [" + italic("OPTIONS") + "]";
+  for (const OptionOutline& option : command.options)
+    if (option.required) text += " " + bold(option.names.back()) + " " + value_of(option);
   if (!command.commands.empty()) text += " " + italic("COMMAND");
-  for (const OptionOutline& argument : command.arguments)
-    text += " " + italic(argument.names.front()) + (argument.many ? "..." : "");
+  for (const OptionOutline& argument : command.arguments) {
+    const std::string name = italic(argument.names.front());
+    text += " " + (argument.required ? name : "[" + name + "]") + (argument.many ? "..." : "");
+  }
   return text + "\n";
 }
 
@@ -100,6 +106,10 @@ std::string man_page(const CommandOutline& command, const std::string& version) 
       ".SH EXIT STATUS\n.TP\n0\nThe command did its work.\n.TP\n1\nThe command did nothing with its input, or a "
       "condition "
       "does not hold.\n.TP\n2\nThe input is bad: one sentence for each mistake names it.\n";
+  if (command.name == "launch")
+    text +=
+        ".TP\n128 + n\nSignal n stopped the launch: 130 is Ctrl\\-C, 143 is SIGTERM. With \\-\\-duration 0 it is "
+        "0.\n.TP\nany\nA required node failed, and this is the first one's code: 128 + n for signal n.\n";
   if (!is_program) text += ".SH SEE ALSO\n.BR ttfusion (1)\n";
   return text;
 }

@@ -24,7 +24,7 @@ int write_manual(const CLI::App& app, const std::string& out) {
   for (const CommandOutline& command : program.commands)
     put("man/man1", fmt::format("ttfusion-{}.1", command.name), man_page(command, TTF_VERSION));
   put("bash-completion/completions", "ttfusion", bash_completion(program));
-  put("zsh/vendor-completions", "_ttfusion", zsh_completion(program));
+  put("zsh/site-functions", "_ttfusion", zsh_completion(program));
   put("fish/vendor_completions.d", "ttfusion.fish", fish_completion(program));
   say_written(out);
   return 0;

@@ -18,13 +18,18 @@ bool ServiceAccount::used(const recording::records::FeatureUsed& use, std::span<
   last_ = at;
   ++findings_.uses;
   if (use.stale) ++findings_.refused;
-  for (const SensorAge& one : ages) {
-    const auto bound = bounds_.find(one.sensor);
-    if (bound == bounds_.end() || one.age <= bound->second) continue;
-    ServiceFindings::Older& older = findings_.older[one.sensor];
+  if (use.stale || !knows_image(use.image_sequence)) return false;
+  for (const auto& [sensor, bound] : bounds_) {
+    const auto one = std::ranges::find(ages, sensor, &SensorAge::sensor);
+    TrueTime& newest = newest_.try_emplace(sensor, from_).first->second;
+    if (one != ages.end()) newest = at - one->age;
+    const Duration age = at - newest;
+    if (age <= bound) continue;
+    ServiceFindings::Older& older = findings_.older[sensor];
     ++older.uses;
-    older.worst = std::max(older.worst, one.age);
-    older.bound = bound->second;
+    older.worst = std::max(older.worst, age);
+    older.bound = bound;
+    if (one == ages.end()) ++older.missing;
   }
   return false;
 }

@@ -1,5 +1,5 @@
-// Compares the images that the feature service used with the schedule's promise: an image at every use, and no measurement
-// older than the analysis bounds it. Late or lost frames that change neither do the service no harm.
+// Compares the images that the feature service used with the schedule's promise: an image at every use, and no
+// measurement older than the analysis bounds it. Late or lost frames that change neither do the service no harm.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,12 @@ namespace ttf::evaluation::accuracy {
 struct ServiceFindings {
   std::uint64_t uses = 0;     // images that the service used or refused
   std::uint64_t refused = 0;  // as too old
-  // Uses at which a sensor's newest measurement was older than its bound.
+  // Uses at which a sensor's newest measurement was older than its bound. An image without one has the age of the last
+  // one before. Without any, the age counts from the begin of the judged part: a sensor may need its bound to begin.
   struct Older {
     std::uint64_t uses = 0;
     Duration worst{}, bound{};
+    std::uint64_t missing = 0;  // uses of images without a measurement of the sensor
   };
   std::map<SensorId, Older> older;  // only sensors with such uses
   // The longest time without a use, if it is more than three times the median; begin and end of the judged part count.
@@ -47,6 +49,7 @@ class ServiceAccount final : public ImageUses {
   TrueTime last_;
   TrueTime from_;
   std::map<SensorId, Duration> bounds_;
+  std::map<SensorId, TrueTime> newest_;  // in any used image
   recording::records::BinnedDurations gaps_;
   ServiceFindings findings_;
 };

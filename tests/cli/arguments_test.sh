@@ -186,13 +186,17 @@ done
 mkdir two_lasers   # a folder of results is no scenario
 expect 0 '' launch two_lasers --virtual-time --dry-run
 expect 0 '' launch flexray_demo --virtual-time --dry-run
-echo 'name: mine' >paper_synchronised
+echo 'name: mine' | tee crowd_25.yaml >paper_synchronised
 expect 2 '^error: paper_synchronised:1: ' schedule check paper_synchronised
+expect 2 '^error: crowd_25.yaml:1: ' run crowd_25
 expect 2 '^error: paper_scenaro1.yaml: is neither a file nor the name of a shipped scenario; did you mean paper_scenario1\?$' \
   run paper_scenaro1.yaml
 expect 2 '^error: crowd_52: is neither .* scenario or schedule; did you mean crowd_25' launch crowd_52 --virtual-time
 expect 2 '^error: zzz: is neither a file nor the name of a shipped experiment$' experiment zzz
-expect 2 '^error: scenarios/zzz.yaml: cannot be read: No such file' run scenarios/zzz.yaml
+expect 2 '^error: scenarios/zzz.yaml: is neither a file nor the name of a shipped scenario$' run scenarios/zzz.yaml
+expect 2 '^error: scenarios/paper_scenari1: is neither .* shipped scenario; did you mean paper_scenario1\?$' \
+  launch scenarios/paper_scenari1 --virtual-time
+expect 2 '^error: own/zzz.yaml: cannot be read: No such file' run own/zzz.yaml
 expect 0 '^ttfusion [0-9.]+, commit ([0-9a-f]{12}(-dirty)?|unknown)$' --version
 says '^compiled by ' '^with DDS '
 

@@ -69,6 +69,7 @@ expect 0 '^wrote .*/scene.mcap: [1-9][0-9]* instants of truth, [1-9][0-9]* lists
 expect 0 '"left_out": \[\]' export "$work/tt.mcap" --format foxglove --json -o "$work/again.mcap"
 cmp -s "$work/scene.mcap" "$work/again.mcap" || fail "the same log gives another scene"
 expect 2 'scene.mcap: profile = x-ttfusion-scene: is an MCAP file, but its profile must be ttfusion' export "$work/scene.mcap" --format csv -o "$work/none.csv"
+expect 2 'scene.mcap: profile = x-ttfusion-scene: is an MCAP file' report "$work/scene.mcap" -o "$work/none.html"
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format foxglove -o "$work/cut_scene.mcap"
 expect 2 '--out = .*itself.mcap: must be another file than the input' \
   export "$work/itself.mcap" --format foxglove -o "$work/itself.mcap"

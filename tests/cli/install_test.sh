@@ -27,10 +27,11 @@ expect 0 'fusion' launch two_lasers --virtual-time --dry-run
 expect 2 '^error: paper_scenaro1: is neither a file nor the name of a shipped scenario; did you mean paper_scenario1\?$' \
   run paper_scenaro1
 for file in man/man1/ttfusion.1 man/man1/ttfusion-schedule.1 bash-completion/completions/ttfusion \
-  zsh/vendor-completions/_ttfusion fish/vendor_completions.d/ttfusion.fish doc/ttfusion/copyright \
+  zsh/site-functions/_ttfusion fish/vendor_completions.d/ttfusion.fish doc/ttfusion/copyright \
   doc/ttfusion/docs/installing.md ttfusion/experiments/faults/camera_crash.yaml ttfusion/schemas/cluster.schema.json; do
   [[ -s $share/$file ]] || fail "$file is not installed"
 done
+[[ -z $(compgen -G "$build/own_symbols.*") && ! -e $build/manual ]] || fail "files stay in the build folder"
 [[ -z $(find "$prefix" -name '*.cc' -not -path '*/examples/*') ]] || fail "sources are installed"
 [[ -z $(find "$prefix" -type d -empty) ]] || fail "empty folders are installed"
 weak=$(find "$prefix" -name libttf_fusion.a -exec nm --defined-only {} + | grep -c ' [uVvWw] ')
@@ -80,6 +81,7 @@ if command -v dpkg-shlibdeps >/dev/null; then
     dpkg-deb -x "$work"/package/*.deb "$work/root"; then
     [[ $(ls "$work/root") == usr ]] || fail "the package has $(ls "$work/root")"
     [[ -s $work/root/usr/share/man/man1/ttfusion.1.gz ]] || fail "the package's man pages are not compressed"
+    [[ -s $work/root/usr/share/zsh/vendor-completions/_ttfusion ]] || fail "the package has nothing for zsh"
     dpkg-deb -f "$work"/package/*.deb Depends | grep -q 'libstdc++6' || fail "the package depends on no library"
     program=$work/root/usr/bin/ttfusion
     expect 0 "content hash of the log +$hash" run paper_scenario1 --strategy tt --no-pictures

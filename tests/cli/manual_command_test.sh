@@ -46,6 +46,16 @@ completes 'paper_scenario1 paper_scenario2' ttfusion run paper_s
 completes 'paper_synchronised' ttfusion schedule check paper_sy
 completes '--no-log --no-pictures' ttfusion run --no-
 completes 'share' ttfusion run --out sh
+completes 'cluster' ttfusion keys clus
+touch 'my drive.yaml'   # one name
+for words in 'run my' 'run --out my'; do
+  # shellcheck disable=SC2086
+  [[ $(complete ttfusion $words) == 'my drive.yaml' ]] || fail "$words is completed by $(complete ttfusion $words)"
+done
+synopsis() { sed -n '/^.SH SYNOPSIS/{n;s/\\-/-/g;s/\\f[BIR]//g;p}' "$pages/ttfusion-$1.1"; }
+[[ $(synopsis keys) == 'ttfusion keys [OPTIONS] [kind]' ]] || fail "the synopsis of keys is $(synopsis keys)"
+[[ $(synopsis report) == 'ttfusion report [OPTIONS] --out TEXT folders...' ]] ||
+  fail "the synopsis of report is $(synopsis report)"
 for shell in zsh fish; do
   command -v "$shell" >/dev/null || continue
   for file in "$share/$shell"/*/*; do

@@ -27,8 +27,9 @@ for format in pcapng candump csv perfetto foxglove; do
   cmp -s "$work/of_one" "$work/of_many" || fail "the $format export of a run's five logs is not that of its one log"
 done
 # The log of a process that neither measures nor fuses gives an empty scene, and the command says so.
-expect 0 'wrote .*; the log has no .*truth, observations, tracks, ages or errors' \
+expect 1 'wrote .*; the log has no .*truth, observations, tracks, ages or errors' \
   export "$work/nodes/node2.mcap" --format foxglove -o "$work/empty_scene.mcap"
+says '^error: .*node2.mcap: has nothing that a scene shows$'
 expect 0 '' diagram "$work"/nodes/*.mcap "$work/a/adva.mcap" --kind plane -o "$work/of_many.svg"
 expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work/of_one.svg"
 cmp -s "$work/of_one.svg" "$work/of_many.svg" || fail "two runs side by side differ by how many logs one of them has"

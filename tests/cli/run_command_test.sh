@@ -119,6 +119,12 @@ mkdir -p "$work/w1/summary.json" "$work/w2/tt.mcap" "$work/w3/index.html" "$work
 tt=(run "$source/scenarios/paper_scenario2.yaml" --strategy tt)
 expect 1 'error: .*/w1/summary.json: cannot be written: Is a directory' "${tt[@]}" --no-log --out "$work/w1"
 expect 1 'error: .*/w2/tt.mcap: cannot be created: Is a directory' "${tt[@]}" --out "$work/w2"
+# The folders of several scenarios are tried before the first drive.
+mkdir "$work/several"
+touch "$work/several/paper_scenario2"
+expect 1 'error: .*/several/paper_scenario2: cannot be created: ' \
+  run "$source"/scenarios/paper_scenario{1,2}.yaml --strategy tt --out "$work/several"
+[[ ! -e $work/several/paper_scenario1 ]] || fail "a drive went before a folder that cannot be created"
 expect 1 'error: .*/w3/index.html: cannot be written' "${tt[@]}" --out "$work/w3"
 expect 1 'error: .*/w4/tt_timing.png: cannot be written' "${tt[@]}" --out "$work/w4"
 expect_full "${tt[@]}" --no-log --out "$work/w5"

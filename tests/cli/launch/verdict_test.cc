@@ -18,11 +18,15 @@ struct Verdicts : testing::Test {
 
 // The bounds of `schedule check`, and the 500 us of the arrival window.
 TEST_F(Verdicts, TheScheduleAndTheStrategyPromiseAges) {
-  const auto tt = promised_ages(cluster, StrategyKind::kTt), buff = promised_ages(cluster, StrategyKind::kBuff);
+  constexpr std::int64_t kReal = 1'000'000;
+  const auto tt = promised_ages(cluster, StrategyKind::kTt, kReal);
+  const auto buff = promised_ages(cluster, StrategyKind::kBuff, kReal);
   ASSERT_EQ(tt.size(), 2u);
   EXPECT_NEAR(in_ms(tt.at(SensorId{0})), 100.9, 0.01);
   EXPECT_NEAR(in_ms(tt.at(SensorId{1})), 42.64, 0.01);
   EXPECT_NEAR(in_ms(buff.at(SensorId{0})), 140.52, 0.01);
+  // Ten times slower, the window weighs a tenth.
+  EXPECT_NEAR(in_ms(promised_ages(cluster, StrategyKind::kTt, 10 * kReal).at(SensorId{0})), 100.45, 0.01);
 }
 
 TEST_F(Verdicts, WhereNothingWasCountedNothingMatters) {
@@ -61,6 +65,14 @@ TEST_F(Verdicts, WhatReachesTheServiceMatters) {
       "this matters: 3 of 1462 used images were refused: too old; the newest measurement of laser was up to 140.0 ms "
       "old in 12 of 1462 used images, and the schedule promises 101.0 ms; no image was used for 320.0 ms; gateway was "
       "not in operation at the end: integration listen (1 missed slot)");
+}
+
+TEST_F(Verdicts, ASensorThatNeverCameMatters) {
+  facts.service.uses = 50;
+  facts.service.older[SensorId{1}] = {46, Duration::milliseconds(1010), Duration::milliseconds(100), 46};
+  EXPECT_EQ(verdict_of(facts).sentence,
+            "this matters: 46 of 50 used images had no measurement of camera for up to 1010.0 ms, and the schedule "
+            "promises one within 100.0 ms");
 }
 
 TEST_F(Verdicts, ADriveWithoutAnyUseMatters) {

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "tests/evaluation/accuracy/synthetic_uses.h"
 
 namespace ttf::evaluation::accuracy {
 namespace {
 
-constexpr SensorId kLaser{0};
+constexpr SensorId kLaser{0}, kCamera{1};
 
 // A list of the laser, measured at `measured` ms and fused 10 ms later.
 MeasurementId fuse(recording::records::Sink& sink, std::uint32_t sequence, std::int64_t measured) {
@@ -20,9 +22,13 @@ MeasurementId fuse(recording::records::Sink& sink, std::uint32_t sequence, std::
   return list.id;
 }
 
-// Measured every 40 ms, used every 20 ms and 30 ms after the measurement. Lists in `lost` do not come, uses in `missing` neither.
-ServiceFindings drive(std::int64_t uses, std::int64_t lost = -1, std::int64_t missing = -1, std::int64_t many = 0) {
-  ServiceAccount account(at(0), {{kLaser, Duration::milliseconds(55)}});
+const std::map<SensorId, Duration> kLaserAlone{{kLaser, Duration::milliseconds(55)}};
+
+// Measured every 40 ms, used every 20 ms and 30 ms after the measurement. Lists in `lost` do not come, uses in
+// `missing` neither.
+ServiceFindings drive(std::int64_t uses, std::int64_t lost = -1, std::int64_t missing = -1, std::int64_t many = 0,
+                      const std::map<SensorId, Duration>& bounds = kLaserAlone) {
+  ServiceAccount account(at(0), bounds);
   std::uint32_t image = 0;
   MeasurementId newest{};
   for (std::int64_t k = 0; k < uses; ++k) {
@@ -50,6 +56,41 @@ TEST(ServiceAccount, ALostListMakesTheNewestOlderThanTheSchedulePromises) {
   EXPECT_EQ(older.worst, Duration::milliseconds(90));
   EXPECT_EQ(older.bound, Duration::milliseconds(55));
   EXPECT_FALSE(findings.gap);
+}
+
+// Used at 30, 50, ... 1010 ms. The camera may need 100 ms to begin.
+TEST(ServiceAccount, ASensorThatNeverComesIsNotAsPromised) {
+  const std::map<SensorId, Duration> both{{kLaser, Duration::milliseconds(55)}, {kCamera, Duration::milliseconds(100)}};
+  const ServiceFindings findings = drive(50, -1, -1, 0, both);
+  EXPECT_FALSE(findings.as_promised());
+  ASSERT_EQ(findings.older.size(), 1u);
+  const ServiceFindings::Older& older = findings.older.at(kCamera);
+  EXPECT_EQ(older.uses, 46u);
+  EXPECT_EQ(older.missing, 46u);
+  EXPECT_EQ(older.worst, Duration::milliseconds(1010));
+  EXPECT_EQ(older.bound, Duration::milliseconds(100));
+  EXPECT_TRUE(drive(4, -1, -1, 0, both).as_promised()) << "until 90 ms";
+}
+
+// The log may lack an image: its node was killed before it wrote.
+TEST(ServiceAccount, AnUnknownImageTellsNothingOfTheSensors) {
+  ServiceAccount account(at(0), kLaserAlone);
+  for (std::int64_t k = 0; k < 50; ++k) use_image(account, 1, at(20 * k), {});
+  EXPECT_TRUE(account.finish(at(1000)).as_promised());
+}
+
+// Its images begin without measurements.
+TEST(ServiceAccount, ARestartedFusionNodeLosesTheNewestMeasurement) {
+  ServiceAccount account(at(0), kLaserAlone);
+  write_image(account, 1, GlobalTime{at(20).ns}, {}, {fuse(account, 0, 0)});
+  use_image(account, 1, at(30), {});
+  write_image(account, 0, GlobalTime{at(40).ns}, {});
+  use_image(account, 0, at(50), {});
+  use_image(account, 0, at(70), {});
+  const ServiceFindings findings = account.finish(at(80));
+  ASSERT_EQ(findings.older.count(kLaser), 1u);
+  EXPECT_EQ(findings.older.at(kLaser).uses, 1u);
+  EXPECT_EQ(findings.older.at(kLaser).worst, Duration::milliseconds(70));
 }
 
 TEST(ServiceAccount, TimeWithoutAUseIsNamed) {
