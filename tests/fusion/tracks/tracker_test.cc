@@ -247,7 +247,7 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
 TEST(Tracker, ACarThatCreptAndStandsFacesItsFront) {
   config::TrackerConfig config;
   config.process_noise = 0.002;
-  config.gate_probability = 0.99999;  // of 400 positions none is taken for another car
+  config.gate_probability = 0.99999;  // no position is taken for another car
   Bench bench(config);
   RandomStream stream({.seed = 5});
   for (int k = 0; k < 400; ++k) {
