@@ -28,7 +28,7 @@ for name in tt_positions errors nees ages; do
   [[ -s $work/figures/$name.pdf ]] || fail "no $name.pdf"
 done
 [[ $(sed -n 's/^image,.*/image/p' "$work/figures/tt_positions.csv" | wc -l) -gt 20 ]] || fail "few positions"
-expect 0 '' export "$work/run"/{adva,buff,tt}.mcap --format gnuplot -o "$work/again"
+expect 0 '' export "$work/run"/{buff,adva,tt}.mcap --format gnuplot -o "$work/again"
 for file in "$work"/again/*; do
   cmp "$file" "$work/figures/$(basename "$file")" || fail "$file is another when its logs are named"
 done
