@@ -14,7 +14,7 @@ clang_warnings() {                                                     # everyth
 }
 sanitizers() { tools/sanitize.sh --slow; }                             # slow tests, and those by the wall clock
 threads() {                                                            # the thread sanitizer, all of these rooms' tests
-  tools/threads.sh test_sweep test_experiments test_runner test_recording test_dds test_dds_live
+  tools/threads.sh test_sweep test_experiments test_runner test_recording test_dds test_dds_network test_dds_live
 }
 tidy() { tools/tidy.sh; }                                              # every source and header of the rooms
 fuzz() { tools/fuzz.sh 300; }                                          # five minutes a target
