@@ -73,7 +73,12 @@ template <class F, motion::Model M> struct Single {
   linear::Gaussian<2> position(const Own& own) const {
     return {own.x.template head<2>(), own.p.template topLeftCorner<2, 2>()};
   }
-  Cartesian cartesian(const Own& own) const { return motion::whole<M>(own).estimate; }
+  Cartesian cartesian(const Own& own) const {
+    if constexpr (M::kCartesian && M::kStates == 6)
+      return own;
+    else
+      return motion::whole<M>(own).estimate;
+  }
   linear::Vector<2> velocity(const Own& own) const {
     return M::template kinematics<motion::kWithVelocity>(own.x).velocity;
   }

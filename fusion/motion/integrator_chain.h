@@ -39,8 +39,8 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
     return {jacobian(anywhere, dt), noise(anywhere, dt)};
   }
 
-  // Computes F P F' + Q: F P F' as sums of rows, then of columns.
-  void advance(linear::Gaussian<kStates>& state, double dt) const {
+  // Computes F P F' + Q: F P F' as sums of rows, then of columns. Flattened, so that all powers are computed once.
+  [[gnu::flatten]] void advance(linear::Gaussian<kStates>& state, double dt) const {
     TTF_CHECK(dt >= 0.0, "prediction by {} s", dt);
     advance_rows(state.x, dt);
     advance_rows(state.p, dt);

@@ -85,7 +85,7 @@ class HistoryStrategy : public Strategy {
     bool blocked = false;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const std::size_t slot = waiting_[i];
-      const tracks::StoredList& list = pending_[slot];
+      tracks::StoredList& list = pending_[slot];
       // Goes in chronological order: a waiting list holds back all younger ones. A stamp from the future is
       // wrong; its fusion would make all later lists late.
       blocked = blocked || fuses_from(list) > now;
@@ -167,25 +167,24 @@ class HistoryStrategy : public Strategy {
     }
   }
 
-  FusedList take(const tracks::StoredList& list) {
-    Disposition disposition = Disposition::kFused;
-    switch (history_->insert(list.view())) {
+  // The history may exchange the list for another.
+  FusedList take(tracks::StoredList& list) {
+    FusedList result{list.id, list.measured, Disposition::kFused};
+    switch (history_->exchange(list)) {
       case tracks::TrackHistory::Insertion::kInOrder: break;
-      case tracks::TrackHistory::Insertion::kLate: disposition = Disposition::kFusedLate; break;
-      case tracks::TrackHistory::Insertion::kTooOld: disposition = Disposition::kDroppedTooOld; break;
+      case tracks::TrackHistory::Insertion::kLate: result.disposition = Disposition::kFusedLate; break;
+      case tracks::TrackHistory::Insertion::kTooOld: result.disposition = Disposition::kDroppedTooOld; return result;
     }
-    FusedList result{list.id, list.measured, disposition};
-    if (disposition == Disposition::kDroppedTooOld) return result;
     result.innovations = history_->innovations();
     const auto known = std::find_if(newest_.begin(), newest_.end(),
-                                    [&](const MeasurementId& id) { return id.sensor == list.id.sensor; });
+                                    [&](const MeasurementId& id) { return id.sensor == result.id.sensor; });
     if (known == newest_.end()) {
-      newest_.push_back(list.id);
-      newest_stamps_.push_back(list.measured);
+      newest_.push_back(result.id);
+      newest_stamps_.push_back(result.measured);
     } else if (GlobalTime& stamp = newest_stamps_[static_cast<std::size_t>(known - newest_.begin())];
-               list.measured > stamp) {
-      *known = list.id;
-      stamp = list.measured;
+               result.measured > stamp) {
+      *known = result.id;
+      stamp = result.measured;
     }
     return result;
   }

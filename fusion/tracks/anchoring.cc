@@ -118,18 +118,26 @@ Facing facing_at_centre(const Anchor& anchor, const Extent& extent, const Headin
   return facing_of(velocity, axis);
 }
 
-// Returns M P M'. The order of the sums is written out, so that fewer rows give the same bits, and fewer columns, too, where
-// the rest of P is zero.
+// Returns M P M', where M begins with the two columns of the identity. The order of the sums is written out, so that fewer
+// rows give the same bits, and fewer columns, too, where the rest of P is zero.
 template <int R, int K>
 [[gnu::flatten]] linear::Matrix<R> carried(const linear::Matrix<R, K>& m, const linear::Matrix<K>& p) {
   linear::Matrix<R, K> mp;
   motion::unrolled<K>([&](int c) {
-    mp.col(c) = p(0, c) * m.col(0);
-    motion::unrolled<K - 1>([&](int k) { mp.col(c) += p(k + 1, c) * m.col(k + 1); });
+    linear::Vector<R> column = linear::Vector<R>::Zero();
+    column.template head<2>() = p.col(c).template head<2>();
+    motion::unrolled<K - 2>([&](int k) { column += p(k + 2, c) * m.col(k + 2); });
+    mp.col(c) = column;
   });
   linear::Matrix<R> result;
-  motion::unrolled<R>([&](int r) {
-    result.col(r) = m(r, 0) * mp.col(0) + (m(r, 1) * mp.col(1) + m(r, 2) * mp.col(2));
+  motion::unrolled<R>([&](auto row) {
+    constexpr int r = row;
+    if constexpr (r == 0)
+      result.col(r) = mp.col(0) + m(r, 2) * mp.col(2);
+    else if constexpr (r == 1)
+      result.col(r) = mp.col(1) + m(r, 2) * mp.col(2);
+    else
+      result.col(r) = m(r, 2) * mp.col(2);
     if constexpr (K == 6)
       result.col(r) += m(r, 3) * mp.col(3) + (m(r, 4) * mp.col(4) + m(r, 5) * mp.col(5));
     else
@@ -144,8 +152,9 @@ template <int R, int K>
 // Returns the centre by its place in the object. With u = d centre / d heading and the turn rate w, its velocity is
 // v + w u, and its acceleration a + w^2 u', where u' is u on by a quarter turn.
 template <int R, int K>
-linear::Gaussian<R> turned(const Located& centre, const Extent& extent, const Heading& axis, const Facing& facing,
-                           const Turn& turn, const estimators::Cartesian& estimate) {
+[[gnu::flatten]] linear::Gaussian<R> turned(const Located& centre, const Extent& extent, const Heading& axis,
+                                            const Facing& facing, const Turn& turn,
+                                            const estimators::Cartesian& estimate) {
   const double w = turn.rate;
   const linear::Vector<2> u = centre.by_box.col(2), on = quarter_on(u);
   const linear::Matrix<2> by_size = centre.by_box.leftCols<2>();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace ttf::fusion::tracks {
 namespace {
@@ -26,6 +27,54 @@ void keep_positive(Extent& extent) {
     extent.size(1 - k) = std::max(kSmallest, extent.size(1 - k) + other * step);
     extent.size(k) = kSmallest;
   }
+}
+
+// A corner of the outline: along and across the line of sight. u and v are 0.5 or -0.5.
+struct Corner {
+  double u = 0.0, v = 0.0, along = 1.0, across = 0.0;
+};
+
+// The corners that subtend the angle, for an aspect with this cosine and sine.
+struct Outermost {
+  double c, s;
+  Corner low, high;
+
+  double angle() const { return std::atan2(high.across, high.along) - std::atan2(low.across, low.along); }
+  // The derivatives of a corner's azimuth by length and width.
+  Eigen::Vector2d by_size(const Corner& at) const {
+    const double squared = at.along * at.along + at.across * at.across;
+    return {(at.along * s * at.u - at.across * c * at.u) / squared,
+            (at.along * c * at.v + at.across * s * at.v) / squared};
+  }
+};
+
+// The tangents of the corners' azimuths, counted from the line of sight, tell the outermost ones. Returns no value if a
+// corner is not in front of the sensor.
+std::optional<Outermost> outermost(double range, double aspect, const Eigen::Vector2d& size) {
+  Outermost found{std::cos(aspect), std::sin(aspect), {}, {}};
+  double low_tangent = 0.0, high_tangent = 0.0;
+  for (const double u : {0.5, -0.5})
+    for (const double v : {0.5, -0.5}) {
+      const Corner corner{u, v, range + found.c * u * size(0) - found.s * v * size(1),
+                          found.s * u * size(0) + found.c * v * size(1)};
+      if (corner.along <= 0.0) return std::nullopt;
+      const double tangent = corner.across / corner.along;
+      if (tangent < low_tangent) {
+        found.low = corner;
+        low_tangent = tangent;
+      }
+      if (tangent > high_tangent) {
+        found.high = corner;
+        high_tangent = tangent;
+      }
+    }
+  return found;
+}
+
+// The subtended angle [rad], zero if the outline surrounds the sensor.
+double angle_subtended(double range, double aspect, const Eigen::Vector2d& size) {
+  const std::optional<Outermost> corners = outermost(range, aspect, size);
+  return corners ? corners->angle() : 0.0;
 }
 
 }  // namespace
@@ -62,35 +111,10 @@ void correct_width(Extent& extent, double width, double sigma) {
   correct_directly(extent, Eigen::Vector2d::UnitY(), width, sigma);
 }
 
-// The outermost corners subtend the angle; in front of the sensor, their tangents tell which ones they are.
 Subtended subtended(double range, double aspect, const Eigen::Vector2d& size) {
-  // Coordinates along and across the line of sight; the corners' azimuths count from it. u and v are 0.5 or -0.5.
-  struct Corner {
-    double u = 0.0, v = 0.0, along = 1.0, across = 0.0;
-  };
-  const double c = std::cos(aspect), s = std::sin(aspect);
-  Corner low, high;
-  double low_tangent = 0.0, high_tangent = 0.0;
-  for (const double u : {0.5, -0.5})
-    for (const double v : {0.5, -0.5}) {
-      const Corner corner{u, v, range + c * u * size(0) - s * v * size(1), s * u * size(0) + c * v * size(1)};
-      if (corner.along <= 0.0) return {};
-      const double tangent = corner.across / corner.along;
-      if (tangent < low_tangent) {
-        low = corner;
-        low_tangent = tangent;
-      }
-      if (tangent > high_tangent) {
-        high = corner;
-        high_tangent = tangent;
-      }
-    }
-  const auto by_size = [&](const Corner& at) -> Eigen::Vector2d {
-    const double squared = at.along * at.along + at.across * at.across;
-    return {(at.along * s * at.u - at.across * c * at.u) / squared,
-            (at.along * c * at.v + at.across * s * at.v) / squared};
-  };
-  return {std::atan2(high.across, high.along) - std::atan2(low.across, low.along), by_size(high) - by_size(low)};
+  const std::optional<Outermost> corners = outermost(range, aspect, size);
+  if (!corners) return {};
+  return {corners->angle(), corners->by_size(corners->high) - corners->by_size(corners->low)};
 }
 
 void correct_span(Extent& extent, const Aspect& aspect, double span, double sigma) {
@@ -99,8 +123,8 @@ void correct_span(Extent& extent, const Aspect& aspect, double span, double sigm
   if (expected.angle <= 0.0) return;
   // Seen end on, the span has a kink: it is smallest there and grows to either side. So the larger difference
   // stands for the derivative.
-  const double left = subtended(aspect.range, aspect.angle + aspect.sigma_angle, extent.size).angle,
-               right = subtended(aspect.range, aspect.angle - aspect.sigma_angle, extent.size).angle;
+  const double left = angle_subtended(aspect.range, aspect.angle + aspect.sigma_angle, extent.size),
+               right = angle_subtended(aspect.range, aspect.angle - aspect.sigma_angle, extent.size);
   const double by_aspect = std::max(std::abs(left - expected.angle), std::abs(right - expected.angle));
   const double by_range = expected.angle * aspect.sigma_range / aspect.range;
   double repeating = by_aspect * by_aspect + by_range * by_range;

@@ -7,7 +7,7 @@ namespace ttf::fusion::tracks {
 
 Timeline::Timeline(const config::TrackerConfig& config, std::size_t max_observations)
     : tracker_(config, max_observations), identities_(tracker_.max_tracks()), history_(config.history_scans),
-      base_(tracker_.max_tracks()) {
+      arrived_(max_observations), base_(tracker_.max_tracks()) {
   const std::size_t entries = history_ + kSpacing + 1;
   entries_.reserve(entries);
   for (std::size_t i = 0; i < entries; ++i) {
@@ -27,6 +27,11 @@ bool Timeline::contains(const MeasurementId& id, GlobalTime measured) const {
 }
 
 Timeline::Insertion Timeline::insert(const sensors::ObservationList& list) {
+  arrived_.assign(list);
+  return exchange(arrived_);
+}
+
+Timeline::Insertion Timeline::exchange(StoredList& list) {
   if (any_settled_ && before(list.id, list.measured, settled_id_, settled_time_)) return Insertion::kTooOld;
   const std::size_t position = place_of(list);
   const bool late = position < order_.size();
@@ -41,7 +46,7 @@ Timeline::Insertion Timeline::insert(const sensors::ObservationList& list) {
 }
 
 // Searches from the end: late lists are rarely very late.
-std::size_t Timeline::place_of(const sensors::ObservationList& list) const {
+std::size_t Timeline::place_of(const StoredList& list) const {
   std::size_t position = order_.size();
   while (position > 0) {
     const StoredList& previous = entry(position - 1).list;
@@ -51,10 +56,10 @@ std::size_t Timeline::place_of(const sensors::ObservationList& list) const {
   return position;
 }
 
-void Timeline::put(const sensors::ObservationList& list, std::size_t position) {
+void Timeline::put(StoredList& list, std::size_t position) {
   const std::size_t slot = free_.back();
   free_.pop_back();
-  entries_[slot].list.assign(list);
+  std::swap(entries_[slot].list, list);
   entries_[slot].kept = false;
   order_.insert(order_.begin() + static_cast<std::ptrdiff_t>(position), slot);
 }

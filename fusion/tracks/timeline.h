@@ -22,26 +22,12 @@
 
 namespace ttf::fusion::tracks {
 
-// A list with its own copy of the observations.
-struct StoredList {
-  MeasurementId id;
-  GlobalTime measured{};
-  std::vector<sensors::Observation> observations;
-
-  explicit StoredList(std::size_t most_observations) { observations.reserve(most_observations); }
-  void assign(const sensors::ObservationList& list) {
-    id = list.id;
-    measured = list.measured;
-    observations.assign(list.observations.begin(), list.observations.end());
-  }
-  sensors::ObservationList view() const { return {id, measured, observations}; }
-};
-
 class Timeline final : public TrackHistory {
  public:
   Timeline(const config::TrackerConfig& config, std::size_t max_observations);
 
   Insertion insert(const sensors::ObservationList& list) override;
+  Insertion exchange(StoredList& list) override;
   Innovations innovations() const override { return innovations_; }
   const TrackSet& current() const override;
   const estimators::Estimator& estimator() const override { return tracker_.estimator(); }
@@ -58,8 +44,8 @@ class Timeline final : public TrackHistory {
   };
   Entry& entry(std::size_t position) { return entries_[order_[position]]; }
   const Entry& entry(std::size_t position) const { return entries_[order_[position]]; }
-  std::size_t place_of(const sensors::ObservationList& list) const;
-  void put(const sensors::ObservationList& list, std::size_t position);
+  std::size_t place_of(const StoredList& list) const;
+  void put(StoredList& list, std::size_t position);
   void append();
   void rewind(std::size_t position);
   void take_in(std::size_t position);
@@ -70,6 +56,7 @@ class Timeline final : public TrackHistory {
   Identities identities_;
   Innovations innovations_;
   std::size_t history_;
+  StoredList arrived_;
   std::vector<Entry> entries_;      // storage, used in any order
   std::vector<std::size_t> order_;  // chronological
   std::vector<std::size_t> free_;

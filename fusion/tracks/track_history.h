@@ -3,7 +3,9 @@
 // (fusion/strategies/late/late_updates.h) corrects the newest tracks by a method for single states.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/ids.h"
 #include "core/time.h"
@@ -19,12 +21,29 @@ inline bool before(const MeasurementId& a, GlobalTime a_time, const MeasurementI
   return a < b;
 }
 
+// A list with its own copy of the observations.
+struct StoredList {
+  MeasurementId id;
+  GlobalTime measured{};
+  std::vector<sensors::Observation> observations;
+
+  explicit StoredList(std::size_t most_observations) { observations.reserve(most_observations); }
+  void assign(const sensors::ObservationList& list) {
+    id = list.id;
+    measured = list.measured;
+    observations.assign(list.observations.begin(), list.observations.end());
+  }
+  sensors::ObservationList view() const { return {id, measured, observations}; }
+};
+
 class TrackHistory {
  public:
   virtual ~TrackHistory() = default;
 
   enum class Insertion : std::uint8_t { kInOrder, kLate, kTooOld };
   virtual Insertion insert(const sensors::ObservationList& list) = 0;
+  // The same. Where the history keeps lists, it takes this one's memory and leaves that of another.
+  virtual Insertion exchange(StoredList& list) { return insert(list.view()); }
   // Returns the innovations of the list that was taken in last, at its own place.
   virtual Innovations innovations() const = 0;
   // Returns the newest tracks; confirmed ones have their ids.

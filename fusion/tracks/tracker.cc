@@ -212,13 +212,14 @@ void Tracker::sort_along_x() {
 // every gate.
 template <class Try> void Tracker::near(const sensors::Observation& z, double gate, const Try& try_one) const {
   const double reach_x = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + z.r(0, 0))) + largest_reach_;
+  const double reach_y = kRoundedUp * std::sqrt(gate * (largest_variance_y_ + z.r(1, 1))) + largest_reach_;
   const double low = z.z(0) - reach_x, high = z.z(0) + reach_x;
   if (strips_.empty()) {
     auto at = std::partition_point(placed_.begin(), placed_.end(), [&](const Placed& p) { return p.x < low; });
-    for (; at != placed_.end() && at->x <= high; ++at) try_one(*at);
+    for (; at != placed_.end() && at->x <= high; ++at)
+      if (std::abs(at->y - z.z(1)) <= reach_y) try_one(*at);
     return;
   }
-  const double reach_y = kRoundedUp * std::sqrt(gate * (largest_variance_y_ + z.r(1, 1))) + largest_reach_;
   auto strip = std::partition_point(strips_.begin(), strips_.end(), [&](const Strip& s) { return s.high < low; });
   for (; strip != strips_.end() && strip->low <= high; ++strip) {
     const auto end = placed_.begin() + static_cast<std::ptrdiff_t>(strip->end);

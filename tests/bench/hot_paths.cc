@@ -87,6 +87,9 @@ void cycle_of(const fusion::Crowd& crowd, const fusion::config::TrackerConfig& c
 }
 void fusion_cycle() { cycle_of(fusion::scene(), {}); }
 void fusion_cycle_on_the_road() { cycle_of(fusion::road(), {}); }
+void fusion_cycle_accelerating() {
+  cycle_of(fusion::road(), fusion::config_of(fusion::config::MotionModel::kConstantAcceleration));
+}
 void fusion_cycle_of_thousand() { cycle_of(fusion::thousand(), fusion::for_thousand()); }
 void fusion_cycle_of_thousand_on_the_road() { cycle_of(fusion::thousand_on_the_road(), fusion::for_thousand()); }
 
@@ -246,6 +249,7 @@ const Path kPaths[] = {
     {"late_c_1", late_by<AlgorithmC, 1>},
     {"fusion_cycle", fusion_cycle},
     {"fusion_cycle_on_the_road", fusion_cycle_on_the_road},
+    {"fusion_cycle_accelerating", fusion_cycle_accelerating},
     {"fusion_cycle_of_thousand", fusion_cycle_of_thousand},
     {"fusion_cycle_of_thousand_on_the_road", fusion_cycle_of_thousand_on_the_road},
     {"fusion_late_list", fusion_late_list},
