@@ -38,6 +38,18 @@ bool remembers_front(const Heading& heading, const linear::Vector<2>& velocity) 
   return !heading.known || heading.front * ahead > 0.0;
 }
 
+// The first of a sorted range that is not `before`. A search has as many halvings whatever it finds, and no branch on what it
+// finds: the processor could not foresee it.
+template <class T, class Before> const T* first_not(std::span<const T> range, const Before& before) {
+  const T* first = range.data();
+  for (std::size_t left = range.size(); left > 0;) {
+    const std::size_t half = (left + 1) / 2;
+    first += half * static_cast<std::size_t>(before(first[half - 1]));
+    left -= half;
+  }
+  return first;
+}
+
 // Makes a rounded bound exclude no pair inside a gate.
 constexpr double kRoundedUp = 1.0 + 1e-12;
 
@@ -214,18 +226,18 @@ template <class Try> void Tracker::near(const sensors::Observation& z, double ga
   const double reach_x = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + z.r(0, 0))) + largest_reach_;
   const double reach_y = kRoundedUp * std::sqrt(gate * (largest_variance_y_ + z.r(1, 1))) + largest_reach_;
   const double low = z.z(0) - reach_x, high = z.z(0) + reach_x;
+  const std::span<const Placed> placed(placed_);
   if (strips_.empty()) {
-    auto at = std::partition_point(placed_.begin(), placed_.end(), [&](const Placed& p) { return p.x < low; });
-    for (; at != placed_.end() && at->x <= high; ++at)
+    const Placed* at = first_not(placed, [&](const Placed& p) { return p.x < low; });
+    for (; at != placed.data() + placed.size() && at->x <= high; ++at)
       if (std::abs(at->y - z.z(1)) <= reach_y) try_one(*at);
     return;
   }
-  auto strip = std::partition_point(strips_.begin(), strips_.end(), [&](const Strip& s) { return s.high < low; });
-  for (; strip != strips_.end() && strip->low <= high; ++strip) {
-    const auto end = placed_.begin() + static_cast<std::ptrdiff_t>(strip->end);
-    auto at = std::partition_point(placed_.begin() + static_cast<std::ptrdiff_t>(strip->begin), end,
-                                   [&](const Placed& p) { return p.y < z.z(1) - reach_y; });
-    for (; at != end && at->y <= z.z(1) + reach_y; ++at) try_one(*at);
+  const Strip* strip = first_not(std::span<const Strip>(strips_), [&](const Strip& s) { return s.high < low; });
+  for (; strip != strips_.data() + strips_.size() && strip->low <= high; ++strip) {
+    const std::span<const Placed> here = placed.subspan(strip->begin, strip->end - strip->begin);
+    const Placed* at = first_not(here, [&](const Placed& p) { return p.y < z.z(1) - reach_y; });
+    for (; at != here.data() + here.size() && at->y <= z.z(1) + reach_y; ++at) try_one(*at);
   }
 }
 
