@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <string>
@@ -22,6 +23,11 @@ Duration period_of(const NodeSet& set, std::string_view step, const nodes::runne
   return {};
 }
 
+bool runs(const NodeSet& set, NodeId node, std::string_view step) {
+  const std::vector<schedules::model::Task>& tasks = set.cluster.node(node).tasks;
+  return std::any_of(tasks.begin(), tasks.end(), [&](const schedules::model::Task& task) { return task.step == step; });
+}
+
 Duration period_of(const NodeSet& set, const schedules::model::Sensor& sensor, const nodes::runner::DriveClock& clock) {
   return clock.in_real(sensor.scheduled ? set.cluster.cycle() * sensor.at.repetition : sensor.longest_period());
 }
@@ -31,7 +37,11 @@ std::int64_t utc_ns(bus::ports::MachineTime at) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() + (at - bus::ports::host_now()).ns;
 }
 
-bus::dds::ros::RosOptions options_of(const NodeSet& set, const nodes::runner::DriveClock& clock, bool tells_truth) {
+bool tells_truth(const NodeSet& set, NodeId node) {
+  return !set.cluster.sensors.empty() && set.cluster.sensors.front().device == node;
+}
+
+bus::dds::ros::RosOptions options_of(const NodeSet& set, const nodes::runner::DriveClock& clock, NodeId node) {
   bus::dds::ros::RosOptions options;
   options.domain = bus::dds::ros::domain_of_environment();
   options.origin_realtime_ns = utc_ns(clock.origin());
@@ -39,15 +49,13 @@ bus::dds::ros::RosOptions options_of(const NodeSet& set, const nodes::runner::Dr
   options.image_period = period_of(set, "image_output", clock);
   options.step_period = period_of(set, "fusion", clock);
   options.health_period = kHealthPeriod;
-  if (tells_truth && !set.cluster.sensors.empty()) {
+  options.images = runs(set, node, "image_output");
+  options.tracks = runs(set, node, "fusion");
+  if (tells_truth(set, node)) {
     options.truth_objects = static_cast<std::uint16_t>(set.scenario.world.objects.size());
     options.truth_period = period_of(set, set.cluster.sensors.front(), clock);
   }
   return options;
-}
-
-bool tells_truth(const NodeSet& set, NodeId node) {
-  return !set.cluster.sensors.empty() && set.cluster.sensors.front().device == node;
 }
 
 std::string us(Duration duration) { return fmt::format("{:.1f}", in_us(duration)); }
@@ -56,16 +64,18 @@ std::string us(Duration duration) { return fmt::format("{:.1f}", in_us(duration)
 
 void check_topics(const NodeSet& set) {
   const nodes::runner::DriveClock any({}, set.time_scale_ppm);
-  for (const bool with_truth : {false, true}) bus::dds::ros::validate(options_of(set, any, with_truth));
+  for (std::size_t node = 0; node < set.cluster.nodes.size(); ++node)
+    bus::dds::ros::validate(options_of(set, any, static_cast<NodeId>(node)));
 }
 
 void try_topics(const NodeSet& set) {
-  bus::dds::ros::try_domain(options_of(set, nodes::runner::DriveClock({}, set.time_scale_ppm), false));
+  const nodes::runner::DriveClock any({}, set.time_scale_ppm);
+  bus::dds::ros::try_domain(options_of(set, any, NodeId{0}));
 }
 
 LiveTopics::LiveTopics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
                        const drives::Surroundings& around)
-    : name_(set.cluster.node(node).name), publisher_(options_of(set, clock, tells_truth(set, node))) {
+    : name_(set.cluster.node(node).name), publisher_(options_of(set, clock, node)) {
   if (tells_truth(set, node)) truth_.emplace(*around.scene, set.cluster.nodes.size(), publisher_);
 }
 

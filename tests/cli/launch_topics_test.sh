@@ -32,13 +32,17 @@ after=$(date +%s)
 python3 - "$work/told.heard" "$before" "$after" <<'PY' || fail "what is heard of a launch is another"
 import json, sys
 before, after = int(sys.argv[2]), int(sys.argv[3])
-heard = {}
+heard, publishers = {}, {}
 for line in map(json.loads, open(sys.argv[1])):
+    if line["event"] == "publication": publishers[line["topic"]] = publishers.get(line["topic"], 0) + 1
     if line["event"] == "sample": heard.setdefault(line["topic"], []).append(line)
 counts = {topic: len(lines) for topic, lines in heard.items()}
 # Least counts out of 160 steps, 40 images, 20 measurements of the first sensor, and a health of each node a second.
 for topic, least in (("tracks", 100), ("image", 25), ("image/boxes", 25), ("truth/object_0", 12)):
     assert counts.get("rt/ttfusion/" + topic, 0) >= least, counts
+# Each topic has one publisher; diagnostics are every node's.
+assert publishers.pop("rt/diagnostics") == 7 and set(publishers) == set(counts) - {"rt/diagnostics"}, publishers
+assert all(count == 1 for count in publishers.values()), publishers
 assert any(line["tracks"] for line in heard["rt/ttfusion/tracks"]), "never a track"
 assert {status["name"] for line in heard["rt/diagnostics"] for status in line["status"]} == \
     {"laser", "camera", "laser_pre", "camera_pre", "gateway", "fusion", "feature"}, heard["rt/diagnostics"]

@@ -25,6 +25,8 @@ struct RosOptions {
   double deadline_slack = 1.5;                       // at least 1
   std::chrono::milliseconds liveliness_lease{1000};  // a publisher silent for so long counts as dead; 100 ms to 1 h
 
+  // Others publish the topics that this one does not, so that each has one publisher. All publish their health.
+  bool images = true, tracks = true;
   std::uint16_t truth_objects = 0;  // publishes the truth of this many objects, the first
   std::size_t most_objects = 64;    // in an image, 1..1024; further ones are cut off and counted
   std::size_t most_tracks = 64;     // in a step, likewise

@@ -68,15 +68,18 @@ Writer::Counts Writer::counts() const {
 
 Writers::Writers(const RosOptions& options)
     : participant_(options.domain, lease_of(options)), messages_(options),
-      images_(participant_, &ttfusion_msgs_msg_dds__RealTimeImage__desc, topic_of(options, "image"),
-              options.image_period, false, options),
-      boxes_(participant_, &vision_msgs_msg_dds__Detection3DArray__desc, topic_of(options, "image/boxes"),
-             options.image_period, false, options),
-      tracks_(participant_, &ttfusion_msgs_msg_dds__TrackArray__desc, topic_of(options, "tracks"), options.step_period,
-              false, options),
       // All of ROS looks for diagnostics here, from any publisher.
       healths_(participant_, &diagnostic_msgs_msg_dds__DiagnosticArray__desc, "rt/diagnostics", options.health_period,
                true, options) {
+  if (options.images) {
+    images_.emplace(participant_, &ttfusion_msgs_msg_dds__RealTimeImage__desc, topic_of(options, "image"),
+                    options.image_period, false, options);
+    boxes_.emplace(participant_, &vision_msgs_msg_dds__Detection3DArray__desc, topic_of(options, "image/boxes"),
+                   options.image_period, false, options);
+  }
+  if (options.tracks)
+    tracks_.emplace(participant_, &ttfusion_msgs_msg_dds__TrackArray__desc, topic_of(options, "tracks"),
+                    options.step_period, false, options);
   truths_.reserve(options.truth_objects);
   for (std::uint16_t object = 0; object < options.truth_objects; ++object)
     truths_.emplace_back(participant_, &nav_msgs_msg_dds__Odometry__desc,
@@ -85,11 +88,14 @@ Writers::Writers(const RosOptions& options)
 }
 
 void Writers::write(const WaitingImage& image) {
-  images_.write(&messages_.image(image));
-  boxes_.write(&messages_.boxes(image));
+  if (!images_) return;
+  images_->write(&messages_.image(image));
+  boxes_->write(&messages_.boxes(image));
 }
 
-void Writers::write(const WaitingStep& step) { tracks_.write(&messages_.tracks(step)); }
+void Writers::write(const WaitingStep& step) {
+  if (tracks_) tracks_->write(&messages_.tracks(step));
+}
 
 void Writers::write(const WaitingTruth& truth) { truths_[index_of(truth.state.object)].write(&messages_.truth(truth)); }
 

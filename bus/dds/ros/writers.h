@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,16 +42,18 @@ class Writers {
   void write(const WaitingTruth& truth);
   void write(const WaitingHealth& health);
 
-  Writer::Counts images() const { return images_.counts(); }
-  Writer::Counts boxes() const { return boxes_.counts(); }
-  Writer::Counts tracks() const { return tracks_.counts(); }
+  // Without a writer, nothing is counted.
+  Writer::Counts images() const { return images_ ? images_->counts() : Writer::Counts{}; }
+  Writer::Counts boxes() const { return boxes_ ? boxes_->counts() : Writer::Counts{}; }
+  Writer::Counts tracks() const { return tracks_ ? tracks_->counts() : Writer::Counts{}; }
   Writer::Counts truths() const;  // for all objects
   Writer::Counts healths() const { return healths_.counts(); }
 
  private:
   common::Participant participant_;
   Messages messages_;
-  Writer images_, boxes_, tracks_, healths_;
+  std::optional<Writer> images_, boxes_, tracks_;
+  Writer healths_;
   std::vector<Writer> truths_;  // by object
 };
 
