@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 #include "cli/drive_progress.h"
 #include "cli/logs/export_foxglove.h"
 #include "cli/logs/export_gnuplot.h"
+#include "cli/logs/export_tables.h"
 #include "cli/logs/log_inputs.h"
 #include "cli/output.h"
 #include "core/counted.h"
@@ -86,6 +88,22 @@ int export_for_viewers(const ExportOptions& options, const recording::merge::Mer
   return 1;
 }
 
+int export_drive_tables(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
+  const auto tables = export_tables(drive, options.out);
+  std::vector<std::string> rows;
+  for (const auto& [file, count] : tables) rows.push_back(fmt::format("{} of {}", counted(count, "row"), file));
+  if (options.json) {
+    fmt::print("{{\n  \"format\": \"tables\",\n  \"rows\": {{");
+    for (std::size_t t = 0; t < tables.size(); ++t)
+      fmt::print("{}\"{}\": {}", t == 0 ? "" : ", ", tables[t].first, tables[t].second);
+    fmt::print("}}\n}}\n");
+  }
+  say_written(options.out, joined(rows));
+  if (std::any_of(tables.begin(), tables.end(), [](const auto& table) { return table.second > 0; })) return 0;
+  fmt::print(stderr, "error: {}: has nothing for a table\n", options.logs[0]);
+  return 1;
+}
+
 int export_for_papers(const ExportOptions& options) {
   const std::vector<std::string> files = export_gnuplot(options.logs, options.out);
   if (options.json) {
@@ -97,7 +115,7 @@ int export_for_papers(const ExportOptions& options) {
   return 0;
 }
 
-int export_tables(const ExportOptions& options) {
+int export_experiment_tables(const ExportOptions& options) {
   if (options.logs.size() > 1)
     throw InputError({"command line", 0, "logs", options.logs[1], "must be one experiment's folder"});
   refuse_other_format(options.out, options.format, kFormatEnds);
@@ -113,13 +131,14 @@ int export_tables(const ExportOptions& options) {
 
 int run_export(const ExportOptions& options) {
   if (options.format == "gnuplot") return export_for_papers(options);
-  if (options.format == "markdown") return export_tables(options);
+  if (options.format == "markdown") return export_experiment_tables(options);
   for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
   refuse_other_format(options.out, options.format, kFormatEnds);
   for (const std::string& log : log_files(options.logs)) refuse_overwriting(log, options.out, "--out");
   const recording::merge::MergedLogs drive = drive_in(options.logs);
   if (options.format == "perfetto") return export_perfetto(options, drive);
   if (options.format == "foxglove") return export_for_viewers(options, drive);
+  if (options.format == "tables") return export_drive_tables(options, drive);
   recording::exports::FrameCollector collector;
   read_shown(drive, collector);
   const recording::exports::LogNames names(drive.manifest());
@@ -143,13 +162,14 @@ int run_export(const ExportOptions& options) {
 void add_export(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand(
-      "export", "A run for Wireshark, canplayer, ui.perfetto.dev, Foxglove, a spreadsheet or a paper");
+      "export", "A run for Wireshark, canplayer, ui.perfetto.dev, Foxglove, Python, a spreadsheet or a paper");
   command->footer(
       "The start of the run is 1970-01-01 in pcapng and foxglove, second 1000000000 in candump, and 0 in\n"
-      "csv and perfetto.\n"
+      "csv, perfetto and tables.\n"
       "The logs of a run's processes are merged.\n"
       "Examples: ttfusion export out/drive/tt.mcap --format pcapng -o out/drive.pcapng\n"
       "          ttfusion export out/drive/tt.mcap --format foxglove -o out/scene.mcap\n"
+      "          ttfusion export out/drive/tt.mcap --format tables -o out/tables\n"
       "          ttfusion export out/noise --format gnuplot -o out/figures\n"
       "          ttfusion export out/noise --format markdown -o out/noise.md");
   command
@@ -162,11 +182,14 @@ void add_export(CLI::App& app, Action& action) {
                    "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
                    "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
                    "foxglove (scene and plots, for Foxglove and Lichtblick), "
+                   "tables (truth, tracks, images, ages, errors, tasks and frames for Python and R, into a folder), "
                    "gnuplot (tables and scripts for papers, into a folder), "
                    "markdown (an experiment's tables, with every point)")
       ->required()
-      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "foxglove", "gnuplot", "markdown"}));
-  command->add_option("-o,--out", options->out, "File to write; for gnuplot the folder")->required()->check(named());
+      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "foxglove", "tables", "gnuplot", "markdown"}));
+  command->add_option("-o,--out", options->out, "File to write; for tables and gnuplot the folder")
+      ->required()
+      ->check(named());
   command->add_flag("--json", options->json, "Counts as JSON on standard output");
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });
 }

@@ -2,19 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "cli/drive_progress.h"
+#include "cli/logs/told_uses.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "core/file_kind.h"
 #include "drives/scenario.h"
 #include "drives/step_catalog.h"
-#include "evaluation/accuracy/drive_rows.h"
 #include "recording/records/tee.h"
 #include "report/drawing/names.h"
 #include "schedules/file/loader.h"
@@ -93,30 +91,6 @@ std::vector<ViewedSensor> sensors_of(const recording::merge::MergedLogs& drive, 
   return sensors;
 }
 
-// Tells the scene the ages and errors of used images.
-class ToldUses final : public evaluation::accuracy::ImageUses {
- public:
-  explicit ToldUses(FoxgloveExport& scene) : ImageUses(evaluation::accuracy::kGate_m), scene_(scene) {}
-  void finish() { finish_use(); }
-
- private:
-  void fused(SensorId, Duration) override {}
-  bool used(const recording::records::FeatureUsed& use, std::span<const evaluation::accuracy::PlaneEstimate>,
-            std::span<const evaluation::accuracy::SensorAge> ages) override {
-    for (const evaluation::accuracy::SensorAge& one : ages) scene_.age(use.stamp.true_time, one.sensor, one.age);
-    return !use.stale;
-  }
-  void judged(const evaluation::accuracy::JudgedUse& use) override {
-    std::vector<ObjectErrors> objects;
-    for (const evaluation::accuracy::UsedObject& one : use.objects)
-      objects.push_back({one.object, one.error[0], one.error[1], one.error[2], one.error[3],
-                         one.belief ? one.belief->nees : std::numeric_limits<double>::quiet_NaN()});
-    scene_.errors(use.at, objects, use.missed, use.spurious);
-  }
-
-  FoxgloveExport& scene_;
-};
-
 std::vector<std::string> missing(const SceneCounts& counts) {
   std::vector<std::string> none;
   const std::pair<std::uint64_t, const char*> parts[] = {
@@ -132,7 +106,17 @@ std::vector<std::string> missing(const SceneCounts& counts) {
 FoxgloveResult export_foxglove(const recording::merge::MergedLogs& drive, const std::string& out) {
   FoxgloveResult result;
   FoxgloveExport scene(out, sensors_of(drive, result.warnings));
-  ToldUses uses(scene);
+  ToldUses uses(
+      [&](const ToldUses::Use& use, ToldUses::Ages ages) {
+        for (const evaluation::accuracy::SensorAge& one : ages) scene.age(use.stamp.true_time, one.sensor, one.age);
+      },
+      [&](const evaluation::accuracy::JudgedUse& use) {
+        std::vector<ObjectErrors> objects;
+        for (const evaluation::accuracy::UsedObject& one : use.objects)
+          objects.push_back({one.object, one.error[0], one.error[1], one.error[2], one.error[3],
+                             one.belief ? one.belief->nees : std::numeric_limits<double>::quiet_NaN()});
+        scene.errors(use.at, objects, use.missed, use.spurious);
+      });
   recording::records::Tee both({&scene, &uses});
   read_shown(drive, both);
   uses.finish();

@@ -159,39 +159,40 @@ std::string export_candump(const FrameCollector& collector, const std::vector<Lo
   return out;
 }
 
+std::string csv_fields(const FrameCollector& collector, const LoggedFrame& frame, const LogNames& names) {
+  if (frame.symbol != 0)
+    return fmt::format("{},{},,,{},symbol,{},,,,,", kFlexRayName, letter(channel_of(frame)),
+                       quoted(names.node(frame.sender)), name_of_symbol(frame.symbol).flag);
+  const bool list = frame.pdu != kNoPdu;
+  std::string out, flags;
+  std::span<const std::byte> payload = collector.data(frame);
+  if (frame.flexray) {
+    const capture::CheckedFlexRayFrame there = checked(frame, payload);
+    flags = flexray_flags(there);
+    payload = there.header_and_payload;
+    payload = payload.subspan(std::min(payload.size(), bus::wire::kHeaderBytes));
+    out = fmt::format("{},{},{},", kFlexRayName, letter(channel_of(frame)),
+                      frame.of_controller ? std::to_string(frame.cycle) : "");
+  } else {
+    flags = can_flags(frame);
+    out = fmt::format("{},,,", quoted(names.can_bus(frame.channel)));
+  }
+  const std::string kind = frame.flexray              ? flexray_kind(frame)
+                           : frame.can_error          ? "can_error"
+                           : frame.flexible_data_rate ? "can_fd"
+                                                      : "can";
+  out += fmt::format("{},{},{},{},{},{},{},{},", kind == "noise" ? "" : std::to_string(frame.id),
+                     frame.sender == kNoNode ? "" : quoted(names.node(frame.sender)), kind, flags,
+                     list ? quoted(names.pdu(frame.pdu)) : "", list ? std::to_string(frame.sequence) : "",
+                     list ? std::to_string(frame.fragment) : "", quoted(names.measurement(frame)));
+  put_hex(out, payload);
+  return out;
+}
+
 std::string export_csv(const FrameCollector& collector, const std::vector<LoggedFrame>& frames, const LogNames& names) {
   std::string out(kCsvHeader);
-  for (const LoggedFrame& frame : frames) {
-    if (frame.symbol != 0) {
-      out += fmt::format("{},{},{},,,{},symbol,{},,,,,\n", frame.time_ns, kFlexRayName, letter(channel_of(frame)),
-                         quoted(names.node(frame.sender)), name_of_symbol(frame.symbol).flag);
-      continue;
-    }
-    const bool list = frame.pdu != kNoPdu;
-    std::string flags;
-    std::span<const std::byte> payload = collector.data(frame);
-    if (frame.flexray) {
-      const capture::CheckedFlexRayFrame there = checked(frame, payload);
-      flags = flexray_flags(there);
-      payload = there.header_and_payload;
-      payload = payload.subspan(std::min(payload.size(), bus::wire::kHeaderBytes));
-      out += fmt::format("{},{},{},{},", frame.time_ns, kFlexRayName, letter(channel_of(frame)),
-                         frame.of_controller ? std::to_string(frame.cycle) : "");
-    } else {
-      flags = can_flags(frame);
-      out += fmt::format("{},{},,,", frame.time_ns, quoted(names.can_bus(frame.channel)));
-    }
-    const std::string kind = frame.flexray              ? flexray_kind(frame)
-                             : frame.can_error          ? "can_error"
-                             : frame.flexible_data_rate ? "can_fd"
-                                                        : "can";
-    out += fmt::format("{},{},{},{},{},{},{},{},", kind == "noise" ? "" : std::to_string(frame.id),
-                       frame.sender == kNoNode ? "" : quoted(names.node(frame.sender)), kind, flags,
-                       list ? quoted(names.pdu(frame.pdu)) : "", list ? std::to_string(frame.sequence) : "",
-                       list ? std::to_string(frame.fragment) : "", quoted(names.measurement(frame)));
-    put_hex(out, payload);
-    out += '\n';
-  }
+  for (const LoggedFrame& frame : frames)
+    out += fmt::format("{},{}\n", frame.time_ns, csv_fields(collector, frame, names));
   return out;
 }
 

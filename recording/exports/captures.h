@@ -26,6 +26,8 @@ namespace ttf::recording::exports {
 // and noise without a sending node has no sender.
 inline constexpr std::string_view kCsvHeader =
     "time_ns,bus,channel,cycle,id,sender,kind,flags,pdu,sequence,fragment,measurement,payload\n";
+// Returns a row without its time and its end of line, from `bus` on.
+std::string csv_fields(const FrameCollector& collector, const LoggedFrame& frame, const LogNames& names);
 
 // `frames` are those of collector.in_order().
 std::string export_pcapng(const FrameCollector& collector, const std::vector<LoggedFrame>& frames,

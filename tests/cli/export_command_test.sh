@@ -78,5 +78,42 @@ if [[ -c /dev/full ]]; then
   expect 1 '/dev/full: cannot be written: No space left' export "$work/tt.mcap" --format foxglove -o /dev/full
 fi
 
+# Tables: each row has a field for each name. Rows are in the order of time, and no row is there twice.
+expect 0 '^wrote .*/tables: [1-9][0-9]* rows of truth.csv, [1-9].* tracks.csv, .* images.csv, .* ages.csv, .* errors.csv, .* tasks.csv, [1-9].* frames.csv$' \
+  export "$work/tt.mcap" --format tables -o "$work/tables"
+expect 0 '"errors.csv": [1-9]' export "$work/tt.mcap" --format tables --json -o "$work/again"
+diff -rq "$work/tables" "$work/again" || fail "the same log gives other tables"
+python3 - "$work/tables" <<'EOF' || fail "the tables are none"
+import csv, sys
+KEYS = {"truth": ["time_s", "object"], "tracks": ["time_s", "track", "for_image"], "images": ["image", "track"],
+        "ages": ["time_s", "sensor"], "errors": ["time_s", "object"], "tasks": ["time_s", "node", "task"], "frames": None}
+for table, key in KEYS.items():
+    rows = list(csv.DictReader(open(f"{sys.argv[1]}/{table}.csv", newline="")))
+    assert rows and all(None not in row and None not in row.values() for row in rows), table
+    times = [float(row["time_s"]) for row in rows]
+    assert times == sorted(times), f"{table} is not in the order of time"
+    assert key is None or len({tuple(row[k] for k in key) for row in rows}) == len(rows), f"{table} has a row twice"
+errors = {(row["time_s"], row["object"]) for row in csv.DictReader(open(f"{sys.argv[1]}/errors.csv", newline=""))}
+truth = {(row["time_s"], row["object"]) for row in csv.DictReader(open(f"{sys.argv[1]}/truth.csv", newline=""))}
+assert errors <= truth, "an error has no truth"
+EOF
+diff <(cut -d, -f2- "$work/tables/frames.csv") <("$program" export "$work/tt.mcap" --format csv -o "$work/f.csv" 2>"$work/said" && cut -d, -f2- "$work/f.csv") ||
+  fail "the frames of the tables are not those of csv"
+expect 1 'error: .*/file: cannot be created' export "$work/tt.mcap" --format tables -o "$work/file"
+expect 2 'x.csv: must not end in .csv with --format tables' export "$work/tt.mcap" --format tables -o "$work/x.csv"
+cp "$work/tt.mcap" "$work/again/truth.csv"
+expect 2 '--out = .*truth.csv: must be another file than the input' export "$work/again/truth.csv" --format tables -o "$work/again"
+
+# The example draws them, or says what is missing.
+if said=$(python3 "$source/examples/table_figure.py" "$work/tables" "$work/figure.svg" 2>&1); then
+  grep -q '</svg>' "$work/figure.svg" || fail "the example leaves no picture"
+elif [[ $said != "error: matplotlib is missing: install Debian's python3-matplotlib" ]]; then
+  fail "the example draws nothing: $said"
+else
+  echo "skipped: the figure of the tables: $said"
+fi
+said=$(python3 "$source/examples/table_figure.py" "$work/absent" "$work/figure.svg" 2>&1) && fail "the example draws nothing and says nothing"
+grep -q '^error: .*absent/errors.csv' <<<"$said" || fail "the example does not name the missing table: $said"
+
 [[ $failures -eq 0 ]] && echo "export command: all as documented"
 exit $((failures > 0))

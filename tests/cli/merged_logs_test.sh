@@ -26,6 +26,10 @@ for format in pcapng candump csv perfetto foxglove; do
   expect 0 '' export "$work"/nodes/*.mcap --format $format -o "$work/of_many"
   cmp -s "$work/of_one" "$work/of_many" || fail "the $format export of a run's five logs is not that of its one log"
 done
+for part in a/tt.mcap nodes/; do
+  expect 0 '' export "$work/$part"* --format tables -o "$work/tables_of_${part%%/*}"
+done
+diff -rq "$work/tables_of_a" "$work/tables_of_nodes" || fail "the tables of a run's five logs are not those of its one log"
 # The log of a process that neither measures nor fuses gives an empty scene, and the command says so.
 expect 1 'wrote .*; the log has no .*truth, observations, tracks, ages or errors' \
   export "$work/nodes/node2.mcap" --format foxglove -o "$work/empty_scene.mcap"
