@@ -12,6 +12,7 @@
 #include "cli/logs/log_inputs.h"
 #include "cli/logs/scan_verdict.h"
 #include "cli/output.h"
+#include "cli/paper_size.h"
 #include "cli/time_window.h"
 #include "core/counted.h"
 #include "core/errors.h"
@@ -38,6 +39,7 @@ struct DiagramOptions {
   std::string kind = "timing";
   std::string out;
   std::optional<int> frame;
+  PaperSizeOptions paper;
 };
 
 // Finds the end of the last task.
@@ -74,6 +76,7 @@ report::plots::Box box_of(const nodes::laser::LaserObject& object) {
 // Draws a recorded laser scan and the vehicles that preprocessing finds in it. Returns the exit code: without any
 // vehicle there is a picture, and the reasons.
 int draw_boxes(const DiagramOptions& options) {
+  const report::drawing::Sheet sheet = sheet_of(options.paper);
   if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "boxes", "takes one recording"});
   const std::vector<recording::rows::RecordedScan> scans = read_scans(options.logs[0]);
   const int frame = options.frame.value_or(0);
@@ -96,13 +99,13 @@ int draw_boxes(const DiagramOptions& options) {
   for (const nodes::laser::LaserObject& object : objects) rectangles.push_back(box_of(object));
   const std::string title = fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"),
                                         objects.size(), objects.size() == 1 ? "" : "es");
-  report::drawing::write_picture(report::plots::boxes_svg(drawn, rectangles, title), options.out);
+  report::drawing::write_picture(report::plots::boxes_svg(drawn, rectangles, title, "fitted box", sheet), options.out);
   say_written(options.out);
   return print_reasons(options.logs[0], title, reasons_for_no_box(config, preprocessor.fates()));
 }
 
 // Without options, shows the whole start-up and two cycles after it.
-std::string startup(const DiagramOptions& options) {
+std::string startup(const DiagramOptions& options, const report::drawing::Sheet& sheet) {
   const TimeWindow window = time_window(options.window);
   const recording::merge::MergedLogs drive = drive_in(options.logs);
   report::startup::StartupExtent extent;
@@ -112,11 +115,11 @@ std::string startup(const DiagramOptions& options) {
   report::startup::StartupDiagram diagram(report::drawing::names_of(drive.manifest()), cycle,
                                           window.from.value_or(whole.first), window.to.value_or(whole.second));
   read_shown(drive, diagram);
-  return diagram.svg();
+  return diagram.svg(sheet);
 }
 
 // Shows the whole drive: a histogram has no time window.
-std::string lateness(const DiagramOptions& options) {
+std::string lateness(const DiagramOptions& options, const report::drawing::Sheet& sheet) {
   for (const auto& [name, text] : {std::pair("--from", options.window.from), std::pair("--to", options.window.to)})
     if (text)
       throw InputError(
@@ -126,18 +129,20 @@ std::string lateness(const DiagramOptions& options) {
   read_shown(drive, sums);
   if (sums.nodes().empty())
     throw InputError({options.logs[0], 0, "", "", "has no lateness: the run was not in real time"});
-  return report::plots::lateness_svg(sums.nodes(), report::drawing::names_of(drive.manifest()));
+  return report::plots::lateness_svg(sums.nodes(), report::drawing::names_of(drive.manifest()), sheet);
 }
 
-std::string timing(const recording::merge::MergedLogs& drive, TrueTime from, TrueTime to) {
+std::string timing(const recording::merge::MergedLogs& drive, TrueTime from, TrueTime to,
+                   const report::drawing::Sheet& sheet) {
   report::timing::TimingDiagram diagram(report::drawing::names_of(drive.manifest()), {drive.manifest().cycle_ns}, from,
                                         to);
   read_shown(drive, diagram);
-  return diagram.svg();
+  return diagram.svg(sheet);
 }
 
 // Draws several drives side by side.
-std::string positions(const std::vector<recording::merge::MergedLogs>& drives, TrueTime from, TrueTime to, bool plane) {
+std::string positions(const std::vector<recording::merge::MergedLogs>& drives, TrueTime from, TrueTime to, bool plane,
+                      const report::drawing::Sheet& sheet) {
   std::vector<std::unique_ptr<report::plots::PositionPlots>> plots;
   std::vector<const report::plots::PositionPlots*> panels;
   std::vector<std::string> titles;
@@ -154,12 +159,13 @@ std::string positions(const std::vector<recording::merge::MergedLogs>& drives, T
   }
   if (plots.size() > 1)
     return report::plots::comparison_svg(
-        panels, titles, plane ? report::plots::PositionView::kPlane : report::plots::PositionView::kXOverTime);
-  return plane ? plots[0]->plane_svg() : plots[0]->over_time_svg();
+        panels, titles, plane ? report::plots::PositionView::kPlane : report::plots::PositionView::kXOverTime, {},
+        sheet);
+  return plane ? plots[0]->plane_svg(sheet) : plots[0]->over_time_svg(sheet);
 }
 
 // Draws a timing diagram, or positions.
-std::string over_time(const DiagramOptions& options) {
+std::string over_time(const DiagramOptions& options, const report::drawing::Sheet& sheet) {
   const TimeWindow window = time_window(options.window);
   const bool as_timing = options.kind == "timing";
   std::vector<recording::merge::MergedLogs> drives;
@@ -176,15 +182,16 @@ std::string over_time(const DiagramOptions& options) {
                       fmt::format("must be before the end of the log, {:g} s", (extent.last - TrueTime{}).seconds())});
   // A timing diagram of a whole drive is unreadable: the default is 160 ms.
   const TrueTime to = window.to ? *window.to : as_timing ? from + Duration::milliseconds(160) : extent.last;
-  return as_timing ? timing(drives[0], from, to) : positions(drives, from, to, options.kind == "plane");
+  return as_timing ? timing(drives[0], from, to, sheet) : positions(drives, from, to, options.kind == "plane", sheet);
 }
 
 // Draws any kind but boxes.
 std::string picture(const DiagramOptions& options) {
   if (options.frame)
     throw InputError({"command line", 0, "--frame", fmt::format("{}", *options.frame), "goes with --kind boxes only"});
-  if (options.kind == "startup") return startup(options);
-  return options.kind == "lateness" ? lateness(options) : over_time(options);
+  const report::drawing::Sheet sheet = sheet_of(options.paper);
+  if (options.kind == "startup") return startup(options, sheet);
+  return options.kind == "lateness" ? lateness(options, sheet) : over_time(options, sheet);
 }
 
 int run_diagram(const DiagramOptions& options) {
@@ -204,7 +211,8 @@ void add_diagram(CLI::App& app, Action& action) {
       "The logs of a run's processes are merged; position and plane show several runs side by side.\n"
       "Examples: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o out/timing.svg\n"
       "          ttfusion diagram out/launch/*.mcap --from 1.5 --to 1.65 -o out/timing.svg\n"
-      "          ttfusion diagram out/cold_start/tt.mcap --kind startup -o out/startup.svg");
+      "          ttfusion diagram out/cold_start/tt.mcap --kind startup -o out/startup.svg\n"
+      "          ttfusion diagram out/drive/tt.mcap --kind plane --width 88mm --font-size 8 -o out/plane.pdf");
   command
       ->add_option(
           "logs", options->logs,
@@ -224,6 +232,7 @@ void add_diagram(CLI::App& app, Action& action) {
       ->capture_default_str();
   command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
       ->check(whole_number({0, kMostScans - 1}));
+  add_paper_size(*command, options->paper);
   command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required()->check(named());
   command->callback([options, &action] { action = [options] { return run_diagram(*options); }; });
 }

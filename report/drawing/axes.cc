@@ -15,7 +15,39 @@ int channel_of(std::string_view colour, std::size_t i) {
   return static_cast<int>(std::strtol(std::string(colour.substr(1 + 2 * i, 2)).c_str(), nullptr, 16));
 }
 
-double entry_width(const LegendEntry& e) { return kLegendSample + text_width(e.text, kLegendText) + kLegendGap; }
+// An entry's place in its legend, and the lines of its text.
+struct Placed {
+  double x = 0, y = 0;  // the middle of its first line
+  std::vector<std::string> lines;
+};
+struct LegendLayout {
+  std::vector<Placed> entries;
+  double height = 0;
+};
+
+LegendLayout layout_of(std::span<const LegendEntry> entries, double width) {
+  LegendLayout layout;
+  double x = 0, top = 0, row = kLegendRow;
+  for (const LegendEntry& e : entries) {
+    Placed placed;
+    placed.lines = broken(e.text, kLegendText, std::max(1.0, width - kLegendSample));
+    double text = 0;
+    for (const std::string& line : placed.lines) text = std::max(text, text_width(line, kLegendText));
+    const double taken = kLegendSample + text + kLegendGap;
+    if (x > 0 && x + taken > width) {
+      x = 0;
+      top += row;
+      row = kLegendRow;
+    }
+    placed.x = x;
+    placed.y = top + kLegendRow / 2;
+    row = std::max(row, kLegendRow + kLineHeight * static_cast<double>(placed.lines.size() - 1));
+    x += taken;
+    layout.entries.push_back(std::move(placed));
+  }
+  layout.height = entries.empty() ? 0 : top + row;
+  return layout;
+}
 
 }  // namespace
 
@@ -138,21 +170,14 @@ std::optional<Point> LabelSpace::place(std::string_view text, const TextStyle& s
   return std::nullopt;
 }
 
-double legend_height(std::span<const LegendEntry> entries, double width) {
-  double x = 0, rows = entries.empty() ? 0 : 1;
-  for (const LegendEntry& e : entries) {
-    if (x > 0 && x + entry_width(e) > width) ++rows, x = 0;
-    x += entry_width(e);
-  }
-  return rows * kLegendRow;
-}
+double legend_height(std::span<const LegendEntry> entries, double width) { return layout_of(entries, width).height; }
 
 void draw_legend(Svg& svg, Point top_left, double width, std::span<const LegendEntry> entries) {
   svg.open_group("legend");
-  double x = 0, y = top_left.y + kLegendRow / 2;
-  for (const LegendEntry& e : entries) {
-    if (x > 0 && x + entry_width(e) > width) x = 0, y += kLegendRow;
-    const double left = top_left.x + x;
+  const LegendLayout layout = layout_of(entries, width);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const LegendEntry& e = entries[i];
+    const double left = top_left.x + layout.entries[i].x, y = top_left.y + layout.entries[i].y;
     const Paint line{.stroke = e.colour, .width = 1.5, .dash = e.dash};
     switch (e.kind) {
       case LegendEntry::Kind::kMarker:
@@ -173,17 +198,19 @@ void draw_legend(Svg& svg, Point top_left, double width, std::span<const LegendE
                   .dash = e.dash});
         break;
     }
-    svg.text({left + kLegendSample, y + 4}, e.text, {.size = kLegendText});
-    x += entry_width(e);
+    svg.lines({left + kLegendSample, y + 4}, layout.entries[i].lines, {.size = kLegendText});
   }
   svg.close_group();
 }
 
-std::string empty_picture(std::string_view title, std::string_view reason) {
-  const double width = std::max({480.0, text_width(title, 15, true) + 40, text_width(reason, 12) + 40});
-  Svg svg(width, 120, title);
-  svg.text({width / 2, 45}, title, {.size = 15, .anchor = Anchor::kMiddle, .bold = true});
-  svg.text({width / 2, 80}, reason, {.size = 12, .anchor = Anchor::kMiddle});
+std::string empty_picture(std::string_view title, std::string_view reason, const Sheet& sheet) {
+  const double width = sheet.width(std::max({480.0, text_width(title, 15, true) + 40, text_width(reason, 12) + 40}));
+  const std::vector<std::string> titles = broken(title, sheet.text(15), sheet.line(width - 20), true),
+                                 reasons = broken(reason, sheet.text(12), sheet.line(width - 20));
+  const double below = kLineHeight * static_cast<double>(titles.size() - 1);
+  Svg svg(width, 120 + below + kLineHeight * static_cast<double>(reasons.size() - 1), title, sheet);
+  svg.lines({width / 2, 45}, titles, {.size = 15, .anchor = Anchor::kMiddle, .bold = true});
+  svg.lines({width / 2, 80 + below}, reasons, {.size = 12, .anchor = Anchor::kMiddle});
   return svg.str();
 }
 

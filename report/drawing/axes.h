@@ -94,12 +94,12 @@ struct LegendEntry {
   bool filled = false;
   std::string dash = {};
 };
-// Entries run in rows from left to right, wrapped at `width`. The legend has its own space beside the plot
+// Entries run in rows from left to right, wrapped at `width`. A longer entry has several lines. The legend has its own space beside the plot
 // and never covers data.
 double legend_height(std::span<const LegendEntry> entries, double width);
 void draw_legend(Svg& svg, Point top_left, double width, std::span<const LegendEntry> entries);
 
 // Returns a picture that says why it is empty.
-std::string empty_picture(std::string_view title, std::string_view reason);
+std::string empty_picture(std::string_view title, std::string_view reason, const Sheet& sheet = {});
 
 }  // namespace ttf::report::drawing

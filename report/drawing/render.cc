@@ -13,7 +13,8 @@
 namespace ttf::report::drawing {
 namespace {
 
-constexpr double kPngSharpWidth = 2600;   // up to this many SVG units a PNG has two pixels a unit
+constexpr double kPngSharpWidth = 2600;   // up to this many CSS pixels a PNG has two for each
+constexpr double kPrinted = 300.0 / 96;   // pixels of a PNG for paper for each CSS pixel
 constexpr double kPointsPerPixel = 0.75;  // 72 / 96
 
 struct SurfaceFree {
@@ -57,6 +58,14 @@ std::string take(GError* error) {
   return message;
 }
 
+bool on_paper(RsvgHandle* handle) {
+  gboolean has_width = 0, has_height = 0, has_view = 0;
+  RsvgLength width{}, height{};
+  RsvgRectangle view{};
+  rsvg_handle_get_intrinsic_dimensions(handle, &has_width, &width, &has_height, &height, &has_view, &view);
+  return has_width != 0 && width.unit != RSVG_UNIT_PX;
+}
+
 void draw(RsvgHandle* handle, cairo_surface_t* surface, double scale, double width, double height,
           const std::string& path) {
   const Cairo cairo(cairo_create(surface));
@@ -94,9 +103,9 @@ void write_picture(const std::string& svg, const std::string& path) {
     fail(path, "picture", "", "has no size");
 
   if (format == Format::kPng) {
-    const double scale = width <= kPngSharpWidth ? 2 : 1;
-    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * scale),
-                                                     static_cast<int>(height * scale)));
+    const double scale = on_paper(handle.get()) ? kPrinted : width <= kPngSharpWidth ? 2 : 1;
+    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * scale + 1e-6),
+                                                     static_cast<int>(height * scale + 1e-6)));
     const Cairo cairo(cairo_create(surface.get()));
     cairo_set_source_rgb(cairo.get(), 1, 1, 1);
     cairo_paint(cairo.get());

@@ -5,8 +5,9 @@
 
 namespace ttf::report::drawing {
 
-// Writes the picture in the format of the extension of `path`. A PNG has two pixels per SVG unit up to 2600 units'
-// width and one beyond; a PDF has one CSS pixel (1/96 inch) per SVG unit. Equal input gives equal bytes. Throws
+// Writes the picture in the format of the extension of `path`. A PNG has two pixels per CSS pixel (1/96
+// inch) up to a width of 2600, and one beyond. A picture with a size on paper has 300 pixels an inch. A PDF has the size
+// of the SVG. Equal input gives equal bytes. Throws
 // InputError for an unknown extension or bytes that are no SVG, std::runtime_error for an unwritable path.
 void write_picture(const std::string& svg, const std::string& path);
 

@@ -88,7 +88,8 @@ Area text_area(Point at, std::string_view text, const TextStyle& style) {
   return {left, at.y - 0.8 * style.size, width, style.size};
 }
 
-Svg::Svg(double width, double height, std::string_view title) : width_(width), height_(height), title_(title) {}
+Svg::Svg(double width, double height, std::string_view title, const Sheet& sheet)
+    : width_(width), height_(height), title_(title), sheet_(sheet) {}
 
 void Svg::open_group(std::string_view css_class) {
   body_ += "<g";
@@ -194,7 +195,7 @@ void Svg::marker(Marker kind, Point at, double size, const Paint& paint, std::st
 
 void Svg::text(Point at, std::string_view text, const TextStyle& style) {
   fmt::format_to(std::back_inserter(body_), "<text x=\"{}\" y=\"{}\" font-size=\"{}\"", number(at.x), number(at.y),
-                 number(style.size));
+                 number(sheet_.text(style.size)));
   if (style.anchor != Anchor::kStart)
     fmt::format_to(std::back_inserter(body_), " text-anchor=\"{}\"",
                    style.anchor == Anchor::kMiddle ? "middle" : "end");
@@ -208,13 +209,23 @@ void Svg::text(Point at, std::string_view text, const TextStyle& style) {
   fmt::format_to(std::back_inserter(body_), ">{}</text>\n", escape(text));
 }
 
+void Svg::lines(Point at, std::span<const std::string> lines, const TextStyle& style) {
+  for (const std::string& line : lines) {
+    text(at, line, style);
+    at.y += kLineHeight;
+  }
+}
+
 std::string Svg::str() const {
+  const auto length = [&](double units) {
+    return sheet_.on_paper() ? fmt::format("{:.4f}mm", sheet_.mm(units)) : number(units);
+  };
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{5}\" height=\"{6}\" viewBox=\"0 0 {0} {1}\" "
       "font-family=\"DejaVu Sans, sans-serif\">\n<title>{2}</title>\n<defs>\n{3}</defs>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n{4}</svg>\n",
-      number(width_), number(height_), escape(title_), defs_, body_);
+      number(width_), number(height_), escape(title_), defs_, body_, length(width_), length(height_));
 }
 
 }  // namespace ttf::report::drawing

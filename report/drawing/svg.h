@@ -11,6 +11,9 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
+
+#include "report/drawing/sheet.h"
 
 namespace ttf::report::drawing {
 
@@ -54,11 +57,15 @@ struct TextStyle {
 // Returns the area of a text drawn unrotated at `at`, which lies on the baseline.
 Area text_area(Point at, std::string_view text, const TextStyle& style);
 
+// The distance of lines of text.
+inline constexpr double kLineHeight = 14;
+
 enum class Marker : std::uint8_t { kCircle, kCross, kTriangle, kSquare, kDiamond, kDownTriangle, kPlus };
 
 class Svg {
  public:
-  Svg(double width, double height, std::string_view title);
+  // On paper all text has one size, whatever its style says, and the picture its size in millimetres.
+  Svg(double width, double height, std::string_view title, const Sheet& sheet = {});
 
   double width() const { return width_; }
   double height() const { return height_; }
@@ -77,6 +84,8 @@ class Svg {
   void marker(Marker kind, Point at, double size, const Paint& paint, std::string_view hover = {},
               std::string_view css_class = {});
   void text(Point at, std::string_view text, const TextStyle& style = {});
+  // Draws lines of text, the first at `at`.
+  void lines(Point at, std::span<const std::string> lines, const TextStyle& style = {});
 
   // Adds attributes to the next element, verbatim (" data-a=\"12\""): for scripts.
   void tag_next(std::string attributes) { tags_ = std::move(attributes); }
@@ -88,6 +97,7 @@ class Svg {
 
   double width_, height_;
   std::string title_;
+  Sheet sheet_;
   std::string defs_;
   std::string body_, tags_;
   std::set<std::string, std::less<>> heads_;  // colours with a defined arrow head

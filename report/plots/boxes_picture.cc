@@ -26,9 +26,9 @@ bool finite(drawing::Point p) { return std::isfinite(p.x) && std::isfinite(p.y);
 }  // namespace
 
 std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Box> boxes, std::string_view title,
-                      std::string_view words) {
+                      std::string_view words, const drawing::Sheet& sheet) {
   if (points.empty() && boxes.empty())
-    return drawing::empty_picture(title, "There are no points and no boxes to show.");
+    return drawing::empty_picture(title, "There are no points and no boxes to show.", sheet);
   drawing::Extent x, y;
   for (const drawing::Point& p : points) x.add(p.x), y.add(p.y);
   for (const Box& b : boxes) {
@@ -38,9 +38,11 @@ std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Bo
   }
   x = x.padded(0.04, 4);
   y = y.padded(0.06, 4);
-  // Both axes share one scale: the wider extent fills its side of at most 1100 x 760.
-  const double scale = std::min(1100 / x.size(), 760 / y.size());
-  const double width = std::max(420.0, x.size() * scale), height = std::max(200.0, y.size() * scale);
+  // Both axes share one scale: the wider extent fills its side of at most 1100 x 760 on a screen.
+  const double widest = sheet.plot_width(1100, 90), highest = sheet.on_paper() ? 0.8 * widest : 760;
+  const double scale = std::min(widest / x.size(), highest / y.size());
+  const double width = sheet.on_paper() ? widest : std::max(420.0, x.size() * scale);
+  const double height = std::max(sheet.on_paper() ? 90.0 : 200.0, y.size() * scale);
   x = x.padded(0, width / scale);
   y = y.padded(0, height / scale);
 
@@ -56,10 +58,17 @@ std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Bo
   if (any([](const Box& b) { return b.has_heading && !b.has_size; }))
     legend.push_back(
         {drawing::LegendEntry::Kind::kBox, "dashed: the size is not measured", std::string(drawing::kVermilion)});
-  const double top = 34 + legend_height(legend, width) + 8;
-  drawing::Svg svg(width + 90, top + height + 62, title);
-  svg.text({70 + width / 2, 22}, title, {.size = 14, .anchor = drawing::Anchor::kMiddle, .bold = true});
-  draw_legend(svg, {70, 34}, width, legend);
+  const double left = sheet.on_paper() ? 10 : 70, words_width = 70 + width - left;
+  const std::vector<std::string> titles = drawing::broken(title, sheet.text(14), sheet.line(words_width), true);
+  const std::vector<std::string> caption =
+      drawing::broken("Coordinates follow ISO 8855: x forward, y to the left; both axes in the same scale.",
+                      sheet.text(10), sheet.line(words_width));
+  const double legend_top = 34 + drawing::kLineHeight * static_cast<double>(titles.size() - 1);
+  const double top = legend_top + legend_height(legend, words_width) + 8;
+  drawing::Svg svg(width + 90, top + height + 62 + drawing::kLineHeight * static_cast<double>(caption.size() - 1),
+                   title, sheet);
+  svg.lines({left + words_width / 2, 22}, titles, {.size = 14, .anchor = drawing::Anchor::kMiddle, .bold = true});
+  draw_legend(svg, {left, legend_top}, words_width, legend);
   const drawing::PlotFrame frame({70, top, width, height}, x, y);
   frame.draw(svg, "x, forward [m]", "y, left [m]");
   svg.open_group("points", frame.area());
@@ -89,17 +98,15 @@ std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Bo
     double above = centre.y, below = centre.y, right = centre.x;
     for (const drawing::Point& p : outline)
       above = std::min(above, p.y), below = std::max(below, p.y), right = std::max(right, p.x);
-    const drawing::TextStyle style{.size = 10, .anchor = drawing::Anchor::kMiddle, .halo = true};
-    const double half = drawing::text_width(b.label, 10) / 2;
+    const drawing::TextStyle style{.size = sheet.text(10), .anchor = drawing::Anchor::kMiddle, .halo = true};
+    const double half = drawing::text_width(b.label, style.size) / 2;
     const std::array<drawing::Point, 3> candidates{drawing::Point{centre.x, above - 4},
                                                    drawing::Point{centre.x, below + 12},
                                                    drawing::Point{right + 6 + half, centre.y + 4}};
     if (const auto p = labels.place(b.label, style, candidates, frame.area())) svg.text(*p, b.label, style);
   }
   svg.close_group();
-  svg.text({70, top + height + 54},
-           "Coordinates follow ISO 8855: x forward, y to the left; both axes in the same scale.",
-           {.size = 10, .fill = "#444444"});
+  svg.lines({left, top + height + 54}, caption, {.size = 10, .fill = "#444444"});
   return svg.str();
 }
 

@@ -20,6 +20,6 @@ struct Box {
 // Draws both axes in the same scale. The sensor is at the origin, if the origin lies in the picture. `words` name the
 // boxes in the legend.
 std::string boxes_svg(std::span<const drawing::Point> points, std::span<const Box> boxes, std::string_view title,
-                      std::string_view words = "fitted box");
+                      std::string_view words = "fitted box", const drawing::Sheet& sheet = {});
 
 }  // namespace ttf::report::plots

@@ -73,12 +73,17 @@ struct LogFrame {
   }
   void draw(drawing::Svg& svg) const {
     const double bottom = area.y + area.height;
+    drawing::LabelSpace numbers;
     svg.open_group("axes");
     svg.rect(area, {.fill = "#ffffff"});
     for (int d = 0; d <= decades_x; ++d) {
       const double x = at({static_cast<double>(d), 0}).x;
       svg.line({x, area.y}, {x, bottom + 4}, {.stroke = "#dddddd", .width = 0.8}, "decade");
-      svg.text({x, bottom + 17}, power_of_ten(d), {.size = 11, .anchor = drawing::Anchor::kMiddle});
+      const drawing::TextStyle style{.size = 11, .anchor = drawing::Anchor::kMiddle};
+      const std::string text = power_of_ten(d);
+      drawing::Area room = text_area({x, bottom + 17}, text, style);
+      room.x -= 3, room.width += 6;
+      if (numbers.claim(room)) svg.text({x, bottom + 17}, text, style);
       for (int step = 2; d < decades_x && step < 10; ++step) {
         const double minor = at({d + std::log10(step), 0}).x;
         svg.line({minor, bottom}, {minor, bottom + 2.5}, {.stroke = drawing::kBlack, .width = 0.5});
@@ -99,8 +104,8 @@ struct LogFrame {
   }
 };
 
-LogFrame frame_around(const std::vector<Curve>& curves, double top) {
-  LogFrame frame{{kPlot.x, top, kPlot.width, kPlot.height}};
+LogFrame frame_around(const std::vector<Curve>& curves, const drawing::Area& area) {
+  LogFrame frame{area};
   for (const Curve& curve : curves)
     for (const drawing::Point& p : curve.points()) {
       frame.decades_x = std::max(frame.decades_x, static_cast<int>(std::ceil(p.x - 1e-9)));
@@ -111,21 +116,26 @@ LogFrame frame_around(const std::vector<Curve>& curves, double top) {
 
 }  // namespace
 
-std::string lateness_svg(const std::map<NodeId, recording::exports::NodeLateness>& nodes, const drawing::Names& names) {
+std::string lateness_svg(const std::map<NodeId, recording::exports::NodeLateness>& nodes, const drawing::Names& names,
+                         const drawing::Sheet& sheet) {
   const std::string title = names.drive.empty() ? "Lateness of wake-ups" : names.drive + ": lateness of wake-ups";
   const std::vector<Curve> curves = curves_of(nodes, names);
   if (curves.empty())
-    return drawing::empty_picture(title, "No node recorded its lateness: this run was not in real time.");
+    return drawing::empty_picture(title, "No node recorded its lateness: this run was not in real time.", sheet);
   std::vector<drawing::LegendEntry> legend;
   for (const Curve& curve : curves) {
     const std::string never = curve.points().empty() ? ", never late by 1 us" : "";
     legend.push_back({drawing::LegendEntry::Kind::kLine, curve.name + never, curve.colour, {}, false, curve.dash});
   }
-  const double legend_width = kPlot.width + kPlot.x - 48;
-  const LogFrame frame = frame_around(curves, 34 + legend_height(legend, legend_width) + 10);
-  drawing::Svg svg(kPlot.x + kPlot.width + 28, frame.area.y + frame.area.height + 50, title);
-  svg.text({24, 22}, title, {.size = 14, .bold = true});
-  draw_legend(svg, {24, 34}, legend_width, legend);
+  const double width = sheet.plot_width(kPlot.width, kPlot.x + 28), room = width + kPlot.x - 24;
+  const double legend_width = sheet.on_paper() ? room : room - 24;
+  const std::vector<std::string> titles = drawing::broken(title, sheet.text(14), sheet.line(room), true);
+  const double legend_top = 34 + drawing::kLineHeight * static_cast<double>(titles.size() - 1);
+  const LogFrame frame = frame_around(curves, {kPlot.x, legend_top + legend_height(legend, legend_width) + 10, width,
+                                               sheet.on_paper() ? std::max(160.0, 0.6 * width) : kPlot.height});
+  drawing::Svg svg(kPlot.x + width + 28, frame.area.y + frame.area.height + 50, title, sheet);
+  svg.lines({24, 22}, titles, {.size = 14, .bold = true});
+  draw_legend(svg, {24, legend_top}, legend_width, legend);
   frame.draw(svg);
   svg.open_group("curves", frame.area);
   for (const Curve& curve : curves) {

@@ -13,6 +13,7 @@
 namespace ttf::report::plots {
 
 // Draws the floors of all nodes as one curve. Without any recorded wake-up, the picture says so.
-std::string lateness_svg(const std::map<NodeId, recording::exports::NodeLateness>& nodes, const drawing::Names& names);
+std::string lateness_svg(const std::map<NodeId, recording::exports::NodeLateness>& nodes, const drawing::Names& names,
+                         const drawing::Sheet& sheet = {});
 
 }  // namespace ttf::report::plots

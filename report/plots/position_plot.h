@@ -44,8 +44,9 @@ class PositionPlots : public recording::records::Sink {
   void on(const recording::records::ReferenceFix& r) override;
   void on(const recording::records::TruthState& r) override;
 
-  std::string over_time_svg() const;  // x above y over a common time axis
-  std::string plane_svg() const;      // y over x
+  // x above y over a common time axis, and y over x. Both throw InputError if paper is too narrow.
+  std::string over_time_svg(const drawing::Sheet& sheet = {}) const;
+  std::string plane_svg(const drawing::Sheet& sheet = {}) const;
 
   // The data of a panel, selected and in the time window; also for tests and tables.
   struct Sample {
@@ -111,8 +112,10 @@ class PositionPlots : public recording::records::Sink {
   std::vector<FusedList> fused_;
 };
 
-// Draws one view of several drives as panels side by side with the same axes. `titles` has one entry per panel.
+// Draws one view of several drives as panels with the same axes, side by side; on narrow paper also below each other.
+// `titles` has one entry per panel.
 std::string comparison_svg(std::span<const PositionPlots* const> plots, std::span<const std::string> titles,
-                           PositionView view = PositionView::kPlane, std::string_view title = {});
+                           PositionView view = PositionView::kPlane, std::string_view title = {},
+                           const drawing::Sheet& sheet = {});
 
 }  // namespace ttf::report::plots

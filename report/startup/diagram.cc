@@ -37,12 +37,12 @@ void StartupDiagram::on(const recording::records::FaultActivity& r) {
     data_.faults.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
 }
 
-std::string StartupDiagram::svg() const {
+std::string StartupDiagram::svg(const drawing::Sheet& sheet) const {
   if (data_.changes.empty() && data_.power.empty())
-    return drawing::empty_picture("Start-up",
-                                  "No node changed its state: all nodes were integrated from begin to end.");
-  if (from_ >= to_) return drawing::empty_picture("Start-up", "The window is empty.");
-  return paint_startup(names_, data_, cycle_, from_, to_);
+    return drawing::empty_picture("Start-up", "No node changed its state: all nodes were integrated from begin to end.",
+                                  sheet);
+  if (from_ >= to_) return drawing::empty_picture("Start-up", "The window is empty.", sheet);
+  return paint_startup(names_, data_, cycle_, from_, to_, sheet);
 }
 
 void StartupExtent::see(TrueTime at, bool starts) {

@@ -34,7 +34,7 @@ class StartupDiagram : public recording::records::Sink {
   void on(const recording::records::FaultActivity& r) override;
 
   // Returns the picture; without a change of state or a loss of supply, it says so.
-  std::string svg() const;
+  std::string svg(const drawing::Sheet& sheet = {}) const;
 
  private:
   drawing::Names names_;

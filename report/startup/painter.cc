@@ -29,9 +29,10 @@ class StartupPainter {
   static constexpr double kNotes = 10, kBar = 14, kBarHeight = 16, kChannels[] = {38, 49}, kRowHeight = 8;
 
  public:
-  StartupPainter(const drawing::Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to)
-      : names_(names), data_(data), from_(from), to_(to), spans_(state_spans(data, from, to)),
-        faults_(faults_within(data.faults, from, to)), leader_(leading_node(data)),
+  StartupPainter(const drawing::Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to,
+                 const drawing::Sheet& sheet)
+      : names_(names), data_(data), sheet_(sheet), text_(sheet.text(kText)), from_(from), to_(to),
+        spans_(state_spans(data, from, to)), faults_(faults_within(data.faults, from, to)), leader_(leading_node(data)),
         legend_(startup_legend(data, spans_, from, to)) {
     if (leader_) cycles_ = cycles_of(data, *leader_, cycle, to);
     for (const auto& c : data.changes) on_flexray_.insert(c.node);
@@ -40,8 +41,8 @@ class StartupPainter {
     std::set<NodeId> nodes = on_flexray_;
     for (const auto& p : data.power) nodes.insert(p.node);
     plot_.x = 40;
-    plot_.y = kTop;
-    double y = kTop;
+    write_head();
+    double y = plot_.y;
     for (const auto& f : faults_) {
       if (!fault_top_.try_emplace(f.fault, y).second) continue;
       y += kFaultLane;
@@ -52,28 +53,21 @@ class StartupPainter {
       y += on_flexray_.count(node) != 0 ? kNodeLane : kLaneOffFlexRay;
       plot_.x = std::max(plot_.x, drawing::text_width(names.node(node), 11) + 24);
     }
-    plot_.height = y - kTop;
+    plot_.height = y - plot_.y;
     const double ms = (to - from).seconds() * 1e3;
     const double per_ms = cycle.ns > 0 ? kPixelsPerCycle / (cycle.seconds() * 1e3) : kPixelsPerMs;
-    plot_.width = std::clamp(ms * per_ms, kLeastPlot, kMostPlot);
+    plot_.width = sheet.plot_width(std::clamp(ms * per_ms, kLeastPlot, kMostPlot), plot_.x + 24);
   }
 
   std::string picture() {
     const double legend_width = plot_.width + plot_.x - 24;
     const double legend_top = plot_.y + plot_.height + 46;
-    // A cluster that began integrated has no leader.
-    const bool integrated = !leader_ && !active_from_the_start(data_).empty();
-    const std::string title = fmt::format("{}: {}, {} ms to {} ms", names_.drive.empty() ? "Run" : names_.drive,
-                                          integrated ? "changes of state" : "start-up", drawing::number(in_ms(from_)),
-                                          drawing::number(in_ms(to_)));
-    drawing::Svg svg(plot_.x + plot_.width + 24, legend_top + legend_height(legend_, legend_width) + 12, title);
+    drawing::Svg svg(plot_.x + plot_.width + 24, legend_top + legend_height(legend_, legend_width) + 12, title_,
+                     sheet_);
     svg_ = &svg;
-    svg.text({24, 22}, title, {.size = 14, .bold = true});
-    if (leader_)
-      svg.text({24, 42},
-               fmt::format("Cycles count from the collision avoidance symbol of {}, which leads.",
-                           names_.node(leader_->node)),
-               {.size = 11});
+    svg.lines({24, 22}, title_lines_, {.size = 14, .bold = true});
+    svg.lines({24, 42 + drawing::kLineHeight * static_cast<double>(title_lines_.size() - 1)}, leader_lines_,
+              {.size = 11});
     grid();
     lanes();
     svg.open_group("events", plot_);
@@ -91,6 +85,22 @@ class StartupPainter {
   }
 
  private:
+  // The words above the plot, and its top. A cluster that began integrated has no leader.
+  void write_head() {
+    const bool integrated = !leader_ && !active_from_the_start(data_).empty();
+    const double room = sheet_.line(sheet_.width(0) - 48);
+    title_ = fmt::format("{}: {}, {} ms to {} ms", names_.drive.empty() ? "Run" : names_.drive,
+                         integrated ? "changes of state" : "start-up", drawing::number(in_ms(from_)),
+                         drawing::number(in_ms(to_)));
+    title_lines_ = drawing::broken(title_, sheet_.text(14), room, true);
+    if (leader_)
+      leader_lines_ =
+          drawing::broken(fmt::format("Cycles count from the collision avoidance symbol of {}, which leads.",
+                                      names_.node(leader_->node)),
+                          11, room);
+    const std::size_t more = title_lines_.size() - 1 + (leader_lines_.empty() ? 0 : leader_lines_.size() - 1);
+    plot_.y = kTop + drawing::kLineHeight * static_cast<double>(more);
+  }
   double x(TrueTime t) const {
     return plot_.x + static_cast<double>((t - from_).ns) / static_cast<double>((to_ - from_).ns) * plot_.width;
   }
@@ -115,7 +125,7 @@ class StartupPainter {
       if (it->second >= from_)
         svg_->line({left, plot_.y - 4}, {left, plot_.y + plot_.height}, {.stroke = "#b8b8b8", .width = 0.7}, "cycle");
       const std::string label = fmt::format("{}", it->first);
-      const drawing::TextStyle style{.size = 10, .anchor = drawing::Anchor::kMiddle, .fill = "#444444"};
+      const drawing::TextStyle style{.size = sheet_.text(10), .anchor = drawing::Anchor::kMiddle, .fill = "#444444"};
       const drawing::Point at{(left + right) / 2, plot_.y - 7};
       drawing::Area area = text_area(at, label, style);
       area.x -= 4, area.width += 8;
@@ -236,8 +246,8 @@ class StartupPainter {
       const double left = stay_inside(x(s.start)), right = stay_inside(x(s.end));
       const std::string colour = phase_of(s.state).colour;
       for (const std::string_view text : {std::string_view(s.name), short_name(s.state)}) {
-        if (text.empty() || right - left < drawing::text_width(text, kText) + 5) continue;
-        note(text, {.size = kText, .anchor = drawing::Anchor::kMiddle, .fill = drawing::text_colour_on(colour)},
+        if (text.empty() || right - left < drawing::text_width(text, text_) + 5) continue;
+        note(text, {.size = text_, .anchor = drawing::Anchor::kMiddle, .fill = drawing::text_colour_on(colour)},
              {(left + right) / 2, top(s.node) + kBar + 11.5});
         break;
       }
@@ -248,7 +258,7 @@ class StartupPainter {
     for (const auto& s : data_.symbols) {
       if (!visible(s.start, s.end) || noted == std::pair(s.node, s.start)) continue;  // one note for both channels
       noted = std::pair(s.node, s.start);
-      note(symbol_name(s.kind), {.size = kText}, {x(s.start), top(s.node) + kNotes});
+      note(symbol_name(s.kind), {.size = text_}, {x(s.start), top(s.node) + kNotes});
     }
     svg_->close_group();
   }
@@ -260,6 +270,10 @@ class StartupPainter {
 
   const drawing::Names& names_;
   const StartupData& data_;
+  drawing::Sheet sheet_;
+  double text_;  // size
+  std::string title_;
+  std::vector<std::string> title_lines_, leader_lines_;
   TrueTime from_, to_;
   std::vector<StateSpan> spans_;
   std::vector<StartupData::Fault> faults_;
@@ -277,8 +291,8 @@ class StartupPainter {
 }  // namespace
 
 std::string paint_startup(const drawing::Names& names, const StartupData& data, Duration cycle, TrueTime from,
-                          TrueTime to) {
-  return StartupPainter(names, data, cycle, from, to).picture();
+                          TrueTime to, const drawing::Sheet& sheet) {
+  return StartupPainter(names, data, cycle, from, to, sheet).picture();
 }
 
 }  // namespace ttf::report::startup

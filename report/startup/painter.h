@@ -15,7 +15,7 @@ inline constexpr std::string_view kStartupFrameFill = drawing::kBlue, kOtherFram
                                   kFaultFill = "#f2b8a0";
 
 std::string paint_startup(const drawing::Names& names, const StartupData& data, Duration cycle, TrueTime from,
-                          TrueTime to);
+                          TrueTime to, const drawing::Sheet& sheet);
 
 // Returns legend entries only for things that occur in the window.
 std::vector<drawing::LegendEntry> startup_legend(const StartupData& data, const std::vector<StateSpan>& spans,

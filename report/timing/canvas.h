@@ -22,6 +22,7 @@ struct TimingCanvas {
   TimingTags tags;
   drawing::Area plot;
   std::map<LaneKey, double> centres;
+  drawing::Sheet sheet;
 
   static constexpr double kBox = 14, kText = 9.5;  // height of slots and tasks, size of their text
 

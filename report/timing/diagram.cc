@@ -79,19 +79,20 @@ void TimingDiagram::on(const recording::records::TimingProblem& r) {
     data_.problems.push_back({r.stamp.true_time, r.stamp.node, r.what, r.late, r.cycle, r.slot, r.channel, r.count});
 }
 
-std::string TimingDiagram::svg(TimingUse use) const {
+std::string TimingDiagram::svg(TimingUse use, const drawing::Sheet& sheet) const {
   // These records make the lanes; fusion and use are drawn between them.
   const bool nothing =
       data_.measurements.empty() && data_.can_frames.empty() && data_.slot_frames.empty() && data_.executions.empty();
   if (from_ >= to_ || nothing)
-    return drawing::empty_picture(
-        "Timing diagram", fmt::format("There are no records between {} ms and {} ms.", drawing::number(in_ms(from_)),
-                                      drawing::number(in_ms(to_))));
+    return drawing::empty_picture("Timing diagram",
+                                  fmt::format("There are no records between {} ms and {} ms.",
+                                              drawing::number(in_ms(from_)), drawing::number(in_ms(to_))),
+                                  sheet);
   // A log records an execution at its end, a merged log at its start: sorting gives the same picture.
   TimingData data = data_;
   std::ranges::stable_sort(data.executions, {},
                            [](const TimingData::Execution& one) { return std::tuple(one.start, one.node); });
-  return paint_timing(names_, data, cycle_, from_, to_, use);
+  return paint_timing(names_, data, cycle_, from_, to_, use, sheet);
 }
 
 }  // namespace ttf::report::timing

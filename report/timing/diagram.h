@@ -43,9 +43,9 @@ class TimingDiagram : public recording::records::Sink {
   void on(const recording::records::ChannelFrame& r) override;
   void on(const recording::records::TimingProblem& r) override;
 
-  // Returns the picture; a window without records gives a picture that says so.
-  std::string svg() const { return svg(TimingUse::kPicture); }
-  std::string svg(TimingUse use) const;
+  // Returns the picture; a window without records gives a picture that says so. Throws InputError if paper is too narrow.
+  std::string svg(const drawing::Sheet& sheet = {}) const { return svg(TimingUse::kPicture, sheet); }
+  std::string svg(TimingUse use, const drawing::Sheet& sheet = {}) const;
 
  private:
   bool near(TrueTime start, TrueTime end) const;

@@ -15,7 +15,8 @@ namespace {
 
 class LabelPainter {
  public:
-  LabelPainter(drawing::Svg& svg, const TimingCanvas& canvas) : svg_(svg), canvas_(canvas) {}
+  LabelPainter(drawing::Svg& svg, const TimingCanvas& canvas)
+      : svg_(svg), canvas_(canvas), text_(canvas.sheet.text(TimingCanvas::kText)) {}
 
   void draw(const std::vector<Transfer>& transfers) {
     svg_.open_group("labels");
@@ -24,8 +25,8 @@ class LabelPainter {
       const double px = canvas_.x(m.at), py = canvas_.y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0});
       const std::string text = fmt::format("{}", m.id.sequence);
       const std::array<drawing::Point, 2> at{drawing::Point{px + 7, py + 4},
-                                             drawing::Point{px - 7 - drawing::text_width(text, kText), py + 4}};
-      label(text, {.size = kText, .halo = true}, at, m.at);
+                                             drawing::Point{px - 7 - drawing::text_width(text, text_), py + 4}};
+      label(text, {.size = text_, .halo = true}, at, m.at);
     }
     for (const auto& s : canvas_.data.steps) {
       const TimingData::Execution* box = nullptr;
@@ -55,7 +56,7 @@ class LabelPainter {
         continue;
       const double baseline = canvas_.y(t.lane) + 4 - kBox / 2 - 4;
       const std::array<drawing::Point, 1> at{drawing::Point{canvas_.inside(canvas_.x(t.start)), baseline}};
-      const drawing::TextStyle style{.size = 9, .halo = true};
+      const drawing::TextStyle style{.size = canvas_.sheet.text(9), .halo = true};
       if (canvas_.tags.on())
         label(full, style, at, t.start);
       else if (const auto p = space_.place(full, style, at, canvas_.plot))
@@ -67,7 +68,7 @@ class LabelPainter {
   }
 
  private:
-  static constexpr double kBox = TimingCanvas::kBox, kText = TimingCanvas::kText;
+  static constexpr double kBox = TimingCanvas::kBox;
 
   void label(const std::string& text, const drawing::TextStyle& style, std::span<const drawing::Point> candidates,
              TrueTime at) {
@@ -79,20 +80,21 @@ class LabelPainter {
 
   bool in_box(const std::string& text, TrueTime start, TrueTime end, double centre, std::string_view behind) {
     const double left = canvas_.inside(canvas_.x(start)), right = canvas_.inside(canvas_.x(end));
-    const bool fits = right - left >= drawing::text_width(text, kText) + 5;
+    const bool fits = right - left >= drawing::text_width(text, text_) + 5;
     if (!fits && !canvas_.tags.on()) return false;
     const drawing::TextStyle style{
-        .size = kText, .anchor = drawing::Anchor::kMiddle, .fill = drawing::text_colour_on(behind)};
+        .size = text_, .anchor = drawing::Anchor::kMiddle, .fill = drawing::text_colour_on(behind)};
     const std::array<drawing::Point, 1> at{drawing::Point{(left + right) / 2, centre + 3.5}};
     const auto p = fits ? space_.place(text, style, at, canvas_.plot) : std::nullopt;
     if (!p && !canvas_.tags.on()) return false;
-    svg_.tag_next(canvas_.tags.span(start, end) + canvas_.tags.label(drawing::text_width(text, kText), p.has_value()));
+    svg_.tag_next(canvas_.tags.span(start, end) + canvas_.tags.label(drawing::text_width(text, text_), p.has_value()));
     svg_.text(at.front(), text, style);
     return p.has_value();
   }
 
   drawing::Svg& svg_;
   const TimingCanvas& canvas_;
+  const double text_;  // size
   drawing::LabelSpace space_;
 };
 

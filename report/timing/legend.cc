@@ -22,7 +22,7 @@ std::vector<drawing::LegendEntry> timing_legend(const TimingData& data, const dr
   for (const auto& m : data.measurements) sensors.insert(m.id.sensor);
   for (const SensorId sensor : sensors)
     legend.push_back({K::kMarker, names.sensor(sensor) + " measures, its lists and their way",
-                      sensor_colour(names, sensor), drawing::Marker::kDownTriangle, true});
+                      sensor_colour(names, sensor), sensor_marker(names, sensor), true});
   std::map<PduId, bool> pdus;
   bool null_frames = false, status = false;
   for (const auto& f : data.slot_frames) {

@@ -32,10 +32,15 @@ class TimingPainter : TimingCanvas {
     lanes_ = lanes_of(data, names, ways_);
     const double ms = (to - from).seconds() * 1e3;
     plot.x = faults_.label_width() > 0 ? faults_.label_width() + 24 : 24;
-    for (const Lane& lane : lanes_) plot.x = std::max(plot.x, drawing::text_width(lane.label, 11) + 24);
+    for (const Lane& lane : lanes_)
+      for (const std::string& line : label_lines(lane)) plot.x = std::max(plot.x, drawing::text_width(line, 11) + 24);
     // A page's script widens it to the available space.
-    plot.width = tags.on() ? kLeastPlot : std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot);
-    plot.y = tags.on() ? kTopInPage : kTop;
+    plot.width =
+        sheet.plot_width(tags.on() ? kLeastPlot : std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot), plot.x + 24);
+    title_ = fmt::format("{}: {} ms to {} ms", names.drive.empty() ? "Timing diagram" : names.drive,
+                         drawing::number(in_ms(from)), drawing::number(in_ms(to)));
+    title_lines_ = drawing::broken(title_, sheet.text(14), sheet.line(plot.x + plot.width - 24), true);
+    plot.y = tags.on() ? kTopInPage : kTop + drawing::kLineHeight * static_cast<double>(title_lines_.size() - 1);
     double y = plot.y + faults_.height();
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       if (i > 0 && lanes_[i].section != lanes_[i - 1].section) y += 10;
@@ -56,11 +61,9 @@ class TimingPainter : TimingCanvas {
     const double legend_width = plot.width + plot.x - 24;
     const double legend_top = plot.y + plot.height + 46;
     const double height = legend_top + legend_height(legend_, legend_width) + 12;
-    const std::string title = fmt::format("{}: {} ms to {} ms", names.drive.empty() ? "Timing diagram" : names.drive,
-                                          drawing::number(in_ms(from)), drawing::number(in_ms(to)));
-    drawing::Svg svg(plot.x + plot.width + 24, height, title);
+    drawing::Svg svg(plot.x + plot.width + 24, height, title_, sheet);
     svg_ = &svg;
-    if (!tags.on()) svg.text({24, 22}, title, {.size = 14, .bold = true});
+    if (!tags.on()) svg.lines({24, 22}, title_lines_, {.size = 14, .bold = true});
     grid();
     faults_.draw_labels(svg, plot);
     svg.open_group("events", plot);
@@ -110,7 +113,7 @@ class TimingPainter : TimingCanvas {
         svg_->line({left, plot.y - 4}, {left, plot.y + plot.height}, {.stroke = "#b8b8b8", .width = 0.7}, "cycle");
       }
       const std::string label = fmt::format("{}", it->first);
-      const drawing::TextStyle style{.size = 10, .anchor = drawing::Anchor::kMiddle, .fill = "#444444"};
+      const drawing::TextStyle style{.size = sheet.text(10), .anchor = drawing::Anchor::kMiddle, .fill = "#444444"};
       drawing::Area area = text_area({(left + right) / 2, plot.y - 7}, label, style);
       area.x -= 4, area.width += 8;
       if (it->first < 0) continue;
@@ -130,7 +133,9 @@ class TimingPainter : TimingCanvas {
                    {.stroke = "#999999", .width = 0.8});
       }
       svg_->line({plot.x, centre}, {plot.x + plot.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
-      svg_->text({plot.x - 10, centre + 4}, lane.label, {.size = 11, .anchor = drawing::Anchor::kEnd});
+      const std::vector<std::string> lines = label_lines(lane);
+      svg_->lines({plot.x - 10, centre + 4 - drawing::kLineHeight / 2 * static_cast<double>(lines.size() - 1)}, lines,
+                  {.size = 11, .anchor = drawing::Anchor::kEnd});
     }
     if (tags.on()) {  // a group of its own: the script draws another axis
       svg_->close_group();
@@ -233,8 +238,9 @@ class TimingPainter : TimingCanvas {
     for (const auto& m : data.measurements) {
       if (!visible(m.at, m.at)) continue;
       svg_->tag_next(tags.at(m.at) + tags.list(m.id.sensor, m.id.sequence));
-      svg_->marker(drawing::Marker::kDownTriangle, {x(m.at), y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0})}, 10,
-                   {.fill = sensor_colour(names, m.id.sensor), .stroke = "#ffffff", .width = 0.8},
+      const std::string colour = sensor_colour(names, m.id.sensor);
+      svg_->marker(sensor_marker(names, m.id.sensor), {x(m.at), y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0})},
+                   8, {.fill = colour, .stroke = colour, .width = 1.6},
                    fmt::format("{} #{}{}", names.sensor(m.id.sensor), m.id.sequence,
                                tags.on() ? " is measured" : fmt::format(" at {} ms", drawing::number(in_ms(m.at)))),
                    "measured");
@@ -247,7 +253,16 @@ class TimingPainter : TimingCanvas {
     }
   }
 
+  // On paper a node and its task have a line each.
+  std::vector<std::string> label_lines(const Lane& lane) const {
+    const std::size_t colon = sheet.on_paper() ? lane.label.find(": ") : std::string::npos;
+    if (colon == std::string::npos) return {lane.label};
+    return {lane.label.substr(0, colon + 1), lane.label.substr(colon + 2)};
+  }
+
   Duration cycle_;
+  std::string title_;
+  std::vector<std::string> title_lines_;
   std::vector<Transfer> transfers_;
   Ways ways_;
   FaultLanes faults_;
@@ -261,8 +276,8 @@ class TimingPainter : TimingCanvas {
 }  // namespace
 
 std::string paint_timing(const drawing::Names& names, const TimingData& data, Duration cycle, TrueTime from,
-                         TrueTime to, TimingUse use) {
-  return TimingPainter({names, data, from, to, TimingTags(use), {}, {}}, cycle).picture();
+                         TrueTime to, TimingUse use, const drawing::Sheet& sheet) {
+  return TimingPainter({names, data, from, to, TimingTags(use), {}, {}, sheet}, cycle).picture();
 }
 
 }  // namespace ttf::report::timing

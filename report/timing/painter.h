@@ -16,7 +16,7 @@ namespace ttf::report::timing {
 inline constexpr std::string_view kDeadlineMissed = drawing::kYellow, kTaskFill = "#c9d7e6";
 
 std::string paint_timing(const drawing::Names& names, const TimingData& data, Duration cycle, TrueTime from,
-                         TrueTime to, TimingUse use);
+                         TrueTime to, TimingUse use, const drawing::Sheet& sheet);
 
 // Returns legend entries only for things that occur in the window.
 std::vector<drawing::LegendEntry> timing_legend(const TimingData& data, const drawing::Names& names,

@@ -14,6 +14,27 @@ expect 2 'command line: --from = 1e300: must be a decimal number 0..1000000000 s
   diagram "$work/tt.mcap" --from 1e300 -o "$work/timing.pdf"
 expect 2 'must be after --from' diagram "$work/tt.mcap" --from 1.5 --to 1.5 -o "$work/timing.pdf"
 expect 0 '' diagram "$work/tt.mcap" "$work/adva.mcap" --kind plane -o "$work/plane.svg"
+# On paper.
+for kind in timing position plane; do
+  expect 0 '' diagram "$work/tt.mcap" --kind $kind --from 1.5 --to 1.6 --width 88mm --font-size 8 -o "$work/paper.svg"
+  grep -q '<svg [^>]*width="88.0000mm"' "$work/paper.svg" || fail "the $kind picture is not 88 mm wide"
+  [[ $(grep -o 'font-size="[^"]*"' "$work/paper.svg" | sort -u | wc -l) -eq 1 ]] || fail "the $kind picture has several sizes of text"
+done
+for width in 3.5in 8.89cm 252pt; do   # the same width
+  expect 0 '' diagram "$work/tt.mcap" --kind plane --width $width -o "$work/$width.pdf"
+  cmp "$work/$width.pdf" "$work/3.5in.pdf" || fail "3.5 in is not $width"
+done
+grep -Eaq '/MediaBox \[ 0 0 252(\.0000[0-9]*)? ' "$work/252pt.pdf" || fail "the PDF is not 252 pt wide: $(grep -a MediaBox "$work/252pt.pdf")"
+expect 2 '^error: command line: --width = 88: must be a decimal number and mm, cm, in or pt, as in 88mm$' \
+  diagram "$work/tt.mcap" --width 88 -o "$work/none.svg"
+expect 2 '^error: command line: --width = 3ft: must be a decimal number and mm' diagram "$work/tt.mcap" --width 3ft -o "$work/none.svg"
+expect 2 '^error: command line: --width = 1500 mm: must be 30..1000 mm$' diagram "$work/tt.mcap" --width 150cm -o "$work/none.svg"
+expect 2 '^error: command line: --font-size = 3: must be a decimal number 4..72 pt$' \
+  diagram "$work/tt.mcap" --width 88mm --font-size 3 -o "$work/none.svg"
+expect 2 '--font-size = 8: goes with --width only' diagram "$work/tt.mcap" --font-size 8 -o "$work/none.svg"
+expect 2 '--width = 88 mm: must be at least 141.2 mm with a font size of 20 pt' \
+  diagram "$work/tt.mcap" --width 88mm --font-size 20 -o "$work/none.svg"
+[[ -e $work/none.svg ]] && fail "a refused size leaves a picture"
 # A folder stands for its logs.
 mkdir "$work/folder" "$work/bare"
 cp "$work/adva.mcap" "$work/tt.mcap" "$work/folder/"

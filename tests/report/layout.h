@@ -66,7 +66,7 @@ inline void expect_no_overlaps(const std::string& svg) {
 
 // All text inside the picture.
 inline void expect_inside(const std::string& svg) {
-  static const std::regex size("<svg [^>]*width=\"([0-9.]+)\" height=\"([0-9.]+)\"");
+  static const std::regex size("<svg [^>]*viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"");
   std::smatch m;
   ASSERT_TRUE(std::regex_search(svg, m, size));
   const double width = std::stod(m[1]), height = std::stod(m[2]);
@@ -76,6 +76,20 @@ inline void expect_inside(const std::string& svg) {
     EXPECT_GE(t.area.y, 0) << t.text;
     EXPECT_LE(t.area.y + t.area.height, height) << t.text;
   }
+}
+
+// A picture of this width, whose texts have one size, lie inside and do not overlap.
+inline void expect_on_paper(const std::string& svg, double width_mm, double font_pt) {
+  static const std::regex size("<svg [^>]*width=\"([0-9.]+)mm\" height=\"[0-9.]+mm\" viewBox=\"0 0 ([0-9.]+) ");
+  std::smatch m;
+  ASSERT_TRUE(std::regex_search(svg, m, size)) << svg.substr(0, 300);
+  EXPECT_NEAR(std::stod(m[1]), width_mm, 0.02);
+  const double points_per_unit = std::stod(m[1]) / 25.4 * 72 / std::stod(m[2]);
+  static const std::regex font(" font-size=\"([0-9.]+)\"");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), font), end; it != end; ++it)
+    ASSERT_NEAR(std::stod((*it)[1]) * points_per_unit, font_pt, 0.001 * font_pt) << it->str();
+  expect_no_overlaps(svg);
+  expect_inside(svg);
 }
 
 // librsvg, as a judge of well-formedness: writes a PNG beside the other files of the test run.

@@ -222,6 +222,7 @@ TEST(BoxesPicture, DrawsEveryPointAndBox) {
   expect_no_overlaps(svg);
   expect_inside(svg);
   expect_renders(svg);
+  expect_on_paper(plots::boxes_svg(points, boxes, "Boxes", "fitted box", {88, 8}), 88, 8);
   EXPECT_NE(plots::boxes_svg({}, {}, "Boxes").find("no points"), std::string::npos);
 }
 

@@ -103,6 +103,8 @@ TEST(LatenessPicture, AllFloorsAreOneDashedCurve) {
   expect_inside(svg);
   expect_renders(svg);
   EXPECT_EQ(svg, lateness_svg(nodes, three_names()));
+  for (const double width_mm : {75.0, 88.0, 180.0})
+    expect_on_paper(lateness_svg(nodes, three_names(), {width_mm, 8}), width_mm, 8);
 }
 
 TEST(LatenessPicture, WithoutWakeUpsItSaysSo) {

@@ -55,6 +55,14 @@ TEST(PositionPlots, InstantsOfADamagedLogDoNotOverflow) {
   expect_renders(plots.over_time_svg());
 }
 
+TEST(PositionPlots, FitOnPaper) {
+  const PositionPlots plots = drive({.title = "A drive with a long name, which takes two lines"});
+  for (const auto& [width_mm, font_pt] : {std::pair{88.0, 8.0}, std::pair{180.0, 10.0}, std::pair{60.0, 7.0}}) {
+    expect_on_paper(plots.over_time_svg({width_mm, font_pt}), width_mm, font_pt);
+    expect_on_paper(plots.plane_svg({width_mm, font_pt}), width_mm, font_pt);
+  }
+}
+
 TEST(PositionPlots, ArrowsLeadToTheStepThatIntegratedTheMeasurement) {
   const PositionPlots::Selection s = drive().select();
   EXPECT_GE(s.laser_arrows.size(), 17u);
@@ -201,6 +209,8 @@ TEST(PositionPlots, ComparisonsShareTheirAxes) {
     EXPECT_EQ(count_class(svg, "truth"), 2u);
     expect_no_overlaps(svg);
     expect_inside(svg);
+    for (const double width_mm : {60.0, 88.0, 180.0})  // below each other, and side by side
+      expect_on_paper(comparison_svg(both, titles, view, "Both", {width_mm, 8}), width_mm, 8);
   }
 }
 

@@ -155,6 +155,14 @@ TEST(StartupDiagram, AFaultHasALaneFromItsBeginToItsEnd) {
   expect_no_overlaps(svg);
 }
 
+TEST(StartupDiagram, FitsOnPaper) {
+  for (const double width_mm : {70.0, 88.0, 180.0}) {
+    StartupDiagram d(four(), Duration::milliseconds(5), {2'000'000}, {68'000'000});
+    SyntheticStartup::drive(d);
+    expect_on_paper(d.svg(drawing::Sheet(width_mm, 8)), width_mm, 8);
+  }
+}
+
 TEST(StartupDiagram, NoLabelsOverlapInAnyWindow) {
   for (const auto& [from, to] :
        {std::pair{2, 68}, std::pair{0, 20}, std::pair{19, 21}, std::pair{0, 600}, std::pair{0, 60'000}}) {

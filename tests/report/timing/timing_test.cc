@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <regex>
 
 #include "report/timing/diagram.h"
 #include "report/timing/transfers.h"
@@ -157,6 +159,26 @@ TEST(TimingDiagram, FaultsHaveLanesAndWhatBecameOfFramesIsMarked) {
   expect_renders(svg);
   const std::string clean = timing_diagram(200, 350);
   for (const char* shown : {"fault", "acts", "changed", "missing"}) EXPECT_EQ(count_class(clean, shown), 0u);
+}
+
+TEST(TimingDiagram, MarksMeasurementsAsOtherPicturesDo) {
+  const std::string svg = timing_diagram(200, 350);
+  static const std::regex cross("<path d=\"M[^M]*M[^M]*\" class=\"measured\" fill=\"#d55e00\""),
+      triangle("<path d=\"M[^M]*Z\" class=\"measured\" fill=\"#0072b2\"");
+  const auto found = [&](const std::regex& mark) {
+    return std::distance(std::sregex_iterator(svg.begin(), svg.end(), mark), std::sregex_iterator());
+  };
+  EXPECT_GT(found(cross), 0) << "the laser's";
+  EXPECT_GT(found(triangle), 0) << "the camera's";
+  EXPECT_EQ(static_cast<std::size_t>(found(cross) + found(triangle)), count_class(svg, "measured"));
+}
+
+TEST(TimingDiagram, FitsOnPaper) {
+  for (const auto& [width_mm, font_pt] : {std::pair{88.0, 8.0}, std::pair{180.0, 8.0}, std::pair{88.0, 5.0}}) {
+    TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(260'000));
+    SyntheticDrive{}.drive(d, 1'500'000);
+    expect_on_paper(d.svg(drawing::Sheet(width_mm, font_pt)), width_mm, font_pt);
+  }
 }
 
 TEST(TimingDiagram, NoLabelsOverlapInAnyWindow) {

@@ -1,0 +1,28 @@
+// A panel of a position plot: one object in one view.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "report/drawing/axes.h"
+#include "report/plots/position_plot.h"
+
+namespace ttf::report::plots {
+
+inline constexpr double kStrip = 20;  // the row of numbered instants above a panel over time
+
+inline bool over_time(PositionView view) { return view != PositionView::kPlane; }
+
+struct Extents {
+  drawing::Extent x, y;
+};
+Extents extents_of(std::span<const PositionPlots::Selection> selections, PositionView view);
+
+std::vector<drawing::LegendEntry> legend_of(std::span<const PositionPlots::Selection> selections,
+                                            const drawing::Names& names);
+
+// `with_x`: with the numbers and the label of the x axis. `numbers`: with those of fusion instants.
+void draw_panel(drawing::Svg& svg, const drawing::PlotFrame& frame, const PositionPlots::Selection& s,
+                const drawing::Names& names, PositionView view, bool with_x, bool numbers, const drawing::Sheet& sheet);
+
+}  // namespace ttf::report::plots
