@@ -201,8 +201,6 @@ report::plots::PositionOptions position_options(const drives::Scenario& scenario
   options.title = fmt::format("{}, {}", scenario.name, name_of(result.strategy));
   options.from = drives::evaluation_start(scenario);
   options.to = drives::drive_end(scenario);
-  for (std::size_t o = 0; o < scenario.world.objects.size(); ++o)
-    if (scenario.world.objects[o].reference) options.object = static_cast<ObjectId>(o);
   return options;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -31,14 +32,14 @@
 namespace ttf::cli::logs {
 namespace {
 
-constexpr std::int64_t kMostScans = 1'000'000'000;
+constexpr std::int64_t kMostScans = 1'000'000'000, kMostObjects = 65'536;
 
 struct DiagramOptions {
   std::vector<std::string> logs;
   TimeWindowOptions window;
   std::string kind = "timing";
   std::string out;
-  std::optional<int> frame;
+  std::optional<int> frame, object;
   PaperSizeOptions paper;
 };
 
@@ -141,8 +142,9 @@ std::string timing(const recording::merge::MergedLogs& drive, TrueTime from, Tru
 }
 
 // Draws several drives side by side.
-std::string positions(const std::vector<recording::merge::MergedLogs>& drives, TrueTime from, TrueTime to, bool plane,
-                      const report::drawing::Sheet& sheet) {
+std::string positions(const std::vector<recording::merge::MergedLogs>& drives, TrueTime from, TrueTime to,
+                      const DiagramOptions& options, const report::drawing::Sheet& sheet) {
+  const bool plane = options.kind == "plane";
   std::vector<std::unique_ptr<report::plots::PositionPlots>> plots;
   std::vector<const report::plots::PositionPlots*> panels;
   std::vector<std::string> titles;
@@ -151,10 +153,17 @@ std::string positions(const std::vector<recording::merge::MergedLogs>& drives, T
     position.title = fmt::format("{}, {}", drive.manifest().scenario_name, drive.manifest().strategy);
     position.from = from;
     position.to = to;
+    if (options.object) position.object = static_cast<ObjectId>(*options.object);
     plots.push_back(
         std::make_unique<report::plots::PositionPlots>(report::drawing::names_of(drive.manifest()), position));
     read_shown(drive, *plots.back());
     panels.push_back(plots.back().get());
+    const std::vector<ObjectId> objects = plots.back()->objects();
+    if (options.object && std::ranges::find(objects, *position.object) == objects.end())
+      throw InputError({"command line", 0, "--object", fmt::format("{}", *options.object),
+                        objects.empty() ? "needs the truth, and the log has none"
+                                        : fmt::format("must be an object of the log, which has {}..{}",
+                                                      index_of(objects.front()), index_of(objects.back()))});
     titles.push_back(drive.manifest().strategy);
   }
   if (plots.size() > 1)
@@ -182,13 +191,16 @@ std::string over_time(const DiagramOptions& options, const report::drawing::Shee
                       fmt::format("must be before the end of the log, {:g} s", (extent.last - TrueTime{}).seconds())});
   // A timing diagram of a whole drive is unreadable: the default is 160 ms.
   const TrueTime to = window.to ? *window.to : as_timing ? from + Duration::milliseconds(160) : extent.last;
-  return as_timing ? timing(drives[0], from, to, sheet) : positions(drives, from, to, options.kind == "plane", sheet);
+  return as_timing ? timing(drives[0], from, to, sheet) : positions(drives, from, to, options, sheet);
 }
 
 // Draws any kind but boxes.
 std::string picture(const DiagramOptions& options) {
   if (options.frame)
     throw InputError({"command line", 0, "--frame", fmt::format("{}", *options.frame), "goes with --kind boxes only"});
+  if (options.object && options.kind != "position" && options.kind != "plane")
+    throw InputError(
+        {"command line", 0, "--object", fmt::format("{}", *options.object), "goes with --kind position or plane only"});
   const report::drawing::Sheet sheet = sheet_of(options.paper);
   if (options.kind == "startup") return startup(options, sheet);
   return options.kind == "lateness" ? lateness(options, sheet) : over_time(options, sheet);
@@ -230,6 +242,10 @@ void add_diagram(CLI::App& app, Action& action) {
                    "position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
       ->check(one_of({"timing", "startup", "lateness", "position", "plane", "boxes"}))
       ->capture_default_str();
+  command
+      ->add_option("--object", options->object,
+                   "The object in detail, with --kind position or plane (default: all, if there are several)")
+      ->check(whole_number({0, kMostObjects - 1}));
   command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
       ->check(whole_number({0, kMostScans - 1}));
   add_paper_size(*command, options->paper);

@@ -66,6 +66,13 @@ std::string tint(std::string_view colour, double amount) {
   return out;
 }
 
+std::string darker(std::string_view colour, double amount) {
+  std::string out = "#";
+  for (std::size_t i = 0; i < 3; ++i)
+    out += fmt::format("{:02x}", static_cast<int>(std::lround(channel_of(colour, i) * (1 - amount))));
+  return out;
+}
+
 std::string_view text_colour_on(std::string_view colour) {
   // Relative luminance weights of ITU-R BT.709; 140 separates blue, green and vermilion from the light colours.
   const double y = 0.2126 * channel_of(colour, 0) + 0.7152 * channel_of(colour, 1) + 0.0722 * channel_of(colour, 2);
@@ -105,6 +112,16 @@ Ticks nice_ticks(const Extent& extent, int about) {
   return ticks;
 }
 
+Ticks readable_ticks(const Extent& extent, int about, const std::function<bool(const Ticks&)>& fits) {
+  Ticks ticks = nice_ticks(extent, about);
+  for (int more = 1; more <= 4 && ticks.at.size() < 3; ++more) {
+    Ticks finer = nice_ticks(extent, about + more);
+    if (!fits(finer)) break;
+    ticks = std::move(finer);
+  }
+  return ticks;
+}
+
 std::string tick_label(double value, double step) {
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
   std::string s = fmt::format("{:.{}f}", std::abs(value) < step * 1e-6 ? 0.0 : value, decimals);
@@ -119,14 +136,19 @@ void PlotFrame::draw(Svg& svg, std::string_view x_label, std::string_view y_labe
   const double bottom = area_.y + area_.height;
   svg.open_group("axes");
   svg.rect(area_, {.fill = "#ffffff"});
-  const Ticks tx = nice_ticks(x_.data, std::max(2, static_cast<int>(area_.width / 80)));
+  const Ticks tx = readable_ticks(x_.data, std::max(2, static_cast<int>(area_.width / 80)), [&](const Ticks& ticks) {
+    double room = 0;
+    for (const double v : ticks.at) room = std::max(room, text_width(tick_label(v, ticks.step), 11) + 12);
+    return room <= area_.width * ticks.step / x_.data.size();
+  });
   for (const double v : tx.at) {
     svg.line({x_(v), area_.y}, {x_(v), bottom}, {.stroke = "#ececec", .width = 0.8});
     svg.line({x_(v), bottom}, {x_(v), bottom + 4}, {.stroke = kBlack, .width = 0.8});
     if (!x_label.empty())
       svg.text({x_(v), bottom + 17}, tick_label(v, tx.step), {.size = 11, .anchor = Anchor::kMiddle});
   }
-  const Ticks ty = nice_ticks(y_.data, std::max(2, static_cast<int>(area_.height / 45)));
+  const Ticks ty = readable_ticks(y_.data, std::max(2, static_cast<int>(area_.height / 45)),
+                                  [&](const Ticks& ticks) { return 16 <= area_.height * ticks.step / y_.data.size(); });
   for (const double v : ty.at) {
     svg.line({area_.x, y_(v)}, {area_.x + area_.width, y_(v)}, {.stroke = "#ececec", .width = 0.8});
     svg.line({area_.x - 4, y_(v)}, {area_.x, y_(v)}, {.stroke = kBlack, .width = 0.8});
@@ -178,7 +200,7 @@ void draw_legend(Svg& svg, Point top_left, double width, std::span<const LegendE
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const LegendEntry& e = entries[i];
     const double left = top_left.x + layout.entries[i].x, y = top_left.y + layout.entries[i].y;
-    const Paint line{.stroke = e.colour, .width = 1.5, .dash = e.dash};
+    const Paint line{.stroke = e.colour, .width = e.width, .dash = e.dash};
     switch (e.kind) {
       case LegendEntry::Kind::kMarker:
         svg.marker(e.marker, {left + 12, y}, 8,

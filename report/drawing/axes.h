@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -22,6 +23,8 @@ inline constexpr std::string_view kBlack = "#000000", kOrange = "#e69f00", kSkyB
 std::string palette(std::size_t i);
 // Returns `colour` ("#rrggbb") mixed with white: amount 0 is the colour itself, 1 is white.
 std::string tint(std::string_view colour, double amount);
+// Returns `colour` mixed with black: amount 0 is the colour itself, 1 is black.
+std::string darker(std::string_view colour, double amount);
 // Returns black or white, the better readable one on `colour`.
 std::string_view text_colour_on(std::string_view colour);
 
@@ -42,6 +45,8 @@ struct Ticks {
   std::vector<double> at;
 };
 Ticks nice_ticks(const Extent& extent, int about);
+// Returns ticks that are more than `about` where that gives fewer than three. `fits` says whether their labels have room.
+Ticks readable_ticks(const Extent& extent, int about, const std::function<bool(const Ticks&)>& fits);
 // Returns the value with as many decimals as the step needs.
 std::string tick_label(double value, double step);
 
@@ -93,6 +98,7 @@ struct LegendEntry {
   Marker marker = Marker::kCircle;
   bool filled = false;
   std::string dash = {};
+  double width = 1.5;  // of a line
 };
 // Entries run in rows from left to right, wrapped at `width`. A longer entry has several lines. The legend has its own space beside the plot
 // and never covers data.

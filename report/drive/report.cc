@@ -95,7 +95,9 @@ void pictures(page::Page& page, const std::vector<ToldDrive>& drives) {
     recording::records::Tee tee({&plots, &extent, &lateness});
     told.drive->log->read(tee);
     if (!plots.select().empty())
-      add(plots.plane_svg(), told.drive->label + ": y over x by truth, sensors, DGPS and the image");
+      add(plots.plane_svg(),
+          told.drive->label + (plots.several() ? ": y over x of all objects, by truth and image"
+                                               : ": y over x by truth, sensors, DGPS and the image"));
     if (const auto window = extent.window({manifest.cycle_ns})) {
       startup::StartupDiagram startup(names, {manifest.cycle_ns}, window->first, window->second);
       told.drive->log->read(startup);

@@ -3,12 +3,14 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "report/plots/crowd_panel.h"
 #include "report/plots/position_panel.h"
 
 namespace ttf::report::plots {
 namespace {
 
 using Selection = PositionPlots::Selection;
+using Crowd = PositionPlots::Crowd;
 
 constexpr double kLeft = 70, kBelow = 68;                 // the room for the numbers beside and below a panel
 constexpr double kLeastHeight = 100, kLeastBeside = 110;  // a panel on paper, and its width beside another
@@ -21,6 +23,41 @@ std::string scale_note(const Extents& e, const drawing::Area& area) {
   const double ratio = (area.width / e.x.size()) / (area.height / e.y.size());
   return std::abs(ratio - 1) < 0.02 ? "Both axes have the same scale." : "The axes have different scales.";
 }
+
+// The panels of a picture. If a drive has several objects, all panels show all objects.
+class Panels {
+ public:
+  explicit Panels(std::span<const PositionPlots* const> plots)
+      : plots_(plots), several_(std::ranges::any_of(plots, [](const PositionPlots* p) { return p->several(); })) {
+    for (const PositionPlots* p : plots) {
+      if (several_)
+        crowds_.push_back(p->crowd());
+      else
+        ones_.push_back(p->select());
+    }
+  }
+  bool empty() const {
+    return !several_ && std::ranges::all_of(ones_, [](const Selection& s) { return s.empty(); });
+  }
+  Extents extents(PositionView view) const { return several_ ? extents_of(crowds_, view) : extents_of(ones_, view); }
+  std::vector<drawing::LegendEntry> legend() const {
+    return several_ ? legend_of(crowds_) : legend_of(ones_, plots_.front()->names());
+  }
+  std::string caption() const { return std::string(kCaption) + (several_ ? " " + words_of(crowds_) : ""); }
+  void draw(drawing::Svg& svg, const drawing::PlotFrame& frame, std::size_t i, PositionView view, bool with_x,
+            bool numbers, const drawing::Sheet& sheet) const {
+    if (several_)
+      draw_panel(svg, frame, crowds_[i], view, with_x, sheet);
+    else
+      draw_panel(svg, frame, ones_[i], plots_[i]->names(), view, with_x, numbers, sheet);
+  }
+
+ private:
+  std::span<const PositionPlots* const> plots_;
+  bool several_;
+  std::vector<Selection> ones_;
+  std::vector<Crowd> crowds_;
+};
 
 // The words above and below the panels, beginning with the title.
 struct Words {
@@ -51,21 +88,21 @@ struct Words {
 }  // namespace
 
 std::string PositionPlots::over_time_svg(const drawing::Sheet& sheet) const {
-  const Selection s = select();
+  const PositionPlots* const self = this;
+  const Panels panels({&self, 1});
   const std::string title = options_.title.empty() ? "Position over time" : options_.title;
-  if (s.empty()) return drawing::empty_picture(title, kNoPositions, sheet);
-  const std::span<const Selection> one(&s, 1);
+  if (panels.empty()) return drawing::empty_picture(title, kNoPositions, sheet);
   const double width = sheet.plot_width(1120, kLeft + 20);
   const double height = sheet.on_paper() ? std::max(kLeastHeight, 0.5 * width) : 330;
-  const Words words(title, std::string(kCaption), legend_of(one, names_), width, sheet);
+  const Words words(title, panels.caption(), panels.legend(), width, sheet);
   const double top = words.top + 8 + kStrip;
   drawing::Svg svg(kLeft + width + 20, top + 2 * height + 28 + kBelow + words.caption_height(), title, sheet);
   words.draw(svg, top + 2 * height + 28 + 60);
   double y = top;
   for (const PositionView view : {PositionView::kXOverTime, PositionView::kYOverTime}) {
-    const Extents e = extents_of(one, view);
+    const Extents e = panels.extents(view);
     const bool last = view == PositionView::kYOverTime;
-    draw_panel(svg, drawing::PlotFrame({kLeft, y, width, height}, e.x, e.y), s, names_, view, last, !last, sheet);
+    panels.draw(svg, drawing::PlotFrame({kLeft, y, width, height}, e.x, e.y), 0, view, last, !last, sheet);
     y += height + 28;
   }
   return svg.str();
@@ -81,11 +118,9 @@ std::string PositionPlots::plane_svg(const drawing::Sheet& sheet) const {
 std::string comparison_svg(std::span<const PositionPlots* const> plots, std::span<const std::string> titles,
                            PositionView view, std::string_view title, const drawing::Sheet& sheet) {
   TTF_CHECK(plots.size() == titles.size(), "{} panels and {} titles", plots.size(), titles.size());
-  std::vector<Selection> selections;
-  for (const PositionPlots* p : plots) selections.push_back(p->select());
-  if (std::ranges::all_of(selections, [](const Selection& s) { return s.empty(); }))
-    return drawing::empty_picture(title.empty() ? "Positions" : title, kNoPositions, sheet);
-  const Extents e = extents_of(selections, view);
+  const Panels panels(plots);
+  if (panels.empty()) return drawing::empty_picture(title.empty() ? "Positions" : title, kNoPositions, sheet);
+  const Extents e = panels.extents(view);
   // On paper, panels that would be narrow stand below each other.
   std::size_t columns = plots.size();
   while (sheet.on_paper() && columns > 1 &&
@@ -102,9 +137,9 @@ std::string comparison_svg(std::span<const PositionPlots* const> plots, std::spa
     if (equal >= 0.3 * width && equal <= 1.3 * width) height = equal;
   }
   const double panel = width + kLeft + 10, total = panel * n;
-  std::string caption(kCaption);
+  std::string caption = panels.caption();
   if (!over_time(view)) caption += " " + scale_note(e, {0, 0, width, height});
-  const Words words(std::string(title), caption, legend_of(selections, plots.front()->names()), total - kLeft, sheet);
+  const Words words(std::string(title), caption, panels.legend(), total - kLeft, sheet);
   const bool headed = std::ranges::any_of(titles, [](const std::string& t) { return !t.empty(); });
   const double strip = over_time(view) ? kStrip : 0, head = (headed ? 30 : 8) + strip;
   const double row = head + height + 42;
@@ -118,7 +153,7 @@ std::string comparison_svg(std::span<const PositionPlots* const> plots, std::spa
     if (!titles[i].empty())
       svg.text({area.x + width / 2, area.y - 8 - strip}, titles[i],
                {.size = 12.5, .anchor = drawing::Anchor::kMiddle, .bold = true});
-    draw_panel(svg, drawing::PlotFrame(area, e.x, e.y), selections[i], plots[i]->names(), view, true, true, sheet);
+    panels.draw(svg, drawing::PlotFrame(area, e.x, e.y), i, view, true, true, sheet);
   }
   return svg.str();
 }

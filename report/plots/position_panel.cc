@@ -17,15 +17,6 @@ using Selection = PositionPlots::Selection;
 constexpr double kMarker = 7;
 constexpr std::string_view kReference = drawing::kPurple, kFusion = drawing::kBlack, kTruth = "#777777",
                            kUnused = "#a0a0a0";
-drawing::Point coordinates(const Sample& s, PositionView view) {
-  switch (view) {
-    case PositionView::kXOverTime: return {s.t, s.x};
-    case PositionView::kYOverTime: return {s.t, s.y};
-    case PositionView::kPlane: break;
-  }
-  return {s.x, s.y};
-}
-
 template <class Visit> void every_sample(const Selection& s, const Visit& visit) {
   for (const auto* list : {&s.truth, &s.reference, &s.fusion, &s.unused})
     for (const Sample& sample : *list) visit(sample);
@@ -151,12 +142,27 @@ void draw_data(drawing::Svg& svg, const drawing::PlotFrame& frame, const Selecti
   svg.close_group();
 }
 
+}  // namespace
+
+drawing::Point coordinates(const Sample& s, PositionView view) {
+  switch (view) {
+    case PositionView::kXOverTime: return {s.t, s.x};
+    case PositionView::kYOverTime: return {s.t, s.y};
+    case PositionView::kPlane: break;
+  }
+  return {s.x, s.y};
+}
+
 std::string_view y_label(PositionView view) {
   return view == PositionView::kXOverTime ? "x, forward [m]" : "y, left [m]";
 }
 std::string_view x_label(PositionView view) { return over_time(view) ? "true time [s]" : "x, forward [m]"; }
 
-}  // namespace
+Extents padded(Extents e, PositionView view) {
+  e.x = over_time(view) ? e.x.padded(0.015, 0.01) : e.x.padded(0.04, 0.5);
+  e.y = e.y.padded(0.07, 0.5);
+  return e;
+}
 
 Extents extents_of(std::span<const Selection> selections, PositionView view) {
   Extents e;
@@ -166,9 +172,7 @@ Extents extents_of(std::span<const Selection> selections, PositionView view) {
       e.x.add(p.x);
       e.y.add(p.y);
     });
-  e.x = over_time(view) ? e.x.padded(0.015, 0.01) : e.x.padded(0.04, 0.5);
-  e.y = e.y.padded(0.07, 0.5);
-  return e;
+  return padded(e, view);
 }
 
 std::vector<drawing::LegendEntry> legend_of(std::span<const Selection> selections, const drawing::Names& names) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "report/drawing/axes.h"
@@ -16,6 +17,13 @@ inline bool over_time(PositionView view) { return view != PositionView::kPlane; 
 struct Extents {
   drawing::Extent x, y;
 };
+// Returns the extents with a margin around the data.
+Extents padded(Extents e, PositionView view);
+
+drawing::Point coordinates(const PositionPlots::Sample& s, PositionView view);
+std::string_view x_label(PositionView view);
+std::string_view y_label(PositionView view);
+
 Extents extents_of(std::span<const PositionPlots::Selection> selections, PositionView view);
 
 std::vector<drawing::LegendEntry> legend_of(std::span<const PositionPlots::Selection> selections,

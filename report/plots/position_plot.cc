@@ -45,14 +45,29 @@ void PositionPlots::on(const recording::records::FeatureUsed& r) {
   if (!r.stale) uses_.push_back({r.image_sequence, true_seconds(r.stamp.global, r.stamp)});
 }
 void PositionPlots::on(const recording::records::ReferenceFix& r) {
-  if (r.object == options_.object)
+  if (r.object == chosen())
     fixes_.push_back(
         {r.measured_true.ns != 0 ? seconds(r.measured_true) : static_cast<double>(r.measured.ns) * 1e-9, r.x, r.y, {}});
 }
 void PositionPlots::on(const recording::records::TruthState& r) {
   // Several nodes may have recorded the same instant.
-  if (r.object != options_.object || (!truth_.empty() && truth_.back().t == seconds(r.at))) return;
-  truth_.push_back({seconds(r.at), r.x, r.y, {}});
+  std::vector<Sample>& truth = truths_[r.object];
+  if (truth.empty() || truth.back().t != seconds(r.at)) truth.push_back({seconds(r.at), r.x, r.y, {}});
+}
+
+std::vector<PositionPlots::Sample> PositionPlots::truth_of_chosen() const {
+  const auto found = truths_.find(chosen());
+  return found == truths_.end() ? std::vector<Sample>{} : found->second;
+}
+
+std::vector<ObjectId> PositionPlots::objects() const {
+  std::vector<ObjectId> objects;
+  for (const auto& [object, samples] : truths_) objects.push_back(object);
+  return objects;
+}
+
+bool PositionPlots::inside(double t) const {
+  return (!options_.from || t >= seconds(*options_.from)) && (!options_.to || t <= seconds(*options_.to));
 }
 
 }  // namespace ttf::report::plots

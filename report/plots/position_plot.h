@@ -1,13 +1,16 @@
 // The paper's figures 5 to 8 from the records of a drive: the object's x and y over time, and y over x. They show DGPS
 // fixes of the reference (circles), the observations of each sensor (its marker: report/drawing/names.h), and the fused
 // image (squares; grey if unused). They also show the truth (thin line), numbered fusion instants (boxed), and arrows
-// from each laser measurement to the fusion instant that fused it.
+// from each laser measurement to the fusion instant that fused it. Several objects are shown by their truths and tracks
+// (report/plots/crowd_panel.h).
 //
 // Axes follow ISO 8855 (x forward, y left, metres), and the pictures say so. Times are true times in seconds.
 // The stamp of its record converts a global time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,7 +27,8 @@ struct PositionOptions {
   std::optional<TrueTime> from{}, to{};  // the whole drive if absent
   // The object shown, by the observation of each list and the track of each image nearest to it within the gate.
   // The object's place at that time is its truth, or else its reference. Without both, everything is shown.
-  ObjectId object{0};
+  // Absent: all objects if there are several (Crowd), else object 0.
+  std::optional<ObjectId> object{};
   double gate_m = 6.0;
 };
 
@@ -72,11 +76,29 @@ class PositionPlots : public recording::records::Sink {
     bool empty() const;
   };
   Selection select() const;
+
+  // The data of a panel of several objects. Each track of an image belongs to the nearest true object within the gate.
+  struct Crowd {
+    static constexpr std::size_t kMostTrails = 36;  // more objects are drawn as a density
+    struct Trail {
+      ObjectId object{};
+      std::vector<Sample> truth, track;  // by time
+    };
+    std::vector<Trail> trails;   // by object; in a density without tracks
+    std::vector<Sample> tracks;  // in a density all, else those without an object
+    bool dense() const { return trails.size() > kMostTrails; }
+  };
+  std::vector<ObjectId> objects() const;  // those with truth, in the whole log
+  bool several() const;                   // no object is chosen, and more than one true object is in the time window
+  Crowd crowd() const;
   const drawing::Names& names() const { return names_; }
   const PositionOptions& options() const { return options_; }
 
  private:
   class Selector;
+  ObjectId chosen() const { return options_.object.value_or(ObjectId{0}); }
+  std::vector<Sample> truth_of_chosen() const;
+  bool inside(double t) const;  // the time window
   static double seconds(TrueTime t) { return static_cast<double>(t.ns) * 1e-9; }
   struct Step {
     std::uint32_t step;
@@ -104,7 +126,8 @@ class PositionPlots : public recording::records::Sink {
 
   drawing::Names names_;
   PositionOptions options_;
-  std::vector<Sample> truth_, fixes_, observations_;  // truth and fixes only of the chosen object
+  std::map<ObjectId, std::vector<Sample>> truths_;
+  std::vector<Sample> fixes_, observations_;  // fixes only of the chosen object
   std::vector<Image> images_;
   std::vector<Use> uses_;
   std::vector<Positioned> tracks_;

@@ -9,38 +9,19 @@
 #include <vector>
 
 #include "report/plots/position_plot.h"
+#include "report/plots/position_samples.h"
 
 namespace ttf::report::plots {
 namespace {
 
 constexpr double kLongestUse = 1.0;  // s from an image to its last use; older images are refused
 
-bool earlier(const PositionPlots::Sample& a, const PositionPlots::Sample& b) { return a.t < b.t; }
-
-// Sorts samples by time: the records of a log may be ordered by process.
-std::vector<PositionPlots::Sample> by_time(std::vector<PositionPlots::Sample> samples) {
-  std::ranges::stable_sort(samples, earlier);
-  return samples;
-}
-
-// Interpolates linearly in samples ordered by time; no value outside them (by more than `slack`).
-std::optional<PositionPlots::Sample> interpolate(const std::vector<PositionPlots::Sample>& samples, double t,
-                                                 double slack) {
-  if (samples.empty() || t < samples.front().t - slack || t > samples.back().t + slack) return std::nullopt;
-  const auto after = std::ranges::lower_bound(samples, t, {}, &PositionPlots::Sample::t);
-  if (after == samples.begin()) return samples.front();
-  if (after == samples.end()) return samples.back();
-  const PositionPlots::Sample &a = *(after - 1), &b = *after;
-  const double f = b.t > a.t ? (t - a.t) / (b.t - a.t) : 0;
-  return PositionPlots::Sample{t, a.x + f * (b.x - a.x), a.y + f * (b.y - a.y), {}};
-}
-
 }  // namespace
 
 class PositionPlots::Selector {
  public:
   explicit Selector(const PositionPlots& plots)
-      : plots_(plots), truth_(by_time(plots.truth_)), fixes_(by_time(plots.fixes_)) {
+      : plots_(plots), truth_(by_time(plots.truth_of_chosen())), fixes_(by_time(plots.fixes_)) {
     for (const Positioned& p : plots.tracks_) tracks_[p.step].push_back(p.sample);
     for (const Step& s : plots.steps_) step_times_[s.step] = s.t;
   }
@@ -55,10 +36,7 @@ class PositionPlots::Selector {
   }
 
  private:
-  bool inside(double t) const {
-    const PositionOptions& window = plots_.options_;
-    return (!window.from || t >= seconds(*window.from)) && (!window.to || t <= seconds(*window.to));
-  }
+  bool inside(double t) const { return plots_.inside(t); }
 
   // The truth gives the chosen object's place, or else the reference. Without both, everything in the time
   // window is shown.

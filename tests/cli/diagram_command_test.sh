@@ -35,6 +35,9 @@ expect 2 '--font-size = 8: goes with --width only' diagram "$work/tt.mcap" --fon
 expect 2 '--width = 88 mm: must be at least 141.2 mm with a font size of 20 pt' \
   diagram "$work/tt.mcap" --width 88mm --font-size 20 -o "$work/none.svg"
 [[ -e $work/none.svg ]] && fail "a refused size leaves a picture"
+expect 0 '' diagram "$work/tt.mcap" --kind plane --object 0 -o "$work/object.svg"
+expect 2 '--object = 7: must be an object of the log, which has 0..0$' diagram "$work/tt.mcap" --kind plane --object 7 -o "$work/none.svg"
+expect 2 '--object = 0: goes with --kind position or plane only' diagram "$work/tt.mcap" --object 0 -o "$work/none.svg"
 # A folder stands for its logs.
 mkdir "$work/folder" "$work/bare"
 cp "$work/adva.mcap" "$work/tt.mcap" "$work/folder/"

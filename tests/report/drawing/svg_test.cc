@@ -239,5 +239,16 @@ TEST(NamesOf, UnknownIdsShowTheirNumber) {
   EXPECT_EQ(names.sensor_of(PduId{1}), SensorId{0}) << "as stated";
 }
 
+TEST(Axes, HaveMoreThanOneNumberIfThereIsRoom) {
+  const auto numbers = [](double width, double height) {
+    Svg svg(width + 100, height + 60, "axes");
+    PlotFrame({60, 10, width, height}, {44, 79}, {-36, 36}).draw(svg, "x", "y");
+    expect_no_overlaps(svg.str());
+    return texts_of(svg.str()).size() - 1;  // the label of y is turned
+  };
+  EXPECT_GE(numbers(250, 150), 6u) << "three each";
+  EXPECT_GE(numbers(100, 60), 3u);
+}
+
 }  // namespace
 }  // namespace ttf::report::drawing

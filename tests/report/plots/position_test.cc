@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "report/plots/crowd_panel.h"
 #include "report/plots/position_plot.h"
 #include "report/plots/schedule_picture.h"
 #include "schedules/file/loader.h"
@@ -53,6 +55,96 @@ TEST(PositionPlots, InstantsOfADamagedLogDoNotOverflow) {
   ASSERT_EQ(s.observations[0].size(), 1u);
   EXPECT_NEAR(s.observations[0][0].t, 3 * std::ldexp(1e-9, 63), 1.0);
   expect_renders(plots.over_time_svg());
+}
+
+// Objects side by side, 8 m apart, drive 10 m/s for 2 s. Each image has a track 0.1 m left of each but the last object, and one
+// 20 m right of all.
+PositionPlots crowd(int objects, PositionOptions options = {}) {
+  PositionPlots plots(synthetic_names(), std::move(options));
+  for (int step = 0; step <= 50; ++step) {
+    const double t = 0.04 * step;
+    const recording::records::Stamp stamp{{step * 40'000'000}, {}, {step * 40'000'000}, NodeId{5}};
+    std::vector<recording::records::ImageObject> tracks;
+    for (int o = 0; o < objects; ++o) {
+      recording::records::TruthState truth;
+      truth.at = stamp.true_time;
+      truth.object = static_cast<ObjectId>(o);
+      truth.x = 20 + 10 * t;
+      truth.y = 8.0 * o;
+      plots.on(truth);
+      recording::records::ImageObject track;
+      track.x = truth.x;
+      track.y = o + 1 < objects ? truth.y + 0.1 : -20;
+      tracks.push_back(track);
+    }
+    plots.on(recording::records::ImageWritten{
+        stamp, static_cast<std::uint32_t>(step), stamp.global, stamp.global, tracks, {}});
+  }
+  return plots;
+}
+
+TEST(PositionCrowd, GivesEachTrackToTheNearestObject) {
+  const PositionPlots plots = crowd(3);
+  ASSERT_TRUE(plots.several());
+  const PositionPlots::Crowd shown = plots.crowd();
+  ASSERT_EQ(shown.trails.size(), 3u);
+  EXPECT_FALSE(shown.dense());
+  for (std::size_t o = 0; o < 3; ++o) {
+    EXPECT_EQ(shown.trails[o].truth.size(), 51u);
+    EXPECT_EQ(shown.trails[o].track.size(), o < 2 ? 51u : 0u);
+    for (const auto& s : shown.trails[o].track) EXPECT_DOUBLE_EQ(s.y, 8.0 * static_cast<double>(o) + 0.1);
+  }
+  EXPECT_EQ(shown.tracks.size(), 51u) << "those without an object";
+}
+
+TEST(PositionCrowd, DrawsATrailForEachObject) {
+  const PositionPlots plots = crowd(25);
+  for (const std::string& svg : {plots.plane_svg(), plots.over_time_svg()}) {
+    const std::size_t panels = svg == plots.plane_svg() ? 1 : 2;
+    EXPECT_EQ(count_class(svg, "truth"), panels * 25);
+    EXPECT_EQ(count_class(svg, "track"), panels * 24);
+    EXPECT_EQ(count_class(svg, "end"), panels * 25);
+    EXPECT_EQ(count_class(svg, "lost"), panels * 51);
+    EXPECT_EQ(count(svg, ">23</text>"), 1u) << "over time beside y alone: x is the same for all";
+    expect_no_overlaps(svg);
+    expect_inside(svg);
+    expect_renders(svg);
+  }
+  expect_on_paper(plots.plane_svg({88, 8}), 88, 8);
+  expect_on_paper(plots.over_time_svg({88, 8}), 88, 8);
+  std::set<std::string> colours;
+  for (std::size_t i = 0; i < PositionPlots::Crowd::kMostTrails; ++i) colours.insert(object_colour(i));
+  EXPECT_EQ(colours.size(), PositionPlots::Crowd::kMostTrails) << "each object has its own colour";
+}
+
+TEST(PositionCrowd, DrawsManyObjectsAsADensity) {
+  const PositionPlots plots = crowd(1000);
+  const PositionPlots::Crowd shown = plots.crowd();
+  ASSERT_TRUE(shown.dense());
+  EXPECT_EQ(shown.tracks.size(), 51u * 1000u);
+  for (const std::string& svg : {plots.plane_svg(), plots.over_time_svg()}) {
+    EXPECT_EQ(count_class(svg, "truth") + count_class(svg, "track"), 0u);
+    EXPECT_GT(count_class(svg, "cell"), 10u);
+    EXPECT_LT(svg.size(), 2'000'000u);
+    EXPECT_NE(svg.find("1000 objects: a cell"), std::string::npos);
+    expect_no_overlaps(svg);
+    expect_inside(svg);
+  }
+}
+
+TEST(PositionCrowd, ShowsWhereADensityHasNoTrack) {
+  EXPECT_EQ(count_class(crowd(37).over_time_svg(), "untracked"), 1u) << "y of the last object, and x of none";
+  EXPECT_EQ(count_class(crowd(36).over_time_svg(), "untracked"), 0u) << "trails";
+}
+
+TEST(PositionCrowd, AChosenObjectIsDrawnAsBefore) {
+  const PositionPlots plots = crowd(25, {.object = ObjectId{7}});
+  EXPECT_FALSE(plots.several());
+  const std::string svg = plots.plane_svg();
+  EXPECT_EQ(count_class(svg, "truth"), 1u);
+  EXPECT_EQ(plots.objects().size(), 25u);
+  for (const auto& s : plots.select().truth) EXPECT_DOUBLE_EQ(s.y, 56);
+  EXPECT_FALSE(crowd(1).several());
 }
 
 TEST(PositionPlots, FitOnPaper) {
