@@ -6,19 +6,17 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "cli/experiment/answer_json.h"
 #include "cli/experiment/drives.h"
 #include "cli/experiment/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "core/counted.h"
 #include "core/errors.h"
-#include "experiments/results/multiplicity.h"
+#include "experiments/sweep/answers/text.h"
 #include "experiments/sweep/engine.h"
-#include "experiments/sweep/measures.h"
-#include "experiments/sweep/text.h"
 
 namespace ttf::cli::experiment {
 namespace {
@@ -140,66 +138,6 @@ void drive(const ExperimentOptions& options, const SweepDrives& drives, experime
       alone ? nullptr : &ranks);
 }
 
-nlohmann::ordered_json to_json(double value) {
-  return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
-}
-nlohmann::ordered_json to_json(const experiments::results::Interval& interval) {
-  return {{"count", interval.count}, {"mean", to_json(interval.mean)}, {"half_width", to_json(interval.half_width)}};
-}
-
-nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::sweep::SweepAnswer& answer) {
-  nlohmann::ordered_json json{{"experiment", sweep.name},
-                              {"file", sweep.file},
-                              {"question", sweep.question},
-                              {"seed", sweep.seed},
-                              {"confidence", sweep.confidence},
-                              {"runs", answer.drives},
-                              {"failed", answer.failed},
-                              {"baseline", sweep.paradigms[sweep.baseline].name},
-                              {"comparisons", answer.comparisons},
-                              {"stay_certain", answer.certain},
-                              {"answer", experiments::sweep::answer_sentences(sweep, answer)}};
-  for (const std::string& name : sweep.measures) {
-    const experiments::sweep::Measure& measure = *experiments::sweep::find_measure(name);
-    json["measures"][name] = {{"unit", measure.unit}, {"meaning", measure.meaning}};
-  }
-  const auto axes = sweep.grid();
-  for (const experiments::sweep::PointAnswer& point : answer.points) {
-    nlohmann::ordered_json one{{"point", point.point}};
-    const auto settings = sweep.settings_of(point.point);
-    for (std::size_t a = 0; a < axes.size(); ++a) one["axes"][axes[a]->name] = settings[a]->label;
-    for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
-      for (std::size_t m = 0; m < sweep.measures.size(); ++m) {
-        nlohmann::ordered_json& cell = one["paradigms"][sweep.paradigms[p].name][sweep.measures[m]];
-        cell = to_json(point.means[p][m]);
-        if (p == sweep.baseline) continue;
-        cell["difference"] = to_json(point.differences[p][m]);
-        cell["difference"]["p"] = to_json(experiments::results::p_value(point.differences[p][m], sweep.confidence));
-        if (m == 0) cell["difference"]["stays_certain"] = static_cast<bool>(point.stays[p]);
-      }
-    json["points"].push_back(std::move(one));
-  }
-  for (const experiments::sweep::Crossing& crossing : answer.crossings)
-    json["crossings"].push_back({{"paradigm", sweep.paradigms[crossing.paradigm].name},
-                                 {"axis", crossing.axis},
-                                 {"at", crossing.at},
-                                 {"others", crossing.others},
-                                 {"certain", crossing.certain}});
-  for (const experiments::sweep::ExpectationAnswer& expectation : answer.expectations) {
-    nlohmann::ordered_json one{{"expected", expectation.text},
-                               {"holds", expectation.holds()},
-                               {"outcome", experiments::sweep::words(expectation.outcome)},
-                               {"where_not", nlohmann::ordered_json::array()},
-                               {"why_not", nlohmann::ordered_json::array()}};
-    for (const experiments::sweep::Unmet& unmet : expectation.unmet) {
-      one["where_not"].push_back(unmet.point);
-      one["why_not"].push_back(unmet.why);
-    }
-    json["expectations"].push_back(std::move(one));
-  }
-  return json;
-}
-
 // Lists failed drives, each with the command that drives it again.
 std::string failures_text(const ExperimentOptions& options, const SweepFile& sweep, const Store& store) {
   std::string text;
@@ -234,13 +172,14 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
   else if (!merge(shards, sweep, store))
     return 1;
 
-  const experiments::sweep::SweepAnswer answer = experiments::sweep::answer_of(sweep, store);
-  const std::string text = experiments::sweep::answer_text(sweep, answer) + failures_text(options, sweep, store);
-  const nlohmann::ordered_json json = to_json(sweep, answer);
+  const experiments::sweep::answers::SweepAnswer answer = experiments::sweep::answers::answer_of(sweep, store);
+  const std::string text =
+      experiments::sweep::answers::answer_text(sweep, answer) + failures_text(options, sweep, store);
+  const nlohmann::ordered_json json = answer_json(sweep, answer);
   write_file(folder + "/answer.txt", text);
   write_file(folder + "/answer.json", json.dump(2) + '\n');
-  write_file(folder + "/summary.csv", experiments::sweep::summary_csv(sweep, answer));
-  write_file(folder + "/runs.csv", experiments::sweep::runs_csv(sweep, store));
+  write_file(folder + "/summary.csv", experiments::sweep::answers::summary_csv(sweep, answer));
+  write_file(folder + "/runs.csv", experiments::sweep::answers::runs_csv(sweep, store));
   if (options.json)
     fmt::print("{}\n", json.dump(2));
   else

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "experiments/sweep/answer.h"
+#include "experiments/sweep/answers/answer.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -205,7 +205,7 @@ void run_sweep(const SweepDrives& drives, results::Store& store, results::Shard 
     });
     if (!sweep.stop) continue;
     for (std::uint32_t point = 0; point < points; ++point)
-      if (!enough[point]) enough[point] = sure_enough(sweep, store.of_point(point), to);
+      if (!enough[point]) enough[point] = answers::sure_enough(sweep, store.of_point(point), to);
     if (std::find(enough.begin(), enough.end(), false) == enough.end()) return;
   }
 }

@@ -14,6 +14,7 @@
 #include "drives/scenario.h"
 #include "experiments/sweep/keys.h"
 #include "experiments/sweep/measures.h"
+#include "experiments/sweep/read_comparison.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -76,7 +77,7 @@ class Reader {
     check_drives();
     check_keys(file_, findings_);
     read_measures();
-    read_comparison();
+    read_comparison(root_, file_);
     read_expectations();
     root_.finish();
     findings_.throw_if_any();
@@ -207,38 +208,6 @@ class Reader {
         root_.fail("measures", fmt::format("must not have {} twice", name));
   }
 
-  std::optional<std::size_t> paradigm(YamlMap& map, std::string_view key) {
-    const std::string name = map.text(key);
-    std::vector<std::string> names;
-    for (std::size_t p = 0; p < file_.paradigms.size(); ++p) {
-      if (file_.paradigms[p].name == name) return p;
-      names.push_back(file_.paradigms[p].name);
-    }
-    if (map.has(key) && !name.empty()) map.fail(key, "must be one of the paradigms: " + joined(names));
-    return std::nullopt;
-  }
-
-  void read_comparison() {
-    if (auto compare = root_.map_if("compare")) {
-      file_.baseline = paradigm(*compare, "baseline").value_or(0);
-      file_.confidence = compare->number_or("confidence", 0.95, {0.5, 0.9999});
-      compare->finish();
-    }
-    if (auto stop = root_.map_if("stop")) {
-      file_.stop = StopRule{stop->number("half_width", {0.0, kLargest}),
-                            static_cast<std::uint32_t>(stop->integer("batch", {2, 1'000'000}))};
-      if (file_.paradigms.size() < 2) stop->fail("half_width", "needs two paradigms: it bounds their differences");
-      stop->finish();
-    }
-  }
-
-  std::string measure(YamlMap& map, std::string_view key) {
-    std::string name = map.text(key);
-    if (std::find(file_.measures.begin(), file_.measures.end(), name) == file_.measures.end())
-      map.fail(key, "must be one of `measures`");
-    return name;
-  }
-
   // Returns the margin's text.
   std::string read_margin(YamlMap& map, Expectation& expectation) {
     const Measure* measure = find_measure(expectation.measure);
@@ -266,11 +235,11 @@ class Reader {
   void read_expectations() {
     for (YamlMap& map : root_.maps_if("expect")) {
       Expectation expectation;
-      expectation.measure = measure(map, "measure");
+      expectation.measure = measure_of(map, "measure", file_);
       const bool agreement = map.has("agrees");
-      if (agreement) expectation.agrees = measure(map, "agrees");
-      const auto less = paradigm(map, agreement ? "of" : "less");
-      const auto than = agreement ? less : paradigm(map, "than");
+      if (agreement) expectation.agrees = measure_of(map, "agrees", file_);
+      const auto less = paradigm_of(map, agreement ? "of" : "less", file_);
+      const auto than = agreement ? less : paradigm_of(map, "than", file_);
       if (!agreement && less && less == than) map.fail("than", "must differ from `less`");
       if (agreement && expectation.agrees == expectation.measure) map.fail("agrees", "must differ from `measure`");
       if (less) expectation.less = file_.paradigms[*less].name;

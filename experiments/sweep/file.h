@@ -19,6 +19,10 @@
 //   measures: [position_rmse_truth, nees]          experiments/sweep/measures.h; the first one decides; all of them
 //                                                  if absent
 //   compare: {baseline: event_triggered, confidence: 0.95}
+//                                                  or the values of an axis: {axis: noise, baseline: "0.5"}
+//   interactions:                                  whether a change of an axis lowers a measure of one paradigm more; the
+//                                                  first measure, and from the axis's first value to its last, if absent
+//     - {measure: nees, axis: noise, from: "2", to: "0.5", lowers: time_triggered, more_than: event_triggered, by: ratio}
 //   stop: {half_width: 0.002, batch: 50}           ends a point when the intervals of the first measure's
 //                                                  differences are that narrow
 //   expect:                                        must hold, or the command exits with 1
@@ -42,6 +46,7 @@
 
 #include "core/strict_yaml.h"
 #include "experiments/results/equivalence.h"
+#include "experiments/sweep/comparison.h"
 #include "fusion/strategies/strategy.h"
 
 namespace ttf::experiments::sweep {
@@ -105,7 +110,9 @@ struct SweepFile {
   std::vector<Paradigm> paradigms;  // the baseline is one of them
   std::vector<Axis> axes;
   std::vector<std::string> measures;
-  std::size_t baseline = 0;
+  std::size_t baseline = 0;                     // a paradigm, unless an axis is compared
+  std::optional<AxisComparison> compared_axis;  // its values are compared instead of the paradigms
+  std::vector<Interaction> interactions;
   double confidence = 0.95;
   std::optional<StopRule> stop;
   std::vector<Expectation> expectations;
@@ -116,8 +123,13 @@ struct SweepFile {
   std::uint64_t drives() const;            // number of drives without a stop rule
   // Returns the setting of every grid axis at a point; the last axis varies fastest.
   std::vector<const Setting*> settings_of(std::uint32_t point) const;
-  // "noise 2, road icy".
+  // Returns the point with another setting of one axis of the grid.
+  std::uint32_t moved(std::uint32_t point, std::size_t axis, std::size_t setting) const;
+  // Returns what a paradigm at a point is compared with; no value for the baseline itself.
+  std::optional<Reference> reference_of(std::uint32_t point, std::size_t paradigm) const;
+  // "noise 2, road icy"; without one axis of the grid, "noise 2".
   std::string label_of(std::uint32_t point) const;
+  std::string label_without(std::uint32_t point, std::size_t axis) const;
 };
 
 inline constexpr std::size_t kMostPoints = 10'000;

@@ -153,4 +153,10 @@ constexpr const Measure* find_measure(std::string_view name) {
   return nullptr;
 }
 
+// Returns whether a change is best told as a share of the value before. So it is for errors, distances and ages, which have
+// a unit and cannot be negative. It is not for shares, counts and normalised squares, nor for an error minus an expected one.
+constexpr bool is_ratio_scale(const Measure& measure) {
+  return !measure.unit.empty() && measure.name != "position_mse_reference_corrected";
+}
+
 }  // namespace ttf::experiments::sweep

@@ -10,7 +10,7 @@ source "$(dirname "$0")/small_sweep.sh"
 small_sweep 40 "700 ms" "400 ms" >"$work/small.yaml"
 file=$work/small.yaml
 
-expect 0 'position_rmse_truth of tt is (less|more) than that of adva|undecided at' experiment "$file" --out "$work/whole"
+expect 0 'position_rmse_truth of tt is less than that of adva at|no difference of position_rmse_truth between tt and adva' experiment "$file" --out "$work/whole"
 [[ $(cd "$work/whole" && echo *) == "answer.json answer.txt results.sqlite runs.csv summary.csv" ]] ||
   fail "other files: $(cd "$work/whole" && echo *)"
 [[ -s $work/whole/answer.json && -s $work/whole/summary.csv ]] || fail "an empty file"
@@ -138,6 +138,37 @@ expect 1 'than of adva: does not hold$' experiment "$work/few.yaml" --out "$work
 echo "surplus: 1" >>"$work/few.yaml"
 expect 2 'few.yaml:14: surplus' experiment "$work/few.yaml" --out "$work/never"
 [[ -e $work/never ]] && fail "a broken file leaves a folder behind"
+
+# ---- the values of an axis, and an interaction
+small_sweep 4 "700 ms" "400 ms" >"$work/compare.yaml"
+cat >>"$work/compare.yaml" <<END
+compare: {axis: noise, baseline: 1}
+interactions: [{axis: noise, lowers: tt, more_than: adva}]
+END
+expect 0 '^(Yes|No|No, it only raises tt less|There is no difference that these drives can tell): noise from 1 to 40 ' \
+  experiment "$work/compare.yaml" --out "$work/compare"
+python3 - "$work/compare/answer.json" <<'END' || fail "answer.json does not have the comparison"
+import json, sys
+answer = json.load(open(sys.argv[1]))
+assert answer["compared_axis"] == "noise" and answer["baseline"] == "1" and answer["comparisons"] == 2
+cells = [point["paradigms"]["tt"]["position_rmse_truth"] for point in answer["points"]]
+assert "difference" not in cells[0]
+difference = cells[1]["difference"]
+assert abs(difference["mean"] - (cells[1]["mean"] - cells[0]["mean"])) < 1e-9
+assert abs(difference["percent"]["mean"] - 100 * difference["mean"] / cells[0]["mean"]) < 1e-6
+[interaction] = answer["interactions"]
+assert [interaction[k] for k in ("measure", "by", "axis", "from", "to", "lowers", "more_than")] == [
+    "position_rmse_truth", "ratio", "noise", "1", "40", "tt", "adva"]
+[point] = interaction["points"]
+first, second, both = (point[k]["percent"]["mean"] for k in ("first", "second", "interaction"))
+assert abs((1 + first / 100) / (1 + second / 100) - (1 + both / 100)) < 1e-9
+assert point["interaction"]["count"] == 4 and 0 <= point["interaction"]["p"] <= 1
+assert answer["answer"].startswith(open(sys.argv[1].replace("json", "txt")).read().split("\n")[2])
+END
+sed -i 's/lowers: tt/lowers: buff/' "$work/compare.yaml"
+expect 2 'compare.yaml:14: interactions\[0\].lowers = buff: must be one of the paradigms: adva, tt$' \
+  experiment "$work/compare.yaml" --out "$work/never"
+
 echo "kind: other" >"$work/kind.yaml"
 expect 2 'kind = other: must be sweep or fault_campaign' experiment "$work/kind.yaml"
 touch "$work/no_folder"

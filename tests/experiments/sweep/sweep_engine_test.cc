@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/file_bytes.h"
-#include "experiments/sweep/text.h"
+#include "experiments/sweep/answers/text.h"
 #include "tests/experiments/sweep/small_sweep.h"
 #include "tests/experiments/sweep/store_folder.h"
 #include "tests/support/full_disk.h"
@@ -28,7 +28,7 @@ class SweepEngine : public StoreFolder {
   std::string driven(const SweepDrives& drives, const std::string& name, unsigned workers) const {
     results::Store fresh = store(drives, name);
     run_sweep(drives, fresh, {}, workers, [](const SweepProgress&) {});
-    return runs_csv(drives.sweep(), fresh);
+    return answers::runs_csv(drives.sweep(), fresh);
   }
 };
 
@@ -99,7 +99,7 @@ TEST_F(SweepEngine, TheSameWhereOthersDriveToo) {
   OneElsewhere other(drives);
   run_sweep(
       drives, shared, {}, 1, [](const SweepProgress&) {}, &other);
-  EXPECT_EQ(runs_csv(sweep, shared), alone);
+  EXPECT_EQ(answers::runs_csv(sweep, shared), alone);
   EXPECT_GT(other.driven, 0u);
   EXPECT_LT(other.driven, 80u);
 }
@@ -114,7 +114,7 @@ TEST_F(SweepEngine, ShardsPutTogetherAreTheWhole) {
   EXPECT_EQ(first.count(), 12u);
   EXPECT_EQ(second.count(), 8u);
   for (results::Store* part : {&second, &first}) part->for_each([&](const results::Row& row) { both.add({row}); });
-  EXPECT_EQ(runs_csv(sweep, both), whole);
+  EXPECT_EQ(answers::runs_csv(sweep, both), whole);
 }
 
 TEST_F(SweepEngine, OnlyWhatIsMissingIsDriven) {
@@ -128,7 +128,7 @@ TEST_F(SweepEngine, OnlyWhatIsMissingIsDriven) {
   EXPECT_EQ(last.driven, 14u);
   EXPECT_EQ(last.done, 16u);
   EXPECT_EQ(last.all, 16u);
-  EXPECT_EQ(runs_csv(sweep, some), whole);
+  EXPECT_EQ(answers::runs_csv(sweep, some), whole);
 }
 
 // A replication's draws are the same for all paradigms and points, and are stored beside the measures.
@@ -186,7 +186,7 @@ TEST_F(SweepEngine, AFullDiskEndsItAndLosesNothing) {
   SweepProgress last;
   run_sweep(drives, some, {}, 2, [&](const SweepProgress& now) { last = now; });
   EXPECT_EQ(last.driven, 12u);
-  EXPECT_EQ(runs_csv(sweep, some), whole);
+  EXPECT_EQ(answers::runs_csv(sweep, some), whole);
 }
 
 }  // namespace

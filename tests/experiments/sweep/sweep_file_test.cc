@@ -114,6 +114,82 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
               HasSubstr("must make at most 100000000 drives, not 180000000"));
 }
 
+const std::string kTwoAxes =
+    "axes:\n  one: {keys: [tracker.process_noise], values: [1, 2, 3]}\n  only: {keys: [world.own_speed], values: "
+    "[15]}\n"
+    "  load: {keys: [world.acceleration_noise], uniform: [1, 3]}\n  two: {settings: {dry: {}, wet: {duration: 4 s}}}\n";
+
+TEST(SweepFile, ComparesTheValuesOfAnAxis) {
+  const SweepFile sweep = file(kTwoAxes + "compare: {axis: one, baseline: 2}\n");
+  ASSERT_TRUE(sweep.compared_axis.has_value());
+  EXPECT_EQ(sweep.compared_axis->axis, 0u);
+  EXPECT_EQ(sweep.compared_axis->baseline, 1u);
+  EXPECT_EQ(sweep.label_of(5), "one 3, only 15, two wet");
+  EXPECT_EQ(sweep.moved(5, 0, 0), 1u);
+  EXPECT_EQ(sweep.moved(1, 0, 2), 5u);
+  EXPECT_EQ(sweep.moved(4, 2, 1), 5u);
+  EXPECT_EQ(sweep.label_without(5, 0), "two wet");
+  ASSERT_TRUE(sweep.reference_of(5, 1).has_value());
+  EXPECT_EQ(sweep.reference_of(5, 1)->point, 3u);
+  EXPECT_EQ(sweep.reference_of(5, 1)->paradigm, 1u);
+  EXPECT_FALSE(sweep.reference_of(3, 0).has_value());
+
+  const auto compare = [](const std::string& text) { return refusal(kHead + kTwoAxes + "compare: " + text + "\n"); };
+  const std::string line = TTF_SOURCE_DIR "/experiments/small.yaml:13: compare.";
+  EXPECT_EQ(compare("{axis: three, baseline: 1}"),
+            line + "axis = three: must be an axis of the grid with two values or more: one, two");
+  EXPECT_EQ(compare("{axis: only, baseline: 15}"),
+            line + "axis = only: must be an axis of the grid with two values or more: one, two");
+  EXPECT_THAT(compare("{axis: load, baseline: 1}"), HasSubstr("axis = load: must be an axis of the grid"));
+  EXPECT_EQ(compare("{axis: two, baseline: a}"), line + "baseline = a: must be one of the values of two: dry, wet");
+  EXPECT_EQ(compare("{axis: two}"), line + "baseline: is missing: must be a text");
+  EXPECT_THAT(refusal(kHead + kTwoAxes + "compare: {axis: two, baseline: dry}\nstop: {half_width: 1, batch: 2}\n"),
+              HasSubstr("stop.half_width = 1: must be absent with `compare.axis`"));
+  EXPECT_THAT(refusal(kHead + "axes: {one: {keys: [duration], values: [3 s]}}\ncompare: {axis: one, baseline: 3 s}\n"),
+              HasSubstr("must be an axis of the grid with two values or more, but there is none"));
+}
+
+TEST(SweepFile, AsksForInteractions) {
+  const SweepFile sweep = file(kTwoAxes +
+                               "measures: [face_mse_truth, nees]\n"
+                               "interactions:\n  - {axis: one, lowers: t, more_than: a}\n"
+                               "  - {measure: nees, axis: two, from: wet, to: dry, lowers: a, more_than: t}\n"
+                               "  - {measure: nees, axis: two, lowers: a, more_than: t, by: ratio}\n");
+  ASSERT_EQ(sweep.interactions.size(), 3u);
+  const Interaction &first = sweep.interactions[0], &second = sweep.interactions[1];
+  EXPECT_EQ(first.measure, 0u);
+  EXPECT_EQ(first.scale, Scale::kRatio) << "an error has a unit";
+  EXPECT_EQ(first.before, 0u);
+  EXPECT_EQ(first.after, 2u);
+  EXPECT_EQ(first.first, 1u);
+  EXPECT_EQ(first.second, 0u);
+  EXPECT_EQ(second.measure, 1u);
+  EXPECT_EQ(second.scale, Scale::kDifference);
+  EXPECT_EQ(second.axis, 2u);
+  EXPECT_EQ(second.before, 1u);
+  EXPECT_EQ(second.after, 0u);
+  EXPECT_EQ(sweep.interactions[2].scale, Scale::kRatio);
+
+  const auto asked = [](const std::string& text) {
+    return refusal(kHead + kTwoAxes + "measures: [face_mse_truth]\ninteractions: [{" + text + "}]\n");
+  };
+  const std::string line = TTF_SOURCE_DIR "/experiments/small.yaml:14: interactions[0].";
+  EXPECT_EQ(asked("axis: one, lowers: t, more_than: a"), "taken");
+  EXPECT_EQ(asked("axis: one, lowers: buff, more_than: a"), line + "lowers = buff: must be one of the paradigms: a, t");
+  EXPECT_EQ(asked("axis: one, lowers: a, more_than: a"), line + "more_than = a: must differ from `lowers`");
+  EXPECT_EQ(asked("axis: only, lowers: t, more_than: a"),
+            line + "axis = only: must be an axis of the grid with two values or more: one, two");
+  EXPECT_EQ(asked("axis: one, to: 4, lowers: t, more_than: a"),
+            line + "to = 4: must be one of the values of one: 1, 2, 3");
+  EXPECT_EQ(asked("axis: one, from: 3, lowers: t, more_than: a"),
+            line + "from = 3: must not change one from 3 to itself");
+  EXPECT_EQ(asked("measure: nees, axis: one, lowers: t, more_than: a"),
+            line + "measure = nees: must be one of `measures`");
+  EXPECT_THAT(asked("axis: one, lowers: t, more_than: a, by: sum"),
+              HasSubstr("by = sum: must be one of ratio, difference"));
+  EXPECT_THAT(asked("axis: one, lowers: t"), HasSubstr("more_than: is missing"));
+}
+
 TEST(SweepFile, AFileThatIsNotThereIsTheEntrysMistake) {
   const std::string axes = "axes: {one: {keys: [tracker.process_noise], values: [1, 2]}}\n";
   std::string head = kHead;

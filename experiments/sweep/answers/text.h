@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "experiments/sweep/answer.h"
+#include "experiments/sweep/answers/answer.h"
 
-namespace ttf::experiments::sweep {
+namespace ttf::experiments::sweep::answers {
 
-// Returns the question, the first measure by point, and the answer in sentences.
+// Returns the question, the answer in sentences, and tables by point: the first measure with its differences, and the
+// interactions. Tables are at most 100 columns wide, and go on below.
 std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer);
-// For each paradigm but the baseline: at how many points its first measure is less, more or undecided, and
-// where that changes for certain. Then how many of these comparisons stay certain together.
+// The sentences alone, a line each. The first one answers the file's question.
 std::string answer_sentences(const SweepFile& sweep, const SweepAnswer& answer);
 
 // point, the axes' values, paradigm, measure, count, mean, half_width, difference, difference_half_width
@@ -18,4 +18,4 @@ std::string summary_csv(const SweepFile& sweep, const SweepAnswer& answer);
 // point, the axes' values, replication, paradigm, status, the store's columns
 std::string runs_csv(const SweepFile& sweep, const results::Store& store);
 
-}  // namespace ttf::experiments::sweep
+}  // namespace ttf::experiments::sweep::answers

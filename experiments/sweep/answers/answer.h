@@ -1,6 +1,6 @@
 // The answer of an experiment's results, a pure function of the store. It has means with intervals by point,
-// paradigm and measure, and differences between paradigms of the same draws (paired, so that common effects
-// cancel). It says where two paradigms cross, and whether the expectations hold.
+// paradigm and measure, and differences between paradigms, or along an axis, of the same draws (paired, so that common
+// effects cancel). It says where two paradigms cross, and whether interactions are certain and expectations hold.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,20 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/results/ratio.h"
 #include "experiments/results/statistics.h"
 #include "experiments/results/store.h"
 #include "experiments/sweep/file.h"
 
-namespace ttf::experiments::sweep {
+namespace ttf::experiments::sweep::answers {
 
 struct PointAnswer {
   std::uint32_t point = 0;
-  // By paradigm, then measure. Differences are this paradigm's minus the baseline's, replication by
-  // replication; the baseline has none.
+  // By paradigm, then measure. Differences are from SweepFile::reference_of, replication by replication; the baseline
+  // has none.
   std::vector<std::vector<results::Interval>> means, differences;
+  // The means over those of the reference; none where a ratio of the measure has no meaning (is_ratio_scale).
+  std::vector<std::vector<results::Ratio>> ratios;
   // By paradigm: the first measure's difference stays certain among all points' and paradigms' (Holm's method).
   std::vector<bool> stays;
 };
@@ -34,6 +37,24 @@ struct Crossing {
   std::uint32_t before = 0, after = 0;  // points
   double at = 0.0;                      // interpolated: linear in the value, or in its logarithm on a logarithmic axis
   bool certain = false;                 // both differences stay certain by Holm's method
+};
+
+// One paradigm's change when an interaction's axis changes: the values after minus those before, in the measure's unit. With
+// Scale::kRatio it has their ratio, too.
+struct Change {
+  results::Interval difference;
+  results::Ratio ratio;
+};
+struct InteractionPoint {
+  std::uint32_t point = 0;  // before the change
+  Change first, second;     // by paradigm
+  // The first paradigm's change against the second's, replication by replication: the logarithm of the ratio of their
+  // ratios, or the difference of their differences. Below 0: the change lowers the first one more.
+  results::Interval interaction;
+  bool stays = false;  // certain among all interactions of the file (Holm's method)
+};
+struct InteractionAnswer {
+  std::vector<InteractionPoint> points;  // by the other axes' values
 };
 
 enum class Outcome : std::uint8_t { kHolds, kFails, kCannotTell };
@@ -56,16 +77,14 @@ struct SweepAnswer {
   std::vector<PointAnswer> points;
   std::size_t comparisons = 0, certain = 0;  // the first measure's, at all points; those that stay certain
   std::vector<Crossing> crossings;
+  std::vector<InteractionAnswer> interactions;  // as in the file
   std::vector<ExpectationAnswer> expectations;
   bool holds() const;
 };
-
-// "+0.0021 +- 0.0004", with two digits for the interval; "-" without a mean. `sign` marks a difference.
-std::string interval_text(const results::Interval& interval, bool sign);
 
 SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store);
 
 // Returns whether a point satisfies the stop rule with replications 0..to-1 of `rows`, which are in order.
 bool sure_enough(const SweepFile& sweep, const std::vector<results::Row>& rows, std::uint32_t to);
 
-}  // namespace ttf::experiments::sweep
+}  // namespace ttf::experiments::sweep::answers

@@ -1,5 +1,5 @@
 // The answers of a sweep from rows that are made up here.
-#include "experiments/sweep/answer.h"
+#include "experiments/sweep/answers/answer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "experiments/sweep/text.h"
+#include "experiments/sweep/answers/figures.h"
+#include "experiments/sweep/answers/text.h"
 #include "tests/experiments/sweep/small_sweep.h"
 #include "tests/experiments/sweep/store_folder.h"
 
-namespace ttf::experiments::sweep {
+namespace ttf::experiments::sweep::answers {
 namespace {
 
 using SweepAnswers = StoreFolder;
@@ -57,7 +58,8 @@ TEST_F(SweepAnswers, DifferencesArePaired) {
   EXPECT_FALSE(answer.holds());
   const std::string text = answer_text(sweep, answer);
   EXPECT_THAT(text, testing::HasSubstr(
-                        "position_rmse_truth of tt is less than that of adva at 1 point, more at 1, undecided at 0."));
+                        "position_rmse_truth of tt is less than that of adva at 1 point (-2.7 %), more at 1 (+7.4 %), "
+                        "undecided at 0."));
   EXPECT_THAT(text, testing::HasSubstr("They cross at noise 29.57."));
   EXPECT_THAT(text, testing::HasSubstr("+0.315 +- 0.021 more*"));
   EXPECT_THAT(text,
@@ -140,6 +142,119 @@ TEST_F(SweepAnswers, FewDrivesDoNotAgree) {
   }
 }
 
+// Both paradigms at noise 40 with themselves at noise 1. One is less by 0.115 in every drive, the other varies.
+TEST_F(SweepAnswers, ValuesOfAnAxisAreCompared) {
+  const SweepFile sweep = small_sweep(4, "compare: {axis: noise, baseline: 1}\n");
+  const SweepDrives drives(sweep);
+  results::Store made = store(drives, "made");
+  const double common[] = {1.0, 5.0, 2.0, 9.0};
+  for (std::uint32_t r = 0; r < 4; ++r) {
+    const double off = r % 2 == 0 ? 1.0 : -1.0;
+    made.add({made_up(0, r, 0, common[r]), made_up(0, r, 1, common[r]), made_up(1, r, 0, common[r] - 0.1 - 0.01 * r),
+              made_up(1, r, 1, common[r] + off)});
+  }
+  const SweepAnswer answer = answer_of(sweep, made);
+  EXPECT_EQ(answer.comparisons, 2u);
+  EXPECT_EQ(answer.certain, 1u);
+  EXPECT_TRUE(answer.crossings.empty());
+  for (const std::size_t p : {0u, 1u}) EXPECT_EQ(answer.points[0].differences[p][0].count, 0u);
+  const results::Interval& less = answer.points[1].differences[0][0];
+  EXPECT_NEAR(less.mean, -0.115, 1e-12);
+  EXPECT_NEAR(less.half_width, 3.1824 * std::sqrt(0.0005 / 3.0) / 2.0, 1e-6);
+  EXPECT_TRUE(answer.points[1].stays[0]);
+  const std::string text = answer_text(sweep, answer);
+  EXPECT_THAT(text,
+              testing::StartsWith("Is it so?\n\nposition_rmse_truth of adva with noise 40 is less than with 1, by "
+                                  "0.115 +- 0.021 m.\n"));
+  EXPECT_THAT(text,
+              testing::HasSubstr("\nThere is no difference of position_rmse_truth of tt between noise 40 and 1 that "
+                                 "these drives can tell: +0.0 +- 1.8 m.\n"));
+  EXPECT_THAT(text, testing::HasSubstr("adva, minus 1"));
+  EXPECT_THAT(text, testing::HasSubstr("-0.115 +- 0.021 less*"));
+  EXPECT_THAT(summary_csv(sweep, answer), testing::HasSubstr("\n1,40,adva,position_rmse_truth,4,4.135"));
+}
+
+// From noise 1 to 40 adva falls to a half, in every drive, and tt to a quarter.
+TEST_F(SweepAnswers, InteractionsAnswerFirst) {
+  const std::string asked = "interactions: [{axis: noise, lowers: tt, more_than: adva}]\n";
+  const auto told = [&](const std::string& name, const std::string& more, double adva, double tt, double spread) {
+    const SweepFile sweep = small_sweep(4, more);
+    const SweepDrives drives(sweep);
+    results::Store made = store(drives, name);
+    const double common[] = {4.0, 5.0, 6.0, 5.0};
+    for (std::uint32_t r = 0; r < 4; ++r) {
+      const double off = 1.0 + (r % 2 == 0 ? spread : -spread);
+      made.add({made_up(0, r, 0, common[r]), made_up(0, r, 1, common[r]), made_up(1, r, 0, common[r] * adva * off),
+                made_up(1, r, 1, common[r] * tt)});
+    }
+    const SweepAnswer answer = answer_of(sweep, made);
+    const std::string text = answer_text(sweep, answer);
+    EXPECT_THAT(text, testing::HasSubstr("by the same method, as a family of their own."));
+    const std::size_t begin = text.find("\n\n") + 2;
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  const std::string change = "noise from 1 to 40 changes position_rmse_truth of ";
+  EXPECT_EQ(told("yes", asked, 0.5, 0.25, 0.0),
+            "Yes: " + change +
+                "tt by -75.0 % (-75.0 to -75.0), and that of adva by -50.0 % (-50.0 to -50.0). Beside that of "
+                "adva, tt's becomes less by 50.0 % (50.0 to 50.0).");
+  EXPECT_THAT(told("no", asked, 0.5, 0.9, 0.01), testing::StartsWith("No: " + change + "tt by -10.0 %"));
+  EXPECT_THAT(told("both", asked, 2.0, 1.5, 0.01), testing::StartsWith("No, it only raises tt less: "));
+  EXPECT_THAT(told("none", asked, 0.5, 0.5, 0.5),
+              AllOf(testing::StartsWith("There is no difference that these drives can tell: " + change),
+                    testing::HasSubstr(" tt against adva: ")));
+  // In metres the changes are half and a quarter of 5 +- 1.3.
+  EXPECT_EQ(
+      told("metres", "interactions: [{axis: noise, from: 1, to: 40, lowers: tt, more_than: adva, by: difference}]\n",
+           0.5, 0.75, 0.0),
+      "No: " + change +
+          "tt by -1.25 +- 0.32 m, and that of adva by -2.50 +- 0.65 m. Beside that of adva, tt's becomes "
+          "more by 1.25 +- 0.32 m.");
+}
+
+// A replication counts only if all four of its drives were done.
+TEST_F(SweepAnswers, InteractionsNeedAllFourDrives) {
+  const SweepFile sweep = small_sweep(7, "interactions: [{axis: noise, lowers: tt, more_than: adva}]\n");
+  const SweepDrives drives(sweep);
+  results::Store made = store(drives, "made");
+  for (std::uint32_t r = 0; r < 7; ++r)
+    for (std::uint32_t drive = 0; drive < 4; ++drive) {
+      if (drive == r) continue;  // each of the first four replications lacks one
+      results::Row row = made_up(drive / 2, r, drive % 2, 1.0 + r);
+      if (r == 4 && drive == 0) row = {row.key, "out of luck", {std::nan(""), std::nan("")}};
+      made.add({row});
+    }
+  const SweepAnswer answer = answer_of(sweep, made);
+  ASSERT_EQ(answer.interactions.size(), 1u);
+  ASSERT_EQ(answer.interactions[0].points.size(), 1u);
+  EXPECT_EQ(answer.interactions[0].points[0].interaction.count, 2u);
+}
+
+// Ten paradigms beside each other go on below, each time with the axis.
+TEST_F(SweepAnswers, TablesFitAPage) {
+  std::string text = sweep_text(3);
+  const std::size_t at = text.find("  tt: ");
+  for (int p = 0; p < 8; ++p)
+    text.insert(
+        at, "  paradigm_" + std::to_string(p) + ": {strategy: adva, set: {duration: 700 ms, evaluate_from: 400 ms}}\n");
+  const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
+  const SweepDrives drives(sweep);
+  results::Store made = store(drives, "made");
+  for (std::uint32_t point = 0; point < 2; ++point)
+    for (std::uint32_t r = 0; r < 3; ++r)
+      for (std::uint32_t p = 0; p < 10; ++p) made.add({made_up(point, r, p, 1.0 + p + 0.1 * r * p)});
+  const SweepAnswer answer = answer_of(sweep, made);
+  const std::string all = answer_text(sweep, answer), tables = all.substr(all.find("\nposition_rmse_truth [m]"));
+  std::size_t heads = 0, begin = 0;
+  for (std::size_t end = tables.find('\n'); end != std::string::npos; begin = end + 1, end = tables.find('\n', begin)) {
+    const std::string line = tables.substr(begin, end - begin);
+    if (line.find("comparisons, marked") != std::string::npos) break;
+    EXPECT_LE(line.size(), 100u) << line;
+    heads += line.starts_with("noise  ");
+  }
+  EXPECT_GT(heads, 3u);
+}
+
 // At an exact tie, the sides differ by the points behind it.
 TEST_F(SweepAnswers, ACrossingMayBeAtAPoint) {
   std::string text = sweep_text(3);
@@ -183,4 +298,4 @@ TEST_F(SweepAnswers, AFailedRunIsARow) {
 }
 
 }  // namespace
-}  // namespace ttf::experiments::sweep
+}  // namespace ttf::experiments::sweep::answers
